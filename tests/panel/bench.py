@@ -1,4 +1,4 @@
-"""A panel for tests: its desk driven by hand, or a server on a port of its own."""
+"""A panel for tests: its station driven by hand, or a server on a port of its own."""
 
 import asyncio
 import json
@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from openacr.panel.commands.all import carry_out
-from openacr.panel.control.desk import Desk
 from openacr.panel.control.orders import Order
 from openacr.panel.control.people import Person
+from openacr.panel.control.station import Station
 from openacr.panel.control.thread import ControlThread
 from openacr.panel.machine import embedded
 from openacr.panel.roles import Role
@@ -24,26 +24,26 @@ STEP_S = 0.002
 HEAD = struct.Struct("<BBHIdd")
 
 
-class HandDesk:
-    """A desk whose time passes only in `run`; what it sends is kept."""
+class HandStation:
+    """A station whose time passes only in `run`; what it sends is kept."""
 
     def __init__(self, folder: Path, *, role: Role = Role.SERVICE) -> None:
-        self.bench = embedded(folder)
+        self.installation = embedded(folder)
         self.now_s = 100.0
-        self.desk = Desk(self.bench, carry_out)
+        self.station = Station(self.installation, carry_out)
         self.events_sent: list[dict[str, Any]] = []
-        self.desk.tell = self.events_sent.append
-        self.desk.open(self.now_s)
-        assert self.desk.lost == ""
+        self.station.tell = self.events_sent.append
+        self.station.open(self.now_s)
+        assert self.station.lost == ""
         self.me = Person(1, role, "127.0.0.1")
-        self.desk.join(self.me)
+        self.station.join(self.me)
         self.run(0.1)
 
     def run(self, seconds: float) -> None:
         """Let time pass."""
         for _ in range(round(seconds / STEP_S)):
             self.now_s += STEP_S
-            self.desk.step(self.now_s)
+            self.station.step(self.now_s)
 
     def until(self, holds: Callable[[], bool], limit_s: float = 60.0) -> None:
         """Let time pass until something holds."""
@@ -58,7 +58,7 @@ class HandDesk:
         """Carry a command out; its answer as the browser gets it."""
         answers: list[dict[str, Any]] = []
         order = Order(who or self.me, name, args, self.now_s - old_s, answers.append)
-        self.desk.order(order, self.now_s)
+        self.station.order(order, self.now_s)
         if not answers and name != "jog.keep":
             while not answers:  # a program is loaded beside the control thread
                 self.run(STEP_S)
@@ -80,19 +80,19 @@ class HandDesk:
     @property
     def tick(self) -> float:
         """The newest tick."""
-        return self.desk.snapshot.tick_ms
+        return self.station.snapshot.tick_ms
 
     @property
     def state(self) -> str:
-        return self.desk.machine.runner.state.name
+        return self.station.machine.runner.state.name
 
     @property
     def is_busy(self) -> bool:
-        return self.desk.machine.runner.is_busy
+        return self.station.machine.runner.is_busy
 
     @property
     def said(self) -> list[str]:
-        return [each["text"] for each in self.desk.said]
+        return [each["text"] for each in self.station.said]
 
     def events(self, name: str) -> list[dict[str, Any]]:
         """What was sent under a name."""
@@ -100,7 +100,7 @@ class HandDesk:
 
     def places(self) -> tuple[float, ...]:
         """Where the axes are commanded to be, machine coordinates."""
-        return self.desk.snapshot.commanded
+        return self.station.snapshot.commanded
 
     def speeds(self, seconds: float = 0.1) -> tuple[float, ...]:
         """How far each axis moves in a time, per second."""
@@ -124,20 +124,20 @@ class HandDesk:
             self.send("jog.keep", press=number, tick=self.tick, **more)
 
     def close(self) -> None:
-        self.desk.close()
-        self.desk.jobs.close()
-        self.bench.close()
+        self.station.close()
+        self.station.jobs.close()
+        self.installation.close()
 
 
 class HandControl(ControlThread):
     """A control thread that is no thread: its turns are taken by hand."""
 
-    def __init__(self, desk: Desk) -> None:
+    def __init__(self, station: Station) -> None:
         self._now_s = 100.0
-        super().__init__(desk, lambda: self._now_s)
+        super().__init__(station, lambda: self._now_s)
 
     def start(self) -> None:
-        self.desk.open(self._now_s)
+        self.station.open(self._now_s)
 
     def stop(self) -> None:
         self.rest()
@@ -154,8 +154,8 @@ class Served:
     def __init__(
         self, folder: Path, *, by_hand: bool = False, prepare: Callable[[Panel], None] | None = None
     ) -> None:
-        bench = embedded(folder)
-        self.panel = Panel(bench, control=HandControl if by_hand else ControlThread)
+        installation = embedded(folder)
+        self.panel = Panel(installation, control=HandControl if by_hand else ControlThread)
         if prepare is not None:
             prepare(self.panel)
         self._server = PanelServer(self.panel)
@@ -189,19 +189,19 @@ class Served:
         return self
 
     @property
-    def desk(self) -> Desk:
-        return self.panel.desk
+    def station(self) -> Station:
+        return self.panel.station
 
     @property
     def programs(self) -> Path:
-        return self.panel.bench.programs
+        return self.panel.installation.programs
 
     @property
     def store(self) -> Path:
-        assert self.panel.bench.store.path is not None
-        return self.panel.bench.store.path
+        assert self.panel.installation.store.path is not None
+        return self.panel.installation.store.path
 
-    def call(self, work: Callable[[Desk], T]) -> T:
+    def call(self, work: Callable[[Station], T]) -> T:
         """Run a function in the control thread; its result."""
         future: Future[T] = self.panel.control.call(work)
         if isinstance(self.panel.control, HandControl):

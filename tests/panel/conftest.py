@@ -1,18 +1,18 @@
-"""Panels for tests: a desk driven by hand, a server in real time, a server driven by hand."""
+"""Panels for tests: a station driven by hand, a server in real time, a server driven by hand."""
 
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.panel.bench import HandDesk, Served
+from tests.panel.bench import HandStation, Served
 
 
 @pytest.fixture
-def hand(tmp_path: Path) -> Iterator[HandDesk]:
-    """A desk with the virtual mill; time passes only when the test lets it."""
-    desk = HandDesk(tmp_path)
-    yield desk
-    desk.close()
+def hand(tmp_path: Path) -> Iterator[HandStation]:
+    """A station with the virtual mill; time passes only when the test lets it."""
+    station = HandStation(tmp_path)
+    yield station
+    station.close()
 
 
 @pytest.fixture

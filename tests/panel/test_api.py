@@ -63,7 +63,7 @@ def test_values_are_stored_and_shown_as_the_store_has_them(
 ) -> None:
     answer = web.put("/api/forms/JOG", json={"values": {"350000": "500", "350001": "100 in"}})
     assert answer.json() == {"stored": {"350000": "500", "350001": "2540"}, "refused": {}}
-    assert panel.panel.bench.store.read(350_001) == 2540.0
+    assert panel.panel.installation.store.read(350_001) == 2540.0
 
 
 def test_a_refused_value_says_why_and_nothing_of_the_page_is_stored(
@@ -76,7 +76,7 @@ def test_a_refused_value_says_why_and_nothing_of_the_page_is_stored(
     assert set(refused) == {"350001", "350002", "150000", "x"}
     assert refused["350001"].startswith("P350001 Jog Rapid (axis 0) cannot be -1: a number above 0")
     assert refused["150000"] == "P150000 is not on the page JOG"
-    assert panel.panel.bench.store.read(350_000) == 600.0
+    assert panel.panel.installation.store.read(350_000) == 600.0
 
 
 def test_a_rule_between_settings_names_its_cell(web: httpx.Client) -> None:
@@ -104,9 +104,9 @@ def test_settings_are_found_by_words(web: httpx.Client) -> None:
 def test_stored_settings_count_for_the_next_jog(web: httpx.Client, panel: Served) -> None:
     web.put("/api/forms/JOG", json={"values": {"350000": "1200"}})
     end_s = time.monotonic() + LIMIT_S
-    while panel.call(lambda desk: desk.must_renew or desk.shop is None):
+    while panel.call(lambda station: station.must_renew or station.session is None):
         assert time.monotonic() < end_s
-    assert panel.call(lambda desk: desk.machine.runner.settings.axis(0).jog_ups) == 20.0
+    assert panel.call(lambda station: station.machine.runner.settings.axis(0).jog_ups) == 20.0
 
 
 # --- programs -------------------------------------------------------------------------
@@ -319,7 +319,7 @@ def test_packed_answers_are_gzip(web: httpx.Client, panel: Served) -> None:
 def test_values_that_the_store_cannot_keep_are_refused_and_the_old_ones_stay(
     quiet_panel: Served, pragma: str, undo: str, why: str
 ) -> None:
-    store = quiet_panel.panel.bench.store
+    store = quiet_panel.panel.installation.store
     values = {str(number): "0.25" for number in range(2001, 2999)}
 
     def save() -> httpx.Response:

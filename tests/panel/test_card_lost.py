@@ -10,10 +10,10 @@ from tests.mill.live import SERVE, Process, Proxy, until
 
 from openacr.client import Card
 from openacr.panel.commands.all import carry_out
-from openacr.panel.control.bench import Bench
-from openacr.panel.control.desk import Desk
+from openacr.panel.control.installation import Installation
 from openacr.panel.control.orders import Order
 from openacr.panel.control.people import Person
+from openacr.panel.control.station import Station
 from openacr.panel.control.thread import ControlThread
 from openacr.panel.machine import FOLDER, opened
 from openacr.panel.roles import Role
@@ -22,19 +22,21 @@ ME = Person(1, Role.SERVICE, "127.0.0.1")
 
 
 class Remote:
-    """The desk of a card at the end of a link, in its control thread."""
+    """The station of a card at the end of a link, in its control thread."""
 
     def __init__(self, address: str, folder: Path) -> None:
         (folder / "programs").mkdir(exist_ok=True)
-        self.bench = Bench.at(address, opened(folder / "sysvar.db"), folder / "programs")
-        self.desk = Desk(self.bench, carry_out)
+        self.installation = Installation.at(
+            address, opened(folder / "sysvar.db"), folder / "programs"
+        )
+        self.station = Station(self.installation, carry_out)
         self.events: list[dict[str, Any]] = []
-        self.desk.tell = self.events.append
-        self.control = ControlThread(self.desk)
+        self.station.tell = self.events.append
+        self.control = ControlThread(self.station)
         self.control.start()
-        self.call(lambda desk: desk.join(ME))
+        self.call(lambda station: station.join(ME))
 
-    def call(self, work: Callable[[Desk], Any]) -> Any:
+    def call(self, work: Callable[[Station], Any]) -> Any:
         return self.control.call(work).result(60.0)
 
     def send(self, name: str, **args: Any) -> dict[str, Any]:
@@ -49,7 +51,7 @@ class Remote:
 
     def close(self) -> None:
         self.control.stop()
-        self.bench.close()
+        self.installation.close()
 
 
 @pytest.fixture
@@ -69,13 +71,13 @@ def test_a_card_that_is_not_there_is_said_and_found_when_it_comes(
         proxy.cut()
         remote = Remote(proxy.address, tmp_path)
         try:
-            until(lambda: remote.desk.lost.startswith("NO CARD FOUND"))
+            until(lambda: remote.station.lost.startswith("NO CARD FOUND"))
             answer = remote.send("home.start", axes="X")
             assert answer["error"]["code"] == "refused"
             assert answer["error"]["text"].startswith("NO CARD FOUND")
             assert remote.link() == "lost"
             proxy.mend()
-            until(lambda: remote.desk.lost == "")
+            until(lambda: remote.station.lost == "")
             until(lambda: remote.link() == "ok")
         finally:
             remote.close()
@@ -87,12 +89,12 @@ def test_a_held_axis_rests_when_the_card_is_lost_and_the_card_is_found_again(
     with Proxy(served) as proxy, Card.open(served) as watcher:
         remote = Remote(proxy.address, tmp_path)
         try:
-            until(lambda: remote.desk.snapshot.number > 0)
+            until(lambda: remote.station.snapshot.number > 0)
 
             def press() -> bool:
                 number = 1 + max((e["press"] for e in remote.events if "press" in e), default=0)
                 args = {"axis": "X", "direction": 1, "first": True}
-                tick = remote.desk.snapshot.tick_ms
+                tick = remote.station.snapshot.tick_ms
                 return bool(remote.send("jog.press", press=number, tick=tick, **args)["ok"])
 
             until(press, about="the jog begins")
@@ -106,7 +108,7 @@ def test_a_held_axis_rests_when_the_card_is_lost_and_the_card_is_found_again(
 
             until(rests, about="the axis rests")
             proxy.mend()
-            until(lambda: remote.desk.lost == "" and remote.link() == "ok", limit_s=90.0)
+            until(lambda: remote.station.lost == "" and remote.link() == "ok", limit_s=90.0)
         finally:
             remote.close()
 
@@ -118,9 +120,9 @@ def test_another_panel_on_one_machine_is_refused_with_the_reason(
     (tmp_path / "second").mkdir()
     second = Remote(served, tmp_path / "second")
     try:
-        until(lambda: first.desk.lost == "" or second.desk.lost == "")
-        loser = second if first.desk.lost == "" else first
-        until(lambda: "another program drives this machine" in loser.desk.lost)
+        until(lambda: first.station.lost == "" or second.station.lost == "")
+        loser = second if first.station.lost == "" else first
+        until(lambda: "another program drives this machine" in loser.station.lost)
         assert not loser.send("run.begin")["ok"]
     finally:
         first.close()

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from tests.panel.bench import HandDesk
+from tests.panel.bench import HandStation
 
 from openacr.panel.control.orders import Order
 from openacr.panel.control.thread import ORDERS_S, ControlThread
@@ -14,16 +14,16 @@ from openacr.panel.control.waiting import Waiting
 class Hand(ControlThread):
     """A control thread whose turns and time are a test's."""
 
-    def __init__(self, hand: HandDesk) -> None:
+    def __init__(self, hand: HandStation) -> None:
         self.hand = hand
-        super().__init__(hand.desk, lambda: hand.now_s)
+        super().__init__(hand.station, lambda: hand.now_s)
 
     def send(self, name: str, answers: list[Any], **args: Any) -> None:
         self.put(Order(self.hand.me, name, args, self.hand.now_s, answers.append))
 
 
 @pytest.fixture
-def thread(hand: HandDesk) -> Hand:
+def thread(hand: HandStation) -> Hand:
     return Hand(hand)
 
 
@@ -31,7 +31,7 @@ def flood(thread: Hand) -> list[float]:
     """Orders of 1 ms of which each one puts the next: the queue is never empty."""
     done: list[float] = []
 
-    def one(_desk: object) -> None:
+    def one(_station: object) -> None:
         thread.hand.now_s += 0.001
         done.append(thread.hand.now_s)
         thread.call(one)
@@ -42,11 +42,11 @@ def flood(thread: Hand) -> list[float]:
 
 def test_a_flood_of_orders_leaves_every_turn_its_step(thread: Hand) -> None:
     done = flood(thread)
-    before = thread.hand.desk.now_s
+    before = thread.hand.station.now_s
     thread.turn(0.0)
     assert ORDERS_S == 0.005
     assert len(done) == 5
-    assert thread.hand.desk.now_s == pytest.approx(before + 0.005)
+    assert thread.hand.station.now_s == pytest.approx(before + 0.005)
     thread.turn(0.0)
     assert len(done) == 10
 
@@ -79,7 +79,7 @@ def test_what_stops_is_carried_out_before_all_that_waits(
     done = flood(thread)
     answers: list[Any] = []
     for _ in range(20):
-        thread.call(lambda _desk: done.append(0.0))
+        thread.call(lambda _station: done.append(0.0))
     thread.put(
         Order(
             thread.hand.me,
@@ -127,11 +127,11 @@ def failing(*_args: object) -> None:
 )
 @pytest.mark.parametrize("broken", ["drop", "end_all"])
 def test_a_stop_stops_whatever_else_of_it_fails(
-    hand: HandDesk, monkeypatch: pytest.MonkeyPatch, stop: str, done: str, broken: str
+    hand: HandStation, monkeypatch: pytest.MonkeyPatch, stop: str, done: str, broken: str
 ) -> None:
     hand.do("mdi.execute", line="G1 X50 F600")
     hand.run(0.3)
-    runner = hand.desk.machine.runner
+    runner = hand.station.machine.runner
     calls: list[str] = []
     real: Callable[..., None] = getattr(runner, done)
 
@@ -140,7 +140,7 @@ def test_a_stop_stops_whatever_else_of_it_fails(
         real(*args)
 
     monkeypatch.setattr(runner, done, counted)
-    place = hand.desk.typed if broken == "drop" else hand.desk.hands.presses
+    place = hand.station.typed if broken == "drop" else hand.station.hand_motion.presses
     monkeypatch.setattr(place, broken, lambda *_args, **_more: failing())
     assert hand.refused(stop)["code"] == "internal"
     assert calls == [done]
@@ -150,11 +150,11 @@ def test_a_stop_stops_whatever_else_of_it_fails(
 
 
 def test_keys_end_and_nothing_waits_after_a_stop_that_fails(
-    hand: HandDesk, monkeypatch: pytest.MonkeyPatch
+    hand: HandStation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     hand.press(1)
     for name in ("kill", "bring_to_rest"):
-        monkeypatch.setattr(hand.desk.machine.runner, name, failing)
+        monkeypatch.setattr(hand.station.machine.runner, name, failing)
     hand.refused("stop.all")
     assert [(e["press"], e["ended"]) for e in hand.events("jog")] == [(1, "stop")]
     hand.run(0.3)
@@ -171,7 +171,7 @@ def test_a_step_that_fails_again_and_again_ends_keys_and_is_said_every_ten_secon
 ) -> None:
     hand = thread.hand
     hand.press(1)
-    monkeypatch.setattr(hand.desk.jobs, "poll", failing)
+    monkeypatch.setattr(hand.station.jobs, "poll", failing)
     hand.now_s += 0.04
     thread.turn(0.0)
     first_s = hand.now_s
@@ -189,13 +189,13 @@ def test_a_step_that_fails_again_and_again_ends_keys_and_is_said_every_ten_secon
 
 def test_another_failure_is_said_at_once(thread: Hand, monkeypatch: pytest.MonkeyPatch) -> None:
     hand = thread.hand
-    monkeypatch.setattr(hand.desk.jobs, "poll", failing)
+    monkeypatch.setattr(hand.station.jobs, "poll", failing)
     thread.turn(0.0)
 
     def other() -> None:
         raise KeyError("X")
 
-    monkeypatch.setattr(hand.desk.jobs, "poll", other)
+    monkeypatch.setattr(hand.station.jobs, "poll", other)
     thread.turn(0.0)
     assert hand.said[-2:] == [FAILURE, "the control of the machine has failed: KeyError: 'X'"]
 
@@ -209,7 +209,7 @@ def test_the_thread_lives_on_when_the_machine_cannot_be_opened(
         turns.append(idle_s)
         thread._is_over.set()
 
-    monkeypatch.setattr(thread.hand.desk, "open", failing)
+    monkeypatch.setattr(thread.hand.station, "open", failing)
     monkeypatch.setattr(thread, "turn", turn)
     thread._run()
     assert len(turns) == 1

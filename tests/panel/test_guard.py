@@ -61,7 +61,7 @@ def test_only_pages_of_this_server_change_anything(
         f"{panel.url}/api/forms/JOG", json={"values": {"350000": "500"}}, headers=sent
     )
     assert (answer.status_code == 200) is is_let_in
-    assert (panel.panel.bench.store.read(350_000) == 500.0) is is_let_in
+    assert (panel.panel.installation.store.read(350_000) == 500.0) is is_let_in
 
 
 def test_every_answer_has_the_headers_of_a_strict_page(panel: Served) -> None:
@@ -149,7 +149,7 @@ def test_log_out_ends_the_connections_of_the_session(panel: Served) -> None:
 
 
 def test_the_password_of_the_store_guards_the_system_parameters(panel: Served) -> None:
-    password.change(panel.panel.bench.store, "machine")
+    password.change(panel.panel.installation.store, "machine")
     with httpx.Client(base_url=panel.url, timeout=LIMIT_S) as web:
         assert web.get("/api/me").json()["role"] == "setup"
         values = {"values": {"350000": "500"}}

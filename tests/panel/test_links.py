@@ -31,15 +31,15 @@ def until(holds: Callable[[], bool]) -> None:
 
 
 def is_moving(panel: Served) -> bool:
-    return panel.call(lambda desk: desk.machine.machine.is_jogging())
+    return panel.call(lambda station: station.machine.machine.is_jogging())
 
 
 def place(panel: Served) -> tuple[float, ...]:
-    return panel.call(lambda desk: read_place(desk.machine).commanded)
+    return panel.call(lambda station: read_place(station.machine).commanded)
 
 
 def held(panel: Served) -> bool:
-    return panel.call(lambda desk: desk.hands.presses.are_held)
+    return panel.call(lambda station: station.hand_motion.presses.are_held)
 
 
 class Finger:
@@ -136,7 +136,7 @@ def test_a_broken_link_stops_the_axis(panel: Served, how: str) -> None:
     async def what(proxy: Proxy, finger: Finger) -> None:
         getattr(proxy, how)()
         await rests_for_good(panel)
-        assert panel.call(lambda desk: desk.people.holder) is None
+        assert panel.call(lambda station: station.people.holder) is None
 
     scene(panel, what)
 

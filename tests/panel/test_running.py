@@ -1,7 +1,7 @@
-"""Programs, homing, zeros and MDI of a panel, on a desk whose time passes by hand."""
+"""Programs, homing, zeros and MDI of a panel, on a station whose time passes by hand."""
 
 import pytest
-from tests.panel.bench import HandDesk
+from tests.panel.bench import HandStation
 
 from openacr.panel.control.people import Person
 from openacr.panel.roles import Role
@@ -9,31 +9,31 @@ from openacr.panel.roles import Role
 SQUARE = "G21 G90 G54\nG0 X10 Y10 Z60\nG1 X20 F1200\nY20\nM0\nX10\nY10\nM2\n"
 
 
-def loaded(hand: HandDesk, text: str = SQUARE) -> None:
-    (hand.bench.programs / "t.nc").write_text(text)
+def loaded(hand: HandStation, text: str = SQUARE) -> None:
+    (hand.installation.programs / "t.nc").write_text(text)
     hand.do("program.load", path="t.nc")
     hand.run(0.1)
 
 
-def test_a_program_is_loaded_started_stopped_and_ends(hand: HandDesk) -> None:
+def test_a_program_is_loaded_started_stopped_and_ends(hand: HandStation) -> None:
     loaded(hand)
     assert hand.events("program")[-1]["loaded"]["name"] == "t.nc"
     hand.do("run.begin")
     hand.until(lambda: hand.state == "HOLD")
     hand.run(0.05)
-    assert hand.desk.snapshot.line in (4, 5)
+    assert hand.station.snapshot.line in (4, 5)
     assert hand.events("state")[-1]["reason"] == "M0"
     hand.do("run.start")
     hand.until(lambda: not hand.is_busy)
     hand.run(0.1)
     assert hand.places() == (210.0, 160.0, 0.0)
-    assert hand.desk.snapshot.work == (10.0, 10.0, 60.0)
+    assert hand.station.snapshot.work == (10.0, 10.0, 60.0)
 
 
-def test_stop_holds_the_feed_and_resume_goes_on(hand: HandDesk) -> None:
+def test_stop_holds_the_feed_and_resume_goes_on(hand: HandStation) -> None:
     loaded(hand)
     hand.do("run.begin")
-    hand.until(lambda: hand.desk.snapshot.line == 3)
+    hand.until(lambda: hand.station.snapshot.line == 3)
     hand.do("stop.hold")
     hand.run(1.0)
     assert hand.state == "PAUSED"
@@ -48,9 +48,9 @@ def test_stop_holds_the_feed_and_resume_goes_on(hand: HandDesk) -> None:
     assert hand.events("state")[-1]["aborted"]
 
 
-def test_a_viewer_stops_a_program_and_starts_nothing(hand: HandDesk) -> None:
+def test_a_viewer_stops_a_program_and_starts_nothing(hand: HandStation) -> None:
     viewer = Person(5, Role.VIEW, "10.0.0.5")
-    hand.desk.join(viewer)
+    hand.station.join(viewer)
     loaded(hand)
     assert hand.send("run.begin", who=viewer)["error"]["code"] == "role"
     hand.do("run.begin")
@@ -62,7 +62,7 @@ def test_a_viewer_stops_a_program_and_starts_nothing(hand: HandDesk) -> None:
     }  # fmt: skip
 
 
-def test_a_start_line_is_rehearsed_and_confirmed(hand: HandDesk) -> None:
+def test_a_start_line_is_rehearsed_and_confirmed(hand: HandStation) -> None:
     loaded(hand)
     assert "safe" in hand.refused("run.begin", line=4)["text"]
     result = hand.do("run.begin", line=4, safe_z=0.0)
@@ -79,14 +79,14 @@ def test_a_start_line_is_rehearsed_and_confirmed(hand: HandDesk) -> None:
     assert hand.places()[:2] == (220.0, 170.0)
 
 
-def test_a_program_with_errors_is_not_started(hand: HandDesk) -> None:
+def test_a_program_with_errors_is_not_started(hand: HandStation) -> None:
     loaded(hand, "G21 G90\nG1 X F100\nM2\n")
     assert hand.events("program")[-1]["loaded"]["errors"] == 1
     error = hand.refused("run.begin")
     assert "cannot be started: t.nc:2:" in error["text"]
 
 
-def test_a_missing_program_is_said(hand: HandDesk) -> None:
+def test_a_missing_program_is_said(hand: HandStation) -> None:
     assert hand.refused("program.load", path="no.nc")["text"] == "no.nc: no such file"
     assert (
         hand.refused("program.load", path="../x.nc")["text"] == "../x.nc: this name is not allowed"
@@ -94,7 +94,7 @@ def test_a_missing_program_is_said(hand: HandDesk) -> None:
     assert hand.refused("run.begin")["text"] == "no program is loaded"
 
 
-def test_another_program_is_refused_while_one_runs(hand: HandDesk) -> None:
+def test_another_program_is_refused_while_one_runs(hand: HandStation) -> None:
     loaded(hand)
     hand.do("run.begin")
     hand.run(0.3)
@@ -104,23 +104,23 @@ def test_another_program_is_refused_while_one_runs(hand: HandDesk) -> None:
     hand.do("program.load", path="plate.nc")
 
 
-def test_block_stops_after_every_block(hand: HandDesk) -> None:
+def test_block_stops_after_every_block(hand: HandStation) -> None:
     loaded(hand)
     hand.do("run.block", on=True)
     assert hand.events("state")[-1]["options"]["single"]
     hand.do("run.begin")
     hand.until(lambda: hand.state == "HOLD")
-    first = hand.desk.snapshot.line
+    first = hand.station.snapshot.line
     hand.do("run.start")
     hand.run(0.1)
     hand.until(lambda: hand.state == "HOLD")
-    assert hand.desk.snapshot.line > first
+    assert hand.station.snapshot.line > first
 
 
-def test_a_batch_runs_its_programs_one_after_the_other(hand: HandDesk) -> None:
+def test_a_batch_runs_its_programs_one_after_the_other(hand: HandStation) -> None:
     for name, x in (("a.nc", 1), ("b.nc", 2)):
-        (hand.bench.programs / name).write_text(f"G21 G90\nG0 X{x}\nM2\n")
-    (hand.bench.programs / "list.txt").write_text("a.nc L2\nb.nc\n")
+        (hand.installation.programs / name).write_text(f"G21 G90\nG0 X{x}\nM2\n")
+    (hand.installation.programs / "list.txt").write_text("a.nc L2\nb.nc\n")
     hand.do("program.batch", path="list.txt")
     hand.run(0.1)
     assert hand.events("program")[-1]["batch"]["names"] == ["a.nc", "a.nc", "b.nc"]
@@ -128,12 +128,12 @@ def test_a_batch_runs_its_programs_one_after_the_other(hand: HandDesk) -> None:
     hand.until(lambda: hand.events("program")[-1]["batch"]["index"] == 2)
     hand.until(lambda: not hand.is_busy)
     hand.run(0.1)
-    assert hand.desk.snapshot.work[0] == 2.0
+    assert hand.station.snapshot.work[0] == 2.0
 
 
-def test_a_batch_does_not_leave_the_folder(hand: HandDesk) -> None:
-    (hand.bench.programs.parent / "x.nc").write_text("M2\n")
-    (hand.bench.programs / "list.txt").write_text("../x.nc\n")
+def test_a_batch_does_not_leave_the_folder(hand: HandStation) -> None:
+    (hand.installation.programs.parent / "x.nc").write_text("M2\n")
+    (hand.installation.programs / "list.txt").write_text("../x.nc\n")
     error = hand.refused("program.batch", path="list.txt")
     assert "outside the folder" in error["text"]
 
@@ -141,7 +141,7 @@ def test_a_batch_does_not_leave_the_folder(hand: HandDesk) -> None:
 # --- home, zero, MDI ------------------------------------------------------------------
 
 
-def test_home_finds_the_reference_points(hand: HandDesk) -> None:
+def test_home_finds_the_reference_points(hand: HandStation) -> None:
     assert hand.do("home.start", axes="") == {"axes": ["X", "Y", "Z"]}
     hand.until(lambda: hand.state == "IDLE" and not hand.is_busy, 120.0)
     hand.run(0.1)
@@ -155,7 +155,7 @@ def test_home_finds_the_reference_points(hand: HandDesk) -> None:
     ]  # fmt: skip
 
 
-def test_stop_ends_homing_with_its_alarm(hand: HandDesk) -> None:
+def test_stop_ends_homing_with_its_alarm(hand: HandStation) -> None:
     hand.do("home.start", axes="X")
     hand.run(0.5)
     assert hand.events("home")[-1]["axes"][0]["state"] == "switch"
@@ -167,14 +167,14 @@ def test_stop_ends_homing_with_its_alarm(hand: HandDesk) -> None:
     assert hand.do("alarm.acknowledge") == {"left": []}
 
 
-def test_zeros_are_set_cleared_and_gone_to(hand: HandDesk) -> None:
+def test_zeros_are_set_cleared_and_gone_to(hand: HandStation) -> None:
     hand.do("jog.increment", axis="X", direction=1, distance=7.5, tick=hand.tick)
     hand.until(lambda: not hand.is_busy)
     hand.run(0.05)
     result = hand.do("zero.set", axes="XY")
     assert (result["position"]["X"], result["position"]["Y"]) == (0.0, 0.0)
     hand.run(0.1)
-    assert hand.desk.snapshot.work[:2] == (0.0, 0.0)
+    assert hand.station.snapshot.work[:2] == (0.0, 0.0)
     hand.do("jog.increment", axis="X", direction=1, distance=5.0, tick=hand.tick)
     hand.until(lambda: not hand.is_busy)
     hand.do("zero.goto", axes="X")
@@ -183,37 +183,37 @@ def test_zeros_are_set_cleared_and_gone_to(hand: HandDesk) -> None:
     assert hand.places()[0] == 7.5
     hand.do("zero.clear")
     hand.run(0.1)
-    assert hand.desk.snapshot.work[0] == pytest.approx(7.5 - 200.0)
+    assert hand.station.snapshot.work[0] == pytest.approx(7.5 - 200.0)
 
 
-def test_goto_zero_does_not_become_part_of_the_mdi_text(hand: HandDesk) -> None:
+def test_goto_zero_does_not_become_part_of_the_mdi_text(hand: HandStation) -> None:
     hand.do("zero.set", axes="")
     hand.do("zero.goto", axes="")
     hand.until(lambda: not hand.is_busy)
     assert hand.do("mdi.buffer") == {"lines": []}
 
 
-def test_mdi_runs_blocks_in_order_and_keeps_their_text(hand: HandDesk) -> None:
+def test_mdi_runs_blocks_in_order_and_keeps_their_text(hand: HandStation) -> None:
     hand.do("mdi.execute", lines=["G21 G90 G0 X5", "G1 X8 F600", "G91 G0 X1"])
-    hand.until(lambda: not hand.is_busy and not hand.desk.typed.data()["queue"])
+    hand.until(lambda: not hand.is_busy and not hand.station.typed.data()["queue"])
     hand.run(0.1)
-    assert hand.desk.snapshot.work[0] == 9.0
+    assert hand.station.snapshot.work[0] == 9.0
     hand.do("mdi.execute", line="G0 X1")
     hand.until(lambda: not hand.is_busy)
     hand.run(0.1)
-    assert hand.desk.snapshot.work[0] == 10.0  # still incremental
+    assert hand.station.snapshot.work[0] == 10.0  # still incremental
     assert hand.do("mdi.buffer")["lines"] == ["G21 G90 G0 X5", "G1 X8 F600", "G91 G0 X1", "G0 X1"]
 
 
-def test_an_error_in_mdi_drops_the_blocks_after_it(hand: HandDesk) -> None:
+def test_an_error_in_mdi_drops_the_blocks_after_it(hand: HandStation) -> None:
     hand.do("mdi.execute", lines=["G21 G90 G0 X5", "G1 Q8", "G0 X50"])
     hand.run(3.0)
-    assert hand.desk.snapshot.work[0] == 5.0
+    assert hand.station.snapshot.work[0] == 5.0
     text = "Program error: MDI:1:4: E206 word has no meaning in this block: Q"
     assert [alarm["text"] for alarm in hand.events("alarms")[-1]["active"]] == [text]
 
 
-def test_stop_drops_the_blocks_that_wait(hand: HandDesk) -> None:
+def test_stop_drops_the_blocks_that_wait(hand: HandStation) -> None:
     hand.do("mdi.execute", lines=["G21 G90 G1 X-190 F600", "G0 X0"])
     hand.run(0.5)
     hand.do("stop.hold")
@@ -225,24 +225,24 @@ def test_stop_drops_the_blocks_that_wait(hand: HandDesk) -> None:
     assert hand.places() == at
 
 
-def test_teach_makes_the_position_the_zero_of_a_system(hand: HandDesk) -> None:
+def test_teach_makes_the_position_the_zero_of_a_system(hand: HandStation) -> None:
     hand.do("jog.increment", axis="Y", direction=1, distance=3.0, tick=hand.tick)
     hand.until(lambda: not hand.is_busy)
     hand.do("teach.work", system="G54", axes="Y")
     hand.run(0.1)
-    assert hand.desk.snapshot.work[1] == 0.0
-    assert hand.bench.store.read(911) == 3.0
+    assert hand.station.snapshot.work[1] == 0.0
+    assert hand.installation.store.read(911) == 3.0
 
 
-def test_overrides_are_chosen_by_their_clicks(hand: HandDesk) -> None:
+def test_overrides_are_chosen_by_their_clicks(hand: HandStation) -> None:
     hand.do("override.choose", which="feed", click=5)
     hand.run(0.1)
-    assert hand.desk.snapshot.feed_percent == 50.0
+    assert hand.station.snapshot.feed_percent == 50.0
     assert hand.events("overrides")[-1]["feed"]["click"] == 5
     assert hand.refused("override.choose", which="feed", click=16)["code"] == "bad"
 
 
-def test_the_stop_of_all_drives_is_an_alarm_that_names_its_screen(hand: HandDesk) -> None:
+def test_the_stop_of_all_drives_is_an_alarm_that_names_its_screen(hand: HandStation) -> None:
     loaded(hand)
     hand.do("name", name="Anna")
     hand.do("run.begin")
@@ -258,10 +258,10 @@ def test_the_stop_of_all_drives_is_an_alarm_that_names_its_screen(hand: HandDesk
     assert hand.state == "IDLE"
 
 
-def test_the_machine_is_set_up_again_when_settings_were_stored(hand: HandDesk) -> None:
+def test_the_machine_is_set_up_again_when_settings_were_stored(hand: HandStation) -> None:
     before = hand.tick
-    hand.bench.store.write(350_000, 1200.0)
-    hand.desk.note_stored(frozenset({350_000}))
+    hand.installation.store.write(350_000, 1200.0)
+    hand.station.note_stored(frozenset({350_000}))
     hand.run(0.1)
     assert hand.tick > before
     assert hand.press(1)["ok"]
@@ -269,16 +269,16 @@ def test_the_machine_is_set_up_again_when_settings_were_stored(hand: HandDesk) -
     assert hand.speeds(0.04)[0] == pytest.approx(20.0, abs=0.5)
 
 
-def test_settings_of_motion_wait_for_the_end_of_the_program(hand: HandDesk) -> None:
+def test_settings_of_motion_wait_for_the_end_of_the_program(hand: HandStation) -> None:
     loaded(hand)
     hand.do("run.begin")
     hand.run(0.3)
-    shop = hand.desk.shop
-    hand.desk.note_stored(frozenset({650_002}))
+    session = hand.station.session
+    hand.station.note_stored(frozenset({650_002}))
     hand.run(0.3)
-    assert hand.desk.shop is shop
+    assert hand.station.session is session
     hand.do("stop.all")
-    hand.until(lambda: hand.desk.shop is not shop)
+    hand.until(lambda: hand.station.session is not session)
 
 
 @pytest.mark.parametrize(
@@ -290,22 +290,22 @@ def test_settings_of_motion_wait_for_the_end_of_the_program(hand: HandDesk) -> N
     ],
 )
 def test_a_typing_error_in_mdi_is_refused_before_anything_runs(
-    hand: HandDesk, lines: list[str], text: str
+    hand: HandStation, lines: list[str], text: str
 ) -> None:
     error = hand.refused("mdi.execute", lines=lines)
     assert (error["code"], error["text"]) == ("refused", text)
     hand.run(0.5)
     assert hand.places() == (0.0, 0.0, 0.0)
     assert hand.do("mdi.buffer")["lines"] == []
-    assert hand.desk.typed.data()["queue"] == []
+    assert hand.station.typed.data()["queue"] == []
     assert hand.events("alarms")[-1]["history"] == []
     hand.do("mdi.execute", line="G21 G90 G54 G0 X5")
     hand.until(lambda: not hand.is_busy)
 
 
-def test_the_run_time_is_0_before_the_first_run_and_stays_after_its_end(hand: HandDesk) -> None:
+def test_the_run_time_is_0_before_the_first_run_and_stays_after_its_end(hand: HandStation) -> None:
     hand.run(2.0)
-    assert hand.desk.snapshot.run_s == 0.0
+    assert hand.station.snapshot.run_s == 0.0
     loaded(hand, "G4 P1.5\nM2\n")
     for _ in range(2):
         begin_s = hand.now_s
@@ -313,11 +313,11 @@ def test_the_run_time_is_0_before_the_first_run_and_stays_after_its_end(hand: Ha
         hand.until(lambda: not hand.is_busy)
         taken_s = hand.now_s - begin_s
         hand.run(0.1)
-        assert hand.desk.snapshot.run_s == pytest.approx(taken_s, abs=0.03)
-        assert hand.desk.snapshot.run_s > 1.5
-        kept_s = hand.desk.snapshot.run_s
+        assert hand.station.snapshot.run_s == pytest.approx(taken_s, abs=0.03)
+        assert hand.station.snapshot.run_s > 1.5
+        kept_s = hand.station.snapshot.run_s
         hand.run(2.0)
-        assert hand.desk.snapshot.run_s == kept_s
+        assert hand.station.snapshot.run_s == kept_s
     hand.press(1)
     hand.keep(1, 0.5)
-    assert hand.desk.snapshot.run_s == kept_s  # an axis moved by hand is no run
+    assert hand.station.snapshot.run_s == kept_s  # an axis moved by hand is no run

@@ -1,20 +1,20 @@
-"""Terminal, scope, gains, buttons, library parts, drip feed: on a desk driven by hand."""
+"""Terminal, scope, gains, buttons, library parts, drip feed: on a station driven by hand."""
 
 import os
 import tty
 
 import pytest
-from tests.panel.bench import HandDesk
+from tests.panel.bench import HandStation
 
 from openacr.panel.control.people import Person
 from openacr.panel.roles import Role
 
 
-def typed(hand: HandDesk) -> str:
+def typed(hand: HandStation) -> str:
     return "".join(event["text"] for event in hand.events("term"))
 
 
-def test_the_terminal_types_lines_and_shows_what_the_card_prints(hand: HandDesk) -> None:
+def test_the_terminal_types_lines_and_shows_what_the_card_prints(hand: HandStation) -> None:
     hand.do("term.open")
     hand.do("term.line", text="PRINT 6*7")
     hand.run(0.2)
@@ -24,7 +24,7 @@ def test_the_terminal_types_lines_and_shows_what_the_card_prints(hand: HandDesk)
     assert "not open" in hand.refused("term.line", text="X")["text"]
 
 
-def test_the_terminal_only_asks_while_the_machine_moves(hand: HandDesk) -> None:
+def test_the_terminal_only_asks_while_the_machine_moves(hand: HandStation) -> None:
     hand.do("term.open")
     hand.do("mdi.execute", line="G21 G91 G1 X50 F600")
     hand.run(0.2)
@@ -33,30 +33,30 @@ def test_the_terminal_only_asks_while_the_machine_moves(hand: HandDesk) -> None:
     hand.do("stop.all")
 
 
-def test_the_terminal_needs_the_role_service(hand: HandDesk) -> None:
+def test_the_terminal_needs_the_role_service(hand: HandStation) -> None:
     other = Person(2, Role.SETUP, "10.0.0.2")
-    hand.desk.join(other)
+    hand.station.join(other)
     assert hand.send("term.open", who=other)["error"]["needs"] == "service"
 
 
-def test_queries_only_read(hand: HandDesk) -> None:
+def test_queries_only_read(hand: HandStation) -> None:
     lines = hand.do("card.query", line="DIM")["lines"]
     assert any("PROG0" in line for line in lines)
     assert "only" in hand.refused("card.query", line="CLEAR")["text"]
     assert "only" in hand.refused("card.query", line="DIM P(5)")["text"]
 
 
-def test_the_scope_samples_in_the_time_of_the_card(hand: HandDesk) -> None:
+def test_the_scope_samples_in_the_time_of_the_card(hand: HandStation) -> None:
     taken: list[tuple[int, list[list[float]], float]] = []
-    hand.desk.sampled = taken.append
-    assert hand.bench.controller is not None
-    begin_s = hand.bench.controller.time_s
+    hand.station.sampled = taken.append
+    assert hand.installation.controller is not None
+    begin_s = hand.installation.controller.time_s
     hand.do("scope.arm", channels=[12288, 12290], period_ms=1.0, samples=1000)
     hand.do("jog.increment", axis="X", direction=1, distance=1.0, tick=hand.tick)
     hand.run(0.5)
     hand.do("scope.stop")
     count = sum(len(channels[0]) for _first, channels, _period in taken)
-    passed_ms = 1000.0 * (hand.bench.controller.time_s - begin_s)
+    passed_ms = 1000.0 * (hand.installation.controller.time_s - begin_s)
     assert passed_ms - 50.0 <= count <= passed_ms + 1.0  # those since the last look are not sent
     firsts = [first for first, _channels, _period in taken]
     sizes = [len(channels[0]) for _first, channels, _period in taken]
@@ -67,7 +67,7 @@ def test_the_scope_samples_in_the_time_of_the_card(hand: HandDesk) -> None:
     assert not hand.events("scope")[-1]["running"]
 
 
-def test_a_single_capture_ends_after_its_trigger(hand: HandDesk) -> None:
+def test_a_single_capture_ends_after_its_trigger(hand: HandStation) -> None:
     trigger = {"channel": 0, "level": 400.0, "slope": 1, "mode": "single", "before": 0.1}
     hand.do("scope.arm", channels=[12290], period_ms=1.0, samples=100, trigger=trigger)
     hand.run(0.3)
@@ -82,7 +82,7 @@ def test_a_single_capture_ends_after_its_trigger(hand: HandDesk) -> None:
     assert last["trigger"] > 300
 
 
-def test_the_scope_has_four_channels(hand: HandDesk) -> None:
+def test_the_scope_has_four_channels(hand: HandStation) -> None:
     assert "1 to 4" in hand.refused("scope.arm", channels=[1, 2, 3, 4, 5])["text"]
     assert (
         "trigger channel 2"
@@ -90,39 +90,39 @@ def test_the_scope_has_four_channels(hand: HandDesk) -> None:
     )
 
 
-def test_a_gain_acts_on_the_card_and_is_stored(hand: HandDesk) -> None:
+def test_a_gain_acts_on_the_card_and_is_stored(hand: HandStation) -> None:
     hand.do("gain.set", axis="Y", gain="P Gain", value=0.003)
-    card = hand.desk.machine.card
+    card = hand.station.machine.card
     assert float(card.read(12288 + 256 + 16)) == pytest.approx(0.003)
-    assert hand.bench.store.read(151_000) == 0.003
+    assert hand.installation.store.read(151_000) == 0.003
     hand.do("gain.set", axis="Y", gain="d gain", value=2e-5, store=False)
-    assert hand.bench.store.read(151_004) == 1e-5
+    assert hand.installation.store.read(151_004) == 1e-5
     assert "gains are" in hand.refused("gain.set", axis="Y", gain="X", value=1.0)["text"]
     assert "cannot be -1" in hand.refused("gain.set", axis="Y", gain="P Gain", value=-1.0)["text"]
 
 
-def test_programs_of_this_machine_on_the_card_are_not_ended(hand: HandDesk) -> None:
+def test_programs_of_this_machine_on_the_card_are_not_ended(hand: HandStation) -> None:
     for program in (0, 7):
         assert "belongs to this machine" in hand.refused("card.halt", program=program)["text"]
     assert "name a program" in hand.refused("card.run")["text"]
     hand.do("card.halt", program=3)
 
 
-def test_a_momentary_button_goes_off_with_its_browser(hand: HandDesk) -> None:
-    store = hand.bench.store
+def test_a_momentary_button_goes_off_with_its_browser(hand: HandStation) -> None:
+    store = hand.installation.store
     store.write_text(980_000, "Door")
     store.write(980_001, 40)
-    card = hand.desk.machine.card
+    card = hand.station.machine.card
     hand.do("button", number=0, pressed=True)
     hand.run(0.05)
     assert card.read_bit(40)
-    hand.desk.leave(1)
+    hand.station.leave(1)
     hand.run(0.05)
     assert not card.read_bit(40)
 
 
-def test_a_toggle_button_changes_at_each_press(hand: HandDesk) -> None:
-    store, card = hand.bench.store, hand.desk.machine.card
+def test_a_toggle_button_changes_at_each_press(hand: HandStation) -> None:
+    store, card = hand.installation.store, hand.station.machine.card
     store.write(980_021, 41)
     store.write(980_023, 1)
     for expected in (True, False):
@@ -133,14 +133,14 @@ def test_a_toggle_button_changes_at_each_press(hand: HandDesk) -> None:
     assert "sets nothing" in hand.refused("button", number=2, pressed=True)["text"]
 
 
-def test_a_tool_length_is_taught_from_the_position_of_z(hand: HandDesk) -> None:
+def test_a_tool_length_is_taught_from_the_position_of_z(hand: HandStation) -> None:
     hand.do("jog.increment", axis="Z", direction=-1, distance=12.5, tick=hand.tick)
     hand.until(lambda: not hand.is_busy)
     assert hand.do("teach.length", h=3) == {"value": -12.5}
-    assert hand.bench.store.read(2003) == -12.5
+    assert hand.installation.store.read(2003) == -12.5
 
 
-def test_a_library_part_is_made_and_loaded(hand: HandDesk) -> None:
+def test_a_library_part_is_made_and_loaded(hand: HandStation) -> None:
     from openacr.cnc.parts.library import names, part_named
 
     name = names()[0]
@@ -152,20 +152,20 @@ def test_a_library_part_is_made_and_loaded(hand: HandDesk) -> None:
     assert size.text in error["text"]
 
 
-def test_a_program_runs_while_it_arrives_over_a_serial_line(hand: HandDesk) -> None:
+def test_a_program_runs_while_it_arrives_over_a_serial_line(hand: HandStation) -> None:
     master, slave = os.openpty()
     tty.setraw(slave)
-    store = hand.bench.store
+    store = hand.installation.store
     store.write(250_116, 2)
-    hand.desk.note_stored(frozenset({250_116}))
+    hand.station.note_stored(frozenset({250_116}))
     hand.run(0.1)
     hand.do("program.drip", port=os.ttyname(slave))
     os.write(master, b"G21 G90\n" + b"".join(b"G0 X%d\n" % n for n in range(1, 11)))
-    hand.until(lambda: hand.desk.snapshot.work[0] >= 5.0)
+    hand.until(lambda: hand.station.snapshot.work[0] >= 5.0)
     assert hand.is_busy
     os.write(master, b"G0 X20\nM2\n\x1a")
     hand.until(lambda: not hand.is_busy)
     hand.run(0.1)
-    assert hand.desk.snapshot.work[0] == 20.0
+    assert hand.station.snapshot.work[0] == 20.0
     os.close(master)
     os.close(slave)

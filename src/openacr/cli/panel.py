@@ -13,7 +13,7 @@ import typer
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
-    from openacr.panel.control.bench import Bench
+    from openacr.panel.control.installation import Installation
 
 log = logging.getLogger(__name__)
 PORT = 5080
@@ -62,14 +62,14 @@ def panel(
     are held, not a program. Ctrl-C brings the machine to rest and ends the server.
     """
     _require_packages()
-    bench = _bench(machine, store, programs)
+    installation = _installation(machine, store, programs)
     try:
         if set_password is not None:
-            _set_password(bench, set_password)
+            _set_password(installation, set_password)
             return
-        asyncio.run(_serve(bench, address, port, names or [], is_shown=not no_browser))
+        asyncio.run(_serve(installation, address, port, names or [], is_shown=not no_browser))
     finally:
-        bench.close()
+        installation.close()
 
 
 def _require_packages() -> None:
@@ -80,12 +80,12 @@ def _require_packages() -> None:
         raise UserError(MISSING) from None
 
 
-def _bench(machine: str | None, store: Path | None, programs: Path | None) -> "Bench":
+def _installation(machine: str | None, store: Path | None, programs: Path | None) -> "Installation":
     import platformdirs
 
     from openacr.client.links import wire_to
     from openacr.controller import Controller
-    from openacr.panel.control.bench import Bench
+    from openacr.panel.control.installation import Installation
     from openacr.panel.machine import embedded
     from openacr.sysvar.location import open_to_write
 
@@ -98,7 +98,7 @@ def _bench(machine: str | None, store: Path | None, programs: Path | None) -> "B
     if not Path(machine).is_dir():
         wire_to(machine)  # what is no address is refused before anything is opened
         folder.mkdir(parents=True, exist_ok=True)
-        return Bench.at(machine, open_to_write(store), folder)
+        return Installation.at(machine, open_to_write(store), folder)
     project = Path(machine)
     own = project / "programs"
     folder = programs or (own if own.is_dir() else folder)
@@ -111,10 +111,12 @@ def _bench(machine: str | None, store: Path | None, programs: Path | None) -> "B
         cells.close()
         raise
     controller.is_journalled = False
-    return Bench.inside(controller, cells, folder, kind="project", name=project.resolve().name)
+    return Installation.inside(
+        controller, cells, folder, kind="project", name=project.resolve().name
+    )
 
 
-def _set_password(bench: "Bench", word: str) -> None:
+def _set_password(installation: "Installation", word: str) -> None:
     from openacr.panel.roles import Role
     from openacr.panel.server.accounts import Accounts, file_of
 
@@ -129,17 +131,17 @@ def _set_password(bench: "Bench", word: str) -> None:
         default="",
         show_default=False,
     )
-    Accounts(file_of(bench.store.path), bench.store).set_password(role, secret)
+    Accounts(file_of(installation.store.path), installation.store).set_password(role, secret)
     typer.echo(f"the password of the role {role.word} was {'set' if secret else 'removed'}")
 
 
 async def _serve(
-    bench: "Bench", address: str, port: int, names: list[str], *, is_shown: bool
+    installation: "Installation", address: str, port: int, names: list[str], *, is_shown: bool
 ) -> None:
     from openacr.io.server import is_loopback
     from openacr.panel.server.panel import Panel, PanelServer, require_password
 
-    panel = Panel(bench, names=[*names, address])
+    panel = Panel(installation, names=[*names, address])
     require_password(panel, address, is_loopback=is_loopback(address))
     server = PanelServer(panel, address, port)
 

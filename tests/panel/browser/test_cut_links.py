@@ -20,7 +20,7 @@ def until(holds: Callable[[], bool], page: Page) -> None:
 
 
 def is_jogging(served: Served) -> bool:
-    return served.call(lambda desk: bool(desk.machine.runner.jogging.is_active))
+    return served.call(lambda station: bool(station.machine.runner.jogging.is_active))
 
 
 def hold_x(page: Page, served: Served) -> None:
@@ -54,10 +54,10 @@ def test_a_link_that_fails_stops_the_jog_and_comes_back_by_itself(
             )
         proxy.thaw()
         page.locator("body:not(.is-stale)").wait_for()
-        rest = served.desk.snapshot.commanded[0]
+        rest = served.station.snapshot.commanded[0]
         page.wait_for_timeout(300)
         assert not is_jogging(served)  # the key is still down: its press is over
-        assert served.desk.snapshot.commanded[0] == rest
+        assert served.station.snapshot.commanded[0] == rest
         page.mouse.up()
         page.evaluate("import('/js/core/app.js').then((app) => app.give('control.release'))")
         page.close()

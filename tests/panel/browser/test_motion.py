@@ -22,17 +22,17 @@ def until(holds: Callable[[], bool], page: Page) -> None:
 
 
 def x_of(served: Served) -> float:
-    return served.desk.snapshot.commanded[0]
+    return served.station.snapshot.commanded[0]
 
 
 def is_jogging(served: Served) -> bool:
-    return served.call(lambda desk: bool(desk.machine.runner.jogging.is_active))
+    return served.call(lambda station: bool(station.machine.runner.jogging.is_active))
 
 
 def rest_of(served: Served, page: Page) -> float:
     """Where X has come to rest."""
     until(lambda: not is_jogging(served), page)
-    return served.call(lambda desk: float(desk.machine.runner.stream.host.position()[0]))
+    return served.call(lambda station: float(station.machine.runner.stream.host.position()[0]))
 
 
 @pytest.fixture
@@ -254,6 +254,6 @@ def test_a_step_moves_by_its_increment_and_no_further(jog: Page, served: Served)
     before = rest_of(served, jog)
     jog.get_by_role("button", name="X plus").click()
     until(lambda: rest_of(served, jog) != before, jog)
-    step = served.call(lambda desk: desk.machine.runner.settings.real(JOG.increments[0][0]))
+    step = served.call(lambda station: station.machine.runner.settings.real(JOG.increments[0][0]))
     assert rest_of(served, jog) - before == pytest.approx(step)
     continuous.click()

@@ -9,9 +9,9 @@ from openacr.errors import UserError
 from openacr.mill.run.lifecycle import State
 from openacr.mill.zeroing import clear_all, goto_blocks, reader, set_zero
 from openacr.panel.commands.registry import Args, NoArgs, command
-from openacr.panel.control.desk import Desk
 from openacr.panel.control.orders import Order
 from openacr.panel.control.presses import End, Key
+from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 
 PressNumber = Annotated[int, Meta(ge=0, le=2**53)]
@@ -59,9 +59,9 @@ class Mode(Args, frozen=True):
     mode: Literal["auto", "manual", "mdi", "home", "setup", "diagnose"]
 
 
-def indices(desk: Desk, names: str) -> list[int]:
+def indices(station: Station, names: str) -> list[int]:
     """The axes of these names; all configured ones without a name."""
-    settings = desk.machine.runner.settings
+    settings = station.machine.runner.settings
     return [settings.named(name).index for name in names.upper() or settings.names()]
 
 
@@ -69,114 +69,118 @@ def indices(desk: Desk, names: str) -> list[int]:
 
 
 @command("jog.press", is_motion=True)
-def press(desk: Desk, order: Order, args: Press) -> None:
+def press(station: Station, order: Order, args: Press) -> None:
     """Jog an axis while the key is held."""
-    axis = desk.machine.runner.settings.named(args.axis.upper()).index
-    desk.hands.press(
+    axis = station.machine.runner.settings.named(args.axis.upper()).index
+    station.hand_motion.press(
         Key(order.person.client, args.press),
         axis,
         args.direction,
         fast=args.fast,
         tick_ms=args.tick,
         received_s=order.received_s,
-        now_s=desk.now_s,
+        now_s=station.now_s,
     )
 
 
 @command("jog.release", Role.VIEW, needs_control=False)
-def release(desk: Desk, order: Order, args: Release) -> None:
+def release(station: Station, order: Order, args: Release) -> None:
     """Release a jog key; accepted without control."""
-    desk.hands.release(Key(order.person.client, args.press))
+    station.hand_motion.release(Key(order.person.client, args.press))
 
 
 @command("jog.increment", is_motion=True)
-def increment(desk: Desk, order: Order, args: Increment) -> None:
+def increment(station: Station, order: Order, args: Increment) -> None:
     """Move an axis by one increment."""
-    axis = desk.machine.runner.settings.named(args.axis.upper()).index
+    axis = station.machine.runner.settings.named(args.axis.upper()).index
     if bool(args.preset) == bool(args.distance):
         raise UserError("an increment is a preset from 1 to 5 or a distance above 0")
-    desk.hands.require_fresh(args.tick, order.received_s)
-    desk.hands.increment(
+    station.hand_motion.require_fresh(args.tick, order.received_s)
+    station.hand_motion.increment(
         axis, args.direction, preset=args.preset, distance_u=args.distance, fast=args.fast
     )
 
 
 @command("jog.stop", Role.VIEW, needs_control=False, is_stop=True)
-def stop_jogs(desk: Desk, order: Order, args: NoArgs) -> None:
+def stop_jogs(station: Station, order: Order, args: NoArgs) -> None:
     """Ramp everything that is moved by hand to rest."""
-    desk.hands.stop()
+    station.hand_motion.stop()
 
 
 @command("handwheel", is_motion=True)
-def handwheel(desk: Desk, order: Order, args: OfAxes) -> dict[str, str]:
+def handwheel(station: Station, order: Order, args: OfAxes) -> dict[str, str]:
     """Connect the hand wheel with axes; without a name it is disconnected."""
-    desk.hands.presses.end_all(End.MODE, "the hand wheel was chosen")
-    desk.machine.runner.turn(indices(desk, args.axes) if args.axes else [])
+    station.hand_motion.presses.end_all(End.MODE, "the hand wheel was chosen")
+    station.machine.runner.turn(indices(station, args.axes) if args.axes else [])
     return {"axes": args.axes.upper()}
 
 
 @command("mode", needs_control=False)
-def mode(desk: Desk, order: Order, args: Mode) -> None:
+def mode(station: Station, order: Order, args: Mode) -> None:
     """Say which screen the operator is on; a change ends every held key."""
-    if desk.people.holder not in (None, order.person.client):
+    if station.people.holder not in (None, order.person.client):
         return  # the screens of others change nothing
-    if args.mode != desk.mode:
-        desk.hands.presses.end_all(End.MODE, "another screen was chosen")
-        desk.mode = args.mode
+    if args.mode != station.mode:
+        station.hand_motion.presses.end_all(End.MODE, "another screen was chosen")
+        station.mode = args.mode
 
 
 # --- home and zero --------------------------------------------------------------------
 
 
 @command("home.start", is_motion=True)
-def home(desk: Desk, order: Order, args: OfAxes) -> dict[str, list[str]]:
+def home(station: Station, order: Order, args: OfAxes) -> dict[str, list[str]]:
     """HOME: find the reference points of axes, all that have a priority without a name."""
-    settings = desk.machine.runner.settings
-    axes = indices(desk, args.axes)
+    settings = station.machine.runner.settings
+    axes = indices(station, args.axes)
     chosen = [axis for axis in axes if settings.home(axis).priority > 0]
     if not chosen:
         names = args.axes.upper() or "any axis"
         raise UserError(f"{names} has no homing priority: set Home Priority on the HOME page")
-    desk.machine.runner.home(chosen)
+    station.machine.runner.home(chosen)
     return {"axes": [settings.axis(axis).name for axis in chosen]}
 
 
-def _position(desk: Desk, point: tuple[float, ...]) -> dict[str, dict[str, float]]:
-    axes = desk.machine.runner.settings.axes
+def _position(station: Station, point: tuple[float, ...]) -> dict[str, dict[str, float]]:
+    axes = station.machine.runner.settings.axes
     return {"position": {axis.name: point[axis.index] for axis in axes}}
 
 
 @command("zero.set")
-def zero_set(desk: Desk, order: Order, args: OfAxes) -> dict[str, dict[str, float]]:
+def zero_set(station: Station, order: Order, args: OfAxes) -> dict[str, dict[str, float]]:
     """SET ZERO: axes read 0 where they are."""
-    shop = desk.machine
-    set_zero(shop, indices(desk, args.axes))
-    return _position(desk, reader(shop).position)
+    session = station.machine
+    set_zero(session, indices(station, args.axes))
+    return _position(station, reader(session).position)
 
 
 @command("zero.clear")
-def zero_clear(desk: Desk, order: Order, args: NoArgs) -> dict[str, dict[str, float]]:
+def zero_clear(station: Station, order: Order, args: NoArgs) -> dict[str, dict[str, float]]:
     """CLR ZERO: no axis has a floating zero."""
-    return _position(desk, clear_all(desk.machine))
+    return _position(station, clear_all(station.machine))
 
 
 @command("zero.goto", is_motion=True)
-def zero_goto(desk: Desk, order: Order, args: OfAxes) -> None:
+def zero_goto(station: Station, order: Order, args: OfAxes) -> None:
     """GOTO ZERO: rapids to the floating zero, Z first where that is upward, else last."""
-    desk.typed.put(goto_blocks(desk.machine, indices(desk, args.axes)), is_shown=False)
+    station.typed.put(goto_blocks(station.machine, indices(station, args.axes)), is_shown=False)
 
 
 # --- stops ----------------------------------------------------------------------------
 
 
 @command("stop.hold", Role.VIEW, needs_control=False, is_stop=True)
-def hold(desk: Desk, order: Order, args: NoArgs) -> None:
+def hold(station: Station, order: Order, args: NoArgs) -> None:
     """STOP: hold the feed, ramp jogs to rest, end homing; from every screen at any time."""
-    _each(lambda: desk.hands.presses.end_all(End.STOP), lambda: _hold(desk), desk.typed.drop)
+    _each(
+        lambda: station.hand_motion.presses.end_all(End.STOP),
+        lambda: _hold(station),
+        station.typed.drop,
+    )
 
 
-def _hold(desk: Desk) -> None:
-    runner = desk.machine.runner
+def _hold(station: Station) -> None:
+    runner = station.machine.runner
     if runner.is_busy and runner.state not in (State.PAUSED, State.HOLD, State.ALARM):
         try:
             runner.stop()
@@ -186,22 +190,22 @@ def _hold(desk: Desk) -> None:
 
 
 @command("stop.all", Role.VIEW, needs_control=False, is_stop=True)
-def stop_all(desk: Desk, order: Order, args: NoArgs) -> None:
+def stop_all(station: Station, order: Order, args: NoArgs) -> None:
     """End everything: the program, jogs, homing; spindle and coolant off."""
     _each(
-        lambda: desk.machine.runner.bring_to_rest(),
-        lambda: desk.hands.presses.end_all(End.STOP),
-        desk.typed.drop,
+        lambda: station.machine.runner.bring_to_rest(),
+        lambda: station.hand_motion.presses.end_all(End.STOP),
+        station.typed.drop,
     )
 
 
 @command("stop.estop", Role.VIEW, needs_control=False, is_stop=True)
-def estop(desk: Desk, order: Order, args: NoArgs) -> None:
+def estop(station: Station, order: Order, args: NoArgs) -> None:
     """Kill all motion and switch the drives off, by software: it is no emergency stop."""
     _each(
-        lambda: desk.machine.runner.kill(desk.people.name_of(order.person)),
-        lambda: desk.hands.presses.end_all(End.STOP),
-        desk.typed.drop,
+        lambda: station.machine.runner.kill(station.people.name_of(order.person)),
+        lambda: station.hand_motion.presses.end_all(End.STOP),
+        station.typed.drop,
     )
 
 

@@ -5,9 +5,9 @@ from typing import Annotated
 from msgspec import Meta
 
 from openacr.panel.commands.registry import Args, NoArgs, command
-from openacr.panel.control.desk import Desk
 from openacr.panel.control.orders import Order
 from openacr.panel.control.presses import End
+from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 
 
@@ -30,30 +30,30 @@ class Named(Args, frozen=True):
 
 
 @command("control.take", needs_control=False)
-def take(desk: Desk, order: Order, args: Take) -> dict[str, object]:
+def take(station: Station, order: Order, args: Take) -> dict[str, object]:
     """Take control of the machine."""
-    before = desk.people.take(order.person.client, force=args.force)
+    before = station.people.take(order.person.client, force=args.force)
     if before is not None:
-        desk.hands.presses.end_all(End.CONTROL, "another operator has taken control")
-    return {"holder": desk.people.data()["holder"]}
+        station.hand_motion.presses.end_all(End.CONTROL, "another operator has taken control")
+    return {"holder": station.people.data()["holder"]}
 
 
 @command("control.give", needs_control=False)
-def give(desk: Desk, order: Order, args: Give) -> None:
+def give(station: Station, order: Order, args: Give) -> None:
     """Hand control over to another operator."""
-    desk.people.give(order.person.client, args.client)
-    desk.hands.presses.end_all(End.CONTROL, "control was handed over")
+    station.people.give(order.person.client, args.client)
+    station.hand_motion.presses.end_all(End.CONTROL, "control was handed over")
 
 
 @command("control.release", needs_control=False)
-def release(desk: Desk, order: Order, args: NoArgs) -> None:
+def release(station: Station, order: Order, args: NoArgs) -> None:
     """Give control up."""
-    if desk.people.holder == order.person.client:
-        desk.hands.presses.end_all(End.CONTROL, "control was given up")
-    desk.people.release(order.person.client)
+    if station.people.holder == order.person.client:
+        station.hand_motion.presses.end_all(End.CONTROL, "control was given up")
+    station.people.release(order.person.client)
 
 
 @command("name", Role.VIEW, needs_control=False)
-def name(desk: Desk, order: Order, args: Named) -> None:
+def name(station: Station, order: Order, args: Named) -> None:
     """Choose the name that others see."""
-    desk.people.rename(order.person.client, args.name.strip())
+    station.people.rename(order.person.client, args.name.strip())

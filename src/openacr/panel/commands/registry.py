@@ -10,7 +10,7 @@ from openacr.panel.control.orders import Order, PanelError, RoleError
 from openacr.panel.roles import Role
 
 if TYPE_CHECKING:
-    from openacr.panel.control.desk import Desk
+    from openacr.panel.control.station import Station
 
 
 class Args(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True):
@@ -22,7 +22,7 @@ class NoArgs(Args, frozen=True):
 
 
 A = TypeVar("A", bound=Args)
-Do = Callable[["Desk", Order, Any], object]
+Do = Callable[["Station", Order, Any], object]
 LONGEST_WAIT_S = 0.5  # a command that moves axes is not carried out later than this
 
 
@@ -54,15 +54,15 @@ def command(
     needs_control: bool = True,
     is_motion: bool = False,
     is_stop: bool = False,
-) -> Callable[[Callable[["Desk", Order, A], object]], Callable[["Desk", Order, A], object]]:
+) -> Callable[[Callable[["Station", Order, A], object]], Callable[["Station", Order, A], object]]:
     """Declare a command; `is_motion`: it may begin motion, so an old one is refused.
 
     `is_stop`: what was received before it and may begin motion is refused: a stop overtakes it.
     """
 
     def declare(
-        do: Callable[["Desk", Order, A], object],
-    ) -> Callable[["Desk", Order, A], object]:
+        do: Callable[["Station", Order, A], object],
+    ) -> Callable[["Station", Order, A], object]:
         args = do.__annotations__["args"]
         COMMANDS[name] = Command(name, role, args, do, needs_control, is_motion, is_stop)
         return do
@@ -70,7 +70,7 @@ def command(
     return declare
 
 
-def carry_out(desk: "Desk", order: Order, now_s: float) -> object:
+def carry_out(station: "Station", order: Order, now_s: float) -> object:
     """Carry an order out; an error says why it is not."""
     row = COMMANDS.get(order.name)
     if row is None:
@@ -84,10 +84,10 @@ def carry_out(desk: "Desk", order: Order, now_s: float) -> object:
     if row.is_motion and now_s - order.received_s > LONGEST_WAIT_S:
         waited_s = now_s - order.received_s
         raise PanelError("stale", f"the command waited {waited_s:.1f} s: give it again")
-    if row.is_motion and order.received_s < desk.stopped_s:
+    if row.is_motion and order.received_s < station.stopped_s:
         raise PanelError("refused", "a stop was received after this command: give it again")
     if row.is_stop:
-        desk.stopped_s = max(desk.stopped_s, order.received_s)
+        station.stopped_s = max(station.stopped_s, order.received_s)
     if row.needs_control:
-        desk.people.require_control(order.person.client)
-    return row.do(desk, order, args)
+        station.people.require_control(order.person.client)
+    return row.do(station, order, args)

@@ -13,9 +13,9 @@ from openacr.mill.config.overrides import Override
 from openacr.mill.run.dripping import Drip
 from openacr.mill.session import Start
 from openacr.panel.commands.registry import Args, NoArgs, command
-from openacr.panel.control.desk import LATER, Desk, Later
 from openacr.panel.control.orders import Order
 from openacr.panel.control.presses import End
+from openacr.panel.control.station import LATER, Later, Station
 from openacr.panel.files import Folder
 from openacr.panel.library import ready
 from openacr.panel.roles import Role
@@ -71,28 +71,28 @@ class Click(Args, frozen=True):
 # --- loading --------------------------------------------------------------------------
 
 
-def folder_of(desk: Desk) -> Folder:
+def folder_of(station: Station) -> Folder:
     """The folder of programs."""
-    return Folder(desk.bench.programs)
+    return Folder(station.installation.programs)
 
 
 @command("program.load")
-def load(desk: Desk, order: Order, args: OfFile) -> Later:
+def load(station: Station, order: Order, args: OfFile) -> Later:
     """LOAD PROG: make a file of the folder the program that START starts."""
-    file = folder_of(desk).file(args.path)
-    desk.part.load(file, args.path, order, kind="file", dialect=args.dialect)
+    file = folder_of(station).file(args.path)
+    station.part.load(file, args.path, order, kind="file", dialect=args.dialect)
     return LATER
 
 
 @command("program.batch")
-def batch(desk: Desk, order: Order, args: OfFile) -> Later:
+def batch(station: Station, order: Order, args: OfFile) -> Later:
     """Load all programs of a batch file, which run one after the other."""
-    folder = folder_of(desk)
+    folder = folder_of(station)
 
     def place(file: Path) -> str:
         return folder.path_of(file)
 
-    desk.part.load_batch(folder.file(args.path), order, place)
+    station.part.load_batch(folder.file(args.path), order, place)
     return LATER
 
 
@@ -113,48 +113,50 @@ class OfPort(Args, frozen=True):
 
 
 @command("program.part")
-def library_part(desk: Desk, order: Order, args: OfPart) -> Later:
+def library_part(station: Station, order: Order, args: OfPart) -> Later:
     """LIBRARY PART: make a part with these sizes the program that START starts."""
-    desk.part.require_free()
-    made = ready(args.part, args.values, desk.bench.store, args.tool)
-    folder = desk.bench.programs / PARTS
+    station.part.require_free()
+    made = ready(args.part, args.values, station.installation.store, args.tool)
+    folder = station.installation.programs / PARTS
     file = folder / f"{made.part.name}.nc"
     try:
         folder.mkdir(exist_ok=True)
         file.write_text(made.program, encoding="utf-8", newline="\n")
     except OSError as error:
         raise UserError(f"{file.name} cannot be stored: {error.strerror}") from None
-    desk.part.load(file, made.part.name, order, kind="part", dialect="acromill")
+    station.part.load(file, made.part.name, order, kind="part", dialect="acromill")
     return LATER
 
 
 @command("program.drip", is_motion=True)
-def drip(desk: Desk, order: Order, args: OfPort) -> None:
+def drip(station: Station, order: Order, args: OfPort) -> None:
     """RS232 DRIP FEED: run a program while it arrives over a serial line."""
-    desk.part.require_free()
-    shop = desk.machine
-    shop.runner.alarms.require_none()
-    name = dialect_of(None, shop.cells, args.dialect or None)
-    folder = desk.bench.store.path.parent if desk.bench.store.path else None
-    line = Line.of(shop.cells, args.port)
-    made = Drip(line, shop.cells, name, is_dry=args.dry, folders=folders_of(shop.cells, folder))
-    shop.keep_drip(made)
-    shop.start_drip(made, Start(dialect=name, is_dry=args.dry))
+    station.part.require_free()
+    session = station.machine
+    session.runner.alarms.require_none()
+    name = dialect_of(None, session.cells, args.dialect or None)
+    folder = station.installation.store.path.parent if station.installation.store.path else None
+    line = Line.of(session.cells, args.port)
+    made = Drip(
+        line, session.cells, name, is_dry=args.dry, folders=folders_of(session.cells, folder)
+    )
+    session.keep_drip(made)
+    session.start_drip(made, Start(dialect=name, is_dry=args.dry))
 
 
 @command("program.close")
-def close(desk: Desk, order: Order, args: NoArgs) -> None:
+def close(station: Station, order: Order, args: NoArgs) -> None:
     """Unload the program."""
-    desk.part.close()
+    station.part.close()
 
 
 # --- running --------------------------------------------------------------------------
 
 
 @command("run.begin", is_motion=True)
-def begin(desk: Desk, order: Order, args: Begin) -> dict[str, object]:
+def begin(station: Station, order: Order, args: Begin) -> dict[str, object]:
     """RUN: start the loaded program; a later line is rehearsed first and confirmed then."""
-    part = desk.part
+    part = station.part
     if args.skip is not None:
         part.is_skipping = args.skip
     if args.optional is not None:
@@ -169,70 +171,70 @@ def begin(desk: Desk, order: Order, args: Begin) -> dict[str, object]:
         accepts_tool=args.any_tool,
         safe_z=args.safe_z,
     )
-    desk.hands.presses.end_all(End.MODE, "a program was started")
+    station.hand_motion.presses.end_all(End.MODE, "a program was started")
     if args.line > 1 and not args.confirm:
         return {"rehearsal": part.rehearse(start)}
-    desk.typed.drop()
+    station.typed.drop()
     part.begin(start, args.confirm)
     return {}
 
 
 @command("run.start", is_motion=True)
-def start(desk: Desk, order: Order, args: NoArgs) -> None:
+def start(station: Station, order: Order, args: NoArgs) -> None:
     """START: go on from a stop or a feed hold."""
-    desk.machine.runner.start()
+    station.machine.runner.start()
 
 
 @command("run.resume", is_motion=True)
-def resume(desk: Desk, order: Order, args: NoArgs) -> None:
+def resume(station: Station, order: Order, args: NoArgs) -> None:
     """RESUME: go on with the path where it was held."""
-    desk.machine.runner.resume()
+    station.machine.runner.resume()
 
 
 @command("run.abort")
-def abort(desk: Desk, order: Order, args: NoArgs) -> None:
+def abort(station: Station, order: Order, args: NoArgs) -> None:
     """ABORT: end the program; START begins it again."""
-    desk.typed.drop()
-    desk.machine.runner.abort()
+    station.typed.drop()
+    station.machine.runner.abort()
 
 
 @command("run.block")
-def block(desk: Desk, order: Order, args: Switch) -> None:
+def block(station: Station, order: Order, args: Switch) -> None:
     """BLOCK: stop after every block, or not."""
-    desk.part.is_single = args.on
-    desk.machine.runner.block(args.on)
+    station.part.is_single = args.on
+    station.machine.runner.block(args.on)
 
 
 @command("run.skip")
-def skip(desk: Desk, order: Order, args: Switch) -> None:
+def skip(station: Station, order: Order, args: Switch) -> None:
     """Leave blocks with a slash out, or not."""
-    desk.part.is_skipping = args.on
-    desk.machine.runner.stream.host.skips_always = args.on
+    station.part.is_skipping = args.on
+    station.machine.runner.stream.host.skips_always = args.on
 
 
 @command("run.optional")
-def optional(desk: Desk, order: Order, args: Switch) -> None:
+def optional(station: Station, order: Order, args: Switch) -> None:
     """Stop at M1, or not."""
-    desk.part.stops_optionally = args.on
-    desk.machine.runner.stop_optionally(args.on)
+    station.part.stops_optionally = args.on
+    station.machine.runner.stop_optionally(args.on)
 
 
 @command("run.trace", is_motion=True)
-def trace(desk: Desk, order: Order, args: Trace) -> None:
+def trace(station: Station, order: Order, args: Trace) -> None:
     """Trace the path in a feed hold: back, forward, or rest."""
-    desk.machine.runner.trace(args.direction)
+    station.machine.runner.trace(args.direction)
 
 
 @command("run.answer", is_motion=True)
-def answer(desk: Desk, order: Order, args: Number) -> None:
+def answer(station: Station, order: Order, args: Number) -> None:
     """Answer the question of a program."""
-    desk.machine.runner.answer(args.value)
+    station.machine.runner.answer(args.value)
 
 
 @command("run.confirm", is_motion=True)
-def confirm(desk: Desk, order: Order, args: NoArgs) -> None:
+def confirm(station: Station, order: Order, args: NoArgs) -> None:
     """Say that the tool is changed."""
-    changer = desk.machine.runner.entry_actions.changer
+    changer = station.machine.runner.entry_actions.changer
     if not changer.wants_confirmation:
         raise UserError("no tool change waits")
     changer.confirm()
@@ -244,12 +246,12 @@ OVERRIDES = {"feed": Override.FEED, "rapid": Override.RAPID, "spindle": Override
 
 
 @command("override.choose")
-def override(desk: Desk, order: Order, args: Click) -> None:
+def override(station: Station, order: Order, args: Click) -> None:
     """Choose a click of an override."""
-    desk.machine.runner.overrides.choose(OVERRIDES[args.which], args.click)
+    station.machine.runner.overrides.choose(OVERRIDES[args.which], args.click)
 
 
 @command("alarm.acknowledge", Role.OPERATE)
-def acknowledge(desk: Desk, order: Order, args: NoArgs) -> dict[str, list[str]]:
+def acknowledge(station: Station, order: Order, args: NoArgs) -> dict[str, list[str]]:
     """Clear the alarms whose cause is gone."""
-    return {"left": [alarm.text for alarm in desk.machine.runner.acknowledge()]}
+    return {"left": [alarm.text for alarm in station.machine.runner.acknowledge()]}

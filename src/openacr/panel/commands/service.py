@@ -10,9 +10,9 @@ from openacr.errors import UserError
 from openacr.mill.card.setup import GAIN_WORDS
 from openacr.mill.config.settings import GAINS
 from openacr.panel.commands.registry import Args, NoArgs, command
-from openacr.panel.control.desk import Desk
 from openacr.panel.control.orders import Order
 from openacr.panel.control.scope import Trigger
+from openacr.panel.control.station import Station
 from openacr.panel.control.watches import watched
 from openacr.panel.roles import Role
 from openacr.sysvar.lookup import known
@@ -103,51 +103,51 @@ class OfLength(Args, frozen=True):
 
 
 @command("term.open", Role.SERVICE)
-def term_open(desk: Desk, order: Order, args: NoArgs) -> None:
+def term_open(station: Station, order: Order, args: NoArgs) -> None:
     """Open the terminal of the card; what it prints comes as events `term`."""
-    desk.terminal.open(order.person.client)
+    station.terminal.open(order.person.client)
 
 
 @command("term.line", Role.SERVICE)
-def term_line(desk: Desk, order: Order, args: OfLine) -> None:
+def term_line(station: Station, order: Order, args: OfLine) -> None:
     """Type a line; while the machine moves only those that begin with ?."""
-    desk.terminal.line(args.text, is_busy=desk.machine.runner.is_busy)
+    station.terminal.line(args.text, is_busy=station.machine.runner.is_busy)
 
 
 @command("term.key", Role.SERVICE)
-def term_key(desk: Desk, order: Order, args: OfKey) -> None:
+def term_key(station: Station, order: Order, args: OfKey) -> None:
     """Press a control key at the terminal."""
-    desk.terminal.key(args.key)
+    station.terminal.key(args.key)
 
 
 @command("term.close", Role.SERVICE, needs_control=False)
-def term_close(desk: Desk, order: Order, args: NoArgs) -> None:
+def term_close(station: Station, order: Order, args: NoArgs) -> None:
     """Close the terminal."""
-    desk.terminal.close(order.person.client)
+    station.terminal.close(order.person.client)
 
 
 @command("card.query", Role.SETUP, needs_control=False)
-def query(desk: Desk, order: Order, args: Query) -> dict[str, list[str]]:
+def query(station: Station, order: Order, args: Query) -> dict[str, list[str]]:
     """Ask the card with a line that only reads: DIM, MEM, CPU, LIST, ?P12288 ..."""
     line = args.line.strip().upper()
     if line not in QUERIES and not line.startswith("?"):
         raise UserError(f"{args.line}: only {', '.join(sorted(QUERIES))} and lines with ? are sent")
-    shop = desk.machine
-    if shop.runner.is_busy and not line.startswith("?"):
+    session = station.machine
+    if session.runner.is_busy and not line.startswith("?"):
         raise UserError("the machine moves: only lines that begin with ? are sent")
     if args.plc is not None:
-        shop.card.go(Level.plc(args.plc))
-        return {"lines": shop.card.command(line)}
+        session.card.go(Level.plc(args.plc))
+        return {"lines": session.card.command(line)}
     if args.program is None:
-        shop.card.go(Level())
-    return {"lines": shop.card.command(line, program=args.program)}
+        session.card.go(Level())
+    return {"lines": session.card.command(line, program=args.program)}
 
 
 # --- scope, gains, parameters ---------------------------------------------------------
 
 
 @command("scope.arm", Role.SERVICE, needs_control=False)
-def scope_arm(desk: Desk, order: Order, args: Arm) -> dict[str, object]:
+def scope_arm(station: Station, order: Order, args: Arm) -> dict[str, object]:
     """Begin to sample up to four parameters; the samples are the topic `scope`."""
     trigger = args.trigger
     chosen = None
@@ -155,42 +155,42 @@ def scope_arm(desk: Desk, order: Order, args: Arm) -> dict[str, object]:
         chosen = Trigger(
             trigger.channel, trigger.level, trigger.slope, trigger.mode, trigger.before
         )
-    desk.scope.arm(watched(args.channels), args.period_ms / 1000.0, args.samples, chosen)
-    capture = desk.scope.capture
+    station.scope.arm(watched(args.channels), args.period_ms / 1000.0, args.samples, chosen)
+    capture = station.scope.capture
     return capture.data() if capture is not None else {}
 
 
 @command("scope.stop", Role.SERVICE, needs_control=False)
-def scope_stop(desk: Desk, order: Order, args: NoArgs) -> None:
+def scope_stop(station: Station, order: Order, args: NoArgs) -> None:
     """End the capture."""
-    desk.scope.stop()
+    station.scope.stop()
 
 
 @command("gain.set", Role.SERVICE)
-def gain(desk: Desk, order: Order, args: OfGain) -> dict[str, float]:
+def gain(station: Station, order: Order, args: OfGain) -> dict[str, float]:
     """Set a gain on the card at once, and store it."""
-    shop = desk.machine
-    axis = shop.runner.settings.named(args.axis.upper()).index
+    session = station.machine
+    axis = session.runner.settings.named(args.axis.upper()).index
     names = {known(cells[axis]).name.lower(): k for k, cells in enumerate(GAINS)}
     place = names.get(args.gain.lower())
     if place is None:
         raise UserError(f"{args.gain}: gains are {', '.join(names)}")
     if args.store:
-        desk.bench.store.write(GAINS[place][axis], args.value)  # it also checks the value
-    shop.machine.type([f"AXIS{axis} {GAIN_WORDS[place]} {number_text(args.value)}"])
+        station.installation.store.write(GAINS[place][axis], args.value)  # it also checks the value
+    session.machine.type([f"AXIS{axis} {GAIN_WORDS[place]} {number_text(args.value)}"])
     return {"value": args.value}
 
 
 @command("card.write", Role.SERVICE)
-def card_write(desk: Desk, order: Order, args: Written) -> dict[str, float]:
+def card_write(station: Station, order: Order, args: Written) -> dict[str, float]:
     """Set a parameter of the card."""
-    shop = desk.machine
-    shop.machine.write(args.parameter, args.value)
-    return {"value": shop.machine.read(args.parameter)}
+    session = station.machine
+    session.machine.write(args.parameter, args.value)
+    return {"value": session.machine.read(args.parameter)}
 
 
-def _required(desk: Desk, args: OfProgram) -> str:
-    settings = desk.machine.runner.settings
+def _required(station: Station, args: OfProgram) -> str:
+    settings = station.machine.runner.settings
     if (args.program is None) == (args.plc is None):
         raise UserError("name a program or a PLC program")
     if args.program is not None and args.program in (settings.master, settings.watchdog_program):
@@ -199,41 +199,41 @@ def _required(desk: Desk, args: OfProgram) -> str:
 
 
 @command("card.run", Role.SERVICE, is_motion=True)
-def card_run(desk: Desk, order: Order, args: OfProgram) -> None:
+def card_run(station: Station, order: Order, args: OfProgram) -> None:
     """Start a program or a PLC program of the card."""
-    name = _required(desk, args)
-    if desk.machine.runner.is_busy:
+    name = _required(station, args)
+    if station.machine.runner.is_busy:
         raise UserError("the machine moves: no program of the card is started")
-    desk.machine.card.go(Level())
-    desk.machine.card.command(f"RUN {name}")
+    station.machine.card.go(Level())
+    station.machine.card.command(f"RUN {name}")
 
 
 @command("card.halt", Role.SERVICE)
-def card_halt(desk: Desk, order: Order, args: OfProgram) -> None:
+def card_halt(station: Station, order: Order, args: OfProgram) -> None:
     """End a program or a PLC program of the card."""
-    name = _required(desk, args)
-    desk.machine.card.go(Level())
-    desk.machine.card.command(f"HALT {name}")
+    name = _required(station, args)
+    station.machine.card.go(Level())
+    station.machine.card.command(f"HALT {name}")
 
 
 # --- buttons, lengths -----------------------------------------------------------------
 
 
 @command("button")
-def button(desk: Desk, order: Order, args: OfButton) -> None:
+def button(station: Station, order: Order, args: OfButton) -> None:
     """Press or release a virtual push button."""
     client = order.person.client
-    desk.buttons.press(desk.machine, args.number, client, is_pressed=args.pressed)
+    station.buttons.press(station.machine, args.number, client, is_pressed=args.pressed)
 
 
 @command("teach.length", Role.SETUP)
-def teach_length(desk: Desk, order: Order, args: OfLength) -> dict[str, float]:
+def teach_length(station: Station, order: Order, args: OfLength) -> dict[str, float]:
     """Make the machine position of Z the length of a tool."""
-    shop = desk.machine
-    shop.runner.alarms.require_none()
-    if shop.runner.is_busy:
+    session = station.machine
+    session.runner.alarms.require_none()
+    if session.runner.is_busy:
         raise UserError("the machine is moving: a length can be taught only at rest")
-    axis = shop.runner.settings.named("Z").index
-    value = shop.runner.stream.host.position()[axis]
-    shop.cells.write(CELLS.h_length[args.h], value)
+    axis = session.runner.settings.named("Z").index
+    value = session.runner.stream.host.position()[axis]
+    session.cells.write(CELLS.h_length[args.h], value)
     return {"value": value}

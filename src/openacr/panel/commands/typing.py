@@ -8,8 +8,8 @@ from openacr.errors import UserError
 from openacr.mill.manual.teaching import teach
 from openacr.panel.commands.motion import indices
 from openacr.panel.commands.registry import Args, command
-from openacr.panel.control.desk import Desk
 from openacr.panel.control.orders import Order
+from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 
 Line = Annotated[str, Meta(max_length=256)]
@@ -37,28 +37,28 @@ class Taught(Args, frozen=True):
 
 
 @command("mdi.execute", is_motion=True)
-def execute(desk: Desk, order: Order, args: Typed) -> None:
+def execute(station: Station, order: Order, args: Typed) -> None:
     """EXECUTE: run blocks that were typed."""
     blocks = [line for line in (args.line, *args.lines) if line.strip()]
     if not blocks:
         raise UserError("no block was typed")
-    desk.typed.put(blocks)
+    station.typed.put(blocks)
 
 
 @command("mdi.buffer", needs_control=False)
-def buffer(desk: Desk, order: Order, args: Buffer) -> dict[str, list[str]]:
+def buffer(station: Station, order: Order, args: Buffer) -> dict[str, list[str]]:
     """Read the text of MDI, or replace it."""
     if args.lines is not None:
-        desk.typed.text = list(args.lines)
-    return {"lines": list(desk.typed.text)}
+        station.typed.text = list(args.lines)
+    return {"lines": list(station.typed.text)}
 
 
 @command("teach.work", Role.SETUP)
-def teach_work(desk: Desk, order: Order, args: Taught) -> None:
+def teach_work(station: Station, order: Order, args: Taught) -> None:
     """TEACH: where the machine is becomes the zero of a work system."""
-    shop = desk.machine
-    shop.runner.alarms.require_none()
-    if shop.runner.is_busy:
+    session = station.machine
+    session.runner.alarms.require_none()
+    if session.runner.is_busy:
         raise UserError("the machine is moving: a work system can be taught only at rest")
-    here = shop.runner.stream.host.position()
-    teach(shop.cells, shop.runner.settings, args.system, here, indices(desk, args.axes))
+    here = session.runner.stream.host.position()
+    teach(session.cells, session.runner.settings, args.system, here, indices(station, args.axes))

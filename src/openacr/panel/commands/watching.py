@@ -6,9 +6,9 @@ from msgspec import Meta
 
 from openacr.map import numbers as n
 from openacr.panel.commands.registry import Args, command
-from openacr.panel.control.desk import Desk
 from openacr.panel.control.orders import Order, PanelError
 from openacr.panel.control.presses import Key
+from openacr.panel.control.station import Station
 from openacr.panel.control.watches import INPUTS, Wish, watched
 from openacr.panel.roles import Role
 
@@ -39,13 +39,13 @@ class Unwatched(Args, frozen=True):
 
 
 @command("jog.keep", needs_control=False)
-def keep(desk: Desk, order: Order, args: Keep) -> None:
+def keep(station: Station, order: Order, args: Keep) -> None:
     """Keep a held key alive; it never begins motion."""
-    desk.hands.keep(Key(order.person.client, args.press), args.tick, order.received_s)
+    station.hand_motion.keep(Key(order.person.client, args.press), args.tick, order.received_s)
 
 
 @command("watch.begin", Role.VIEW, needs_control=False)
-def begin(desk: Desk, order: Order, args: Watched) -> dict[str, object]:
+def begin(station: Station, order: Order, args: Watched) -> dict[str, object]:
     """Watch parameters or flag words; their values come as binary frames."""
     if args.topic == "flags":
         chosen = [*args.words, *(INPUTS if args.inputs else ())]
@@ -56,11 +56,11 @@ def begin(desk: Desk, order: Order, args: Watched) -> dict[str, object]:
         chosen = watched(args.parameters)
     if not chosen:
         raise PanelError("bad", f"{args.topic}: nothing to watch was named")
-    desk.watches.begin(Wish(order.person.client, args.topic), chosen, args.hz)
+    station.watches.begin(Wish(order.person.client, args.topic), chosen, args.hz)
     return {"topic": args.topic, "hz": args.hz, "parameters": chosen}
 
 
 @command("watch.end", Role.VIEW, needs_control=False)
-def end(desk: Desk, order: Order, args: Unwatched) -> None:
+def end(station: Station, order: Order, args: Unwatched) -> None:
     """Watch a topic no more."""
-    desk.watches.end(Wish(order.person.client, args.topic))
+    station.watches.end(Wish(order.person.client, args.topic))

@@ -2,21 +2,21 @@
 
 from typing import Any
 
-from openacr.panel.control.bench import Bench
+from openacr.panel.control.installation import Installation
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import AXIS, CONTROL, DISPLAY, GENERAL
 from openacr.sysvar.values import ROTARY
 
 
-def machine_data(bench: Bench) -> dict[str, Any]:
+def machine_data(installation: Installation) -> dict[str, Any]:
     """The machine as the screens show it."""
     return {
-        "kind": bench.kind,
-        "name": bench.name,
-        "card": bench.store.read_text(GENERAL.card_model),
-        "unit": "mm" if bench.store.is_metric else "inch",
-        "is_virtual": bench.is_virtual,
-        "axes": axes(bench.store),
+        "kind": installation.kind,
+        "name": installation.name,
+        "card": installation.store.read_text(GENERAL.card_model),
+        "unit": "mm" if installation.store.is_metric else "inch",
+        "is_virtual": installation.is_virtual,
+        "axes": axes(installation.store),
     }
 
 

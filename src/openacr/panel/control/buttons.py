@@ -14,28 +14,28 @@ class Buttons:
     def __init__(self) -> None:
         self._held: dict[int, tuple[int, int]] = {}  # by button: client and flag
 
-    def press(self, shop: MillSession, button: int, client: int, *, is_pressed: bool) -> None:
+    def press(self, session: MillSession, button: int, client: int, *, is_pressed: bool) -> None:
         """Press or release a button."""
         if not 0 <= button < COUNT:
             raise UserError(f"button {button}: buttons are 0 to {COUNT - 1}")
-        read = shop.cells.read
+        read = session.cells.read
         flag = int(read(OFFSETS.button_set_bit[button]))
         if flag < 0:
             raise UserError(f"button {button} sets nothing (P{OFFSETS.button_set_bit[button]})")
         if read(OFFSETS.button_mode[button]) == TOGGLE:
             if is_pressed:
-                shop.machine.set_flag(flag, not shop.card.read_bit(flag))
+                session.machine.set_flag(flag, not session.card.read_bit(flag))
             return
         if is_pressed:
             self._held[button] = (client, flag)
         else:
             self._held.pop(button, None)
-        shop.machine.set_flag(flag, is_pressed)
+        session.machine.set_flag(flag, is_pressed)
 
-    def drop(self, shop: MillSession | None, client: int) -> None:
+    def drop(self, session: MillSession | None, client: int) -> None:
         """Release what a client holds: it has gone."""
         for button, (holder, flag) in list(self._held.items()):
             if holder == client:
                 del self._held[button]
-                if shop is not None:
-                    shop.machine.set_flag(flag, False)
+                if session is not None:
+                    session.machine.set_flag(flag, False)

@@ -13,27 +13,27 @@ from openacr.panel.control.modals import modals
 from openacr.sysvar.tabs import CELLS
 
 if TYPE_CHECKING:
-    from openacr.panel.control.desk import Desk
+    from openacr.panel.control.station import Station
 
 Data = dict[str, Any]
 ALARMS_KEPT = 100
 
 
 class Facts:
-    """The facts of one desk, as they were sent last."""
+    """The facts of one station, as they were sent last."""
 
-    def __init__(self, desk: "Desk") -> None:
-        self._desk = desk
+    def __init__(self, station: "Station") -> None:
+        self._station = station
         self._reported: dict[str, Data] = {}
         self._noted: dict[int, str] = {}  # time of day of each alarm, by its place
 
     def tell(self) -> None:
         """Tell the facts that have changed."""
         for name, make in MAKERS.items():
-            data = make(self, self._desk)
+            data = make(self, self._station)
             if self._reported.get(name) != data:
                 self._reported[name] = data
-                self._desk.tell({"event": name, **data})
+                self._station.tell({"event": name, **data})
 
     def all(self) -> list[Data]:
         """All facts, for a browser that has just connected."""
@@ -42,19 +42,19 @@ class Facts:
 
     # --- facts ------------------------------------------------------------------------
 
-    def state(self, desk: "Desk") -> Data:
+    def state(self, station: "Station") -> Data:
         """What the machine does and waits for."""
-        shop = desk.shop
-        if shop is None:
+        session = station.session
+        if session is None:
             return {
                 "state": State.IDLE.name,
-                "reason": desk.lost,
+                "reason": station.lost,
                 "busy": False,
                 "jogging": False,
-                "options": self._options(desk),
+                "options": self._options(station),
                 "asking": None,
                 "tool_wanted": False,
-                "mode": desk.mode,
+                "mode": station.mode,
                 "estop": {"wired": False, "on": False},
                 "link": "lost",
                 "passes": 0,
@@ -62,7 +62,7 @@ class Facts:
                 "homed": [],
                 "aborted": False,
             }
-        runner = shop.runner
+        runner = session.runner
         ask = runner.asking
         settings = runner.settings
         codes = {alarm.kind.code for alarm in runner.alarms.active}
@@ -71,42 +71,44 @@ class Facts:
             "reason": runner.reason,
             "busy": runner.is_busy,
             "jogging": runner.jogging.is_active,
-            "options": self._options(desk),
+            "options": self._options(station),
             "asking": None if ask is None else {"text": ask.text, "parameter": ask.parameter},
             "tool_wanted": runner.entry_actions.changer.wants_confirmation,
-            "mode": desk.mode,
+            "mode": station.mode,
             "estop": {"wired": settings.wiring.emergency_stop != NONE, "on": 10 in codes},
             "link": "lost" if 3 in codes or runner.is_out_of_reach else "ok",
             "passes": runner.passes,
-            "parts": int(shop.cells.read(CELLS.parts_finished)),
+            "parts": int(session.cells.read(CELLS.parts_finished)),
             "homed": [axis.name for axis in settings.axes if settings.is_homed(axis.index)],
             "aborted": runner.was_aborted,
         }
 
-    def _options(self, desk: "Desk") -> Data:
-        options = desk.shop.runner.options if desk.shop else None
+    def _options(self, station: "Station") -> Data:
+        options = station.session.runner.options if station.session else None
         return {
             "dry": options.is_dry if options else False,
-            "single": desk.part.is_single,
-            "skip": desk.part.is_skipping,
-            "optional": desk.part.stops_optionally,
+            "single": station.part.is_single,
+            "skip": station.part.is_skipping,
+            "optional": station.part.stops_optionally,
         }
 
-    def program(self, desk: "Desk") -> Data:
+    def program(self, station: "Station") -> Data:
         """The loaded program and its executing block."""
-        return desk.part.data()
+        return station.part.data()
 
-    def modals(self, desk: "Desk") -> Data:
+    def modals(self, station: "Station") -> Data:
         """The codes and words in force."""
-        return modals(desk.shop, desk.reading.work.run) if desk.shop else {"codes": []}
+        return (
+            modals(station.session, station.reading.work.run) if station.session else {"codes": []}
+        )
 
-    def alarms(self, desk: "Desk") -> Data:
+    def alarms(self, station: "Station") -> Data:
         """Alarms that are active, and those that were."""
-        if desk.shop is None:
-            text = desk.lost
+        if station.session is None:
+            text = station.lost
             lost = {"code": 1, "text": text, "effect": "REFUSE", "at_s": 0.0, "time": ""}
             return {"active": [lost] if text else [], "history": [], "bars_start": True}
-        alarms = desk.shop.runner.alarms
+        alarms = station.session.runner.alarms
         history = alarms.history
         if not history:
             self._noted.clear()
@@ -120,9 +122,9 @@ class Facts:
             "bars_start": alarms.bars_start,
         }
 
-    def messages(self, desk: "Desk") -> Data:
+    def messages(self, station: "Station") -> Data:
         """User messages that are shown."""
-        shown = desk.shop.messages.shown if desk.shop else []
+        shown = station.session.messages.shown if station.session else []
         return {
             "shown": [
                 {
@@ -136,15 +138,15 @@ class Facts:
             ]
         }
 
-    def control(self, desk: "Desk") -> Data:
+    def control(self, station: "Station") -> Data:
         """Who has control."""
-        return desk.people.data()
+        return station.people.data()
 
-    def overrides(self, desk: "Desk") -> Data:
+    def overrides(self, station: "Station") -> Data:
         """The three override switches."""
-        if desk.shop is None:
+        if station.session is None:
             return {}
-        runner = desk.shop.runner
+        runner = station.session.runner
         names = {"feed": Override.FEED, "rapid": Override.RAPID, "spindle": Override.SPINDLE}
         return {
             name: {
@@ -156,21 +158,21 @@ class Facts:
             for name, which in names.items()
         }
 
-    def mdi(self, desk: "Desk") -> Data:
+    def mdi(self, station: "Station") -> Data:
         """What was typed in MDI."""
-        return desk.typed.data()
+        return station.typed.data()
 
-    def home(self, desk: "Desk") -> Data:
+    def home(self, station: "Station") -> Data:
         """How far homing is."""
-        if desk.shop is None:
+        if station.session is None:
             return {"axes": []}
-        settings = desk.shop.runner.settings
+        settings = station.session.runner.settings
         return {
             "axes": [
                 {
                     "name": axis.name,
                     "homed": settings.is_homed(axis.index),
-                    "state": self._homing(desk, axis.index),
+                    "state": self._homing(station, axis.index),
                     "priority": settings.home(axis.index).priority,
                     "switch": settings.home(axis.index).switch_input,
                 }
@@ -178,16 +180,16 @@ class Facts:
             ]
         }
 
-    def _homing(self, desk: "Desk", axis: int) -> str:
+    def _homing(self, station: "Station", axis: int) -> str:
         """What an axis waits for while it is homed; done or failed after it."""
-        runner = desk.machine.runner
+        runner = station.machine.runner
         state = runner.homing.get(axis, "")
         is_over = runner.state is not State.HOMING
         return "failed" if is_over and state not in ("", "done") else state
 
-    def machine(self, desk: "Desk") -> Data:
+    def machine(self, station: "Station") -> Data:
         """What the machine is: card, unit, axes."""
-        return machine_data(desk.bench)
+        return machine_data(station.installation)
 
 
 def _alarm(alarm: Alarm, when: str) -> Data:
@@ -200,15 +202,15 @@ def _alarm(alarm: Alarm, when: str) -> Data:
     }
 
 
-def _scope(_facts: Facts, desk: "Desk") -> Data:
+def _scope(_facts: Facts, station: "Station") -> Data:
     """The capture of the scope; its samples are frames."""
-    capture = desk.scope.capture
+    capture = station.scope.capture
     if capture is None:
         return {"running": False}
     return {k: v for k, v in capture.data().items() if k != "taken"}
 
 
-MAKERS: dict[str, Callable[[Facts, "Desk"], Data]] = {
+MAKERS: dict[str, Callable[[Facts, "Station"], Data]] = {
     "machine": Facts.machine,
     "state": Facts.state,
     "program": Facts.program,

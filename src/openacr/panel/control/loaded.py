@@ -22,7 +22,7 @@ from openacr.panel.work.paths import finding_data
 from openacr.sysvar import Store
 
 if TYPE_CHECKING:
-    from openacr.panel.control.desk import Desk
+    from openacr.panel.control.station import Station
 
 HASH_CHUNK = 1 << 20
 
@@ -103,8 +103,8 @@ class _Batch:
 class Part:
     """The program of one machine."""
 
-    def __init__(self, desk: "Desk") -> None:
-        self._desk = desk
+    def __init__(self, station: "Station") -> None:
+        self._station = station
         self.loaded: Loaded | None = None
         self.loading = ""
         self._batch: _Batch | None = None
@@ -128,16 +128,16 @@ class Part:
 
     def require_free(self) -> None:
         """Refuse another program while one runs or is being loaded."""
-        shop = self._desk.shop
-        if shop is not None and shop.runner.is_busy and not shop.runner.options.is_mdi:
-            raise UserError(f"a program runs: the state is {shop.runner.state.name}")
+        session = self._station.session
+        if session is not None and session.runner.is_busy and not session.runner.options.is_mdi:
+            raise UserError(f"a program runs: the state is {session.runner.state.name}")
         if self.loading:
             raise UserError(f"{self.loading} is being loaded")
 
     def load(self, file: Path, path: str, order: Order, *, kind: str, dialect: str) -> None:
         """Load a program beside the control thread; the order is answered at the end."""
         self.require_free()
-        store = self._desk.bench.store
+        store = self._station.installation.store
         self.loading = file.name
 
         def done(future: Future[Loaded]) -> None:
@@ -150,7 +150,7 @@ class Part:
             self.take(loaded)
             order.answer({"ok": True, "result": loaded.data()})
 
-        self._desk.jobs.begin(lambda: Loaded.read(file, path, kind, store, dialect), done)
+        self._station.jobs.begin(lambda: Loaded.read(file, path, kind, store, dialect), done)
 
     def take(self, loaded: Loaded | None) -> None:
         """Make a program the one that START starts."""
@@ -177,7 +177,7 @@ class Part:
     def load_batch(self, file: Path, order: Order, place: Callable[[Path], str]) -> None:
         """Load all programs of a batch file; it runs them one after the other."""
         self.require_free()
-        store = self._desk.bench.store
+        store = self._station.installation.store
         self.loading = file.name
 
         def work() -> _Batch:
@@ -200,7 +200,7 @@ class Part:
             self._batch = batch
             order.answer({"ok": True, "result": self.required.data()})
 
-        self._desk.jobs.begin(work, done)
+        self._station.jobs.begin(work, done)
 
     # --- running ----------------------------------------------------------------------
 
@@ -208,8 +208,8 @@ class Part:
         """Read the lines before a start line; what differs is confirmed by the operator."""
         loaded = self.required
         _require_sound(loaded)
-        self._desk.machine.runner.alarms.require_none()
-        replay = self._desk.machine.rehearse(loaded.program, start)
+        self._station.machine.runner.alarms.require_none()
+        replay = self._station.machine.rehearse(loaded.program, start)
         self._tokens += 1
         token = f"{loaded.version[:8]}-{self._tokens}"
         self._rehearsed = (token, start, replay)
@@ -237,33 +237,33 @@ class Part:
             if rehearsed.line != start.line or rehearsed.is_dry != start.is_dry:
                 raise UserError(f"line {start.line}: line {rehearsed.line} was confirmed")
         self._rehearsed = None
-        self._desk.machine.start(loaded.program, start, replay)
+        self._station.machine.start(loaded.program, start, replay)
         if self._batch is not None:
             self._batch.is_running, self._batch.start = True, start
 
     def poll(self) -> None:
         """Start the next program of a batch; follow the executing block."""
-        shop = self._desk.machine
+        session = self._station.machine
         self._follow()
         batch = self._batch
-        if batch is None or not batch.is_running or shop.runner.is_busy:
+        if batch is None or not batch.is_running or session.runner.is_busy:
             return
-        if shop.runner.was_aborted or shop.runner.alarms.bars_start:
+        if session.runner.was_aborted or session.runner.alarms.bars_start:
             batch.is_running = False
             return
         batch.index += 1
         if batch.index >= len(batch.entries):
             batch.index = 0
-            batch.is_running = shop.runner.settings.repeats
+            batch.is_running = session.runner.settings.repeats
             if not batch.is_running:
                 return
         self.loaded = batch.programs[batch.entries[batch.index].path]
         self.changed()
-        shop.start(self.loaded.program, batch.start)
+        session.start(self.loaded.program, batch.start)
 
     def _follow(self) -> None:
         """Note the text of the executing block, when it is another one."""
-        source = self._desk.machine.runner.source
+        source = self._station.machine.runner.source
         place = (source.file, source.line) if source is not None else ("", 0)
         if place == self._text_of:
             return
@@ -278,11 +278,11 @@ class Part:
 
     def left_s(self) -> float:
         """The predicted time to the end of the program, without overrides; NaN if unknown."""
-        shop, loaded = self._desk.shop, self.loaded
+        session, loaded = self._station.session, self.loaded
         seconds = loaded.facts.get("seconds") if loaded is not None else None
-        if shop is None or seconds is None or shop.runner.options.is_mdi:
+        if session is None or seconds is None or session.runner.options.is_mdi:
             return nan
-        return max(0.0, float(seconds) - shop.runner.run_s)
+        return max(0.0, float(seconds) - session.runner.run_s)
 
     def data(self) -> dict[str, Any]:
         """The program, and where it is."""

@@ -11,9 +11,9 @@ SYSTEMS = ("G53", "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G
 NO_CYCLE = 80
 
 
-def modals(shop: MillSession, run: Interpreter) -> dict[str, Any]:
+def modals(session: MillSession, run: Interpreter) -> dict[str, Any]:
     """Codes and words in force in the block that is read."""
-    modal, read = run.modal, shop.cells.read
+    modal, read = run.modal, session.cells.read
     motion = modal.cycle if modal.cycle != NO_CYCLE else modal.motion
     work = SYSTEMS[modal.work] if modal.work < len(SYSTEMS) else "G54"
     codes = [

@@ -24,14 +24,14 @@ class Place:
     master: int  # flag word
 
 
-def read_place(shop: MillSession) -> Place:
+def read_place(session: MillSession) -> Place:
     """Read where the machine is; a link error where the card does not answer."""
-    axes, master = shop.runner.settings.axes, shop.machine.master
+    axes, master = session.runner.settings.axes, session.machine.master
     rows = [n.AX_BASE + a.index * n.AX_STRIDE + row for row in ROWS for a in axes]
     words = [n.AF1_WORD + axis.index for axis in axes]
     base = n.MA_BASE + master * n.MA_STRIDE
     more = [n.MF1_WORD + master, base + n.MA_VECTOR_VELOCITY]
-    values = shop.machine.read_rows([*rows, *words, *more])
+    values = session.machine.read_rows([*rows, *words, *more])
     count = len(axes)
     columns = [
         tuple(v / axis.pulses_per_unit for v, axis in zip(part, axes, strict=True))

@@ -19,20 +19,20 @@ PERCENT = 100.0
 class Reading:
     """Reads one machine; `work` is the coordinate system positions are shown in."""
 
-    def __init__(self, shop: MillSession) -> None:
-        self._shop = shop
-        self.work = WorkSystem(shop)
+    def __init__(self, session: MillSession) -> None:
+        self._session = session
+        self.work = WorkSystem(session)
 
     def snapshot(self, number: int, tick_ms: float, now_s: float, left_s: float) -> Snapshot:
         """Read the machine; a link error where its card does not answer.
 
         `left_s` is the predicted time to the end of the program.
         """
-        shop, runner = self._shop, self._shop.runner
-        place = read_place(shop)
+        session, runner = self._session, self._session.runner
+        place = read_place(session)
         runner_source = runner.source
         to_go, following_end = self._ahead(place)
-        cells = shop.cells
+        cells = session.cells
         return Snapshot(
             number=number,
             tick_ms=tick_ms,
@@ -63,10 +63,10 @@ class Reading:
 
     @property
     def _spins(self) -> bool:
-        return self._shop.cells.read(CELLS.spindle_state) != 5.0
+        return self._session.cells.read(CELLS.spindle_state) != 5.0
 
     def _lights(self, place: Place) -> int:
-        runner, cells = self._shop.runner, self._shop.cells
+        runner, cells = self._session.runner, self._session.cells
         options, host = runner.options, runner.stream.host
         coolant = int(cells.read(CELLS.coolant_state))
         lit = {
@@ -88,11 +88,11 @@ class Reading:
         return sum(light for light, is_on in lit.items() if is_on)
 
     def _mask(self, holds: Callable[[int], bool]) -> int:
-        axes = self._shop.runner.settings.axes
+        axes = self._session.runner.settings.axes
         return sum(1 << k for k, axis in enumerate(axes) if holds(axis.index))
 
     def _near(self, place: Place) -> int:
-        settings = self._shop.runner.settings
+        settings = self._session.runner.settings
         mask = 0
         for k, axis in enumerate(settings.axes):
             if axis.soft_limits is None or not settings.is_homed(axis.index):
@@ -104,10 +104,10 @@ class Reading:
 
     def _ahead(self, place: Place) -> tuple[Axes, Axes]:
         """The distance to go of the executing move, and the end of the one after it."""
-        tracker = self._shop.runner.stream.tracker
+        tracker = self._session.runner.stream.tracker
         none = (nan,) * len(place.commanded)
         current = tracker.current
-        if current is None or not self._shop.runner.is_busy:
+        if current is None or not self._session.runner.is_busy:
             return (0.0,) * len(place.commanded), none
         finish = self._of_axes(current.finish)
         to_go = tuple(end - at for end, at in zip(finish, place.commanded, strict=True))
@@ -117,10 +117,10 @@ class Reading:
         return to_go, self._of_axes(self.work.program(jobs[1].finish))
 
     def _of_axes(self, point: Point) -> Axes:
-        return tuple(point[axis.index] for axis in self._shop.runner.settings.axes)
+        return tuple(point[axis.index] for axis in self._session.runner.settings.axes)
 
     def _point(self, values: Axes) -> Point:
         point = [0.0] * 8
-        for axis, value in zip(self._shop.runner.settings.axes, values, strict=True):
+        for axis, value in zip(self._session.runner.settings.axes, values, strict=True):
             point[axis.index] = value
         return tuple(point)

@@ -4,7 +4,7 @@ from contextlib import suppress
 
 from openacr.client.links import Link, SerialLink, link_to
 from openacr.errors import UserError
-from openacr.panel.control.bench import Bench
+from openacr.panel.control.installation import Installation
 from openacr.protocol.events import ControlKey
 
 KEYS = {
@@ -20,15 +20,15 @@ QUERY = "?"  # lines that only read
 class Terminal:
     """One terminal of the card; every client that has opened it sees what it prints."""
 
-    def __init__(self, bench: Bench) -> None:
-        self._bench = bench
+    def __init__(self, installation: Installation) -> None:
+        self._installation = installation
         self._link: Link | None = None
         self.clients: set[int] = set()
 
     def open(self, client: int) -> None:
         """Connect, for this client as well; UserError where the card has one line only."""
         if self._link is None:
-            link = link_to(self._bench.target)
+            link = link_to(self._installation.target)
             if isinstance(link, SerialLink):
                 raise UserError("a card on a serial port has no second connection for a terminal")
             link.open()

@@ -14,7 +14,7 @@ from openacr.panel.control.orders import Order, PanelError, failure
 from openacr.panel.control.waiting import Waiting
 
 if TYPE_CHECKING:
-    from openacr.panel.control.desk import Desk
+    from openacr.panel.control.station import Station
 
 log = logging.getLogger(__name__)
 T = TypeVar("T")
@@ -29,10 +29,10 @@ Work = Callable[[], None]
 
 
 class ControlThread:
-    """Runs one desk; everything that reaches it comes through a queue."""
+    """Runs one station; everything that reaches it comes through a queue."""
 
-    def __init__(self, desk: "Desk", clock: Callable[[], float] = time.monotonic) -> None:
-        self.desk = desk
+    def __init__(self, station: "Station", clock: Callable[[], float] = time.monotonic) -> None:
+        self.station = station
         self._clock = clock
         self._orders: Waiting[Order | Work] = Waiting()
         self._failure, self._failure_s = "", 0.0  # of a step, and when it was said
@@ -59,7 +59,7 @@ class ControlThread:
             return
         self._orders.put(order, is_urgent=is_urgent)
 
-    def call(self, work: Callable[["Desk"], T]) -> "Future[T]":
+    def call(self, work: Callable[["Station"], T]) -> "Future[T]":
         """Run a function in the control thread; its result or error is in the future."""
         future: Future[T] = Future()
 
@@ -67,7 +67,7 @@ class ControlThread:
             if not future.set_running_or_notify_cancel():
                 return
             try:
-                future.set_result(work(self.desk))
+                future.set_result(work(self.station))
             except BaseException as error:
                 future.set_exception(error)
 
@@ -85,18 +85,18 @@ class ControlThread:
 
     def _run(self) -> None:
         try:
-            self.desk.open(self._clock())
+            self.station.open(self._clock())
         except Exception as error:  # the steps try it again
             self._report(error)
         while not self._is_over.is_set():
-            self.turn(self.desk.bench.pace.idle_s)
+            self.turn(self.station.installation.pace.idle_s)
         self.rest()
 
     def turn(self, idle_s: float) -> None:
         """Carry out what was ordered, then do what is due."""
         self._carry_out(idle_s)
         try:
-            self.desk.step(self._clock())
+            self.station.step(self._clock())
         except Exception as error:  # the machine must go on being watched
             self._report(error)
 
@@ -109,7 +109,7 @@ class ControlThread:
             self._failure, self._failure_s = text, now_s
             log.error("a step of the control thread has failed", exc_info=error)
         try:
-            self.desk.fail(text, is_new=is_new)
+            self.station.fail(text, is_new=is_new)
         except Exception:
             if is_new:
                 log.exception("held keys could not be ended")
@@ -125,7 +125,7 @@ class ControlThread:
     def _do(self, order: Order | Work) -> None:
         try:
             if isinstance(order, Order):
-                self.desk.order(order, self._clock())
+                self.station.order(order, self._clock())
             else:
                 order()
         except Exception:
@@ -133,19 +133,19 @@ class ControlThread:
 
     def rest(self) -> None:
         """Bring the machine to rest, however the server ends."""
-        desk = self.desk
-        shop = desk.shop
+        station = self.station
+        session = station.session
         try:
-            if shop is not None:
-                shop.runner.bring_to_rest()
-                end_s = shop.card.now_s() + REST_S
-                while shop.runner.is_busy and not shop.runner.is_out_of_reach:
-                    if shop.card.now_s() > end_s:
-                        shop.runner.cut_power()
+            if session is not None:
+                session.runner.bring_to_rest()
+                end_s = session.card.now_s() + REST_S
+                while session.runner.is_busy and not session.runner.is_out_of_reach:
+                    if session.card.now_s() > end_s:
+                        session.runner.cut_power()
                         break
-                    shop.step()
+                    session.step()
         except (OpenacrError, *LINK_ERRORS) as error:
             log.warning("%s", error)
         finally:
-            desk.close()
-            desk.jobs.close()
+            station.close()
+            station.jobs.close()

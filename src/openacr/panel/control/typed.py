@@ -9,14 +9,14 @@ from openacr.errors import OpenacrError, UserError
 from openacr.mill.config.dialects import dialect_of
 
 if TYPE_CHECKING:
-    from openacr.panel.control.desk import Desk
+    from openacr.panel.control.station import Station
 
 
 class Typed:
     """The MDI of one machine."""
 
-    def __init__(self, desk: "Desk") -> None:
-        self._desk = desk
+    def __init__(self, station: "Station") -> None:
+        self._station = station
         self._mdi: Mdi | None = None
         self._queue: deque[str] = deque()
         self._is_shown = True
@@ -33,9 +33,9 @@ class Typed:
         A block that cannot be read is refused with its line and column (BlockError).
         `is_shown`: they are part of the text of MDI.
         """
-        shop = self._desk.machine
+        session = self._station.machine
         if self._mdi is None or self._is_other_program():
-            self._mdi = shop.mdi(dialect or dialect_of(None, shop.cells))
+            self._mdi = session.mdi(dialect or dialect_of(None, session.cells))
         if self._queue:
             raise UserError("blocks of MDI wait: stop them first")
         first, *rest = blocks
@@ -47,19 +47,19 @@ class Typed:
 
     def _is_other_program(self) -> bool:
         """Whether a program has run since: the modal state begins anew."""
-        return not self._desk.machine.runner.options.is_mdi
+        return not self._station.machine.runner.options.is_mdi
 
     def _start(self, block: str) -> None:
-        shop = self._desk.machine
+        session = self._station.machine
         if self._mdi is None:
             return
-        shop.start_block(self._mdi, block)
+        session.start_block(self._mdi, block)
         if self._is_shown:
             self.text.append(block)
 
     def poll(self) -> None:
         """Start the next block when the one before it has ended; an error drops the rest."""
-        runner = self._desk.machine.runner
+        runner = self._station.machine.runner
         if not self._queue or runner.is_busy:
             return
         if runner.alarms.bars_start or runner.was_aborted:
@@ -77,6 +77,8 @@ class Typed:
 
     def data(self) -> dict[str, Any]:
         """What was typed, and what waits."""
-        shop = self._desk.shop
-        is_running = shop is not None and shop.runner.options.is_mdi and shop.runner.is_busy
+        session = self._station.session
+        is_running = (
+            session is not None and session.runner.options.is_mdi and session.runner.is_busy
+        )
         return {"buffer": list(self.text), "running": is_running, "queue": list(self._queue)}

@@ -51,13 +51,13 @@ class Watches:
         """End everything a client watches."""
         self._watches = {w: each for w, each in self._watches.items() if w.client != client}
 
-    def look(self, shop: MillSession, now_s: float) -> None:
+    def look(self, session: MillSession, now_s: float) -> None:
         """Read what is due, all of it with one request, and tell what has changed."""
         due = {w: each for w, each in self._watches.items() if now_s >= each.due_s - 0.005}
         wanted = list(dict.fromkeys(p for each in due.values() for p in each.parameters))
         if not wanted:
             return
-        values = dict(zip(wanted, shop.machine.read_rows(wanted), strict=True))
+        values = dict(zip(wanted, session.machine.read_rows(wanted), strict=True))
         for wish, each in due.items():
             each.due_s = max(each.due_s + each.every_s, now_s)
             now = dict(enumerate(values[p] for p in each.parameters))

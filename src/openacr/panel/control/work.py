@@ -14,24 +14,24 @@ LENGTHS = (CELLS.current_h_length, CELLS.current_h_wear)
 class WorkSystem:
     """Program coordinates of machine positions."""
 
-    def __init__(self, shop: MillSession) -> None:
-        self._shop = shop
-        self._idle = reader(shop)
+    def __init__(self, session: MillSession) -> None:
+        self._session = session
+        self._idle = reader(session)
         self._parts: tuple[float, ...] = ()
 
     @property
     def run(self) -> Interpreter:
         """The interpreter whose modal state and offsets count."""
-        shop = self._shop
-        is_typed = shop.runner.options.is_mdi
-        if shop.reading is not None and (shop.runner.is_busy or is_typed):
-            return shop.reading
+        session = self._session
+        is_typed = session.runner.options.is_mdi
+        if session.reading is not None and (session.runner.is_busy or is_typed):
+            return session.reading
         return self._idle
 
     def program(self, machine: Point) -> Point:
         """A machine position in program coordinates."""
         run = self.run
-        if not self._shop.runner.is_busy:
+        if not self._session.runner.is_busy:
             self._follow(run)
         coordinates = run.path.coordinates
         return coordinates.backward(coordinates.from_machine(machine))

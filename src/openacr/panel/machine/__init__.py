@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 
 from openacr.controller import Controller
-from openacr.panel.control.bench import Bench
+from openacr.panel.control.installation import Installation
 from openacr.sysvar import Store
 from openacr.sysvar.exchange import imported
 
@@ -12,7 +12,9 @@ FOLDER = Path(__file__).parent
 SAMPLE = "plate.nc"
 
 
-def embedded(data: Path, *, store: Path | None = None, programs: Path | None = None) -> Bench:
+def embedded(
+    data: Path, *, store: Path | None = None, programs: Path | None = None
+) -> Installation:
     """The virtual mill; `data` is the folder of its store and programs, filled when it is new."""
     data.mkdir(parents=True, exist_ok=True)
     programs = programs or data / "programs"
@@ -22,7 +24,7 @@ def embedded(data: Path, *, store: Path | None = None, programs: Path | None = N
     controller = Controller.from_project(FOLDER)
     controller.is_journalled = False  # it may run for months
     sample = SAMPLE if (programs / SAMPLE).is_file() else ""
-    return Bench.inside(controller, cells, programs, name="virtual mill", sample=sample)
+    return Installation.inside(controller, cells, programs, name="virtual mill", sample=sample)
 
 
 def opened(path: Path) -> Store:

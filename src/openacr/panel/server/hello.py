@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from openacr.panel.control.about import machine_data
-from openacr.panel.control.hands import LONGEST_AGE_S
+from openacr.panel.control.hand_motion import LONGEST_AGE_S
 from openacr.panel.control.people import Person
 from openacr.panel.control.presses import DEAD_MAN_S
 
@@ -23,7 +23,7 @@ def hello(panel: "Panel", person: Person, version: str) -> dict[str, Any]:
         "client": person.client,
         "role": person.role.word,
         "login": panel.accounts.are_asked,
-        "machine": machine_data(panel.bench),
+        "machine": machine_data(panel.installation),
         "limits": {
             "text": 64 << 10,
             "upload": MOST_UPLOAD,

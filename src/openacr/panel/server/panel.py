@@ -19,9 +19,9 @@ from starlette.websockets import WebSocket
 
 from openacr.errors import UserError
 from openacr.panel.commands.all import carry_out
-from openacr.panel.control.bench import Bench
-from openacr.panel.control.desk import Desk
+from openacr.panel.control.installation import Installation
 from openacr.panel.control.people import Person
+from openacr.panel.control.station import Station
 from openacr.panel.control.thread import ControlThread
 from openacr.panel.roles import Role
 from openacr.panel.server import calls as _calls  # noqa: F401 - fills the table
@@ -49,16 +49,16 @@ class Panel:
 
     def __init__(
         self,
-        bench: Bench,
+        installation: Installation,
         *,
         names: Collection[str] = (),
-        control: Callable[[Desk], ControlThread] = ControlThread,
+        control: Callable[[Station], ControlThread] = ControlThread,
     ) -> None:
-        self.bench = bench
-        self.desk = Desk(bench, carry_out)
-        self.control = control(self.desk)
-        self.hub = Hub(self.desk, self.control.now_s)
-        self.accounts = Accounts(file_of(bench.store.path), bench.store)
+        self.installation = installation
+        self.station = Station(installation, carry_out)
+        self.control = control(self.station)
+        self.hub = Hub(self.station, self.control.now_s)
+        self.accounts = Accounts(file_of(installation.store.path), installation.store)
         self.checks = Pool()
         self.paths = Paths(self)
         self.connections: set[Connection] = set()
@@ -99,11 +99,11 @@ class Panel:
     @asynccontextmanager
     async def _lifespan(self, _app: Starlette) -> AsyncIterator[None]:
         self.hub.attach()
-        self._unsubscribe = self.bench.store.subscribe(self._stored)
+        self._unsubscribe = self.installation.store.subscribe(self._stored)
         self.control.start()
         loop = asyncio.get_running_loop()
-        self.desk.part.changed = lambda: self._soon(loop)
-        self.control.call(lambda desk: desk.load_sample())
+        self.station.part.changed = lambda: self._soon(loop)
+        self.control.call(lambda station: station.load_sample())
         beat = asyncio.create_task(self.hub.beat())
         try:
             yield
@@ -118,7 +118,7 @@ class Panel:
                 task.cancel()
             self.paths.close()
             self.checks.close()
-            self.bench.close()
+            self.installation.close()
 
     def _soon(self, loop: asyncio.AbstractEventLoop) -> None:
         """Another program is loaded: its path is computed."""
@@ -132,7 +132,7 @@ class Panel:
 
     def _stored(self, cells: frozenset[int]) -> None:
         """Cells were stored, here or by another process; called from any thread."""
-        self.desk.note_stored(cells)
+        self.station.note_stored(cells)
 
     async def end(self) -> None:
         """Say goodbye to all browsers."""

@@ -51,7 +51,7 @@ class Paths:
     async def of(self, file: Path, dialect: str = "") -> tuple[str, Found | None]:
         """The tag of a file's path, and the path; None while it is being computed."""
         version = await asyncio.to_thread(version_of, file)
-        tag = f"{version}-{stamp(self._panel.bench.store)}-{dialect}"
+        tag = f"{version}-{stamp(self._panel.installation.store)}-{dialect}"
         kept = self._kept.get(tag)
         if kept is None:
             kept = self._kept[tag] = _Path(asyncio.create_task(self._computed(file, dialect)))
@@ -70,14 +70,14 @@ class Paths:
             raise
 
     async def _computed(self, file: Path, dialect: str) -> Found:
-        store = self._panel.bench.store.path
+        store = self._panel.installation.store.path
         if store is None:
             raise UserError("the store is in memory: no path can be computed")
         return await self._pool.run(read_file, file, store, dialect)
 
     async def show(self) -> None:
         """Compute the path of the loaded program; its time and extents go to the screens."""
-        loaded = self._panel.desk.part.loaded
+        loaded = self._panel.station.part.loaded
         if loaded is None:
             return
         try:
@@ -90,7 +90,7 @@ class Paths:
             return
         facts, version = found.facts(), loaded.version
         findings = found.findings
-        self._panel.control.call(lambda desk: desk.part.note_facts(version, facts, findings))
+        self._panel.control.call(lambda station: station.part.note_facts(version, facts, findings))
 
     def close(self) -> None:
         """End the process."""

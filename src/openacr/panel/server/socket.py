@@ -51,14 +51,14 @@ class Connection:
         self.browser.say(panel.hello(self._person))
         panel.hub.join(self.browser)
         person = self._person
-        panel.control.call(lambda desk: desk.join(person))
+        panel.control.call(lambda station: station.join(person))
         self._sender = asyncio.create_task(self._send())
         reader = asyncio.create_task(self._read())
         try:
             await asyncio.wait((self._sender, reader), return_when=asyncio.FIRST_COMPLETED)
         finally:
             panel.hub.leave(client)
-            panel.control.call(lambda desk: desk.leave(client))
+            panel.control.call(lambda station: station.leave(client))
             for task in (self._sender, reader):
                 task.cancel()
             for task in (self._sender, reader):

@@ -5,8 +5,8 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from openacr.panel.control.desk import Desk
 from openacr.panel.control.scope import Samples
+from openacr.panel.control.station import Station
 from openacr.panel.control.watches import Changed, Wish
 from openacr.panel.wire import frames
 from openacr.panel.wire.frames import Topic
@@ -32,19 +32,19 @@ class Browser:
 
 
 class Hub:
-    """Tells browsers what the desk says and shows; lives in the asyncio thread."""
+    """Tells browsers what the station says and shows; lives in the asyncio thread."""
 
-    def __init__(self, desk: Desk, clock: Callable[[], float] = time.monotonic) -> None:
-        self._desk = desk
+    def __init__(self, station: Station, clock: Callable[[], float] = time.monotonic) -> None:
+        self._station = station
         self._clock = clock
         self._browsers: dict[int, Browser] = {}
         self._loop: asyncio.AbstractEventLoop | None = None
         self._seq: dict[Topic, int] = dict.fromkeys(Topic, 0)
         self._shown_s = 0.0
-        desk.tell = self._tell
-        desk.looked = self._looked
-        desk.watches.report = self._report
-        desk.sampled = self._sampled
+        station.tell = self._tell
+        station.on_snapshot = self._looked
+        station.watches.report = self._report
+        station.sampled = self._sampled
 
     def attach(self) -> None:
         """Take over the running loop: from now on events reach the browsers."""
@@ -111,8 +111,8 @@ class Hub:
         if not wanted:
             return
         seq = self.next(Topic.STATUS)
-        is_lost = self._desk.shop is None
-        frame = frames.status(self._desk.snapshot, seq, now_s, is_lost=is_lost)
+        is_lost = self._station.session is None
+        frame = frames.status(self._station.snapshot, seq, now_s, is_lost=is_lost)
         for browser in wanted:
             browser.outbox.offer(Topic.STATUS, seq, frame, now_s)
 
@@ -120,7 +120,7 @@ class Hub:
         """Send the new samples of the scope to the browsers that want them."""
         first, channels, period_s = taken
         now_s = self._clock()
-        seq, snapshot = self.next(Topic.SCOPE), self._desk.snapshot
+        seq, snapshot = self.next(Topic.SCOPE), self._station.snapshot
         age_ms = 1000.0 * (now_s - snapshot.read_s)
         frame = frames.scope(
             seq, snapshot.tick_ms, age_ms, first=first, period_s=period_s, channels=channels
@@ -136,7 +136,7 @@ class Hub:
         topic = Topic.FLAGS if wish.topic == "flags" else Topic.WATCH
 
         def build(changes: dict[int, float]) -> tuple[int, bytes]:
-            seq, snapshot = self.next(topic), self._desk.snapshot
+            seq, snapshot = self.next(topic), self._station.snapshot
             age_ms = 1000.0 * (self._clock() - snapshot.read_s)
             if topic is Topic.WATCH:
                 return seq, frames.watch(seq, snapshot.tick_ms, age_ms, list(changes.items()))

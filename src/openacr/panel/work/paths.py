@@ -107,8 +107,8 @@ def _read(program: Program, cells: Store, dialect: str, *, has_path: bool) -> Fo
     letters = axes_of(cells)
     axes = tuple(letters[letter] for letter in DRAWN if letter in letters)
     path = ToolPath(axes, cells.read(SPEEDS.chord_tolerance))
-    desk = Preflight(settings)
-    predictor = Predictor(settings, (0.0,) * 8, is_dry=False, rounds=False, reader=desk)
+    station = Preflight(settings)
+    predictor = Predictor(settings, (0.0,) * 8, is_dry=False, rounds=False, reader=station)
 
     def look(entry: Entry) -> None:
         predictor.add(entry)
@@ -119,7 +119,7 @@ def _read(program: Program, cells: Store, dialect: str, *, has_path: bool) -> Fo
     options = Options(watch=path) if has_path else Options()
     found = survey(program, cells, dialect, options, machine, look)
     predictor.rest()
-    found.add(desk.findings(program.text_of))
+    found.add(station.findings(program.text_of))
     seconds = None if found.errors else predictor.found.time_s
     data = Found(
         seconds,

@@ -9,8 +9,8 @@ from starlette.concurrency import run_in_threadpool
 from openacr.map import flags, parameters
 from openacr.map.block import Access
 from openacr.mill.config.pparm import LAST, OperatorParameters
-from openacr.panel.control.desk import Desk
 from openacr.panel.control.orders import PanelError
+from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Body, Call, Query, endpoint
 from openacr.sysvar.schema import CARD_VARIABLES
@@ -115,10 +115,10 @@ async def card_flags(call: Call) -> object:
 async def pparm(call: Call) -> object:
     """The operator variables P0 to P199: those of the card and those of the store."""
 
-    def read(desk: Desk) -> list[float]:
-        shop = desk.machine
-        on_card = shop.machine.read_rows(list(CARD_VARIABLES))
-        return [*on_card, *(shop.cells.read(n) for n in range(len(CARD_VARIABLES), LAST + 1))]
+    def read(station: Station) -> list[float]:
+        session = station.machine
+        on_card = session.machine.read_rows(list(CARD_VARIABLES))
+        return [*on_card, *(session.cells.read(n) for n in range(len(CARD_VARIABLES), LAST + 1))]
 
     values = await asyncio.wrap_future(call.panel.control.call(read))
     return {"values": values}
@@ -132,9 +132,9 @@ async def write_pparm(call: Call) -> object:
     except ValueError:
         raise PanelError("bad", "variables are named by their numbers: {'5': 1.5}") from None
 
-    def write(desk: Desk) -> dict[str, float]:
-        shop = desk.machine
-        variables = OperatorParameters(shop.cells, shop.card)
+    def write(station: Station) -> dict[str, float]:
+        session = station.machine
+        variables = OperatorParameters(session.cells, session.card)
         for number, value in wanted.items():
             variables.write(number, value)
         return {str(number): variables.read(number) for number in wanted}

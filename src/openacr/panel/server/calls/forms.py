@@ -66,7 +66,7 @@ async def forms(call: Call) -> object:
 async def form(call: Call) -> object:
     """Read a form: rows with units, limits, help and values."""
     page: Page = call.query
-    chosen, store = form_of(call), call.panel.bench.store
+    chosen, store = form_of(call), call.panel.installation.store
 
     def read() -> object:
         return form_data(chosen, store, axis=page.axis, first=page.first, count=page.count)
@@ -77,7 +77,7 @@ async def form(call: Call) -> object:
 @endpoint("PUT", "/forms/{name}", body=Values)
 async def save_form(call: Call) -> Response:
     """Store values of a form: all of them, or none with the reason of each refused one."""
-    chosen, store = form_of(call), call.panel.bench.store
+    chosen, store = form_of(call), call.panel.installation.store
     if call.role < chosen.role:
         raise RoleError(chosen.role)
     try:
@@ -91,7 +91,7 @@ async def save_form(call: Call) -> Response:
 @endpoint("GET", "/settings/search", query=Search)
 async def search(call: Call) -> object:
     """Find cells by a number or by words of their name."""
-    store = call.panel.bench.store
+    store = call.panel.installation.store
 
     def find() -> object:
         try:

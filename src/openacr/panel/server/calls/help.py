@@ -26,7 +26,7 @@ async def help_text(call: Call) -> object:
     if key in COMMANDS:
         return {"title": key, "text": (COMMANDS[key].do.__doc__ or "").strip()}
     if key.lstrip("Pp").isdecimal():
-        store = call.panel.bench.store
+        store = call.panel.installation.store
         try:
             found = known(int(key.lstrip("Pp")))
         except MapError as error:

@@ -5,7 +5,7 @@ import asyncio
 from openacr.map.numbers import W_INPUTS
 from openacr.mill.card.machine_io import INPUTS, OUTPUTS
 from openacr.panel.control.buttons import COUNT, TOGGLE
-from openacr.panel.control.desk import Desk
+from openacr.panel.control.station import Station
 from openacr.panel.server.api import Call, endpoint
 from openacr.sysvar.tabs import OFFSETS
 
@@ -13,7 +13,7 @@ from openacr.sysvar.tabs import OFFSETS
 @endpoint("GET", "/io")
 async def lines(call: Call) -> object:
     """Inputs and outputs of the card with their names; `words` are those of the topic flags."""
-    text = call.panel.bench.store.read_text
+    text = call.panel.installation.store.read_text
 
     def rows(numbers: range, names: range) -> list[dict[str, object]]:
         return [{"number": n, "bit": n, "name": text(names[n])} for n in numbers]
@@ -28,13 +28,13 @@ async def lines(call: Call) -> object:
 @endpoint("GET", "/buttons")
 async def buttons(call: Call) -> object:
     """The virtual push buttons that have a caption, with the state of their lamps."""
-    store = call.panel.bench.store
+    store = call.panel.installation.store
     shown = [n for n in range(COUNT) if store.read_text(OFFSETS.button_caption[n])]
     flags = {n: int(store.read(OFFSETS.button_show_bit[n])) for n in shown}
     lamps = [flag for flag in flags.values() if flag >= 0]
 
-    def read(desk: Desk) -> list[bool]:
-        return desk.machine.card.read_bits(lamps) if lamps else []
+    def read(station: Station) -> list[bool]:
+        return station.machine.card.read_bits(lamps) if lamps else []
 
     states = await asyncio.wrap_future(call.panel.control.call(read))
     lit = dict(zip(lamps, states, strict=True))

@@ -83,7 +83,7 @@ async def parts(call: Call) -> object:
     def read() -> object:
         return {
             "parts": [part_data(part_named(name)) for name in names(FOLDER)],
-            "metric": is_metric(call.panel.bench.store),
+            "metric": is_metric(call.panel.installation.store),
         }
 
     return await run_in_threadpool(read)
@@ -93,7 +93,7 @@ async def parts(call: Call) -> object:
 async def part_path(call: Call) -> Response:
     """The path of a part with these sizes, as `/api/path` gives it; 422 for sizes that clash."""
     panel = call.panel
-    store = panel.bench.store
+    store = panel.installation.store
     name = call.request.path_params["name"]
     text = (await run_in_threadpool(ready, name, call.body.values, store, call.body.tool)).program
     if store.path is None:
@@ -128,7 +128,7 @@ async def import_drawing(call: Call) -> object:
     def convert() -> object:
         from openacr.cnc.dxf import convert
 
-        conversion = convert(file, _options(body, call.panel.bench.store))
+        conversion = convert(file, _options(body, call.panel.installation.store))
         if body.cut_z is None and not body.drill:
             conversion = replace(conversion, notes=(*conversion.notes, NO_DEPTH))
         try:

@@ -71,7 +71,7 @@ class Checked(Body, frozen=True):
 
 def folder_of(call: Call) -> Folder:
     """The folder of programs."""
-    return Folder(call.panel.bench.programs)
+    return Folder(call.panel.installation.programs)
 
 
 def _file(call: Call, path: str) -> Path:
@@ -83,9 +83,14 @@ def _file(call: Call, path: str) -> Path:
 
 def locked(call: Call) -> str:
     """The path of the program that is under way; empty if none is."""
-    desk = call.panel.desk
-    loaded, shop = desk.part.loaded, desk.shop
-    if loaded is None or shop is None or not shop.runner.is_busy or shop.runner.options.is_mdi:
+    station = call.panel.station
+    loaded, session = station.part.loaded, station.session
+    if (
+        loaded is None
+        or session is None
+        or not session.runner.is_busy
+        or session.runner.options.is_mdi
+    ):
         return ""
     return loaded.path
 
@@ -169,7 +174,7 @@ async def _store(call: Call, expected: str) -> object:
     path = call.query.path
     _require_unlocked(call, path)
     place = folder_of(call).at(path)
-    if place == call.panel.bench.programs or place.is_dir():
+    if place == call.panel.installation.programs or place.is_dir():
         raise PanelError("bad", f"{path}: it is a folder")
     partial = await _received(call.request, place)
     try:
@@ -208,7 +213,7 @@ async def _received(request: Request, place: Path) -> Path:
 
 def _note(call: Call, path: str) -> None:
     """Tell the screens that a file is another one."""
-    call.panel.control.call(lambda desk: desk.part.note_stored(path.strip("/")))
+    call.panel.control.call(lambda station: station.part.note_stored(path.strip("/")))
     call.panel.hub.broadcast({"event": "changed", "what": "programs", "path": path, "cells": []})
 
 
@@ -268,8 +273,8 @@ async def rename_file(call: Call) -> object:
 async def check(call: Call) -> object:
     """Check a text while it is edited: findings with line and column, predicted time."""
     body: Checked = call.body
-    folder = folder_of(call).at(body.path).parent if body.path else call.panel.bench.programs
-    store = call.panel.bench.store.path
+    folder = folder_of(call).at(body.path).parent if body.path else call.panel.installation.programs
+    store = call.panel.installation.store.path
     if store is None:
         raise UserError("the store is in memory")
     name = Path(body.path).name or "PROGRAM"
@@ -281,7 +286,7 @@ async def check(call: Call) -> object:
 @endpoint("GET", "/program")
 async def program(call: Call) -> object:
     """The loaded program with its findings; null without one."""
-    loaded = call.panel.desk.part.loaded
+    loaded = call.panel.station.part.loaded
     if loaded is None:
         return None
     return {**loaded.data(), "findings": loaded.findings()}
@@ -290,7 +295,7 @@ async def program(call: Call) -> object:
 @endpoint("GET", "/program/listing", query=OfLines)
 async def listing(call: Call) -> object:
     """Lines of the loaded program, as it was when it was loaded."""
-    loaded = call.panel.desk.part.loaded
+    loaded = call.panel.station.part.loaded
     if loaded is None:
         raise PanelError("missing", "no program is loaded")
     query: OfLines = call.query
@@ -301,7 +306,7 @@ async def listing(call: Call) -> object:
 @endpoint("GET", "/path", query=OfPath, gives="application/octet-stream")
 async def path(call: Call) -> Response:
     """The tool path as one block of bytes; 202 while it is being computed."""
-    loaded = call.panel.desk.part.loaded
+    loaded = call.panel.station.part.loaded
     if call.query.path:
         file, dialect = _file(call, call.query.path), call.query.dialect
     elif loaded is not None:

@@ -18,7 +18,7 @@ Say = Callable[[str], None]
 
 
 @dataclass(slots=True)
-class Bench:
+class Installation:
     """A machine, its store, the folder of its part programs."""
 
     kind: str  # embedded, project, tcp or serial
@@ -31,7 +31,7 @@ class Bench:
     sample: str = ""  # program that is loaded at the start
 
     @classmethod
-    def at(cls, target: str, store: Store, programs: Path) -> "Bench":
+    def at(cls, target: str, store: Store, programs: Path) -> "Installation":
         """A card at `HOST[:PORT]` or at a serial port."""
         kind = "serial" if "/" in target or target.upper().startswith("COM") else "tcp"
         return cls(kind, target, target, store, programs, OwnTime())
@@ -46,7 +46,7 @@ class Bench:
         kind: str = "embedded",
         name: str = "virtual machine",
         sample: str = "",
-    ) -> "Bench":
+    ) -> "Installation":
         """A card in this process, which the control thread advances."""
         return cls(kind, name, controller, store, programs, Paced(controller), controller, sample)
 

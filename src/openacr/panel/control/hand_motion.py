@@ -8,16 +8,16 @@ from openacr.panel.control.orders import PanelError
 from openacr.panel.control.presses import End, Key, Presses
 
 if TYPE_CHECKING:
-    from openacr.panel.control.desk import Desk
+    from openacr.panel.control.station import Station
 
 LONGEST_AGE_S = 0.2  # of what a browser has drawn, when it begins or keeps motion
 
 
-class Hands:
-    """The hands of the operators on the axes."""
+class HandMotion:
+    """Axes moved by hand at the screens."""
 
-    def __init__(self, desk: "Desk") -> None:
-        self._desk = desk
+    def __init__(self, station: "Station") -> None:
+        self._station = station
         self.presses = Presses(self._drop, self._tell)
 
     # --- held keys --------------------------------------------------------------------
@@ -40,25 +40,24 @@ class Hands:
         self.require_fresh(tick_ms, received_s)
         if now_s - received_s > LONGEST_AGE_S:
             raise PanelError("stale", "the press waited too long: press the key again")
-        shop = self._desk.machine
+        session = self._station.machine
         if axis in self.presses.axes:
             self.presses.end_all(End.STOP, "two keys of one axis")
-            raise UserError(
-                f"axis {shop.runner.settings.axis(axis).name} is jogged by another key: both stop"
-            )
-        if shop.runner.jogging.is_active and not self.presses.are_held:
-            shop.runner.stop()  # an increment is under way, or a jog ramps down
+            name = session.runner.settings.axis(axis).name
+            raise UserError(f"axis {name} is jogged by another key: both stop")
+        if session.runner.jogging.is_active and not self.presses.are_held:
+            session.runner.stop()  # an increment is under way, or a jog ramps down
             raise UserError("an axis is still moving: press again when it rests")
-        shop.runner.controls.press(_holder(key.client), axis, direction, fast=fast)
+        session.runner.controls.press(_holder(key.client), axis, direction, fast=fast)
         self.presses.begin(key, axis, received_s)
 
     def keep(self, key: Key, tick_ms: float, received_s: float) -> None:
         """Keep a press alive, if its browser has drawn what the machine does now."""
-        age_s = self._desk.ticks.age_s(tick_ms, received_s)
+        age_s = self._station.ticks.age_s(tick_ms, received_s)
         if age_s is None or age_s > LONGEST_AGE_S:
             return
-        if self.presses.keep(key, received_s) and self._desk.shop is not None:
-            self._desk.shop.runner.controls.renew(_holder(key.client))
+        if self.presses.keep(key, received_s) and self._station.session is not None:
+            self._station.session.runner.controls.renew(_holder(key.client))
 
     def release(self, key: Key) -> None:
         """End a press by its release."""
@@ -71,19 +70,19 @@ class Hands:
 
     def require_fresh(self, tick_ms: float, received_s: float) -> None:
         """Refuse motion by a browser that shows something old."""
-        age_s = self._desk.ticks.age_s(tick_ms, received_s)
+        age_s = self._station.ticks.age_s(tick_ms, received_s)
         if age_s is None or age_s > LONGEST_AGE_S:
             shown = "unknown" if age_s is None else f"{1000.0 * age_s:.0f} ms old"
             raise PanelError("stale", f"the positions on this screen are {shown}: nothing moves")
 
     def _drop(self, client: int, axis: int) -> None:
-        shop = self._desk.shop
-        if shop is not None:
-            shop.runner.controls.release(_holder(client), axis)
+        session = self._station.session
+        if session is not None:
+            session.runner.controls.release(_holder(client), axis)
 
     def _tell(self, key: Key, why: End, text: str) -> None:
         event = {"event": "jog", "press": key.number, "ended": why.value, "text": text}
-        self._desk.tell({**event, "to": key.client})
+        self._station.tell({**event, "to": key.client})
 
     # --- increments -------------------------------------------------------------------
 
@@ -91,7 +90,7 @@ class Hands:
         self, axis: int, direction: int, *, preset: int, distance_u: float, fast: bool
     ) -> None:
         """Move an axis by an increment of the store (`preset`), or by a distance."""
-        runner = self._desk.machine.runner
+        runner = self._station.machine.runner
         if self.presses.are_held:
             self.presses.end_all(End.STOP, "an increment was commanded")
             raise UserError("a key is held: the axes stop, no increment is made")
@@ -104,9 +103,9 @@ class Hands:
     def stop(self) -> None:
         """Bring everything that is moved by hand to rest."""
         self.presses.end_all(End.STOP)
-        shop = self._desk.shop
-        if shop is not None and shop.runner.jogging.is_active:
-            shop.runner.jogging.stop_all()
+        session = self._station.session
+        if session is not None and session.runner.jogging.is_active:
+            session.runner.jogging.stop_all()
 
 
 def _holder(client: int) -> str:

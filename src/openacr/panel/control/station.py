@@ -16,10 +16,10 @@ from openacr.mill.card.alarms import AlarmError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
-from openacr.panel.control.bench import Bench
 from openacr.panel.control.buttons import Buttons
 from openacr.panel.control.facts import Facts
-from openacr.panel.control.hands import Hands
+from openacr.panel.control.hand_motion import HandMotion
+from openacr.panel.control.installation import Installation
 from openacr.panel.control.jobs import Jobs
 from openacr.panel.control.loaded import Part
 from openacr.panel.control.orders import Order, failure
@@ -46,30 +46,32 @@ OF_A_RUN = range(CELLS.tool_selected, CELLS.cycle_direction + 1)  # written as a
 MOST_CELLS = 2000  # numbers of changed cells in one event
 SERVER = Person(0, Role.SERVICE, "", "server")
 Tell = Callable[[dict[str, Any]], None]
-Carry = Callable[["Desk", Order, float], object]
+Carry = Callable[["Station", Order, float], object]
 
 
-class Desk:
+class Station:
     """One machine and the people at its screens."""
 
-    def __init__(self, bench: Bench, carry_out: Carry, tell: Tell = lambda _event: None) -> None:
-        self.bench = bench
+    def __init__(
+        self, installation: Installation, carry_out: Carry, tell: Tell = lambda _event: None
+    ) -> None:
+        self.installation = installation
         self.tell = tell
         self.sampled: Callable[[Samples], None] = lambda _samples: None
-        self.looked: Callable[[], None] = lambda: None  # a new snapshot is there
+        self.on_snapshot: Callable[[], None] = lambda: None  # a new snapshot is there
         self.people = People()
-        self.hands = Hands(self)
+        self.hand_motion = HandMotion(self)
         self.jobs = Jobs()
         self.typed = Typed(self)
         self.part = Part(self)
-        self.terminal = Terminal(bench)
+        self.terminal = Terminal(installation)
         self.scope = Scope()
         self.buttons = Buttons()
         self.ticks = Ticks()
         self.watches = Watches()
         self.said: deque[dict[str, Any]] = deque(maxlen=LINES_KEPT)
         self.snapshot = Snapshot(number=0, tick_ms=0.0, read_s=0.0)
-        self.shop: MillSession | None = None
+        self.session: MillSession | None = None
         self.lost = "the machine is being opened"  # why there is no session
         self.mode = "auto"
         self.now_s = 0.0  # of the present step or order
@@ -88,9 +90,9 @@ class Desk:
     @property
     def machine(self) -> MillSession:
         """The session of the machine; UserError where the card cannot be reached."""
-        if self.shop is None:
+        if self.session is None:
             raise UserError(self.lost)
-        return self.shop
+        return self.session
 
     @property
     def reading(self) -> Reading:
@@ -103,32 +105,32 @@ class Desk:
         """Open the session of the machine; without it the screens say why."""
         self.must_renew = False  # before the settings are read: what is stored then counts
         try:
-            self.shop = self.bench.open(self.say)
+            self.session = self.installation.open(self.say)
         except (OpenacrError, *LINK_ERRORS) as error:
             self.lost = _why(error)
             self._retry_s = now_s + RETRY_S
             self._facts.tell()
             return
         self.lost = ""
-        self._reading = Reading(self.shop)
+        self._reading = Reading(self.session)
         self._poll_at = self._snapshot_at = 0.0
         self._tick_base_ms = self._tick_ms
         self._alarms = 0
-        self.bench.pace.begin(now_s)
+        self.installation.pace.begin(now_s)
 
     def close(self) -> None:
         """Close the session: axes that move are brought to rest by the caller before."""
-        shop, self.shop, self._reading = self.shop, None, None
+        session, self.session, self._reading = self.session, None, None
         self.typed.forget()
         self.terminal.end()
         self.scope.stop()
-        if shop is not None:
+        if session is not None:
             with suppress(*LINK_ERRORS):
-                shop.close()
+                session.close()
 
     def renew(self, now_s: float) -> None:
         """Open the session again, with the settings as they are stored now."""
-        self.hands.presses.end_all(End.MODE, "the machine is set up again")
+        self.hand_motion.presses.end_all(End.MODE, "the machine is set up again")
         self.close()
         self.lost = "the machine is being set up"
         self.open(now_s)
@@ -138,42 +140,42 @@ class Desk:
     def step(self, now_s: float) -> None:
         """Do what is due: keys, time of the card, a poll, a snapshot."""
         self.now_s = now_s
-        self._guarded(lambda: self.hands.expire(now_s))
+        self._guarded(lambda: self.hand_motion.expire(now_s))
         self.jobs.poll()
-        if self.shop is None:
+        if self.session is None:
             if now_s >= self._retry_s:
                 self.open(now_s)
             return
-        if self.shop.runner.is_out_of_reach:
+        if self.session.runner.is_out_of_reach:
             self._lose("the card does not answer", now_s)
             return
         try:
-            clock = self.bench.pace.advance(self.shop.card, now_s, self._sampler())
+            clock = self.installation.pace.advance(self.session.card, now_s, self._sampler())
             if clock >= self._poll_at:
-                self._poll_at = clock + self.shop.poll_in_s
+                self._poll_at = clock + self.session.poll_in_s
                 self._poll(now_s)
             if clock >= self._snapshot_at:
                 self._snapshot_at = clock + SNAPSHOT_S
-                self._look(now_s)
+                self._sample(now_s)
         except LINK_ERRORS as lost:
             log.info("%s", lost)
-        if self.must_renew and self.shop is not None and self._rests:
+        if self.must_renew and self.session is not None and self._rests:
             self.renew(now_s)
 
     def _poll(self, now_s: float) -> None:
-        shop = self.machine
+        session = self.machine
         try:
-            shop.poll()
+            session.poll()
             self._guarded(self.typed.poll)
             self._guarded(self.part.poll)
             self._print()
         except AlarmError as error:  # another program has taken the machine
             self._lose(str(error), now_s)
             return
-        self._tick_ms = self._tick_base_ms + 1000.0 * shop.machine.now_s
-        if len(shop.runner.alarms.history) != self._alarms:
-            self._alarms = len(shop.runner.alarms.history)
-            self._guarded(lambda: self.hands.presses.end_all(End.ALARM, self._last_alarm()))
+        self._tick_ms = self._tick_base_ms + 1000.0 * session.machine.now_s
+        if len(session.runner.alarms.history) != self._alarms:
+            self._alarms = len(session.runner.alarms.history)
+            self._guarded(lambda: self.hand_motion.presses.end_all(End.ALARM, self._last_alarm()))
 
     def _last_alarm(self) -> str:
         history = self.machine.runner.alarms.history
@@ -182,11 +184,15 @@ class Desk:
     def _sampler(self) -> Sampler | None:
         """What the scope does at each of its samples; None while it is off."""
         capture = self.scope.capture
-        if capture is None or capture.is_over or self.shop is None:
+        if capture is None or capture.is_over or self.session is None:
             return None
-        controller, shop, parameters = self.bench.controller, self.shop, capture.parameters
+        controller, session, parameters = (
+            self.installation.controller,
+            self.session,
+            capture.parameters,
+        )
         if controller is None:
-            return capture.period_s, lambda: self.scope.add(shop.machine.read_rows(parameters))
+            return capture.period_s, lambda: self.scope.add(session.machine.read_rows(parameters))
         view = controller.p
         return capture.period_s, lambda: self.scope.add([float(view[p]) for p in parameters])
 
@@ -197,26 +203,26 @@ class Desk:
             for client in self.terminal.clients:
                 self.tell({"event": "term", "text": text, "to": client})
 
-    def _look(self, now_s: float) -> None:
+    def _sample(self, now_s: float) -> None:
         number, left_s = self.snapshot.number + 1, self.part.left_s()
         snapshot = self.reading.snapshot(number, self._tick_ms, now_s, left_s)
         self.ticks.note(snapshot.tick_ms, now_s)
         self.snapshot = snapshot
-        self.looked()
+        self.on_snapshot()
         if (samples := self.scope.take()) is not None:
             self.sampled(samples)
         self._facts.tell()
-        if self.shop is not None:
-            self.watches.look(self.shop, now_s)
+        if self.session is not None:
+            self.watches.look(self.session, now_s)
 
     @property
     def _rests(self) -> bool:
-        shop = self.machine
-        return not shop.runner.is_busy and shop.runner.state is State.IDLE
+        session = self.machine
+        return not session.runner.is_busy and session.runner.state is State.IDLE
 
     def _lose(self, why: str, now_s: float) -> None:
         """The card is out of reach: the session ends, and another one is tried."""
-        self._guarded(lambda: self.hands.presses.end_all(End.LINK, why))
+        self._guarded(lambda: self.hand_motion.presses.end_all(End.LINK, why))
         self.close()
         self.lost = why
         self._retry_s = now_s + RETRY_S
@@ -232,7 +238,7 @@ class Desk:
     def fail(self, text: str, *, is_new: bool) -> None:
         """A step has failed: held keys end; a failure that is not the last one again is said."""
         try:
-            self.hands.presses.end_all(End.ALARM, text)
+            self.hand_motion.presses.end_all(End.ALARM, text)
         finally:
             if is_new:
                 self.say(text)
@@ -249,9 +255,9 @@ class Desk:
 
     def load_sample(self) -> None:
         """Load the sample part, where the machine has one."""
-        name = self.bench.sample
+        name = self.installation.sample
         if name:
-            file = self.bench.programs / name
+            file = self.installation.programs / name
             order = Order(SERVER, "program.load")
             self.part.load(file, name, order, kind="file", dialect="")
 
@@ -291,11 +297,11 @@ class Desk:
 
     def leave(self, client: int) -> None:
         """A browser has gone: what it held stops."""
-        self._guarded(lambda: self.hands.presses.end_all(End.LINK, client=client))
-        self.hands.presses.forget(client)
+        self._guarded(lambda: self.hand_motion.presses.end_all(End.LINK, client=client))
+        self.hand_motion.presses.forget(client)
         self.watches.forget(client)
         self.terminal.close(client)
-        self._guarded(lambda: self.buttons.drop(self.shop, client))
+        self._guarded(lambda: self.buttons.drop(self.session, client))
         self.people.leave(client)
         self._facts.tell()
 
