@@ -47,8 +47,9 @@ export function createEditor(host, { check, found, changed }) {
   const readOnly = new Compartment();
   let isReadOnly = false;
   const findings = linter(async (view) => {
-    const text = view.state.doc.toString();
-    const list = text.length > MOST_CHECKED ? [] : await check(text);
+    const doc = view.state.doc;
+    const list = doc.length > MOST_CHECKED ? [] : await check(doc.toString());
+    if (view.state.doc !== doc) return []; // of an older text: its answer may even come after that of the new one
     found(list);
     return list.filter((each) => each.line >= 1 && each.line <= view.state.doc.lines).map((each) => {
       const line = view.state.doc.line(each.line);
