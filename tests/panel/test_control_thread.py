@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 from tests.panel.bench import HandStation
 
+from openacr.errors import UserError
 from openacr.panel.control.orders import Order
 from openacr.panel.control.thread import ORDERS_S, ControlThread
 from openacr.panel.control.waiting import Waiting
@@ -225,3 +226,36 @@ def test_urgent_items_are_taken_first_and_each_kind_in_its_order() -> None:
     assert len(waiting) == 4
     assert [waiting.take() for _ in range(5)] == ["U", "V", "a", "b", None]
     assert waiting.take(0.001) is None
+
+
+def test_an_unexpected_failure_at_the_end_cuts_the_power_and_closes_the_machine(
+    thread: Hand, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session = thread.hand.station.machine
+    cut: list[bool] = []
+
+    def fail() -> None:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(session.runner, "bring_to_rest", fail)
+    monkeypatch.setattr(session.runner, "cut_power", lambda: cut.append(True))
+    thread.rest()
+    assert cut == [True]
+    assert thread.hand.station.session is None
+
+
+def test_a_refusal_at_the_end_closes_the_machine_without_cutting_its_power(
+    thread: Hand, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another program may have taken the machine: its motion is not ours to kill."""
+    session = thread.hand.station.machine
+    cut: list[bool] = []
+
+    def refuse() -> None:
+        raise UserError("another program has the machine")
+
+    monkeypatch.setattr(session.runner, "bring_to_rest", refuse)
+    monkeypatch.setattr(session.runner, "cut_power", lambda: cut.append(True))
+    thread.rest()
+    assert cut == []
+    assert thread.hand.station.session is None

@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
+from contextlib import suppress
 from typing import TYPE_CHECKING, TypeVar
 
 from openacr.errors import OpenacrError
@@ -14,6 +15,7 @@ from openacr.panel.control.orders import Order, PanelError, failure
 from openacr.panel.control.waiting import Waiting
 
 if TYPE_CHECKING:
+    from openacr.mill.session import MillSession
     from openacr.panel.control.station import Station
 
 log = logging.getLogger(__name__)
@@ -137,15 +139,25 @@ class ControlThread:
         session = station.session
         try:
             if session is not None:
-                session.runner.bring_to_rest()
-                end_s = session.card.now_s() + REST_S
-                while session.runner.is_busy and not session.runner.is_out_of_reach:
-                    if session.card.now_s() > end_s:
-                        session.runner.cut_power()
-                        break
-                    session.step()
+                _to_rest(session)
         except (OpenacrError, *LINK_ERRORS) as error:
             log.warning("%s", error)
+        except Exception:  # what has failed is not known: the axes must not go on
+            log.exception("the machine cannot be brought to rest: its power is cut")
+            if session is not None:
+                with suppress(Exception):
+                    session.runner.cut_power()
         finally:
             station.close()
             station.jobs.close()
+
+
+def _to_rest(session: "MillSession") -> None:
+    """Bring a machine to rest; its power is cut when that takes too long."""
+    session.runner.bring_to_rest()
+    end_s = session.card.now_s() + REST_S
+    while session.runner.is_busy and not session.runner.is_out_of_reach:
+        if session.card.now_s() > end_s:
+            session.runner.cut_power()
+            break
+        session.step()
