@@ -121,9 +121,18 @@ function begin(element, jog, pointer, key) {
 
 function keep() {
   for (const press of presses.values()) {
-    if (press.element.isConnected) link.send({ keep: press.id, tick: model.drawnTick });
+    if (isStillHeld(press)) link.send({ keep: press.id, tick: model.drawnTick });
     else end(press);
   }
+}
+
+/**
+ * Whether a press still has its element and its pointer. The event of a lost capture comes only with
+ * the next event of the pointer, so the capture itself is asked.
+ * @param {Press} press
+ */
+function isStillHeld({ element, pointer }) {
+  return element.isConnected && (pointer === null || element.hasPointerCapture(pointer));
 }
 
 /** @param {Press} press */
