@@ -6,7 +6,7 @@ is reported with its place, and no controller exists until the whole project is 
 
 import codecs
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import lru_cache
@@ -19,6 +19,7 @@ PROGRAM_COUNT = 16
 PLC_COUNT = 8
 PART_PROGRAM_SHARE = 4  # at least one line in this many is a block of G or M codes
 
+_NOTHING: Mapping[Path, bytes] = {}
 _NUMBERED = re.compile(r"(prog|plc)(\d+)\.8k", re.IGNORECASE)
 _BLOCK = re.compile(r"(?:N\d+\s*)?[GM]\d+(?:\.\d)?(?![A-Za-z0-9]*\s*=)", re.IGNORECASE)
 # Text files hold these control characters: tab, line feed, form feed, carriage return, the
@@ -96,16 +97,19 @@ class Project:
         return ((self.setup,) if self.setup else ()) + self.plcs + self.programs
 
 
-def find_project(path: Path | str) -> Project:
-    """Read the project folder or the single controller file at `path`."""
+def find_project(path: Path | str, unsaved: Mapping[Path, bytes] = _NOTHING) -> Project:
+    """Read the project folder or the single controller file at `path`.
+
+    `unsaved` are controller files as an editor holds them, which need not exist.
+    """
     place = Path(path)
     if place.is_dir():
-        return _folder(place)
-    if not place.exists():
+        return _folder(place, unsaved)
+    if not place.exists() and place not in unsaved:
         raise UserError(f"{place}: no such file or folder")
     if place.suffix.lower() == ".toml":
         raise UserError(f"{place}: give the project folder {place.parent}, not a file inside it")
-    source = read_source(place)
+    source = read_source(place, unsaved=unsaved)
     _refuse_part_program(source)
     return Project(place, source)
 
@@ -125,9 +129,14 @@ def _refuse_part_program(source: SourceFile) -> None:
         )
 
 
-def read_source(path: Path, place: Place = Place.SETUP, number: int = 0) -> SourceFile:
+def read_source(
+    path: Path,
+    place: Place = Place.SETUP,
+    number: int = 0,
+    unsaved: Mapping[Path, bytes] = _NOTHING,
+) -> SourceFile:
     """Read one controller file; a file that is empty or not text is refused."""
-    data = read_bytes(path)
+    data = unsaved[path] if path in unsaved else read_bytes(path)
     require_text(path, data)
     if not data.strip(b" \t\r\n\x1a"):
         raise SourceError("the file is empty", path=str(path))
@@ -168,11 +177,12 @@ def require_text(
     )
 
 
-def _folder(root: Path) -> Project:
+def _folder(root: Path, unsaved: Mapping[Path, bytes]) -> Project:
     try:
-        entries = sorted(entry for entry in root.iterdir() if entry.is_file())
+        found = {entry for entry in root.iterdir() if entry.is_file()}
     except OSError as error:
         raise unreadable(root, error) from None
+    entries = sorted(found.union(path for path in unsaved if path.parent == root))
     by_name = _by_name(entries)
     numbered = list(_numbered(entries))
     setup = by_name.get("setup.8k")
@@ -184,9 +194,9 @@ def _folder(root: Path) -> Project:
     used = {setup, *(path for path, _, _ in numbered)}
     return Project(
         root=root,
-        setup=read_source(setup) if setup else None,
-        programs=_read(numbered, Place.PROGRAM),
-        plcs=_read(numbered, Place.PLC),
+        setup=read_source(setup, unsaved=unsaved) if setup else None,
+        programs=_read(numbered, Place.PROGRAM, unsaved),
+        plcs=_read(numbered, Place.PLC, unsaved),
         machine=by_name.get("machine.toml"),
         scenario=by_name.get("scenario.toml"),
         ignored=tuple(e for e in entries if e.suffix.lower() == ".8k" and e not in used),
@@ -223,6 +233,8 @@ def _numbered(entries: Iterable[Path]) -> Iterator[tuple[Path, Place, int]]:
         yield entry, place, number
 
 
-def _read(numbered: Iterable[tuple[Path, Place, int]], place: Place) -> tuple[SourceFile, ...]:
+def _read(
+    numbered: Iterable[tuple[Path, Place, int]], place: Place, unsaved: Mapping[Path, bytes]
+) -> tuple[SourceFile, ...]:
     chosen = sorted((n, path) for path, kind, n in numbered if kind is place)
-    return tuple(read_source(path, place, number) for number, path in chosen)
+    return tuple(read_source(path, place, number, unsaved) for number, path in chosen)

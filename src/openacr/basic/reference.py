@@ -71,11 +71,12 @@ def _group(group: str, rows: Iterable[Command], examples: Mapping[str, str]) -> 
     parts = [f"# {group}", MADE_BY]
     for row in rows:
         parts += [f"## {title(row)}", cleandoc(row.handler.__doc__ or "")]
-        parts.append("\n".join(_facts(row, examples.get(row.name, ""))))
+        parts.append("\n".join(facts(row, examples.get(row.name, ""))))
     return "\n\n".join(parts)
 
 
-def _facts(row: Command, example: str) -> Iterator[str]:
+def facts(row: Command, example: str = "") -> Iterator[str]:
+    """What the reference says of a command below its description, a list item each."""
     yield f"* Written: `{syntax(row)}`"
     for name in row.synonyms:
         yield f"* Also: `{' '.join(name)}`"

@@ -210,6 +210,16 @@ def plain(line: str | bytes) -> str:
     return "".join(_plain_parts(text))
 
 
+def column_in(line: str, column: int) -> int:
+    """The column of the character that the lexer reads at a column of the plain line, from 1."""
+    if line.isascii():
+        return column
+    for place in range(len(line)):
+        if len(plain(line[: place + 1])) >= column:
+            return place + 1
+    return len(line) + max(1, column - len(plain(line)))
+
+
 def _plain_parts(text: str) -> Iterator[str]:
     in_string = False
     at = 0

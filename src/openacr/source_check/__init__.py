@@ -12,7 +12,18 @@
 
 from openacr.source_check.checking import check, check_text, read
 from openacr.source_check.faults import Fault
-from openacr.source_check.listing import ladders, listing
+from openacr.source_check.hints import meant
+from openacr.source_check.listing import ladders, listed, listing
 from openacr.source_check.source import Reader
 
-__all__ = ["Fault", "Reader", "check", "check_text", "ladders", "listing", "read"]
+__all__ = [
+    "Fault",
+    "Reader",
+    "check",
+    "check_text",
+    "ladders",
+    "listed",
+    "listing",
+    "meant",
+    "read",
+]

@@ -1,6 +1,6 @@
 """Files, texts and projects checked: which card they are for, and what is read before them."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from openacr.basic.memory.storage import Storage
@@ -17,16 +17,19 @@ from openacr.source_check.room import Room
 from openacr.source_check.source import Reader
 
 Level = tuple[Place, int]  # set-up, program or PLC, and its number
+_NOTHING: Mapping[Path, bytes] = {}
 
 
-def check(path: Path, at: Level | None = None) -> list[Fault]:
+def check(
+    path: Path, at: Level | None = None, unsaved: Mapping[Path, bytes] = _NOTHING
+) -> list[Fault]:
     """Every fault of a controller file, or of all files of a project folder.
 
-    `at` is the level of a file whose name does not say it. SourceError or UserError where the
-    input cannot be read at all.
+    `at` is the level of a file whose name does not say it, `unsaved` are controller files as an
+    editor holds them. SourceError or UserError where the input cannot be read at all.
     """
-    project = find_project(path)
-    return [*table_faults(project), *read(path, project, at).faults]
+    project = find_project(path, unsaved)
+    return [*table_faults(project), *read(path, project, at, unsaved).faults]
 
 
 def check_text(text: str, path: Path, at: Level | None = None) -> list[Fault]:
@@ -35,7 +38,7 @@ def check_text(text: str, path: Path, at: Level | None = None) -> list[Fault]:
     The set-up and the machine file beside `path` are read before it.
     """
     place, number = place_of(path) if at is None else at
-    source = SourceFile(path, text.encode("latin-1", errors="replace"), place, number)
+    source = SourceFile(path, text.encode(errors="replace"), place, number)
     home = Project(path.parent) if place is Place.SETUP else _home(path.parent, is_needed=False)
     reader = _reader(home)
     _read_setup(reader, home)
@@ -43,14 +46,19 @@ def check_text(text: str, path: Path, at: Level | None = None) -> list[Fault]:
     return reader.faults
 
 
-def read(file: Path, project: Project, at: Level | None = None) -> Reader:
+def read(
+    file: Path,
+    project: Project,
+    at: Level | None = None,
+    unsaved: Mapping[Path, bytes] = _NOTHING,
+) -> Reader:
     """Read all files of a project; one alone is read after the set-up beside it.
 
     `at` is the level of a file whose name does not say it.
     """
     place, number = place_of(file) if at is None else at
     is_whole = file.is_dir() or place is Place.SETUP
-    home = project if is_whole else _home(file.parent, is_needed=at is None)
+    home = project if is_whole else _home(file.parent, unsaved, is_needed=at is None)
     reader = _reader(home)
     if is_whole:
         reader.sizes.is_complete = reader.room.is_complete = file.is_dir()
@@ -58,7 +66,7 @@ def read(file: Path, project: Project, at: Level | None = None) -> Reader:
             reader.read(source)
         return reader
     _read_setup(reader, home)
-    reader.read(read_source(file, place, number))
+    reader.read(read_source(file, place, number, unsaved))
     return reader
 
 
@@ -96,10 +104,10 @@ def _read_setup(reader: Reader, home: Project) -> None:
         reader.parts.clear()
 
 
-def _home(folder: Path, *, is_needed: bool) -> Project:
+def _home(folder: Path, unsaved: Mapping[Path, bytes] = _NOTHING, *, is_needed: bool) -> Project:
     """The project a file lies in; one without files where a project is absent and not needed."""
     try:
-        return find_project(folder)
+        return find_project(folder, unsaved)
     except SourceError:
         raise
     except UserError:

@@ -1,5 +1,6 @@
 """What may help: a hint for each fault that `openacr check` finds."""
 
+import re
 from collections.abc import Collection, Iterable
 from difflib import get_close_matches
 
@@ -21,6 +22,8 @@ from openacr.messages import (
 MOST_NAMES = 5
 AFTER_A_TARGET = "after a target come other axes, a command or `:`"
 TEXT_AND_NUMBER = "STR$ makes text of a number, VAL a number of text"
+_MEANT = "did you mean {}?"
+_IS_MEANT = re.compile(re.escape(_MEANT).replace(r"\{\}", "(.+)"))
 _WORDS = (UNKNOWN_COMMAND, SYNTAX_ERROR, UNDEFINED_SYMBOL, UNDEFINED_VARIABLE)
 
 
@@ -33,12 +36,18 @@ def hint_for(
     if message is UNKNOWN_COMMAND and level is Level.SYS and _belongs_to_language(word, first):
         return "not valid at the system level; `PROG n` goes to a program"
     if message in _WORDS and (close := _close_word(word, names)):
-        return f"did you mean {close}?"
+        return _MEANT.format(close)
     if message in (UNKNOWN_COMMAND, UNDEFINED_SYMBOL) and level is Level.PROG:
         return "no command, alias or axis of this program has this name"
     if message is TYPE_MISMATCH:
         return _called(text, span) or TEXT_AND_NUMBER
     return _usage(text, span, names) if message is SYNTAX_ERROR and span else ""
+
+
+def meant(hint: str) -> str:
+    """The word that a hint proposes in place of the one that was written; empty if it does not."""
+    found = _IS_MEANT.fullmatch(hint)
+    return found[1] if found else ""
 
 
 def _belongs_to_language(*words: str) -> bool:
@@ -85,7 +94,7 @@ def names_like(name: str, known: Iterable[str], what: str) -> str:
     """The name that was meant, or those there are."""
     there = sorted(known)
     if close := get_close_matches(name, there, n=1):
-        return f"did you mean {close[0]}?"
+        return _MEANT.format(close[0])
     if not there:
         return f"there are no {what}"
     shown = ", ".join(there[:MOST_NAMES])

@@ -22,7 +22,7 @@ from openacr.basic.language.scope import Scope, join_names
 from openacr.basic.memory.program_store import line_number, opens_capture
 from openacr.basic.vm.outline import Outline, outline
 from openacr.errors import CardError
-from openacr.lang.lexer import Token, TokenKind, tokens
+from openacr.lang.lexer import Token, TokenKind, column_in, tokens
 from openacr.lang.source import Span
 from openacr.messages import NOT_SUPPORTED, UNKNOWN_COMMAND
 from openacr.models import ACR8020, Model
@@ -43,11 +43,11 @@ _LEVEL_WORDS = {"SYS": Level.SYS, "PROG": Level.PROG, "PLC": Level.PLC}
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
-    """A piece of a listing: the text of a program or PLC, or one line executed at once."""
+class Immediate:
+    """A line executed at once, or what follows the level in it."""
 
-    text: Text | None = None
-    tokens: tuple[Token, ...] = ()
+    line: FileLine
+    tokens: tuple[Token, ...]
 
 
 @dataclass(slots=True)
@@ -61,7 +61,7 @@ class Reader:
     room: Room = field(default_factory=Room)
     cutoffs: Cutoffs = field(default_factory=Cutoffs)
     texts: dict[tuple[Level, int], Text] = field(default_factory=dict)
-    parts: list[Part] = field(default_factory=list)
+    parts: list[Text | Immediate] = field(default_factory=list)  # in the order of a listing
     level: Level = Level.SYS
     number: int = 0
     is_capturing: bool = False
@@ -150,7 +150,7 @@ class Reader:
         key = (self.level, self.number)
         if key not in self.texts:
             self.texts[key] = Text()
-            self.parts.append(Part(text=self.texts[key]))
+            self.parts.append(self.texts[key])
         return self.texts[key]
 
     def _scope(self, *, stored: bool) -> Scope:
@@ -185,7 +185,7 @@ class Reader:
         found, rest = split_at_level(found)
         tree = Parser(found, self._scope(stored=False)).line()
         if not tree.is_empty:
-            self.parts.append(Part(tokens=tuple(found)))
+            self.parts.append(Immediate(line, tuple(found)))
         self.sizes.note(self.number, tree.blocks)
         self._judge(line, found, tree.blocks)
         refused = self.room.note(self.level, self.number, tree.blocks)
@@ -281,7 +281,7 @@ class Reader:
 
     def _place(self, line: FileLine, span: Span | None) -> tuple[int, int, int]:
         """Line, column and length in the file as it is."""
-        number, column = line.place(span.column) if span else (line.number, 1)
+        number, column = line.place(column_in(line.text, span.column)) if span else (line.number, 1)
         original = self._originals[number - 1].rstrip()
         begin = len(original) - len(original.lstrip()) + 1
         if number != line.number:

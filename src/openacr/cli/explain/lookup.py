@@ -8,26 +8,11 @@ import typer
 
 from openacr.errors import MapError, UserError
 from openacr.map import Flag, Parameter, find_flag, find_parameter, flags_of
-from openacr.map.block import RESERVED, UNDOCUMENTED, Access, Kind, Packet
+from openacr.map.explain import facts_of, has_meaning, object_of
 from openacr.map.numbers import FLAG_LAST, PUBLIC_COUNT
-from openacr.units import explain
 
 if TYPE_CHECKING:
     from rich.table import Table
-
-GET_PACKET = 0x00
-ACCESS = {
-    Access.READ: "read",
-    Access.WRITE: "write",
-    Access.READ_WRITE: "read, write",
-    Access.RESERVED: "reserved",
-    Access.UNKNOWN: "not stated in the manual",
-}
-KIND = {
-    Kind.LONG: "LONG (32-bit integer)",
-    Kind.FP32: "FP32 (32-bit float)",
-    Kind.FP64: "FP64 (64-bit float)",
-}
 
 PARAMETER_HINT = f"a number 0..{PUBLIC_COUNT - 1}, or words of a name"
 FLAG_HINT = f"a number 0..{FLAG_LAST}, or words of a name"
@@ -80,44 +65,15 @@ def _say_more(count: int) -> None:
 
 
 def _print_parameter(parameter: Parameter) -> None:
-    unit = f"{parameter.unit} ({explain(parameter.unit)})" if parameter.unit else ""
-    _print_facts(
-        f"P{parameter.number}  {parameter.name}",
-        parameter.description,
-        {
-            "Object": _object(parameter),
-            "Section": parameter.section,
-            "Type": KIND[parameter.kind],
-            "Access": ACCESS[parameter.access],
-            "Unit": unit,
-            "At power-up": f"{parameter.default:g}" if parameter.default else "",
-            "Packet": _packet(parameter.packet),
-            "Reference": parameter.ref,
-            "Erratum": parameter.erratum,
-        },
-    )
-    named = [flag for flag in flags_of(parameter.number) if _has_meaning(flag)]
+    title = f"P{parameter.number}  {parameter.name}"
+    _print_facts(title, parameter.description, facts_of(parameter))
+    named = [flag for flag in flags_of(parameter.number) if has_meaning(flag)]
     if named:
         _print(_choice(named, [flag.description for flag in named], "Meaning", "BIT"))
 
 
 def _print_flag(flag: Flag) -> None:
-    _print_facts(
-        f"BIT{flag.number}  {flag.name}",
-        flag.description,
-        {
-            "Object": _object(flag),
-            "Section": flag.section,
-            "In the manual": "" if flag.printed == flag.name else "numbered, not named",
-            "Held by": f"bit {flag.bit} of P{flag.parameter} (mask 0x{1 << flag.bit:08X})",
-            "Access": ACCESS[flag.access],
-            "Updated": {"fast": "every servo period", "slow": "in the slow scan"}.get(
-                flag.speed, "not stated in the manual"
-            ),
-            "Reference": flag.ref,
-            "Erratum": flag.erratum,
-        },
-    )
+    _print_facts(f"BIT{flag.number}  {flag.name}", flag.description, facts_of(flag))
 
 
 def _print_facts(title: str, description: str, facts: dict[str, str]) -> None:
@@ -128,8 +84,7 @@ def _print_facts(title: str, description: str, facts: dict[str, str]) -> None:
     table.add_column(style="dim", no_wrap=True)
     table.add_column()
     for name, value in facts.items():
-        if value:
-            table.add_row(f"  {name}", Text(value))
+        table.add_row(f"  {name}", Text(value))
     _print(Text(title, style="bold"))
     if description:
         _print(Text(description))
@@ -145,7 +100,9 @@ def _choice(
 
     table = Table("Number", "Name", "Object", heading, box=SIMPLE)
     for record, detail in zip(found, last, strict=True):
-        table.add_row(f"{letter}{record.number}", Text(record.name), _object(record), Text(detail))
+        table.add_row(
+            f"{letter}{record.number}", Text(record.name), object_of(record), Text(detail)
+        )
     return table
 
 
@@ -197,19 +154,3 @@ def _flag_fields(flag: Flag) -> dict[str, Any]:
         "reference": flag.ref,
         "erratum": flag.erratum,
     }
-
-
-def _object(record: Parameter | Flag) -> str:
-    return record.object if record.index is None else f"{record.object} {record.index}"
-
-
-def _packet(packet: Packet | None) -> str:
-    if packet is None:
-        return "none documented"
-    code, index, mask = packet.code, packet.group_index, packet.mask
-    request = bytes((GET_PACKET, code, index, mask)).hex(" ").upper()
-    return f"{request} (group 0x{code:02X}, index 0x{index:02X}, mask 0x{mask:02X})"
-
-
-def _has_meaning(flag: Flag) -> bool:
-    return flag.access is not Access.RESERVED and flag.name not in (RESERVED, UNDOCUMENTED)

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from openacr.cnc.interpreter.survey import Survey
     from openacr.cnc.program.program import Program
     from openacr.cnc.reading.findings import Finding
-    from openacr.mill.plan.forecast import Desk
     from openacr.mill.plan.predicting import Prediction, Reader
     from openacr.sysvar import Store
 
@@ -120,9 +119,11 @@ def check_program(
     as_json: AsJson = False,
 ) -> None:
     """Find all errors of a part program, and summarize what it does."""
+    from openacr.mill.plan.checking import checked
+
     with opened_store(store) as cells:
         program, name = loaded(file, cells, dialect)
-        survey, prediction = _checked(program, cells, name)
+        survey, prediction = checked(program, cells, name)
     survey.findings = in_folder(survey.findings, file)
     left_out = _left_out(prediction)
     if as_json:
@@ -151,11 +152,13 @@ def time_program(
     every_s: Every = None,
 ) -> None:
     """Predict the run time of a part program from the plan of its moves."""
+    from openacr.mill.plan.checking import surveyed
+
     require_trace(trace, every_s)
     with opened_store(store) as cells:
         program, name = loaded(file, cells, dialect)
         with _sampled(cells, trace, every_s) as reader:
-            survey, prediction = _surveyed(
+            survey, prediction = surveyed(
                 program, cells, name, is_dry=is_dry, rounds=not is_exact, reader=reader
             )
     survey.findings = in_folder(survey.findings, file)
@@ -189,51 +192,6 @@ def _sampled(cells: "Store", path: Path | None, every_s: float | None) -> "Itera
         trajectory = Trajectory(settings, every_s or PERIOD_S, write)
         yield trajectory
         trajectory.close()
-
-
-def _checked(program: "Program", cells: "Store", dialect: str) -> "tuple[Survey, Prediction]":
-    """Read a program once, and check its moves against the machine of the store."""
-    from openacr.mill.config.settings import Settings
-    from openacr.mill.plan.preflight import Preflight
-
-    preflight = Preflight(Settings(cells))
-    found, prediction = _surveyed(program, cells, dialect, is_dry=False, desk=preflight)
-    found.add(preflight.findings(program.text_of))
-    return found, prediction
-
-
-def _surveyed(
-    program: "Program",
-    cells: "Store",
-    dialect: str,
-    *,
-    is_dry: bool,
-    rounds: bool = True,
-    reader: "Reader | None" = None,
-    desk: "Desk | None" = None,
-) -> "tuple[Survey, Prediction]":
-    """Read a program once, for the survey and for its time."""
-    from openacr.cnc.interpreter.interpreter import Options
-    from openacr.cnc.interpreter.survey import survey
-    from openacr.cnc.state.hosts import VirtualMachine
-    from openacr.mill.config.curves import can_plan
-    from openacr.mill.config.settings import NONE, Settings
-    from openacr.mill.plan.forecast import Forecast
-    from openacr.mill.plan.predicting import Predictor
-    from openacr.mill.plan.preflight import Preflight
-
-    settings = Settings(cells)
-    begin = (0.0,) * 8
-    predictor: Predictor | Forecast = Forecast(
-        settings, begin, is_dry=is_dry, rounds=rounds, desk=desk
-    )
-    if reader is not None or can_plan(settings):  # every move is read, or curves are planned
-        either = reader or (desk if isinstance(desk, Preflight) else None)
-        predictor = Predictor(settings, begin, is_dry=is_dry, rounds=rounds, reader=either)
-    machine = VirtualMachine(is_probed=settings.wiring.probe != NONE)
-    found = survey(program, cells, dialect, Options(is_dry=is_dry), machine, predictor.add)
-    predictor.close()
-    return found, predictor.found
 
 
 def _times(prediction: "Prediction") -> dict[str, float]:

@@ -55,12 +55,13 @@ def load(
     dialect: str = "acromill",
     folders: Folders | None = None,
     name: str = "PROGRAM",
+    folder: Path | None = None,
 ) -> Program:
-    """Load a program from a file or from text."""
+    """Load a program from a file or from text; a text includes files of `folder`."""
     if isinstance(source, Path):
         text, folder = Text.file(source), source.parent
     else:
-        text, folder = Text.of(source, name), None
+        text = Text.of(source, name)
     return Loader(cells, DIALECTS[dialect], folders or Folders()).load(text, folder)
 
 

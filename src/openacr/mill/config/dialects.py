@@ -79,7 +79,12 @@ def choose(file: Path | None, cells: Cells, wanted: str | None = None) -> Choice
 
     `wanted` "auto" ignores the store. Without a file the dialect is `acromill`.
     """
-    lines = _head(file) if file else []
+    return choose_for(_beginning(file) if file else b"", cells, wanted)
+
+
+def choose_for(data: bytes, cells: Cells, wanted: str | None = None) -> Choice:
+    """The same for the program that these bytes are, or begin."""
+    lines = _head(data)
     found = likely(lines, int(cells.read(CONTROL.ij_inversion)))
     signs = tuple(found.reasons)
     if wanted and wanted.lower() != AUTO:
@@ -105,9 +110,12 @@ def _known(name: str) -> str:
     return name.lower()
 
 
-def _head(file: Path) -> list[str]:
-    """The complete lines at the start of a file."""
+def _beginning(file: Path) -> bytes:
     with file.open("rb") as opened:
-        data = opened.read(HEAD_BYTES)
-    lines = data.decode("latin-1").splitlines()
+        return opened.read(HEAD_BYTES)
+
+
+def _head(data: bytes) -> list[str]:
+    """The complete lines at the start of a file."""
+    lines = data[:HEAD_BYTES].decode("latin-1").splitlines()
     return lines if len(data) < HEAD_BYTES else lines[:-1]

@@ -90,8 +90,7 @@ def check_text(text: str, name: str, folder: Path, store: Path, dialect: str) ->
     """Check a text that is being edited; files it includes are found in `folder`."""
     with Store(store) as cells:
         language = dialect or choose(None, cells).name
-        program = load(text, cells, language, folders_of(cells, store.parent), name)
-        program.folder = folder
+        program = load(text, cells, language, folders_of(cells, store.parent), name, folder)
         return _read(program, cells, language, has_path=False)
 
 
