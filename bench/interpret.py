@@ -6,13 +6,11 @@
 import math
 import random
 import shutil
-import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
-from bench.figures import at_least, at_most, best_s, value_only
+from bench.figures import at_least, at_most, best_s, command_s, value_only
 from openacr.cnc.canonical import Entry
 from openacr.cnc.interpreter.interpreter import Interpreter, Options
 from openacr.cnc.loading.load import load
@@ -86,23 +84,13 @@ def interpreted(source: str | Path, dialect: str = "acromill") -> list[Entry]:
     return list(Interpreter(program, cells, VirtualMachine(), dialect, options).entries())
 
 
-def _run_s(command: list[str]) -> float:
-    """The least wall-clock time of a command."""
-    found = []
-    for _ in range(3):
-        began = time.perf_counter()
-        subprocess.run(command, check=False, capture_output=True)
-        found.append(time.perf_counter() - began)
-    return min(found)
-
-
 def _theirs_s(path: Path) -> float:
     """The same program by the interpreter of LinuxCNC; 0 where that is not installed."""
     rs274 = shutil.which("rs274")
     if rs274 is None:
         print("  rs274 of LinuxCNC (linuxcnc-uspace): not installed")
         return 0.0
-    return _run_s([rs274, "-g", str(path), "/dev/null"])
+    return command_s([rs274, "-g", str(path), "/dev/null"], may_fail=True)
 
 
 def _file(name: str, text: str, most: float) -> None:
@@ -115,7 +103,7 @@ def _file(name: str, text: str, most: float) -> None:
         path.write_text(text)
         command = "from openacr.cli.main import main; main()"
         arguments = ["mill", "check", "--dialect", "rs274ngc", str(path)]
-        check_s = _run_s([sys.executable, "-c", command, *arguments])
+        check_s = command_s([sys.executable, "-c", command, *arguments])
         value_only(f"  openacr mill check of {lines} lines", check_s, "s")
         theirs_s = _theirs_s(path)
         if theirs_s:
@@ -125,8 +113,8 @@ def _file(name: str, text: str, most: float) -> None:
 
 
 def main() -> None:
-    _file("a finishing program", finishing(LINES), 2.0)
-    _file("a shop file", mixed(MIXED), 5.0)
+    _file("a finishing program", finishing(LINES), 1.0)
+    _file("a shop file", mixed(MIXED), 1.5)
     passes = PASSES / best_s(lambda: interpreted(LOOP), 3)
     at_least("passes of a macro loop of 6 lines per second", passes, 100_000, "1/s")
     words = "\n".join(f"G1 X{k}.5 Y(P200*{k % 7}) M8 F{k % 50 + 1}" for k in range(10_000))

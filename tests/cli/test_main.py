@@ -6,12 +6,14 @@ import sys
 from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
+from typing import Annotated
 
 import pytest
+import typer
 from typer.testing import CliRunner
 
 from openacr.cli.commands import COMMANDS, Entry, Family
-from openacr.cli.main import app
+from openacr.cli.main import SubCommand, app
 
 
 def all_entries(
@@ -46,11 +48,16 @@ def test_help_lists_every_command() -> None:
 
 
 HEAVY = {"numpy", "matplotlib", "rich", "asyncio", "serial", "starlette"}
+SLOW = {"pydantic", "importlib.metadata", "importlib.resources", "zipfile"}
 
 
 @pytest.mark.parametrize(
     ("arguments", "heavy"),
-    [(["--help"], HEAVY | {"msgspec"}), (["mill", "check", "part.nc"], HEAVY - {"rich"})],
+    [
+        (["--help"], HEAVY | {"msgspec", "pydantic"}),
+        (["mill", "check", "part.nc"], HEAVY - {"rich"} | SLOW),
+        (["mill", "check", "--json", "--dialect", "acromill", "part.nc"], HEAVY - {"rich"} | SLOW),
+    ],
 )
 def test_what_answers_at_once_imports_nothing_heavy(
     arguments: list[str], heavy: set[str], tmp_path: Path
@@ -68,6 +75,66 @@ def test_what_answers_at_once_imports_nothing_heavy(
         [sys.executable, "-c", code], check=True, capture_output=True, cwd=tmp_path, env=environment
     )
     assert result.stderr.decode().splitlines() == ["0", "[]"]
+
+
+def converted(words: list[str]) -> dict[str, object]:
+    """What a command with every kind of parameter receives."""
+    got: dict[str, object] = {}
+
+    def command(
+        file: Annotated[Path, typer.Argument()],
+        others: Annotated[list[Path] | None, typer.Argument()] = None,
+        name: Annotated[str, typer.Option()] = "none",
+        store: Annotated[Path | None, typer.Option()] = None,
+        kept: Annotated[Path | None, typer.Option(exists=True)] = None,
+        folder: Annotated[Path | None, typer.Option(file_okay=False)] = None,
+        count: Annotated[int, typer.Option(min=1)] = 3,
+        is_on: Annotated[bool, typer.Option("--on")] = False,
+        tags: Annotated[list[str] | None, typer.Option()] = None,
+    ) -> None:
+        got.update(locals())
+
+    single = typer.Typer(add_completion=False, rich_markup_mode=None)
+    single.command(cls=SubCommand)(command)
+    result = CliRunner().invoke(single, words)
+    got["stderr"] = result.stderr
+    got.pop("got", None)
+    return got
+
+
+def test_values_of_parameters_have_the_types_of_the_command() -> None:
+    few = converted(["a.nc"])
+    assert few == {
+        "file": Path("a.nc"), "others": None, "name": "none", "store": None, "kept": None,
+        "folder": None, "count": 3, "is_on": False, "tags": None, "stderr": "",
+    }  # fmt: skip
+    words = "a.nc b.nc c.nc --name 7 --store x/y --count 5 --on --tags p --tags q"
+    assert converted(words.split()) == few | {
+        "others": [Path("b.nc"), Path("c.nc")], "name": "7", "store": Path("x/y"), "count": 5,
+        "is_on": True, "tags": ["p", "q"],
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--count", "0"], "Invalid value for '--count'"),
+        (["--count", "a"], "Invalid value for '--count'"),
+        (["--kept", "nowhere"], "path 'nowhere' does not exist"),
+        (["--folder", __file__], "is a file"),
+    ],
+)
+def test_rules_of_a_parameter_are_kept(words: list[str], said: str) -> None:
+    assert said in " ".join(str(converted(["a.nc", *words])["stderr"]).split())
+
+
+def test_a_file_that_may_not_be_read_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "a.nc"
+    path.touch()
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    assert "is not readable" in " ".join(str(converted([str(path)])["stderr"]).split())
 
 
 def test_a_slip_gets_a_suggestion() -> None:

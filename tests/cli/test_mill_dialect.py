@@ -7,6 +7,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from openacr.cli.main import app
+from openacr.cnc.loading import likely
 from openacr.sysvar import Store
 
 FUSION = "%\n(Fusion 360)\nG90 G94\nG0 X1\nG1 X2 F10\nM30\n%\n"
@@ -32,6 +33,18 @@ def mill(*words: str) -> Result:
 def put(store: Path, value: float) -> None:
     with Store(store) as cells:
         cells.write(DIALECT, value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [(FUSION, ["--dialect", "rs274ngc"]), (f";dialect rs274ngc\n{FUSION}", [])],
+)
+def test_features_are_not_searched_where_the_dialect_is_chosen(
+    store: Path, monkeypatch: pytest.MonkeyPatch, text: str, words: list[str]
+) -> None:
+    Path("a.nc").write_text(text)
+    monkeypatch.setattr(likely, "_signs", lambda line: pytest.fail(line))
+    assert mill("check", "a.nc", *words).exit_code == 0
 
 
 def test_a_file_of_a_cam_system_is_read_without_a_word_about_dialects(store: Path) -> None:

@@ -7,8 +7,12 @@ from tests.cnc.programs import CYCLES, STORE, Bench, Run, errors, made, run
 
 from openacr.cnc.canonical import Dwell, Line, Orient, Probe, Rapid, Spindle
 from openacr.cnc.codes.gcodes.work import clear_zero, preset_zero
+from openacr.cnc.codes.table import DIALECTS
 from openacr.cnc.interpreter.interpreter import Options
+from openacr.cnc.loading import supplied
 from openacr.cnc.loading.load import load
+from openacr.cnc.loading.supplied import cycle_part
+from openacr.cnc.reading.parser import parse
 
 Z2 = (0.0, 0.0, 2.0)
 
@@ -379,3 +383,16 @@ def test_boring_by_hand_returns_to_the_level_that_is_asked_for(level: str, z: fl
     done = run(f"F10 G0 Z2\n{level} G88 X3 Y4 Z-1 R1{CYCLES}")
     assert done.ends[-1] == (3.0, 4.0, z)
     assert [end[2] for end in done.ends] == [2.0, 2.0, 1.0, -1.0, z]
+
+
+def test_the_labels_of_the_supplied_cycles_are_those_the_parser_finds() -> None:
+    part = cycle_part()
+    lines = Path(supplied.__file__).with_name("CYCLES.TXT").read_text().splitlines()
+    parsed = {
+        block.label: line
+        for line, raw in enumerate(lines, 1)
+        if (block := parse(raw, DIALECTS["acromill"].grammar)).label is not None
+    }
+    assert len(parsed) > 12
+    found = {label: part.labels.get(label) for label in parsed}
+    assert {label: place.line for label, place in found.items() if place} == parsed

@@ -1,7 +1,10 @@
 """In which dialect a text is probably written, and by what one knows."""
 
+import re
+
 import pytest
 
+from openacr.cnc.loading import likely as module
 from openacr.cnc.loading.likely import likely
 
 NGC, ACR = "rs274ngc", "acromill"
@@ -114,3 +117,22 @@ def test_the_strongest_reasons_are_given_in_the_order_of_the_lines() -> None:
         "G93 in line 5",
         "named parameter in line 6",
     ]
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["G0 1", "G1 .1", "G2.1", "G04 P1", "G0X1G91.1", "X1 @2", "N5 G94", "F10 P1=2", "X1 G01.2"],
+)
+def test_no_sign_is_missed_beside_ordinary_words(
+    line: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = signs(line)
+    monkeypatch.setattr(module, "_ORDINARY", re.compile("(?!)"))
+    assert signs(line) == found
+
+
+def test_ordinary_lines_have_no_sign_of_their_own() -> None:
+    texts = ["N10 G1 X1.5 Y-.5 F100", "G00Z5", "X 1 Y 2", "g3 x1 y2 i.5 j.5", "G0 X1G1Y2", ""]
+    for text in texts:
+        assert module._ORDINARY.fullmatch(text.upper()), text
+        assert list(module._signs(text.upper())) == []

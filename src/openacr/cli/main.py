@@ -16,13 +16,14 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 from openacr.cli.commands import COMMANDS, Entry, Family
+from openacr.cli.conversions import quick
 from openacr.cli.refusals import failed_json, parts_of
 from openacr.errors import OpenacrError
 from openacr.lang.characters import shown
 
 BAD_INPUT = 2
 INTERRUPTED = 130
-MANY_OBJECTS = 50_000
+MANY_OBJECTS = 250_000
 
 
 HELP = {"help_option_names": ["-h", "--help"]}
@@ -30,6 +31,10 @@ HELP = {"help_option_names": ["-h", "--help"]}
 
 class SubCommand(TyperCommand):
     """Sub-command; with --json, input errors are also reported as an object on stdout."""
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """The parameters, converted without pydantic where that is possible."""
+        return quick(super().get_params(ctx))
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the words; the error hints at a file whose name begins with a minus."""
@@ -76,6 +81,10 @@ class LazyGroup(TyperGroup):
         super().__init__(**attributes)
         names: dict[str, Any] = dict.fromkeys(self.table)
         self.commands.update(names)  # for suggestions after a typing error
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """The parameters, converted without pydantic where that is possible."""
+        return quick(super().get_params(ctx))
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Name the sub-commands in the order of their table."""

@@ -23,6 +23,11 @@ MOST_REASONS = 4
 
 _REMARK = re.compile(r"\(([^()]*)\)|;(.*)")
 _WORD = re.compile(r"([A-Z])\s*([-+]?(?:\d+\.?\d*|\.\d+))")
+# Lines of moves with numbers alone have no sign but that of their arcs.
+_ORDINARY = re.compile(
+    r"\s*(?:N\d+\s*)?"
+    r"(?:(?:G0*[0-3](?![\d.\s])|G0*[0-3]\s+(?![\d.])|[FIJKRXYZ]\s*[-+]?(?:\d+\.?\d*|\.\d+))\s*)*"
+)
 _EXPRESSION = re.compile(r"[\[#=]|[XYIJ]\s*\(")
 _MAKERS = re.compile(
     r"\b(fusion(?: ?360)?|hsm(?:works|express)?|mastercam|vectric|v-?carve(?: pro)?|cut2d"
@@ -109,6 +114,8 @@ def likely(lines: Iterable[str], centres: int = 2) -> Likely:
     for number, raw in enumerate(lines, start=1):
         text = raw.upper()
         arcs.read_line(number, text)
+        if _ORDINARY.fullmatch(text):
+            continue
         for dialect, weight, what in _signs(text):
             found.setdefault((dialect, what), Sign(dialect, weight, what, number))
     result = Likely(list(found.values()))

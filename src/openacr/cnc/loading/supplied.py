@@ -1,16 +1,14 @@
 """The supplied cycles, and files found without regard to the case of their names."""
 
 import re
-from importlib.resources import files
 from pathlib import Path
 
-from openacr.cnc.codes.table import DIALECTS
 from openacr.cnc.program.labels import Place
 from openacr.cnc.program.program import CYCLES_FILE, Part
-from openacr.cnc.reading.parser import parse
-from openacr.cnc.reading.text import Kept, Text, decoded
+from openacr.cnc.reading.text import Kept, Text
 
 CUSTOM_NAME = re.compile(r"M(\d+)\.TXT", re.IGNORECASE)
+_LABEL = re.compile(rb"N(\d+)")
 
 
 def cycle_part() -> Part:
@@ -21,21 +19,19 @@ def cycle_part() -> Part:
 
 
 def add_labels(part: Part) -> None:
-    """Add the labels of a text that is known to be free of errors."""
-    grammar = DIALECTS["acromill"].grammar
+    """Add the labels of a text that is known to be free of errors and begins lines with them."""
     offset, line = part.text.begin, 0
     while (taken := part.text.line(offset)) is not None:
         line += 1
-        block = parse(decoded(taken[0]), grammar)
-        if block.label is not None:
-            part.labels.add(block.label, Place(part, offset, line))
+        label = _LABEL.match(taken[0])
+        if label is not None:
+            part.labels.add(int(label[1]), Place(part, offset, line))
         offset = taken[1]
 
 
 def supplied_cycles() -> Text:
     """The canned cycles that come with the package."""
-    data = files("openacr.cnc.loading").joinpath("CYCLES.TXT").read_bytes()
-    return Text(CYCLES_FILE, Kept(data))
+    return Text(CYCLES_FILE, Kept(Path(__file__).with_name("CYCLES.TXT").read_bytes()))
 
 
 def found_in(folder: Path, name: str) -> Path | None:

@@ -1,12 +1,14 @@
 """Choice of the part-program language: by option, by the file, by the store, or by its features."""
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property, partial
 from pathlib import Path
 
 from openacr.cnc.codes import dialects as _registered  # noqa: F401 - fills the table
 from openacr.cnc.codes.table import DIALECTS
-from openacr.cnc.loading.likely import ACROMILL, RS274NGC, likely
+from openacr.cnc.loading.likely import ACROMILL, RS274NGC, Likely, likely
 from openacr.cnc.state.hosts import Cells
 from openacr.errors import UserError
 from openacr.sysvar.tabs import COMPATIBILITY, CONTROL
@@ -23,15 +25,37 @@ HEAD_BYTES = 1 << 18  # searched for features of a dialect
 _MARK = re.compile(r"\s*[;(]\s*dialect\s+(\w+)", re.IGNORECASE)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Choice:
-    """The dialect of a program, what chose it, and why it is likely."""
+    """The dialect of a program, what chose it, and why it is likely.
+
+    The features of the file are searched when they are asked for: a chosen dialect of a program
+    without errors needs none.
+    """
 
     name: str
     by: str  # "option", "file", "store" or "signs"
-    reasons: tuple[str, ...] = ()
-    likely: str = ACROMILL
-    doubts: tuple[str, ...] = ()  # features of another dialect than the likely one
+    search: Callable[[], Likely] = Likely
+
+    @cached_property
+    def found(self) -> Likely:
+        """The features of the file."""
+        return self.search()
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """The features of the likely dialect."""
+        return tuple(self.found.reasons)
+
+    @property
+    def likely(self) -> str:
+        """The dialect of most features."""
+        return self.found.dialect
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """The features of another dialect than the likely one; they decide nothing if it is set."""
+        return tuple(self.found.doubts) if self.by == "signs" else ()
 
     @property
     def is_doubtful(self) -> bool:
@@ -85,18 +109,18 @@ def choose(file: Path | None, cells: Cells, wanted: str | None = None) -> Choice
 def choose_for(data: bytes, cells: Cells, wanted: str | None = None) -> Choice:
     """The same for the program that these bytes are, or begin."""
     lines = _head(data)
-    found = likely(lines, int(cells.read(CONTROL.ij_inversion)))
-    signs = tuple(found.reasons)
+    search = partial(likely, lines, int(cells.read(CONTROL.ij_inversion)))
     if wanted and wanted.lower() != AUTO:
-        return Choice(_known(wanted), "option", signs, found.dialect)
+        return Choice(_known(wanted), "option", search)
     marks = (_MARK.match(line[:256]) for line in lines[:HEAD_LINES])
     named = next((mark[1] for mark in marks if mark), None)
     if named and named.lower() != AUTO:
-        return Choice(_known(named), "file", signs, found.dialect)
+        return Choice(_known(named), "file", search)
     stored = BY_NUMBER[int(cells.read(COMPATIBILITY.dialect))]
     if stored != AUTO and not wanted:
-        return Choice(stored, "store", signs, found.dialect)
-    return Choice(found.dialect, "signs", signs, found.dialect, tuple(found.doubts))
+        return Choice(stored, "store", search)
+    found = search()
+    return Choice(found.dialect, "signs", lambda: found)
 
 
 def dialect_of(file: Path | None, cells: Cells, wanted: str | None = None) -> str:

@@ -1,0 +1,45 @@
+"""Words of the command line as texts and paths, without the package typer uses for it.
+
+typer (0.29) imports pydantic for every parameter, also for one that is not given. That takes
+longer than a short command does.
+"""
+
+import os
+from pathlib import Path
+from typing import Any
+
+# Rules of typer for a text or a path. With any of them the conversion is left to it.
+RULES = (
+    "parser", "click_type", "exists", "resolve_path", "writable", "path_type", "allow_dash",
+)  # fmt: skip
+CONVERSION = "_runtime_param"  # the attribute of a parameter that typer converts by, if it is set
+
+
+class Quick:
+    """Conversion of the values of one parameter; more than a text or a path goes to typer."""
+
+    def __init__(self, parameter: Any) -> None:
+        info = parameter.type_descriptor.parameter_info
+        has_rules = any(getattr(info, name, None) for name in RULES)
+        is_plain = info.file_okay and info.dir_okay and not has_rules
+        self._is_many = parameter.multiple or parameter.nargs != 1
+        kind = parameter.type_descriptor.annotation
+        self._kind = kind if is_plain and kind in (str, Path) and not self._is_many else None
+
+    def coerce(self, value: Any, param: Any, ctx: Any) -> Any:
+        """The value of a parameter; None, or no values, where it is not given."""
+        if value is None:
+            return () if self._is_many else None
+        made = self._kind(value) if self._kind else None
+        if made is None or (isinstance(made, Path) and not os.access(made, os.R_OK)):
+            setattr(param, CONVERSION, None)
+            return param.get_runtime_param().coerce(value, param=param, ctx=ctx)
+        return made
+
+
+def quick(parameters: list[Any]) -> list[Any]:
+    """Parameters of a command with the quick conversion."""
+    for parameter in parameters:
+        if getattr(parameter, CONVERSION, "") is None:
+            setattr(parameter, CONVERSION, Quick(parameter))
+    return parameters
