@@ -245,3 +245,44 @@ def test_files_are_written_once_and_read_back_from_the_card(tmp_path: Path) -> N
     refused = runner.invoke(app, ["configure", source, str(no_folder)])
     assert refused.exit_code == 2
     assert f"{no_folder}: cannot be written: not a directory" in refused.output
+
+
+def test_every_line_can_carry_a_remark_that_explains_it(answers: Answers, setup: list[str]) -> None:
+    lines = code_files(answers, TEXT, is_explained=True)["setup.8k"].splitlines()
+    assert [line.partition(" : REM ")[0] for line in lines] == setup
+    meanings = dict(line.split(" : REM ") for line in lines if " : REM " in line)
+    assert set(meanings) == set(statements(setup))
+    assert meanings["AXIS0 PPU 39999.999404"] == "Set the pulses per unit"
+    assert meanings["SET BIT16148"] == (
+        "Positive Hardware Limit Enable on: The switch stops the axis (HLIM)"
+    )
+    assert meanings["CLR BIT16150"] == (
+        "Positive Software Limit Enable off: SLM stops the axis (SLIM)"
+    )
+    assert meanings["P32768=5"] == "Master Node ID: Node number of the controller, 1 to 127"
+    assert meanings["VEL 10"] == "Set the speed of moves"
+
+
+def test_explained_code_is_written_to_a_folder(tmp_path: Path) -> None:
+    words = ["configure", "--explain", str(EXAMPLE / "configure.toml"), str(tmp_path)]
+    assert CliRunner().invoke(app, words).exit_code == 0
+    assert "\nVEL 10 : REM Set the speed of moves\n" in (tmp_path / "setup.8k").read_text()
+
+
+def test_plcs_of_the_user_get_memory_before_those_that_watch_limits() -> None:
+    def dimensions(count: int, firmware: str) -> list[str]:
+        text = TEXT.replace("[card]", f'[card]\nplcs = {count}\nfirmware = "{firmware}"')
+        code = code_files(parse_answers(text), text)["setup.8k"].splitlines()
+        return [line for line in code if line.startswith("DIM PLC")]
+
+    assert dimensions(0, "1.18.15") == []
+    assert dimensions(2, "1.18.15") == ["DIM PLC0(4096)", "DIM PLC1(4096)"]
+    old = [f"DIM PLC{number}(4096)" for number in (5, 6, 7)]
+    assert dimensions(0, "1.18.06") == old[: len(dimensions(0, "1.18.06"))] != []
+    assert dimensions(5, "1.18.06")[:5] == [f"DIM PLC{number}(4096)" for number in range(5)]
+    assert dimensions(5, "1.18.06")[5:] == dimensions(0, "1.18.06")
+
+
+def test_more_plcs_than_limit_code_leaves_are_refused() -> None:
+    with pytest.raises(SourceError, match="plcs: expected `int` <= 5"):
+        parse_answers(TEXT.replace("[card]", "[card]\nplcs = 6"))

@@ -26,6 +26,7 @@ class Family(NamedTuple):
 
 
 COMMANDS: dict[str, Entry | Family] = {
+    "new": Entry("new", "new"),
     "run": Entry("run.command", "run"),
     "serve": Entry("serve", "serve"),
     "panel": Entry("panel", "panel"),

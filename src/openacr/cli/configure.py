@@ -21,6 +21,9 @@ def configure(
         typer.Argument(help="Project folder for the files; default: print them."),
     ] = None,
     is_forced: Annotated[bool, typer.Option("--force", help="Replace existing files.")] = False,
+    is_explained: Annotated[
+        bool, typer.Option("--explain", help="Explain every line of the set-up file by a remark.")
+    ] = False,
 ) -> None:
     """Generate the configuration code of a machine from answers in a file.
 
@@ -35,7 +38,7 @@ def configure(
     if answers.suffix.lower() == ".8k":
         text = kept_answers(text.splitlines())
     found = parse_answers(text, str(answers))
-    files = code_files(found, text)
+    files = code_files(found, text, is_explained=is_explained)
     for sentence in warnings(found):
         typer.echo(f"warning: {sentence}", err=True)
     if folder is None:

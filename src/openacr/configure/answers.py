@@ -24,6 +24,7 @@ NotNegative = Annotated[float, Meta(ge=0, le=1e9)]
 Finite = Annotated[float, Meta(ge=-1e9, le=1e9)]
 Counts = Annotated[int, Meta(ge=1, le=100_000_000)]
 Volts = Annotated[float, Meta(ge=0, le=10)]
+UserPlcs = Annotated[int, Meta(ge=0, le=5)]  # generated limit code has the others
 Firmware = Annotated[str, Meta(pattern=r"^\d+\.\d+\.\d+$")]
 
 
@@ -41,12 +42,16 @@ class CanOpen(_Table, frozen=True):
 
 
 class CardAnswers(_Table, frozen=True):
-    """The card: `minimal` omits the settings of analog inputs and CANopen nodes."""
+    """The card: `minimal` omits the settings of analog inputs and CANopen nodes.
+
+    `plcs` is how many PLCs of the user get memory, from PLC0 on.
+    """
 
     model: ModelName = ModelName(DEFAULT_MODEL.name)
     option: str = ""
     firmware: Firmware = "1.18.15"
     minimal: bool = False
+    plcs: UserPlcs = 0
     canopen: CanOpen = CanOpen()
 
     @property

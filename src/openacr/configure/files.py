@@ -1,18 +1,22 @@
 """All files of a configuration by their names in a project."""
 
 from openacr.configure.answers import Answers
-from openacr.configure.setup_code import WATCH_PROGRAM, setup_code
+from openacr.configure.explained import explained
+from openacr.configure.setup_code import FIRST_PLC, WATCH_PROGRAM, setup_code
 from openacr.configure.watch_code import data_code, plc_codes, watch_code
 
 DATA_PROGRAM = 15
-FIRST_PLC = 5
 SETUP = "setup.8k"
 
 
-def code_files(answers: Answers, source: str) -> dict[str, str]:
-    """The controller files made of the answers, whose text is `source`."""
+def code_files(answers: Answers, source: str, *, is_explained: bool = False) -> dict[str, str]:
+    """The controller files made of the answers, whose text is `source`.
+
+    With `is_explained` every line of the set-up file has a remark that says what it does.
+    """
     plcs = [] if answers.card.watches_limits else plc_codes(answers)
-    files = {SETUP: setup_code(answers, len(plcs))}
+    setup = setup_code(answers, len(plcs))
+    files = {SETUP: explained(setup) if is_explained else setup}
     for place, rungs in enumerate(plcs):
         files[f"plc{FIRST_PLC + place}.8k"] = iter(rungs)
     if plcs:

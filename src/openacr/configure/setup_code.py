@@ -9,6 +9,7 @@ from openacr.configure.answers import Answers, AxisAnswers, MasterAnswers
 PROGRAM_BYTES = (8192, 4096, *[1000] * 13, 28672)  # PROG0 to PROG15
 WATCH_PROGRAM, WATCH_BYTES = 7, 28672
 PLC_BYTES = 4096
+FIRST_PLC = 5  # of those that watch the limits
 USER_PARAMETERS, WATCHED_PARAMETERS = 100, 201
 DEFINES = 20
 SOFT_POSITIVE, SOFT_NEGATIVE = 100, 116  # P100-P115, P116-P131: limits by axis
@@ -42,7 +43,8 @@ def _memory(answers: Answers, plcs: int) -> Iterator[str]:
     for program, size in enumerate(PROGRAM_BYTES):
         is_watch = plcs > 0 and program == WATCH_PROGRAM
         yield f"DIM PROG{program}({WATCH_BYTES if is_watch else size})"
-    yield from (f"DIM PLC{number}({PLC_BYTES})" for number in range(5, 5 + plcs))
+    numbers = (*range(answers.card.plcs), *range(FIRST_PLC, FIRST_PLC + plcs))
+    yield from (f"DIM PLC{number}({PLC_BYTES})" for number in numbers)
     yield f"DIM P({WATCHED_PARAMETERS if plcs else USER_PARAMETERS})"
     yield f"DIM DEF({DEFINES})"
     yield ""
