@@ -8,8 +8,6 @@ import os
 import re
 import select
 import signal
-import socket
-import struct
 import subprocess
 import sys
 import threading
@@ -18,8 +16,6 @@ import tty
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 from openacr.client import Card
 from openacr.map.numbers import AF1_JOG_ACTIVE, AF1_WORD, MF1_IN_MOTION, MF1_WORD
@@ -85,90 +81,6 @@ class Process:
         self._reader.join(LIMIT_S)
         assert self._process.stdout is not None
         self._process.stdout.close()
-
-
-class Proxy:
-    """A line between host and card that can be cut, frozen and reset."""
-
-    def __init__(self, address: str) -> None:
-        host, port = address.rsplit(":", 1)
-        self._target = (host, int(port))
-        self._server = socket.create_server(("127.0.0.1", 0))
-        self.address = f"127.0.0.1:{self._server.getsockname()[1]}"
-        self._pairs: list[tuple[socket.socket, socket.socket]] = []
-        self._flows = threading.Event()
-        self._flows.set()
-        self._is_cut = self._is_over = False
-        threading.Thread(target=self._accept, daemon=True).start()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:  # fmt: skip
-        self._is_over = True
-        self._flows.set()
-        self._server.close()
-        self._close()
-
-    def _accept(self) -> None:
-        while not self._is_over:
-            try:
-                near, _ = self._server.accept()
-            except OSError:
-                return
-            if self._is_cut:
-                near.close()
-                continue
-            far = socket.create_connection(self._target)
-            self._pairs.append((near, far))
-            for source, sink in ((near, far), (far, near)):
-                source.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-                threading.Thread(target=self._copy, args=(source, sink), daemon=True).start()
-
-    def _copy(self, source: socket.socket, sink: socket.socket) -> None:
-        with suppress(OSError):
-            while data := source.recv(65536):
-                self._flows.wait()
-                sink.sendall(data)
-        with suppress(OSError):
-            sink.shutdown(socket.SHUT_WR)
-
-    def freeze(self) -> None:
-        """Nothing goes through, in neither direction, and no end hears of it."""
-        self._flows.clear()
-
-    def thaw(self) -> None:
-        """What was held back arrives, and all that follows."""
-        self._flows.set()
-
-    def cut(self) -> None:
-        """Both ends are closed, and no new connection is made."""
-        self._is_cut = True
-        self._close()
-
-    def mend(self) -> None:
-        """Connections may be made again."""
-        self._is_cut = False
-
-    def reset(self) -> None:
-        """Both ends get a reset; a new connection may be made at once."""
-        for pair in self._pairs:
-            for end in pair:
-                with suppress(OSError):
-                    linger = struct.pack("ii", 1, 0)
-                    end.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
-        self._close()
-
-    def _close(self) -> None:
-        for pair in self._pairs:
-            for end in pair:
-                with suppress(OSError):
-                    end.shutdown(socket.SHUT_RDWR)
-                end.close()
-        self._pairs.clear()
 
 
 @contextmanager

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.mill.live import Plant, Proxy, serial_line, until
+from tests.mill.live import Plant, serial_line, until
+from tests.proxy import Proxy
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no signals of this kind")
 

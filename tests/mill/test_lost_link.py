@@ -5,7 +5,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.mill.live import Plant, Proxy, until
+from tests.mill.live import Plant, until
+from tests.proxy import Proxy
 
 from openacr.client import Card
 

@@ -9,6 +9,8 @@ import httpx
 import pytest
 from tests.panel.bench import LIMIT_S, Served
 
+from openacr.cnc.parts.library import part_named
+
 
 @pytest.fixture
 def web(panel: Served) -> Any:
@@ -243,8 +245,9 @@ def test_parts_of_the_library_have_sizes_and_pictures(web: httpx.Client) -> None
     part = parts[0]
     answer = web.post(f"/api/parts/{part['name']}/path", json={})
     assert answer.content[:4] == b"OAP1"
-    size = part["parameters"][0]
-    wrong = {"values": {size["name"]: size["high"] * 2 + 1}}
+    assert part == part_named(part["name"]).data()  # as the command line describes it
+    size = part["sizes"][0]
+    wrong = {"values": {f"P{size['cell']}": size["high"] * 2 + 1}}
     refused = web.post(f"/api/parts/{part['name']}/path", json=wrong)
     assert refused.status_code == 422
     assert size["text"] in refused.json()["error"]["text"]

@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.mill.live import SERVE, Process, Proxy, until
+from tests.mill.live import SERVE, Process, until
+from tests.proxy import Proxy
 
 from openacr.client import Card
 from openacr.panel.commands.all import carry_out

@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 import websockets
 from tests.panel.bench import LIMIT_S, Client, Served
-from tests.panel.proxy import Proxy
+from tests.proxy import Proxy
 
 from openacr.panel.control.place import read_place
 
@@ -97,7 +97,7 @@ def scene(panel: Served, what: Callable[[Proxy, Finger], Any]) -> None:
     """A finger on X through a proxy; what happens then."""
 
     async def run() -> None:
-        with Proxy(panel.port) as proxy:
+        with Proxy(f"127.0.0.1:{panel.port}") as proxy:
             socket = await websockets.connect(proxy.ws_url, ping_interval=None, close_timeout=0.1)
             finger = Finger(Client(socket))
             await finger.press()

@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import open_page
-from tests.panel.proxy import Proxy
+from tests.proxy import Proxy
 
 LIMIT_S = 10.0
 
@@ -40,7 +40,7 @@ def hold_x(page: Page, served: Served) -> None:
 def test_a_link_that_fails_stops_the_jog_and_comes_back_by_itself(
     context: BrowserContext, served: Served, how: str
 ) -> None:
-    with Proxy(served.port) as proxy:
+    with Proxy(f"127.0.0.1:{served.port}") as proxy:
         page = open_page(context, proxy.url)
         hold_x(page, served)
         (proxy.freeze_down if how == "frozen" else proxy.reset)()

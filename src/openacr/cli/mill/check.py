@@ -152,14 +152,16 @@ def time_program(
     every_s: Every = None,
 ) -> None:
     """Predict the run time of a part program from the plan of its moves."""
+    from openacr.cnc.interpreter.interpreter import Options
     from openacr.mill.plan.checking import surveyed
 
     require_trace(trace, every_s)
     with opened_store(store) as cells:
         program, name = loaded(file, cells, dialect)
         with _sampled(cells, trace, every_s) as reader:
+            options = Options(is_dry=is_dry)
             survey, prediction = surveyed(
-                program, cells, name, is_dry=is_dry, rounds=not is_exact, reader=reader
+                program, cells, name, options=options, rounds=not is_exact, reader=reader
             )
     survey.findings = in_folder(survey.findings, file)
     if survey.errors:

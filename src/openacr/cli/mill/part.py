@@ -11,10 +11,9 @@ from openacr.errors import UserError
 if TYPE_CHECKING:
     from openacr.cnc.parts.library import Ready
     from openacr.cnc.parts.part import Part
+    from openacr.cnc.state.hosts import Cells
 
 INCH, MM = "inch", "mm"
-# Cells of the store with the default unit of programs.
-G21 = 21
 
 
 def complete_part(incomplete: str) -> list[str]:
@@ -110,12 +109,11 @@ def _ready(
         return prepared(part, given, cells, is_metric=is_metric, d_number=tool, feed=feed)
 
 
-def _is_metric(unit: str | None, cells: Any) -> bool:
-    from openacr.sysvar.tabs import DISPLAY, GENERAL
+def _is_metric(unit: str | None, cells: "Cells") -> bool:
+    from openacr.cnc.parts.library import begins_metric
 
     if unit is None:
-        chosen = cells.read(GENERAL.start_unit) if cells.read(GENERAL.start_set_chosen) else 0
-        return bool((chosen or cells.read(DISPLAY.control_mode)) == G21)
+        return begins_metric(cells)
     if unit not in (INCH, MM):
         raise UserError(f"unit {unit!r} is neither {INCH} nor {MM}")
     return unit == MM
@@ -173,7 +171,7 @@ def _list(parts: list["Part"], as_json: bool) -> None:
 
 def _show(part: "Part", as_json: bool) -> None:
     if as_json:
-        _print_json(_description(part))
+        _print_json(part.data())
         return
     from rich.box import SIMPLE
     from rich.table import Table
@@ -187,26 +185,6 @@ def _show(part: "Part", as_json: bool) -> None:
     _print(table)
     for rule in part.rules:
         typer.echo(f"  must hold: {rule.text}")
-
-
-def _description(part: "Part") -> dict[str, Any]:
-    return {
-        "name": part.name,
-        "title": part.title,
-        "start": part.start,
-        "sizes": [
-            {
-                "cell": size.cell,
-                "text": size.text,
-                "unit": size.unit,
-                "default": size.default,
-                "low": size.low,
-                "high": size.high,
-            }
-            for size in part.sizes
-        ],
-        "checks": [rule.text for rule in part.rules],
-    }
 
 
 def _values(ready: "Ready") -> dict[str, Any]:

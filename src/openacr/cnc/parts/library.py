@@ -33,13 +33,14 @@ from openacr.cnc.state.cells import (
 )
 from openacr.cnc.state.hosts import Cells
 from openacr.errors import UserError
-from openacr.sysvar.tabs import CONTROL
+from openacr.sysvar.tabs import CONTROL, DISPLAY, GENERAL
 from openacr.units import MM_PER_INCH
 
 FOLDER = Path(__file__).parent / "library"
 SUFFIX = ".TXT"
 LENGTHS = frozenset((INCH, MM))
 DIGITS = 12
+G21 = 21
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +102,12 @@ def part_named(name: str, folder: Path = FOLDER) -> Part:
 
 
 # --- preparing --------------------------------------------------------------------------
+
+
+def begins_metric(cells: Cells) -> bool:
+    """Whether programs begin in millimetres, as the start set and the DISPLAY tab say."""
+    chosen = cells.read(GENERAL.start_unit) if cells.read(GENERAL.start_set_chosen) else 0
+    return (chosen or cells.read(DISPLAY.control_mode)) == G21
 
 
 def prepared(

@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from openacr.cnc.reading.expressions import ExpressionReader
 from openacr.cnc.reading.findings import CodeError, Finding
@@ -58,6 +58,17 @@ class Size:
     def __str__(self) -> str:
         return f"P{self.cell} {self.text}"
 
+    def data(self) -> dict[str, Any]:
+        """The size as JSON."""
+        return {
+            "cell": self.cell,
+            "text": self.text,
+            "unit": self.unit,
+            "default": self.default,
+            "low": self.low,
+            "high": self.high,
+        }
+
 
 class Rule(NamedTuple):
     """A condition between sizes."""
@@ -91,6 +102,16 @@ class Part:
                 return size
         known = ", ".join(map(str, self.sizes))
         raise UserError(f"{self.name} has no size {wanted.strip()} (it has {known})")
+
+    def data(self) -> dict[str, Any]:
+        """The part with its sizes and what must hold between them, as JSON."""
+        return {
+            "name": self.name,
+            "title": self.title,
+            "start": self.start,
+            "sizes": [size.data() for size in self.sizes],
+            "checks": [rule.text for rule in self.rules],
+        }
 
 
 # --- reading ----------------------------------------------------------------------------

@@ -1,7 +1,9 @@
 """What `openacr mill check` finds: a program read once, its moves checked against the machine."""
 
+from collections.abc import Callable
 from pathlib import Path
 
+from openacr.cnc.canonical import Entry
 from openacr.cnc.interpreter.interpreter import Options
 from openacr.cnc.interpreter.survey import Survey, survey
 from openacr.cnc.loading.load import load
@@ -13,9 +15,11 @@ from openacr.mill.config.dialects import choose_for
 from openacr.mill.config.folders import folders_of
 from openacr.mill.config.settings import NONE, Settings
 from openacr.mill.plan.forecast import Desk, Forecast
-from openacr.mill.plan.predicting import Prediction, Predictor, Reader
+from openacr.mill.plan.predicting import Prediction, Predictor, Reader, Timing
 from openacr.mill.plan.preflight import Preflight
 from openacr.sysvar import Store
+
+BEGIN = (0.0,) * 8
 
 
 def check_text(text: str, path: Path, cells: Store, dialect: str | None = None) -> list[Finding]:
@@ -30,34 +34,60 @@ def check_text(text: str, path: Path, cells: Store, dialect: str | None = None) 
     return checked(program, cells, name)[0].findings
 
 
-def checked(program: Program, cells: Store, dialect: str) -> tuple[Survey, Prediction]:
-    """Read a program once, and check its moves against the machine of the store."""
-    preflight = Preflight(Settings(cells))
-    found, prediction = surveyed(program, cells, dialect, is_dry=False, desk=preflight)
-    found.add(preflight.findings(program.text_of))
-    return found, prediction
-
-
 def surveyed(
     program: Program,
     cells: Store,
     dialect: str,
     *,
-    is_dry: bool,
+    options: Options | None = None,
     rounds: bool = True,
     reader: Reader | None = None,
     desk: Desk | None = None,
+    look: Callable[[Entry], None] | None = None,
 ) -> tuple[Survey, Prediction]:
-    """Read a program once, for the survey and for its time."""
+    """Read a program; `reader` gets every move as it is planned, `desk` those that may be refused.
+
+    `look` gets every canonical entry; `rounds`: as on the virtual machine, which supports path
+    tolerances.
+    """
+    options = options or Options()
     settings = Settings(cells)
-    begin = (0.0,) * 8
-    predictor: Predictor | Forecast = Forecast(
-        settings, begin, is_dry=is_dry, rounds=rounds, desk=desk
-    )
+    timing: Forecast | Predictor
     if reader is not None or can_plan(settings):  # every move is read, or curves are planned
         either = reader or (desk if isinstance(desk, Preflight) else None)
-        predictor = Predictor(settings, begin, is_dry=is_dry, rounds=rounds, reader=either)
+        timing = Predictor(settings, BEGIN, is_dry=options.is_dry, rounds=rounds, reader=either)
+    else:
+        timing = Forecast(settings, BEGIN, is_dry=options.is_dry, rounds=rounds, desk=desk)
     machine = VirtualMachine(is_probed=settings.wiring.probe != NONE)
-    found = survey(program, cells, dialect, Options(is_dry=is_dry), machine, predictor.add)
-    predictor.close()
-    return found, predictor.found
+    found = survey(program, cells, dialect, options, machine, _both(timing, look))
+    timing.close()
+    return found, timing.found
+
+
+def checked(
+    program: Program,
+    cells: Store,
+    dialect: str,
+    *,
+    options: Options | None = None,
+    rounds: bool = True,
+    look: Callable[[Entry], None] | None = None,
+) -> tuple[Survey, Prediction]:
+    """Read a program, with findings about moves that the machine refuses or makes slower."""
+    preflight = Preflight(Settings(cells))
+    found, prediction = surveyed(
+        program, cells, dialect, options=options, rounds=rounds, desk=preflight, look=look
+    )
+    found.add(preflight.findings(program.text_of))
+    return found, prediction
+
+
+def _both(timing: Timing, look: Callable[[Entry], None] | None) -> Callable[[Entry], None]:
+    if look is None:
+        return timing.add
+
+    def add(entry: Entry) -> None:
+        timing.add(entry)
+        look(entry)
+
+    return add

@@ -15,8 +15,7 @@ from openacr.compiled import pick
 from openacr.mill.config.settings import S_PER_MIN
 from openacr.mill.plan import forecast_cy as core
 from openacr.mill.plan import move_rows_cy as row
-from openacr.mill.plan.encoding import Encoder
-from openacr.mill.plan.predicting import MOTIONS, Prediction
+from openacr.mill.plan.predicting import Prediction, Timing
 
 if TYPE_CHECKING:
     from openacr.mill.config.settings import Settings
@@ -44,7 +43,7 @@ class Desk(Protocol):
         """Receive the count of moves in chains below their feed, and what the slowest reaches."""
 
 
-class Forecast:
+class Forecast(Timing):
     """Adds up the times of the moves of a program."""
 
     def __init__(
@@ -57,8 +56,7 @@ class Forecast:
         desk: Desk | None = None,
     ) -> None:
         """`rounds`: as on the virtual machine, which supports path tolerances."""
-        self._encoder = Encoder(settings, is_dry=is_dry, rounds=rounds)
-        self._position = begin
+        super().__init__(settings, begin, is_dry=is_dry, rounds=rounds)
         self._desk = desk
         self._files: list[str] = []
         self._dwell_s = 0.0
@@ -96,15 +94,8 @@ class Forecast:
         """Add the next entry of the program."""
         if isinstance(entry, c.Moves) and self._encoder.runs_arcs:
             self._many(entry)
-        elif isinstance(entry, MOTIONS):
-            for job in self._encoder.jobs(entry, self._position):
-                self._one(job)
-            if isinstance(entry, c.Probe):
-                self.rest()
-        elif isinstance(entry, c.Say | c.SetCell | c.BlockEnd):
-            return
         else:
-            self.rest(entry.seconds if isinstance(entry, c.Dwell) else 0.0)
+            super().add(entry)
 
     def rest(self, dwell_s: float = 0.0) -> None:
         """Add a stop with a dwell."""
@@ -155,7 +146,7 @@ class Forecast:
                 self._desk.read(self._encoder.job(moves.entry(k), begin))
         self._position = moves.end_of(count - 1)
 
-    def _one(self, job: Job) -> None:
+    def _move(self, job: Job) -> None:
         """Plan a move that is a job already."""
         if self._desk is not None:
             self._desk.read(job)

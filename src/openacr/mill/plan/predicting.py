@@ -16,6 +16,7 @@ run. Waits for the operator and for signals count as zero.
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
@@ -70,28 +71,15 @@ class Reader(Protocol):
         """Receive a stop, with the time of its dwell or 0."""
 
 
-class Predictor:
-    """Adds up the times of moves, planned as in a run."""
+class Timing(ABC):
+    """Adds up the times of the moves of a program: the meaning of its entries."""
 
     def __init__(
-        self,
-        settings: Settings,
-        begin: c.Point,
-        *,
-        is_dry: bool = False,
-        rounds: bool = True,
-        reader: Reader | None = None,
+        self, settings: Settings, begin: c.Point, *, is_dry: bool = False, rounds: bool = True
     ) -> None:
         """`rounds`: as on the virtual machine, which supports path tolerances."""
         self._encoder = Encoder(settings, is_dry=is_dry, rounds=rounds)
-        self._route = Route(settings)
-        self._curve: CurveTimes | None = None
-        self._has_jerk = settings.speeds.jerk_ups3 > 0.0
         self._position = begin
-        self._speed_ups = 0.0
-        self._entry_corner: Corner | None = None
-        self._reader = reader
-        self.found = Prediction()
 
     def add(self, entry: c.Entry) -> None:
         """Add the next entry of the program."""
@@ -104,6 +92,41 @@ class Predictor:
             return
         else:
             self.rest(entry.seconds if isinstance(entry, c.Dwell) else 0.0)
+
+    @abstractmethod
+    def _move(self, job: Job) -> None:
+        """Plan a move."""
+
+    @abstractmethod
+    def rest(self, dwell_s: float = 0.0) -> None:
+        """Add a stop with a dwell."""
+
+    def close(self) -> None:
+        """The program has ended: the last moves end at rest."""
+        self.rest()
+
+
+class Predictor(Timing):
+    """Adds up the times of moves, planned as in a run."""
+
+    def __init__(
+        self,
+        settings: Settings,
+        begin: c.Point,
+        *,
+        is_dry: bool = False,
+        rounds: bool = True,
+        reader: Reader | None = None,
+    ) -> None:
+        """`rounds`: as on the virtual machine, which supports path tolerances."""
+        super().__init__(settings, begin, is_dry=is_dry, rounds=rounds)
+        self._route = Route(settings)
+        self._curve: CurveTimes | None = None
+        self._has_jerk = settings.speeds.jerk_ups3 > 0.0
+        self._speed_ups = 0.0
+        self._entry_corner: Corner | None = None
+        self._reader = reader
+        self.found = Prediction()
 
     def _move(self, job: Job) -> None:
         if self._reader is not None:
@@ -121,10 +144,6 @@ class Predictor:
         self.found.dwell_s += dwell_s
         if self._reader is not None:
             self._reader.rested(dwell_s)
-
-    def close(self) -> None:
-        """The program has ended: the last moves end at rest."""
-        self.rest()
 
     def _release(self, *, is_complete: bool) -> None:
         """Pass everything that is planned, section after section."""

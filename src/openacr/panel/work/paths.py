@@ -26,9 +26,8 @@ from typing import Any
 
 import numpy as np
 
-from openacr.cnc.canonical import Entry
 from openacr.cnc.interpreter.interpreter import Interpreter, Options
-from openacr.cnc.interpreter.survey import Survey, survey
+from openacr.cnc.interpreter.survey import Survey
 from openacr.cnc.loading.load import axes_of, load
 from openacr.cnc.program.program import Program
 from openacr.cnc.reading.findings import Finding
@@ -36,9 +35,7 @@ from openacr.cnc.state.hosts import VirtualMachine
 from openacr.cnc.state.shadow import Shadow
 from openacr.mill.config.dialects import choose
 from openacr.mill.config.folders import folders_of
-from openacr.mill.config.settings import NONE, Settings
-from openacr.mill.plan.predicting import Predictor
-from openacr.mill.plan.preflight import Preflight
+from openacr.mill.plan.checking import checked
 from openacr.mill.plan.tool_path import Drawing, Kind, ToolPath
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import CONTROL, DISPLAY, SPEEDS, TOOL
@@ -102,24 +99,12 @@ def draw_text(text: str, name: str, store: Path) -> Found:
 
 
 def _read(program: Program, cells: Store, dialect: str, *, has_path: bool) -> Found:
-    settings = Settings(cells)
     letters = axes_of(cells)
     axes = tuple(letters[letter] for letter in DRAWN if letter in letters)
     path = ToolPath(axes, cells.read(SPEEDS.chord_tolerance))
-    station = Preflight(settings)
-    predictor = Predictor(settings, (0.0,) * 8, is_dry=False, rounds=False, reader=station)
-
-    def look(entry: Entry) -> None:
-        predictor.add(entry)
-        if has_path:
-            path.add(entry)
-
-    machine = VirtualMachine(is_probed=settings.wiring.probe != NONE)
-    options = Options(watch=path) if has_path else Options()
-    found = survey(program, cells, dialect, options, machine, look)
-    predictor.rest()
-    found.add(station.findings(program.text_of))
-    seconds = None if found.errors else predictor.found.time_s
+    options, look = (Options(watch=path), path.add) if has_path else (Options(), None)
+    found, prediction = checked(program, cells, dialect, options=options, rounds=False, look=look)
+    seconds = None if found.errors else prediction.time_s
     data = Found(
         seconds,
         _extents(found),

@@ -8,11 +8,10 @@ from msgspec import Meta
 from starlette.concurrency import run_in_threadpool
 from starlette.responses import Response
 
-from openacr.cnc.parts.library import FOLDER, names, part_named
-from openacr.cnc.parts.part import Part
+from openacr.cnc.parts.library import FOLDER, begins_metric, names, part_named
 from openacr.errors import UserError
 from openacr.panel.control.orders import PanelError
-from openacr.panel.library import is_metric, ready
+from openacr.panel.library import ready
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Body, Call, Query, endpoint
 from openacr.panel.server.calls.programs import folder_of
@@ -55,35 +54,14 @@ class Import(Body, frozen=True):
     replace: bool = False
 
 
-def part_data(part: Part) -> dict[str, Any]:
-    """A part with its sizes."""
-    return {
-        "name": part.name,
-        "title": part.title,
-        "start": part.start,
-        "parameters": [
-            {
-                "name": f"P{size.cell}",
-                "text": size.text,
-                "unit": size.unit,
-                "default": size.default,
-                "low": size.low,
-                "high": size.high,
-            }
-            for size in part.sizes
-        ],
-        "conditions": [rule.text for rule in part.rules],
-    }
-
-
 @endpoint("GET", "/parts")
 async def parts(call: Call) -> object:
     """List the parts of the library with their sizes."""
 
     def read() -> object:
         return {
-            "parts": [part_data(part_named(name)) for name in names(FOLDER)],
-            "metric": is_metric(call.panel.installation.store),
+            "parts": [part_named(name).data() for name in names(FOLDER)],
+            "metric": begins_metric(call.panel.installation.store),
         }
 
     return await run_in_threadpool(read)

@@ -29,11 +29,11 @@ export async function partSource(host, endings, load) {
   endings.add(() => turn.abort());
   const choose = (/** @type {any} */ part) => {
     for (const key of list.children) key.setAttribute("aria-selected", String(/** @type {HTMLElement} */ (key).dataset.part === part.name));
-    const fields = part.parameters.map((/** @type {any} */ each) => ({ each, input: h("input.field.number", { id: `part-${each.name}`, value: String(each.default ?? ""), inputMode: "decimal", autocomplete: "off" }) }));
-    const values = () => Object.fromEntries(fields.map((/** @type {any} */ { each, input }) => [each.name, Number(input.value.replace(",", "."))]));
+    const fields = part.sizes.map((/** @type {any} */ each) => ({ each, input: h("input.field.number", { id: `part-P${each.cell}`, value: String(each.default ?? ""), inputMode: "decimal", autocomplete: "off" }) }));
+    const values = () => Object.fromEntries(fields.map((/** @type {any} */ { each, input }) => [`P${each.cell}`, Number(input.value.replace(",", "."))]));
     fill(form, h("h3", {}, part.title || part.name), ...fields.map((/** @type {any} */ { each, input }) =>
-      h("div.form-row", {}, h("label", { htmlFor: input.id }, each.text || each.name), h("div.row.form-input", {}, input, each.unit ? h("span.unit", {}, each.unit) : ""), h("span.hint", {}, rangeOf(each)))));
-    fill(conditions, [part.start, ...(part.conditions ?? []).map((/** @type {any} */ each) => each.text ?? each)].filter(Boolean).join(" \u00b7 "));
+      h("div.form-row", {}, h("label", { htmlFor: input.id }, each.text), h("div.row.form-input", {}, input, each.unit ? h("span.unit", {}, each.unit) : ""), h("span.hint", {}, rangeOf(each)))));
+    fill(conditions, [part.start, ...part.checks].filter(Boolean).join(" \u00b7 "));
     let timer = setTimeout(() => {}, 0);
     const draw = async () => {
       turn.abort();
@@ -58,8 +58,7 @@ export async function partSource(host, endings, load) {
   if (parts.length) choose(parts[0]);
 }
 
-/** @param {{ low: number | null, high: number | null }} parameter */
+/** @param {{ low: number, high: number }} size */
 function rangeOf({ low, high }) {
-  if ((low ?? null) === null && (high ?? null) === null) return "";
-  return t("field.range", { low: low ?? "\u2212\u221e", high: high ?? "\u221e" });
+  return t("field.range", { low, high });
 }

@@ -1,4 +1,4 @@
-"""A line between browser and panel that can be frozen in one direction, cut and reset."""
+"""A line between two ends that can be frozen in one direction, cut, mended and reset."""
 
 import socket
 import struct
@@ -11,8 +11,9 @@ from typing import Self
 class Proxy:
     """A port that leads to another one; `freeze_*` holds bytes back without a word to any end."""
 
-    def __init__(self, port: int) -> None:
-        self._target = ("127.0.0.1", port)
+    def __init__(self, address: str) -> None:
+        host, port = address.rsplit(":", 1)
+        self._target = (host, int(port))
         self._server = socket.create_server(("127.0.0.1", 0))
         self.port = int(self._server.getsockname()[1])
         self._up, self._down = threading.Event(), threading.Event()
@@ -23,12 +24,16 @@ class Proxy:
         threading.Thread(target=self._accept, daemon=True).start()
 
     @property
+    def address(self) -> str:
+        return f"127.0.0.1:{self.port}"
+
+    @property
     def url(self) -> str:
-        return f"http://127.0.0.1:{self.port}"
+        return f"http://{self.address}"
 
     @property
     def ws_url(self) -> str:
-        return f"ws://127.0.0.1:{self.port}/ws"
+        return f"ws://{self.address}/ws"
 
     def __enter__(self) -> Self:
         return self
@@ -68,11 +73,11 @@ class Proxy:
             sink.shutdown(socket.SHUT_WR)
 
     def freeze_up(self) -> None:
-        """Nothing more reaches the panel."""
+        """Nothing more reaches the far end."""
         self._up.clear()
 
     def freeze_down(self) -> None:
-        """Nothing more reaches the browser."""
+        """Nothing more comes from the far end."""
         self._down.clear()
 
     def freeze(self) -> None:
@@ -90,8 +95,12 @@ class Proxy:
         self._is_cut = True
         self._close()
 
+    def mend(self) -> None:
+        """Connections may be made again."""
+        self._is_cut = False
+
     def reset(self) -> None:
-        """Both ends get a reset."""
+        """Both ends get a reset; a new connection may be made at once."""
         for pair in self._pairs:
             for end in pair:
                 with suppress(OSError):
