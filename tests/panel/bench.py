@@ -16,7 +16,8 @@ from openacr.panel.control.station import Station
 from openacr.panel.control.thread import ControlThread
 from openacr.panel.machine import embedded
 from openacr.panel.roles import Role
-from openacr.panel.server.panel import Panel, PanelServer
+from openacr.panel.server.panel import Panel
+from openacr.panel.server.web import PanelServer
 
 T = TypeVar("T")
 LIMIT_S = 60.0

@@ -139,11 +139,12 @@ async def _serve(
     installation: "Installation", address: str, port: int, names: list[str], *, is_shown: bool
 ) -> None:
     from openacr.io.server import is_loopback
-    from openacr.panel.server.panel import Panel, PanelServer, require_password
+    from openacr.panel.server.panel import Panel, require_password
+    from openacr.panel.server.web import PanelServer
 
-    panel = Panel(installation, names=[*names, address])
+    panel = Panel(installation)
     require_password(panel, address, is_loopback=is_loopback(address))
-    server = PanelServer(panel, address, port)
+    server = PanelServer(panel, address, port, names=[*names, address])
 
     async def started() -> None:
         _stop_on_signals(server.stop)

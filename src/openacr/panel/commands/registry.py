@@ -2,15 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import msgspec
 
 from openacr.panel.control.orders import Order, PanelError, RoleError
+from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
-
-if TYPE_CHECKING:
-    from openacr.panel.control.station import Station
 
 
 class Args(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True):
@@ -22,7 +20,7 @@ class NoArgs(Args, frozen=True):
 
 
 A = TypeVar("A", bound=Args)
-Do = Callable[["Station", Order, Any], object]
+Do = Callable[[Station, Order, Any], object]
 LONGEST_WAIT_S = 0.5  # a command that moves axes is not carried out later than this
 
 
@@ -54,15 +52,15 @@ def command(
     needs_control: bool = True,
     is_motion: bool = False,
     is_stop: bool = False,
-) -> Callable[[Callable[["Station", Order, A], object]], Callable[["Station", Order, A], object]]:
+) -> Callable[[Callable[[Station, Order, A], object]], Callable[[Station, Order, A], object]]:
     """Declare a command; `is_motion`: it may begin motion, so an old one is refused.
 
     `is_stop`: what was received before it and may begin motion is refused: a stop overtakes it.
     """
 
     def declare(
-        do: Callable[["Station", Order, A], object],
-    ) -> Callable[["Station", Order, A], object]:
+        do: Callable[[Station, Order, A], object],
+    ) -> Callable[[Station, Order, A], object]:
         args = do.__annotations__["args"]
         COMMANDS[name] = Command(name, role, args, do, needs_control, is_motion, is_stop)
         return do
@@ -70,7 +68,7 @@ def command(
     return declare
 
 
-def carry_out(station: "Station", order: Order, now_s: float) -> object:
+def carry_out(station: Station, order: Order, now_s: float) -> object:
     """Carry an order out; an error says why it is not."""
     row = COMMANDS.get(order.name)
     if row is None:

@@ -2,18 +2,18 @@
 
 from collections.abc import Callable
 from datetime import datetime
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from openacr.mill.card.alarms import Alarm
 from openacr.mill.config.overrides import Override
 from openacr.mill.config.settings import NONE
 from openacr.mill.run.lifecycle import State
 from openacr.panel.control.about import machine_data
+from openacr.panel.control.loaded import Part
 from openacr.panel.control.modals import modals
+from openacr.panel.control.shared import Shared
+from openacr.panel.control.typed import Typed
 from openacr.sysvar.tabs import CELLS
-
-if TYPE_CHECKING:
-    from openacr.panel.control.station import Station
 
 Data = dict[str, Any]
 ALARMS_KEPT = 100
@@ -22,8 +22,8 @@ ALARMS_KEPT = 100
 class Facts:
     """The facts of one station, as they were sent last."""
 
-    def __init__(self, station: "Station") -> None:
-        self._station = station
+    def __init__(self, station: Shared, part: Part, typed: Typed) -> None:
+        self._station, self._part, self._typed = station, part, typed
         self._reported: dict[str, Data] = {}
         self._noted: dict[int, str] = {}  # time of day of each alarm, by its place
 
@@ -42,7 +42,7 @@ class Facts:
 
     # --- facts ------------------------------------------------------------------------
 
-    def state(self, station: "Station") -> Data:
+    def state(self, station: Shared) -> Data:
         """What the machine does and waits for."""
         session = station.session
         if session is None:
@@ -83,26 +83,26 @@ class Facts:
             "aborted": runner.was_aborted,
         }
 
-    def _options(self, station: "Station") -> Data:
+    def _options(self, station: Shared) -> Data:
         options = station.session.runner.options if station.session else None
         return {
             "dry": options.is_dry if options else False,
-            "single": station.part.is_single,
-            "skip": station.part.is_skipping,
-            "optional": station.part.stops_optionally,
+            "single": self._part.is_single,
+            "skip": self._part.is_skipping,
+            "optional": self._part.stops_optionally,
         }
 
-    def program(self, station: "Station") -> Data:
+    def program(self, station: Shared) -> Data:
         """The loaded program and its executing block."""
-        return station.part.data()
+        return self._part.data()
 
-    def modals(self, station: "Station") -> Data:
+    def modals(self, station: Shared) -> Data:
         """The codes and words in force."""
         return (
             modals(station.session, station.reading.work.run) if station.session else {"codes": []}
         )
 
-    def alarms(self, station: "Station") -> Data:
+    def alarms(self, station: Shared) -> Data:
         """Alarms that are active, and those that were."""
         if station.session is None:
             text = station.lost
@@ -122,7 +122,7 @@ class Facts:
             "bars_start": alarms.bars_start,
         }
 
-    def messages(self, station: "Station") -> Data:
+    def messages(self, station: Shared) -> Data:
         """User messages that are shown."""
         shown = station.session.messages.shown if station.session else []
         return {
@@ -138,11 +138,11 @@ class Facts:
             ]
         }
 
-    def control(self, station: "Station") -> Data:
+    def control(self, station: Shared) -> Data:
         """Who has control."""
         return station.people.data()
 
-    def overrides(self, station: "Station") -> Data:
+    def overrides(self, station: Shared) -> Data:
         """The three override switches."""
         if station.session is None:
             return {}
@@ -158,11 +158,11 @@ class Facts:
             for name, which in names.items()
         }
 
-    def mdi(self, station: "Station") -> Data:
+    def mdi(self, station: Shared) -> Data:
         """What was typed in MDI."""
-        return station.typed.data()
+        return self._typed.data()
 
-    def home(self, station: "Station") -> Data:
+    def home(self, station: Shared) -> Data:
         """How far homing is."""
         if station.session is None:
             return {"axes": []}
@@ -180,14 +180,14 @@ class Facts:
             ]
         }
 
-    def _homing(self, station: "Station", axis: int) -> str:
+    def _homing(self, station: Shared, axis: int) -> str:
         """What an axis waits for while it is homed; done or failed after it."""
         runner = station.machine.runner
         state = runner.homing.get(axis, "")
         is_over = runner.state is not State.HOMING
         return "failed" if is_over and state not in ("", "done") else state
 
-    def machine(self, station: "Station") -> Data:
+    def machine(self, station: Shared) -> Data:
         """What the machine is: card, unit, axes."""
         return machine_data(station.installation)
 
@@ -202,7 +202,7 @@ def _alarm(alarm: Alarm, when: str) -> Data:
     }
 
 
-def _scope(_facts: Facts, station: "Station") -> Data:
+def _scope(_facts: Facts, station: Shared) -> Data:
     """The capture of the scope; its samples are frames."""
     capture = station.scope.capture
     if capture is None:
@@ -210,7 +210,7 @@ def _scope(_facts: Facts, station: "Station") -> Data:
     return {k: v for k, v in capture.data().items() if k != "taken"}
 
 
-MAKERS: dict[str, Callable[[Facts, "Station"], Data]] = {
+MAKERS: dict[str, Callable[[Facts, Shared], Data]] = {
     "machine": Facts.machine,
     "state": Facts.state,
     "program": Facts.program,

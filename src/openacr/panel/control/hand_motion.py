@@ -1,14 +1,11 @@
 """Axes moved by hand from screens: held keys, increments, and everything that stops them."""
 
 import math
-from typing import TYPE_CHECKING
 
 from openacr.errors import UserError
 from openacr.panel.control.orders import PanelError
 from openacr.panel.control.presses import End, Key, Presses
-
-if TYPE_CHECKING:
-    from openacr.panel.control.station import Station
+from openacr.panel.control.shared import Shared
 
 LONGEST_AGE_S = 0.2  # of what a browser has drawn, when it begins or keeps motion
 
@@ -16,7 +13,7 @@ LONGEST_AGE_S = 0.2  # of what a browser has drawn, when it begins or keeps moti
 class HandMotion:
     """Axes moved by hand at the screens."""
 
-    def __init__(self, station: "Station") -> None:
+    def __init__(self, station: Shared) -> None:
         self._station = station
         self.presses = Presses(self._drop, self._tell)
 

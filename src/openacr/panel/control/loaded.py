@@ -6,7 +6,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from math import nan
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from openacr.cnc.interpreter.replay import Replay
 from openacr.cnc.loading.batch import Entry, read_batch
@@ -18,11 +18,9 @@ from openacr.mill.config.folders import folders_of
 from openacr.mill.session import Start
 from openacr.panel.control.listing import Listing
 from openacr.panel.control.orders import Order, failure
+from openacr.panel.control.shared import Shared
 from openacr.panel.work.paths import finding_data
 from openacr.sysvar import Store
-
-if TYPE_CHECKING:
-    from openacr.panel.control.station import Station
 
 HASH_CHUNK = 1 << 20
 
@@ -103,7 +101,7 @@ class _Batch:
 class Part:
     """The program of one machine."""
 
-    def __init__(self, station: "Station") -> None:
+    def __init__(self, station: Shared) -> None:
         self._station = station
         self.loaded: Loaded | None = None
         self.loading = ""

@@ -11,25 +11,24 @@ from contextlib import suppress
 from typing import Any
 
 from openacr.client import ConnectionLostError
-from openacr.errors import OpenacrError, UserError
+from openacr.errors import OpenacrError
 from openacr.mill.card.alarms import AlarmError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.mill.run.lifecycle import State
-from openacr.mill.session import MillSession
 from openacr.panel.control.buttons import Buttons
 from openacr.panel.control.facts import Facts
 from openacr.panel.control.hand_motion import HandMotion
 from openacr.panel.control.installation import Installation
-from openacr.panel.control.jobs import Jobs
 from openacr.panel.control.loaded import Part
 from openacr.panel.control.orders import Order, failure
 from openacr.panel.control.pace import Sampler
-from openacr.panel.control.people import People, Person
+from openacr.panel.control.people import Person
 from openacr.panel.control.presses import End
 from openacr.panel.control.reading import Reading
-from openacr.panel.control.scope import Samples, Scope
+from openacr.panel.control.scope import Samples
 from openacr.panel.control.settled import is_of_session
-from openacr.panel.control.snapshot import Snapshot, Ticks
+from openacr.panel.control.shared import Shared, Tell
+from openacr.panel.control.snapshot import Snapshot
 from openacr.panel.control.terminal import Terminal
 from openacr.panel.control.typed import Typed
 from openacr.panel.control.watches import Watches
@@ -45,61 +44,37 @@ LINES_KEPT = 200  # of the print window
 OF_A_RUN = range(CELLS.tool_selected, CELLS.cycle_direction + 1)  # written as a program runs
 MOST_CELLS = 2000  # numbers of changed cells in one event
 SERVER = Person(0, Role.SERVICE, "", "server")
-Tell = Callable[[dict[str, Any]], None]
 Carry = Callable[["Station", Order, float], object]
 
 
-class Station:
+class Station(Shared):
     """One machine and the people at its screens."""
 
     def __init__(
         self, installation: Installation, carry_out: Carry, tell: Tell = lambda _event: None
     ) -> None:
-        self.installation = installation
-        self.tell = tell
+        super().__init__(installation, tell)
         self.sampled: Callable[[Samples], None] = lambda _samples: None
         self.on_snapshot: Callable[[], None] = lambda: None  # a new snapshot is there
-        self.people = People()
         self.hand_motion = HandMotion(self)
-        self.jobs = Jobs()
         self.typed = Typed(self)
         self.part = Part(self)
         self.terminal = Terminal(installation)
-        self.scope = Scope()
         self.buttons = Buttons()
-        self.ticks = Ticks()
         self.watches = Watches()
         self.said: deque[dict[str, Any]] = deque(maxlen=LINES_KEPT)
         self.snapshot = Snapshot(number=0, tick_ms=0.0, read_s=0.0)
-        self.session: MillSession | None = None
-        self.lost = "the machine is being opened"  # why there is no session
-        self.mode = "auto"
         self.now_s = 0.0  # of the present step or order
         self.stopped_s = 0.0  # when the last stop was received
         self.must_renew = False  # settings were stored that count from the next session
-        self._facts = Facts(self)
+        self._facts = Facts(self, self.part, self.typed)
         self._carry_out = carry_out
-        self._reading: Reading | None = None
         self._retry_s = 0.0
         self._poll_at = self._snapshot_at = 0.0
         self._tick_ms = self._tick_base_ms = 0.0
         self._alarms = 0
 
     # --- the session ------------------------------------------------------------------
-
-    @property
-    def machine(self) -> MillSession:
-        """The session of the machine; UserError where the card cannot be reached."""
-        if self.session is None:
-            raise UserError(self.lost)
-        return self.session
-
-    @property
-    def reading(self) -> Reading:
-        """The reader of the machine; UserError where the card cannot be reached."""
-        if self._reading is None:
-            raise UserError(self.lost)
-        return self._reading
 
     def open(self, now_s: float) -> None:
         """Open the session of the machine; without it the screens say why."""

@@ -7,16 +7,14 @@ import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from openacr.errors import OpenacrError
 from openacr.mill.card.driver import LINK_ERRORS
+from openacr.mill.session import MillSession
 from openacr.panel.control.orders import Order, PanelError, failure
+from openacr.panel.control.station import Station
 from openacr.panel.control.waiting import Waiting
-
-if TYPE_CHECKING:
-    from openacr.mill.session import MillSession
-    from openacr.panel.control.station import Station
 
 log = logging.getLogger(__name__)
 T = TypeVar("T")
@@ -33,7 +31,7 @@ Work = Callable[[], None]
 class ControlThread:
     """Runs one station; everything that reaches it comes through a queue."""
 
-    def __init__(self, station: "Station", clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, station: Station, clock: Callable[[], float] = time.monotonic) -> None:
         self.station = station
         self._clock = clock
         self._orders: Waiting[Order | Work] = Waiting()
@@ -61,7 +59,7 @@ class ControlThread:
             return
         self._orders.put(order, is_urgent=is_urgent)
 
-    def call(self, work: Callable[["Station"], T]) -> "Future[T]":
+    def call(self, work: Callable[[Station], T]) -> "Future[T]":
         """Run a function in the control thread; its result or error is in the future."""
         future: Future[T] = Future()
 
@@ -152,7 +150,7 @@ class ControlThread:
             station.jobs.close()
 
 
-def _to_rest(session: "MillSession") -> None:
+def _to_rest(session: MillSession) -> None:
     """Bring a machine to rest; its power is cut when that takes too long."""
     session.runner.bring_to_rest()
     end_s = session.card.now_s() + REST_S

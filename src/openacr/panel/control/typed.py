@@ -2,20 +2,18 @@
 
 from collections import deque
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from openacr.cnc.interpreter.mdi import Mdi
 from openacr.errors import OpenacrError, UserError
 from openacr.mill.config.dialects import dialect_of
-
-if TYPE_CHECKING:
-    from openacr.panel.control.station import Station
+from openacr.panel.control.shared import Shared
 
 
 class Typed:
     """The MDI of one machine."""
 
-    def __init__(self, station: "Station") -> None:
+    def __init__(self, station: Shared) -> None:
         self._station = station
         self._mdi: Mdi | None = None
         self._queue: deque[str] = deque()

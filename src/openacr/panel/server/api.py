@@ -3,7 +3,7 @@
 import json
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
 from starlette.requests import Request
@@ -14,9 +14,7 @@ from openacr.client import ConnectionLostError
 from openacr.errors import OpenacrError
 from openacr.panel.control.orders import PanelError, failure
 from openacr.panel.roles import Role
-
-if TYPE_CHECKING:
-    from openacr.panel.server.panel import Panel
+from openacr.panel.server.panel import Panel
 
 MOST_JSON = 4 << 20
 STATUS = {
@@ -45,7 +43,7 @@ class Body(msgspec.Struct, forbid_unknown_fields=True, frozen=True, kw_only=True
 class Call:
     """One call as its handler gets it."""
 
-    panel: "Panel"
+    panel: Panel
     request: Request
     role: Role
     query: Any = None
@@ -105,14 +103,14 @@ def endpoint(
     return declare
 
 
-def routes(panel: "Panel") -> list[BaseRoute]:
+def routes(panel: Panel) -> list[BaseRoute]:
     """The routes of all calls."""
     return [
         Route(f"/api{each.path}", _served(panel, each), methods=[each.method]) for each in ENDPOINTS
     ]
 
 
-def _served(panel: "Panel", row: Endpoint) -> Callable[[Request], Awaitable[Response]]:
+def _served(panel: Panel, row: Endpoint) -> Callable[[Request], Awaitable[Response]]:
     async def serve(request: Request) -> Response:
         try:
             role = panel.accounts.role_of(request.cookies.get(panel.cookie))

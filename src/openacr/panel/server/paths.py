@@ -6,17 +6,15 @@ import struct
 from collections import OrderedDict
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from openacr.errors import UserError
+from openacr.panel.control.installation import Installation
 from openacr.panel.control.loaded import version_of
+from openacr.panel.control.thread import ControlThread
 from openacr.panel.work.paths import Found, read_file
 from openacr.panel.work.pool import Pool
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import CELLS, CONTROL, DISPLAY, GENERAL, SPEEDS
-
-if TYPE_CHECKING:
-    from openacr.panel.server.panel import Panel
 
 KEPT = 6
 # Cells a path depends on: zeros, offsets, radii, and how arcs and colours are drawn.
@@ -43,15 +41,15 @@ class _Path:
 class Paths:
     """The paths of one panel."""
 
-    def __init__(self, panel: "Panel") -> None:
-        self._panel = panel
+    def __init__(self, installation: Installation, control: ControlThread) -> None:
+        self._installation, self._control = installation, control
         self._pool = Pool()
         self._kept: OrderedDict[str, _Path] = OrderedDict()
 
     async def of(self, file: Path, dialect: str = "") -> tuple[str, Found | None]:
         """The tag of a file's path, and the path; None while it is being computed."""
         version = await asyncio.to_thread(version_of, file)
-        tag = f"{version}-{stamp(self._panel.installation.store)}-{dialect}"
+        tag = f"{version}-{stamp(self._installation.store)}-{dialect}"
         kept = self._kept.get(tag)
         if kept is None:
             kept = self._kept[tag] = _Path(asyncio.create_task(self._computed(file, dialect)))
@@ -70,14 +68,14 @@ class Paths:
             raise
 
     async def _computed(self, file: Path, dialect: str) -> Found:
-        store = self._panel.installation.store.path
+        store = self._installation.store.path
         if store is None:
             raise UserError("the store is in memory: no path can be computed")
         return await self._pool.run(read_file, file, store, dialect)
 
     async def show(self) -> None:
         """Compute the path of the loaded program; its time and extents go to the screens."""
-        loaded = self._panel.station.part.loaded
+        loaded = self._control.station.part.loaded
         if loaded is None:
             return
         try:
@@ -90,7 +88,7 @@ class Paths:
             return
         facts, version = found.facts(), loaded.version
         findings = found.findings
-        self._panel.control.call(lambda station: station.part.note_facts(version, facts, findings))
+        self._control.call(lambda station: station.part.note_facts(version, facts, findings))
 
     def close(self) -> None:
         """End the process."""

@@ -5,17 +5,15 @@ import itertools
 import json
 import logging
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from openacr.panel.control.orders import Order, PanelError, failure
 from openacr.panel.control.people import Person
+from openacr.panel.server.panel import Panel
 from openacr.panel.wire.frames import Topic
 from openacr.panel.wire.hub import Browser
-
-if TYPE_CHECKING:
-    from openacr.panel.server.panel import Panel
 
 log = logging.getLogger(__name__)
 LOG_IN, ENDS, SLOW = 4401, 1012, 4408
@@ -29,7 +27,7 @@ _numbers = itertools.count(1)
 class Connection:
     """One browser that is connected."""
 
-    def __init__(self, panel: "Panel", socket: WebSocket, person: Person, token: str = "") -> None:
+    def __init__(self, panel: Panel, socket: WebSocket, person: Person, token: str = "") -> None:
         self.token = token
         self._panel = panel
         self._socket = socket
@@ -177,7 +175,7 @@ class Connection:
         self.browser.say({"id": number, "ok": False, "error": error})
 
 
-async def serve_socket(panel: "Panel", socket: WebSocket) -> None:
+async def serve_socket(panel: Panel, socket: WebSocket) -> None:
     """Accept a browser and serve it."""
     token = socket.cookies.get(panel.cookie, "")
     role = panel.accounts.role_of(token)
