@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 from setuptools import Extension, setup
+from setuptools.command.build_py import build_py
 
 ROOT = Path(__file__).parent
 sys.path.insert(0, str(ROOT / "src"))
@@ -58,4 +59,20 @@ def extensions() -> list[Extension]:
     return list(modules)
 
 
-setup(ext_modules=extensions())
+class BuildWithExamples(build_py):
+    """The package, and the examples of the source tree as a folder in it."""
+
+    def run(self) -> None:
+        """Copy the modules, then the examples; a tree built in place has them already."""
+        super().run()
+        if self.editable_mode:
+            return
+        folders = [*sorted((ROOT / "examples").iterdir()), ROOT / "parts"]
+        target = Path(self.build_lib) / "openacr" / "example_projects"
+        for path in [file for folder in folders for file in sorted(folder.iterdir())]:
+            place = target / path.parent.name / path.name
+            self.mkpath(str(place.parent))
+            self.copy_file(str(path), str(place))
+
+
+setup(ext_modules=extensions(), cmdclass={"build_py": BuildWithExamples})

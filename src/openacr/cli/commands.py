@@ -19,14 +19,20 @@ class Entry(NamedTuple):
 
 
 class Family(NamedTuple):
-    """Sub-commands under one name: `openacr mill run`."""
+    """Sub-commands under one name: `openacr mill run`; without a word the `default` is meant."""
 
     summary: str
     entries: "dict[str, Entry | Family]"
+    default: str = ""
 
 
 COMMANDS: dict[str, Entry | Family] = {
     "new": Entry("new", "new"),
+    "examples": Family(
+        "The example projects that come with the package.",
+        {"list": Entry("examples", "list_examples"), "copy": Entry("examples", "copy_to")},
+        default="list",
+    ),
     "run": Entry("run.command", "run"),
     "serve": Entry("serve", "serve"),
     "panel": Entry("panel", "panel"),

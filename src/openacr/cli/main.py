@@ -76,6 +76,7 @@ class LazyGroup(TyperGroup):
     """Sub-commands by name, imported when they are used."""
 
     table: Mapping[str, Entry | Family] = {}
+    default = ""  # the sub-command without any word
 
     def __init__(self, **attributes: Any) -> None:
         super().__init__(**attributes)
@@ -85,6 +86,10 @@ class LazyGroup(TyperGroup):
     def get_params(self, ctx: Any) -> list[Any]:
         """The parameters, converted without pydantic where that is possible."""
         return quick(super().get_params(ctx))
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Parse the words; without any of them the default sub-command is meant."""
+        return super().parse_args(ctx, args or [self.default] if self.default else args)
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Name the sub-commands in the order of their table."""
@@ -110,7 +115,7 @@ class LazyGroup(TyperGroup):
 
 def _group(name: str, family: Family) -> Any:
     """The click group of a family."""
-    members = type("Members", (LazyGroup,), {"table": family.entries})
+    members = type("Members", (LazyGroup,), {"table": family.entries, "default": family.default})
     single = typer.Typer(
         cls=members, no_args_is_help=True, rich_markup_mode=None, context_settings=HELP
     )
