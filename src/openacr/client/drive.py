@@ -10,8 +10,8 @@ from openacr.client.links import Link
 T = TypeVar("T")
 
 
-class _Conversation(Generic[T]):
-    """A running conversation: the effect requested next, until there is a result."""
+class Conversation(Generic[T]):
+    """A running conversation: the effect `wanted` next, None once there is a result."""
 
     def __init__(self, op: Op[T]) -> None:
         self._op = op
@@ -40,18 +40,19 @@ def carry_out(op: Op[T], link: Link) -> T:
 
     Ctrl-C is passed to the conversation like a broken link: it may have to clean up.
     """
-    conversation = _Conversation(op)
+    conversation = Conversation(op)
     while conversation.wanted is not None:
         outcome: bytes | BaseException | None
         try:
-            outcome = _perform(conversation.wanted, link)
+            outcome = perform(conversation.wanted, link)
         except (ConnectionLostError, KeyboardInterrupt) as broken:
             outcome = broken
         conversation.go_on(outcome)
     return conversation.result
 
 
-def _perform(effect: Effect, link: Link) -> bytes | None:
+def perform(effect: Effect, link: Link) -> bytes | None:
+    """Perform one effect over a blocking link; the bytes that were received."""
     match effect:
         case Send(data):
             link.write(data)
@@ -68,7 +69,7 @@ def _perform(effect: Effect, link: Link) -> bytes | None:
 
 async def carry_out_async(op: Op[T], link: AsyncLink) -> T:
     """Run a conversation over an asyncio link and return its result."""
-    conversation = _Conversation(op)
+    conversation = Conversation(op)
     while conversation.wanted is not None:
         outcome: bytes | BaseException | None
         try:

@@ -17,7 +17,9 @@ from openacr.errors import UserError
 
 Progress: TypeAlias = Callable[[int, int], None]
 
-_ENDS = re.compile(r"[\s:]*(?:ENDP(?![A-Za-z])|SYS(?![A-Za-z])|(?:PROG|PLC)\s*\d)", re.IGNORECASE)
+ENDS_TEXT = re.compile(
+    r"[\s:]*(?:ENDP(?![A-Za-z])|SYS(?![A-Za-z])|(?:PROG|PLC)\s*\d)", re.IGNORECASE
+)
 _IS_NUMBERED = re.compile(r"\s*\d")
 _UNSENDABLE = str.maketrans("", "", "\x0c\x1a\x1b")  # page and file ends, captured keys
 
@@ -108,7 +110,7 @@ class _Sender:
         """Record what the card has stored."""
         self._last = line.number
         if self._captured is not None:
-            if _ENDS.match(line.text):
+            if ENDS_TEXT.match(line.text):
                 is_endp = line.text.lstrip(" \t:").upper().startswith("ENDP")
                 self._captured.add(line.text if is_endp else "ENDP", line.number)
                 self._captured = None

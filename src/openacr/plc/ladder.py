@@ -26,9 +26,10 @@ _GATE_INPUT = {scan.OP_COUNTER: "C", scan.OP_LATCH: "S"}
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """One contact, output or box."""
+    """One contact, output or box, and the instruction it was drawn from."""
 
     text: str
+    step: Step
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +51,7 @@ class Gate:
     """A box with two inputs: a counter or a latch."""
 
     text: str
+    step: Step
     letter: str
     first: Node
     reset: Node
@@ -80,15 +82,14 @@ class Rung:
             self.present = _parallel(self.saved.pop(), self.present)
         elif operation in _GATE_INPUT:
             letter = _GATE_INPUT[operation]
-            self.present = Gate(step.spelled, letter, self.saved.pop(), self.present)
+            self.present = Gate(step.spelled, step, letter, self.saved.pop(), self.present)
         else:
             self.present = _series(self.present, _element(step))
 
 
 def draw(lines: Sequence[tuple[int, PlcLine]]) -> Iterator[str]:
     """The rungs of a PLC; each begins with the number of its first line."""
-    compile_plc(lines)
-    for rung in _rungs(lines):
+    for rung in rungs(lines):
         label = f"{rung.line:>{LABEL_WIDTH}}"
         for row in _picture(rung.present):
             yield f"{label} |{row}".rstrip()
@@ -96,7 +97,9 @@ def draw(lines: Sequence[tuple[int, PlcLine]]) -> Iterator[str]:
         yield f"{label} |"
 
 
-def _rungs(lines: Iterable[tuple[int, PlcLine]]) -> Iterator[Rung]:
+def rungs(lines: Sequence[tuple[int, PlcLine]]) -> Iterator[Rung]:
+    """The rungs of a PLC as trees; PlcCompileError, or CardError where it is too long."""
+    compile_plc(lines)
     rung: Rung | None = None
     has_output = False
     for number, step in _steps(lines):
@@ -123,7 +126,7 @@ def _steps(lines: Iterable[tuple[int, PlcLine]]) -> Iterator[tuple[int, Step]]:
 
 
 def _contact(step: Step) -> Element:
-    return Element(f"[{'/' * step.instruction.is_negated}{step.written}]")
+    return Element(f"[{'/' * step.instruction.is_negated}{step.written}]", step)
 
 
 def _element(step: Step) -> Element:
@@ -132,8 +135,8 @@ def _element(step: Step) -> Element:
         return _contact(step)
     if operation in _COILS:
         slash = "/" * step.instruction.is_negated
-        return Element(_COILS[operation].format(f"{slash}{step.written}"))
-    return Element(f"[{step.spelled}]")
+        return Element(_COILS[operation].format(f"{slash}{step.written}"), step)
+    return Element(f"[{step.spelled}]", step)
 
 
 def _series(*nodes: Node) -> Series:

@@ -1,6 +1,9 @@
 """Imports every module of commands: the table is complete then."""
 
-from openacr.panel.commands import motion, people, running, service, typing, watching
+from openacr.panel.commands import motion, people, programs, running, service, typing, watching
 from openacr.panel.commands.registry import COMMANDS, carry_out
 
-__all__ = ["COMMANDS", "carry_out", "motion", "people", "running", "service", "typing", "watching"]
+__all__ = [
+    "COMMANDS", "carry_out", "motion", "people", "programs", "running", "service", "typing",
+    "watching",
+]  # fmt: skip

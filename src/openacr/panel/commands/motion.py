@@ -171,11 +171,15 @@ def zero_goto(station: Station, order: Order, args: OfAxes) -> None:
 
 @command("stop.hold", Role.VIEW, needs_control=False, is_stop=True)
 def hold(station: Station, order: Order, args: NoArgs) -> None:
-    """STOP: hold the feed, ramp jogs to rest, end homing; from every screen at any time."""
+    """STOP: hold the feed, ramp jogs to rest, end homing; from every screen at any time.
+
+    Programs of the card that were started at a screen pause.
+    """
     _each(
         lambda: station.hand_motion.presses.end_all(End.STOP),
         lambda: _hold(station),
         station.typed.drop,
+        lambda: station.on_card.programs.stop(station.session, "PAUSE"),
     )
 
 
@@ -191,11 +195,12 @@ def _hold(station: Station) -> None:
 
 @command("stop.all", Role.VIEW, needs_control=False, is_stop=True)
 def stop_all(station: Station, order: Order, args: NoArgs) -> None:
-    """End everything: the program, jogs, homing; spindle and coolant off."""
+    """End everything: the program, jogs, homing, programs of the card; spindle and coolant off."""
     _each(
         lambda: station.machine.runner.bring_to_rest(),
         lambda: station.hand_motion.presses.end_all(End.STOP),
         station.typed.drop,
+        lambda: station.on_card.programs.stop(station.session, "HALT"),
     )
 
 
@@ -206,6 +211,7 @@ def estop(station: Station, order: Order, args: NoArgs) -> None:
         lambda: station.machine.runner.kill(station.people.name_of(order.person)),
         lambda: station.hand_motion.presses.end_all(End.STOP),
         station.typed.drop,
+        lambda: station.on_card.programs.stop(station.session, "HALT"),
     )
 
 

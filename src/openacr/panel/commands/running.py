@@ -13,9 +13,10 @@ from openacr.mill.config.overrides import Override
 from openacr.mill.run.dripping import Drip
 from openacr.mill.session import Start
 from openacr.panel.commands.registry import Args, NoArgs, command
+from openacr.panel.control.later import LATER, Later
 from openacr.panel.control.orders import Order
 from openacr.panel.control.presses import End
-from openacr.panel.control.station import LATER, Later, Station
+from openacr.panel.control.station import Station
 from openacr.panel.files import Folder
 from openacr.panel.library import ready
 from openacr.panel.roles import Role

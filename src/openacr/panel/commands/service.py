@@ -79,13 +79,6 @@ class Written(Args, frozen=True):
     value: Finite
 
 
-class OfProgram(Args, frozen=True):
-    """A program of the card, or a PLC program."""
-
-    program: Annotated[int, Meta(ge=0, le=15)] | None = None
-    plc: Annotated[int, Meta(ge=0, le=7)] | None = None
-
-
 class OfButton(Args, frozen=True):
     """A virtual push button."""
 
@@ -187,33 +180,6 @@ def card_write(station: Station, order: Order, args: Written) -> dict[str, float
     session = station.machine
     session.machine.write(args.parameter, args.value)
     return {"value": session.machine.read(args.parameter)}
-
-
-def _required(station: Station, args: OfProgram) -> str:
-    settings = station.machine.runner.settings
-    if (args.program is None) == (args.plc is None):
-        raise UserError("name a program or a PLC program")
-    if args.program is not None and args.program in (settings.master, settings.watchdog_program):
-        raise UserError(f"program {args.program} of the card belongs to this machine")
-    return f"PLC{args.plc}" if args.program is None else f"PROG{args.program}"
-
-
-@command("card.run", Role.SERVICE, is_motion=True)
-def card_run(station: Station, order: Order, args: OfProgram) -> None:
-    """Start a program or a PLC program of the card."""
-    name = _required(station, args)
-    if station.machine.runner.is_busy:
-        raise UserError("the machine moves: no program of the card is started")
-    station.machine.card.go(Level())
-    station.machine.card.command(f"RUN {name}")
-
-
-@command("card.halt", Role.SERVICE)
-def card_halt(station: Station, order: Order, args: OfProgram) -> None:
-    """End a program or a PLC program of the card."""
-    name = _required(station, args)
-    station.machine.card.go(Level())
-    station.machine.card.command(f"HALT {name}")
 
 
 # --- buttons, lengths -----------------------------------------------------------------

@@ -13,6 +13,7 @@ from openacr.panel.control.watches import INPUTS, Wish, watched
 from openacr.panel.roles import Role
 
 WORDS = range(n.FLAG_WORD_BASE, 8192)
+MOST_STATES_HZ = 10.0  # all states of the programs are read at once
 
 
 class Keep(Args, frozen=True):
@@ -23,9 +24,9 @@ class Keep(Args, frozen=True):
 
 
 class Watched(Args, frozen=True):
-    """What is watched: parameters by number or name, or flag words."""
+    """What is watched: parameters by number or name, flag words, or the programs of the card."""
 
-    topic: Literal["flags", "watch"]
+    topic: Literal["flags", "watch", "programs"]
     hz: Annotated[float, Meta(ge=0.1, le=60.0)] = 10.0
     parameters: tuple[int | str, ...] = ()
     words: tuple[int, ...] = ()
@@ -35,7 +36,7 @@ class Watched(Args, frozen=True):
 class Unwatched(Args, frozen=True):
     """A topic that is watched no more."""
 
-    topic: Literal["flags", "watch"]
+    topic: Literal["flags", "watch", "programs"]
 
 
 @command("jog.keep", needs_control=False)
@@ -46,7 +47,10 @@ def keep(station: Station, order: Order, args: Keep) -> None:
 
 @command("watch.begin", Role.VIEW, needs_control=False)
 def begin(station: Station, order: Order, args: Watched) -> dict[str, object]:
-    """Watch parameters or flag words; their values come as binary frames."""
+    """Watch parameters or flag words (binary frames), or the programs (events `programs`)."""
+    if args.topic == "programs":
+        station.on_card.programs.watch(order.person.client, min(args.hz, MOST_STATES_HZ))
+        return {"topic": args.topic, "hz": min(args.hz, MOST_STATES_HZ)}
     if args.topic == "flags":
         chosen = [*args.words, *(INPUTS if args.inputs else ())]
         for word in chosen:
@@ -63,4 +67,7 @@ def begin(station: Station, order: Order, args: Watched) -> dict[str, object]:
 @command("watch.end", Role.VIEW, needs_control=False)
 def end(station: Station, order: Order, args: Unwatched) -> None:
     """Watch a topic no more."""
+    if args.topic == "programs":
+        station.on_card.programs.forget(order.person.client)
+        return
     station.watches.end(Wish(order.person.client, args.topic))

@@ -19,7 +19,9 @@ from openacr.panel.control.buttons import Buttons
 from openacr.panel.control.facts import Facts
 from openacr.panel.control.hand_motion import HandMotion
 from openacr.panel.control.installation import Installation
+from openacr.panel.control.later import LATER
 from openacr.panel.control.loaded import Part
+from openacr.panel.control.on_card import OnCard
 from openacr.panel.control.orders import Order, failure
 from openacr.panel.control.pace import Sampler
 from openacr.panel.control.people import Person
@@ -60,6 +62,7 @@ class Station(Shared):
         self.typed = Typed(self)
         self.part = Part(self)
         self.terminal = Terminal(installation)
+        self.on_card = OnCard(installation, lambda event: self.tell(event))
         self.buttons = Buttons()
         self.watches = Watches()
         self.said: deque[dict[str, Any]] = deque(maxlen=LINES_KEPT)
@@ -98,6 +101,7 @@ class Station(Shared):
         session, self.session, self._reading = self.session, None, None
         self.typed.forget()
         self.terminal.end()
+        self.on_card.end()
         self.scope.stop()
         if session is not None:
             with suppress(*LINK_ERRORS):
@@ -132,6 +136,7 @@ class Station(Shared):
             if clock >= self._snapshot_at:
                 self._snapshot_at = clock + SNAPSHOT_S
                 self._sample(now_s)
+            self.on_card.step(now_s)
         except LINK_ERRORS as lost:
             log.info("%s", lost)
         if self.must_renew and self.session is not None and self._rests:
@@ -189,6 +194,7 @@ class Station(Shared):
         self._facts.tell()
         if self.session is not None:
             self.watches.look(self.session, now_s)
+            self.on_card.look(self.session, now_s)
 
     @property
     def _rests(self) -> bool:
@@ -275,17 +281,11 @@ class Station(Shared):
         self._guarded(lambda: self.hand_motion.presses.end_all(End.LINK, client=client))
         self.hand_motion.presses.forget(client)
         self.watches.forget(client)
+        self.on_card.forget(client)
         self.terminal.close(client)
         self._guarded(lambda: self.buttons.drop(self.session, client))
         self.people.leave(client)
         self._facts.tell()
-
-
-class Later:
-    """The answer of an order that is given later."""
-
-
-LATER = Later()
 
 
 def _why(error: Exception) -> str:

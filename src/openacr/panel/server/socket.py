@@ -20,6 +20,8 @@ LOG_IN, ENDS, SLOW = 4401, 1012, 4408
 SLOW_S = 10.0
 MOST_HZ = 60.0
 WATCHED = (Topic.FLAGS, Topic.WATCH)
+WORDS = ("programs",)  # topics whose news are events
+WATCHING = {"sub": "watch.begin", "unsub": "watch.end"}
 TOPICS = {topic.name.lower(): topic for topic in Topic}
 _numbers = itertools.count(1)
 
@@ -148,9 +150,12 @@ class Connection:
     def _subscribe(
         self, number: object, name: str, args: dict[str, Any], received_s: float
     ) -> None:
+        if args.get("topic") in WORDS:
+            self._command({"id": number, "cmd": WATCHING[name], "args": args}, received_s)
+            return
         topic = TOPICS.get(str(args.get("topic")))
         if topic is None:
-            known = ", ".join(TOPICS)
+            known = ", ".join((*TOPICS, *WORDS))
             self._refuse(number, "bad", f"topic {args.get('topic')!r}: there are {known}")
             return
         hz = args.get("hz", 25)
@@ -163,9 +168,8 @@ class Connection:
         else:
             outbox.subscribe(topic, float(hz))
         if topic in WATCHED:
-            name = "watch.begin" if name == "sub" else "watch.end"
-            wish = args if name == "watch.begin" else {"topic": args["topic"]}
-            self._command({"id": number, "cmd": name, "args": wish}, received_s)
+            wish = args if name == "sub" else {"topic": args["topic"]}
+            self._command({"id": number, "cmd": WATCHING[name], "args": wish}, received_s)
             return
         result = {"topic": topic.name.lower(), "hz": hz}
         self.browser.say({"id": number, "ok": True, "result": result})

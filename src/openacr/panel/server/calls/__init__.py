@@ -1,5 +1,5 @@
 """The calls of `/api`, by theme; importing this package fills the table."""
 
-from openacr.panel.server.calls import card, forms, help, lines, parts, programs, session
+from openacr.panel.server.calls import card, forms, help, lines, on_card, parts, programs, session
 
-__all__ = ["card", "forms", "help", "lines", "parts", "programs", "session"]
+__all__ = ["card", "forms", "help", "lines", "on_card", "parts", "programs", "session"]

@@ -1,0 +1,176 @@
+"""Commands for the programs and PLCs of the card: run, halt, step, listen, send, clear."""
+
+from typing import Annotated
+
+from msgspec import Meta
+
+from openacr.client import Level
+from openacr.client.stored import clear, replace, require_program
+from openacr.errors import UserError
+from openacr.panel.commands.registry import Args, command
+from openacr.panel.control.card_programs import HALTED, PLCS, PROGRAMS, read_states
+from openacr.panel.control.later import LATER, Later, answer_with
+from openacr.panel.control.orders import Order
+from openacr.panel.control.station import Station
+from openacr.panel.roles import Role
+
+Program = Annotated[int, Meta(ge=0, lt=len(PROGRAMS))]
+Plc = Annotated[int, Meta(ge=0, lt=len(PLCS))]
+MOST_TEXT = 60_000  # characters; a message of the socket has at most 64 KiB
+
+
+class OfProgram(Args, frozen=True):
+    """A program of the card, or a PLC."""
+
+    program: Program | None = None
+    plc: Plc | None = None
+
+    @property
+    def level(self) -> Level:
+        """What is named; UserError unless it is exactly one."""
+        if (self.program is None) == (self.plc is None):
+            raise UserError("name a program or a PLC")
+        if self.program is not None:
+            return Level.program(self.program)
+        return Level.plc(self.plc or 0)
+
+
+class OfBlock(OfProgram, frozen=True):
+    """Whether a program waits for STEP before every line."""
+
+    on: bool = True
+
+
+class OfText(OfProgram, frozen=True):
+    """The text that a program or PLC gets."""
+
+    text: Annotated[str, Meta(max_length=MOST_TEXT)] = ""
+
+
+class OfListened(Args, frozen=True):
+    """The program that is listened to."""
+
+    program: Program
+
+
+def owner_of(station: Station, level: Level) -> str:
+    """Why a program is not for the screens; empty if it is."""
+    settings = station.machine.runner.settings
+    if level in map(Level.program, (settings.master, settings.watchdog_program)):
+        return f"{level} of the card belongs to this machine"
+    return ""
+
+
+def required(station: Station, args: OfProgram) -> Level:
+    """The program that is meant; UserError for one that this machine needs."""
+    level = args.level
+    if owner := owner_of(station, level):
+        raise UserError(owner)
+    return level
+
+
+def _require_rest(station: Station, level: Level, what: str) -> None:
+    """Refuse while this machine moves; a program also while an alarm bars every start."""
+    runner = station.machine.runner
+    if runner.is_busy or runner.jogging.is_active:
+        raise UserError(f"the machine moves: {what}")
+    if level.word == "PROG":
+        runner.alarms.require_none()
+
+
+def _begin(station: Station, word: str, level: Level) -> None:
+    _require_rest(station, level, "no program of the card is started")
+    station.on_card.programs.command(station.machine, word, level)
+
+
+def _require_halted(station: Station, level: Level) -> None:
+    _require_rest(station, Level.plc(0), "no program of the card is changed")
+    states = {state["name"]: state["state"] for state in read_states(station.machine)}
+    if states[str(level)] != HALTED:
+        raise UserError(f"{level} runs: halt it first")
+
+
+# --- running --------------------------------------------------------------------------
+
+
+@command("card.run", Role.SERVICE, is_motion=True)
+def run(station: Station, order: Order, args: OfProgram) -> None:
+    """Start a program or a PLC of the card."""
+    _begin(station, "RUN", required(station, args))
+
+
+@command("card.resume", Role.SERVICE, is_motion=True)
+def resume(station: Station, order: Order, args: OfProgram) -> None:
+    """Go on where PAUSE has held a program."""
+    _begin(station, "RESUME", required(station, args))
+
+
+@command("card.step", Role.SERVICE, is_motion=True)
+def step(station: Station, order: Order, args: OfProgram) -> None:
+    """Carry out one line of a program in block mode."""
+    _begin(station, "STEP", required(station, args))
+
+
+@command("card.block", Role.SERVICE, is_motion=True)
+def block(station: Station, order: Order, args: OfBlock) -> None:
+    """Let a program wait for STEP before every line (BLK), or go on by itself (AUT)."""
+    level = required(station, args)
+    if args.on:
+        station.on_card.programs.command(station.machine, "BLK", level)
+    else:
+        _begin(station, "AUT", level)
+
+
+@command("card.pause", Role.SERVICE)
+def pause(station: Station, order: Order, args: OfProgram) -> None:
+    """Hold a program and its motion."""
+    station.on_card.programs.command(station.machine, "PAUSE", required(station, args))
+
+
+@command("card.halt", Role.SERVICE)
+def halt(station: Station, order: Order, args: OfProgram) -> None:
+    """End a program or a PLC of the card, and the motion of its master."""
+    station.on_card.programs.command(station.machine, "HALT", required(station, args))
+
+
+# --- listening ------------------------------------------------------------------------
+
+
+@command("card.listen", Role.VIEW, needs_control=False)
+def listen(station: Station, order: Order, args: OfListened) -> None:
+    """Show what a program prints from now on, as events `listen`; a serial card cannot."""
+    station.on_card.listening.begin(order.person.client, args.program)
+
+
+@command("card.unlisten", Role.VIEW, needs_control=False)
+def unlisten(station: Station, order: Order, args: OfListened) -> None:
+    """Listen no more; the program goes on."""
+    station.on_card.listening.forget(order.person.client)
+
+
+# --- texts ----------------------------------------------------------------------------
+
+
+@command("card.send", Role.SERVICE)
+def send(station: Station, order: Order, args: OfText) -> Later:
+    """Store a text as a program or PLC of the card, verified; refused, the old one stays.
+
+    Between PROGRAM and ENDP, or in numbered lines. Nothing is run, and nothing saved by ESAVE.
+    """
+    level = required(station, args)
+    require_program(args.text)
+    _require_halted(station, level)
+    future = station.on_card.aside.begin(lambda talk: replace(talk, level, args.text))
+    answer_with(order, future, lambda report: {"name": str(level), "sent": report.sent})
+    return LATER
+
+
+@command("card.clear", Role.SERVICE)
+def erase(station: Station, order: Order, args: OfProgram) -> Later:
+    """Erase the lines of a program or PLC of the card; its memory stays."""
+    level = required(station, args)
+    _require_halted(station, level)
+    answer_with(
+        order, station.on_card.aside.begin(lambda talk: clear(talk, level)), lambda _none: None
+    )
+    return LATER

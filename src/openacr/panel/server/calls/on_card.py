@@ -1,0 +1,127 @@
+"""Programs and PLCs of the card: a list with states, listings, the ladder of a PLC."""
+
+import asyncio
+from collections.abc import Sequence
+from concurrent.futures import Future
+from dataclasses import asdict
+from typing import Annotated, TypeVar
+
+from msgspec import Meta
+
+from openacr.client import Level
+from openacr.client.stored import ListedLine, Room, listing, rooms
+from openacr.errors import CardError, UserError
+from openacr.lang.lexer import tokens
+from openacr.panel.commands.programs import owner_of
+from openacr.panel.control.aside import Talks
+from openacr.panel.control.card_programs import PLCS, PROGRAMS, State, read_states
+from openacr.panel.control.station import Station
+from openacr.panel.server.api import Call, Query, endpoint
+from openacr.plc.diagram import pictures
+from openacr.plc.reader import PlcLine, read_line
+
+T = TypeVar("T")
+
+
+class OfPlc(Query, frozen=True):
+    """A PLC."""
+
+    plc: Annotated[int, Meta(ge=0, lt=len(PLCS))]
+
+
+class OfProgram(Query, frozen=True):
+    """A program, or a PLC."""
+
+    program: Annotated[int, Meta(ge=0, lt=len(PROGRAMS))] | None = None
+    plc: Annotated[int, Meta(ge=0, lt=len(PLCS))] | None = None
+
+
+class _NoAliases:
+    """A card does not list its aliases: what is written with one is not known here."""
+
+    def number(self, name: str) -> int | None:
+        return None
+
+    def is_command(self, word: str) -> bool:
+        return False
+
+
+async def _talked(call: Call, talks: Talks[T]) -> T:
+    """The result of a conversation beside the session."""
+    future: Future[T] = Future()
+    begun = call.panel.control.call(lambda station: station.on_card.aside.begin(talks, future))
+    await asyncio.wrap_future(begun)
+    return await asyncio.wrap_future(future)
+
+
+@endpoint("GET", "/card/programs")
+async def card_programs(call: Call) -> object:
+    """The programs and PLCs of the card: state, line, memory, and which belong to the machine.
+
+    States: running, halted, paused, waits for STEP, dwells, inhibited. Changes of state are the
+    topic `programs` of the WebSocket.
+    """
+
+    def read(station: Station) -> tuple[list[State], dict[str, str]]:
+        states = read_states(station.machine)
+        levels = [*map(Level.program, PROGRAMS), *map(Level.plc, PLCS)]
+        return states, {str(level): owner_of(station, level) for level in levels}
+
+    states, owners = await asyncio.wrap_future(call.panel.control.call(read))
+    memory = {str(level): room for level, room in (await _talked(call, rooms)).items()}
+    return {
+        "programs": [
+            {**state, **_memory(memory.get(state["name"])), "owner": owners[state["name"]]}
+            for state in states
+        ]
+    }
+
+
+def _memory(room: Room | None) -> dict[str, int]:
+    return (
+        {"bytes": room.total, "used": room.total - room.free} if room else {"bytes": 0, "used": 0}
+    )
+
+
+@endpoint("GET", "/card/listing", query=OfProgram)
+async def card_listing(call: Call) -> object:
+    """The text of a program or PLC as the card lists it, each line with its number."""
+    query: OfProgram = call.query
+    if (query.program is None) == (query.plc is None):
+        raise UserError("name a program or a PLC")
+    level = Level.plc(query.plc) if query.plc is not None else Level.program(query.program or 0)
+    lines = await _talked(call, lambda talk: listing(talk, level))
+    return {"name": str(level), **_listed(lines)}
+
+
+def _listed(lines: Sequence[ListedLine]) -> dict[str, object]:
+    return {"lines": [asdict(line) for line in lines]}
+
+
+@endpoint("GET", "/card/ladder", query=OfPlc)
+async def card_ladder(call: Call) -> object:
+    """A PLC as a ladder: symbols and wires on a grid, with the nets that carry power together.
+
+    Net 0 is the left rail; a symbol passes power from `source` (a counter or latch: `reset`) to
+    `sink`. Where it cannot be drawn, `rungs` is empty and `why` says so; the text is always there.
+    """
+    query: OfPlc = call.query
+    level = Level.plc(query.plc)
+    lines = await _talked(call, lambda talk: listing(talk, level))
+    rungs, why = ladder(lines)
+    return {"name": str(level), **_listed(lines), "rungs": rungs, "why": why}
+
+
+def ladder(lines: Sequence[ListedLine]) -> tuple[list[dict[str, object]], str]:
+    """The rungs of a listing, and why there are no rungs."""
+    read: list[tuple[int, PlcLine]] = []
+    number = 0
+    try:
+        for number, text in ((line.number, line.text) for line in lines):
+            found = read_line(tokens(text), _NoAliases())
+            if found is not None:
+                read.append((number, found))
+        number = 0
+        return [asdict(picture) for picture in pictures(read)], ""
+    except CardError as error:
+        return [], f"line {number}: {error}" if number else str(error)
