@@ -10,7 +10,7 @@ KEY = r"[a-z][A-Za-z0-9. ]*\.[A-Za-z0-9. ]+"
 # Keys that are made at run time begin with one of these.
 MADE = (
     "alarm.", "block.", "board.", "graphics.", "home.state.", "load.", "override.", "pad.",
-    "role.", "scope.", "state.", "card.",
+    "role.", "scope.", "state.", "card.", "programs.state.",
 )  # fmt: skip
 
 

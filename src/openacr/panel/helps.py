@@ -96,6 +96,20 @@ HELPS: dict[str, tuple[str, str]] = {
         "Inputs and outputs, terminal, scope, gains, parameters of the card, servo loop, load,"
         " memory. For experienced personnel: the terminal and the gains act at once.",
     ),
+    "programs": (
+        "PROGRAM/PLC",
+        "The programs and PLCs of the card: what each does, and its text with the line that is"
+        " executed. RUN starts one, HALT ends it and its motion, PAUSE holds it, RESUME goes on."
+        " With BLOCK a program waits before every line for STEP. LISTEN shows what it prints.\n\n"
+        "EDIT changes the text: numbered lines, or the text between PROGRAM and ENDP; SEND stores"
+        " it on the card and compares the listing. What the card refuses leaves the former text."
+        " ESAVE keeps programs without power. CLEAR erases the lines. Programs that this machine"
+        " needs, one that runs, and all of them while the machine moves cannot be changed.\n\n"
+        "STOP pauses a program that was started here. A program of the card knows no limits and"
+        " overrides of this machine: only service personnel should start one.\n\nThe tab PLC draws"
+        " a PLC as a ladder. Closed contacts and outputs that are set are filled; wires that carry"
+        " power are thick. The flags are read ten times a second: a pulse of one scan is not seen.",
+    ),
     "teach": (
         "TEACH",
         "The present machine position becomes the zero of a work system, on the chosen axes; or"

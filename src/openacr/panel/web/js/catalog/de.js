@@ -81,6 +81,20 @@ const SERVICE = {
   "views.title": "Ansichten", "views.block": "Block", "views.save": "ANSICHT SPEICHERN", "views.saved": "Die Ansichten sind gespeichert", "help.title": "Hilfe", "help.text": "Links eine Taste wählen.", "help.none": "Zu dieser Taste gibt es keine Seite.",
 };
 
+const ON_CARD = {
+  "menu.programs": "PROG/ SPS", "programs.title": "Programme und SPS der Karte", "programs.list": "Programme und SPS", "programs.text": "Text, wie ihn die Karte auflistet", "programs.printed": "Ausgaben des Programms", "programs.read": "LESEN",
+  "programs.choose": "Programm wählen", "programs.line": "Zeile {line}", "programs.bytes": "{used} Byte", "programs.nomemory": "kein Speicher", "programs.run": "START", "programs.halt": "HALT", "programs.pause": "PAUSE", "programs.resume": "WEITER",
+  "programs.block": "EINZEL", "programs.step": "SCHRITT", "programs.listen": "MITHÖREN", "programs.edit": "ÄNDERN", "programs.clear": "LÖSCHEN", "programs.send": "SENDEN", "programs.sent": "{name}: {count} Zeilen sind auf der Karte gespeichert",
+  "programs.run.title": "{name} starten?", "programs.run.text": "Ein Programm der Karte kann sofort Achsen bewegen. STOP hält es an; die Overrides dieser Maschine wirken nicht darauf.",
+  "programs.clear.title": "{name} löschen?", "programs.clear.text": "Seine Zeilen werden im Speicher der Karte gelöscht.", "programs.cleared": "{name} ist leer",
+  "programs.state.running": "läuft", "programs.state.halted": "steht", "programs.state.paused": "angehalten", "programs.state.waits for STEP": "wartet auf SCHRITT", "programs.state.dwells": "verweilt", "programs.state.inhibited": "gesperrt",
+  "plc.choose": "SPS", "plc.ladder": "Kontaktplan", "plc.listing": "LISTE", "plc.read": "LESEN", "plc.running": "läuft", "plc.halted": "steht", "plc.empty": "Diese SPS hat keinen Text.", "plc.notdrawn": "Nicht als Kontaktplan zeichenbar: {why}", "plc.norung": "sie enthält keinen Strompfad", "plc.rung": "Strompfad {line}",
+  "loop.label": "Regelkreis der Achse {axis}", "loop.open": "Regelkreis offen", "loop.closed": "Regelkreis geschlossen", "loop.filtering": "Filter ein", "loop.bypassed": "Filter aus",
+  "loop.current": "Position", "loop.gear": "Gear-Versatz", "loop.jog": "Tipp-Versatz", "loop.cam": "Cam-Versatz", "loop.backlash": "Umkehrspiel", "loop.ballscrew": "Spindel", "loop.primary": "1. Sollwert", "loop.secondary": "2. Sollwert", "loop.actual": "Istposition",
+  "loop.error": "Schleppfehler", "loop.p": "P-Anteil, V", "loop.i": "I-Anteil, V", "loop.d": "D-Anteil, V", "loop.ffvel": "Vorsteuerung v, V", "loop.ffacc": "Vorsteuerung a, V", "loop.fbvel": "Rückführung v, V",
+  "loop.sum": "Summe, V", "loop.filter0": "Filter 0", "loop.filter1": "Filter 1", "loop.filtered": "Gefiltert, V", "loop.limits": "Drehmomentgrenzen, V", "loop.output": "Ausgang, V",
+};
+
 /** @type {Record<string, string>} */
-const texts = { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE };
+const texts = { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE, ...ON_CARD };
 export default texts;

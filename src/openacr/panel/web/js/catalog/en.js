@@ -81,4 +81,18 @@ const SERVICE = {
   "views.title": "Setup screen", "views.block": "Block", "views.save": "SAVE VIEW", "views.saved": "The views are saved", "help.title": "Help", "help.text": "Choose a key on the left.", "help.none": "There is no page on this key.",
 };
 
-export default { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE };
+const ON_CARD = {
+  "menu.programs": "PROG/ PLC", "programs.title": "Programs and PLCs of the card", "programs.list": "Programs and PLCs", "programs.text": "Text as the card lists it", "programs.printed": "What the program prints", "programs.read": "READ",
+  "programs.choose": "Choose a program", "programs.line": "line {line}", "programs.bytes": "{used} bytes", "programs.nomemory": "no memory", "programs.run": "RUN", "programs.halt": "HALT", "programs.pause": "PAUSE", "programs.resume": "RESUME",
+  "programs.block": "BLOCK", "programs.step": "STEP", "programs.listen": "LISTEN", "programs.edit": "EDIT", "programs.clear": "CLEAR", "programs.send": "SEND", "programs.sent": "{name}: {count} lines are stored on the card",
+  "programs.run.title": "Start {name}?", "programs.run.text": "A program of the card can move axes at once. STOP pauses it; it is not held by the overrides of this machine.",
+  "programs.clear.title": "Erase {name}?", "programs.clear.text": "Its lines are erased from the memory of the card.", "programs.cleared": "{name} is empty",
+  "programs.state.running": "running", "programs.state.halted": "halted", "programs.state.paused": "paused", "programs.state.waits for STEP": "waits for STEP", "programs.state.dwells": "dwells", "programs.state.inhibited": "inhibited",
+  "plc.choose": "PLC", "plc.ladder": "Ladder", "plc.listing": "LIST", "plc.read": "READ", "plc.running": "running", "plc.halted": "halted", "plc.empty": "This PLC has no text.", "plc.notdrawn": "Not drawn as a ladder: {why}", "plc.norung": "there is no rung in it", "plc.rung": "Rung {line}",
+  "loop.label": "Servo loop of axis {axis}", "loop.open": "Loop open", "loop.closed": "Loop closed", "loop.filtering": "filters on", "loop.bypassed": "filters off",
+  "loop.current": "Position", "loop.gear": "Gear offset", "loop.jog": "Jog offset", "loop.cam": "Cam offset", "loop.backlash": "Backlash", "loop.ballscrew": "Ballscrew", "loop.primary": "Primary setp.", "loop.secondary": "Second. setp.", "loop.actual": "Actual pos.",
+  "loop.error": "Follow. error", "loop.p": "Proportional, V", "loop.i": "Integral, V", "loop.d": "Derivative, V", "loop.ffvel": "Feedforward v, V", "loop.ffacc": "Feedforward a, V", "loop.fbvel": "Feedback v, V",
+  "loop.sum": "Sum, V", "loop.filter0": "Filter 0", "loop.filter1": "Filter 1", "loop.filtered": "Filtered, V", "loop.limits": "Torque limits, V", "loop.output": "Output, V",
+};
+
+export default { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE, ...ON_CARD };

@@ -36,6 +36,8 @@ export class Model {
     this.changed = new Signal(/** @type {{ what: string, cells: number[] }} */ ({ what: "", cells: [] }));
     this.jogEnded = new Signal(/** @type {{ press: number, ended: string, text: string } | null} */ (null));
     this.term = new Signal("");
+    this.programs = new Signal(/** @type {{ programs: any[] }} */ ({ programs: [] }));
+    this.listened = new Signal(/** @type {{ program: number, text: string } | null} */ (null));
     this.status = new Signal(/** @type {import("./frames.js").Status | null} */ (null));
     this.flags = new Signal(/** @type {Map<number, number>} */ (new Map()));
     this.watched = new Signal(/** @type {[number, number][]} */ ([]));
@@ -68,6 +70,7 @@ export class Model {
     else if (event === "says") this.says.set(rest.lines);
     else if (event === "jog") this.jogEnded.set(rest);
     else if (event === "term") this.term.set(rest.text);
+    else if (event === "listen") this.listened.set(rest);
     else if (event === "hello") this.hello.set({ ...this.hello.value, ...rest });
     else if (event === "machine") this.hello.set({ ...this.hello.value, machine: rest });
     else if (event in EVENTS) /** @type {Signal<any>} */ (Reflect.get(this, event)).set(rest);
@@ -90,5 +93,5 @@ export class Model {
 }
 
 const EVENTS = Object.freeze({
-  state: 1, program: 1, modals: 1, alarms: 1, messages: 1, control: 1, overrides: 1, home: 1, mdi: 1, changed: 1,
+  state: 1, program: 1, modals: 1, alarms: 1, messages: 1, control: 1, overrides: 1, home: 1, mdi: 1, changed: 1, programs: 1,
 });

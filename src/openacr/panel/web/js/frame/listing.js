@@ -10,10 +10,10 @@ const AROUND = 15; // lines kept before and after the ones in sight
 
 /**
  * @param {HTMLElement} host
- * @param {{ read: (first: number, count: number) => Promise<string[]>, clicked: (line: number) => void, scrolled: () => void, label: string }} options
+ * @param {{ read: (first: number, count: number) => Promise<string[]>, numberOf?: (line: number) => string, clicked: (line: number) => void, scrolled: () => void, label: string }} options
  * @returns {Listing}
  */
-export function createListing(host, { read, clicked, scrolled, label }) {
+export function createListing(host, { read, clicked, scrolled, label, numberOf = String }) {
   const rows = h("div.listing-rows", {});
   const space = h("div.listing-space", {}, rows);
   const box = h("div.listing.mono.scroll", { tabIndex: 0, role: "listbox", ariaLabel: label }, space);
@@ -44,7 +44,7 @@ export function createListing(host, { read, clicked, scrolled, label }) {
     return h("div.listing-row", {
       role: "option", className: `listing-row${line === active ? " is-active" : ""}${line === chosen ? " is-chosen" : ""}`, data: { line: String(line) },
       attr: { "aria-selected": String(line === active) }, onclick: () => clicked(line),
-    }, h("span.listing-mark", { ariaHidden: "true" }, line === active ? "\u25b6" : ""), h("span.listing-number", {}, String(line)), h("span.listing-text", {}, text ?? "\u2026"));
+    }, h("span.listing-mark", { ariaHidden: "true" }, line === active ? "\u25b6" : ""), h("span.listing-number", {}, numberOf(line)), h("span.listing-text", {}, text ?? "\u2026"));
   }
 
   /** @param {number} chunk */

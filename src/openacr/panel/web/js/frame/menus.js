@@ -74,6 +74,7 @@ export const MENUS = {
     { key: 3, label: "menu.offsets", screen: "offsets" },
     { key: 4, label: "menu.work", ...form("WORK") },
     { key: 5, label: "menu.diagnostics", menu: "diagnostics" },
+    { key: 6, label: "menu.programs", screen: "programs" },
     { key: 7, label: "menu.display", menu: "display" },
     MAIN,
   ],

@@ -1,15 +1,111 @@
-// The PLC tab: the parameters of the PLC programs of the card, live.
-import { refuse } from "../core/app.js";
-import { h } from "../core/dom.js";
-import { watchTable } from "./watch_table.js";
+// The PLC tab: one PLC of the card as a live ladder with its listing; what cannot be drawn is shown as text.
+import { get } from "../core/api.js";
+import { model, refuse } from "../core/app.js";
+import { fill, h, setText } from "../core/dom.js";
+import { needWords, stateOf, wordsOf } from "../core/flags.js";
+import { keepSetting, setting } from "../core/settings.js";
+import { Endings } from "../core/signal.js";
+import { t } from "../core/texts.js";
+import { needValues } from "../core/values.js";
+import { drawRung } from "../draw/ladder.js";
+
+const COUNT = 8;
+const WIDE = 560; // room for ladder and listing side by side
+const [RUNNING, EACH] = [1536, 32]; // flag "PLC Running" of PLC 0, flags of a PLC
+const COUNTS = Object.freeze({ timer: 6661, counter: 6663 }); // of PLC 0; the preload is the parameter before
+const PARAMETERS = 16; // of a PLC
 
 /**
  * @param {HTMLElement} panel
  * @param {import("../core/signal.js").Endings} endings
  */
 export async function plcTab(panel, endings) {
-  panel.classList.add("scroll");
-  const host = h("div.fact-groups.block", {});
-  panel.append(host);
-  await watchTable(host, endings)({ object: "PLC" }).catch(refuse);
+  const own = new Endings();
+  endings.add(() => own.end());
+  let plc = Number(setting("plc", "0"));
+  let hasList = setting("plc-list", panel.clientWidth < WIDE ? "off" : "on") === "on";
+  const state = h("span.grow", { role: "status" });
+  const choice = h("select.field", { ariaLabel: t("plc.choose"), onchange: () => choose(Number(choice.value)) },
+    ...Array.from({ length: COUNT }, (_each, n) => h("option", { value: String(n) }, `PLC${n}`)));
+  const listKey = h("button.key", { type: "button", onclick: () => toggleList() }, t("plc.listing"));
+  const ladder = h("div.ladder.scroll", { tabIndex: 0, role: "region", ariaLabel: t("plc.ladder") });
+  const list = h("pre.plc-list.mono.scroll", { tabIndex: 0, role: "region", ariaLabel: t("plc.listing") });
+  panel.append(h("div.row.pane-tools", {}, choice, state, listKey, h("button.key", { type: "button", onclick: () => choose(plc) }, t("plc.read"))), h("div.plc-view.grow", {}, ladder, list));
+  const names = await namesOf();
+
+  /** @param {boolean} on */
+  function showList(on) {
+    listKey.ariaPressed = String(on);
+    list.hidden = !on;
+  }
+
+  function toggleList() {
+    hasList = Boolean(list.hidden);
+    keepSetting("plc-list", hasList ? "on" : "off");
+    showList(hasList);
+  }
+
+  /** @param {number} number */
+  async function choose(number) {
+    plc = number;
+    keepSetting("plc", String(number));
+    choice.value = String(number);
+    const found = await get("card/ladder", { plc }).catch((error) => void refuse(error));
+    if (!found || plc !== number || !panel.contains(ladder)) return;
+    own.end();
+    show(found);
+  }
+
+  /** @param {{ lines: { number: number, text: string }[], rungs: import("../draw/ladder.js").Rung[], why: string }} found */
+  function show({ lines, rungs, why }) {
+    setText(list, lines.map((line) => `${String(line.number).padStart(5)} ${line.text}`).join("\n"));
+    const drawn = rungs.map((rung) => drawRung(rung, (flag) => names.get(flag) ?? ""));
+    fill(ladder, ...(drawn.length ? drawn.map((each) => each.element) : [h("p.notice", {}, lines.length ? t("plc.notdrawn", { why: why || t("plc.norung") }) : t("plc.empty"))]));
+    showList(lines.length > 0 && (hasList || !drawn.length));
+    const symbols = rungs.flatMap((rung) => rung.symbols);
+    const flags = symbols.flatMap((symbol) => symbol.flag ?? []);
+    const boxes = symbols.filter((symbol) => symbol.kind in COUNTS).map((symbol) => countAt(symbol.kind, symbol.number ?? 0));
+    /** @type {Map<number, number>} */
+    let values = new Map();
+    let wasRunning = /** @type {boolean | undefined} */ (undefined);
+    const update = () => {
+      const isRunning = stateOf(model.flags.value, RUNNING + EACH * plc);
+      setText(state, isRunning === undefined ? "" : t(isRunning ? "plc.running" : "plc.halted"));
+      state.classList.toggle("is-running", isRunning === true);
+      for (const each of drawn) each.update((flag) => stateOf(model.flags.value, flag), isRunning === true, (kind, number) => countOf(values, kind, number));
+      if (wasRunning === false && isRunning) void choose(plc); // another text may have been started
+      wasRunning = isRunning;
+    };
+    own.add(needWords(wordsOf([RUNNING + EACH * plc, ...flags])), model.flags.watch(update));
+    if (boxes.length) own.add(needValues(boxes.flatMap((at) => [at - 1, at]), (known) => {
+      values = known;
+      update();
+    }));
+  }
+  await choose(Math.min(COUNT - 1, Math.max(0, plc || 0)));
+}
+
+/**
+ * The parameter that counts.
+ * @param {string} kind
+ * @param {number} number
+ */
+function countAt(kind, number) {
+  return COUNTS[/** @type {keyof typeof COUNTS} */ (kind)] + PARAMETERS * number;
+}
+
+/**
+ * @param {Map<number, number>} values
+ * @param {string} kind
+ * @param {number} number
+ */
+function countOf(values, kind, number) {
+  const at = countAt(kind, number);
+  return `${values.get(at) ?? "\u2013"}/${values.get(at - 1) ?? "\u2013"}`;
+}
+
+/** Names of inputs and outputs by their flags. */
+async function namesOf() {
+  const { inputs, outputs } = await get("io").catch(() => ({ inputs: [], outputs: [] }));
+  return new Map([...inputs, ...outputs].map((/** @type {{ bit: number, name: string }} */ each) => [each.bit, each.name]));
 }

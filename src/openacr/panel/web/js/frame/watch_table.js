@@ -1,8 +1,8 @@
 // Parameters of the card with their live values, by their sections.
 import { get } from "../core/api.js";
-import { link, model } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
 import { Endings } from "../core/signal.js";
+import { needValues } from "../core/values.js";
 
 const MOST = 64; // of one subscription
 
@@ -23,8 +23,10 @@ export function watchTable(host, endings, isMeant = () => true) {
     fill(host, ...sections.map((section) => h("section.fact-group", {}, h("h3", {}, String(section)), h("table.grid", {}, h("tbody", {},
       ...shown.map((/** @type {any} */ each, /** @type {number} */ n) => (each.section === section ? rowOf(each, values[n]) : "")))))));
     own.end();
-    own.add(link.subscribe({ topic: "watch", hz: 5, parameters: shown.map((/** @type {any} */ each) => each.number) }),
-      model.watched.watch((pairs) => pairs.forEach(([n, value]) => values[n] && setText(values[n], String(Number(value.toPrecision(9)))))));
+    own.add(needValues(shown.map((/** @type {any} */ each) => each.number), (known) => shown.forEach((/** @type {any} */ each, /** @type {number} */ n) => {
+      const value = known.get(each.number);
+      if (value !== undefined) setText(values[n], String(Number(value.toPrecision(9))));
+    })));
   };
 }
 

@@ -1,25 +1,44 @@
-// SERVO LOOP: every parameter of the loop of one axis, live.
-import { model, refuse } from "../core/app.js";
-import { fill, h } from "../core/dom.js";
+// SERVO LOOP: the loop of one axis as a drawing with live values.
+import { model } from "../core/app.js";
+import { fill, h, setText } from "../core/dom.js";
+import { needWords, stateOf, wordsOf } from "../core/flags.js";
+import { Endings } from "../core/signal.js";
 import { t } from "../core/texts.js";
-import { watchTable } from "../frame/watch_table.js";
+import { needValues } from "../core/values.js";
+import { PLACES, drawLoop } from "../draw/loop.js";
+
+const [FIRST, EACH] = [12288, 256]; // parameters of axis 0, distance to those of the next axis
+const [OPEN, FILTER, FLAGS] = [785, 786, 32]; // flags of axis 0: open servo loop, filter active
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: "servo.title",
   area: "full",
-  async show({ body, endings }) {
-    let chosen = model.axes[0]?.index ?? 0;
+  show({ body, endings }) {
+    const own = new Endings();
+    endings.add(() => own.end());
     const axes = h("div.row.wrap", { role: "radiogroup", ariaLabel: t("form.axis") });
-    const host = h("div.fact-groups", {});
-    body.append(axes, host);
-    const show = watchTable(host, endings, (parameter) => !parameter.section.startsWith("Flag"));
+    const state = h("span.hint.grow", { role: "status" });
+    const host = h("div.loop-host.grow", {});
+    body.append(h("div.row.wrap", {}, axes, state), host);
     const choose = (/** @type {number} */ index) => {
-      chosen = index;
-      fill(axes, ...model.axes.map((axis) => h("button.key", { type: "button", role: "radio", ariaChecked: String(axis.index === chosen), onclick: () => choose(axis.index) }, axis.name)));
+      own.end();
+      const name = model.axes.find((axis) => axis.index === index)?.name ?? "";
+      fill(axes, ...model.axes.map((axis) => h("button.key", { type: "button", role: "radio", ariaChecked: String(axis.index === index), onclick: () => choose(axis.index) }, axis.name)));
+      const picture = drawLoop(t("loop.label", { axis: name }));
+      fill(host, picture.element);
+      const first = FIRST + EACH * index;
+      const flags = [OPEN + FLAGS * index, FILTER + FLAGS * index];
+      own.add(
+        needValues(PLACES.map((place) => first + place), (values) => picture.update((place) => values.get(first + place))), needWords(wordsOf(flags)),
+        model.flags.watch((words) => {
+          const [isOpen, isFiltering] = flags.map((flag) => stateOf(words, flag));
+          setText(state, [isOpen === undefined ? "" : t(isOpen ? "loop.open" : "loop.closed"), isFiltering === undefined ? "" : t(isFiltering ? "loop.filtering" : "loop.bypassed")].filter(Boolean).join(" \u00b7 "));
+          picture.element.classList.toggle("is-bypassed", isFiltering === false);
+        }),
+      );
       /** @type {HTMLElement | null} */ (axes.querySelector("[aria-checked=true]"))?.focus();
-      return show({ object: "AXIS", index: chosen }).catch(refuse);
     };
-    await choose(chosen);
+    choose(model.axes[0]?.index ?? 0);
   },
 };

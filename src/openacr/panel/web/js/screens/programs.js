@@ -1,0 +1,201 @@
+// PROGRAM/PLC: the programs and PLCs of the card, what each of them does, its text; run, halt, step, listen, edit, clear.
+import { get } from "../core/api.js";
+import { give, link, model, refuse, report } from "../core/app.js";
+import { fill, h, setText } from "../core/dom.js";
+import { t, textOr } from "../core/texts.js";
+import { confirm } from "../frame/dialog.js";
+import { createListing } from "../frame/listing.js";
+
+/**
+ * @typedef {{ name: string, state: string, line?: number, block?: boolean }} State
+ * @typedef {State & { bytes: number, used: number, owner: string }} Listed
+ */
+
+const HALTED = "halted";
+
+/** @type {import("../frame/screen_host.js").Screen} */
+export const screen = {
+  title: "programs.title",
+  area: "full",
+  async show({ body, head, endings, args, beforeClose }) {
+    /** @type {Listed[]} */
+    let listed = [];
+    /** @type {Map<string, State>} */
+    let states = new Map();
+    let name = "";
+    /** @type {{ number: number, text: string }[]} */
+    let lines = [];
+    let listened = "";
+    const items = h("div.list.scroll.program-list", { role: "listbox", ariaLabel: t("programs.list") });
+    const title = h("strong", { role: "status" });
+    const keys = h("div.program-keys", {});
+    const text = h("textarea.field.mono.grow", { ariaLabel: t("programs.text"), spellcheck: false, wrap: "off", hidden: true });
+    const place = h("div.program-text.grow", {});
+    const printed = h("pre.listing-plain.mono.printed", { role: "log", ariaLabel: t("programs.printed"), tabIndex: 0, hidden: true });
+    body.classList.add("is-tabbed");
+    body.append(items, h("div.program-side", {}, title, keys, place, text, printed));
+    const listing = createListing(place, {
+      read: async (first, count) => lines.slice(first - 1, first - 1 + count).map((each) => each.text),
+      numberOf: (row) => String(lines[row - 1]?.number ?? ""), clicked: () => {}, scrolled: () => {}, label: t("programs.text"),
+    });
+    head.append(h("button.key", { type: "button", onclick: () => readList() }, t("programs.read")));
+
+    const isEdited = () => !text.hidden && text.value !== textOf(lines);
+    const which = () => (name.startsWith("PLC") ? { plc: Number(name.slice(3)) } : { program: Number(name.slice(4)) });
+    beforeClose(mayDrop);
+
+    async function mayDrop() {
+      if (!isEdited()) return true;
+      return confirm(t("edit.leave"), t("edit.leave.text", { name }), t("form.drop"));
+    }
+
+    async function readList() {
+      listed = (await get("card/programs").catch((error) => void refuse(error)))?.programs ?? listed;
+      drawList();
+    }
+
+    function drawList() {
+      fill(items, ...listed.map((each) => h("button.key.item", { type: "button", role: "option", data: { name: each.name }, attr: { "aria-selected": String(each.name === name) }, onclick: () => choose(each.name) },
+        h("span.name", {}, each.name), h("span.program-state", {}), h("span.quiet.number", {}, each.bytes ? t("programs.bytes", { used: each.used }) : t("programs.nomemory")))));
+      drawStates();
+    }
+
+    function drawStates() {
+      for (const item of items.children) {
+        const state = states.get(/** @type {HTMLElement} */ (item).dataset.name ?? "");
+        const shown = item.querySelector(".program-state");
+        if (shown) setText(shown, state && state.state !== HALTED ? `\u25b6 ${stateText(state)}` : "");
+        item.classList.toggle("is-running", state !== undefined && state.state !== HALTED);
+      }
+      const state = states.get(name);
+      setText(title, name ? [name, state ? stateText(state) : "", state?.line ? t("programs.line", { line: state.line }) : ""].filter(Boolean).join(" \u00b7 ") : t("programs.choose"));
+      listing.mark(state?.line ? lines.findIndex((each) => each.number === state.line) + 1 : 0, true);
+      drawKeys(state);
+    }
+
+    /** @param {string} chosen */
+    async function choose(chosen) {
+      if (chosen !== name && !(await mayDrop())) return;
+      name = chosen;
+      edit(false);
+      for (const item of items.children) item.setAttribute("aria-selected", String(/** @type {HTMLElement} */ (item).dataset.name === name));
+      await readText();
+    }
+
+    async function readText() {
+      const found = await get("card/listing", which()).catch((error) => void refuse(error));
+      if (!found || found.name !== name) return;
+      lines = found.lines;
+      listing.forget();
+      listing.setTotal(lines.length);
+      drawStates();
+    }
+
+    let drawn = "";
+    /** @param {State | undefined} state */
+    function drawKeys(state) {
+      const owner = listed.find((each) => each.name === name)?.owner ?? "";
+      const isPlc = name.startsWith("PLC");
+      const looks = JSON.stringify([name, state?.state === HALTED, state?.state === "paused", state?.block, text.hidden, listened, owner, model.may("service")]);
+      if (looks === drawn || !name) return;
+      drawn = looks;
+      const bar = owner || (model.may("service") ? "" : t("role.needed", { role: t("role.service") }));
+      const [isRunning, isPaused] = [state !== undefined && state.state !== HALTED, state?.state === "paused"];
+      const key = (/** @type {any} */ label, /** @type {() => void} */ does, more = {}) => h("button.key", { type: "button", disabled: Boolean(bar), title: bar, onclick: does, ...more }, t(label));
+      const order = (/** @type {string} */ cmd, values = {}) => () => void give(cmd, { ...which(), ...values });
+      const focused = keys.contains(document.activeElement) ? document.activeElement?.textContent : "";
+      if (!text.hidden) fill(keys, key("programs.send", () => send(), { className: "key main", disabled: false }), h("button.key", { type: "button", onclick: () => drop() }, t("form.drop")));
+      else fill(keys,
+        key("programs.run", () => run(), { className: bar || isRunning ? "key" : "key danger", disabled: Boolean(bar) || isRunning }), key("programs.halt", order("card.halt")),
+        ...(isPlc ? [] : [
+          key("programs.pause", order("card.pause"), { disabled: Boolean(bar) || !isRunning || isPaused }), key("programs.resume", order("card.resume"), { disabled: Boolean(bar) || !isPaused }),
+          key("programs.block", order("card.block", { on: !state?.block }), { ariaPressed: String(Boolean(state?.block)) }), key("programs.step", order("card.step"), { disabled: Boolean(bar) || !state?.block }),
+          key("programs.listen", () => listen(), { ariaPressed: String(listened === name), disabled: false, title: "" }),
+        ]),
+        key("programs.edit", () => edit(true), { disabled: Boolean(bar) || isRunning }), key("programs.clear", () => clear(), { disabled: Boolean(bar) || isRunning || !lines.length }));
+      if (bar) keys.append(h("p.hint", {}, bar));
+      const again = [...keys.querySelectorAll("button")].find((each) => each.textContent === focused && !each.disabled);
+      again?.focus();
+    }
+
+    async function run() {
+      if (!(await confirm(t("programs.run.title", { name }), t("programs.run.text"), t("programs.run")))) return;
+      await give("card.run", which());
+    }
+
+    async function clear() {
+      if (!(await confirm(t("programs.clear.title", { name }), t("programs.clear.text"), t("programs.clear"), "bad"))) return;
+      if (await give("card.clear", which())) report(t("programs.cleared", { name }));
+      await Promise.all([readText(), readList()]);
+    }
+
+    /** @param {boolean} on */
+    function edit(on) {
+      text.hidden = !on;
+      place.hidden = on;
+      if (on) {
+        text.value = textOf(lines);
+        text.focus();
+      }
+      drawStates();
+    }
+
+    async function drop() {
+      if (await mayDrop()) edit(false);
+    }
+
+    async function send() {
+      const done = await give("card.send", { ...which(), text: text.value });
+      if (!done) return;
+      report(t("programs.sent", { name, count: done.sent }));
+      edit(false);
+      await Promise.all([readText(), readList()]);
+    }
+
+    async function listen() {
+      const program = which();
+      const isOn = listened === name;
+      if (listened) await give("card.unlisten", { program: Number(listened.slice(4)) });
+      listened = "";
+      if (!isOn && (await give("card.listen", program))) {
+        listened = name;
+        printed.replaceChildren();
+      }
+      printed.hidden = !listened;
+      drawStates();
+    }
+
+    endings.add(
+      link.subscribe({ topic: "programs", hz: 5 }),
+      model.programs.watch((event) => {
+        states = new Map(event.programs.map((/** @type {State} */ each) => [each.name, each]));
+        drawStates();
+      }),
+      model.listened.watch((heard) => {
+        if (!heard || `PROG${heard.program}` !== listened) return;
+        printed.append(heard.text.replaceAll("\r", ""));
+        while (printed.childNodes.length > 400) printed.firstChild?.remove();
+        printed.scrollTop = printed.scrollHeight;
+      }),
+      () => { if (listened && link.isOpen.value) void link.command("card.unlisten", { program: Number(listened.slice(4)) }).catch(() => {}); },
+    );
+    await readList();
+    const first = args.name ?? listed.find((each) => each.used && !each.owner)?.name ?? listed.find((each) => each.used)?.name ?? "PROG0";
+    await choose(first);
+    /** @type {HTMLElement | null} */ (items.querySelector("[aria-selected=true]"))?.focus();
+  },
+};
+
+/** @param {State} state */
+function stateText(state) {
+  return textOr(`programs.state.${state.state}`, state.state);
+}
+
+/**
+ * The text as it is edited: numbered lines with their numbers, free-form text without.
+ * @param {{ number: number, text: string }[]} lines
+ */
+function textOf(lines) {
+  const isFree = /^\s*PROGRAM\b/i.test(lines[0]?.text ?? "");
+  return lines.map((each) => (isFree ? each.text : `${each.number} ${each.text}`)).join("\n");
+}
