@@ -3,6 +3,7 @@
 import itertools
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -109,6 +110,50 @@ def test_the_set_up_is_what_configure_makes_of_the_answers() -> None:
     made = code_files(parse_answers(answers), answers, is_explained=True)
     assert made == {name: files[name] for name in ("setup.8k", "prog15.8k")}
     assert "DIM PLC0(4096) : REM " in files["setup.8k"]
+
+
+CUT = {"kind": Kind.MILL, "unit": Unit.MM, "homing": Homing.MARKER, "axes": ("X", "Y", "Z")}
+
+
+@pytest.mark.parametrize(
+    ("other", "has_part"),
+    [
+        ({}, True),
+        ({"unit": Unit.INCH}, True),
+        ({"unit": Unit.DEGREE}, False),
+        ({"homing": Homing.SWITCH}, False),
+        ({"axes": ("X", "Y", "W")}, False),
+        ({"axes": ("X", "Y")}, False),
+        ({"kind": Kind.GANTRY}, False),
+    ],
+)
+def test_a_mill_the_cnc_side_can_use_has_settings_and_a_part(
+    tmp_path: Path, other: dict[str, Any], has_part: bool
+) -> None:
+    project = made(tmp_path, choices(**{**CUT, **other}))
+    assert {"settings.toml", "part.nc"} <= {path.name for path in project.iterdir()} or not has_part
+    assert (project / "part.nc").exists() == (project / "settings.toml").exists() == has_part
+    if has_part:
+        store = str(tmp_path / "sysvar.db")
+        settings = str(project / "settings.toml")
+        stored = CliRunner().invoke(app, ["sysvar", "import", settings, "--store", store])
+        assert stored.stdout == "64 settings stored\n"
+        words = ["mill", "check", str(project / "part.nc"), "--store", store, "--json"]
+        checked = CliRunner().invoke(app, words)
+        assert checked.exit_code == 0, checked.output
+
+
+def test_the_part_is_the_contour_of_the_program() -> None:
+    files = project_files("m", choices(Kind.MILL, limits=Limits.SWITCHES))
+    for target in ("X50 Y50", "Z-100", "X100", "X0 Y0"):
+        assert f"\n{target} : REM" in files["prog0.8k"]
+        assert f" {target}" in files["part.nc"]
+    assert "CIRCCW X(100,100) Y(100,75)" in files["prog0.8k"]
+    assert "G3 X100 Y100 I0 J25\n" in files["part.nc"]
+    assert "P200002 = true " in files["settings.toml"]  # no soft limits were chosen
+    assert [f"P30{n}000 = {d}  " in files["settings.toml"] for n, d in enumerate((1, 1, 0))] == [
+        True, True, True,
+    ]  # fmt: skip
 
 
 def test_a_turntable_without_limits_has_no_stops(tmp_path: Path) -> None:

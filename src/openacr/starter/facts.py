@@ -9,8 +9,18 @@ from collections.abc import Iterator
 from math import ceil
 from typing import Any
 
+from openacr.configure.answers import Gains
 from openacr.configure.setup_code import FLAGS_PER_AXIS
-from openacr.starter.choices import INPUTS_PER_AXIS, MODEL, UNITS, Choices, Homing, Limits
+from openacr.starter.choices import (
+    INPUTS_PER_AXIS,
+    MODEL,
+    UNITS,
+    Choices,
+    Homing,
+    Kind,
+    Limits,
+    Unit,
+)
 
 COUNTS_PER_LINE, LINES = 4, 2000
 TOOL_OUTPUT, LAMP_OUTPUT = 32, 33
@@ -19,7 +29,7 @@ ENABLE_S, TOOL_S = 0.2, 0.2
 
 # In revolutions of a motor, per second and per second squared.
 VELOCITY, ACCELERATION = 20.0, 200.0
-SEARCH, APPROACH, SEEK = 8.0, 1.0, 2.0
+SEARCH, APPROACH, SEEK, FEED = 8.0, 1.0, 2.0, 4.0
 EXCESS_ERROR, TOLERANCE = 1.0, 0.01
 SOFT_MARGIN, SWITCH_MARGIN, STOP_MARGIN = 0.25, 1.5, 2.5  # beyond the travel
 EDGE_BEFORE_MARKER, SEEK_MOST = 0.5, 1.05
@@ -53,6 +63,7 @@ def facts_of(name: str, chosen: Choices) -> dict[str, Any]:
         "down": _targets(tool_axes, 0.5),
         "up": _targets(tool_axes, 0.0),
         **_contour(axes),
+        **_of_part_programs(chosen, turn),
         "stations": [
             {"station": number, "to": _targets(axes, number / STATIONS)}
             for number in range(1, STATIONS + 1)
@@ -89,6 +100,7 @@ def _of_choices(name: str, chosen: Choices) -> dict[str, Any]:
         "has_tool_axis": _has_tool_axis(chosen),
         "tool_output": TOOL_OUTPUT,
         "lamp_output": LAMP_OUTPUT,
+        "cuts_parts": cuts_parts(chosen),
         "has_inputs": bool(inputs),
         "start": inputs[:1],
         "conditions": inputs[1:],
@@ -98,6 +110,16 @@ def _of_choices(name: str, chosen: Choices) -> dict[str, Any]:
         "enable_s": ENABLE_S,
         "tool_s": TOOL_S,
     }
+
+
+def cuts_parts(chosen: Choices) -> bool:
+    """Whether the CNC side can use the machine: a mill with X, Y and Z, homed to markers."""
+    return (
+        chosen.kind is Kind.MILL
+        and chosen.axes == ("X", "Y", "Z")
+        and chosen.unit in (Unit.MM, Unit.INCH)
+        and chosen.homing is Homing.MARKER
+    )
 
 
 def _has_tool_axis(chosen: Choices) -> bool:
@@ -145,6 +167,9 @@ def _axis(chosen: Choices, turn: float, number: int, name: str, sign: int) -> di
         "switch_high": _number(high + SWITCH_MARGIN * turn),
         "soft_low": _number(low - SOFT_MARGIN * turn),
         "soft_high": _number(high + SOFT_MARGIN * turn),
+        "soft_is_off": "false" if chosen.limits in (Limits.SOFT, Limits.BOTH) else "true",
+        "home_negative": int(sign > 0),
+        "home_priority": 2 if sign > 0 else 1,
         "home_low": _number(home[0]),
         "home_high": _number(home[1]),
         "positive_input": INPUTS_PER_AXIS * number,
@@ -188,6 +213,27 @@ def _contour(axes: list[dict[str, Any]]) -> dict[str, str]:
         f" {second}({_number(high * y)},{_number(middle * y)})",
         "left": f"{first}{_number(low * x)}",
         "close": f"{second}{_number(low * y)}",
+        "arc_end": f"{first}{_number(high * x)} {second}{_number(high * y)}",
+        "arc_centre": f"I0 J{_number((middle - low) * y)}",
+    }
+
+
+def _of_part_programs(chosen: Choices, turn: float) -> dict[str, str]:
+    """What the CNC side counts otherwise: speeds per minute, resolution per unit."""
+    gains = Gains()
+    is_metric = chosen.unit is Unit.MM
+    return {
+        "store_unit": "mm" if is_metric else "inch",
+        "unit_word": "G21" if is_metric else "G20",
+        "unit_code": "21" if is_metric else "20",
+        "pgain": _number(gains.pgain),
+        "dgain": _number(gains.dgain),
+        "pulses_per_unit": _number(COUNTS_PER_LINE * LINES / turn),
+        "in_position": _number(TOLERANCE * turn),
+        "search_min": _number(60.0 * SEARCH * turn),
+        "approach_min": _number(60.0 * APPROACH * turn),
+        "velocity_min": _number(60.0 * VELOCITY * turn),
+        "feed_min": _number(60.0 * FEED * turn),
     }
 
 

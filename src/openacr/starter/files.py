@@ -14,19 +14,22 @@ TEMPLATES = Path(__file__).parent / "templates"
 SUFFIX = ".template"
 COMMENT_COLUMN = 36
 _COMMENT = re.compile(r"^(\S.*?) {2,}# ", re.MULTILINE)
-ANSWERS, PLC = "configure.toml", "plc0.8k"
+ANSWERS = "configure.toml"
+# Files that not every project has, and the fact that decides.
+CONDITIONS = {"plc0.8k": "has_plc", "settings.toml": "cuts_parts", "part.nc": "cuts_parts"}
 NAME = re.compile(r"[^\W_](?:[\w .+-]{0,60}[\w+])?")
 
 
 def project_files(name: str, chosen: Choices) -> dict[str, str]:
     """The texts of a project by file name; `name` is that of its folder."""
     facts = facts_of(name, chosen)
+    omitted = {each for each, condition in CONDITIONS.items() if not facts[condition]}
+    templates = {path.name.removesuffix(SUFFIX): path for path in TEMPLATES.glob(f"*{SUFFIX}")}
     files = {
-        path.name.removesuffix(SUFFIX): render(path.read_text("utf-8"), facts)
-        for path in sorted(TEMPLATES.glob(f"*{SUFFIX}"))
+        each: render(path.read_text("utf-8"), facts)
+        for each, path in sorted(templates.items())
+        if each not in omitted
     }
-    if not chosen.has_plc:
-        del files[PLC]
     files[".gitignore"] = files.pop("gitignore")
     files = {
         name: _aligned(text) if name.endswith(".toml") else text for name, text in files.items()
