@@ -138,3 +138,16 @@ def test_no_path_is_planned_for_a_wrong_limit_or_number_of_axes() -> None:
     planner = TrajectoryPlanner(START, limits())
     with pytest.raises(TrajectoryError, match="line 7: an end with 2 axes, not 3"):
         planner.add(Segment(7, (1.0, 1.0), 10.0, 0.01))
+
+
+@pytest.mark.parametrize(
+    ("kind", "tolerance", "time_s"),
+    [("corners", 0.01, 2.793), ("pocket", 0.01, 4.662), ("pocket", 0.05, 4.29),
+     ("circles", 0.01, 2.031), ("surface", 0.01, 0.63), ("surface", 0.05, 0.63)],
+)  # fmt: skip
+def test_programs_take_their_time_to_one_percent(
+    kind: str, tolerance: float, time_s: float
+) -> None:
+    segments = SMALL[kind](tolerance)
+    control = points(planned(segments, first_point(segments, kind), limits()))
+    assert len(control) * PERIOD_S == pytest.approx(time_s, rel=0.01)

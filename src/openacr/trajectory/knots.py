@@ -1,13 +1,11 @@
 """Knots of the speed curve, and how it begins and ends at rest.
 
 At rest h = (ds/dt)^2 falls to 0 like s^(4/3), which no spline follows. So the first knot lies
-where the constant
-jerk J gets in `FIRST` steps of time; up to there s = J t^3/6, and from there on knots lie one
-step of time apart until they are one length apart.
+where the constant jerk J gets in `FIRST` steps of time; up to there s = J t^3/6, and from there
+on knots lie one step of time apart until they are one length apart. Further on their distances
+are those of spacing.py.
 """
 
-import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,7 +14,6 @@ from openacr.trajectory.setpoints import Reals
 
 FIRST = 4.0
 ACROSS = 0.04  # of the jerk
-GROWTH = 0.2  # of gaps with the distance from slow sections
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,44 +53,21 @@ class Grid:
         return distances
 
 
-@dataclass(frozen=True, slots=True)
-class Slow:
-    """A section of the path with a low feed, and the length between knots there."""
-
-    start_u: float
-    end_u: float
-    length_u: float
-
-    def gap(self, s: float) -> float:
-        """The largest gap at s; it grows with the distance from the section."""
-        return self.length_u + GROWTH * max(self.start_u - s, s - self.end_u, 0.0)
+def first_knots(grid: Grid, most_u: float) -> list[float]:
+    """The knots of a start from rest, `most_u` from it at most, with two more before them."""
+    graded = grid.graded(most_u)
+    gap = graded[1] - graded[0] if len(graded) > 1 else 0.5 * graded[0]
+    return [graded[0] - 0.66 * gap, graded[0] - 0.33 * gap, *graded]
 
 
-def extended(
-    knots: list[float],
-    grid: Grid,
-    slow: Sequence[Slow],
-    end_u: float,
-    last: list[float],
-    length_u: float,
-) -> list[float]:
-    """Knots with two more on each side, continued to `end_u`, or by the last ones before rest."""
-    found, step = list(knots), grid.length_u
-    if not found:
-        graded = grid.graded(0.5 * min(end_u, length_u))
-        gap = graded[1] - graded[0] if len(graded) > 1 else 0.5 * graded[0]
-        found = [graded[0] - 0.66 * gap, graded[0] - 0.33 * gap, *graded]
-    while True:
-        gap = min((each.gap(found[-1]) for each in slow), default=step)
-        if found[-1] + (1.5 if last else 1.0) * min(gap, step) > end_u:
-            break
-        found.append(found[-1] + min(gap, step))
-    if not last:
-        return found
-    if end_u - found[-1] < 0.3 * step:
-        last = last[1:] or [0.5 * (found[-1] + length_u)]
+def closed_knots(knots: Reals, last: list[float], length_u: float) -> Reals:
+    """Knots continued by those of an end at rest, with two more after them."""
+    gap = float(knots[-1] - knots[-2])
+    if last[0] - knots[-1] < 0.3 * gap:
+        last = last[1:] or [0.5 * (float(knots[-1]) + length_u)]
     gap = length_u - last[-1]
-    return [*found, *last, last[-1] + 0.3 * gap, last[-1] + 0.6 * gap]
+    found: Reals = np.concatenate([knots, last, [last[-1] + 0.3 * gap, last[-1] + 0.6 * gap]])
+    return found
 
 
 def rest_weights(weights: Reals, s: float, side: int) -> Reals:
@@ -133,26 +107,4 @@ def tie_end(weights: Reals, ratios: Reals) -> None:
 def rest_h(s: Reals, jerk: float) -> Reals:
     """H at distances from rest after a start with a jerk."""
     found: Reals = (6.0 * np.maximum(s, 0.0)) ** (4 / 3) * jerk ** (2 / 3) / 4.0
-    return found
-
-
-def stop_speed(length_u: float, jerk: float) -> float:
-    """The speed from which a stop with a jerk takes the length, half of it braking harder."""
-    return float(np.cbrt(length_u * length_u * jerk))
-
-
-def stop_rows(row: list[float], jerk: float, acceleration: float) -> list[float]:
-    """Three more rows of a time law: from a constant speed to rest."""
-    t, s, v, _ = row
-    peak = min(math.sqrt(v * jerk), acceleration)
-    rise, hold = peak / jerk, v / peak - peak / jerk
-    found: list[float] = []
-    a = 0.0
-    for time, j in ((rise, -jerk), (hold, 0.0), (rise, jerk)):
-        s += time * (v + time * (0.5 * a + time * j / 6.0))
-        v += time * (a + 0.5 * j * time)
-        a += j * time
-        t += time
-        found += [t, s, v, a]
-    found[-2:] = [0.0, 0.0]
     return found

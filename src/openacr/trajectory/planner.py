@@ -9,6 +9,7 @@ window. Nothing is given out that could not be brought to rest by what is known.
 
 import math
 from collections import deque
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import accumulate
 
@@ -139,7 +140,7 @@ class TrajectoryPlanner:
         else:
             course.begin_s = self._stream.after_rest_s()
         if isinstance(course, SmoothCourse):
-            member = Member(course, self._base_u, course.offsets, course.lines)
+            member = Member(course, self._base_u, course.sections.ends, course.sections.lines)
         else:
             offsets = list(accumulate(piece.length_u for piece in chain.pieces))
             member = Member(course, self._base_u, offsets,
@@ -211,24 +212,19 @@ class TrajectoryPlanner:
 
 def near_corner(before: Chain, after: Chain, reach: float) -> list[float]:
     """The programmed path around a corner as a polyline, point after point."""
-    points: list[Point] = [after.head[0].start]
-    gone = 0.0
-    for piece in reversed(before.tail):
-        chords = [piece.start, *piece.chords(reach / 40.0)]
-        for one, other in zip(chords[-2::-1], chords[:0:-1], strict=True):
-            points.insert(0, one)
-            gone += math.dist(one, other)
-            if gone > reach:
-                break
-        if gone > reach:
-            break
-    gone = 0.0
-    for piece in after.head:
-        for point in piece.chords(reach / 40.0):
-            gone += math.dist(points[-1], point)
-            points.append(point)
-            if gone > reach:
-                break
-        if gone > reach:
-            break
+    vertex = after.head[0].start
+    points = [*_walked(reversed(before.tail), vertex, reach, -1)][::-1]
+    points += [vertex, *_walked(after.head, vertex, reach, 1)]
     return [part for point in points for part in point]
+
+
+def _walked(pieces: Iterable[Piece], start: Point, reach: float, side: int) -> Iterator[Point]:
+    """Points of the path from a vertex on, along pieces (`side` 1) or against them (-1)."""
+    gone, last = 0.0, start
+    for piece in pieces:
+        for point in piece.chords(reach / 40.0, side):
+            yield point
+            gone += math.dist(last, point)
+            last = point
+            if gone > reach:
+                return

@@ -109,11 +109,15 @@ class Piece:
         size = math.hypot(*slope)
         return tuple(part / size for part in slope)
 
-    def chords(self, largest_u: float) -> Iterator[Point]:
-        """Points after the start whose chords are at most `largest_u` long; a line has one."""
+    def chords(self, largest_u: float, side: int = 1) -> Iterator[Point]:
+        """Points after the start (`side` -1: before the end) at most `largest_u` apart.
+
+        A line has one.
+        """
         count = 1 if self.is_line else max(1, math.ceil(self.length_u / largest_u))
         for n in range(1, count + 1):
-            yield self.point(self.length_u * n / count)
+            share = n / count
+            yield self.point(self.length_u * (share if side > 0 else 1.0 - share))
 
 
 def turn_rad(before: Direction, after: Direction) -> float:

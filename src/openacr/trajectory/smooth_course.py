@@ -1,11 +1,9 @@
 """The course of a smooth chain: its tube, and its speed window by window.
 
 Of the path that is known and smoothed, the first part is committed, the rest planned to a slow
-constant speed from which
-a stop takes a few samples: what is committed can always be brought to rest on known path. The
-next window starts from the
-plan left over, continued at that slow speed, which keeps all limits; from there every step of the
-solver keeps them, too (speed_cy.py).
+constant speed from which a stop takes a few samples: what is committed can always be brought to
+rest on known path. The next window starts from the plan left over, continued at that slow speed,
+which keeps all limits; from there every step of the solver keeps them, too (speed_cy.py).
 """
 
 import math
@@ -17,30 +15,37 @@ from openacr.compiled import pick
 from openacr.trajectory import course_cy, speed_rows_cy
 from openacr.trajectory.arrays import flat
 from openacr.trajectory.course import Course, Soft
-from openacr.trajectory.knots import Grid, Slow, extended, rest_h, stop_rows, stop_speed
+from openacr.trajectory.knot_rules import REST_SHARE, KnotRules
+from openacr.trajectory.knots import Grid, closed_knots, first_knots
 from openacr.trajectory.limits import Along, Limits, TrajectoryError
+from openacr.trajectory.sections import Sections
 from openacr.trajectory.segments import Piece
 from openacr.trajectory.setpoints import Reals
-from openacr.trajectory.tube import AHEAD, STEP, Tube
-from openacr.trajectory.window import Curve, Rules, Window
+from openacr.trajectory.slow_law import (
+    SLOW_JERK,
+    eased,
+    places,
+    slow_h,
+    stop_rows,
+    stop_speed,
+    to_rest,
+)
+from openacr.trajectory.spacing import continued, widest
+from openacr.trajectory.tube import AHEAD, STEP, Tube, tube_share
+from openacr.trajectory.window import Curve, Window
 
 _fill = pick(course_cy.course_fill)
 _law = pick(speed_rows_cy.law_from_speed)
 PARTS = speed_rows_cy.PARTS
 
-JERK_SHARE, ACCELERATION_SHARE = 0.99, 0.99  # of the limits, for what happens between knots
-REST_SHARE = 0.95  # of the jerk near rest, where knots are sparse
-SLOW_JERK, SLOW_ACCELERATION = 0.35, 0.25  # shares at the slow speed ahead
-NORMAL_SHARE = 0.3  # of the tolerance at most, for the B-spline in time
-TUBE_SHARE = 0.96  # of the tolerance, for smoothing and the B-spline
 PER_RADIUS = 10.0  # samples on the radius of an arc, at least
 LEAST_STEPS = 32  # samples of the shortest chain
-KNOT = 2.0  # samples between two knots
-LONG = 0.7  # periods: what takes longer is seen by a single difference of setpoints
+KNOT = 2.0  # samples between two knots where the path bends
 SLOW_STEPS = 2.0  # of time between two knots where the feed is low
 END_ROWS = 8  # control points that shape an end
 MOST_AGAIN, AGAIN_SHARE = 3, 0.96
-RAMP = 12  # knots from one slow speed to the next
+LEAST_KNOTS = 32  # ahead of what is committed
+RAMP = 12  # dense knots from one slow speed to the next
 MOST_TRIES = 40
 LOOK = 2.5  # braking distances ahead of what is committed
 BATCH = 0.5  # of that, committed at once
@@ -55,9 +60,9 @@ def look_ahead(along: Along) -> float:
 class SmoothCourse(Course):
     """A course that grows with its chain."""
 
-    __slots__ = ("_begun_s", "_ease", "_feeds", "_first", "_grid", "_kept", "_knots", "_last",
-                 "_level", "_limits", "_period_s", "_push", "_slow", "_slow_h", "_soft",
-                 "_tolerances", "_tube", "_x", "lines", "look_u", "offsets", "steps")  # fmt: skip
+    __slots__ = ("_begun_s", "_grid", "_kept", "_knots", "_last", "_level", "_limits",
+                 "_period_s", "_rules", "_slow_h", "_tube", "_x",
+                 "look_u", "sections", "steps")  # fmt: skip
 
     def __init__(
         self, limits: Limits, period_s: float, known: Sequence[Piece], soft: Soft | None
@@ -78,47 +83,35 @@ class SmoothCourse(Course):
             radius / PER_RADIUS,
             length / LEAST_STEPS,
         )
-        knot_u = KNOT * step
-        normal = max(limits.acceleration_ups2) * period_s**2 / 6.0
-        share = TUBE_SHARE - min(NORMAL_SHARE, normal / tolerance)
-        self._tube = Tube(limits.axes, step, share)
-        self._first, self._last = soft, Soft(along.jerk, 0.0)
-        self._grid = Grid(knot_u, time_s, REST_SHARE * self._soft_jerk(soft, along.jerk))
+        dense_u = KNOT * step
+        across = max(limits.acceleration_ups2)
+        if not math.isfinite(radius):  # corners are passed at J/2 (48 e/J)^(1/3)
+            jerk = max(limits.jerks(period_s))
+            across = min(across, 0.5 * jerk * (48.0 * tolerance / jerk) ** (1 / 3))
+        self._tube = Tube(limits.axes, step, tube_share(across, period_s, tolerance))
+        self._last = Soft(along.jerk, 0.0)
+        start_jerk = along.jerk if soft is None else min(soft.jerk, along.jerk)
+        self._grid = Grid(dense_u, time_s, REST_SHARE * start_jerk)
+        self.sections = Sections()
+        rest_u = 40.0 * self._grid.jerk * time_s**3
+        self._rules = KnotRules(limits, period_s, self.sections, self._tube, rest_u, soft)
         self._kept = np.zeros((1, 4))
         self._knots = np.empty(0)
         self._x = np.empty(0)
-        self._push = self._soft = np.empty(0)  # shares of the limits that the rows use
-        self._ease = 1.0  # share of the jerk of new windows
         self._begun_s = 0.0  # where the present window begins
         self._slow_h: float = min(
-            stop_speed(4.0 * knot_u, along.jerk) ** 2, 0.25 * along.acceleration * RAMP * knot_u
+            stop_speed(4.0 * dense_u, along.jerk) ** 2, 0.25 * along.acceleration * RAMP * dense_u
         )
         self._level = self._slow_h
         self.look_u = look_ahead(along)
-        self.offsets: list[float] = []  # ends of the pieces
-        self._slow: list[Slow] = []
-        self.lines: list[int] = []
-        self._feeds: list[float] = []
-        self._tolerances: list[float] = []
         self.steps = 0  # of the solver, all windows together
-
-    @staticmethod
-    def _soft_jerk(soft: Soft | None, jerk: float) -> float:
-        return jerk if soft is None else min(soft.jerk, jerk)
 
     # --- input -------------------------------------------------------------------
 
     def add(self, piece: Piece) -> None:
         """Append a piece of the chain."""
         self._tube.add(piece)
-        self.offsets.append(self._tube.known_u)
-        self.lines.append(piece.segment.line)
-        self._feeds.append(piece.segment.feed_ups)
-        self._tolerances.append(piece.segment.tolerance_u)
-        gap = SLOW_STEPS * self._grid.time_s * piece.segment.feed_ups
-        if gap < self._grid.length_u:
-            end = self._tube.known_u
-            self._slow.append(Slow(end - piece.length_u, end, gap))
+        self.sections.add(piece, self._tube.known_u)
 
     def close(self, last: Piece, soft: Soft | None) -> None:
         """No piece follows; `soft`: the end overlaps another chain."""
@@ -133,6 +126,7 @@ class SmoothCourse(Course):
         else:
             u = last.tangent(last.length_u)
             self._last = Soft(self._limits.along(u, 1.0, self._period_s).jerk, 0.0)
+        self._rules.close(self._last)
 
     @property
     def is_closed(self) -> bool:
@@ -143,9 +137,8 @@ class SmoothCourse(Course):
     def wants_u(self) -> float:
         """The length of path that has to be known before the next window."""
         begun = float(self._knots[2]) if len(self._knots) else 0.0
-        return float(begun) + (
-            (1.0 + BATCH) * self.look_u + (RAMP + 8) * self._grid.length_u + AHEAD * self._tube.step
-        )
+        known_u = (RAMP + 8) * self._grid.length_u + AHEAD * self._tube.step
+        return begun + (1.0 + BATCH) * self.look_u + known_u
 
     # --- one window --------------------------------------------------------------
 
@@ -156,14 +149,18 @@ class SmoothCourse(Course):
         of the jerk.
         """
         self._tube.grow()
-        before = self._knots, self._x, self._push, self._soft, self._kept, self._level
+        points, origin = self._tube.control_points()
+        self.set_path(points, self._tube.step, origin)
+        before = self._knots, self._x, self._kept, self._level
+        shares = self._rules.shares()
         for _ in range(MOST_AGAIN):
-            self._plan_window()
+            self._plan_window(points, origin)
             if self._samples_keep_limits():
                 return
-            self._knots, self._x, self._push, self._soft, self._kept, self._level = before
-            self._ease *= AGAIN_SHARE
-        self._plan_window()
+            self._knots, self._x, self._kept, self._level = before
+            self._rules.set_shares(shares)
+            self._rules.ease *= AGAIN_SHARE
+        self._plan_window(points, origin)
 
     def _samples_keep_limits(self) -> bool:
         """Whether setpoints of the law are within the limits of acceleration and jerk."""
@@ -177,17 +174,19 @@ class SmoothCourse(Course):
         most = np.array(self._limits.checked())
         return bool((push <= most[axes : 2 * axes]).all() and (jerk <= most[2 * axes :]).all())
 
-    def _plan_window(self) -> None:
-        points, origin = self._tube.control_points()
-        self.set_path(points, self._tube.step, origin)
+    def _plan_window(self, points: Reals, origin: float) -> None:
         curve = Curve(self.C, len(points), self._limits.axes, self._tube.step, origin)
         is_first = not len(self._knots)
-        before = self._new_knots()
+        before = self._new_knots(points, origin)
+        tail_u = math.inf if self.is_closed else float(self._knots[-3]) - self.look_u
         window = Window(
-            curve, self._knots, self._rules(self._knots, before),
+            curve, self._knots, self._rules.next(self._knots, max(before - 4, 0), tail_u),
             0.0 if is_first else None, self._tube.length_u if self.is_closed else None,
         )  # fmt: skip
-        level = self._slow_level(curve, before)
+        level = slow_h(
+            curve, self._rules.fresh, float(self._knots[max(before - RAMP, 2)]),
+            self._tube.valid_u, self._grid.length_u, self._slow_h,
+        )  # fmt: skip
         ease = 1.0
         for _ in range(MOST_TRIES):
             start = window.tie(self._guess(level, ease, is_first))
@@ -196,117 +195,63 @@ class SmoothCourse(Course):
             level *= 0.5
             ease *= 0.5
         else:
-            raise TrajectoryError(f"line {self.lines[-1]}: no slow speed keeps the limits")
+            line = self.sections.lines[-1]
+            raise TrajectoryError(f"line {line}: no slow speed keeps the limits")
         slowness = 1.0 / math.sqrt(float(window.cap.max()))
         self._x, steps = window.fit(start, slowness)
         self.steps += steps
         self._level = level
         self._commit(window, is_first)
 
-    def _new_knots(self) -> int:
+    def _new_knots(self, points: Reals, origin: float) -> int:
         """Append knots as far as the path is final; returns how many there were before."""
         tube, grid, before = self._tube, self._grid, len(self._knots)
-        end_u = tube.valid_u - (RAMP + 4) * grid.length_u
+        dense, length = grid.length_u, tube.length_u
+        end_u = tube.valid_u - (RAMP + 4) * dense
         last: list[float] = []
         if self.is_closed:
-            ending = Grid(grid.length_u, grid.time_s, REST_SHARE * self._last.jerk)
-            ending = ending.on(self._bend(-END_ROWS, None))
-            last = [tube.length_u - s for s in reversed(ending.graded(0.5 * tube.length_u))]
+            ending = Grid(dense, grid.time_s, REST_SHARE * self._last.jerk)
+            ending = ending.on(self._bend(points[-END_ROWS:]))
+            last = [length - s for s in reversed(ending.graded(0.5 * length))]
             end_u = last[0]
         if not before:
-            grid = grid.on(self._bend(0, END_ROWS))
-        known = [float(s) for s in self._knots]
-        self._knots = np.array(extended(known, grid, self._slow, end_u, last, tube.length_u))
+            grid = grid.on(self._bend(points[:END_ROWS]))
+            self._knots = np.array(first_knots(grid, 0.5 * min(end_u, length)))
+        s: Reals = origin + tube.step * (np.arange(len(points) - 3, dtype=np.float64) + 0.5)
+        feeds = self.sections.feeds(s)
+        gaps = widest(points, tube.step, feeds, min(self._limits.acceleration_ups2),
+                      min(self._limits.jerks(self._period_s)), dense)  # fmt: skip
+        np.minimum(gaps, SLOW_STEPS * grid.time_s * feeds, out=gaps)
+        np.minimum(gaps, max(self.look_u / LEAST_KNOTS, dense), out=gaps)
+        end_gap = (last[1] if len(last) > 1 else length) - last[0] if last else None
+        self._knots = continued(self._knots, s, gaps, end_u, end_gap)
+        if last:
+            self._knots = closed_knots(self._knots, last, length)
         return before
 
-    def _bend(self, first: int, stop: int | None) -> float:
+    def _bend(self, points: Reals) -> float:
         """The largest curvature between some control points of the path."""
-        points = self._tube.control_points()[0][first:stop]
         bends = np.diff(points, n=2, axis=0) / self._tube.step**2
         return float(np.sqrt((bends * bends).sum(axis=1)).max())
 
-    def _rules(self, knots: Reals, before: int) -> Rules:
-        """What rules at knots; the first ones keep the shares of the last window."""
-        inner, ends = knots[2:-2], len(self.offsets) - 1
-        left = np.minimum(np.searchsorted(self.offsets, knots[1:-3]), ends)
-        right = np.minimum(np.searchsorted(self.offsets, knots[3:-1]), ends)
-        feeds, tolerances = np.array(self._feeds), np.array(self._tolerances)
-        feed = np.minimum(feeds[left], feeds[right])
-        tolerance = np.minimum(tolerances[left], tolerances[right])
-        for i in np.flatnonzero(right > left + 1):
-            feed[i] = feeds[left[i] : right[i] + 1].min()
-            tolerance[i] = tolerances[left[i] : right[i] + 1].min()
-        zone = self._zone(inner, self._first)
-        rest = 40.0 * self._grid.jerk * self._grid.time_s**3
-        soft = np.where(inner < rest, REST_SHARE, JERK_SHARE)
-        if self.is_closed:
-            to_end = self._tube.length_u - inner
-            zone *= self._zone(to_end, self._last)
-            soft[to_end < rest] = REST_SHARE
-        soft *= zone * self._ease
-        push = np.full(len(inner), ACCELERATION_SHARE)
-        if before > 4:
-            push[: before - 4], soft[: before - 4] = (
-                self._push[: before - 4],
-                self._soft[: before - 4],
-            )
-        self._push, self._soft = push, soft
-        limits = self._limits
-        jerks = limits.jerks(self._period_s)
-        ruling = np.array([*limits.velocity_ups, *limits.acceleration_ups2, *jerks])
-        normal = NORMAL_SHARE * 6.0 / self._period_s**2 * tolerance
-        return Rules(0.9999 * feed, push, soft, zone, normal, ruling, LONG * self._period_s)
-
-    def _zone(self, s: Reals, soft: Soft | None) -> Reals:
-        """The share of the jerk limits at distances from an end that overlaps."""
-        share = np.ones(len(s))
-        if soft is not None and soft.time_s > 0.0:
-            most = min(self._limits.jerks(self._period_s))
-            share[s < soft.jerk * soft.time_s**3 / 6.0] = min(1.0, soft.jerk / most)
-        return share
-
-    def _slow_level(self, curve: Curve, before: int) -> float:
-        """A constant h that keeps all limits from the new knots on."""
-        start = self._knots[max(before - RAMP, 2)]
-        s = np.arange(start, self._tube.valid_u, self._grid.length_u)
-        if not len(s):
-            return self._slow_h
-        knots = np.concatenate([s[:1] - 2e-6, s[:1] - 1e-6, s, s[-1:] + 1e-6, s[-1:] + 2e-6])
-        push, soft = self._push, self._soft
-        window = Window(curve, knots, self._rules(knots, 0), None, None)
-        self._push, self._soft = push, soft
-        bend = float(np.abs(window.rows[:, :, 0]).max())
-        jerk = float((np.abs(window.rows[:, :, 2]) + window.rows[:, :, 5]).max())
-        return min(
-            self._slow_h,
-            float(SLOW_ACCELERATION * window.cap.min()),
-            SLOW_ACCELERATION / max(bend, 1e-12),
-            float((SLOW_JERK / max(jerk, 1e-12)) ** (2 / 3)),
-        )
-
     def _guess(self, level: float, ease: float, is_first: bool) -> Reals:
         """Coefficients that keep all limits: those planned before, then a slow constant speed."""
-        knots = self._knots
-        old = len(self._x)
+        knots, old = self._knots, len(self._x)
         x = np.empty(len(knots) - 2)
         x[:old] = self._x
-        place = np.concatenate([knots[1:2], (knots[1:-3] + knots[2:-2] + knots[3:-1]) / 3.0,
-                                knots[-2:-1]])  # fmt: skip
+        place = places(knots)
         new = place[old:]
         wanted = np.full(len(new), level)
         if old:
-            ramp = np.clip((new - place[old - 1]) / (RAMP * self._grid.length_u), 0.0, 1.0)
-            wanted = self._level + (level - self._level) * ramp * ramp * (3.0 - 2.0 * ramp)
+            length = RAMP * self._grid.length_u
+            wanted = eased(self._level, level, new - place[old - 1], length)
         inverse = wanted**-2.0
-        brake = 0.6 * min(self._limits.acceleration_ups2)
+        brake = ease * min(self._limits.acceleration_ups2)
         if is_first:
-            s = np.maximum(new, knots[2])
-            inverse += rest_h(s, 0.4 * self._grid.jerk * ease) ** -2.0
-            inverse += (brake * ease * s) ** -2.0
+            to_rest(inverse, np.maximum(new, knots[2]), brake, ease * self._grid.jerk)
         if self.is_closed:
             to_end = self._tube.length_u - np.minimum(new, knots[-3])
-            inverse += rest_h(to_end, 0.4 * self._last.jerk * ease) ** -2.0
-            inverse += (brake * ease * to_end) ** -2.0
+            to_rest(inverse, to_end, brake, ease * self._last.jerk)
         x[old:] = inverse**-0.5
         return x
 
@@ -340,7 +285,7 @@ class SmoothCourse(Course):
         self.committed_s = float(z[row + PARTS * done, 0])
         self._kept = z[: row + PARTS * done + 1].copy()
         self._knots, self._x = knots[done:].copy(), self._x[done:].copy()
-        self._push, self._soft = self._push[done:].copy(), self._soft[done:].copy()
+        self._rules.drop(done)
 
     def drop(self, time_s: float) -> None:
         """Forget what lies before a time of the course."""
@@ -349,8 +294,4 @@ class SmoothCourse(Course):
             self._kept = self._kept[keep:].copy()
             s = float(self._kept[0, 1])
             self._tube.drop(s)
-            self._slow = [each for each in self._slow if each.end_u > s]
-            gone = int(np.searchsorted(self.offsets, s)) - 1
-            if gone > 0:
-                for each in (self.offsets, self.lines, self._feeds, self._tolerances):
-                    del each[:gone]
+            self.sections.drop(s)

@@ -30,21 +30,37 @@ PINNED = 3.01  # samples before the end of the chain that are given
 BEFORE = 3  # samples before the start of the chain, and after its end
 FULL, FADED = 4, 16  # control points: shifted onto an end, and on which the shift fades
 TAPER = 0.02  # of the distance to an end: no more of the tolerance is used there
+TUBE_SHARE = 0.96  # of the tolerance, for smoothing and the B-spline in time
+WHOLE = 0.985  # of the tolerance, for both together
+MOST_TIME = 0.3  # of the tolerance, kept for the B-spline in time
+NARROWER = (1.0, 0.9, 0.75, 0.5)  # radii that are tried where the solution is not close enough
+OVER = 1.02
+
+
+def tube_share(acceleration: float, period_s: float, tolerance: float) -> float:
+    """The share of the tolerance that is the radius of the tube.
+
+    The B-spline in time passes its control points at D^2/6 of the acceleration. That is kept for
+    it; where the path leaves too little, the acceleration across it is limited (knot_rules.py).
+    """
+    return TUBE_SHARE - min(MOST_TIME, acceleration * period_s**2 / 6.0 / tolerance)
 
 
 class Tube:
     """Samples of the programmed path, and the smoothed ones, from the index `first` on."""
 
-    __slots__ = ("_axes", "_end", "_first", "_origin", "_pieces", "_q", "_rows", "_share",
-                 "_start", "_start_off", "final", "known_u", "length_u", "step")  # fmt: skip
+    __slots__ = ("_axes", "_end", "_first", "_left", "_origin", "_pieces", "_q",
+                 "_rows", "_start", "_start_off", "final", "known_u", "length_u", "share",
+                 "step")  # fmt: skip
 
     def __init__(self, axes: int, step: float, share: float) -> None:
-        self._axes, self.step, self._share = axes, step, share
+        self._axes, self.step, self.share = axes, step, share
         self._rows = array("d")
         self._pieces = 0
         self._start = self._end = self._start_off = np.zeros(axes)
         self._origin = 0.0  # distance at which the first piece of the rows begins
         self._q = np.empty((0, axes))
+        self._left = np.empty(0)  # of the tolerance, sample by sample
         self._first = -BEFORE
         self.final = -BEFORE  # index of the first sample that may still change
         self.known_u = 0.0
@@ -81,22 +97,58 @@ class Tube:
         radius, arcs = np.empty(count), np.empty(count)
         _sample(cast("F64", memoryview(self._rows)), self._pieces, self._axes, self._origin,
         begin, count,
-                self.step, self._share, flat(programmed), flat(radius), flat(arcs))  # fmt: skip
+                self.step, self.share, flat(programmed), flat(radius), flat(arcs))  # fmt: skip
+        old = begin - self._first
+        q, left = self._smoothed(begin, programmed, radius, arcs)
+        self.final = end if is_whole else max(end - AHEAD, begin + GIVEN)
+        self._q = np.concatenate([self._q[:old], q[: self.final - begin]])
+        self._left = np.concatenate([self._left[:old], left[: self.final - begin]])
+
+    def _smoothed(
+        self, begin: int, programmed: Reals, radius: Reals, arcs: Reals
+    ) -> tuple[Reals, Reals]:
+        """The smoothed samples from the index `begin` on, and what they leave of the radius."""
+        count, is_whole, old = len(programmed), math.isfinite(self.length_u), begin - self._first
         s = (begin + np.arange(count)) * self.step
         to_end = np.minimum(s, self.length_u - s) if is_whole else s
-        np.minimum(radius, TAPER * np.maximum(to_end, 1e-9), out=radius)
-        q = np.zeros((count + 3, self._axes))
-        q[:count] = programmed
-        if self.final > -BEFORE:
-            q[:GIVEN] = self._q[begin - self._first : begin - self._first + GIVEN]
+        taper = TAPER * np.maximum(to_end, 1e-9)
         tail = int(np.count_nonzero(s > self.length_u - PINNED * self.step)) if is_whole else 0
+        q = np.zeros((count + 3, self._axes))
         room = [np.empty_like(q) for _ in range(3)] + [np.empty((count, 4)) for _ in range(2)]
-        if count > GIVEN + tail:
-            _smooth(count, self._axes, GIVEN, tail, flat(programmed), flat(radius), flat(arcs),
+        for narrower in NARROWER:
+            q[:count] = programmed
+            if self.final > -BEFORE:
+                q[:GIVEN] = self._q[old : old + GIVEN]
+            if count <= GIVEN + tail:
+                break
+            _smooth(count, self._axes, GIVEN, tail, flat(programmed),
+                    flat(np.minimum(narrower * radius, taper)), flat(arcs),
                     len(STAGES), numbers(STAGES), ROUNDS,
                     flat(q), *(flat(each) for each in room))  # fmt: skip
-        self.final = end if is_whole else max(end - AHEAD, begin + GIVEN)
-        self._q = np.concatenate([self._q[: begin - self._first], q[: self.final - begin]])
+            if (self._off(q[:count], programmed) <= OVER * radius).all():
+                break
+        left: Reals = radius - self._off(q[:count], programmed)
+        if self.final > -BEFORE:
+            left[:GIVEN] = self._left[old : old + GIVEN]
+        return q, left
+
+    @staticmethod
+    def _off(q: Reals, programmed: Reals) -> Reals:
+        """The distances of samples from the programmed ones."""
+        apart = q - programmed
+        found: Reals = np.sqrt((apart * apart).sum(axis=1))
+        return found
+
+    def left_u(self, starts: Reals, stops: Reals) -> Reals:
+        """The least that the path leaves of its radius between distances."""
+        last = len(self._left) - 1
+        first = np.clip(np.floor(starts / self.step).astype(int) - self._first, 0, last)
+        stop = np.clip(
+            np.ceil(stops / self.step).astype(int) - self._first + 1, first + 1, last + 1
+        )
+        edges = np.stack([first, stop], axis=1).reshape(-1)
+        found: Reals = np.minimum.reduceat(np.append(self._left, np.inf), edges)[::2]
+        return found
 
     def control_points(self) -> tuple[Reals, float]:
         """Control points of the spline through the final samples, and where it begins.
@@ -127,6 +179,7 @@ class Tube:
         """Forget what lies before a distance."""
         keep = max(self._first, min(math.floor(before_u / self.step), self.final) - 2 * GIVEN)
         self._q = self._q[keep - self._first :].copy()
+        self._left = self._left[keep - self._first :].copy()
         self._first = keep
         size = piece_cy.E_POINTS + 2 * self._axes
         start = (keep - GIVEN) * self.step

@@ -20,7 +20,8 @@ _excess = pick(cells_cy.cells_excess)
 
 FINE = 2e-4  # of the largest gap: about 0.2 % of the time
 STEPS = 120
-PASSES = 6
+AGAIN = 0.02  # of the first target, where a solution is near
+REACHES = (1, 2, 4, 8, 16, 32)  # knots on both sides of a cell above a limit
 BLENDS = (1.0, 0.95, 0.9, 0.8, 0.65, 0.5, 0.35, 0.2, 0.1)
 HARDEST = 0.9995  # mean of a cell relative to the limits
 EASED = 0.985  # what is aimed at in a cell that was above
@@ -143,33 +144,38 @@ class Window:
     def fit(self, start: Reals, slowness: float) -> tuple[Reals, int]:
         """The fastest coefficients, from a start that keeps all limits; `slowness` is 1/feed.
 
-        Where the mean of a cell is above a limit, the rows of its two knots are tightened, but
-        never so far that the start would break them. Returns the number of steps, too.
+        Where the mean of a cell is above a limit, the rows of the knots around it are tightened,
+        of more knots each time, but never so far that the start would break them. Returns the
+        number of steps, too.
         """
         x = start.copy()
         steps = self.solve(x, slowness, FINE * slowness)
-        for _ in range(PASSES):
+        for reach in REACHES:
             push, jerk = self.excess(x)
             if max(push.max(), jerk.max()) <= HARDEST:
                 return x, steps
-            self._tighten(start, push, jerk)
+            self._tighten(start, push, jerk, reach)
             x = self._between(start, x)
-            steps += self.solve(x, 0.1 * slowness, FINE * slowness)
+            steps += self.solve(x, AGAIN * slowness, FINE * slowness)
         for share in BLENDS:
             found: Reals = self.tie(start + share * (x - start))
             if self.slack(found) > 0.0 and max(e.max() for e in self.excess(found)) <= HARDEST:
                 return found, steps
         return start, steps
 
-    def _tighten(self, start: Reals, push: Reals, jerk: Reals) -> None:
-        """Lower the shares at the knots of cells above a limit."""
+    def _tighten(self, start: Reals, push: Reals, jerk: Reals, reach: int) -> None:
+        """Lower the shares at the knots up to `reach` from cells above a limit."""
         used = self._used(start)
         for share, over, least in zip(
             (self.rules.push, self.rules.soft), (push, jerk), used, strict=True
         ):
             cell = np.where(over > HARDEST, EASED / np.maximum(over, HARDEST), 1.0)
             knot = cell.copy()
-            knot[1:] = np.minimum(knot[1:], cell[:-1])
+            for shift in range(1, reach + 1):
+                np.minimum(knot[shift:], cell[:-shift], out=knot[shift:])
+                np.minimum(
+                    knot[: 1 - shift or None], cell[shift - 1 :], out=knot[: 1 - shift or None]
+                )
             share *= np.maximum(knot, np.minimum(1.02 * least, 1.0))
         self.set_rows()
 
