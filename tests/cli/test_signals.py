@@ -1,12 +1,13 @@
 """A polite kill ends a command as Ctrl-C does; what is ignored stays ignored."""
 
+import asyncio
 import os
 import signal
 import sys
 
 import pytest
 
-from openacr.cli.signals import terminations_as_interrupts
+from openacr.cli.signals import endings, stop_on_signals, terminations_as_interrupts
 
 if sys.platform == "win32":
     pytest.skip("signals of POSIX", allow_module_level=True)
@@ -27,3 +28,44 @@ def test_a_hang_up_that_nohup_has_ignored_stays_ignored() -> None:
             os.kill(os.getpid(), signal.SIGHUP)
     finally:
         signal.signal(signal.SIGHUP, before)
+
+
+def test_a_server_stops_on_a_termination() -> None:
+    async def run() -> None:
+        stop = asyncio.Event()
+        stop_on_signals(stop.set)
+        os.kill(os.getpid(), signal.SIGTERM)
+        await asyncio.wait_for(stop.wait(), 30)
+
+    asyncio.run(run())
+
+
+def test_where_a_loop_takes_no_signals_a_handler_of_python_stops_the_server(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """As on Windows, where Ctrl-Break is a signal of its own."""
+
+    def refused(self: object, number: int, callback: object) -> None:
+        raise NotImplementedError
+
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, *endings())}
+    monkeypatch.setattr(asyncio.SelectorEventLoop, "add_signal_handler", refused)
+    monkeypatch.setattr(signal, "SIGBREAK", signal.SIGUSR1, raising=False)
+    before[signal.SIGUSR1] = signal.getsignal(signal.SIGUSR1)
+
+    async def run() -> None:
+        stop = asyncio.Event()
+        stop_on_signals(stop.set)
+        os.kill(os.getpid(), signal.SIGUSR1)
+        await asyncio.wait_for(stop.wait(), 30)
+
+    try:
+        asyncio.run(run())
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def test_a_system_without_hang_ups_has_the_other_endings(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delattr(signal, "SIGHUP")
+    assert endings() == [signal.SIGTERM]

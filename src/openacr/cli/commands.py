@@ -42,6 +42,8 @@ COMMANDS: dict[str, Entry | Family] = {
     "upload": Entry("live.upload", "upload"),
     "monitor": Entry("live.monitor", "monitor"),
     "status": Entry("live.status", "status"),
+    "probe": Entry("live.probe", "probe"),
+    "record": Entry("record", "record"),
     "loop": Entry("live.loop", "loop"),
     "ip": Entry("explain.ip", "explain_address"),
     "backup": Entry("live.backup", "backup"),

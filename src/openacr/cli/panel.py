@@ -2,7 +2,6 @@
 
 import asyncio
 import logging
-import signal
 import sys
 import webbrowser
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from openacr.cli.signals import stop_on_signals
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
@@ -147,21 +147,9 @@ async def _serve(
     server = PanelServer(panel, address, port, names=[*names, address])
 
     async def started() -> None:
-        _stop_on_signals(server.stop)
+        stop_on_signals(server.stop)
         print(f"panel {server.url}", flush=True)
         if is_shown and sys.stdout is not None:
             await asyncio.to_thread(webbrowser.open, server.url)
 
     await server.serve(started)
-
-
-def _stop_on_signals(stop: "object") -> None:
-    """End cleanly on Ctrl-C, on SIGTERM, and when the terminal is closed."""
-    from openacr.cli.signals import endings
-
-    loop = asyncio.get_running_loop()
-    for number in (signal.SIGINT, *endings()):
-        try:
-            loop.add_signal_handler(number, stop)  # type: ignore[arg-type]
-        except NotImplementedError:  # this system delivers signals to Python handlers only
-            signal.signal(number, lambda *_: loop.call_soon_threadsafe(stop))  # type: ignore[arg-type]

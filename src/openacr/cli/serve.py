@@ -3,7 +3,6 @@
 import asyncio
 import gc
 import logging
-import signal
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -11,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.channels import ASCII_PORT, BINARY_PORT
+from openacr.cli.guests import Allow, Insecure, admitted
+from openacr.cli.signals import stop_on_signals
 from openacr.errors import StoreError, UserError
 from openacr.protocol.status import STATUS_PORT
 
@@ -32,13 +33,8 @@ def serve(
         ),
     ] = None,
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
-    allow: Annotated[
-        str | None,
-        typer.Option(metavar="CIDR,...", help="Networks that may connect: 192.168.10.0/24"),
-    ] = None,
-    insecure: Annotated[
-        bool, typer.Option("--insecure", help="Let every host that reaches the port connect.")
-    ] = False,
+    allow: Allow = None,
+    insecure: Insecure = False,
     ascii_port: Annotated[
         int, typer.Option(help="Port for terminal and packets; 0: any free.")
     ] = ASCII_PORT,
@@ -73,7 +69,7 @@ def serve(
     With --data saved parameters, user flash and battery-backed memory survive the process.
     The journal of the last minutes can be replayed with `openacr replay`.
     """
-    guests = _guests(host, allow, is_open=insecure)
+    guests = admitted(host, allow, is_open=insecure)
     card = _load(project, data)
     try:
         if not no_journal:
@@ -113,22 +109,6 @@ def _line(card: "Controller", baud: int | None) -> "LineSettings":
     if baud is not None:
         return LineSettings(baud=baud)
     return LineSettings.of(int(card.p[P_COM1_STARTUP_MODE])) or LineSettings()
-
-
-def _guests(host: str, allow: str | None, *, is_open: bool) -> "Guests":
-    """The hosts that may connect; a non-loopback address requires --allow or --insecure."""
-    from openacr.io.server import Guests, is_loopback
-
-    if allow is not None:
-        if is_open:
-            raise UserError("--allow and --insecure exclude each other")
-        return Guests.of(allow)
-    if not is_open and not is_loopback(host):
-        raise UserError(
-            f"other machines reach {host}, and the card's protocols have no passwords: restrict"
-            " hosts with --allow 192.168.10.0/24, or allow all with --insecure"
-        )
-    return Guests()
 
 
 def _keep_journal(card: "Controller", folder: Path | None) -> None:
@@ -176,7 +156,7 @@ async def serve_card(
     from openacr.io.server import CardServer
 
     stop = asyncio.Event()
-    _stop_on_signals(stop)
+    stop_on_signals(stop.set)
     server = CardServer(card, speed=speed, allowed=guests)
     try:
         terminal = await server.listen(StreamKind.TERMINAL, ports.host, ports.ascii)
@@ -227,15 +207,3 @@ def _announce(
     others = (("serial", serial), ("status", status))
     named = "".join(f" {name}={place}" for name, place in others if place is not None)
     print(f"listening ascii={terminal} binary={packets}{named}", flush=True)
-
-
-def _stop_on_signals(stop: asyncio.Event) -> None:
-    """End cleanly on Ctrl-C, on SIGTERM, and when the terminal is closed."""
-    from openacr.cli.signals import endings
-
-    loop = asyncio.get_running_loop()
-    for number in (signal.SIGINT, *endings()):
-        try:
-            loop.add_signal_handler(number, stop.set)
-        except NotImplementedError:  # this system delivers signals to Python handlers only
-            signal.signal(number, lambda *_: loop.call_soon_threadsafe(stop.set))

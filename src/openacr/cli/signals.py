@@ -1,5 +1,6 @@
-"""Termination signals: SIGTERM and SIGHUP act like Ctrl-C."""
+"""Termination signals: SIGTERM and SIGHUP act like Ctrl-C, on Windows Ctrl-Break."""
 
+import asyncio
 import signal
 import threading
 from collections.abc import Callable, Iterable, Iterator
@@ -8,9 +9,20 @@ from types import FrameType
 
 
 def endings() -> list[int]:
-    """SIGTERM, and SIGHUP where a system has it, unless `nohup` had it ignored."""
-    known = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    """SIGTERM, SIGHUP and Ctrl-Break where a system has them, unless `nohup` had one ignored."""
+    names = ("SIGTERM", "SIGHUP", "SIGBREAK")
+    known = [getattr(signal, name) for name in names if hasattr(signal, name)]
     return [number for number in known if signal.getsignal(number) is not signal.SIG_IGN]
+
+
+def stop_on_signals(stop: Callable[[], object]) -> None:
+    """Call `stop` in the running loop on Ctrl-C, on SIGTERM, and when the terminal is closed."""
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGINT, *endings()):
+        try:
+            loop.add_signal_handler(number, stop)
+        except NotImplementedError:  # Windows delivers signals to Python handlers only
+            signal.signal(number, lambda *_: loop.call_soon_threadsafe(stop))
 
 
 def terminations_as_interrupts() -> AbstractContextManager[None]:

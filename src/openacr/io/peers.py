@@ -85,7 +85,7 @@ class TcpPeer(asyncio.BufferedProtocol):
         self._transport = transport
         host, port, *_ = transport.get_extra_info("peername") or (UNKNOWN_HOST, 0)
         self.host, self._name = host, f"{host}:{port}"
-        _set_options(transport.get_extra_info("socket"))
+        set_options(transport.get_extra_info("socket"))
         is_welcome = self._board.admits(host)
         self._joined = is_welcome and self._board.joined(self)
         if self._joined:
@@ -156,7 +156,7 @@ class TcpPeer(asyncio.BufferedProtocol):
             self._transport.close()
 
 
-def _set_options(sock: socket.socket) -> None:
+def set_options(sock: socket.socket) -> None:
     """Send small replies without delay; detect peers that disappear without closing."""
     sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     sock.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)

@@ -107,7 +107,7 @@ class CardServer:
     async def listen(self, kind: StreamKind, host: str, port: int) -> Address:
         """Open one TCP port (0: any free one); UserError if impossible."""
         option = "--ascii-port" if kind is StreamKind.TERMINAL else "--binary-port"
-        sock = _bound_socket(host, port, socket.SOCK_STREAM, option)
+        sock = bound_socket(host, port, socket.SOCK_STREAM, option)
         loop = asyncio.get_running_loop()
         listener = await loop.create_server(lambda: TcpPeer(kind, self), sock=sock)
         self._listeners.append(listener)
@@ -116,7 +116,7 @@ class CardServer:
 
     async def listen_status(self, host: str, port: int) -> Address:
         """Open the UDP port of the fast status; UserError if impossible."""
-        sock = _bound_socket(host, port, socket.SOCK_DGRAM, "--status-port")
+        sock = bound_socket(host, port, socket.SOCK_DGRAM, "--status-port")
         self._status = await open_status_port(self, self._now, sock)
         name = sock.getsockname()
         return Address(name[0], name[1])
@@ -217,7 +217,7 @@ class CardServer:
         self._card.close_stream(peer.stream)
 
 
-def _bound_socket(host: str, port: int, kind: socket.SocketKind, option: str) -> socket.socket:
+def bound_socket(host: str, port: int, kind: socket.SocketKind, option: str) -> socket.socket:
     """A socket bound to the first address of `host`; one of TCP listens."""
     if not 0 <= port <= 0xFFFF:
         raise UserError(f"port {port} is not in 0..65535")

@@ -1,4 +1,4 @@
-"""`openacr replay`: live through a journal once more."""
+"""`openacr replay`: live through a journal or a recorded session once more."""
 
 import sys
 import time
@@ -30,12 +30,22 @@ def replay(
     check: Annotated[
         bool, typer.Option("--check", help="Only compare the states; exit code 1 if they differ.")
     ] = False,
+    project: Annotated[
+        Path | None,
+        typer.Option(help="Of a recording: the machine; default: eight exact axes."),
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Of a recording: print the first difference as JSON.")
+    ] = False,
 ) -> None:
     """Replay a journal: the same inputs at the same ticks, the same states.
 
     Shows what programs print and, at the end, the state of the card. With --check it only
     says whether every digest of the journal was met again. Without a name it lists the
     journals that served cards have left.
+
+    A recording of `openacr record` is given to a virtual card, and the first answer that differs
+    is reported; exit code 1 if there is one.
     """
     if until is not None and not 0.0 <= until < float("inf"):
         raise UserError(f"--until {until:g}: give a number of seconds, 0 or more")
@@ -44,6 +54,15 @@ def replay(
 
         typer.echo(listing())
         return
+    if _is_recording(journal):
+        _refuse("for journals", {"--until": until is not None, "--check": check})
+        from openacr.cli.run.recorded import replay_recording
+
+        replay_recording(journal, project, as_json=as_json)
+        return
+    _refuse(
+        "for recordings of `openacr record`", {"--project": project is not None, "--json": as_json}
+    )
     from openacr.controller.journal import read_journal
     from openacr.controller.replay import Replay
 
@@ -58,6 +77,21 @@ def replay(
     if not read.is_whole:
         typer.echo("note: the journal was not closed; it is replayed to its last record", err=True)
     _conclude(again, is_check=check)
+
+
+def _is_recording(path: Path) -> bool:
+    from openacr.io.recording import is_recording
+
+    try:
+        return is_recording(path)
+    except OSError:
+        return False  # reading it as a journal says why
+
+
+def _refuse(why: str, given: dict[str, bool]) -> None:
+    for option, is_given in given.items():
+        if is_given:
+            raise UserError(f"{option} is {why}")
 
 
 def _show_text(program: int, text: str) -> None:

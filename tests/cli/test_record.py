@@ -1,0 +1,142 @@
+"""`openacr record` and the replay of what it wrote, as commands."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from openacr.channels import StreamKind
+from openacr.cli.main import app
+from openacr.io.recording import Event, Recorder, What
+
+ROOT = Path(__file__).parents[2]
+OPENACR = (sys.executable, "-m", "openacr")
+
+
+def openacr(*words: object) -> Result:
+    return CliRunner().invoke(app, list(map(str, words)))
+
+
+@contextmanager
+def running(*words: object) -> Iterator[str]:
+    """A server in a process of its own; yields the line it prints when it listens."""
+    command = [*OPENACR, *map(str, words)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        try:
+            yield process.stdout.readline()
+        finally:
+            process.terminate()
+            assert process.wait(30) == 0
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_a_session_is_recorded_and_replayed(tmp_path: Path) -> None:
+    file = tmp_path / "session.jsonl"
+    ports = ("--ascii-port", 0, "--binary-port", 0, "--no-journal")
+    with running("serve", ROOT / "examples" / "square", *ports) as line:
+        card = line.split("ascii=")[1].split()[0]
+        with running("record", card, file, "--port", 0) as listening:
+            assert listening.endswith(f" card={card}\n")
+            place = listening.split()[1]
+            typed = subprocess.run(
+                [*OPENACR, "term", place], input="PROG0\n?6*7\n", text=True, check=True,
+                capture_output=True,
+            )  # fmt: skip
+    assert "42" in typed.stdout
+    assert file.stat().st_mode & 0o777 == 0o600
+    same = openacr("replay", file, "--project", ROOT / "examples" / "square")
+    assert same.exit_code == 0, same.output
+    assert same.stdout.endswith(": every answer is the same\n")
+
+
+@pytest.fixture
+def recording(tmp_path: Path) -> Path:
+    path = tmp_path / "s.jsonl"
+    with path.open("wb") as file:
+        recorder = Recorder(file, "c:5002", StreamKind.TERMINAL)
+        recorder.add(Event(0.0, 1, What.OPEN))
+        recorder.add(Event(0.25, 1, What.HOST, b"?P12375\r"))
+        recorder.add(Event(0.3, 1, What.CARD, b"?P12375\r\n800\r\nSYS>"))
+    return path
+
+
+def test_an_answer_that_differs_is_shown_with_its_request(recording: Path) -> None:
+    result = openacr("replay", recording)
+    assert result.exit_code == 1
+    assert result.stdout.splitlines() == [
+        "connection 1, 0.2500 s: the answer to '?P12375\\r' differs",
+        "  recorded  '800\\r\\n'",
+        "  replayed  '1\\r\\n'",
+    ]
+    record = json.loads(openacr("replay", recording, "--json").stdout)
+    assert record == {
+        "events": 3,
+        "difference": {
+            "time_s": 0.25, "connection": 1, "sent": "?P12375\r", "recorded": "800\r\n",
+            "replayed": "1\r\n",
+        },
+    }  # fmt: skip
+
+
+def test_the_project_makes_the_difference(recording: Path) -> None:
+    project = ROOT / "examples" / "homing_xyz"
+    result = openacr("replay", recording, "--project", project)
+    assert result.stdout == "3 events: every answer is the same\n"
+    found = json.loads(openacr("replay", recording, "--project", project, "--json").stdout)
+    assert found == {"events": 3, "difference": None}
+
+
+def test_a_recording_that_is_cut_off_is_replayed_to_its_last_whole_line(recording: Path) -> None:
+    recording.write_bytes(recording.read_bytes()[:-2])
+    result = openacr("replay", recording)
+    assert result.stdout == "2 events: every answer is the same\n"
+    assert "the last line of the recording is cut off and was left out" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["/dev/ttyUSB0"], "a serial line cannot be recorded; give HOST or HOST:PORT"),
+        (["127.0.0.1:1", "--listen", "0.0.0.0"], "other machines reach 0.0.0.0"),
+        (["127.0.0.1:1", "--allow", "10.0.0.0/8", "--insecure"], "exclude each other"),
+        (["127.0.0.1:1", "--allow", "home"], "write networks like 192.168.10.0/24"),
+        (["127.0.0.1:1"], "cannot connect to 127.0.0.1:1"),
+    ],
+)
+def test_what_cannot_be_recorded_is_refused_before_a_file_is_made(
+    tmp_path: Path, words: list[str], said: str
+) -> None:
+    target, *options = words
+    result = openacr("record", target, tmp_path / "s.jsonl", *options)
+    assert result.exit_code == 2
+    assert said in result.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_is_not_replaced_without_force(tmp_path: Path) -> None:
+    (tmp_path / "s.jsonl").write_text("mine")
+    result = openacr("record", "127.0.0.1:1", tmp_path / "s.jsonl")
+    assert result.exit_code == 2
+    assert "is there already (--force replaces it)" in result.stderr
+    assert (tmp_path / "s.jsonl").read_text() == "mine"
+
+
+@pytest.mark.parametrize("words", [["--project", "x"], ["--json"]])
+def test_options_of_recordings_are_refused_for_journals(tmp_path: Path, words: list[str]) -> None:
+    (tmp_path / "j").write_bytes(b"journal")
+    result = openacr("replay", tmp_path / "j", *words)
+    assert result.exit_code == 2
+    assert f"{words[0]} is for recordings of `openacr record`" in result.stderr
+
+
+@pytest.mark.parametrize("words", [["--check"], ["--until", "1"]])
+def test_options_of_journals_are_refused_for_recordings(recording: Path, words: list[str]) -> None:
+    result = openacr("replay", recording, *words)
+    assert result.exit_code == 2
+    assert f"{words[0]} is for journals" in result.stderr
