@@ -202,11 +202,18 @@ def _drive_rows(axis: Axis) -> dict[int, float]:
     rows[at.PLF_ACCEL_PER_VOLT] = sign * drive.amps_per_volt * per_amp
     if drive.supply_v is not None and motor.resistance_ohm is not None:
         # In SI units the back-EMF constant (V per rad/s) is the torque constant (Nm per A).
-        rows[at.PLF_SUPPLY_ACCEL] = drive.supply_v / motor.resistance_ohm * per_amp
+        rows |= supply_rows(axis, drive.supply_v)
         rows[at.PLF_BACK_EMF_PER_S] = torque_nm_per_a**2 / (
             motor.resistance_ohm * _inertia_kgm2(axis)
         )
     return rows
+
+
+def supply_rows(axis: Axis, supply_v: float) -> dict[int, float]:
+    """What the supply of a drive can press into its motor, by row; the motor has a resistance."""
+    motor = _motor(axis)
+    per_amp = (motor.torque_nm_per_a or 0.0) * accel_per_nm(axis)
+    return {at.PLF_SUPPLY_ACCEL: supply_v / (motor.resistance_ohm or 1.0) * per_amp}
 
 
 def load_rows(axis: Axis) -> dict[int, float]:

@@ -14,7 +14,7 @@ from openacr.map.memory import Memory
 from openacr.plant import apply, inputs
 from openacr.plant.counts import count_of
 from openacr.plant.drive_cy import FAULT_REPORTED, FAULT_TAKEN_BACK
-from openacr.plant.schema import LOADLESS, Axis, Contact, World
+from openacr.plant.schema import LOADLESS, Axis, Contact, TorqueDrive, World
 from openacr.plant.step_cy import EDGES_LOST, SIGNALS_LOST
 
 
@@ -28,10 +28,15 @@ class MachineFault(StrEnum):
     JAM = "jam"
     OBSTACLE = "obstacle"
     FRICTION = "friction"
+    SUPPLY = "supply"
 
 
 # The meaning of a fault's value; the other faults have no value.
-QUANTITIES = {MachineFault.OBSTACLE: "at", MachineFault.FRICTION: "torque_nm"}
+QUANTITIES = {
+    MachineFault.OBSTACLE: "at",
+    MachineFault.FRICTION: "torque_nm",
+    MachineFault.SUPPLY: "volts",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,8 +62,8 @@ class _Place:
 def inject(world: World, memory: Memory, axis: int, kind: MachineFault, value: float) -> None:
     """Cause a fault on an axis; UserError if the axis cannot have it.
 
-    `value` is the position of an obstacle in units of the axis, or the torque of friction in Nm
-    at the shaft of the motor.
+    `value` is the position of an obstacle in units of the axis, the torque of friction in Nm at
+    the shaft of the motor, or the voltage to which the supply of the drive falls.
     """
     _START[kind](_place(world, memory, axis), value)
 
@@ -163,6 +168,36 @@ def _smooth(place: _Place) -> None:
         place.put(row, accel)
 
 
+def _dip(place: _Place, volts: float) -> None:
+    full_v = _supply_v(place.axis)
+    if full_v is None:
+        hint = "its drive needs supply_v, its motor resistance_ohm"
+        raise UserError(f"axis {place.axis.label}: a supply that falls has no effect ({hint})")
+    if not 0.0 < volts <= full_v:
+        hint = "without any voltage the fault is `motor-cable`"
+        raise UserError(
+            f"axis {place.axis.label}: a supply of {volts:g} V; above 0 to {full_v:g} V ({hint})"
+        )
+    _supply(place, volts)
+
+
+def _recover(place: _Place) -> None:
+    full_v = _supply_v(place.axis)
+    if full_v is not None:
+        _supply(place, full_v)
+
+
+def _supply(place: _Place, volts: float) -> None:
+    for row, accel in apply.supply_rows(place.axis, volts).items():
+        place.put(row, accel)
+
+
+def _supply_v(axis: Axis) -> float | None:
+    """The voltage of the supply, None where nothing depends on it."""
+    has_resistance = axis.motor is not None and axis.motor.resistance_ohm is not None
+    return axis.drive.supply_v if isinstance(axis.drive, TorqueDrive) and has_resistance else None
+
+
 _START: dict[MachineFault, Callable[[_Place, float], None]] = {
     MachineFault.ENCODER_LOST: _lose_signals,
     MachineFault.ENCODER_NOISE: _disturb_signals,
@@ -171,6 +206,7 @@ _START: dict[MachineFault, Callable[[_Place, float], None]] = {
     MachineFault.JAM: _jam,
     MachineFault.OBSTACLE: _block,
     MachineFault.FRICTION: _rub,
+    MachineFault.SUPPLY: _dip,
 }
 _END: dict[MachineFault, Callable[[_Place], None]] = {
     MachineFault.ENCODER_LOST: _repair(SIGNALS_LOST),
@@ -180,4 +216,5 @@ _END: dict[MachineFault, Callable[[_Place], None]] = {
     MachineFault.JAM: _free,
     MachineFault.OBSTACLE: _free,
     MachineFault.FRICTION: _smooth,
+    MachineFault.SUPPLY: _recover,
 }

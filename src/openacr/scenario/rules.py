@@ -203,7 +203,7 @@ def _action(where: tuple[Step, ...], action: Action) -> Iterator[Problem]:
 def _fault(where: tuple[Step, ...], fault: Fault) -> Iterator[Problem]:
     """Each kind has its own quantity, or none."""
     wanted = QUANTITIES.get(fault.kind)
-    for key in ("at", "torque_nm"):
+    for key in QUANTITIES.values():
         is_given = getattr(fault, key) is not None
         if is_given and key != wanted:
             yield Problem((*where, key), f"`{key}` does not belong to the fault {fault.kind}")

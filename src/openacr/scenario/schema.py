@@ -11,7 +11,7 @@ from typing import Annotated
 
 from msgspec import UNSET, Meta, Struct, UnsetType
 
-from openacr.plant.faults import MachineFault
+from openacr.plant.faults import QUANTITIES, MachineFault
 
 Seconds = Annotated[float, Meta(ge=0.0)]
 Bit = Annotated[int, Meta(ge=0, le=32767)]
@@ -76,11 +76,13 @@ class Fault(Struct, frozen=True, forbid_unknown_fields=True):
     kind: MachineFault
     at: float | None = None
     torque_nm: Annotated[float, Meta(ge=0.0)] | None = None
+    volts: Annotated[float, Meta(gt=0.0)] | None = None
 
     @property
     def value(self) -> float:
         """The number that belongs to the kind, 0 where there is none."""
-        return self.torque_nm or self.at or 0.0
+        key = QUANTITIES.get(self.kind)
+        return (getattr(self, key) if key else None) or 0.0
 
 
 class Mend(Struct, frozen=True, forbid_unknown_fields=True):
