@@ -17,8 +17,10 @@ SOURCES = (
 
 
 def pip(*words: object) -> None:
+    """The time of the commit that docs/releasing.md gives a build is any fixed time here."""
     command = [sys.executable, "-m", "pip", "--disable-pip-version-check", "-q", *map(str, words)]
-    subprocess.run(command, check=True, env=os.environ | {"OPENACR_PURE": "1"})
+    environment = {"OPENACR_PURE": "1", "SOURCE_DATE_EPOCH": "1700000000"}
+    subprocess.run(command, check=True, env=os.environ | environment)
 
 
 @pytest.fixture(scope="module")
@@ -69,6 +71,14 @@ def test_the_wheel_holds_examples_templates_and_screens_and_no_other_top_level_n
     for path in templates.iterdir():
         assert f"openacr/starter/templates/{path.name}" in names
     assert "openacr/panel/web/index.html" in names
+
+
+def test_a_wheel_that_is_built_again_is_the_same_to_the_byte(wheel: Path, tmp_path: Path) -> None:
+    tree = wheel.parents[1]
+    for path in tree.rglob("*.py"):
+        os.utime(path, (1600000000, 1600000000))
+    pip("wheel", "--no-build-isolation", "--no-deps", "--wheel-dir", tmp_path, tree)
+    assert (tmp_path / wheel.name).read_bytes() == wheel.read_bytes()
 
 
 def test_it_works_from_an_empty_folder_without_the_sources(python: Path, tmp_path: Path) -> None:
