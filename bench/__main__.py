@@ -17,6 +17,7 @@ ORDER = (
     "lexer",
     "check",
     "state",
+    "timeline",
     "startup",
     "terminal_latency",
     "packets",

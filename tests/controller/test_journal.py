@@ -48,6 +48,10 @@ def recorded(folder: Path) -> Path:
     card.mend(3)
     card.p[3] = 2.5
     card.bit[130] = True
+    before_a_line(card)
+    card.bit[131] = True
+    card.advance()
+    card.bit[131] = False
     card.advance(seconds=1.3)
     packets.close()
     card.send("DWL 0.2 REBOOT")
@@ -59,6 +63,14 @@ def recorded(folder: Path) -> Path:
     card.advance(777)
     card.close()
     return path
+
+
+def before_a_line(card: Controller) -> None:
+    """Advance to the next line of program 0 and stop before it."""
+    card.announce_lines(1, lambda program, line: True)
+    card.advance(seconds=1.0)
+    assert card.within
+    card.announce_lines()
 
 
 def test_a_replay_meets_every_digest(tmp_path: Path) -> None:
@@ -132,6 +144,10 @@ def test_an_entry_that_is_left_out_is_noticed(tmp_path: Path, what: Entered) -> 
     elif what is Entered.PARAMETER:
         card.p[12290] = 5
     elif what is Entered.FLAG:
+        card.bit[130] = True
+    elif what is Entered.WITHIN:
+        host.send("PROG0\r10 IF (BIT130) THEN SET 131\r20 CLR 130\r30 GOTO 10\rRUN\r")
+        before_a_line(card)
         card.bit[130] = True
     else:
         host.send("PROG0\r10 DWL 9\rRUN\r")

@@ -7,12 +7,13 @@ give the same state: `digest` is equal on every machine and build of the core.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from openacr.channels import StreamKind
 from openacr.controller import snapshot as snapshots
-from openacr.controller.engine_run import EngineRun
+from openacr.controller.engine_run import AskLine, EngineRun
 from openacr.controller.inputs import JournalFile
 from openacr.controller.journal import Entered, JournalEntry
 from openacr.controller.loading import PATIENCE_S, Loader, LoadError, Origins
@@ -57,6 +58,7 @@ class Controller:
         self.nonvolatile, self.p, self.bit = parts.nonvolatile, parts.p, parts.bit
         self._inputs = parts.inputs
         self._engine = EngineRun(parts)
+        self._inputs.place = lambda: self._engine.within
         self._surroundings = Surroundings(self.card, self.world, self._inputs.note)
         self._console: int | None = None
         self._origins = Origins()
@@ -121,11 +123,17 @@ class Controller:
         return self._parts.period_s
 
     def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
-        """Advance the card by `ticks` ticks plus `seconds`, or until a watch ends it.
+        """Advance the card by `ticks` ticks plus `seconds`, or until an event ends it.
 
-        UserError for a time that is negative or not a number.
+        Events are those of `watch` and `announce_lines`. UserError for a time that is negative or
+        not a number.
         """
         self._engine.advance(ticks, seconds=seconds)
+
+    @property
+    def was_ended(self) -> bool:
+        """Whether an event ended the latest `advance`."""
+        return self._engine.was_ended
 
     def until(
         self, bit: int, is_: bool = True, *, timeout_s: float = 60.0, ticks: int | None = None
@@ -143,6 +151,45 @@ class Controller:
         tick in which statements were executed that can print or answer.
         """
         self._engine.watch(watches, poll)
+
+    def announce_lines(self, programs: int = 0, ask: AskLine | None = None) -> None:
+        """Call `ask(program, line)` before each line of these programs (a mask of 0-15).
+
+        If it returns True, `advance` and `until` end there: before the line, within the tick. The
+        next call completes the tick (`advance()` that alone). Without `ask`, lines run unannounced.
+        """
+        self._engine.announce_lines(programs, ask)
+
+    @property
+    def announced(self) -> tuple[int, AskLine | None]:
+        """The programs and the `ask` of `announce_lines`."""
+        return self._engine.announced
+
+    @contextmanager
+    def undisturbed(self) -> Iterator[None]:
+        """Live through known time: no watch or line ends it, nothing is recorded or heard."""
+        file, self._inputs.file = self._inputs.file, None
+        is_kept, self._inputs.is_kept = self._inputs.is_kept, False
+        taps, self.system.listeners.taps = self.system.listeners.taps, []
+        try:
+            with self._engine.undisturbed():
+                yield
+        finally:
+            self._inputs.file, self._inputs.is_kept = file, is_kept
+            self.system.listeners.taps = taps
+
+    @property
+    def within(self) -> int:
+        """0 between ticks; before a line within a tick, the number of its statement in the tick.
+
+        The statements of all programs and channels are counted, from 1.
+        """
+        return self._engine.within
+
+    @property
+    def next_statement(self) -> int:
+        """Number, in its tick, of the statement that follows; for an `ask` of `announce_lines`."""
+        return self._engine.next_statement
 
     def record(
         self,
@@ -340,7 +387,9 @@ class Controller:
     # snapshots
 
     def snapshot(self) -> snapshots.Snapshot:
-        """The whole state at this tick."""
+        """The whole state at this tick; StoreError within a tick."""
+        if self.within:
+            raise StoreError("a card within a tick has no snapshot: complete the tick first")
         return snapshots.take(self)
 
     def restore(self, snapshot: snapshots.Snapshot) -> None:
@@ -355,6 +404,7 @@ class Controller:
             snapshots.put_back(self, snapshot)
         finally:
             give_orders(self.memory, orders)
+        self._engine.moved_in_time()
         self._parts.lived_before_tk = snapshot.beside.lived_before_tk
 
     def take_over(self, snapshot: snapshots.Snapshot) -> None:

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 
 from openacr.basic.channels.channel_words import take_escapes
 from openacr.compiled import pick
 from openacr.controller.parts import CardParts
 from openacr.controller.recording import Recording
 from openacr.engine import loop_cy
-from openacr.engine.watches import Watch, set_watches
+from openacr.engine.watches import Watch, give_orders, see_present, set_watches, take_orders
 from openacr.errors import UserError
 from openacr.map.memory import flag_place
 from openacr.map.numbers import (
     ENGI_BASE,
+    ENGI_LINE_ANNOUNCED,
+    ENGI_LINE_STOPS,
+    ENGI_STATEMENTS,
     ENGI_STOP,
     ENGI_TICKS_LEFT,
     ENGI_UNTIL_MASK,
@@ -27,6 +31,9 @@ LONGEST_RUN_TK = 2**31 - 1  # ticks of one run of the engine, which counts down 
 
 _engine_run = pick(loop_cy.engine_run)
 _TICK_ENDS = (loop_cy.STOPPED, loop_cy.UNTIL_MET, loop_cy.WATCH)
+_LINE = -1  # the caller stops before a line, within a tick
+
+AskLine = Callable[[int, int], bool]  # program and line; True: stop before it
 
 
 class EngineRun:
@@ -36,16 +43,20 @@ class EngineRun:
         self._parts = parts
         self._memory = parts.memory
         self._poll: Callable[[], bool] | None = None
+        self._ask_line: AskLine | None = None
+        self.within = 0
+        self.was_ended = False  # the latest `advance`, by an event
         self.recording = Recording(parts.card)
 
     def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
-        """Advance the card by `ticks` ticks plus `seconds`, or until a watch ends it.
+        """Advance the card by `ticks` ticks plus `seconds`, or until an event ends it.
 
         UserError for a time that is negative or not a number.
         """
         if not (ticks >= 0 and 0.0 <= seconds < math.inf):
             raise UserError(f"advance by {ticks} ticks and {seconds} s: time only goes forward")
-        self._live(ticks + round(seconds / self._parts.period_s))
+        reason = self._live(ticks + round(seconds / self._parts.period_s))
+        self.was_ended = reason != loop_cy.DONE
 
     def until(
         self, bit: int, is_: bool = True, *, timeout_s: float = 60.0, ticks: int | None = None
@@ -70,14 +81,20 @@ class EngineRun:
 
     def _live(self, ticks: int) -> int:
         """Run the engine, stopping where the journal needs a digest; returns why it ended."""
+        if self.within:
+            self._pass_line()
         while True:
             step = self._parts.inputs.flush(min(ticks, LONGEST_RUN_TK))
             before = self._parts.lived_tk
             self._set_engine(ENGI_TICKS_LEFT, step)
             if self._parts.streams.is_overdue:
                 self._set_engine(ENGI_STOP, 1)
+            self.within = 0
             reason = self._run()
             ticks -= self._parts.lived_tk - before
+            if reason == _LINE:
+                self.within = self.next_statement
+                return reason
             self._parts.inputs.mark_if_due()
             if reason != loop_cy.DONE or ticks <= 0:
                 self._parts.nonvolatile.battery.follow_in_time()
@@ -91,6 +108,39 @@ class EngineRun:
         """
         set_watches(self._memory, watches)
         self._poll = poll
+
+    @property
+    def announced(self) -> tuple[int, AskLine | None]:
+        """What `announce_lines` has set."""
+        return self._memory.I[ENGI_BASE + ENGI_LINE_STOPS], self._ask_line
+
+    def announce_lines(self, programs: int, ask: AskLine | None) -> None:
+        """Ask before each line of these programs (a mask) from now on whether to stop there."""
+        self._set_engine(ENGI_LINE_STOPS, programs if ask is not None else 0)
+        self._ask_line = ask
+
+    @property
+    def next_statement(self) -> int:
+        """Number of the statement that follows, counted from 1 in each tick."""
+        return self._memory.I[ENGI_BASE + ENGI_STATEMENTS] + 1
+
+    def moved_in_time(self) -> None:
+        """The card is at another moment: no line of it has been announced."""
+        self._set_engine(ENGI_LINE_ANNOUNCED, 0)
+        self.within = 0
+
+    @contextmanager
+    def undisturbed(self) -> Iterator[None]:
+        """Without watches, poll, announced lines and samples, which apply again afterwards."""
+        orders = take_orders(self._memory)
+        poll, self._poll = self._poll, None
+        ask, self._ask_line = self._ask_line, None
+        try:
+            yield
+        finally:
+            give_orders(self._memory, orders)
+            see_present(self._memory)
+            self._poll, self._ask_line = poll, ask
 
     def _run(self) -> int:
         """Run the engine to the end of its ticks or the awaited event; returns why it ended."""
@@ -108,6 +158,9 @@ class EngineRun:
                     return reason
             elif reason == loop_cy.TRACE_FULL:
                 self.recording.go_on()
+            elif self._memory.I[ENGI_BASE + ENGI_LINE_ANNOUNCED] < 0:
+                if self._stops_before_line(reason - loop_cy.THREAD):
+                    return _LINE
             else:
                 self._attend(reason)
                 if self._parts.reboot_if_requested() and self._is_watched:
@@ -116,6 +169,19 @@ class EngineRun:
     @property
     def _is_watched(self) -> bool:
         return self._poll is not None or self._memory.I[ENGI_BASE + ENGI_WATCH_COUNT] != 0
+
+    def _pass_line(self) -> None:
+        """Go on from a line; if its program is not announced any more, the VM does not notice."""
+        announced = self._memory.I[ENGI_BASE + ENGI_LINE_ANNOUNCED]
+        if announced and not self._memory.I[ENGI_BASE + ENGI_LINE_STOPS] >> announced - 1 & 1:
+            self._set_engine(ENGI_LINE_ANNOUNCED, 0)
+
+    def _stops_before_line(self, program: int) -> bool:
+        """Announce the next line of a program: whether the caller stops before it."""
+        self._set_engine(ENGI_LINE_ANNOUNCED, program + 1)
+        if self._ask_line is None:
+            return False
+        return self._ask_line(program, self._parts.executor.threads.next_line(program))
 
     def _attend(self, reason: int) -> None:
         """Do the work for which the engine returned to Python."""

@@ -33,20 +33,28 @@ class InputLog:
 
     def __init__(self, lived_tk: Callable[[], int]) -> None:
         self._lived_tk = lived_tk
+        self.place: Callable[[], int] = lambda: 0  # see Controller.within
         self.entries: list[JournalEntry] = []
         self.is_kept = True  # in memory; a file is written nevertheless
         self.file: JournalFile | None = None
+        self._latest = (0, 0)  # tick and place of the latest entry
 
     def note(
         self, what: Entered, number: int, value: float = 0.0, *, text: str = "", name: str = ""
     ) -> None:
         """Record an external input in the journals."""
         if self.is_kept or self.file is not None:
-            entry = JournalEntry(self._lived_tk(), what, number, text, float(value), name)
-            if self.is_kept:
-                self.entries.append(entry)
-            if self.file is not None:
-                self.file.note(entry)
+            tick, place = self._lived_tk(), self.place()
+            if place != (self._latest[1] if tick == self._latest[0] else 0):
+                self._keep(JournalEntry(tick, Entered.WITHIN, place))
+            self._latest = tick, place
+            self._keep(JournalEntry(tick, what, number, text, float(value), name))
+
+    def _keep(self, entry: JournalEntry) -> None:
+        if self.is_kept:
+            self.entries.append(entry)
+        if self.file is not None:
+            self.file.note(entry)
 
     def flush(self, ticks: int) -> int:
         """Write the recorded entries; returns `ticks`, at most those to the next digest."""

@@ -16,6 +16,9 @@ A journal file is text, one record per line:
     [tick, "parameter", number, value]      a parameter written from Python
     [tick, "flag", number, 0 or 1]          a flag written from Python
     [tick, "key", code]                     Ctrl-X, Ctrl-Y or Ctrl-Z pressed from Python
+    [tick, "within", statement]             the next entries come before this statement of the
+                                            tick (the first is 1), no longer after the tick; 0:
+                                            after the tick again
     [tick, "digest", fingerprint]           every simulated second
     [tick, "end", fingerprint]              the end of a journal that was closed
 
@@ -63,6 +66,7 @@ class Entered(StrEnum):
     PARAMETER = "parameter"
     FLAG = "flag"
     KEY = "key"
+    WITHIN = "within"
     DIGEST = "digest"
     END = "end"
 
@@ -150,7 +154,7 @@ def _record(entry: JournalEntry) -> list[Any]:
     head.append(entry.number)
     if entry.what is Entered.OPEN:
         return [*head, entry.text, entry.name]
-    if entry.what in (Entered.CLOSE, Entered.KEY, Entered.RELEASE):
+    if entry.what in (Entered.CLOSE, Entered.KEY, Entered.RELEASE, Entered.WITHIN):
         return head
     if entry.what is Entered.FAULT:
         return [*head, entry.name, entry.value]
@@ -170,6 +174,7 @@ _FORMS: dict[Entered, Any] = {
     Entered.BYTES: tuple[_Tick, Entered, _Number, _Text],
     Entered.CLOSE: _NUMBER,
     Entered.RELEASE: _NUMBER,
+    Entered.WITHIN: _NUMBER,
     Entered.KEY: tuple[_Tick, Entered, ControlKey],
     Entered.FAULT: tuple[_Tick, Entered, _Number, str, float],
     Entered.MEND: tuple[_Tick, Entered, _Number, str],

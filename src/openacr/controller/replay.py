@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from openacr.channels import StreamKind
 from openacr.controller.controller import Controller
-from openacr.controller.journal import Entered, Journal, JournalEntry
-from openacr.errors import CardError, NoFreeStreamError, StoreError, UserError
-from openacr.protocol.events import ControlKey
+from openacr.controller.journal import Journal, JournalEntry
+from openacr.controller.player import Player
+from openacr.errors import StoreError
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +33,7 @@ class Replay:
         self.entered = 0  # entries that were applied
         self.equal = 0  # digests that matched the journal
         self.difference: Difference | None = None  # the first one
-        self._streams: dict[int, int] = {}
+        self._player = Player(self.card)
 
     @property
     def lived_s(self) -> float:
@@ -48,23 +47,14 @@ class Replay:
         for entry in self.journal.entries:
             if end_tk is not None and entry.tick > end_tk:
                 break
-            self._advance_to(entry.tick)
             if entry.is_digest:
+                self._player.advance_to(entry.tick)
                 self._compare(entry)
-                continue
-            try:
-                self._apply(entry)
-            except (UserError, CardError, NoFreeStreamError, LookupError) as error:
-                raise StoreError(
-                    f"the journal is damaged: the entry at tick {entry.tick}"
-                    f" ({entry.what}) cannot be applied to this card: {error}"
-                ) from None
+            else:
+                self._player.play(entry)
+                self.entered += 1
         if end_tk is not None:
-            self._advance_to(end_tk)
-
-    def _advance_to(self, tick: int) -> None:
-        while self.card.lived_tk < tick:
-            self.card.advance(tick - self.card.lived_tk)
+            self._player.advance_to(end_tk)
 
     def _compare(self, entry: JournalEntry) -> None:
         found = self.card.digest()
@@ -72,44 +62,3 @@ class Replay:
             self.equal += 1
         elif self.difference is None:
             self.difference = Difference(entry.tick, entry.text, found)
-
-    def _apply(self, entry: JournalEntry) -> None:
-        self.entered += 1
-        card, what = self.card, entry.what
-        if what in (Entered.OPEN, Entered.BYTES, Entered.CLOSE):
-            self._apply_to_stream(entry)
-        elif what is Entered.INPUT:
-            card.set_input(entry.number, bool(entry.value))
-        elif what is Entered.RELEASE:
-            card.release_input(entry.number)
-        elif what is Entered.FAULT:
-            card.fault(entry.number, entry.name, entry.value)
-        elif what is Entered.MEND:
-            card.mend(entry.number, entry.name or None)
-        elif what is Entered.ANALOG:
-            card.set_analog(entry.number, entry.value)
-        elif what is Entered.DRAG:
-            card.drag(entry.number, entry.value)
-        elif what is Entered.PARAMETER:
-            card.p[entry.number] = entry.value
-        elif what is Entered.FLAG:
-            card.bit[entry.number] = bool(entry.value)
-        else:
-            card.press(ControlKey(entry.number))
-
-    def _needs(self, stream: int) -> None:
-        if not self.card.has_stream(stream):
-            raise UserError(f"there is no connection {stream}")
-
-    def _apply_to_stream(self, entry: JournalEntry) -> None:
-        """Apply a stream entry; connections may get other numbers than they had."""
-        if entry.what is Entered.OPEN:
-            opened = self.card.open_stream(StreamKind(entry.text), entry.name or None)
-            self._streams[entry.number] = opened
-            return
-        stream = self._streams.get(entry.number, entry.number)
-        if entry.what is Entered.BYTES:
-            self._needs(stream)
-            self.card.receive(stream, entry.data)
-        else:
-            self.card.close_stream(stream)

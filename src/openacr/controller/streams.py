@@ -196,6 +196,12 @@ class Streams:
         stream = self._open.get(number)
         return stream.terminal.data_to_send() if stream else b""
 
+    def discard_output(self) -> None:
+        """Drop everything that waits to be sent."""
+        for stream in self._open.values():
+            while stream.terminal.data_to_send():
+                pass
+
     def disconnect_all(self) -> None:
         """Reset all open streams, as after power-up."""
         for stream in self._open.values():

@@ -14,6 +14,7 @@ from openacr.kernel.tick_cy import tick
 from openacr.map.numbers import (
     ENGI_BASE,
     ENGI_IN_TICK,
+    ENGI_STATEMENTS,
     ENGI_STOP,
     ENGI_TICKS_LEFT,
     ENGI_TRACE_EVERY,
@@ -179,6 +180,7 @@ def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64) -> int:
         ):
             return TRACE_FULL
         I[e + ENGI_TICKS_LEFT] -= 1
+        I[e + ENGI_STATEMENTS] = 0
         if I[KRI_BASE + KRI_MISSING_DACS]:
             missing_outputs_step(I, S)  # programs may have written some
         plant_step(F, I, S, axes, F[SYSF_BASE + SYSF_PERIOD_S])

@@ -19,6 +19,12 @@ _ROWS = (
 _OF_PROCESS = (*_ROWS, (at.THCI_BASE, at.THC_COUNT * at.THCI_STRIDE))
 _BOUNDS = slice(at.WATF_BASE, at.WATF_BASE + at.WAT_COUNT * at.WATF_STRIDE)
 _IN_TICK = at.ENGI_BASE + at.ENGI_IN_TICK
+# The progress within the tick, which is no request.
+_PROGRESS = (
+    _IN_TICK,
+    at.ENGI_BASE + at.ENGI_LINE_ANNOUNCED,
+    at.ENGI_BASE + at.ENGI_STATEMENTS,
+)
 
 _watch_fired = pick(watch_cy.watch_fired)
 
@@ -66,7 +72,7 @@ def set_watches(memory: Memory, watches: Sequence[Watch]) -> None:
         rows[row + at.WATI_IS_ABOVE] = watch.is_above
         memory.F[at.WATF_BASE + index * at.WATF_STRIDE + at.WATF_BOUND] = watch.bound
     rows[at.ENGI_BASE + at.ENGI_WATCH_COUNT] = len(watches)
-    _watch_fired(memory.F, memory.I, memory.S)  # records the present states
+    see_present(memory)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,12 +102,13 @@ def state_image(memory: Memory) -> bytearray:
 def take_orders(memory: Memory) -> Orders:
     """Remove all requests and return them; `give_orders` restores them."""
     taken = []
-    in_tick = memory.I[_IN_TICK]
+    progress = [memory.I[row] for row in _PROGRESS]
     for first, count in _ROWS:
         part = memory.I[first : first + count]
         taken.append(memoryview(part.tobytes()).cast("i"))
         part[:] = memoryview(bytes(4 * count)).cast("i")
-    memory.I[_IN_TICK] = in_tick
+    for row, value in zip(_PROGRESS, progress, strict=True):
+        memory.I[row] = value
     bounds = memoryview(memory.F[_BOUNDS].tobytes()).cast("d")
     memory.F[_BOUNDS] = memoryview(bytes(8 * len(bounds))).cast("d")
     return Orders(tuple(taken), bounds)
@@ -109,8 +116,14 @@ def take_orders(memory: Memory) -> Orders:
 
 def give_orders(memory: Memory, orders: Orders) -> None:
     """Restore what `take_orders` removed; the progress within the tick is not changed."""
-    in_tick = memory.I[_IN_TICK]
+    progress = [memory.I[row] for row in _PROGRESS]
     for (first, count), part in zip(_ROWS, orders.rows, strict=True):
         memory.I[first : first + count] = part
-    memory.I[_IN_TICK] = in_tick
+    for row, value in zip(_PROGRESS, progress, strict=True):
+        memory.I[row] = value
     memory.F[_BOUNDS] = orders.bounds
+
+
+def see_present(memory: Memory) -> None:
+    """Let watches fire on changes from the present state on."""
+    _watch_fired(memory.F, memory.I, memory.S)

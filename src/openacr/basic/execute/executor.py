@@ -194,8 +194,7 @@ class Executor:
         word = at.PF_WORD + thread
         flags = self.memory.I[word]
         if flags & at.PF_TRACE_MODE_ENABLE:
-            line = self.threads.space.chunks[thread].code[self.threads.row(thread, at.THI_PC) + 1]
-            self.system.listeners.trace(thread, line)
+            self.system.listeners.trace(thread, self.threads.next_line(thread))
         if not flags & _HOLDS:
             self.threads.set_row(thread, at.THI_PASSED, 1)
             return

@@ -72,6 +72,11 @@ class Threads:
         """Write one int32 row of a thread."""
         self.memory.I[at.THI_BASE + thread * at.THI_STRIDE + row] = value
 
+    def next_line(self, thread: int) -> int:
+        """Number of the line whose first statement a thread executes next."""
+        line: int = self.space.chunks[thread].code[self.row(thread, at.THI_PC) + 1]
+        return line
+
     def run_of(self, thread: int) -> Run:
         """The context of what a thread executes."""
         run = self._runs[thread]
@@ -86,6 +91,8 @@ class Threads:
         self.failures.pop(thread, None)
         for row in _CLEARED_BY_START:
             self.set_row(thread, row, 0)
+        if self.memory.I[at.ENGI_BASE + at.ENGI_LINE_ANNOUNCED] == thread + 1:
+            self.memory.I[at.ENGI_BASE + at.ENGI_LINE_ANNOUNCED] = 0  # of what it executed before
         self.set_row(thread, at.THI_PC, start)
         self.set_row(thread, at.THI_LOCALS, -1 if run.program is None else run.program)
         self.set_row(thread, at.THI_STATE, scheduler.THREAD_READY)

@@ -9,6 +9,7 @@ VM_ERROR = 5
 VM_FLAGS = 6  # pause, block or trace mode stops before this line
 VM_CALL = 7  # an operand that Python computes
 VM_VALUE = 8  # an expression is computed, see row result
+VM_LINE = 9  # before a line that is announced
 
 # Operations; operands in parentheses, what is taken from the stack in brackets.
 DO_STATEMENT = 0  # (line, 1 if it is the first one of the line)

@@ -12,6 +12,7 @@ deal with that thread (row event says why) and is then called again for the same
 from openacr.basic.vm.kinematics_cy import kinematics_step
 from openacr.basic.vm.opcodes_cy import (
     VM_END,
+    VM_LINE,
     VM_SLICE,
     VM_WAIT,
 )
@@ -26,6 +27,8 @@ from openacr.basic.vm.waits_cy import (
 )
 from openacr.cmath import rint
 from openacr.map.numbers import (
+    ENGI_BASE,
+    ENGI_LINE_ANNOUNCED,
     KRI_BASE,
     KRI_KINEMATICS,
     PF_BLOCK_MODE,
@@ -207,6 +210,9 @@ def advance(F: F64, I: I32, S: F32, code: I32, nums: F64, t: int, tick: int) -> 
         I[rows + THI_STATE] = THREAD_WAITING
         show_wait(I, t, I[rows + THI_WAIT_SHOW])
         return 0
+    if event == VM_LINE:
+        I[ENGI_BASE + ENGI_LINE_ANNOUNCED] = 0 - (t + 1)
+        return 1
     I[rows + THI_EVENT] = event
     if event == VM_END:
         I[rows + THI_STATE] = THREAD_IDLE

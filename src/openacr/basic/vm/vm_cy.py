@@ -77,6 +77,7 @@ from openacr.basic.vm.opcodes_cy import (
     VM_END,
     VM_ERROR,
     VM_FLAGS,
+    VM_LINE,
     VM_SLICE,
     VM_TRAP,
     VM_VALUE,
@@ -102,6 +103,10 @@ from openacr.basic.vm.waits_cy import (
     start_wait,
 )
 from openacr.map.numbers import (
+    ENGI_BASE,
+    ENGI_LINE_ANNOUNCED,
+    ENGI_LINE_STOPS,
+    ENGI_STATEMENTS,
     PF_BLOCK_MODE,
     PF_PAUSE_MODE,
     PF_TRACE_MODE_ENABLE,
@@ -177,6 +182,8 @@ def vm_run(
     word: int = 0
     locals_of: int = I[rows + THI_LOCALS]
     storage: int = STI_BASE + locals_of * STI_STRIDE
+    announced: int = (I[ENGI_BASE + ENGI_LINE_STOPS] >> t) & 1 if t < PROG_COUNT else 0
+    first_budget: int = budget
     if t >= PROG_COUNT:
         line_at = rows + THI_LINE
     if top > bottom + THF_STACK_SIZE - 100:
@@ -188,7 +195,11 @@ def vm_run(
                 event = VM_SLICE
             elif I[flags_at] & STOPS and code[pc + 2] and not I[rows + THI_PASSED]:
                 event = VM_FLAGS
+            elif announced and code[pc + 2] and I[ENGI_BASE + ENGI_LINE_ANNOUNCED] != t + 1:
+                event = VM_LINE
             else:
+                if announced:
+                    I[ENGI_BASE + ENGI_LINE_ANNOUNCED] = 0
                 budget -= 1
                 word = code[pc + 1]
                 I[rows + THI_LINE] = word
@@ -445,6 +456,7 @@ def vm_run(
     I[rows + THI_SP] = top - bottom
     I[rows + THI_PC] = pc - base
     I[rows + THI_BUDGET] = budget
+    I[ENGI_BASE + ENGI_STATEMENTS] = I[ENGI_BASE + ENGI_STATEMENTS] + first_budget - budget
     if error != 0:
         I[rows + THI_ERROR] = error
         return VM_ERROR

@@ -20,6 +20,9 @@ ENGINE = HiddenBlock(
         "watch_count",
         "sample_count",  # values recorded in the trace beside the axes
         "stop",  # return at the end of this tick
+        "line_stops",  # programs whose lines are announced before they begin, one bit each
+        "line_announced",  # program whose next line has been announced, plus 1; negative: is to be
+        "statements",  # that have begun in this tick
     ),
     ranges={
         "in_tick": (0, 0),  # between ticks

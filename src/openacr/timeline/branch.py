@@ -1,0 +1,88 @@
+"""One course of events of a card: its inputs and, here and there, its whole state."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass, field
+
+from openacr.controller.journal import JournalEntry
+from openacr.timeline.keyframe import Keyframe
+from openacr.timeline.moment import Moment
+
+ENTRY_BYTES = 200  # of an input in memory, without its text
+
+
+@dataclass
+class Branch:
+    """A course of events. A branch shares the past before its fork with its parent."""
+
+    number: int
+    last: Moment
+    keyframes: list[Keyframe]
+    entries: list[JournalEntry] = field(default_factory=list)
+    forgotten: int = 0  # inputs before the first one of `entries`
+    parent: int | None = None
+    fork: Moment | None = None
+    shared: int = 0  # inputs before the fork
+    _text_bytes: int = 0  # of the inputs after it
+
+    @property
+    def first(self) -> Moment:
+        """The earliest moment that can be returned to."""
+        return Moment(self.keyframes[0].tick)
+
+    def forked(self, number: int, at: Moment, entered: int) -> Branch:
+        """Another course of events from a moment on, before which `entered` inputs came."""
+        return Branch(
+            number,
+            at,
+            self.keyframes[: self._following(at)],
+            self.entries[: entered - self.forgotten],
+            self.forgotten,
+            self.number,
+            at,
+            entered,
+        )
+
+    def note(self, entry: JournalEntry) -> None:
+        """Append an input."""
+        self.entries.append(entry)
+        self._text_bytes += len(entry.text)
+
+    @property
+    def inputs_bytes(self) -> int:
+        """What its inputs since the fork take in memory, roughly."""
+        own = self.forgotten + len(self.entries) - max(self.shared, self.forgotten)
+        return ENTRY_BYTES * own + self._text_bytes
+
+    def keyframe(self, at: Moment) -> Keyframe:
+        """The latest keyframe that is not after a moment."""
+        return self.keyframes[self._following(at) - 1]
+
+    def _following(self, at: Moment) -> int:
+        """Place of the first keyframe after a moment; at least 1."""
+        ended_tk = at.tick - 1 if at.within else at.tick
+        return max(1, bisect_right(self.keyframes, ended_tk, key=lambda each: each.tick))
+
+    def put(self, keyframe: Keyframe) -> None:
+        """Insert a keyframe."""
+        self.keyframes.insert(self._following(Moment(keyframe.tick)), keyframe)
+
+    def thin(self) -> bool:
+        """Drop every second keyframe of the older half; False if there are too few."""
+        middle = len(self.keyframes) // 2
+        before = len(self.keyframes)
+        del self.keyframes[1:middle:2]
+        return len(self.keyframes) < before
+
+    def forget_first(self) -> bool:
+        """Let the history begin at the second keyframe; False if there is none."""
+        if len(self.keyframes) < 2:
+            return False
+        del self.keyframes[0]
+        dropped = self.keyframes[0].entered - self.forgotten
+        own = max(0, self.shared - self.forgotten)
+        self._text_bytes -= sum(len(each.text) for each in self.entries[own:dropped])
+        del self.entries[:dropped]
+        self.forgotten += dropped
+        return True
