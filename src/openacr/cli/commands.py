@@ -37,6 +37,7 @@ COMMANDS: dict[str, Entry | Family] = {
     "serve": Entry("serve", "serve"),
     "panel": Entry("panel", "panel"),
     "replay": Entry("run.replay", "replay"),
+    "debug": Entry("debug", "debug"),
     "term": Entry("live.term", "term"),
     "download": Entry("live.download", "download"),
     "upload": Entry("live.upload", "upload"),

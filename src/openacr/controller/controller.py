@@ -60,7 +60,7 @@ class Controller:
         self._engine = EngineRun(parts)
         self._inputs.place = lambda: self._engine.within
         self._surroundings = Surroundings(self.card, self.world, self._inputs.note)
-        self._console: int | None = None
+        self.owns_console = False  # STREAM1, when it is open, is of the calling process
         self._origins = Origins()
 
     @classmethod
@@ -152,6 +152,10 @@ class Controller:
         """
         self._engine.watch(watches, poll)
 
+    def take_fired(self) -> list[int]:
+        """The watches that have fired since the last call, by their places in `watch`."""
+        return self._engine.take_fired()
+
     def announce_lines(self, programs: int = 0, ask: AskLine | None = None) -> None:
         """Call `ask(program, line)` before each line of these programs (a mask of 0-15).
 
@@ -178,6 +182,17 @@ class Controller:
             self._inputs.file, self._inputs.is_kept = file, is_kept
             self.system.listeners.taps = taps
 
+    @contextmanager
+    def aside(self) -> Iterator[None]:
+        """Do something with the card, between ticks or within one, of which nothing remains."""
+        with self.undisturbed(), self._engine.standing():
+            snapshot = snapshots.take(self)
+            try:
+                yield
+            finally:
+                snapshots.put_back(self, snapshot)
+                snapshots.put_back_streams(self, snapshot)
+
     @property
     def within(self) -> int:
         """0 between ticks; before a line within a tick, the number of its statement in the tick.
@@ -185,6 +200,11 @@ class Controller:
         The statements of all programs and channels are counted, from 1.
         """
         return self._engine.within
+
+    @property
+    def announced_program(self) -> int | None:
+        """The program before whose line the card stands; None if it stands between ticks."""
+        return self._engine.announced_program
 
     @property
     def next_statement(self) -> int:
@@ -297,9 +317,11 @@ class Controller:
     @property
     def console(self) -> int:
         """The stream of the calling process, opened at first use."""
-        if self._console is None:
-            self._console = self.open_stream(StreamKind.TERMINAL, CONSOLE)
-        return self._console
+        number = self.streams.number_of(CONSOLE) if self.owns_console else None
+        if number is None:
+            number = self.open_stream(StreamKind.TERMINAL, CONSOLE)
+            self.owns_console = True
+        return number
 
     def send(self, text: str) -> str:
         """Type text on the console and return what the card has answered so far.
@@ -411,7 +433,7 @@ class Controller:
         """Become the card of a snapshot, with every connection it had."""
         self.restore(snapshot)
         snapshots.put_back_streams(self, snapshot)
-        self._console = self.streams.number_of(CONSOLE)
+        self.owns_console |= self.streams.number_of(CONSOLE) is not None
 
     # the end
 

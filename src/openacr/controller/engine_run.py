@@ -11,7 +11,14 @@ from openacr.compiled import pick
 from openacr.controller.parts import CardParts
 from openacr.controller.recording import Recording
 from openacr.engine import loop_cy
-from openacr.engine.watches import Watch, give_orders, see_present, set_watches, take_orders
+from openacr.engine.watches import (
+    Watch,
+    give_orders,
+    see_present,
+    set_watches,
+    take_fired,
+    take_orders,
+)
 from openacr.errors import UserError
 from openacr.map.memory import flag_place
 from openacr.map.numbers import (
@@ -109,6 +116,10 @@ class EngineRun:
         set_watches(self._memory, watches)
         self._poll = poll
 
+    def take_fired(self) -> list[int]:
+        """The watches that have fired since the last call, by their places in `watch`."""
+        return take_fired(self._memory)
+
     @property
     def announced(self) -> tuple[int, AskLine | None]:
         """What `announce_lines` has set."""
@@ -118,6 +129,11 @@ class EngineRun:
         """Ask before each line of these programs (a mask) from now on whether to stop there."""
         self._set_engine(ENGI_LINE_STOPS, programs if ask is not None else 0)
         self._ask_line = ask
+
+    @property
+    def announced_program(self) -> int | None:
+        """The program before whose line the card stands; None if it stands between ticks."""
+        return self._memory.I[ENGI_BASE + ENGI_LINE_ANNOUNCED] - 1 if self.within else None
 
     @property
     def next_statement(self) -> int:
@@ -141,6 +157,18 @@ class EngineRun:
             give_orders(self._memory, orders)
             see_present(self._memory)
             self._poll, self._ask_line = poll, ask
+
+    @contextmanager
+    def standing(self) -> Iterator[None]:
+        """Keep the progress within the tick, which a return to a snapshot would forget."""
+        rows = [ENGI_BASE + row for row in (ENGI_LINE_ANNOUNCED, ENGI_STATEMENTS)]
+        kept, within = [self._memory.I[row] for row in rows], self.within
+        try:
+            yield
+        finally:
+            for row, value in zip(rows, kept, strict=True):
+                self._memory.I[row] = value
+            self.within = within
 
     def _run(self) -> int:
         """Run the engine to the end of its ticks or the awaited event; returns why it ended."""

@@ -10,6 +10,7 @@ from openacr.map.numbers import (
     WATF_BOUND,
     WATF_STRIDE,
     WATI_BASE,
+    WATI_FIRED,
     WATI_IS_ABOVE,
     WATI_KIND,
     WATI_MASK,
@@ -68,5 +69,6 @@ def watch_fired(F: F64, I: I32, S: F32) -> bool:
         w: int = WATI_BASE + n * WATI_STRIDE
         if state != I[w + WATI_STATE]:
             I[w + WATI_STATE] = state
+            I[w + WATI_FIRED] = 1
             fired = True
     return fired

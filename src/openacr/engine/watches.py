@@ -127,3 +127,13 @@ def give_orders(memory: Memory, orders: Orders) -> None:
 def see_present(memory: Memory) -> None:
     """Let watches fire on changes from the present state on."""
     _watch_fired(memory.F, memory.I, memory.S)
+    take_fired(memory)
+
+
+def take_fired(memory: Memory) -> list[int]:
+    """The watches that have fired since the last call, by their places in `set_watches`."""
+    rows = range(at.WATI_BASE + at.WATI_FIRED, at.SMVI_BASE, at.WATI_STRIDE)[: at.WAT_COUNT]
+    fired = [place for place, row in enumerate(rows) if memory.I[row]]
+    for place in fired:
+        memory.I[rows[place]] = 0
+    return fired

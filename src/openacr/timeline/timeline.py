@@ -8,7 +8,7 @@ another branch; the branch that was left remains as it is.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import takewhile
 from pathlib import Path
@@ -132,6 +132,18 @@ class Timeline:
         if self.now.order > self.branch.last.order:
             self.branch.last = self.now
 
+    def foresee(self, entries: Sequence[JournalEntry], last_tk: int) -> None:
+        """Let inputs of a journal come at their moments, up to a tick; from here they are known.
+
+        UserError unless the present is the first moment of an empty history.
+        """
+        if self.branch.entries or self.now != self.branch.first:
+            raise UserError("a timeline takes a journal at its beginning only")
+        for entry in entries:
+            if not entry.is_digest:
+                self.branch.note(entry)
+        self.branch.last = Moment(last_tk)
+
     # back
 
     def seek(self, moment: Moment | int) -> None:
@@ -168,17 +180,18 @@ class Timeline:
             self._entered += 1
         self._player.advance_within(moment.tick, moment.within)
 
-    def seek_stop(self) -> bool:
+    def seek_stop(self, counts: Callable[[], bool] = lambda: True) -> bool:
         """Go back to the last moment at which an event would have ended `advance`.
 
-        Events are those of the watches, the poll and the announced lines that are set now. If
-        there is none, the card is at its first moment and the answer is False.
+        Events are those of the watches, the poll and the announced lines that are set now, if
+        `counts` says so there. If there is none, the card is at its first moment and the answer
+        is False.
         """
         end = self.now
         for keyframe in reversed(self.branch.keyframes):
             if Moment(keyframe.tick).order >= end.order:
                 continue
-            found = self._last_stop(keyframe, end)
+            found = self._last_stop(keyframe, end, counts)
             if found is not None:
                 self.seek(found)
                 return True
@@ -186,12 +199,14 @@ class Timeline:
         self.seek(self.branch.first)
         return False
 
-    def _last_stop(self, keyframe: Keyframe, end: Moment) -> Moment | None:
+    def _last_stop(
+        self, keyframe: Keyframe, end: Moment, counts: Callable[[], bool]
+    ) -> Moment | None:
         self.seek(keyframe.tick)
         found = None
         while self.now.order < end.order:
             ended = self.advance(end.tick - self.card.lived_tk)
-            if ended and self.now.order < end.order:
+            if ended and self.now.order < end.order and counts():
                 found = self.now
         return found
 

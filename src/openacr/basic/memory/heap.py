@@ -117,6 +117,20 @@ class Heap:
         for place in self.memory.references(table, self.row(program, kind.count_row)):
             yield place - table, longs[longs[place]]
 
+    def scalars(self, program: int, kind: ScalarType) -> bytes:
+        """All variables of a kind as they are in memory."""
+        start = self.row(program, kind.base_row) * kind.words
+        return self.memory.I[
+            start : start + self.row(program, kind.count_row) * kind.words
+        ].tobytes()
+
+    def elements(self, program: int, kind: ArrayType) -> Iterator[bytes]:
+        """The elements of every array of a table; none while it is not dimensioned."""
+        rows, table = self.memory.I, self.row(program, kind.base_row)
+        for header in rows[table : table + self.row(program, kind.count_row)]:
+            count = rows[header] if header else 0
+            yield rows[header + 1 : header + 1 + count * kind.words].tobytes()
+
     def free(self, program: int) -> None:
         """Forget all locals of a program."""
         for kind in (*SCALARS, *ARRAYS):

@@ -16,7 +16,7 @@ from msgspec import Struct
 from openacr.basic.language.nodes import AxisRef
 from openacr.basic.language.parser import Parser
 from openacr.basic.language.registry import Command, Level
-from openacr.basic.memory.heap import ARRAYS, SCALARS, ArrayType, ScalarType
+from openacr.basic.memory.heap import ARRAYS, SCALARS, ArrayType
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.program_store import StoredLine
 from openacr.basic.memory.ranges import LineNumber, OwnerNumber, ProgramNumber
@@ -127,27 +127,14 @@ def _locals(system: System, *, values: bool) -> Iterator[Local]:
         strings = system.storage.locals.strings[program]
         local = Local(
             program,
-            {kind.name: _scalars(heap, program, kind) for kind in SCALARS},
-            {kind.name: list(_arrays(heap, program, kind)) for kind in ARRAYS},
+            {kind.name: heap.scalars(program, kind) for kind in SCALARS},
+            {kind.name: list(heap.elements(program, kind)) for kind in ARRAYS},
             strings.state(),
             heap.row(program, at.STI_MBUF_COUNT),
         )
         has_any = any(local.scalars.values()) or any(local.arrays.values()) or strings.bytes
         if has_any or local.move_buffer:
             yield local if values else _blank(local)
-
-
-def _scalars(heap: Heap, program: int, kind: ScalarType) -> bytes:
-    start = heap.row(program, kind.base_row) * kind.words
-    return heap.memory.I[start : start + heap.row(program, kind.count_row) * kind.words].tobytes()
-
-
-def _arrays(heap: Heap, program: int, kind: ArrayType) -> Iterator[bytes]:
-    """The elements of every array of a table; none while it is not dimensioned."""
-    rows, table = heap.memory.I, heap.row(program, kind.base_row)
-    for header in rows[table : table + heap.row(program, kind.count_row)]:
-        count = rows[header] if header else 0
-        yield rows[header + 1 : header + 1 + count * kind.words].tobytes()
 
 
 def _blank(local: Local) -> Local:

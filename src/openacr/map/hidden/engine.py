@@ -41,6 +41,7 @@ WATCH = HiddenBlock(
         "mask",  # of a word
         "is_above",  # a number is compared with the bound: 1 above it, 0 below it
         "state",
+        "fired",  # since the caller last asked
     ),
 )
 

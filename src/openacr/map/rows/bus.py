@@ -8,5 +8,5 @@ REALS_SIZE = 1
 reals = 209462
 before_s = 209462
 INTS_SIZE = 1
-ints = 461429
-fitted = 461429
+ints = 461557
+fitted = 461557

@@ -8,5 +8,5 @@ REALS_SIZE = 1
 reals = tuple(range(209815, 209831))
 limit_tk = tuple(range(209815, 209831))
 INTS_SIZE = 1
-ints = tuple(range(464347, 464363))
-known = tuple(range(464347, 464363))
+ints = tuple(range(464475, 464491))
+known = tuple(range(464475, 464491))

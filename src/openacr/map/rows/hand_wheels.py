@@ -11,5 +11,5 @@ ratio = tuple(range(205524, 205588, 4))
 vel_ups = tuple(range(205525, 205589, 4))
 acc_ups2 = tuple(range(205526, 205590, 4))
 INTS_SIZE = 1
-ints = tuple(range(456538, 456554))
-on = tuple(range(456538, 456554))
+ints = tuple(range(456666, 456682))
+on = tuple(range(456666, 456682))

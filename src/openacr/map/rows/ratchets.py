@@ -9,5 +9,5 @@ reals = tuple(range(209107, 209123, 2))
 output_cnt = tuple(range(209107, 209123, 2))
 backlog_cnt = tuple(range(209108, 209124, 2))
 INTS_SIZE = 1
-ints = tuple(range(460826, 460834))
-mode = tuple(range(460826, 460834))
+ints = tuple(range(460954, 460962))
+mode = tuple(range(460954, 460962))

@@ -1,0 +1,1 @@
+"""A debugger of the programs of a virtual card, forwards and backwards."""

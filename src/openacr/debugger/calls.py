@@ -1,0 +1,105 @@
+"""Where the programs of a card stand: lines, routines that were called, why they wait."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from openacr.basic.vm.flow_cy import FLOW_GOSUB
+from openacr.basic.vm.scheduler_cy import THREAD_HELD, THREAD_IDLE, THREAD_READY, THREAD_WAITING
+from openacr.controller.controller import Controller
+from openacr.map import numbers as at
+
+PROGRAMS = at.PROG_COUNT
+PLCS = at.PLC_COUNT
+
+_STATES = {
+    THREAD_IDLE: "ended",
+    THREAD_READY: "running",
+    THREAD_WAITING: "waiting",
+    THREAD_HELD: "held before a line",
+}
+_WAITS = {
+    at.PF_PROGRAM_DWELLING: "dwells (DWL)",
+    at.PF_PROGRAM_INHIBITED: "inhibited (INH)",
+    at.PF_MOVE_PENDING: "waits for room in the move buffer",
+    at.PF_BLOCK_MODE_WAITING: "held in block mode (STEP)",
+    at.PF_PAUSE_MODE_WAITING: "held in pause mode (PAUSE)",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """A line of a program or PLC (16-23): the present one, or one that has called a routine."""
+
+    owner: int
+    line: int
+    path: str = ""  # of the project file, with its line; without one: the listing of the card
+    file_line: int = 0
+
+
+def is_running(card: Controller, program: int) -> bool:
+    """Whether a program executes, waits or is held."""
+    return card.executor.is_running(program)
+
+
+def state_of(card: Controller, program: int) -> str:
+    """What a program does, in words."""
+    flags = card.memory.I[at.PF_WORD + program]
+    for flag, text in _WAITS.items():
+        if flags & flag:
+            return text
+    return _STATES[card.executor.threads.row(program, at.THI_STATE)]
+
+
+def depth_of(card: Controller, program: int) -> int:
+    """How many routines (GOSUB) of a program are open."""
+    return sum(1 for _ in _returns(card, program))
+
+
+def frames_of(card: Controller, program: int) -> list[Frame]:
+    """The line that a program executes next or waits in, then those that called it."""
+    if not is_running(card, program):
+        return []
+    present = card.executor.threads.row(program, at.THI_LINE)
+    if card.announced_program == program:
+        present = card.executor.threads.next_line(program)
+    callers = [_line_at(card, program, place) for place in _returns(card, program)]
+    return [_frame(card, program, line) for line in (present, *reversed(callers))]
+
+
+def _returns(card: Controller, program: int) -> Iterator[int]:
+    threads = card.executor.threads
+    for level in range(threads.row(program, at.THI_DEPTH)):
+        if threads.row(program, at.THI_FLOW_KIND + level) == FLOW_GOSUB:
+            yield threads.row(program, at.THI_FLOW_BACK + level)
+
+
+def _line_at(card: Controller, program: int, place: int) -> int:
+    """The line whose code holds the place after a GOSUB."""
+    starts = sorted(
+        (start, line) for line, start in card.executor.threads.space.chunks[program].starts.items()
+    )
+    return starts[bisect_right(starts, (place - 1, 1 << 31)) - 1][1]
+
+
+def _frame(card: Controller, owner: int, line: int) -> Frame:
+    path, file_line = card.origin(owner, line) or ("", 0)
+    return Frame(owner, line, path, file_line)
+
+
+def owners(card: Controller) -> list[int]:
+    """The programs and PLCs (16-23) that have a text."""
+    programs = card.system.programs
+    return [owner for owner in card.system.owners() if not programs.is_empty(owner)]
+
+
+def name_of(owner: int) -> str:
+    """What the manuals call a program or PLC."""
+    return f"PROG{owner}" if owner < PROGRAMS else f"PLC{owner - PROGRAMS}"
+
+
+def listing(card: Controller, owner: int) -> list[str]:
+    """The lines of a program or PLC as they were stored, each with its number."""
+    return [f"{line.number} {line.text.strip()}" for line in card.system.programs.lines(owner)]

@@ -1,0 +1,71 @@
+"""Serve one client of the debugger: messages come in, meanwhile the card runs."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from queue import Empty, Queue
+from typing import IO, Any
+
+from openacr.debugger.adapter import Adapter
+from openacr.debugger.wire import BrokenStreamError, read_message, write_message
+from openacr.io.pacing import Pacer
+
+log = logging.getLogger(__name__)
+
+SLICE_S = 0.02  # card time between two looks at the messages, at full speed
+IDLE_S = 0.005
+
+_END = None
+
+
+def serve(incoming: IO[bytes], outgoing: IO[bytes]) -> None:
+    """Answer requests until the client ends the session or its connection is lost."""
+    messages: Queue[dict[str, Any] | None] = Queue(1000)
+    threading.Thread(target=_read, args=(incoming, messages), daemon=True).start()
+    adapter = Adapter(lambda message: write_message(outgoing, message))
+    try:
+        _answer(adapter, messages)
+    except (BrokenPipeError, ConnectionError) as failure:
+        log.info("the client is gone: %s", failure)
+
+
+def _read(incoming: IO[bytes], messages: Queue[dict[str, Any] | None]) -> None:
+    try:
+        while (message := read_message(incoming)) is not None:
+            messages.put(message)
+    except (BrokenStreamError, OSError, ValueError) as failure:
+        log.error("the connection is given up: %s", failure)
+    messages.put(_END)
+
+
+def _answer(adapter: Adapter, messages: Queue[dict[str, Any] | None]) -> None:
+    pacer: Pacer | None = None
+    while not adapter.is_ended:
+        try:
+            message = messages.get(block=not adapter.is_running)
+            if message is _END:
+                return
+            adapter.take(message)
+            pacer = None
+        except Empty:
+            pacer = _advance(adapter, pacer)
+
+
+def _advance(adapter: Adapter, pacer: Pacer | None) -> Pacer | None:
+    """Let the card run for a moment, in its pace."""
+    period_s = adapter.session.card.period_s
+    if adapter.speed == 0.0:
+        adapter.advance(max(1, round(SLICE_S / period_s)))
+        return None
+    if pacer is None:
+        pacer = Pacer(period_s, adapter.speed)
+        pacer.start(time.monotonic())
+    ticks = pacer.due_tk(time.monotonic())
+    if ticks:
+        adapter.advance(ticks)
+        pacer.advanced(ticks)
+    else:
+        time.sleep(pacer.pause_s(time.monotonic(), IDLE_S))
+    return pacer

@@ -1,0 +1,294 @@
+"""A debugged card: it runs, stops, steps and goes back.
+
+A session knows no protocol. `run` advances the card and returns why it has stopped; the
+present moment then may be before a line, within a tick.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+
+from openacr.controller.controller import Controller
+from openacr.debugger import questions
+from openacr.debugger.breakpoints import (
+    MASTERS,
+    DataBreakpoint,
+    Fault,
+    LineBreakpoint,
+    Watching,
+    kill_watch,
+    running_watch,
+)
+from openacr.debugger.calls import PROGRAMS, depth_of, is_running, name_of
+from openacr.errors import UserError
+from openacr.timeline import Moment, Timeline
+
+ALL_PROGRAMS = (1 << PROGRAMS) - 1
+_EMBEDDED = re.compile(r"\{([^{}]*)\}")  # an expression in a text to be printed
+
+
+class Reason(StrEnum):
+    """Why a debugged card stands."""
+
+    ENTRY = "entry"
+    BREAKPOINT = "breakpoint"
+    DATA = "data breakpoint"
+    STEP = "step"
+    PAUSE = "pause"
+    EXCEPTION = "exception"
+    GOTO = "goto"
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Why the card stands, at which program if that is known, with a sentence."""
+
+    reason: Reason
+    program: int | None = None
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A step: to the next line of a program in at most `depth` open routines (None: in any)."""
+
+    program: int
+    depth: int | None = None
+
+
+class DebugSession:
+    """The card of a debugger."""
+
+    def __init__(self, card: Controller, show: Callable[[str], None] = lambda text: None) -> None:
+        """`show` gets the texts of breakpoints that print, and conditions that fail."""
+        self.card = card
+        self.timeline = Timeline(card)
+        self._show = show
+        self._lines: dict[tuple[int, int], LineBreakpoint] = {}
+        self._data: list[DataBreakpoint] = []
+        self._faults: frozenset[Fault] = frozenset()
+        self._step: Step | None = None
+        self._stop: Stop | None = None
+        self._watching = Watching()
+
+    # what stops it
+
+    def set_lines(self, breakpoints: list[LineBreakpoint]) -> None:
+        """Stop before these lines, and no others."""
+        self._lines = {(each.program, each.line): each for each in breakpoints}
+
+    def set_data(self, breakpoints: list[DataBreakpoint]) -> None:
+        """Stop at these changes, and no others; UserError for a value that does not exist."""
+        for each in breakpoints:
+            each.watches(self.card)
+        self._data = list(breakpoints)
+
+    def set_faults(self, faults: frozenset[Fault]) -> None:
+        """Stop at these faults, and no others."""
+        self._faults = faults
+
+    def entry(self) -> Stop:
+        """The stop at the first moment."""
+        return Stop(Reason.ENTRY)
+
+    def paused(self, program: int) -> Stop:
+        """The stop of a pause."""
+        self._step = None
+        return Stop(Reason.PAUSE, program)
+
+    # forward
+
+    def begin_step(self, program: int, *, into: bool = False, out: bool = False) -> None:
+        """Let `run` end before the next line of a program.
+
+        Routines that it calls are passed over unless `into`; with `out`, the rest of its own.
+        """
+        if not is_running(self.card, program):
+            raise UserError(f"{name_of(program)} does not run: only a running program can step")
+        depth = depth_of(self.card, program)
+        self._step = Step(program, None if into else depth - 1 if out else depth)
+
+    def run(self, ticks: int) -> Stop | None:
+        """Advance by a number of ticks; why it has stopped before their end, or None."""
+        end_tk = self.card.lived_tk + ticks
+        self._arm()
+        try:
+            while self.card.lived_tk < end_tk or self.card.within:
+                if not self.timeline.advance(end_tk - self.card.lived_tk):
+                    return None
+                stop = self._stopped()
+                if stop is not None:
+                    self._step = None
+                    return stop
+        finally:
+            self._disarm()
+        return None
+
+    def tick(self) -> Stop:
+        """Complete the present tick, or advance by one."""
+        self._step = None
+        self.timeline.advance(0 if self.card.within else 1)
+        return Stop(Reason.STEP, None, "one servo interrupt")
+
+    # back
+
+    def run_back(self) -> Stop:
+        """Go back to the last stop before the present, or to the first moment."""
+        self._step = None
+        return self._seek_stop()
+
+    def step_back(self, program: int) -> Stop:
+        """Go back to the line that a program has executed before the present."""
+        self._step = Step(program)
+        try:
+            return self._seek_stop(only_step=True)
+        finally:
+            self._step = None
+
+    def tick_back(self) -> Stop:
+        """Go back to the end of the servo interrupt before."""
+        before = Moment(self.card.lived_tk - 1)
+        if before.order < self.timeline.branch.first.order:
+            return self._at_first()
+        self.timeline.seek(before)
+        return Stop(Reason.STEP, None, "one servo interrupt back")
+
+    def seek(self, moment: Moment) -> Stop:
+        """Go to any moment of the present branch."""
+        self.timeline.seek(moment)
+        return Stop(Reason.GOTO)
+
+    def _seek_stop(self, *, only_step: bool = False) -> Stop:
+        found: list[Stop] = []
+
+        def counts() -> bool:
+            stop = self._stopped()
+            if stop is not None:
+                found.append(stop)
+            return stop is not None
+
+        self._arm(only_step=only_step)
+        try:
+            there = self.timeline.seek_stop(counts)
+        finally:
+            self._disarm()
+        return found[-1] if there else self._at_first()
+
+    def _at_first(self) -> Stop:
+        self.timeline.seek(self.timeline.branch.first)
+        return Stop(Reason.ENTRY, None, "the beginning of what is known")
+
+    # stops
+
+    def _arm(self, *, only_step: bool = False) -> None:
+        """Let the card stop at what is set now."""
+        self._stop = None
+        self._watching = Watching()
+        if not only_step:
+            self._watch()
+        if self._step is not None:
+            self._watching.add([running_watch(self._step.program)], self._step.program)
+        self.card.watch(self._watching.watches)
+        programs = {each.program for each in self._lines.values()} if not only_step else set()
+        if self._step is not None:
+            programs.add(self._step.program)
+        self.card.announce_lines(
+            sum(1 << program for program in programs), self._ask if programs else None
+        )
+
+    def _watch(self) -> None:
+        for each in self._data:
+            self._watching.add(each.watches(self.card), each)
+        if Fault.PROGRAM in self._faults:
+            for program in range(PROGRAMS):
+                self._watching.add([running_watch(program)], program)
+        if Fault.KILL in self._faults:
+            for master in range(MASTERS):
+                self._watching.add([kill_watch(master)], PROGRAMS + master)
+
+    def _disarm(self) -> None:
+        self.card.watch()
+        self.card.announce_lines()
+
+    def _ask(self, program: int, line: int) -> bool:
+        """Whether the card stops before a line."""
+        step = self._step
+        if step is not None and step.program == program:
+            if step.depth is None or depth_of(self.card, program) <= step.depth:
+                self._stop = Stop(Reason.STEP, program)
+                return True
+        found = self._lines.get((program, line))
+        if found is not None and self._meets(found):
+            self._stop = Stop(Reason.BREAKPOINT, program)
+            return True
+        return False
+
+    def _meets(self, breakpoint: LineBreakpoint) -> bool:
+        if not self._holds(breakpoint.program, breakpoint.condition):
+            return False
+        breakpoint.met += 1
+        if breakpoint.met < breakpoint.hits:
+            return False
+        if breakpoint.log:
+            self._show(self._filled(breakpoint.program, breakpoint.log) + "\n")
+            return False
+        return True
+
+    def _holds(self, program: int, condition: str) -> bool:
+        """Whether a condition is met; one that the card cannot compute stops, with a note."""
+        if not condition:
+            return True
+        try:
+            return questions.is_true(self.card, program, condition)
+        except UserError as error:
+            self._show(f"{error}\n")
+            return True
+
+    def _filled(self, program: int, text: str) -> str:
+        """A text with its expressions in braces replaced by their values."""
+
+        def value(found: re.Match[str]) -> str:
+            try:
+                return questions.answer(self.card, program, found[1])
+            except UserError as error:
+                return f"<{error}>"
+
+        return _EMBEDDED.sub(value, text)
+
+    def _stopped(self) -> Stop | None:
+        """Why `advance` has ended, or None if that is no reason to stop."""
+        stop, self._stop = self._stop, None
+        fired = self.card.take_fired()
+        if self.card.within:
+            return stop
+        for place in fired:
+            stop = self._meant(self._watching.meanings[place])
+            if stop is not None:
+                return stop
+        return None
+
+    def _meant(self, meaning: DataBreakpoint | int) -> Stop | None:
+        card = self.card
+        if isinstance(meaning, DataBreakpoint):
+            if not self._holds(0, meaning.condition):
+                return None
+            return Stop(Reason.DATA, None, f"{meaning.name} has changed")
+        if meaning >= PROGRAMS:
+            watch = kill_watch(meaning - PROGRAMS)
+            if not card.memory.I[watch.row] & watch.mask:
+                return None
+            return Stop(
+                Reason.EXCEPTION, None, f"the motion of MASTER{meaning - PROGRAMS} is killed"
+            )
+        failures = card.executor.threads.failures
+        if is_running(card, meaning):
+            return None
+        if meaning in failures and Fault.PROGRAM in self._faults:
+            return Stop(Reason.EXCEPTION, meaning, failures[meaning])
+        step = self._step
+        if step is not None and step.program == meaning:
+            return Stop(Reason.STEP, meaning, f"{name_of(meaning)} has ended")
+        return None

@@ -1,0 +1,223 @@
+"""The debugger as editors use it: a process that speaks the protocol."""
+
+from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path
+
+import pytest
+from tests.debugger.client import LIMIT_S, Client, RefusedError
+from tests.debugger.project import card_of, write
+
+from openacr.controller.recorder import Recorder
+from openacr.debugger.server import serve
+from openacr.debugger.wire import BrokenStreamError, read_message
+
+
+@pytest.fixture
+def client() -> Iterator[Client]:
+    client = Client()
+    yield client
+    client.close()
+
+
+@pytest.fixture
+def begun(client: Client, tmp_path: Path) -> Client:
+    """At the beginning, with program 0 started."""
+    client.launch(write(tmp_path), run=[0])
+    client.ask("configurationDone")
+    assert client.stop() == ("entry", 1)
+    return client
+
+
+def test_a_session_from_its_beginning_to_its_end(begun: Client, tmp_path: Path) -> None:
+    source = {"path": str(tmp_path / "prog0.8k")}
+    found = begun.ask("setBreakpoints", source=source, breakpoints=[{"line": 10}, {"line": 99}])
+    assert [each["verified"] for each in found["breakpoints"]] == [True, False]
+    names = [each["name"] for each in begun.ask("threads")["threads"]]
+    assert names == ["PROG0", "PROG1", "PLC0"]
+    begun.ask("continue", threadId=1)
+    assert begun.stop() == ("breakpoint", 1)
+    frames = begun.ask("stackTrace", threadId=1)["stackFrames"]
+    assert [frame["line"] for frame in frames] == [10, 6]
+    assert (begun.value("P0"), begun.value("P1")) == ("3", "0")
+    begun.ask("next", threadId=1)
+    assert begun.stop() == ("step", 1)
+    assert (begun.place(1), begun.value("P1")) == (("prog0.8k", 11), "6")
+    begun.ask("stepBack", threadId=1)
+    assert begun.stop() == ("step", 1)
+    assert (begun.place(1), begun.value("P1")) == (("prog0.8k", 10), "0")
+    begun.ask("stepOut", threadId=1)
+    assert begun.stop() == ("step", 1)
+    assert begun.place(1) == ("prog0.8k", 7)
+    begun.ask("reverseContinue", threadId=1)
+    assert begun.stop() == ("breakpoint", 1)
+    begun.ask("reverseContinue", threadId=1)
+    assert begun.stop() == ("entry", 1)
+    assert begun.end() == 0
+
+
+def test_a_wrong_request_is_answered_with_a_sentence_and_ends_nothing(begun: Client) -> None:
+    for command, arguments, text in (
+        ("fly", {}, "fly: this debugger has no such request"),
+        ("stackTrace", {}, "missing required field `threadId`"),
+        ("stackTrace", {"threadId": 99}, "Expected `int` <= 24"),
+        ("variables", {"variablesReference": 77}, "these values are of an earlier stop"),
+        ("next", {"threadId": 2}, "PROG1 does not run"),
+        ("evaluate", {"expression": "LV9"}, r"\?LV9: Undefined variable"),
+        ("evaluate", {"expression": "P0\r\nNEW"}, "cannot be typed"),
+        ("source", {"sourceReference": 9}, "there is no listing 9"),
+        ("setDataBreakpoints", {"breakpoints": [{"dataId": "Q1"}]}, "Q1: a value to be watched"),
+        ("openacrSeek", {"tick": 10**9}, "tick 1000000000 is not on branch 0"),
+    ):
+        with pytest.raises(RefusedError, match=text):
+            begun.ask(command, **arguments)
+    assert begun.value("1+1") == "2"
+    assert begun.end() == 0
+
+
+def test_a_client_that_is_gone_ends_the_debugger(begun: Client) -> None:
+    begun.ask("continue", threadId=1)
+    begun.close()
+    assert begun.process.returncode is not None
+
+
+def test_a_closed_stream_ends_the_debugger(begun: Client) -> None:
+    assert begun.process.stdin is not None
+    begun.process.stdin.close()
+    assert begun.process.wait(LIMIT_S) == 0
+
+
+def test_values_are_shown_in_groups_and_can_be_changed(begun: Client, tmp_path: Path) -> None:
+    source = {"path": str(tmp_path / "prog0.8k")}
+    begun.ask("setBreakpoints", source=source, breakpoints=[{"line": 5, "condition": "P0=2"}])
+    begun.ask("continue")
+    assert begun.stop() == ("breakpoint", 1)
+    scopes = {
+        each["name"]: each["variablesReference"]
+        for each in begun.ask("scopes", frameId=100)["scopes"]
+    }
+    assert list(scopes) == ["Variables", "Program", "Time"]
+    found = begun.ask("variables", variablesReference=scopes["Variables"], start=1, count=1)
+    assert [(each["name"], each["value"]) for each in found["variables"]] == [("LV1", "0")]
+    arguments = {"variablesReference": scopes["Variables"], "value": "3*4"}
+    assert begun.ask("setVariable", name="LV1", **arguments) == {"value": "12"}
+    with pytest.raises(RefusedError, match="LV9 is not one of these values"):
+        begun.ask("setVariable", name="LV9", **arguments)
+    assert begun.ask("setExpression", expression="BIT130", value="1", frameId=100) == {
+        "value": "-1"
+    }
+    assert begun.ask("evaluate", expression="?P0;BIT130", context="repl", frameId=100)[
+        "result"
+    ] == ("2-1\nP00>")
+    assert begun.end() == 0
+
+
+def test_a_running_card_can_be_paused_and_prints(begun: Client) -> None:
+    begun.ask("evaluate", expression="PROG2", context="repl")
+    begun.ask("evaluate", expression='10 PRINT "hello"', context="repl", frameId=300)
+    begun.ask("evaluate", expression="RUN", context="repl", frameId=300)
+    begun.ask("continue")
+    assert begun.event("output") == {"category": "stdout", "output": "hello\r\n"}
+    with pytest.raises(RefusedError, match="the card runs: pause it first"):
+        begun.ask("scopes", frameId=100)
+    begun.ask("pause", threadId=1)
+    assert begun.stop() == ("pause", 1)
+    assert begun.end() == 0
+
+
+def test_data_faults_and_texts_are_protocol_too(begun: Client, tmp_path: Path) -> None:
+    info = begun.ask("dataBreakpointInfo", name="p5")
+    assert (info["dataId"], info["description"]) == ("P5", "P5 changes")
+    assert begun.ask("dataBreakpointInfo", name="LV0")["dataId"] is None
+    begun.ask("setDataBreakpoints", breakpoints=[{"dataId": "P5"}])
+    begun.ask("setExceptionBreakpoints", filters=["program-error"])
+    begun.ask("evaluate", expression="RUN", context="repl", frameId=200)
+    begun.ask("continue")
+    assert begun.event("stopped")["text"] == "P5 has changed"
+    begun.ask("continue")
+    assert begun.stop() == ("exception", 2)
+    assert begun.ask("exceptionInfo", threadId=2)["description"] == "Divide by zero"
+    listing = begun.ask("source", sourceReference=17)["content"]
+    assert listing == "10 LD 40\n20 OUT 41\n"
+    found = begun.ask(
+        "breakpointLocations", source={"path": str(tmp_path / "prog1.8k")}, line=2, endLine=9
+    )
+    assert found == {"breakpoints": [{"line": line} for line in (2, 3, 4, 5)]}
+    found = begun.ask("setBreakpoints", source={"sourceReference": 17}, breakpoints=[{"line": 1}])
+    assert "watch one of its flags" in found["breakpoints"][0]["message"]
+    assert begun.end() == 0
+
+
+def test_the_past_has_branches(begun: Client) -> None:
+    begun.ask("next", threadId=1, granularity="instruction")
+    begun.stop()
+    tick = begun.ask("openacrTimeline")["tick"]
+    begun.ask("openacrSeek", tick=tick - 1)
+    assert begun.stop()[0] == "goto"
+    begun.ask("setExpression", expression="P9", value="1")
+    found = begun.ask("openacrTimeline")
+    assert [each["parent"] for each in found["branches"]] == [None, 0]
+    begun.ask("openacrSeek", tick=tick, branch=0)
+    assert begun.stop()[0] == "goto"
+    assert begun.value("P9") == "0"
+    assert begun.end() == 0
+
+
+def test_a_journal_is_debugged_after_the_fact(client: Client, tmp_path: Path) -> None:
+    card = card_of(tmp_path)
+    card.recorder = Recorder(card, tmp_path / "a.journal")
+    card.send("PROG0\rRUN\r")
+    card.advance(500)
+    card.p[0] = 100
+    card.advance(500)
+    card.close()
+    client.launch(tmp_path, program="", journal=str(tmp_path / "a.journal"))
+    client.ask("configurationDone")
+    client.stop()
+    client.ask("setDataBreakpoints", breakpoints=[{"dataId": "P1", "condition": "P1>=200"}])
+    client.ask("continue")
+    assert client.stop()[0] == "data breakpoint"
+    assert client.value("P0") == "101"
+    client.ask("stepBack", threadId=1)
+    client.stop()
+    frame = client.ask("stackTrace", threadId=1)["stackFrames"][0]
+    assert (frame["name"], frame["source"]["sourceReference"]) == ("PROG0 line 70", 1)
+    assert client.end() == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        ({"program": ""}, "give either `program`"),
+        ({"program": "/nowhere"}, "no such file or folder"),
+        ({"journal": "x", "program": ""}, "x cannot be read"),
+        ({"speed": -1}, "Expected `float` >= 0"),
+        ({"run": [16]}, "Expected `int` <= 15"),
+    ],
+)
+def test_a_launch_that_cannot_be_is_refused(
+    client: Client, tmp_path: Path, arguments: dict[str, object], text: str
+) -> None:
+    with pytest.raises(RefusedError, match=text):
+        client.launch(write(tmp_path), **arguments)
+    with pytest.raises(RefusedError, match="no card is debugged yet"):
+        client.ask("threads")
+    assert client.end() == 0
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"", b"Content-Length: 5\r\n\r\n{", b"hello\r\n\r\n", b"Content-Length: x\r\n\r\n",
+        b"Content-Length: 99999999\r\n\r\n", b"Other: 1\r\n\r\n", b"Content-Length: 2\r\n\r\n[]",
+        b"Content-Length: 1\r\n\r\n{", b"x" * 10_000,
+    ],
+)  # fmt: skip
+def test_what_is_no_message_ends_the_connection_with_a_sentence(data: bytes) -> None:
+    out = BytesIO()
+    serve(BytesIO(data), out)
+    assert out.getvalue() == b""
+    try:
+        assert read_message(BytesIO(data)) is None
+    except BrokenStreamError as error:
+        assert str(error)
