@@ -14,7 +14,7 @@ PIECES = re.findall(r"^```python\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)
 OF_SERVERS = {
     "accepts_input", "close_stream", "fast_status", "has_stream", "image", "load", "open_stream",
     "receive", "replying", "take_output", "take_over", "type_lines", "console", "is_journalled",
-    "recorder",
+    "recorder", "owns_console",
 }  # fmt: skip
 
 

@@ -157,7 +157,7 @@ class SetVariable(Arguments):
 
 
 class SetExpression(Arguments):
-    """`setExpression`: whatever can be assigned."""
+    """`setExpression`: a parameter, flag or variable."""
 
     expression: Text
     value: Text

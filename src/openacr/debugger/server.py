@@ -14,7 +14,7 @@ from openacr.io.pacing import Pacer
 
 log = logging.getLogger(__name__)
 
-SLICE_S = 0.02  # card time between two looks at the messages, at full speed
+SLICE_S = 0.02  # card time between two polls of the messages, at full speed
 IDLE_S = 0.005
 
 _END = None

@@ -17,7 +17,7 @@ class BrokenStreamError(UserError):
 
 
 def read_message(stream: IO[bytes]) -> dict[str, Any] | None:
-    """The next message, None at the end of the stream; BrokenStreamError if it is none."""
+    """The next message, None at the end of the stream; BrokenStreamError for anything else."""
     length = None
     while True:
         line = stream.readline(_HEADER_BYTES)
