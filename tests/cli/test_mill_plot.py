@@ -141,6 +141,26 @@ def test_what_is_wrong_is_reported_and_the_rest_is_drawn(tmp_path: Path) -> None
     assert "with errors" in picture.read_text()
 
 
+def test_the_stock_is_drawn_with_the_lines_where_something_is_wrong(
+    part: Path, tmp_path: Path
+) -> None:
+    part.write_text("G10 L12 P1 R.25\nG0 X1 Y1 Z1\nX0 Y0\nD1 F10 G1 Z-.5\nX2\nG0 Y1\nZ1\nM2\n")
+    picture = tmp_path / "stock.svg"
+    code, text = plotted(part, picture, "--stock")
+    assert (code, text.splitlines()[1]) == (0, f"{part}:6: a rapid goes through material")
+    # The slot: 0.5 (0.5 * 2 + pi / 16) = 0.598; the rapid takes what is left of two corners.
+    assert text.splitlines()[0] == f"{picture}: 0.6049 inch³ removed"
+    shown = picture.read_text()
+    assert "rapid in material: line 6" in shown
+    assert "height [inch]" in shown
+
+
+def test_the_stock_is_no_page(part: Path) -> None:
+    page = part.with_suffix(".html")
+    refused = f"error: {page}: pictures with --stock end in .png or .svg\n"
+    assert plotted(part, page, "--stock") == (2, refused)
+
+
 def test_a_flat_part_needs_no_view_from_the_front(tmp_path: Path) -> None:
     part = tmp_path / "FLAT.NC"
     part.write_text("F10 X1\nY1\nX0\nM2\n")

@@ -338,3 +338,58 @@ def test_values_that_the_store_cannot_keep_are_refused_and_the_old_ones_stay(
     assert {store.read(number) for number in range(2001, 2999)} == {0.0}
     assert save().status_code == 200
     assert {store.read(number) for number in range(2001, 2999)} == {0.25}
+
+
+# --- stock ----------------------------------------------------------------------------
+
+STOCK_HEAD = struct.Struct("<4sIII5fIII")
+SLOT = "G21 F100\nG10 L12 P1 R2\nG0 X1 Y1 Z5\nG0 X0 Y0\nD1 G1 Z-3\nX20\nG0 Y5\nZ5\nM2\n"
+
+
+def test_the_stock_of_a_program_is_heights_marks_and_lines(
+    panel: Served, web: httpx.Client
+) -> None:
+    (panel.programs / "slot.nc").write_text(SLOT)
+    answer = ready(lambda: web.get("/api/stock", params={"path": "slot.nc"}))
+    assert (answer.status_code, answer.headers["content-encoding"]) == (200, "gzip")
+    mark, columns, rows, flags, *place, rapids, belows, _ = STOCK_HEAD.unpack_from(answer.content)
+    assert (mark, flags, rapids, belows) == (b"OAS1", 1, 1, 0)
+    *_corner, cell, bottom, top = place
+    assert columns == 500
+    assert (top - bottom, cell * columns) == (pytest.approx(3.0), pytest.approx(24.0))
+    assert struct.unpack_from("<I", answer.content, 48) == (7,)
+    assert len(answer.content) == 48 + 4 + 3 * columns * rows
+    heights = struct.unpack_from(f"<{columns * rows}H", answer.content, 52)
+    assert set(heights) == {0, 65535}
+    middle = int(2.0 / cell)  # the row of Y0: the blank begins a radius before it
+    assert (heights[middle * columns + columns // 2], heights[-1]) == (0, 0)
+    tag = {"if-none-match": answer.headers["etag"]}
+    assert web.get("/api/stock", params={"path": "slot.nc"}, headers=tag).status_code == 304
+
+
+def test_another_program_ends_the_stock_that_is_being_computed(
+    panel: Served, web: httpx.Client
+) -> None:
+    long = "".join(f"X{n % 50}Y{n % 49}\n" for n in range(60_000))
+    (panel.programs / "long.nc").write_text(f"G21 F100\nG10 L12 P1 R9\nD1 G1 Z-3\n{long}M2\n")
+    (panel.programs / "slot.nc").write_text(SLOT)
+    begun = web.get("/api/stock", params={"path": "long.nc"})
+    assert (begun.status_code, sorted(begun.json())) == (202, ["done", "job"])
+    assert ready(lambda: web.get("/api/stock", params={"path": "slot.nc"})).status_code == 200
+    assert ready(lambda: web.get("/api/path", params={"path": "plate.nc"})).status_code == 200
+
+
+def test_a_stock_is_stopped_and_begun_again(panel: Served, web: httpx.Client) -> None:
+    (panel.programs / "slot.nc").write_text(SLOT)
+    web.get("/api/stock", params={"path": "slot.nc"})
+    assert web.delete("/api/stock").json() == {}
+    assert ready(lambda: web.get("/api/stock", params={"path": "slot.nc"})).status_code == 200
+
+
+def test_a_stock_that_cannot_be_computed_says_why(panel: Served, web: httpx.Client) -> None:
+    (panel.programs / "bare.nc").write_text("G21 F100\nG1 Z-3\nM2\n")
+    answer = ready(lambda: web.get("/api/stock", params={"path": "bare.nc"}))
+    assert answer.status_code == 422
+    assert answer.json()["error"]["text"] == (
+        "the radius of the tool is not known: no D is in force, and CMP RAD is 0"
+    )

@@ -16,7 +16,7 @@ DROP = """([name, text]) => {
 }"""
 # A place on the mark of the chosen line, in pixels of the window.
 MARKED = """() => {
-  const canvas = document.querySelector('#display .picture canvas:nth-of-type(3)');
+  const canvas = document.querySelector('#display .picture [data-layer=over]');
   const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
   const found = [];
   for (let n = 0; n < data.length / 4; n++) if (data[4 * n + 3] > 250) found.push(n);
@@ -97,7 +97,7 @@ def test_the_grid_has_the_colour_of_the_theme(page: Page, theme: str) -> None:
     wanted = {"dark": [30, 40, 50], "light": [225, 231, 236]}[theme]
     page.wait_for_function(
         """(wanted) => {
-          const canvas = document.querySelector('#display .picture canvas:nth-of-type(1)');
+          const canvas = document.querySelector('#display .picture [data-layer=ground]');
           const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
           let count = 0;
           for (let n = 0; n < data.length; n += 4)

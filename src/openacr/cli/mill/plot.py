@@ -13,6 +13,7 @@ from openacr.cli.mill.check import (
     in_folder,
     loaded,
     opened_store,
+    printable,
     show_findings,
 )
 from openacr.errors import UserError
@@ -41,16 +42,24 @@ def plot_program(
     by_tool: Annotated[
         bool, typer.Option("--by-tool", help="One colour per tool, as Color via D Codes.")
     ] = False,
+    is_stock: Annotated[
+        bool, typer.Option("--stock", help="Draw what is left of the blank: PNG or SVG.")
+    ] = False,
 ) -> None:
     """Draw the tool path of a part program: PNG, SVG or interactive HTML."""
     from openacr.cli.plots.formats import require
     from openacr.cli.plots.toolpath_formats import draw_path
     from openacr.cli.run.output import require_different, require_writable, write_whole
 
-    target = picture or file.with_suffix(".html")
+    target = picture or file.with_suffix(".png" if is_stock else ".html")
+    if is_stock and target.suffix.lower() == ".html":
+        raise UserError(f"{target}: pictures with --stock end in .png or .svg")
     require(target)
     require_different((file, target))
     require_writable(target)
+    if is_stock:
+        _plot_stock(file, target, store, dialect)
+        return
     with opened_store(store) as cells:
         program, name = loaded(file, cells, dialect)
         scene, survey = scene_of(program, cells, name, by_tool=by_tool)
@@ -68,6 +77,27 @@ def plot_program(
     typer.echo(f"{target}: {counted(move_cnt, 'move')}")
     if survey.errors:
         raise typer.Exit(FAILED)
+
+
+def _plot_stock(file: Path, target: Path, store: Path | None, dialect: str | None) -> None:
+    """Draw what is left of the blank, and name the lines where something is wrong."""
+    from openacr.cli.plots.stock_image import write_stock
+    from openacr.cli.run.output import write_whole
+    from openacr.mill.plan.removal import removal
+
+    with opened_store(store) as cells:
+        program, name = loaded(file, cells, dialect)
+        found = removal(program, cells, name)
+    title = file.name.encode("utf-8", "replace").decode()
+    write_whole(target, lambda partial: write_stock(found, title, partial))
+    unit = "mm³" if found.is_metric else "inch³"
+    typer.echo(f"{target}: {found.stock.removed:.4g} {unit} removed")
+    for lines, text in (
+        (found.rapid_lines, "a rapid goes through material"),
+        (found.below_lines, "the cut goes below the blank"),
+    ):
+        for line in lines:
+            typer.echo(f"{printable(str(file))}:{line}: {text}", err=True)
 
 
 def scene_of(

@@ -63,7 +63,8 @@ class ToolPath:
     _ends: list[Point] = field(default_factory=list)
     _lines: list[int] = field(default_factory=list)
     _kind: Kind = Kind.RAPID
-    _cnt: int = 0
+    _cnt: int = 0  # of points, with those of contours
+    _move_cnt: int = 0
 
     # --- input -------------------------------------------------------------------
 
@@ -85,6 +86,7 @@ class ToolPath:
             case Polyline():
                 self._close()
                 self._cnt += len(entry.ends)
+                self._move_cnt += len(entry.ends)
                 drawn = self._drawn(entry.ends)
                 self._parts.append((drawn, Kind.FEED, self._tool, entry.lines))
                 self._at = tuple(entry.ends[-1].tolist())
@@ -99,9 +101,15 @@ class ToolPath:
         self._ends += points
         self._lines += [line] * len(points)
         self._cnt += len(points)
+        self._move_cnt += len(points)
         self._at = points[-1]
         if len(self._ends) >= AT_ONCE:
             self._close()
+
+    @property
+    def move_cnt(self) -> int:
+        """The moves so far; contours do not count."""
+        return self._move_cnt
 
     @property
     def is_full(self) -> bool:

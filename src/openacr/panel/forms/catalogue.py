@@ -130,6 +130,9 @@ FORMS: dict[str, Form] = {
             listed("", TOOL.colour), is_paged=True,
         ),
         Form(
+            "TOOLTIPS", "Tips of tools", SYSTEM, Role.SETUP, listed("", TOOL.tip), is_paged=True
+        ),
+        Form(
             "GENERAL", "Machine", SYSTEM, Role.SERVICE,
             whole(GENERAL.tab, hidden=_SECRET | _OF_SETUP),
         ),

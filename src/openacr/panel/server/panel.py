@@ -17,6 +17,7 @@ from openacr.panel.roles import Role
 from openacr.panel.server.accounts import Accounts, file_of
 from openacr.panel.server.hello import hello
 from openacr.panel.server.paths import Paths
+from openacr.panel.server.stocks import Stocks
 from openacr.panel.wire.hub import Hub
 from openacr.panel.work.pool import Pool
 
@@ -48,6 +49,7 @@ class Panel:
         self.accounts = Accounts(file_of(installation.store.path), installation.store)
         self.checks = Pool()
         self.paths = Paths(installation, self.control)
+        self.stocks = Stocks(installation)
         self.connections: set[Connected] = set()
         self.cookie = "openacr"
         self._tasks: set[asyncio.Future[None]] = set()
@@ -79,6 +81,7 @@ class Panel:
             for task in self._tasks:
                 task.cancel()
             self.paths.close()
+            self.stocks.close()
             self.checks.close()
             self.installation.close()
 

@@ -22,6 +22,8 @@ CELLS_READ = (
     *range(CELLS.floating_zero_active, CELLS.work_system_in_use),
     *CELLS.d_radius,
     *CELLS.d_wear,
+    *CELLS.h_length,
+    *CELLS.h_wear,
     GENERAL.cmp_rad,
     GENERAL.start_work_system,
     GENERAL.start_set_chosen,
@@ -97,9 +99,9 @@ class Paths:
         self._pool.close()
 
 
-def stamp(store: Store) -> str:
-    """A mark that changes with everything in the store that a path depends on."""
+def stamp(store: Store, more: tuple[int, ...] = ()) -> str:
+    """A mark that changes with everything in the store that a path depends on, and `more` cells."""
     read = store.read
-    values = [read(cell) for cell in CELLS_READ]
+    values = [read(cell) for cell in (*CELLS_READ, *more)]
     packed = struct.pack(f"<{len(values)}d", *values)
     return hashlib.blake2b(packed, digest_size=8).hexdigest()

@@ -188,3 +188,9 @@ class TOOL:
         high=15,
         doc="Colour of the path of the tool.",
     )
+    tip = tab.series(1000).choice(
+        2000,
+        "Tool {} tip",
+        {0: "flat", 1: "ball"},
+        doc="End of the cutter, for the picture of the stock. Not in the guide.",
+    )

@@ -1,6 +1,8 @@
 ; A waved surface z = 0.15 sin(x) cos(y) - 0.15, angles 90 degrees per inch, cut in rows.
-; The cutter is a ball; this is the way of its tip.
+; The cutter is a ball of 1/4 inch; this is the path of its tip.
 G20 G90 G17 G64
+G10 L12 P1 R.125 ; radius of D1
+D1
 F60
 P200=0     ; row
 P201=0.125 ; step

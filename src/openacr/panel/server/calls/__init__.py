@@ -1,5 +1,15 @@
 """The calls of `/api`, by theme; importing this package fills the table."""
 
-from openacr.panel.server.calls import card, forms, help, lines, on_card, parts, programs, session
+from openacr.panel.server.calls import (
+    card,
+    forms,
+    help,
+    lines,
+    on_card,
+    parts,
+    pictures,
+    programs,
+    session,
+)
 
-__all__ = ["card", "forms", "help", "lines", "on_card", "parts", "programs", "session"]
+__all__ = ["card", "forms", "help", "lines", "on_card", "parts", "pictures", "programs", "session"]

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from msgspec import Meta
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
+from starlette.responses import Response
 
 from openacr.errors import UserError
 from openacr.panel.control.listing import Listing
@@ -47,13 +47,6 @@ class OfLines(Query, frozen=True):
     lines: Annotated[int, Meta(ge=1, le=MOST_LINES)] = 200
 
 
-class OfPath(Query, frozen=True):
-    """A file, else the loaded program."""
-
-    path: str = ""
-    dialect: Dialect = ""
-
-
 class Rename(Body, frozen=True):
     """The old and the new name of a file."""
 
@@ -74,7 +67,8 @@ def folder_of(call: Call) -> Folder:
     return Folder(call.panel.installation.programs)
 
 
-def _file(call: Call, path: str) -> Path:
+def file_of(call: Call, path: str) -> Path:
+    """A file in the folder of programs."""
     try:
         return folder_of(call).file(path)
     except UserError as error:
@@ -121,7 +115,7 @@ async def programs(call: Call) -> object:
 async def text(call: Call) -> object:
     """Read lines of a file."""
     query: OfLines = call.query
-    file = _file(call, query.path)
+    file = file_of(call, query.path)
 
     def read() -> object:
         listing = Listing(file)
@@ -138,9 +132,9 @@ async def text(call: Call) -> object:
 
 
 @endpoint("GET", "/programs/file", query=OfFile, gives="text/plain")
-async def read_file(call: Call) -> Response:
+async def readfile_of(call: Call) -> Response:
     """Read a whole file; the ETag is its version."""
-    file = _file(call, call.query.path)
+    file = file_of(call, call.query.path)
     if file.stat().st_size > MOST_SHOWN:
         raise PanelError("too_big", f"{file.name} is too big to be edited here: read it by lines")
 
@@ -159,7 +153,7 @@ async def read_file(call: Call) -> Response:
 
 
 @endpoint("PUT", "/programs/file", Role.OPERATE, query=OfFile, takes="text/plain")
-async def write_file(call: Call) -> object:
+async def writefile_of(call: Call) -> object:
     """Save a file: `If-Match` with its version, `*` to replace whatever is there, none: new."""
     return await _store(call, call.request.headers.get("if-match", "").strip('"'))
 
@@ -238,9 +232,9 @@ def _replace(place: Path, partial: Path, path: str, expected: str) -> object:
 
 
 @endpoint("DELETE", "/programs/file", Role.SETUP, query=OfFile)
-async def delete_file(call: Call) -> object:
+async def deletefile_of(call: Call) -> object:
     """Delete a file."""
-    file = _file(call, call.query.path)
+    file = file_of(call, call.query.path)
     _require_unlocked(call, call.query.path)
     try:
         await run_in_threadpool(file.unlink)
@@ -251,9 +245,9 @@ async def delete_file(call: Call) -> object:
 
 
 @endpoint("POST", "/programs/rename", Role.OPERATE, body=Rename)
-async def rename_file(call: Call) -> object:
+async def renamefile_of(call: Call) -> object:
     """Rename a file; the new name must be free."""
-    file, to = _file(call, call.body.path), folder_of(call).at(call.body.to)
+    file, to = file_of(call, call.body.path), folder_of(call).at(call.body.to)
     _require_unlocked(call, call.body.path)
     if to.exists():
         raise PanelError("conflict", f"{call.body.to} is there already")
@@ -266,7 +260,7 @@ async def rename_file(call: Call) -> object:
     return {"path": call.body.to, "kind": kind_of(to)}
 
 
-# --- findings and paths ---------------------------------------------------------------
+# --- findings ---------------------------------------------------------------
 
 
 @endpoint("POST", "/check", body=Checked)
@@ -301,22 +295,3 @@ async def listing(call: Call) -> object:
     query: OfLines = call.query
     lines = await run_in_threadpool(loaded.listing.lines, query.first, query.lines)
     return {"first": query.first, "lines": lines, "total": loaded.listing.total}
-
-
-@endpoint("GET", "/path", query=OfPath, gives="application/octet-stream")
-async def path(call: Call) -> Response:
-    """The tool path as one block of bytes; 202 while it is being computed."""
-    loaded = call.panel.station.part.loaded
-    if call.query.path:
-        file, dialect = _file(call, call.query.path), call.query.dialect
-    elif loaded is not None:
-        file, dialect = loaded.file, loaded.dialect
-    else:
-        raise PanelError("missing", "no program is loaded")
-    tag, found = await call.panel.paths.of(file, "" if dialect == "auto" else dialect)
-    if found is None:
-        return JSONResponse({"job": tag}, status_code=202)
-    headers = {"ETag": f'"{tag}"', "Cache-Control": "no-cache", "Content-Encoding": "gzip"}
-    if call.request.headers.get("if-none-match") == headers["ETag"]:
-        return Response(status_code=304, headers={"ETag": headers["ETag"]})
-    return Response(found.packed, media_type="application/octet-stream", headers=headers)

@@ -39,6 +39,7 @@ const BLOCKS = {
   "override.more": "Vorschub-Override höher", "override.less": "Vorschub-Override tiefer", "override.wired": "am Schalter des Bedienpults",
   "pad.back": "löschen", "pad.clear": "leeren", "pad.sign": "Vorzeichen", "pad.none": "Keine Zahl: Ziffern, . + - * / und Klammern", "pad.open": "Ziffernblock",
   "graphics.views": "Ansichten", "graphics.label": "Werkzeugbahn des Programms", "graphics.top": "OBEN", "graphics.front": "VORN", "graphics.side": "SEITE", "graphics.iso": "3D", "graphics.fit": "GANZ", "graphics.in": "Vergrößern", "graphics.out": "Verkleinern",
+  "graphics.stock": "ROHTEIL", "graphics.computing": "Rohteil: {percent} %", "graphics.dip": "Eilgang im Material: Satz {lines}", "graphics.below": "Unter dem Rohteil: Satz {lines}", "graphics.sound": "Kein Eilgang im Material, kein Schnitt unter dem Rohteil",
   "graphics.loading": "{name} wird geladen …", "program.follow": "FOLGEN", "program.from": "AB ZEILE {line}", "io.title": "E/A-Status", "io.inputs": "Eingänge", "io.outputs": "Ausgänge", "io.on": "ein", "io.off": "aus",
 };
 

@@ -39,6 +39,7 @@ const BLOCKS = {
   "override.more": "Feed override up", "override.less": "Feed override down", "override.wired": "set by its switch on the panel",
   "pad.back": "delete", "pad.clear": "clear", "pad.sign": "change sign", "pad.none": "Not a number: digits, . + - * / and parentheses", "pad.open": "Number pad",
   "graphics.views": "Views", "graphics.label": "Tool path of the program", "graphics.top": "TOP", "graphics.front": "FRONT", "graphics.side": "SIDE", "graphics.iso": "3D", "graphics.fit": "FIT", "graphics.in": "Zoom in", "graphics.out": "Zoom out",
+  "graphics.stock": "STOCK", "graphics.computing": "Stock: {percent} %", "graphics.dip": "Rapid in material: line {lines}", "graphics.below": "Below the blank: line {lines}", "graphics.sound": "No rapid in material, no cut below the blank",
   "graphics.loading": "Loading {name} \u2026", "program.follow": "FOLLOW", "program.from": "RUN FROM {line}", "io.title": "I/O status", "io.inputs": "Inputs", "io.outputs": "Outputs", "io.on": "on", "io.off": "off",
 };
 

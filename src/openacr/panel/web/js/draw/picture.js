@@ -6,9 +6,10 @@ import { COLORS } from "./colors.js";
 import { listenToGestures } from "./gestures.js";
 import { cutBox } from "./path.js";
 import { painterFor } from "./renderer.js";
+import { stockBox, stockPainter } from "./stock.js";
 import { lineAt, paintChosen, paintGround } from "./underlay.js";
 
-const NAMES = ["feed", "rapid", "cut", "grid", "limit", "text"];
+const NAMES = ["feed", "rapid", "cut", "grid", "limit", "stock", "dip", "below", "text"];
 const NOWHERE = [0, 0, 0];
 const CROSS = "M0 -14V14M-14 0H14M-6 0A6 6 0 1 0 6 0A6 6 0 1 0 -6 0";
 
@@ -18,6 +19,7 @@ const CROSS = "M0 -14V14M-14 0H14M-6 0A6 6 0 1 0 6 0A6 6 0 1 0 -6 0";
  * @property {(n: number) => void} cutTo up to this point the path is cut
  * @property {(x: number, y: number, z: number) => void} setTool
  * @property {(limits: number[] | null) => void} setLimits
+ * @property {(stock: import("./stock.js").Stock | null) => void} setStock shown instead of the path
  * @property {(line: number) => void} choose
  * @property {(flip: { x: number, y: number, exchange: boolean }) => void} setFlip
  */
@@ -25,23 +27,26 @@ const CROSS = "M0 -14V14M-14 0H14M-6 0A6 6 0 1 0 6 0A6 6 0 1 0 -6 0";
 /**
  * @param {HTMLElement} host
  * @param {import("../core/signal.js").Endings} endings
- * @param {{ clicked?: (line: number) => void, hasTool?: boolean }} [options]
+ * @param {{ clicked?: (line: number) => void, hasTool?: boolean, more?: HTMLElement[] }} [options] `more`: keys of the user of the picture
  * @returns {Promise<Picture>}
  */
-export async function createPicture(host, endings, { clicked = () => {}, hasTool = false } = {}) {
-  const [ground, strokes, over] = [0, 1, 2].map(() => h("canvas", { ariaHidden: "true" }));
+export async function createPicture(host, endings, { clicked = () => {}, hasTool = false, more = [] } = {}) {
+  const [ground, material, strokes, over] = ["ground", "material", "strokes", "over"].map((layer) => h("canvas", { ariaHidden: "true", data: { layer } }));
   const tool = toolCursor();
   tool.style.display = hasTool ? "" : "none";
   const keys = h("div.view-keys", { role: "group", ariaLabel: t("graphics.views") });
-  const area = h("div.picture", { role: "img", ariaLabel: t("graphics.label") }, ground, strokes, over);
+  const area = h("div.picture", { role: "img", ariaLabel: t("graphics.label") }, ground, material, strokes, over);
   host.append(h("div.picture-frame", {}, area, keys));
   area.append(tool);
   const painter = await painterFor(strokes);
+  const solid = stockPainter(material);
   const camera = new Camera();
   /** @type {import("./path.js").ToolPath | null} */
   let path = null;
   /** @type {number[] | null} */
   let limits = null;
+  /** @type {import("./stock.js").Stock | null} */
+  let stock = null;
   let [view, cut, painted, chosen, asked, hasMoved] = ["top", 0, 0, 0, false, false];
   let place = [0, 0, 0];
   let colors = readColors(area);
@@ -59,7 +64,8 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
     if (!isMoving) colors = readColors(area); // of the theme at this painting
     const [under, top] = pens();
     paintGround(under, camera, colors, limits, path?.zero ?? NOWHERE);
-    painter.paint(camera, colors, byPart(), isMoving);
+    if (stock) solid.paint(camera, colors, isMoving);
+    else painter.paint(camera, colors, byPart(), isMoving);
     painted = 0;
     if (!isMoving) paintCut();
     top.clearRect(0, 0, camera.width, camera.height);
@@ -68,7 +74,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
   }
 
   function paintCut() {
-    if (cut > painted) painter.paintCut(painted, cut);
+    if (cut > painted && !stock) painter.paintCut(painted, cut);
     painted = cut;
   }
 
@@ -85,7 +91,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
   };
 
   function fit() {
-    const box = path && path.lines.length ? cutBox(path) : limits ? [...limits] : [0, 0, 0, 100, 100, 10];
+    const box = stock ? stockBox(stock) : path && path.lines.length ? cutBox(path) : limits ? [...limits] : [0, 0, 0, 100, 100, 10];
     camera.fit(box);
     repaint();
   }
@@ -102,6 +108,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
     h("button.key", { type: "button", onclick: fit }, t("graphics.fit")),
     h("button.key", { type: "button", ariaLabel: t("graphics.in"), onclick: () => zoom(1.4) }, "+"),
     h("button.key", { type: "button", ariaLabel: t("graphics.out"), onclick: () => zoom(1 / 1.4) }, "\u2212"),
+    ...more,
   );
   const zoom = (/** @type {number} */ factor) => {
     camera.zoom(factor, camera.width / 2, camera.height / 2);
@@ -111,7 +118,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
   const sizes = new ResizeObserver(() => {
     const isFirst = camera.width <= 1;
     [camera.width, camera.height, camera.inset] = [area.clientWidth, area.clientHeight, keys.clientWidth];
-    for (const each of [ground, strokes, over]) {
+    for (const each of [ground, material, strokes, over]) {
       each.width = Math.max(1, Math.round(camera.width * window.devicePixelRatio));
       each.height = Math.max(1, Math.round(camera.height * window.devicePixelRatio));
     }
@@ -141,6 +148,13 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
     },
     setLimits(box) {
       limits = box;
+      repaint();
+    },
+    setStock(next) {
+      stock = next;
+      solid.setStock(next);
+      material.hidden = !next;
+      strokes.hidden = Boolean(next);
       repaint();
     },
     choose(line) {

@@ -6,6 +6,7 @@ import { duration } from "../core/format.js";
 import { t } from "../core/texts.js";
 import { chosenLine, fetchPath, path, reached } from "../draw/path.js";
 import { createPicture } from "../draw/picture.js";
+import { stockView } from "./stock_view.js";
 
 const FLIPS = Object.freeze({ x: "850021", y: "850022", exchange: "850023" });
 let pathOf = ""; // id of the program whose path is kept
@@ -19,8 +20,10 @@ let lastLine = 0;
 export async function graphicsTab(panel, endings) {
   panel.classList.add("graphics");
   const note = h("div.picture-note", { attr: { "aria-live": "polite" } });
-  const picture = await createPicture(panel, endings, { clicked: (line) => chosenLine.set(line), hasTool: true });
-  panel.append(note);
+  const stock = stockView();
+  const picture = await createPicture(panel, endings, { clicked: (line) => chosenLine.set(line), hasTool: true, more: [stock.key] });
+  stock.show(picture, endings);
+  panel.append(note, stock.note);
   endings.add(
     path.watch((drawn) => {
       picture.setPath(drawn);
@@ -29,11 +32,16 @@ export async function graphicsTab(panel, endings) {
     chosenLine.watch((line) => picture.choose(line)),
     model.program.watch((program) => {
       void follow(program.loaded?.id ?? "");
+      stock.follow(program.loaded?.id ?? "");
       setText(note, program.loading ? t("graphics.loading", { name: program.loading.name }) : noteOf(program.loaded));
     }),
     model.status.watch((status) => status && draw(status)),
     model.hello.watch(() => picture.setLimits(limitsOf())),
-    model.changed.watch(({ what }) => what === "forms" && void read(pathOf)), // offsets shift the path
+    model.changed.watch(({ what }) => {
+      if (what !== "forms") return;
+      void read(pathOf); // offsets shift the path
+      stock.renew();
+    }),
   );
   void readFlips().then((flip) => flip && picture.setFlip(flip));
 

@@ -1,0 +1,76 @@
+"""The stock that browsers show: computed in a process of its own, one program at a time."""
+
+import asyncio
+from dataclasses import dataclass
+from pathlib import Path
+
+from openacr.errors import UserError
+from openacr.panel.control.installation import Installation
+from openacr.panel.control.loaded import version_of
+from openacr.panel.server.paths import stamp
+from openacr.panel.work.pool import Pool
+from openacr.panel.work.stock import stock_of
+from openacr.sysvar.tabs import CONTROL, TOOL
+
+# Cells that stock depends on beside those of the path.
+CELLS_READ = (
+    CONTROL.x_axis_cutting_size,
+    CONTROL.y_axis_cutting_size,
+    CONTROL.z_axis_cutting_size,
+    *TOOL.tip,
+)
+
+
+@dataclass(slots=True)
+class Share:
+    """How far a stock is computed, 0 to 1."""
+
+    done: float
+
+
+class Stocks:
+    """The stock of the last program that was asked for."""
+
+    def __init__(self, installation: Installation) -> None:
+        self._installation = installation
+        self._pool = Pool()
+        self._tag = ""
+        self._task: asyncio.Task[bytes] | None = None
+
+    async def of(self, file: Path, dialect: str = "") -> tuple[str, bytes | Share]:
+        """The tag of a file's stock, and the stock or how far it is computed.
+
+        Another program, or other settings, end the computation of the one before.
+        """
+        version = await asyncio.to_thread(version_of, file)
+        tag = f"{version}-{stamp(self._installation.store, CELLS_READ)}-{dialect}"
+        if tag != self._tag or self._task is None:
+            self.stop()
+            self._tag, self._task = tag, asyncio.create_task(self._computed(file, dialect))
+        task = self._task
+        await asyncio.wait((task,), timeout=0.05)
+        if not task.done():
+            return tag, Share(self._pool.share)
+        try:
+            return tag, task.result()
+        except BaseException:
+            self._task = None
+            raise
+
+    async def _computed(self, file: Path, dialect: str) -> bytes:
+        store = self._installation.store.path
+        if store is None:
+            raise UserError("the store is in memory: no stock can be computed")
+        return await self._pool.run(stock_of, file, store, dialect)
+
+    def stop(self) -> None:
+        """End what is being computed, with its process."""
+        task, self._task = self._task, None
+        if task is not None and not task.done():
+            task.cancel()
+            self._pool.close()
+
+    def close(self) -> None:
+        """End the process."""
+        self.stop()
+        self._pool.close()
