@@ -29,6 +29,7 @@ ORDER = (
     "big_file",
     "mill_run",
     "panel",
+    "panel_graphics",
 )
 
 

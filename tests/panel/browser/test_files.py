@@ -33,6 +33,13 @@ LINES = (
 )
 
 
+def path_lines(page: Page) -> list[int]:
+    """The lines of the path that is shown, once it is computed."""
+    while not (lines := page.evaluate(LINES)):
+        page.wait_for_timeout(50)
+    return list(lines)
+
+
 def load_screen(page: Page) -> None:
     page.keyboard.press("F5")
     page.keyboard.press("F3")
@@ -71,8 +78,7 @@ def test_a_file_dropped_on_the_list_is_uploaded_and_can_be_loaded(
 
 def test_a_click_in_the_plot_chooses_the_line_of_the_listing(page: Page) -> None:
     page.click("#display-tab-graphics")
-    page.wait_for_function(LINES)
-    line = sorted(set(page.evaluate(LINES)))[-1]
+    line = max(path_lines(page))
     page.evaluate(CHOOSE, line)
     x, y = page.wait_for_function(MARKED).json_value()
     page.evaluate(CHOOSE, 0)
@@ -92,7 +98,7 @@ def test_a_click_in_the_plot_chooses_the_line_of_the_listing(page: Page) -> None
 def test_the_grid_has_the_colour_of_the_theme(page: Page, theme: str) -> None:
     page.emulate_media(color_scheme="light" if theme == "dark" else "dark")
     page.click("#display-tab-graphics")
-    page.wait_for_function(LINES)
+    path_lines(page)
     page.emulate_media(color_scheme=theme)  # type: ignore[arg-type]
     wanted = {"dark": [30, 40, 50], "light": [225, 231, 236]}[theme]
     page.wait_for_function(

@@ -19,7 +19,8 @@ def write_page(curves: Curves, path: Path) -> None:
 
 def build_page(curves: Curves) -> str:
     """Put the data of the curves into the page."""
-    return filled("page.html", curves.title or "openacr run", page_data(curves))
+    title = curves.title or "openacr run"
+    return filled("run.html", title, page_data(curves), "vendor/uplot.css")
 
 
 def page_data(curves: Curves) -> dict[str, Any]:

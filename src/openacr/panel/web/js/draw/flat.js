@@ -1,15 +1,33 @@
-// The path in a two-dimensional canvas: on machines without a GPU six times as fast as WebGL.
-import { KIND, endOf } from "./path.js";
+// Strokes in a two-dimensional canvas: on machines without a GPU six times as fast as WebGL.
 
-const THIN = 20000; // points drawn while the view is being moved
+const THIN = 16000; // points drawn while the view is being moved
+const SAME_PX = 0.4; // a point nearer to the last one drawn is left out
 
 /**
- * @typedef {object} Painter draws a path into its canvas
- * @property {(path: import("./path.js").ToolPath | null) => void} setPath
- * @property {(camera: import("./camera.js").Camera, colors: Record<string, string>, byPart: ((color: number) => string) | null, isMoving: boolean) => void} paint
- * @property {(from: number, to: number) => void} paintCut
+ * @typedef {object} Drawing points with the lines between them
+ * @property {Float32Array} points x y z
+ * @property {Uint32Array[]} strokes of one look each: first and last point of every run, in pairs
+ *
+ * @typedef {object} Look how a stroke is drawn; dashes in pixels
+ * @property {string} color
+ * @property {number} width
+ * @property {number[]} dashes
+ * @property {boolean} [isHidden]
+ *
+ * @typedef {object} Painter draws into its canvas
+ * @property {(drawing: Drawing | null) => void} setDrawing
+ * @property {(camera: import("./camera.js").Camera, looks: Look[], isMoving: boolean, last?: number) => void} paint up to the point `last`
+ * @property {(from: number, to: number, color: string) => void} paintCut the points between, over the rest
  * @property {() => void} close
  */
+
+/**
+ * How many points are left out between two that are drawn while the view is being moved.
+ * @param {Drawing} drawing
+ */
+export function thinning(drawing) {
+  return Math.max(1, Math.ceil(drawing.points.length / 3 / THIN));
+}
 
 /**
  * @param {HTMLCanvasElement} canvas
@@ -17,67 +35,62 @@ const THIN = 20000; // points drawn while the view is being moved
  */
 export function flatPainter(canvas) {
   const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
-  /** @type {import("./path.js").ToolPath | null} */
+  /** @type {Drawing | null} */
   let drawn = null;
   let matrix = [0, 0, 0, 0, 0, 0, 0, 0];
-  let cutColor = "";
 
   /**
+   * Lines from point to point, both included.
+   * @param {Float32Array} points
    * @param {number} first
-   * @param {number} last one after the last point
+   * @param {number} last
    * @param {number} step
    */
-  function trace(first, last, step) {
-    const { points } = /** @type {import("./path.js").ToolPath} */ (drawn);
+  function trace(points, first, last, step) {
     const [a, b, c, d, e, f, g, i] = matrix;
-    for (let at = first; at < last; at += step) {
+    let px = Infinity;
+    let py = Infinity;
+    for (let at = first; at <= last; at = at < last ? Math.min(last, at + step) : at + 1) {
       const k = 3 * at;
-      const [x, y] = [a * points[k] + b * points[k + 1] + c * points[k + 2] + d, e * points[k] + f * points[k + 1] + g * points[k + 2] + i];
+      const x = a * points[k] + b * points[k + 1] + c * points[k + 2] + d;
+      const y = e * points[k] + f * points[k + 1] + g * points[k + 2] + i;
       if (at === first) pen.moveTo(x, y);
-      else pen.lineTo(x, y);
-    }
-    if (step > 1 && last > first) {
-      const k = 3 * (last - 1);
-      pen.lineTo(a * points[k] + b * points[k + 1] + c * points[k + 2] + d, e * points[k] + f * points[k + 1] + g * points[k + 2] + i);
+      else if (at === last || Math.abs(x - px) + Math.abs(y - py) > SAME_PX) pen.lineTo(x, y);
+      else continue;
+      px = x;
+      py = y;
     }
   }
 
   return {
-    setPath(path) {
-      drawn = path;
+    setDrawing(drawing) {
+      drawn = drawing;
     },
-    paint(camera, colors, byPart, isMoving) {
+    paint(camera, looks, isMoving, last = Infinity) {
       const ratio = canvas.width / Math.max(1, camera.width);
       matrix = camera.matrix(ratio);
-      cutColor = colors.cut;
       pen.clearRect(0, 0, canvas.width, canvas.height);
       if (!drawn) return;
-      const step = isMoving ? Math.max(1, Math.ceil(drawn.lines.length / THIN)) : 1;
-      /** @type {Map<string, number[]>} */
-      const groups = new Map();
-      drawn.kinds.forEach((kind, n) => {
-        const color = byPart && kind !== KIND.rapid ? byPart(drawn?.colors[n] ?? 0) : "";
-        const name = kind === KIND.rapid || kind === KIND.inserted || kind === KIND.compensated ? `${kind}|${color}` : `${KIND.feed}|${color}`;
-        groups.set(name, [...(groups.get(name) ?? []), n]);
-      });
-      for (const [name, parts] of groups) {
-        const [kind, color] = name.split("|");
-        const isRapid = Number(kind) === KIND.rapid;
-        pen.strokeStyle = isRapid ? colors.rapid : color || colors.feed;
-        pen.lineWidth = ratio * (isRapid ? 0.8 : 1.25);
-        pen.setLineDash(isMoving ? [] : isRapid ? [4 * ratio, 4 * ratio] : Number(kind) === KIND.compensated ? [8 * ratio, 3 * ratio] : []);
+      const step = isMoving ? thinning(drawn) : 1;
+      for (const [n, spans] of drawn.strokes.entries()) {
+        const { color, width, dashes, isHidden } = looks[n];
+        if (isHidden) continue;
+        pen.strokeStyle = color;
+        pen.lineWidth = ratio * width;
+        pen.setLineDash(isMoving ? [] : dashes.map((each) => each * ratio));
         pen.beginPath();
-        for (const n of parts) trace(drawn.starts[n], endOf(drawn, n), step);
+        const apart = isMoving ? 2 * Math.max(1, Math.ceil(spans.length / 2 / THIN)) : 2;
+        for (let k = 0; k < spans.length && spans[k] < last; k += apart) trace(drawn.points, spans[k], Math.min(spans[k + 1], last), step);
         pen.stroke();
       }
       pen.setLineDash([]);
     },
-    paintCut(from, to) {
+    paintCut(from, to, color) {
       if (!drawn || to <= from) return;
-      pen.strokeStyle = cutColor;
+      pen.strokeStyle = color;
       pen.lineWidth = (canvas.width / Math.max(1, canvas.clientWidth)) * 2;
       pen.beginPath();
-      trace(from, to + 1, 1);
+      trace(drawn.points, from, to, 1);
       pen.stroke();
     },
     close() {},

@@ -94,3 +94,26 @@ export function reached(drawn, from, line) {
   const first = lines.indexOf(line);
   return first < 0 ? from : first;
 }
+
+/** @typedef {{ kind: number, color: number }} Style of a stroke: kind of its moves, colour of the store */
+
+/**
+ * The moves of a path by their looks.
+ * @param {ToolPath} drawn
+ * @returns {{ drawing: import("./flat.js").Drawing, styles: Style[] }}
+ */
+export function strokesOf(drawn) {
+  /** @type {Map<number, number[]>} */
+  const groups = new Map();
+  drawn.kinds.forEach((kind, n) => {
+    const key = 16 * kind + (kind === KIND.rapid ? 0 : drawn.colors[n]);
+    const spans = groups.get(key) ?? [];
+    spans.push(drawn.starts[n], endOf(drawn, n) - 1);
+    groups.set(key, spans);
+  });
+  const keys = [...groups.keys()].sort((a, b) => a - b);
+  return {
+    drawing: { points: drawn.points, strokes: keys.map((key) => Uint32Array.from(groups.get(key) ?? [])) },
+    styles: keys.map((key) => ({ kind: key >> 4, color: key & 15 })),
+  };
+}

@@ -4,7 +4,7 @@ import { t } from "../core/texts.js";
 import { Camera } from "./camera.js";
 import { COLORS } from "./colors.js";
 import { listenToGestures } from "./gestures.js";
-import { cutBox } from "./path.js";
+import { KIND, cutBox, strokesOf } from "./path.js";
 import { painterFor } from "./renderer.js";
 import { stockBox, stockPainter } from "./stock.js";
 import { lineAt, paintChosen, paintGround } from "./underlay.js";
@@ -57,7 +57,12 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     return pen;
   });
-  const byPart = () => (path && new Set(path.colors).size > 1 ? (/** @type {number} */ n) => (n === 0 ? colors.text : COLORS[n] ?? colors.feed) : null);
+  /** @type {import("./path.js").Style[]} */
+  let styles = [];
+  const looks = () => {
+    const hasTools = new Set(styles.filter(({ kind }) => kind !== KIND.rapid).map(({ color }) => color)).size > 1;
+    return styles.map(({ kind, color }) => lookOf(kind, hasTools ? (color === 0 ? colors.text : (COLORS[color] ?? colors.feed)) : colors.feed, colors.rapid));
+  };
 
   function paint(isMoving = false) {
     asked = false;
@@ -65,7 +70,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
     const [under, top] = pens();
     paintGround(under, camera, colors, limits, path?.zero ?? NOWHERE);
     if (stock) solid.paint(camera, colors, isMoving);
-    else painter.paint(camera, colors, byPart(), isMoving);
+    else painter.paint(camera, looks(), isMoving);
     painted = 0;
     if (!isMoving) paintCut();
     top.clearRect(0, 0, camera.width, camera.height);
@@ -74,7 +79,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
   }
 
   function paintCut() {
-    if (cut > painted && !stock) painter.paintCut(painted, cut);
+    if (cut > painted && !stock) painter.paintCut(painted, cut, colors.cut);
     painted = cut;
   }
 
@@ -134,7 +139,9 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
     setPath(next) {
       path = next;
       [cut, painted] = [0, 0];
-      painter.setPath(next);
+      const found = next ? strokesOf(next) : null;
+      styles = found?.styles ?? [];
+      painter.setDrawing(found?.drawing ?? null);
       fit();
     },
     cutTo(n) {
@@ -166,6 +173,18 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
       look(view);
     },
   };
+}
+
+/**
+ * Rapids are thin and dotted, compensated paths dashed.
+ * @param {number} kind
+ * @param {string} color
+ * @param {string} rapid
+ * @returns {import("./flat.js").Look}
+ */
+function lookOf(kind, color, rapid) {
+  if (kind === KIND.rapid) return { color: rapid, width: 0.8, dashes: [4, 4] };
+  return { color, width: 1.25, dashes: kind === KIND.compensated ? [8, 3] : [] };
 }
 
 function toolCursor() {

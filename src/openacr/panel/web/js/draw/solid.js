@@ -1,9 +1,9 @@
-// The path by WebGL: the points stay on the graphics card, only the camera changes.
+// Strokes by WebGL: the points stay on the graphics card, only the camera changes.
 import {
   BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, OrthographicCamera, Scene, WebGLRenderer,
 } from "../../vendor/three.js";
 import { cross } from "./camera.js";
-import { KIND, endOf } from "./path.js";
+import { thinning } from "./flat.js";
 
 const FAR = 1e5;
 
@@ -14,59 +14,51 @@ const FAR = 1e5;
 export function solidPainter(canvas) {
   const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
   renderer.autoClear = false;
+  renderer.setPixelRatio(1); // the canvas has the pixels of the screen
   const [scene, view] = [new Scene(), new OrthographicCamera()];
   view.matrixAutoUpdate = false;
-  /** @type {import("./path.js").ToolPath | null} */
-  let drawn = null;
-  /** @type {LineSegments[]} */
-  let lines = [];
+  /** @type {{ whole: LineSegments, thin: LineSegments, ends: Uint32Array }[]} */
+  let strokes = [];
   /** @type {LineSegments | null} */
   let cut = null;
+  const all = () => [...strokes.flatMap(({ whole, thin }) => [whole, thin]), ...(cut ? [cut] : [])];
   const dispose = () => {
     scene.clear();
-    for (const each of [...lines, ...(cut ? [cut] : [])]) {
+    for (const each of all()) {
       each.geometry.dispose();
       /** @type {LineBasicMaterial} */ (each.material).dispose();
     }
-    [lines, cut] = [[], null];
+    [strokes, cut] = [[], null];
   };
 
   /**
-   * Pairs of points of the parts, in the order of the path.
-   * @param {import("./path.js").ToolPath} path
-   * @param {(part: number) => boolean} isMeant
+   * Lines between pairs of points.
+   * @param {BufferAttribute} places
+   * @param {Uint32Array} index
    */
-  function pairs(path, isMeant) {
-    const index = [];
-    for (let n = 0; n < path.starts.length; n++) {
-      if (!isMeant(n)) continue;
-      for (let at = path.starts[n] + 1; at < endOf(path, n); at++) index.push(at - 1, at);
-    }
-    return new BufferAttribute(new Uint32Array(index), 1);
+  function add(places, index) {
+    const geometry = new BufferGeometry().setAttribute("position", places).setIndex(new BufferAttribute(index, 1));
+    const line = new LineSegments(geometry, new LineBasicMaterial());
+    line.frustumCulled = false;
+    line.visible = false;
+    scene.add(line);
+    return line;
   }
 
   return {
-    setPath(path) {
+    setDrawing(drawing) {
       dispose();
-      drawn = path;
-      if (!path) return;
-      const places = new BufferAttribute(path.points, 3);
-      const add = (/** @type {(part: number) => boolean} */ isMeant, /** @type {any} */ data) => {
-        const geometry = new BufferGeometry().setAttribute("position", places).setIndex(pairs(path, isMeant));
-        const line = new LineSegments(geometry, new LineBasicMaterial());
-        line.frustumCulled = false;
-        line.userData = data;
-        scene.add(line);
-        return line;
-      };
-      lines = [add((n) => path.kinds[n] === KIND.rapid, { color: null })];
-      for (const color of new Set(path.colors)) lines.push(add((n) => path.kinds[n] !== KIND.rapid && path.colors[n] === color, { color }));
-      cut = add(() => true, {});
-      cut.visible = false;
+      if (!drawing) return;
+      const places = new BufferAttribute(drawing.points, 3);
+      const step = thinning(drawing);
+      strokes = drawing.strokes.map((spans) => {
+        const index = pairs(spans, 1);
+        return { whole: add(places, index), thin: add(places, step > 1 ? pairs(spans, step) : index), ends: index.filter((_each, n) => n % 2 === 1) };
+      });
+      cut = add(places, pairs(new Uint32Array([0, Math.max(0, drawing.points.length / 3 - 1)]), 1));
     },
-    paint(camera, colors, byPart) {
-      renderer.setPixelRatio(1);
-      renderer.setSize(canvas.width, canvas.height, false);
+    paint(camera, looks, isMoving, last = Infinity) {
+      renderer.setSize(canvas.width, canvas.height, false); // no other call: each sets the canvas, too
       const [half, tall] = [camera.width / 2 / camera.scale, camera.height / 2 / camera.scale];
       Object.assign(view, { left: -half, right: half, top: tall, bottom: -tall, near: -FAR, far: FAR });
       view.updateProjectionMatrix();
@@ -74,23 +66,22 @@ export function solidPainter(canvas) {
       const out = cross(r, u);
       view.matrix.set(r[0], u[0], out[0], camera.middle[0], r[1], u[1], out[1], camera.middle[1], r[2], u[2], out[2], camera.middle[2], 0, 0, 0, 1);
       view.matrixWorldNeedsUpdate = true;
-      for (const line of lines) {
-        const { color } = line.userData;
-        line.visible = true;
-        /** @type {LineBasicMaterial} */ (line.material).color.set(color === null ? colors.rapid : byPart ? byPart(color) : colors.feed);
-      }
-      if (cut) {
-        cut.visible = false;
-        /** @type {LineBasicMaterial} */ (cut.material).color.set(colors.cut);
-      }
+      for (const each of all()) each.visible = false;
+      strokes.forEach(({ whole, thin, ends }, n) => {
+        const line = isMoving && last === Infinity ? thin : whole;
+        line.visible = !looks[n].isHidden;
+        /** @type {LineBasicMaterial} */ (line.material).color.set(looks[n].color);
+        if (line === whole) line.geometry.setDrawRange(0, 2 * countUpTo(ends, last));
+      });
       renderer.clear();
       renderer.render(scene, view);
     },
-    paintCut(from, to) {
-      if (!cut || !drawn || to <= from) return;
-      for (const line of lines) line.visible = false;
+    paintCut(from, to, color) {
+      if (!cut || to <= from) return;
+      for (const each of all()) each.visible = false;
       cut.visible = true;
-      cut.geometry.setDrawRange(2 * from, 2 * (to - from)); // the pair of point n is number n - 1
+      /** @type {LineBasicMaterial} */ (cut.material).color.set(color);
+      cut.geometry.setDrawRange(2 * from, 2 * (to - from));
       renderer.render(scene, view);
     },
     close() {
@@ -98,4 +89,32 @@ export function solidPainter(canvas) {
       renderer.dispose();
     },
   };
+}
+
+/**
+ * Pairs of points that lines join, in their order.
+ * @param {Uint32Array} spans
+ * @param {number} step
+ */
+function pairs(spans, step) {
+  const index = [];
+  for (let k = 0; k < spans.length; k += 2) {
+    for (let at = spans[k]; at < spans[k + 1]; at += step) index.push(at, Math.min(at + step, spans[k + 1]));
+  }
+  return new Uint32Array(index);
+}
+
+/**
+ * How many of rising numbers are at most `last`.
+ * @param {Uint32Array} ends
+ * @param {number} last
+ */
+function countUpTo(ends, last) {
+  let [low, high] = [0, ends.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (ends[middle] <= last) low = middle + 1;
+    else high = middle;
+  }
+  return low;
 }
