@@ -214,11 +214,15 @@ class Served:
         assert isinstance(self.panel.control, HandControl)
         self.panel.control.step(seconds)
 
-    def close(self) -> None:
-        if self._loop is not None:
-            self._loop.call_soon_threadsafe(self._server.stop)
+    def wait_until_ended(self) -> None:
+        """Wait for the end of the server, which something else has asked for."""
         self._thread.join(LIMIT_S)
         assert not self._thread.is_alive()
+
+    def close(self) -> None:
+        if self._loop is not None and self._thread.is_alive():
+            self._loop.call_soon_threadsafe(self._server.stop)
+        self.wait_until_ended()
 
 
 class Client:

@@ -110,6 +110,44 @@ HELPS: dict[str, tuple[str, str]] = {
         " a PLC as a ladder. Closed contacts and outputs that are set are filled; wires that carry"
         " power are thick. The flags are read ten times a second: a pulse of one scan is not seen.",
     ),
+    "io": (
+        "I/O STATUS",
+        "Every input and output of the card and of its expansion modules, live, with the names of"
+        " I/O NAMES. The numbers are those of the flags of the card.",
+    ),
+    "terminal": (
+        "TERMINAL",
+        "A direct line to the card: what is typed is sent as it is, what the card prints is shown,"
+        " for example ?P3. While the machine moves only lines that begin with ? are sent.",
+    ),
+    "scope": (
+        "SCOPE",
+        "Up to four parameters of the card, sampled in its time, on ten by ten divisions. Every"
+        " channel has its source, units per division and offset; the sweep is in ms per division."
+        "\n\nWith INDEX the profile is run and recorded from its start: ACC, DEC, STP, JRK, F, RES"
+        " and the move of one axis, for example X15. The axis really moves.",
+    ),
+    "gain": (
+        "GAIN",
+        "The gains of an axis. A value reaches the card when ENTER is pressed in its field, and"
+        " acts at once; with the check set it is stored as well.",
+    ),
+    "board": (
+        "BOARD PARAMETERS",
+        "Every parameter of the card with its number, name and value, live. A touch on a value that"
+        " can be written sets it.",
+    ),
+    "servo": (
+        "SERVO LOOP",
+        "The whole loop of one axis, live: setpoints, gains, the terms they give, filters, output.",
+    ),
+    "cpu": ("CPU LOAD", "How much of its time the processor of the card is busy, in per cent."),
+    "fast": ("FAST STATUS", "The copies that the card keeps for fast readers, live."),
+    "memory": (
+        "MEMORY CONFIG",
+        "The bytes of the card for each program and PLC program. A change loses what is stored in"
+        " it, so it is refused while anything runs, and asks first.",
+    ),
     "teach": (
         "TEACH",
         "The present machine position becomes the zero of a work system, on the chosen axes; or"
@@ -126,10 +164,12 @@ HELPS: dict[str, tuple[str, str]] = {
         " MESSAGES: texts shown while a bit is set. SETUP SCREEN: what VIEW 1 to 3 show. RESIZE"
         " SCREEN: this browser looks again as it did at first.",
     ),
+    "help": ("HELP", "A page on every key: choose it on the left."),
     "exit": (
         "EXIT",
-        "Leaves the screens and gives up control. The controller program goes on, and so does a"
-        " program that runs.",
+        "LEAVE leaves the screens and gives up control; END, at the computer of the controller,"
+        " ends the controller program. What moves is brought to rest first, unless another operator"
+        " has control.",
     ),
     "alarms": (
         "ALARMS",

@@ -69,6 +69,21 @@ def to_main_menu(page: Page) -> None:
         page.keyboard.press("F10")
 
 
+def until_model(page: Page, holds: str) -> None:
+    """Wait until something holds of `model`, what the browser knows of the machine."""
+    page.wait_for_function(
+        f"async () => {{ const {{ model }} = await import('/js/core/app.js'); return {holds}; }}"
+    )
+
+
+def give(page: Page, command: str, **args: object) -> object:
+    """Give a command as the screens do; its result, None if it is refused."""
+    return page.evaluate(
+        "([cmd, args]) => import('/js/core/app.js').then((app) => app.give(cmd, args))",
+        [command, args],
+    )
+
+
 def open_page(context: BrowserContext, url: str) -> Page:
     """Open the workspace; whatever the browser complains about is kept in `page.complaints`."""
     page = context.new_page()

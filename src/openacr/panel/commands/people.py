@@ -4,6 +4,8 @@ from typing import Annotated
 
 from msgspec import Meta
 
+from openacr.errors import UserError
+from openacr.io.server import is_loopback
 from openacr.panel.commands.registry import Args, NoArgs, command
 from openacr.panel.control.orders import Order
 from openacr.panel.control.presses import End
@@ -57,3 +59,13 @@ def release(station: Station, order: Order, args: NoArgs) -> None:
 def name(station: Station, order: Order, args: Named) -> None:
     """Choose the name that others see."""
     station.people.rename(order.person.client, args.name.strip())
+
+
+@command("app.end")
+def end(station: Station, order: Order, args: NoArgs) -> None:
+    """EXIT: end the controller program; at rest, and from its own computer only."""
+    if not is_loopback(order.person.address):
+        raise UserError("the controller program is ended at its own computer")
+    if station.session is not None and station.session.runner.is_busy:
+        raise UserError("the machine is working: stop it first")
+    station.on_end()

@@ -58,6 +58,7 @@ class Station(Shared):
         super().__init__(installation, tell)
         self.sampled: Callable[[Samples], None] = lambda _samples: None
         self.on_snapshot: Callable[[], None] = lambda: None  # a new snapshot is there
+        self.on_end: Callable[[], None] = lambda: None  # EXIT: the program is to end
         self.hand_motion = HandMotion(self)
         self.typed = Typed(self)
         self.part = Part(self)

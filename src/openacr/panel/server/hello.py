@@ -3,6 +3,7 @@
 from importlib.metadata import version
 from typing import Any
 
+from openacr.io.server import is_loopback
 from openacr.panel.control.about import machine_data
 from openacr.panel.control.hand_motion import LONGEST_AGE_S
 from openacr.panel.control.installation import Installation
@@ -22,6 +23,7 @@ def hello(installation: Installation, person: Person, *, has_log_in: bool) -> di
         "client": person.client,
         "role": person.role.word,
         "login": has_log_in,
+        "local": is_loopback(person.address),
         "machine": machine_data(installation),
         "limits": {
             "text": 64 << 10,

@@ -89,6 +89,8 @@ class PanelServer:
             timeout_graceful_shutdown=GRACE_S,
         )
         self.server: Server = uvicorn.Server(config)
+        panel.station.on_end = self._end_soon
+        self._loop: asyncio.AbstractEventLoop | None = None
 
     @property
     def url(self) -> str:
@@ -98,12 +100,18 @@ class PanelServer:
 
     async def serve(self, started: Callable[[], Awaitable[None]] | None = None) -> None:
         """Serve until `stop`."""
+        self._loop = asyncio.get_running_loop()
         task = asyncio.create_task(self.server.serve(sockets=[self.socket]))
         while not self.server.started and not task.done():
             await asyncio.sleep(0.01)
         if started is not None and not task.done():
             await started()
         await task
+
+    def _end_soon(self) -> None:
+        """End the server; called from the control thread."""
+        if self._loop is not None:
+            self._loop.call_soon_threadsafe(self.stop)
 
     def stop(self) -> None:
         """End the server; call it in its loop."""

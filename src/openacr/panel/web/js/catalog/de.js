@@ -6,7 +6,7 @@ const MENU = {
   "menu.abort": "ABBRUCH", "menu.back": "RÜCK\u00adWÄRTS", "menu.halt": "HALT", "menu.forward": "VOR\u00adWÄRTS", "menu.resume": "WEITER", "menu.jog": "TIPPEN", "menu.mdi": "MDI", "menu.handwheel": "HAND\u00adRAD",
   "menu.teach": "TEACH", "menu.gotozero": "ZUM NULL\u00adPUNKT", "menu.sysparam": "SYSTEM\u00adPARAM", "menu.offsets": "KORREK\u00adTUREN", "menu.work": "NULL\u00adPUNKTE", "menu.diagnostics": "DIAG\u00adNOSE",
   "menu.display": "ANZEIGE", "menu.iostatus": "E/A STATUS", "menu.terminal": "TERMI\u00adNAL", "menu.scope": "SCOPE", "menu.gain": "REGLER", "menu.board": "KARTEN\u00adPARAM", "menu.servo": "REGEL\u00adKREIS", "menu.cpu": "CPU-LAST",
-  "menu.fast": "FAST STATUS", "menu.memory": "SPEICHER", "menu.back2": "ZURÜCK", "menu.ionames": "E/A NAMEN", "menu.buttons": "TASTEN\u00adFELD", "menu.resize": "FENSTER ZURÜCK", "menu.messages": "MEL\u00adDUNGEN", "menu.views": "ANSICH\u00adTEN",
+  "menu.fast": "FAST STATUS", "menu.memory": "SPEICHER", "menu.ionames": "E/A NAMEN", "menu.buttons": "TASTEN\u00adFELD", "menu.resize": "FENSTER ZURÜCK", "menu.messages": "MEL\u00adDUNGEN", "menu.views": "ANSICH\u00adTEN",
 };
 
 const FRAME = {
@@ -48,8 +48,7 @@ const RUN = {
   "run.range": "Das Programm hat die Zeilen 1 bis {last}", "run.begin": "START", "begin.title": "Start bei Zeile {line}", "begin.text": "Die Zeilen davor wurden ohne Bewegung durchlaufen. Das unterscheidet sich vom jetzigen Zustand der Maschine:",
   "begin.tool": "In der Spindel ist ein anderes Werkzeug", "begin.present": "Jetzt", "begin.wanted": "Verlangt", "begin.go": "ANFAHREN UND STARTEN", "start.title": "Weiter", "start.covered": "Die Maschine fährt weiter ({state} {reason}). Dieser Bildschirm verdeckt die Positionen.",
   "clrzero.title": "Null löschen", "clrzero.text": "Der Nullpunkt aus G92 wird für alle Achsen gelöscht: Es gilt wieder das Werkstück-Koordinatensystem.", "clrzero.done": "Der Nullpunkt ist gelöscht",
-  "gotozero.title": "Zum Nullpunkt", "gotozero.text": "Alle Achsen fahren zum Nullpunkt, von: {places}", "exit.text": "Den Bildschirm verlassen? Das Steuerungsprogramm läuft weiter.", "exit.busy": "Die Maschine arbeitet und läuft ohne diesen Bildschirm weiter. Verlassen?",
-  "exit.done": "Sie haben den Bildschirm verlassen. Das Steuerungsprogramm läuft weiter.", "exit.again": "ZURÜCKKEHREN",
+  "gotozero.title": "Zum Nullpunkt", "gotozero.text": "Alle Achsen fahren zum Nullpunkt, von: {places}",
   "home.title": "Referenzfahrt", "home.text": "Die Achsen fahren zu ihren Schaltern: Tisch freimachen. Reihenfolge nach Priorität.", "home.axes": "Achsen", "home.start": "REFERENZFAHRT STARTEN", "home.progress": "Die Referenzfahrt läuft: {reason}", "home.homed": "referenziert", "home.nothomed": "nicht referenziert",
   "home.state.waiting": "wartet", "home.state.switch": "fährt zum Schalter", "home.state.release of the switch": "verlässt den Schalter", "home.state.marker": "sucht die Nullmarke", "home.state.rest": "bremst", "home.state.done": "referenziert", "home.state.failed": "fehlgeschlagen",
   "axes.all": "Alle Achsen", "axes.none": "Zuerst eine Achse wählen", "zero.title": "Null setzen", "zero.text": "Die gewählten Achsen zeigen hier 0 an (G92).", "zero.axes": "Achsen", "zero.done": "{axes}: 0 gesetzt",
@@ -96,6 +95,13 @@ const ON_CARD = {
   "loop.sum": "Summe, V", "loop.filter0": "Filter 0", "loop.filter1": "Filter 1", "loop.filtered": "Gefiltert, V", "loop.limits": "Drehmomentgrenzen, V", "loop.output": "Ausgang, V",
 };
 
+const ACCESS = {
+  "exit.text": "VERLASSEN schließt die Bildschirme; das Steuerungsprogramm läuft weiter. BEENDEN beendet das Steuerungsprogramm.", "exit.remote": "Den Bildschirm verlassen? Das Steuerungsprogramm läuft weiter.",
+  "exit.busy": "Die Maschine arbeitet. Sie wird zuerst angehalten: Das Programm endet, die Achsen kommen zum Stillstand.", "exit.leave": "VERLASSEN", "exit.end": "BEENDEN",
+  "exit.done": "Sie haben den Bildschirm verlassen. Das Steuerungsprogramm läuft weiter.", "exit.ended": "AcroMill ist beendet.", "exit.again": "ZURÜCKKEHREN",
+  "login.title": "Anmelden", "login.role": "Rolle", "login.password": "Passwort", "login.go": "ANMELDEN",
+};
+
 /** @type {Record<string, string>} */
-const texts = { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE, ...ON_CARD };
+const texts = { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE, ...ON_CARD, ...ACCESS };
 export default texts;

@@ -6,7 +6,7 @@ const MENU = {
   "menu.abort": "ABORT", "menu.back": "BACK", "menu.halt": "HALT", "menu.forward": "FOR\u00adWARD", "menu.resume": "RESUME", "menu.jog": "JOG", "menu.mdi": "MDI", "menu.handwheel": "HAND WHEEL",
   "menu.teach": "TEACH", "menu.gotozero": "GOTO ZERO", "menu.sysparam": "SYS PARAM", "menu.offsets": "OFFSETS", "menu.work": "WORK COORD", "menu.diagnostics": "DIAG\u00adNOSTICS",
   "menu.display": "DIS\u00adPLAY", "menu.iostatus": "I/O STATUS", "menu.terminal": "TERMI\u00adNAL", "menu.scope": "SCOPE", "menu.gain": "GAIN", "menu.board": "BOARD PARAM", "menu.servo": "SERVO LOOP", "menu.cpu": "CPU LOAD",
-  "menu.fast": "FAST STATUS", "menu.memory": "MEMORY CONFIG", "menu.back2": "BACK", "menu.ionames": "I/O NAMES", "menu.buttons": "BUTTON PANEL", "menu.resize": "RESIZE SCREEN", "menu.messages": "USER MES\u00adSAGES", "menu.views": "SETUP SCREEN",
+  "menu.fast": "FAST STATUS", "menu.memory": "MEMORY CONFIG", "menu.ionames": "I/O NAMES", "menu.buttons": "BUTTON PANEL", "menu.resize": "RESIZE SCREEN", "menu.messages": "USER MES\u00adSAGES", "menu.views": "SETUP SCREEN",
 };
 
 const FRAME = {
@@ -48,8 +48,7 @@ const RUN = {
   "run.range": "The program has the lines 1 to {last}", "run.begin": "START", "begin.title": "Start at line {line}", "begin.text": "The lines before it were run through without motion. This differs from what the machine has now:",
   "begin.tool": "Another tool is in the spindle", "begin.present": "Present", "begin.wanted": "Wanted", "begin.go": "MOVE AND START", "start.title": "Go on", "start.covered": "The machine goes on moving ({state} {reason}). The positions are covered by this screen.",
   "clrzero.title": "Clear zero", "clrzero.text": "The floating zero (G92) of all axes is cleared: positions read as in the work coordinate system.", "clrzero.done": "The floating zero is cleared",
-  "gotozero.title": "Go to zero", "gotozero.text": "All axes move to the floating zero, from: {places}", "exit.text": "Leave the screens? The controller program keeps running.", "exit.busy": "The machine is working and goes on without this screen. Leave?",
-  "exit.done": "You have left the screens. The controller program is still running.", "exit.again": "COME BACK",
+  "gotozero.title": "Go to zero", "gotozero.text": "All axes move to the floating zero, from: {places}",
   "home.title": "Home", "home.text": "The axes move to their switches: clear the table. Order by priority.", "home.axes": "Axes to be homed", "home.start": "START HOME", "home.progress": "Homing is in progress: {reason}", "home.homed": "homed", "home.nothomed": "not homed",
   "home.state.waiting": "waiting", "home.state.switch": "moves to its switch", "home.state.release of the switch": "leaves its switch", "home.state.marker": "looks for the marker", "home.state.rest": "comes to rest", "home.state.done": "homed", "home.state.failed": "failed",
   "axes.all": "All axes", "axes.none": "Choose an axis first", "zero.title": "Set zero", "zero.text": "The chosen axes read 0 where they are (G92).", "zero.axes": "Axes", "zero.done": "{axes} read 0 now",
@@ -96,4 +95,11 @@ const ON_CARD = {
   "loop.sum": "Sum, V", "loop.filter0": "Filter 0", "loop.filter1": "Filter 1", "loop.filtered": "Filtered, V", "loop.limits": "Torque limits, V", "loop.output": "Output, V",
 };
 
-export default { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE, ...ON_CARD };
+const ACCESS = {
+  "exit.text": "LEAVE leaves the screens; the controller program keeps running. END ends the controller program.", "exit.remote": "Leave the screens? The controller program keeps running.",
+  "exit.busy": "The machine is working. It is stopped first: the program ends, the axes come to rest.", "exit.leave": "LEAVE", "exit.end": "END",
+  "exit.done": "You have left the screens. The controller program is still running.", "exit.ended": "AcroMill has ended.", "exit.again": "COME BACK",
+  "login.title": "Log in", "login.role": "Role", "login.password": "Password", "login.go": "LOG IN",
+};
+
+export default { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE, ...ON_CARD, ...ACCESS };

@@ -63,13 +63,20 @@ export class Link {
     for (const topic of this.topics.values()) void this.command("sub", topic).catch(() => {});
   }
 
+  /** Replace the connection by a new one. */
+  renew() {
+    const socket = this.socket;
+    if (!socket) return; // a new one is on its way
+    socket.close();
+    this.lost(socket, 0);
+  }
+
   /** A dead peer is not waited for: `close()` alone would take minutes. */
   replaceSilent() {
     const socket = this.socket;
     if (!socket || performance.now() - this.heardAt < SILENT_MS) return;
     if (socket.readyState === WebSocket.OPEN && !this.topics.has("status")) return;
-    socket.close();
-    this.lost(socket, 0);
+    this.renew();
   }
 
   /**

@@ -16,7 +16,7 @@ export const ROLES = Object.freeze(["view", "operate", "setup", "service"]);
 export class Model {
   constructor() {
     this.hello = new Signal({
-      version: "", client: 0, role: "view", login: false,
+      version: "", client: 0, role: "view", login: false, local: false,
       machine: /** @type {Machine} */ ({ kind: "", name: "", card: "", unit: "mm", is_virtual: true, axes: [] }),
       limits: { tick_ms: 200, keep_ms: 50, dead_man_ms: 200, stale_ms: 500, upload: 268435456 },
     });

@@ -5,6 +5,7 @@ import { fill, h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { fieldFor } from "./field.js";
 import { ask } from "./dialog.js";
+import { logIn } from "./log_in.js";
 import { askNumber } from "./number_pad.js";
 
 const PAGE = 20;
@@ -66,7 +67,8 @@ export function showForm(host, name, endings, setTitle = () => {}) {
     const isBarred = !model.may(shown.role);
     fill(tools, ...axisKeys(shown), ...pageKeys(shown));
     tools.hidden = !tools.childElementCount;
-    fill(rows, ...(isBarred ? [h("div.notice", {}, t("role.needed", { role: t(/** @type {any} */ (`role.${shown.role}`)) }))] : []),
+    fill(rows, ...(isBarred ? [h("div.notice.row", {}, h("span.grow", {}, t("role.needed", { role: t(/** @type {any} */ (`role.${shown.role}`)) })),
+        h("button.key", { type: "button", onclick: async () => (await logIn(shown.role)) && load() }, t("login.go")))] : []),
       ...shown.groups.map((group) => h("fieldset.form-group", { disabled: isBarred }, group.title ? h("legend", {}, group.title) : "",
         ...group.rows.map((row) => {
           const field = fieldFor(row, changedNow, shown.per_axis);

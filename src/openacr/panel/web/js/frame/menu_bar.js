@@ -4,6 +4,7 @@ import { byId, fill, h, setAttributes } from "../core/dom.js";
 import { Signal } from "../core/signal.js";
 import { t } from "../core/texts.js";
 import { ACTIONS } from "../motion/actions.js";
+import { logIn } from "./log_in.js";
 import { MENUS } from "./menus.js";
 import { closeScreen, openScreen } from "./screen_host.js";
 
@@ -70,9 +71,10 @@ function build() {
 function update() {
   for (const [entry, key] of keys) {
     const reason = barred(entry);
-    key.title = reason;
+    const role = entry.role && !model.may(entry.role) ? entry.role : null;
+    key.title = role ? t("role.needed", { role: t(/** @type {any} */ (`role.${role}`)) }) : reason;
     setAttributes(key, {
-      "aria-disabled": reason ? "true" : null,
+      "aria-disabled": reason ? "true" : null, "data-locked": role,
       "aria-pressed": entry.pressed ? String(model.is(/** @type {any} */ (entry.pressed))) : null,
     });
   }
@@ -83,12 +85,12 @@ function update() {
  * @param {import("./menus.js").MenuKey} entry
  */
 function barred(entry) {
-  if (entry.role && !model.may(entry.role)) return t("role.needed", { role: t(/** @type {any} */ (`role.${entry.role}`)) });
   return (entry.can && model.state.value.can?.[entry.can]) || "";
 }
 
 /** @param {import("./menus.js").MenuKey} entry */
-function press(entry) {
+async function press(entry) {
+  if (entry.role && !model.may(entry.role) && !(await logIn(entry.role))) return;
   const reason = barred(entry);
   if (reason) refuse(reason);
   else if (entry.menu) openMenu(entry.menu);
@@ -109,5 +111,5 @@ function pressed(event) {
   event.stopPropagation();
   if (event.repeat || document.querySelector("dialog[open]")) return;
   const entry = MENUS[menu.value].find((key) => key.key === Number(found[1]));
-  if (entry) press(entry);
+  if (entry) void press(entry);
 }

@@ -48,7 +48,7 @@ export const MENUS = {
     { key: 6, label: "menu.fov", screen: "overrides" },
     { key: 7, label: "menu.block", action: "block", role: "operate", pressed: "single" },
     { key: 8, label: "menu.setzero", screen: "zero", role: "operate" },
-    { key: 9, label: "menu.edit", screen: "edit" },
+    { key: 9, label: "menu.edit", screen: "edit", args: { other: true } },
     MAIN,
   ],
   stop: [
@@ -69,7 +69,7 @@ export const MENUS = {
     MAIN,
   ],
   diag: [
-    { key: 1, label: "menu.sysparam", screen: "parameters" },
+    { key: 1, label: "menu.sysparam", screen: "parameters", role: "service" },
     { key: 2, label: "menu.pparm", screen: "pparm" },
     { key: 3, label: "menu.offsets", screen: "offsets" },
     { key: 4, label: "menu.work", ...form("WORK") },
@@ -83,12 +83,12 @@ export const MENUS = {
     { key: 2, label: "menu.terminal", screen: "terminal", role: "service" },
     { key: 3, label: "menu.scope", screen: "scope", role: "service" },
     { key: 4, label: "menu.gain", screen: "gain", role: "service" },
-    { key: 5, label: "menu.board", screen: "board" },
+    { key: 5, label: "menu.board", screen: "board", role: "service" },
     { key: 6, label: "menu.servo", screen: "servo" },
     { key: 7, label: "menu.cpu", screen: "cpu", role: "setup" },
     { key: 8, label: "menu.fast", screen: "fast" },
-    { key: 9, label: "menu.memory", screen: "memory", role: "setup" },
-    { key: 10, label: "menu.back2", menu: "diag" },
+    { key: 9, label: "menu.memory", screen: "memory", role: "service" },
+    MAIN,
   ],
   display: [
     { key: 1, label: "menu.buttons", ...form("BUTTONS") },
@@ -97,6 +97,6 @@ export const MENUS = {
     { key: 7, label: "menu.resize", action: "resize" },
     { key: 8, label: "menu.messages", ...form("MESSAGES") },
     { key: 9, label: "menu.views", screen: "views" },
-    { key: 10, label: "menu.back2", menu: "diag" },
+    MAIN,
   ],
 };

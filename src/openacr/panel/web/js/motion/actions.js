@@ -1,12 +1,12 @@
 // What the function keys do. Keys that move the machine ask first where the consequence is not visible.
-import { give, link, model, refuse, report } from "../core/app.js";
-import { h } from "../core/dom.js";
+import { give, model, refuse, report } from "../core/app.js";
 import { position } from "../core/format.js";
 import { forgetSettings } from "../core/settings.js";
 import { t } from "../core/texts.js";
 import { confirm } from "../frame/dialog.js";
 import { isReadOutVisible, openScreen } from "../frame/screen_host.js";
 import { beginRun } from "./begin.js";
+import { exit } from "./exit.js";
 
 /** @typedef {{ openMenu: (name: string) => void }} Context */
 
@@ -52,15 +52,7 @@ export const ACTIONS = {
     const text = t("gotozero.text", { places: places.join("   ") });
     if (await confirm(t("gotozero.title"), text, t("menu.gotozero"))) await give("zero.goto", { axes: "" });
   },
-  async exit() {
-    const text = model.state.value.busy ? t("exit.busy") : t("exit.text");
-    if (!(await confirm(t("menu.exit"), text, t("menu.exit"), "bad"))) return;
-    link.isEnded = true;
-    await link.command("control.release").catch(() => {});
-    link.socket?.close();
-    document.body.replaceChildren(h("main.left", {}, h("h1", {}, "AcroMill"), h("p", {}, t("exit.done")),
-      h("button.key.main", { onclick: () => window.location.reload() }, t("exit.again"))));
-  },
+  exit,
   resize() {
     forgetSettings();
     window.location.reload();

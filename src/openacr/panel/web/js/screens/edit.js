@@ -10,7 +10,7 @@ import { fileList } from "../load/file_list.js";
 export const screen = {
   title: "edit.title",
   area: "full",
-  async show({ body, head, endings, setTitle, beforeClose }) {
+  async show({ body, head, endings, args, setTitle, beforeClose }) {
     const { createEditor } = await import("../edit/editor.js");
     let [path, saved] = ["", ""];
     /** @type {string | null} */
@@ -113,8 +113,9 @@ export const screen = {
       }
     }
 
-    if (model.program.value.loaded?.kind === "file") await read(model.program.value.loaded.path);
+    if (!args.other && model.program.value.loaded?.kind === "file") await read(model.program.value.loaded.path);
     else draw();
     editor.focus();
+    if (args.other) void open();
   },
 };

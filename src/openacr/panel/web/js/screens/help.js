@@ -8,7 +8,6 @@ import { MENUS } from "../frame/menus.js";
 const PAGES = {
   main: "", diag: "setdiag", parameters: "setdiag", clearZero: "clrzero", zero: "setzero", gotoZero: "gotozero",
   start: "run", runLine: "run", dryRun: "run", block: "run", abort: "stop", resume: "stop", traceBack: "stop", traceStop: "stop", traceForward: "stop",
-  io: "diagnostics", terminal: "diagnostics", scope: "diagnostics", gain: "diagnostics", board: "diagnostics", servo: "diagnostics", cpu: "diagnostics", fast: "diagnostics", memory: "diagnostics", programs: "diagnostics",
   buttons: "display", ionames: "display", resize: "display", messages: "display", views: "display",
 };
 

@@ -1,0 +1,301 @@
+"""Every menu of the guide with its keys; each key by keyboard, by mouse and by touch."""
+
+import re
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from playwright.sync_api import BrowserContext, Page, expect
+from tests.panel.bench import Served
+from tests.panel.browser.conftest import give, open_page, until_model
+
+# Menu: key, label, what it does: another menu, a screen, a dialog, or a command that is sent.
+MENUS: dict[str, list[tuple[int, str, str]]] = {
+    "main": [
+        (1, "HOME", "screen home"), (2, "CLR ZERO", "dialog Clear zero"),
+        (3, "SET ZERO", "screen zero"), (4, "EDIT", "screen edit"), (5, "RUN SETUP", "menu setup"),
+        (6, "RUN PROG", "menu run"), (7, "MANUAL", "menu manual"), (8, "SET/DIAG", "menu diag"),
+        (9, "HELP", "screen help"), (10, "EXIT", "dialog EXIT"),
+    ],
+    "setup": [
+        (1, "CMP RAD", "form CMPRAD"), (3, "LOAD PROG", "screen load"),
+        (4, "FEEDRATE", "form FEEDRATE"), (6, "P PARM", "screen pparm"),
+        (7, "SET MODALS", "form MODALS"), (10, "MAIN MENU", "menu main"),
+    ],
+    "run": [
+        (1, "STOP", "sent stop.hold"), (2, "START", "dialog RUN"), (3, "RUN", "dialog RUN"),
+        (4, "DRY RUN", "dialog DRY RUN"), (5, "FEEDRATE", "form FEEDRATE"),
+        (6, "OVERRIDES", "screen overrides"), (7, "BLOCK", "sent run.block"),
+        (8, "SET ZERO", "screen zero"), (9, "EDIT", "dialog OPEN"), (10, "MAIN MENU", "menu main"),
+    ],
+    "stop": [
+        (1, "ABORT", "sent run.abort"), (3, "BACK", "sent run.trace"),
+        (4, "HALT", "sent run.trace"), (5, "FORWARD", "sent run.trace"), (6, "JOG", "screen jog"),
+        (8, "RESUME", "sent run.resume"), (10, "MAIN MENU", "menu main"),
+    ],
+    "manual": [
+        (1, "MDI", "screen mdi"), (2, "JOG", "screen jog"), (3, "HANDWHEEL", "screen handwheel"),
+        (4, "TEACH", "screen teach"), (8, "GOTO ZERO", "dialog Go to zero"),
+        (10, "MAIN MENU", "menu main"),
+    ],
+    "diag": [
+        (1, "SYS PARAM", "screen parameters"), (2, "P PARM", "screen pparm"),
+        (3, "OFFSETS", "screen offsets"), (4, "WORK COORD", "form WORK"),
+        (5, "DIAGNOSTICS", "menu diagnostics"), (7, "DISPLAY", "menu display"),
+        (10, "MAIN MENU", "menu main"),
+    ],
+    "diagnostics": [
+        (1, "I/O STATUS", "screen io"), (2, "TERMINAL", "screen terminal"),
+        (3, "SCOPE", "screen scope"), (4, "GAIN", "screen gain"),
+        (5, "BOARD PARAM", "screen board"), (6, "SERVO LOOP", "screen servo"),
+        (7, "CPU LOAD", "screen cpu"), (8, "FAST STATUS", "screen fast"),
+        (9, "MEMORY CONFIG", "screen memory"), (10, "MAIN MENU", "menu main"),
+    ],
+    "display": [
+        (1, "BUTTON PANEL", "form BUTTONS"), (2, "OVERRIDES", "screen overrides"),
+        (3, "I/O NAMES", "form IONAMES"), (7, "RESIZE SCREEN", "appearance"),
+        (8, "USER MESSAGES", "form MESSAGES"), (9, "SETUP SCREEN", "screen views"),
+        (10, "MAIN MENU", "menu main"),
+    ],
+}  # fmt: skip
+
+SHOW = "(name) => import('/js/frame/menu_bar.js').then(({ openMenu }) => openMenu(name))"
+RECORD = """() => import('/js/core/app.js').then(({ link }) => {
+  window.sent = [];
+  const send = link.send.bind(link);
+  link.send = (message) => {
+    if (message.cmd) window.sent.push(message.cmd);
+    return send(message);
+  };
+})"""
+CLEAN = """(name) => import('/js/frame/screen_host.js').then(async ({ closeScreen }) => {
+  while (document.querySelector('dialog[open]')) window.dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape' }));
+  await closeScreen();
+  window.sent = [];
+  (await import('/js/frame/menu_bar.js')).openMenu(name);
+})"""  # noqa: E501
+HAPPENED = """([kind, what, before]) => {
+  const shown = (selector) => document.querySelector(selector);
+  if (kind === 'menu') return shown('#menu').dataset.shown === what;
+  if (kind === 'dialog') return shown('dialog[open] h2')?.textContent === what;
+  if (kind === 'sent') return window.sent.includes(what);
+  if (kind === 'form') return shown('#screen:not([hidden])[data-screen=form] .form-row [id^=cell]');
+  if (kind === 'screen') return shown(`#screen:not([hidden])[data-screen=${what}] .screen-body > *`);
+  return window.sent === undefined && localStorage.getItem('openacr.panel.tab') === null;
+}"""  # noqa: E501
+BAR = """() => [...document.querySelectorAll('#menu .menu-key:not(.empty)')].map((key) =>
+  [Number(key.dataset.fkey.slice(1)), key.querySelector('small').textContent, key.querySelector('span').textContent.replaceAll('\\u00ad', '')])"""  # noqa: E501
+
+
+def plain(label: str) -> str:
+    return label.replace(" ", "")
+
+
+def by_key(page: Page, key: int) -> None:
+    page.keyboard.press(f"F{key}")
+
+
+def by_mouse(page: Page, key: int) -> None:
+    page.click(f"[data-fkey=F{key}]")
+
+
+def by_finger(page: Page, key: int) -> None:
+    page.tap(f"[data-fkey=F{key}]")
+
+
+DEVICES = [by_key, by_mouse, by_finger]
+
+
+@pytest.fixture
+def recorded(page: Page) -> Iterator[Page]:
+    """The workspace, with the commands that it sends."""
+    page.evaluate(RECORD)
+    yield page
+    page.evaluate("localStorage.clear()")
+    page.reload()
+    page.wait_for_selector("body:not(.is-stale) #menu .menu-key")
+
+
+MENU_IDS = (
+    "MILL-MENU-MAIN", "MILL-MENU-SETUP", "MILL-MENU-RUN", "MILL-MENU-STOP", "MILL-MENU-MANUAL",
+    "MILL-MENU-MAIN-HOME", "MILL-MENU-MAIN-EDIT", "MILL-MENU-MAIN-RUNSETUP",
+    "MILL-MENU-MAIN-RUNPROG", "MILL-MENU-MAIN-MANUAL", "MILL-MENU-MAIN-SETDIAG",
+    "MILL-MENU-MAIN-HELP", "MILL-MENU-DIAG", "MILL-OV-INPUTDEV", "MILL-SCR-FKEY",
+    "MILL-SCR-MENUBAR",
+)  # fmt: skip
+
+
+@pytest.mark.req(*MENU_IDS)
+@pytest.mark.parametrize("press", DEVICES)
+def test_every_key_of_every_menu_does_the_same_by_every_device(
+    recorded: Page, press: Callable[[Page, int], None]
+) -> None:
+    page = recorded
+    defined: dict[str, Any] = page.evaluate(
+        "() => import('/js/frame/menus.js').then((module) => module.MENUS)"
+    )
+    assert set(defined) == set(MENUS)
+    for menu, keys in MENUS.items():
+        page.evaluate(SHOW, menu)
+        bar = page.evaluate(BAR)
+        assert [(n, plain(label)) for n, _, label in bar] == [(n, plain(x)) for n, x, _ in keys]
+        assert [small for _, small, _ in bar] == [f"F{n}" for n, _, _ in keys]
+        for number, _label, does in keys:
+            kind, _, what = does.partition(" ")
+            if kind == "appearance":
+                page.evaluate("localStorage.setItem('openacr.panel.tab', 'plc')")
+            press(page, number)
+            page.wait_for_function(HAPPENED, arg=[kind, what, ""])
+            if kind == "appearance":
+                page.wait_for_selector("body:not(.is-stale) #menu .menu-key")
+                page.evaluate(RECORD)
+            if kind == "form":
+                title = page.locator("#screen-title").text_content()
+                assert title == page.request.get(f"{page.url}api/forms/{what}").json()["title"]
+            if does == "dialog OPEN":  # over the screen of the editor
+                assert page.locator("#screen").get_attribute("data-screen") == "edit"
+            page.evaluate(CLEAN, menu)
+
+
+@pytest.mark.req("MILL-OV-MENUDEPTH")
+def test_no_menu_is_deeper_than_two_levels_and_each_leads_back_to_main(page: Page) -> None:
+    """The menu of a held program is an overlay of RUN PROG, not a level."""
+    menus: dict[str, list[dict[str, Any]]] = page.evaluate(
+        "() => import('/js/frame/menus.js').then((module) => module.MENUS)"
+    )
+    depth, level, names = {"main": 0}, 0, {"main"}
+    while names:
+        level += 1
+        names = {key["menu"] for name in names for key in menus[name] if "menu" in key} - set(depth)
+        depth.update(dict.fromkeys(names, level))
+    assert depth == {
+        "main": 0, "setup": 1, "run": 1, "manual": 1, "diag": 1, "diagnostics": 2, "display": 2
+    }  # fmt: skip
+    assert set(menus) - set(depth) == {"stop"}
+    for name, keys in menus.items():
+        if name != "main":
+            assert [key["menu"] for key in keys if key["key"] == 10] == ["main"]
+
+
+@pytest.mark.req("MILL-OV-TOUCH", "MILL-OV-800X600", "MILL-SCR-MAIN")
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_main_screen_with_every_menu_fits_800_x_600_with_keys_for_fingers(
+    page: Page, theme: Any
+) -> None:
+    page.emulate_media(color_scheme=theme)
+    page.set_viewport_size({"width": 800, "height": 600})
+    root = page.locator("html")
+    boxes = {}
+    for name in MENUS:
+        page.evaluate(SHOW, name)
+        for key in page.locator("#menu .menu-key:not(.empty)").all():
+            box = key.bounding_box()
+            assert box is not None
+            assert box["width"] >= 44
+            assert box["height"] >= 44
+            assert box["x"] >= 0
+            assert box["x"] + box["width"] <= 800
+            assert box["y"] + box["height"] <= 600
+        assert root.evaluate("(e) => [e.scrollWidth, e.scrollHeight]") == [800, 600]
+    for place in ("#status", "#display", "#prompt", "#menu", "#stop"):
+        box = page.locator(place).bounding_box()
+        assert box is not None
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= 800
+        assert box["y"] + box["height"] <= 600
+        boxes[place] = box
+    status, display, prompt, menu = (
+        boxes[name] for name in ("#status", "#display", "#prompt", "#menu")
+    )
+    assert status["x"] + status["width"] <= display["x"]  # beside each other
+    assert display["y"] + display["height"] <= prompt["y"]
+    assert prompt["y"] + prompt["height"] <= menu["y"]
+    tabs = page.locator("#status [role=tab]").all_inner_texts()
+    assert tabs == ["VIEW 1", "VIEW 2", "VIEW 3"]
+    tabs = page.locator("#display [role=tab]").all_inner_texts()
+    assert tabs == ["GRAPHICS", "PROGRAM", "I/O STATUS", "PLC", "ALARMS"]
+    page.set_viewport_size({"width": 1024, "height": 768})
+
+
+@pytest.mark.req("MILL-MENU-HELP-TEXT")
+def test_help_has_a_text_for_every_key_of_every_menu(page: Page) -> None:
+    page.keyboard.press("F9")
+    labels = {plain(label) for keys in MENUS.values() for _, label, _ in keys}
+    items = page.locator("#screen .form-tabs .item")
+    expect(items.first).to_be_visible()
+    shown: dict[str, str] = {}
+    for item in items.all():
+        name = plain(item.locator(".name").inner_text().replace("\u00ad", ""))
+        item.click()
+        text = page.locator(".help-text")
+        expect(text.locator("h2")).to_be_visible()
+        page.wait_for_function(
+            "(before) => document.querySelector('.help-text').textContent !== before",
+            arg=shown.get("last", ""),
+        )
+        shown[name] = shown["last"] = text.inner_text()
+    del shown["last"]
+    assert labels - set(shown) == {"MAINMENU"}
+    assert {name for name, text in shown.items() if len(text) < 40} == set()
+
+
+def test_a_help_page_that_is_missing_is_said(page: Page) -> None:
+    assert page.request.get(page.url + "api/help/nothing").status == 404
+
+
+@pytest.mark.req("MILL-MENU-EXIT-SAFE")
+def test_exit_while_a_program_runs_asks_and_brings_the_machine_to_rest(
+    page: Page, served: Served
+) -> None:
+    give(page, "mdi.execute", line="G21 G91 G1 X50 F60")
+    until_model(page, "model.state.value.busy")
+    page.keyboard.press("F10")
+    dialog = page.get_by_role("dialog", name="EXIT")
+    expect(dialog.locator("p")).to_have_text(
+        "The machine is working. It is stopped first: the program ends, the axes come to rest."
+    )
+    dialog.get_by_role("button", name="CANCEL").click()
+    assert served.call(lambda station: station.machine.runner.is_busy)
+    page.keyboard.press("F10")
+    dialog.get_by_role("button", name="LEAVE").click()
+    expect(page.locator("main.left")).to_contain_text("The controller program is still running.")
+    assert not served.call(lambda station: station.machine.runner.is_busy)
+    place = served.call(lambda station: station.machine.runner.stream.host.position()[0])
+    assert 0.0 < place < 50.0
+    page.get_by_role("button", name="COME BACK").click()
+    page.wait_for_selector("body:not(.is-stale) #menu .menu-key")
+
+
+def test_a_screen_that_only_watches_leaves_without_stopping_the_machine(
+    page: Page, served: Served, context: BrowserContext
+) -> None:
+    give(page, "mdi.execute", line="G21 G91 G1 X-20 F60")
+    other = open_page(context, served.url)
+    other.keyboard.press("F10")
+    dialog = other.get_by_role("dialog", name="EXIT")
+    expect(dialog.locator("p")).to_have_text(
+        "Leave the screens? The controller program keeps running."
+    )
+    assert dialog.get_by_role("button").all_inner_texts() == ["CANCEL", "LEAVE"]
+    dialog.get_by_role("button", name="LEAVE").click()
+    expect(other.locator("main.left")).to_be_visible()
+    assert served.call(lambda station: station.machine.runner.is_busy)
+    other.close()
+    give(page, "stop.all")
+    until_model(page, "!model.state.value.busy")
+
+
+@pytest.mark.req("MILL-MENU-MAIN-EXIT")
+def test_exit_ends_the_application(
+    context: BrowserContext, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    own = Served(tmp_path_factory.mktemp("exit"))
+    try:
+        page = open_page(context, own.url)
+        page.keyboard.press("F10")
+        page.get_by_role("dialog", name="EXIT").get_by_role("button", name="END").click()
+        expect(page.locator("main.left")).to_have_text(re.compile("AcroMill has ended."))
+        page.close()
+        own.wait_until_ended()
+    finally:
+        own.close()
