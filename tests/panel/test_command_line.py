@@ -46,3 +46,19 @@ def test_a_wrong_start_is_said_in_one_line(
         assert "Traceback" not in process.text
     finally:
         process.close()
+
+
+def test_a_card_that_cannot_be_reached_is_said_in_the_terminal(tmp_path: Path) -> None:
+    words = ("panel", "127.0.0.1:1", "--no-browser", "--port", "0")
+    process = Process(
+        *words, "--store", str(tmp_path / "sysvar.db"), "--programs", str(tmp_path),
+        store=tmp_path / "other.db",
+    )  # fmt: skip
+    try:
+        until(lambda: "tried again" in process.text, about="the reason is printed")
+        assert "127.0.0.1:1: NO CARD FOUND (" in process.text
+        assert process.text.count("NO CARD FOUND") == 1  # once, however often it is tried
+        process.signal(signal.SIGTERM)
+        assert process.ended() == 0
+    finally:
+        process.close()

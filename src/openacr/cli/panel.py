@@ -145,6 +145,7 @@ async def _serve(
     panel = Panel(installation)
     require_password(panel, address, is_loopback=is_loopback(address))
     server = PanelServer(panel, address, port, names=[*names, address])
+    panel.station.on_link = lambda why: _report_link(installation.name, why)
 
     async def started() -> None:
         stop_on_signals(server.stop)
@@ -153,3 +154,9 @@ async def _serve(
             await asyncio.to_thread(webbrowser.open, server.url)
 
     await server.serve(started)
+
+
+def _report_link(name: str, why: str) -> None:
+    """Say in the terminal why the machine cannot be used, and when it can again."""
+    text = f"{name}: {why}; it is tried again" if why else f"{name}: connected"
+    print(text, file=sys.stderr, flush=True)

@@ -8,10 +8,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
 from tests.panel.bench import Served
 from tests.panel.browser.chromium import MISSING, OPTIONS, found
 
+LONGEST_MS = 60_000  # of any wait: a machine may be busy
+expect.set_options(timeout=LONGEST_MS)
 READY = "() => document.querySelector('body:not(.is-stale) #menu .menu-key')"
 
 
@@ -87,7 +89,7 @@ def give(page: Page, command: str, **args: object) -> object:
 def open_page(context: BrowserContext, url: str) -> Page:
     """Open the workspace; whatever the browser complains about is kept in `page.complaints`."""
     page = context.new_page()
-    page.set_default_timeout(10_000)
+    page.set_default_timeout(LONGEST_MS)
     page.complaints = complaints = []  # type: ignore[attr-defined]
     page.on("pageerror", lambda error: complaints.append(str(error)))
     page.on(

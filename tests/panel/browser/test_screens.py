@@ -45,9 +45,10 @@ def keys_of(page: Page) -> list[tuple[str, dict[str, Any]]]:
 
 def screens_of(page: Page) -> list[tuple[str, dict[str, Any]]]:
     """One key for each screen, or form."""
-    return list(
-        {str(key.get("args") or key["screen"]): (menu, key) for menu, key in keys_of(page)}.values()
-    )
+    found: dict[str, tuple[str, dict[str, Any]]] = {}
+    for menu, key in keys_of(page):
+        found.setdefault(name_of(key), (menu, key))
+    return list(found.values())
 
 
 PATHS = {

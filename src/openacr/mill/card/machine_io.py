@@ -4,13 +4,11 @@ A number is that of the flag on the card: 0 to 31 and 32 to 63 on the card itsel
 and 288 to 319 on the first expansion module, 64 more on each further one.
 """
 
-from collections.abc import Iterator
-
 from openacr.mill.card.driver import CardState, MachineDriver
 from openacr.mill.config.settings import Settings
 
 FIRST_OUTPUT, END_OUTPUTS = 32, 64
-INPUTS, OUTPUTS = range(FIRST_OUTPUT), range(FIRST_OUTPUT, END_OUTPUTS)
+INPUTS, OUTPUTS = range(FIRST_OUTPUT), range(FIRST_OUTPUT, END_OUTPUTS)  # of most cards
 FIRST_EXPANSION, EXPANSION_FLAGS = 256, 64  # of each module: 32 inputs, then 32 outputs
 
 
@@ -23,8 +21,8 @@ class MachineIo:
         self._out: dict[int, bool] = {}
         modules = settings.io_modules
         machine.watch_modules(modules)
-        self.inputs = frozenset(_numbers(INPUTS, modules, 0))
-        self.outputs = frozenset(_numbers(OUTPUTS, modules, 32))
+        inputs, outputs = line_numbers(settings.model.lines, modules)
+        self.inputs, self.outputs = frozenset(inputs), frozenset(outputs)
         self._inverted_in = {n for n in self.inputs if settings.is_input_inverted(n)}
 
     def output(self, number: int, on: bool) -> None:
@@ -77,9 +75,10 @@ class MachineIo:
         return self.has_input(number) and not self.is_in(sample, number)
 
 
-def _numbers(own: range, modules: int, first: int) -> Iterator[int]:
-    """The inputs or outputs of the card and of its expansion modules."""
-    yield from own
-    for module in range(modules):
-        begin = FIRST_EXPANSION + EXPANSION_FLAGS * module + first
-        yield from range(begin, begin + len(own))
+def line_numbers(lines: int, modules: int) -> tuple[list[int], list[int]]:
+    """Inputs and outputs of a card with `lines` of each, and of its expansion modules."""
+    begins = [FIRST_EXPANSION + EXPANSION_FLAGS * module for module in range(modules)]
+    half = EXPANSION_FLAGS // 2
+    inputs = [*range(lines), *(n for begin in begins for n in range(begin, begin + half))]
+    outputs = [n for begin in begins for n in range(begin + half, begin + EXPANSION_FLAGS)]
+    return inputs, [*range(FIRST_OUTPUT, FIRST_OUTPUT + lines), *outputs]

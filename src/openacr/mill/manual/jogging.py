@@ -24,6 +24,7 @@ from openacr.mill.card.alarms import AlarmError
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.config.settings import LONGEST_REST_S, REST_S
 from openacr.mill.config.tabs import AxisSettings
+from openacr.mill.manual.profile import Profile
 from openacr.sysvar.tabs import JOG
 
 INCREMENTS = len(JOG.increments)
@@ -48,6 +49,7 @@ class Jogging:
         self._io = io
         self._machine = io.machine
         self._moving: set[int] = set()
+        self._has_jerk: set[int] = set()  # that of a profile
         self._rest_by_s: float | None = None  # when the axes have to be at rest
         self._held: dict[int, _Held] = {}
 
@@ -62,12 +64,16 @@ class Jogging:
         direction = direction if not self._is_reversed(axis) else -direction
         if self._is_at_limit(row, direction):
             raise AlarmError(alarms.SOFT_LIMIT, row.name)
-        self._lead(row, direction, speed_ups, None)
+        self._lead(row, direction, speed_ups, None, _brake_u(row, speed_ups))
 
     def _lead(
-        self, row: AxisSettings, direction: int, speed_ups: float, end_u: float | None
+        self,
+        row: AxisSettings,
+        direction: int,
+        speed_ups: float,
+        end_u: float | None,
+        brake_u: float,
     ) -> None:
-        brake_u = 0.5 * speed_ups**2 / row.jog_dec_ups2 if row.jog_dec_ups2 else 0.0
         reach_u = LEASH_S * speed_ups + brake_u
         self._held[row.index] = _Held(direction, reach_u, self._machine.now_s, end_u)
         self._aim(row, self._held[row.index])
@@ -89,11 +95,31 @@ class Jogging:
     def move(self, axis: int, distance_u: float, *, fast: bool = False) -> None:
         """Move by a distance; AlarmError if it ends beyond a soft limit."""
         row, speed_ups = self.ready(axis, fast=fast)
+        end = self._end_of(row, distance_u)
+        self._lead(row, 1 if distance_u > 0 else -1, speed_ups, end, _brake_u(row, speed_ups))
+
+    def _end_of(self, row: AxisSettings, distance_u: float) -> float:
+        """Where a move by a distance ends; AlarmError beyond a soft limit."""
         limit = self.limit(row, 1 if distance_u > 0 else -1)
         end = self.position(row) + distance_u
         if limit is not None and (end - limit) * distance_u > 0.0:
             raise AlarmError(alarms.SOFT_LIMIT, row.name)
-        self._lead(row, 1 if distance_u > 0 else -1, speed_ups, end)
+        return end
+
+    def index(self, profile: Profile) -> None:
+        """Move by the distance of a profile with its speed and ramps; soft limits as in `move`."""
+        row, _speed_ups = self.ready(self._io.settings.named(profile.axis).index, fast=False)
+        end = self._end_of(row, profile.distance_u)
+        name, speed_ups = row.name, min(profile.speed_ups, self._io.settings.speeds.max_ups)
+        self._type(
+            f"JOG ACC {name}{number_text(profile.acc_ups2)}",
+            f"JOG DEC {name}{number_text(profile.stop_ups2)}",
+            f"JOG VEL {name}{number_text(speed_ups)}",
+            f"JOG JRK {name}{number_text(profile.jerk_ups3)}",
+        )
+        self._has_jerk.add(row.index)
+        brake_u = 0.5 * speed_ups**2 / profile.stop_ups2
+        self._lead(row, 1 if profile.distance_u > 0 else -1, speed_ups, end, brake_u)
 
     def settle(self) -> Steps:
         """Wait for rest, then convert jog offsets to positions."""
@@ -101,6 +127,9 @@ class Jogging:
         self._rest_by_s = None
         for axis in sorted(self._moving):
             self._type(f"JOG RES {self._io.settings.axis(axis).name}")
+        for axis in sorted(self._has_jerk):
+            self._type(f"JOG JRK {self._io.settings.axis(axis).name}0")
+        self._has_jerk.clear()
         self._moving.clear()
 
     def stop_all(self) -> None:
@@ -228,6 +257,11 @@ class Jogging:
 
     def _type(self, *lines: str) -> None:
         self._machine.type(lines)
+
+
+def _brake_u(row: AxisSettings, speed_ups: float) -> float:
+    """The distance in which a jog comes to rest."""
+    return 0.5 * speed_ups**2 / row.jog_dec_ups2 if row.jog_dec_ups2 else 0.0
 
 
 def _ramp(row: AxisSettings) -> float:

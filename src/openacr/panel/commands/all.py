@@ -1,9 +1,11 @@
 """Imports every module of commands: the table is complete then."""
 
-from openacr.panel.commands import motion, people, programs, running, service, typing, watching
+from openacr.panel.commands import (
+    memory, motion, people, programs, running, service, typing, watching,
+)  # fmt: skip
 from openacr.panel.commands.registry import COMMANDS, carry_out
 
 __all__ = [
-    "COMMANDS", "carry_out", "motion", "people", "programs", "running", "service", "typing",
-    "watching",
+    "COMMANDS", "carry_out", "memory", "motion", "people", "programs", "running", "service",
+    "typing", "watching",
 ]  # fmt: skip

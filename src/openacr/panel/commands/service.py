@@ -9,19 +9,24 @@ from openacr.client.values import number_text
 from openacr.errors import UserError
 from openacr.mill.card.setup import GAIN_WORDS
 from openacr.mill.config.settings import GAINS
+from openacr.mill.manual.profile import parse
 from openacr.panel.commands.registry import Args, NoArgs, command
 from openacr.panel.control.orders import Order
+from openacr.panel.control.presses import End
 from openacr.panel.control.scope import Trigger
 from openacr.panel.control.station import Station
 from openacr.panel.control.watches import watched
 from openacr.panel.roles import Role
 from openacr.sysvar.lookup import known
 from openacr.sysvar.tabs import CELLS
+from openacr.sysvar.values import checked
 
 Finite = Annotated[float, Meta(ge=-1e12, le=1e12)]
 QUERIES = frozenset(
     {"DIM", "MEM", "CPU", "LIST", "VER", "ATTACH", "CONFIG", "STREAM", "FSTAT", "AUT", "PLC"}
 )
+
+OF_ANY_LEVEL = frozenset({"CPU"})  # nothing changes for a program that runs
 
 
 class OfLine(Args, frozen=True):
@@ -61,6 +66,15 @@ class Arm(Args, frozen=True):
     period_ms: Annotated[float, Meta(ge=0.1, le=1000.0)] = 1.0
     samples: Annotated[int, Meta(ge=10, le=100_000)] = 5000
     trigger: OfTrigger | None = None
+
+
+class OfIndex(Args, frozen=True):
+    """A profile that is run, and what is sampled meanwhile."""
+
+    profile: Annotated[str, Meta(max_length=2000)]
+    channels: tuple[int | str, ...]
+    period_ms: Annotated[float, Meta(ge=0.1, le=1000.0)] = 5.0
+    samples: Annotated[int, Meta(ge=10, le=100_000)] = 5000
 
 
 class OfGain(Args, frozen=True):
@@ -126,6 +140,8 @@ def query(station: Station, order: Order, args: Query) -> dict[str, list[str]]:
     if line not in QUERIES and not line.startswith("?"):
         raise UserError(f"{args.line}: only {', '.join(sorted(QUERIES))} and lines with ? are sent")
     session = station.machine
+    if line in OF_ANY_LEVEL:
+        return {"lines": session.card.command(line)}
     if session.runner.is_busy and not line.startswith("?"):
         raise UserError("the machine moves: only lines that begin with ? are sent")
     if args.plc is not None:
@@ -153,6 +169,22 @@ def scope_arm(station: Station, order: Order, args: Arm) -> dict[str, object]:
     return capture.data() if capture is not None else {}
 
 
+@command("scope.index", Role.SERVICE, is_motion=True)
+def scope_index(station: Station, order: Order, args: OfIndex) -> dict[str, object]:
+    """Run an index profile (ACC, DEC, STP, JRK, F, RES, a move) and sample it from its start."""
+    runner = station.machine.runner
+    found = parse(args.profile, list(runner.settings.names()))
+    parameters = watched(args.channels)
+    station.hand_motion.presses.end_all(End.MODE, "an index profile was started")
+    station.scope.arm(parameters, args.period_ms / 1000.0, args.samples, None)
+    try:
+        runner.jog(lambda jogging: jogging.index(found))
+    except BaseException:
+        station.scope.stop()
+        raise
+    return {"time_s": found.time_s}
+
+
 @command("scope.stop", Role.SERVICE, needs_control=False)
 def scope_stop(station: Station, order: Order, args: NoArgs) -> None:
     """End the capture."""
@@ -160,18 +192,20 @@ def scope_stop(station: Station, order: Order, args: NoArgs) -> None:
 
 
 @command("gain.set", Role.SERVICE)
-def gain(station: Station, order: Order, args: OfGain) -> dict[str, float]:
-    """Set a gain on the card at once, and store it."""
+def gain(station: Station, order: Order, args: OfGain) -> dict[str, float | bool]:
+    """Set a gain on the card at once, and store it; while the machine moves, once it rests."""
     session = station.machine
     axis = session.runner.settings.named(args.axis.upper()).index
     names = {known(cells[axis]).name.lower(): k for k, cells in enumerate(GAINS)}
     place = names.get(args.gain.lower())
     if place is None:
         raise UserError(f"{args.gain}: gains are {', '.join(names)}")
-    if args.store:
-        station.installation.store.write(GAINS[place][axis], args.value)  # it also checks the value
+    store, cell = station.installation.store, known(GAINS[place][axis])
+    checked(cell, args.value, store.is_metric, store.letter_of(cell))
     session.machine.type([f"AXIS{axis} {GAIN_WORDS[place]} {number_text(args.value)}"])
-    return {"value": args.value}
+    if args.store:
+        station.store_at_rest(cell.number, args.value)
+    return {"value": args.value, "is_stored": store.read(cell.number) == args.value}
 
 
 @command("card.write", Role.SERVICE)

@@ -8,6 +8,7 @@ import logging
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from typing import Any
 
 from openacr.client import ConnectionLostError
@@ -58,6 +59,7 @@ class Station(Shared):
         super().__init__(installation, tell)
         self.sampled: Callable[[Samples], None] = lambda _samples: None
         self.on_snapshot: Callable[[], None] = lambda: None  # a new snapshot is there
+        self.on_link: Callable[[str], None] = lambda _why: None  # lost, or found again ("")
         self.on_end: Callable[[], None] = lambda: None  # EXIT: the program is to end
         self.hand_motion = HandMotion(self)
         self.typed = Typed(self)
@@ -68,6 +70,8 @@ class Station(Shared):
         self.watches = Watches()
         self.said: deque[dict[str, Any]] = deque(maxlen=LINES_KEPT)
         self.snapshot = Snapshot(number=0, tick_ms=0.0, read_s=0.0)
+        self._kept: dict[int, float] = {}  # settings of motion that are stored at rest
+        self._link = ""  # as `on_link` was called last
         self.now_s = 0.0  # of the present step or order
         self.stopped_s = 0.0  # when the last stop was received
         self.must_renew = False  # settings were stored that count from the next session
@@ -86,16 +90,23 @@ class Station(Shared):
         try:
             self.session = self.installation.open(self.say)
         except (OpenacrError, *LINK_ERRORS) as error:
-            self.lost = _why(error)
+            self._note_link(_why(error))
             self._retry_s = now_s + RETRY_S
             self._facts.tell()
             return
-        self.lost = ""
+        self._note_link("")
         self._reading = Reading(self.session)
         self._poll_at = self._snapshot_at = 0.0
         self._tick_base_ms = self._tick_ms
         self._alarms = 0
         self.installation.pace.begin(now_s)
+
+    def _note_link(self, why: str) -> None:
+        """Why there is no session; a change is reported."""
+        before, self._link = self._link, why
+        self.lost = why
+        if why != before:
+            self.on_link(why)
 
     def close(self) -> None:
         """Close the session: axes that move are brought to rest by the caller before."""
@@ -140,8 +151,10 @@ class Station(Shared):
             self.on_card.step(now_s)
         except LINK_ERRORS as lost:
             log.info("%s", lost)
-        if self.must_renew and self.session is not None and self._rests:
-            self.renew(now_s)
+        if self.session is not None and self._rests:
+            self._store_kept()
+            if self.must_renew:
+                self.renew(now_s)
 
     def _poll(self, now_s: float) -> None:
         session = self.machine
@@ -206,7 +219,7 @@ class Station(Shared):
         """The card is out of reach: the session ends, and another one is tried."""
         self._guarded(lambda: self.hand_motion.presses.end_all(End.LINK, why))
         self.close()
-        self.lost = why
+        self._note_link(why)
         self._retry_s = now_s + RETRY_S
         self._facts.tell()
 
@@ -234,6 +247,17 @@ class Station(Shared):
         shown = sorted(n for n in cells if n not in OF_A_RUN)
         if shown:
             self.tell({"event": "changed", "what": "forms", "cells": shown[:MOST_CELLS]})
+
+    def store_at_rest(self, cell: int, value: float) -> None:
+        """Store a setting of motion: now, or once the machine rests."""
+        self._kept[cell] = value
+        if self._rests:
+            self._store_kept()
+
+    def _store_kept(self) -> None:
+        kept, self._kept = self._kept, {}
+        for cell, value in kept.items():
+            self._guarded(partial(self.installation.store.write, cell, value))
 
     def load_sample(self) -> None:
         """Load the sample part, where the machine has one."""

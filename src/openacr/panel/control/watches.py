@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from openacr.client.errors import RefusedError
 from openacr.client.names import parameter_number
 from openacr.errors import UserError
 from openacr.map import numbers as n
@@ -37,11 +38,13 @@ class Watches:
 
     def __init__(self) -> None:
         self._watches: dict[Wish, _Watch] = {}
+        self._undefined: set[int] = set()  # variables the card does not have
         self.report: Report = lambda _wish, _parameters, _changed: None
 
     def begin(self, wish: Wish, parameters: list[int], hz: float) -> None:
         """Watch parameters from now on; the first look tells all of them."""
         self._watches[wish] = _Watch(parameters, 1.0 / hz)
+        self._undefined.clear()  # they may have been dimensioned since
 
     def end(self, wish: Wish) -> None:
         """End a subscription."""
@@ -57,14 +60,28 @@ class Watches:
         wanted = list(dict.fromkeys(p for each in due.values() for p in each.parameters))
         if not wanted:
             return
-        values = dict(zip(wanted, session.machine.read_rows(wanted), strict=True))
+        values = self._read(session, wanted)
         for wish, each in due.items():
             each.due_s = max(each.due_s + each.every_s, now_s)
-            now = dict(enumerate(values[p] for p in each.parameters))
+            now = {place: values[p] for place, p in enumerate(each.parameters) if p in values}
             changed = [(place, v) for place, v in now.items() if each.reported.get(place) != v]
             if changed:
                 each.reported = now
                 self.report(wish, each.parameters, changed)
+
+    def _read(self, session: MillSession, wanted: list[int]) -> dict[int, float]:
+        """The values of parameters; variables that the card does not have are left out."""
+        known = [p for p in wanted if p not in self._undefined]
+        try:
+            return dict(zip(known, session.machine.read_rows(known), strict=True)) if known else {}
+        except RefusedError:  # of the whole request: which one is it?
+            values = {}
+            for parameter in known:
+                try:
+                    values[parameter] = session.machine.read_rows([parameter])[0]
+                except RefusedError:
+                    self._undefined.add(parameter)
+            return values
 
 
 def watched(whats: Iterable[object]) -> list[int]:

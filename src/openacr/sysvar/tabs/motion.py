@@ -5,6 +5,11 @@ from openacr.sysvar.tabs.control import GENERAL
 
 _SPEED = {"low": 0, "is_low_open": True, "high": 1e6}
 _RAMP = {"low": 0, "is_low_open": True, "high": 1e9}
+# The output of a drive is 10 V at most: a gain above it gives all of it for a single pulse (or
+# pulse/s, pulse/s2) of error, and the integral above _MOST_V_PER_S within one servo period.
+_GAIN = {"low": 0, "high": 10}
+_MOST_V_PER_S = 1e5
+_MOST_DELAY_S, _MOST_WIDTH_S = 1000, 1
 
 
 class SERVO:
@@ -13,13 +18,25 @@ class SERVO:
     tab = Tab("SERVO", 150_000)
     tab.motion()
     p_gain = tab.per_axis.real(
-        0, "P Gain", "V/pulse", 0.00244, typical="0.001", low=0, doc="Volts per pulse of error."
+        0, "P Gain", "V/pulse", 0.00244, typical="0.001", doc="Volts per pulse of error.", **_GAIN
     )
     i_gain = tab.per_axis.real(
-        1, "I Gain", "V/s/pulse", typical="0.001", low=0, doc="Volts per second and pulse of error."
+        1,
+        "I Gain",
+        "V/s/pulse",
+        typical="0.001",
+        low=0,
+        high=_MOST_V_PER_S,
+        doc="Volts per second and pulse of error.",
     )
     i_delay = tab.per_axis.real(
-        2, "I Delay", "s", typical="1", low=0, doc="Time at rest before integration starts."
+        2,
+        "I Delay",
+        "s",
+        typical="1",
+        low=0,
+        high=_MOST_DELAY_S,
+        doc="Time at rest before integration starts.",
     )
     i_limit = tab.per_axis.real(
         3, "I Limit", "V", typical="1", low=0, high=10, doc="Limit of the integral term."
@@ -29,8 +46,8 @@ class SERVO:
         "D Gain",
         "V/(pulse/s)",
         typical="0.00001",
-        low=0,
         doc="Volts per rate of change of the error.",
+        **_GAIN,
     )
     d_time = tab.per_axis.real(
         5,
@@ -38,6 +55,7 @@ class SERVO:
         "s",
         typical="0.002",
         low=0,
+        high=_MOST_WIDTH_S,
         doc="Sampling time of the D term, 0: every servo period.",
     )
     acceleration_feedforward = tab.per_axis.real(
@@ -45,11 +63,11 @@ class SERVO:
         "ACC FFwd",
         "V/(pulse/s2)",
         typical="0.0001",
-        low=0,
         doc="Volts per commanded acceleration.",
+        **_GAIN,
     )
     velocity_feedforward = tab.per_axis.real(
-        7, "Vel FFwd", "V/(pulse/s)", typical="0", low=0, doc="Volts per commanded velocity."
+        7, "Vel FFwd", "V/(pulse/s)", typical="0", doc="Volts per commanded velocity.", **_GAIN
     )
     torque_limits = tab.per_axis.real(
         8,
@@ -62,7 +80,7 @@ class SERVO:
         doc="Clamp of the drive output.",
     )
     velocity_feedback = tab.per_axis.real(
-        9, "FBVEL", "V/(pulse/s)", typical="0", low=0, doc="Volts per actual velocity."
+        9, "FBVEL", "V/(pulse/s)", typical="0", doc="Volts per actual velocity.", **_GAIN
     )
 
 

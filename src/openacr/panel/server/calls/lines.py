@@ -1,27 +1,35 @@
 """Inputs and outputs with their names, and the virtual push buttons."""
 
 import asyncio
+from collections.abc import Sequence
 
-from openacr.map.numbers import W_INPUTS
-from openacr.mill.card.machine_io import INPUTS, OUTPUTS
+from openacr.map import numbers as n
+from openacr.mill.card.machine_io import line_numbers
+from openacr.models import MODELS
 from openacr.panel.control.buttons import COUNT, TOGGLE
 from openacr.panel.control.station import Station
 from openacr.panel.server.api import Call, endpoint
-from openacr.sysvar.tabs import OFFSETS
+from openacr.sysvar.tabs import CONTROL, GENERAL, OFFSETS
+
+BITS = 32  # of a flag word
 
 
 @endpoint("GET", "/io")
 async def lines(call: Call) -> object:
-    """Inputs and outputs of the card with their names; `words` are those of the topic flags."""
-    text = call.panel.installation.store.read_text
+    """Inputs and outputs of card and modules with names; `words` are those of the topic flags."""
+    store = call.panel.installation.store
+    model = MODELS[store.read_text(GENERAL.card_model)]
+    inputs, outputs = line_numbers(model.lines, int(store.read(CONTROL.io_expansion_modules)))
 
-    def rows(numbers: range, names: range) -> list[dict[str, object]]:
-        return [{"number": n, "bit": n, "name": text(names[n])} for n in numbers]
+    def rows(numbers: list[int], names: Sequence[int]) -> list[dict[str, object]]:
+        return [
+            {"number": line, "bit": line, "name": store.read_text(names[line])} for line in numbers
+        ]
 
     return {
-        "inputs": rows(INPUTS, OFFSETS.input_name),
-        "outputs": rows(OUTPUTS, OFFSETS.output_name),
-        "words": [W_INPUTS, W_INPUTS + 1],
+        "inputs": rows(inputs, OFFSETS.input_name),
+        "outputs": rows(outputs, OFFSETS.output_name),
+        "words": sorted({n.FLAG_WORD_BASE + bit // BITS for bit in [*inputs, *outputs]}),
     }
 
 
@@ -29,8 +37,8 @@ async def lines(call: Call) -> object:
 async def buttons(call: Call) -> object:
     """The virtual push buttons that have a caption, with the state of their lamps."""
     store = call.panel.installation.store
-    shown = [n for n in range(COUNT) if store.read_text(OFFSETS.button_caption[n])]
-    flags = {n: int(store.read(OFFSETS.button_show_bit[n])) for n in shown}
+    shown = [k for k in range(COUNT) if store.read_text(OFFSETS.button_caption[k])]
+    flags = {k: int(store.read(OFFSETS.button_show_bit[k])) for k in shown}
     lamps = [flag for flag in flags.values() if flag >= 0]
 
     def read(station: Station) -> list[bool]:
@@ -41,12 +49,12 @@ async def buttons(call: Call) -> object:
     return {
         "buttons": [
             {
-                "number": n,
-                "caption": store.read_text(OFFSETS.button_caption[n]),
-                "toggle": store.read(OFFSETS.button_mode[n]) == TOGGLE,
-                "lit": lit.get(flags[n], False),
-                "bit": flags[n],
+                "number": k,
+                "caption": store.read_text(OFFSETS.button_caption[k]),
+                "toggle": store.read(OFFSETS.button_mode[k]) == TOGGLE,
+                "lit": lit.get(flags[k], False),
+                "bit": flags[k],
             }
-            for n in shown
+            for k in shown
         ]
     }

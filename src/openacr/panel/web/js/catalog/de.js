@@ -73,9 +73,10 @@ const FORMS = {
 
 const SERVICE = {
   "diag.warning": "Nur für Fachleute: Änderungen wirken sofort auf die Karte.", "terminal.title": "Terminal", "terminal.line": "Zeile an die Karte", "terminal.send": "SENDEN",
-  "scope.title": "Scope", "scope.channel": "Kanal {n}", "scope.source": "P12290", "scope.period": "Periode, ms", "scope.samples": "Messwerte", "scope.level": "Triggerpegel", "scope.mode": "Trigger", "scope.free": "frei laufend", "scope.auto": "auto", "scope.normal": "normal", "scope.single": "einmal",
+  "scope.title": "Scope", "scope.channel": "Quelle von Kanal {n}", "scope.scale": "Maßstab von Kanal {n}, Einheiten/Teil", "scope.offset": "Versatz von Kanal {n}", "scope.source": "P12290", "scope.sweep": "Ablenkung, ms/Teil", "scope.period": "Abtastung, ms",
+  "scope.index": "INDEX", "scope.index.text": "Die Achse fährt jetzt: {move}. Ist ihr Weg frei?", "scope.profile": "Index-Profil", "scope.autoscale": "AUTOSKALA", "scope.range": "Zehn Teile haben 10 bis {most} Abtastungen: Ablenkung oder Abtastung ändern", "scope.divisions": "Teile", "scope.level": "Triggerpegel", "scope.mode": "Trigger", "scope.free": "frei laufend", "scope.auto": "auto", "scope.normal": "normal", "scope.single": "einmal",
   "scope.slope": "Flanke", "scope.rising": "steigend", "scope.falling": "fallend", "scope.start": "START", "scope.stop": "SCOPE HALT", "scope.armed": "Scharf", "scope.read": "{count} Messwerte", "scope.stopped": "Angehalten nach {count} Messwerten",
-  "gain.title": "Reglerverstärkung", "gain.warning": "Ein Wert wirkt auf den Regelkreis, sobald er eingegeben ist.", "gain.store": "in den Maschinenparametern behalten", "gain.enter": "EINGABE", "gain.done": "{gain} ist {value}",
+  "gain.title": "Reglerverstärkung", "gain.warning": "Ein Wert wirkt auf den Regelkreis, sobald er eingegeben ist.", "gain.store": "in den Maschinenparametern behalten", "gain.enter": "EINGABE", "gain.done": "{gain} ist {value}", "gain.later": "{gain} ist {value}; gespeichert wird, sobald die Maschine ruht",
   "board.title": "Kartenparameter", "board.search": "Name oder Nummer", "board.number": "Nummer", "board.name": "Name", "board.value": "Wert", "board.doc": "Bedeutung", "board.written": "P{number} ist {value}",
   "pparm.title": "P-Parameter", "pparm.done": "P{n} ist {value}", "servo.title": "Regelkreis", "cpu.title": "CPU-Last", "fast.title": "Fast Status", "memory.title": "Speicheraufteilung",
   "views.title": "Ansichten", "views.block": "Block", "views.save": "ANSICHT SPEICHERN", "views.saved": "Die Ansichten sind gespeichert", "help.title": "Hilfe", "help.text": "Links eine Taste wählen.", "help.none": "Zu dieser Taste gibt es keine Seite.",
@@ -93,6 +94,12 @@ const ON_CARD = {
   "loop.current": "Position", "loop.gear": "Gear-Versatz", "loop.jog": "Tipp-Versatz", "loop.cam": "Cam-Versatz", "loop.backlash": "Umkehrspiel", "loop.ballscrew": "Spindel", "loop.primary": "1. Sollwert", "loop.secondary": "2. Sollwert", "loop.actual": "Istposition",
   "loop.error": "Schleppfehler", "loop.p": "P-Anteil, V", "loop.i": "I-Anteil, V", "loop.d": "D-Anteil, V", "loop.ffvel": "Vorsteuerung v, V", "loop.ffacc": "Vorsteuerung a, V", "loop.fbvel": "Rückführung v, V",
   "loop.sum": "Summe, V", "loop.filter0": "Filter 0", "loop.filter1": "Filter 1", "loop.filtered": "Gefiltert, V", "loop.limits": "Drehmomentgrenzen, V", "loop.output": "Ausgang, V",
+
+const CARD = {
+  "cpu.foreground": "Servo-Interrupt", "cpu.background": "Für Programme übrig", "memory.warning": "Nur für erfahrenes Personal. Eine Änderung löscht alle Programme, SPS-Programme und Variablen der Karte.", "memory.save": "SPEICHERN UND KARTE LÖSCHEN",
+  "memory.lost": "Alle Programme, SPS-Programme und Variablen auf der Karte gehen verloren. Die Maschine wird neu eingerichtet.", "memory.bytes": "Byte", "memory.free": "Frei: {free} Byte", "memory.number": "{name}: eine ganze Zahl von Byte", "memory.done": "Der Speicher der Karte ist neu aufgeteilt",
+
+export default {  };
 };
 
 const ACCESS = {
@@ -103,5 +110,10 @@ const ACCESS = {
 };
 
 /** @type {Record<string, string>} */
-const texts = { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE, ...ON_CARD, ...ACCESS };
+
+
+
+
+/** @type {Record<string, string>} */
+const texts = { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE, ...ON_CARD, ...ACCESS, ...CARD };
 export default texts;

@@ -73,9 +73,10 @@ const FORMS = {
 
 const SERVICE = {
   "diag.warning": "Only experienced personnel: what is changed here acts on the card at once.", "terminal.title": "Terminal", "terminal.line": "Line for the card", "terminal.send": "SEND",
-  "scope.title": "Scope", "scope.channel": "Channel {n}", "scope.source": "P12290", "scope.period": "Period, ms", "scope.samples": "Samples", "scope.level": "Trigger level", "scope.mode": "Trigger", "scope.free": "free run", "scope.auto": "auto", "scope.normal": "normal", "scope.single": "single",
+  "scope.title": "Scope", "scope.channel": "Source of channel {n}", "scope.scale": "Scale of channel {n}, units/div", "scope.offset": "Offset of channel {n}", "scope.source": "P12290", "scope.sweep": "Sweep, ms/div", "scope.period": "Sampling, ms",
+  "scope.index": "INDEX", "scope.index.text": "The axis moves now: {move}. Is its path free?", "scope.profile": "Index profile", "scope.autoscale": "AUTOSCALE", "scope.range": "Ten divisions have 10 to {most} samples: change sweep or sampling", "scope.divisions": "divisions", "scope.level": "Trigger level", "scope.mode": "Trigger", "scope.free": "free run", "scope.auto": "auto", "scope.normal": "normal", "scope.single": "single",
   "scope.slope": "Edge", "scope.rising": "rising", "scope.falling": "falling", "scope.start": "START", "scope.stop": "STOP SCOPE", "scope.armed": "Armed", "scope.read": "{count} samples", "scope.stopped": "Stopped at {count} samples",
-  "gain.title": "Gain", "gain.warning": "A gain acts on the servo loop the moment it is entered.", "gain.store": "keep it in the parameters of the machine", "gain.enter": "ENTER", "gain.done": "{gain} is {value}",
+  "gain.title": "Gain", "gain.warning": "A gain acts on the servo loop the moment it is entered.", "gain.store": "keep it in the parameters of the machine", "gain.enter": "ENTER", "gain.done": "{gain} is {value}", "gain.later": "{gain} is {value}; it is stored once the machine rests",
   "board.title": "Board parameters", "board.search": "Name or number", "board.number": "Number", "board.name": "Name", "board.value": "Value", "board.doc": "Meaning", "board.written": "P{number} is {value}",
   "pparm.title": "P parameters", "pparm.done": "P{n} is {value}", "servo.title": "Servo loop", "cpu.title": "CPU load", "fast.title": "Fast status", "memory.title": "Memory configuration",
   "views.title": "Setup screen", "views.block": "Block", "views.save": "SAVE VIEW", "views.saved": "The views are saved", "help.title": "Help", "help.text": "Choose a key on the left.", "help.none": "There is no page on this key.",
@@ -93,6 +94,12 @@ const ON_CARD = {
   "loop.current": "Position", "loop.gear": "Gear offset", "loop.jog": "Jog offset", "loop.cam": "Cam offset", "loop.backlash": "Backlash", "loop.ballscrew": "Ballscrew", "loop.primary": "Primary setp.", "loop.secondary": "Second. setp.", "loop.actual": "Actual pos.",
   "loop.error": "Follow. error", "loop.p": "Proportional, V", "loop.i": "Integral, V", "loop.d": "Derivative, V", "loop.ffvel": "Feedforward v, V", "loop.ffacc": "Feedforward a, V", "loop.fbvel": "Feedback v, V",
   "loop.sum": "Sum, V", "loop.filter0": "Filter 0", "loop.filter1": "Filter 1", "loop.filtered": "Filtered, V", "loop.limits": "Torque limits, V", "loop.output": "Output, V",
+
+const CARD = {
+  "cpu.foreground": "Servo interrupt", "cpu.background": "Left for programs", "memory.warning": "Only experienced personnel. A change loses all programs, PLC programs and variables on the card.", "memory.save": "SAVE AND CLEAR THE CARD",
+  "memory.lost": "All programs, PLC programs and variables that are stored on the card are lost. The machine is set up again.", "memory.bytes": "bytes", "memory.free": "Free: {free} bytes", "memory.number": "{name}: a whole number of bytes", "memory.done": "The memory of the card is divided anew",
+
+export default {  };
 };
 
 const ACCESS = {
@@ -102,4 +109,8 @@ const ACCESS = {
   "login.title": "Log in", "login.role": "Role", "login.password": "Password", "login.go": "LOG IN",
 };
 
-export default { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE, ...ON_CARD, ...ACCESS };
+
+
+
+
+export default { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE, ...ON_CARD, ...ACCESS, ...CARD };

@@ -41,6 +41,7 @@ export class Model {
     this.status = new Signal(/** @type {import("./frames.js").Status | null} */ (null));
     this.flags = new Signal(/** @type {Map<number, number>} */ (new Map()));
     this.watched = new Signal(/** @type {[number, number][]} */ ([]));
+    this.capture = new Signal(/** @type {{ running: boolean, trigger?: number | null }} */ ({ running: false }));
     this.scope = new Signal(/** @type {ReturnType<typeof readScope> | null} */ (null));
     this.isStale = new Signal(true);
     /** Card time of the last status drawn on the screen, ms; motion is asked for with it. */
@@ -68,6 +69,7 @@ export class Model {
     const { event, ...rest } = message;
     if (event === "say") this.says.set([...this.says.value, rest].slice(-PRINTED));
     else if (event === "says") this.says.set(rest.lines);
+    else if (event === "scope") this.capture.set(rest);
     else if (event === "jog") this.jogEnded.set(rest);
     else if (event === "term") this.term.set(rest.text);
     else if (event === "listen") this.listened.set(rest);

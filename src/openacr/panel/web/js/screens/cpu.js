@@ -1,5 +1,41 @@
-// CPU LOAD: how busy the card is.
-import { queryScreen } from "../frame/query_screen.js";
+// CPU LOAD: how busy the processor of the card is, in per cent.
+import { CommandError } from "../core/link.js";
+import { link, refuse } from "../core/app.js";
+import { fill, h } from "../core/dom.js";
+import { t } from "../core/texts.js";
+
+const EVERY_MS = 1000;
+const SHARE = /^(\w+) ([\d.]+)%$/;
 
 /** @type {import("../frame/screen_host.js").Screen} */
-export const screen = queryScreen(["CPU"], "cpu.title");
+export const screen = {
+  title: "cpu.title",
+  area: "full",
+  async show({ body, endings }) {
+    const host = h("div.stack", { role: "status" });
+    body.append(host);
+    const ask = async () => {
+      try {
+        const { lines } = await link.command("card.query", { line: "CPU" });
+        fill(host, ...lines.map(rowOf));
+      } catch (error) {
+        if (!(error instanceof CommandError)) throw error;
+        refuse(error);
+      }
+    };
+    await ask();
+    const timer = setInterval(ask, EVERY_MS);
+    endings.add(() => clearInterval(timer));
+  },
+};
+
+/**
+ * "Foreground 29.0%": the servo interrupt; "Background": what programs have left.
+ * @param {string} line
+ */
+function rowOf(line) {
+  const found = SHARE.exec(line);
+  if (!found) return h("p", {}, line);
+  const label = t(found[1] === "Foreground" ? "cpu.foreground" : "cpu.background");
+  return h("label.cpu-row", {}, h("span", {}, label), h("meter", { min: 0, max: 100, value: Number(found[2]) }), h("strong.number", {}, `${found[2]} %`));
+}

@@ -37,7 +37,7 @@ function rowOf(axis, row, store) {
     const answer = await give("gain.set", { axis: axis.name, gain: row.name, value: Number(field.value.replace(",", ".")), store: store.checked });
     if (!answer) return;
     field.value = String(answer.value);
-    report(t("gain.done", { gain: row.name, value: answer.value }));
+    report(t(store.checked && !answer.is_stored ? "gain.later" : "gain.done", { gain: row.name, value: answer.value }));
   };
   return h("form.gain-row", { onsubmit: enter }, h("label", { htmlFor: field.id, title: row.help }, row.name), field, h("span.unit", {}, row.unit), h("button.key", { type: "submit" }, t("gain.enter")));
 }

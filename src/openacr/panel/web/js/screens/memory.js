@@ -1,5 +1,61 @@
-// MEMORY CONFIG: what is free and how the memory of the card is divided.
-import { queryScreen } from "../frame/query_screen.js";
+// MEMORY CONFIG: the bytes of the card for each program and PLC program.
+import { give, link, refuse, report } from "../core/app.js";
+import { fill, h, setText } from "../core/dom.js";
+import { CommandError } from "../core/link.js";
+import { t } from "../core/texts.js";
+import { confirm } from "../frame/dialog.js";
+
+const AGAIN_MS = 1000;
 
 /** @type {import("../frame/screen_host.js").Screen} */
-export const screen = queryScreen(["MEM", "DIM"], "memory.title");
+export const screen = {
+  title: "memory.title",
+  area: "full",
+  async show({ body, endings, beforeClose }) {
+    const rows = h("div.memory-rows.grow.scroll", {});
+    const free = h("strong.grow", { role: "status" });
+    const saveKey = h("button.key.danger", { type: "button", disabled: true, onclick: save }, t("memory.save"));
+    body.append(h("div.notice", {}, t("memory.warning")), rows, h("div.row", {}, free, saveKey));
+    /** @type {{ name: string, input: HTMLInputElement, before: string }[]} */
+    let fields = [];
+    const changed = () => fields.filter(({ input, before }) => input.value.trim() !== before);
+
+    /** @param {{ sizes: Record<string, number>, free: number }} division */
+    function draw(division) {
+      fields = Object.entries(division.sizes).map(([name, size]) => ({ name, before: String(size), input: h("input.field.number", { id: `memory-${name}`, value: String(size), inputMode: "numeric", autocomplete: "off", oninput: follow }) }));
+      fill(rows, ...fields.map(({ name, input }) => h("div.memory-row", {}, h("label", { htmlFor: input.id }, name), input, h("span.unit", {}, t("memory.bytes")))));
+      setText(free, t("memory.free", { free: division.free }));
+      follow();
+    }
+    function follow() {
+      for (const { input, before } of fields) input.classList.toggle("is-changed", input.value.trim() !== before);
+      saveKey.disabled = !changed().length;
+    }
+    async function read() {
+      try {
+        draw(await link.command("memory.read"));
+      } catch (error) {
+        if (!(error instanceof CommandError)) throw error;
+        refuse(error);
+      }
+    }
+    async function save() {
+      const wrong = changed().find(({ input }) => !/^\d+$/.test(input.value.trim()));
+      if (wrong) {
+        refuse(t("memory.number", { name: wrong.name }));
+        wrong.input.focus();
+        return;
+      }
+      if (!(await confirm(t("memory.title"), t("memory.lost"), t("memory.save")))) return;
+      const sizes = Object.fromEntries(changed().map(({ name, input }) => [name, Number(input.value)]));
+      const division = await give("memory.set", { sizes, confirm: true });
+      if (!division) return;
+      draw(division);
+      report(t("memory.done"));
+    }
+    beforeClose(async () => !changed().length || confirm(t("form.leave"), t("form.leave.text", { count: changed().length }), t("form.drop")));
+    await read();
+    const timer = setInterval(() => fields.length || void read(), AGAIN_MS); // it is shown at rest only
+    endings.add(() => clearInterval(timer));
+  },
+};

@@ -1,82 +1,163 @@
-// SCOPE: four channels sampled by the card, with a trigger.
-import { give, link, model } from "../core/app.js";
+// SCOPE: four channels sampled by the card on ten by ten divisions, with a trigger and an index move.
+import { give, link, model, refuse } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
-import { plain } from "../core/format.js";
+import { keepSetting, setting } from "../core/settings.js";
 import { Endings } from "../core/signal.js";
 import { t } from "../core/texts.js";
-import { uPlot } from "../../vendor/uplot.js";
+import { confirm } from "../frame/dialog.js";
+import { mayMove } from "../motion/actions.js";
+import { Recording } from "../scope/recording.js";
+import { createScreen } from "../scope/screen.js";
 
 const CHANNELS = 4;
-const COLORS = ["#1f77b4", "#e07b00", "#2ca02c", "#d62758"];
+const DIVISIONS = 10;
+const MOST = 100000; // samples of one sweep
+const PROFILE = "ACC 500\nDEC 500\nSTP 500\nJRK 0\nF500\nRES X\nX15";
+const SOURCES = ["P12291", "P12290", "P12295", ""];
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: "scope.title",
   area: "full",
+  mode: "manual",
   show({ body, head, endings }) {
-    const sources = Array.from({ length: CHANNELS }, (_each, n) => h("input.field.grow", { ariaLabel: t("scope.channel", { n: n + 1 }), placeholder: t("scope.source"), value: ["P12290", "P12291", "P12295", ""][n], autocomplete: "off", spellcheck: false }));
-    const period = numberField(t("scope.period"), "1");
-    const samples = numberField(t("scope.samples"), "2000");
-    const level = numberField(t("scope.level"), "0");
+    const channels = Array.from({ length: CHANNELS }, (_each, n) => ({
+      source: textField(t("scope.channel", { n: n + 1 }), `scope.source${n}`, SOURCES[n]),
+      scale: numberField(t("scope.scale", { n: n + 1 }), `scope.scale${n}`, "50"),
+      offset: numberField(t("scope.offset", { n: n + 1 }), `scope.offset${n}`, "0"),
+    }));
+    const sweep = numberField(t("scope.sweep"), "scope.sweep", "200");
+    const period = numberField(t("scope.period"), "scope.period", "5");
+    const level = numberField(t("scope.level"), "scope.level", "0");
     const mode = selectField(t("scope.mode"), ["free", "auto", "normal", "single"]);
     const slope = selectField(t("scope.slope"), ["rising", "falling"]);
+    const profile = h("textarea.field.mono", { ariaLabel: t("scope.profile"), value: setting("scope.profile", PROFILE), spellcheck: false, rows: 7 });
     const state = h("span.hint.grow", { role: "status" });
     const chart = h("div.scope-chart.grow", {});
-    /** @type {number[][]} */
-    let data = [[]];
+    const recording = new Recording();
     const run = new Endings();
     endings.add(() => run.end(), () => void (link.isOpen.value && link.command("scope.stop").catch(() => {})));
-    head.append(h("button.key.main", { type: "button", onclick: () => arm() }, t("scope.start")), h("button.key", { type: "button", onclick: () => stop() }, t("scope.stop")));
-    body.append(h("div.scope-settings", {}, ...sources.map((each, n) => {
-      const mark = h("i.scope-mark", {});
-      mark.style.background = COLORS[n];
-      return h("label.row", {}, mark, h("strong", {}, String(n + 1)), each);
-    }), period.label, samples.label, mode.label, slope.label, level.label), chart, state);
-    const plot = new uPlot(options(chart), /** @type {any} */ (data), chart);
-    const sizes = new ResizeObserver(() => plot.setSize({ width: chart.clientWidth, height: Math.max(120, chart.clientHeight - 34) }));
-    sizes.observe(chart);
-    endings.add(() => sizes.disconnect(), () => plot.destroy(), model.scope.watch((piece) => {
-      if (!piece || !run.list.length) return;
-      if (piece.first === 0) data = [[], ...piece.channels.map(() => [])];
-      for (let n = 0; n < piece.channels[0].length; n++) data[0].push((piece.first + n) * piece.period);
-      piece.channels.forEach((channel, n) => data[n + 1].push(...channel));
-      plot.setData(/** @type {any} */ (data));
-      setText(state, t("scope.read", { count: data[0].length }));
-    }));
+    head.append(key("scope.start", () => arm(null), "main"), key("scope.index", index, "danger"), key("scope.stop", stop), key("scope.autoscale", autoscale));
+    body.append(h("div.scope-side.scroll", {},
+      ...channels.map((each, n) => h("div.scope-channel", { data: { channel: String(n + 1) } }, h("strong", {}, String(n + 1)), each.source, each.scale, each.offset)),
+      h("div.scope-settings", {}, row(t("scope.sweep"), sweep), row(t("scope.period"), period), row(t("scope.mode"), mode), row(t("scope.slope"), slope), row(t("scope.level"), level)),
+      h("label.stack", {}, t("scope.profile"), profile)), h("div.stack.grow", {}, chart, state));
+    body.classList.add("is-scope");
+    const screenOf = createScreen(chart, endings);
+    const draw = () => screenOf.draw(recording, channels.map(({ scale, offset }) => ({ scale: numberOf(scale) || 1, offset: numberOf(offset) })), numberOf(sweep));
+    for (const { scale, offset } of channels) for (const field of [scale, offset]) field.addEventListener("input", draw);
+    endings.add(
+      model.scope.watch((piece) => {
+        if (!piece || !run.list.length) return;
+        recording.add(piece);
+        setText(state, t("scope.read", { count: recording.count }));
+        draw();
+      }),
+      model.capture.watch((capture) => {
+        recording.note(capture);
+        if (run.list.length) draw();
+      }),
+    );
+    draw();
 
-    async function arm() {
+    /** Values of the fields, or null where one is wrong. */
+    function settings() {
+      for (const field of body.querySelectorAll("input[data-setting]")) keepSetting(/** @type {any} */ (field).dataset.setting, /** @type {any} */ (field).value);
+      const asked = channels.map(({ source }) => source.value.trim()).filter(Boolean);
+      const [sweepMs, periodMs] = [numberOf(sweep), numberOf(period)];
+      const samples = Math.round((DIVISIONS * sweepMs) / periodMs);
+      if (!(sweepMs > 0) || !(periodMs > 0) || samples < 10 || samples > MOST) {
+        refuse(t("scope.range", { most: MOST }));
+        return null;
+      }
+      return { channels: asked.map((text) => (/^P?\d+$/i.test(text) ? Number(text.replace(/^P/i, "")) : text)), period_ms: periodMs, samples };
+    }
+
+    /** @param {string | null} text a profile that is run and recorded, or null */
+    async function arm(text) {
+      const chosen = settings();
+      if (!chosen) return;
       run.end();
-      const channels = sources.map((each) => each.value.trim()).filter(Boolean).map((text) => (/^P?\d+$/i.test(text) ? Number(text.replace(/^P/i, "")) : text));
-      const trigger = mode.field.value === "free" ? null : { channel: 0, level: Number(level.field.value), slope: slope.field.value === "rising" ? 1 : -1, mode: mode.field.value, before: 0.1 };
-      data = [[], ...channels.map(() => [])];
-      while (plot.series.length > 1) plot.delSeries(1);
-      channels.forEach((each, n) => plot.addSeries({ label: typeof each === "number" ? `P${each}` : each, stroke: COLORS[n], width: 1.6, value: (_plot, value) => (value === null ? "\u2013" : plain(value, 4)) }));
+      const free = text !== null || mode.value === "free";
+      const trigger = free ? null : { channel: 0, level: numberOf(level), slope: slope.value === "rising" ? 1 : -1, mode: mode.value, before: 0.1 };
+      recording.begin(chosen.channels.length, chosen.samples, trigger, text !== null);
       run.add(link.subscribe({ topic: "scope", hz: 10 }));
-      const done = await give("scope.arm", { channels, period_ms: Number(period.field.value), samples: Number(samples.field.value), trigger });
+      const done = text === null ? await give("scope.arm", { ...chosen, trigger }) : await give("scope.index", { ...chosen, profile: text });
       setText(state, done ? t("scope.armed") : "");
+      draw();
+    }
+
+    async function index() {
+      keepSetting("scope.profile", profile.value);
+      if (!mayMove() || !(await confirm(t("scope.index"), t("scope.index.text", { move: profile.value.trim().split("\n").at(-1) ?? "" }), t("scope.index")))) return;
+      await arm(profile.value);
     }
 
     async function stop() {
+      run.end(); // samples under way change nothing any more
       await give("scope.stop");
-      setText(state, t("scope.stopped", { count: data[0].length }));
+      setText(state, t("scope.stopped", { count: recording.count }));
+    }
+
+    /** Scales of 1, 2 or 5 that show each channel whole, with its middle in the middle. */
+    function autoscale() {
+      recording.window().channels.forEach((values, n) => {
+        const seen = values.filter((value) => value !== null);
+        if (!seen.length) return;
+        const [low, high] = seen.reduce(([least, most], value) => [Math.min(least, value), Math.max(most, value)], [Infinity, -Infinity]);
+        const wanted = Math.max((high - low) / (DIVISIONS - 2), 1e-9);
+        const decade = 10 ** Math.floor(Math.log10(wanted));
+        const step = decade * ([1, 2, 5].find((each) => each * decade >= wanted) ?? 10);
+        channels[n].scale.value = String(Number(step.toPrecision(3)));
+        channels[n].offset.value = String(Number((Math.round((low + high) / 2 / step) * step).toPrecision(9)));
+      });
+      draw();
     }
   },
 };
 
-/** @param {HTMLElement} chart */
-function options(chart) {
-  const style = getComputedStyle(chart);
-  const axis = { stroke: style.color, grid: { stroke: style.borderColor, width: 1 }, ticks: { stroke: style.borderColor } };
-  return { width: Math.max(200, chart.clientWidth), height: 240, scales: { x: { time: false } }, axes: [{ ...axis, label: "s" }, { ...axis, size: 84 }], series: [{ label: "s" }] };
+/** @param {HTMLInputElement} field */
+function numberOf(field) {
+  return Number(field.value.replace(",", "."));
+}
+
+/**
+ * @param {import("../core/texts.js").TextKey} text
+ * @param {() => void} onclick
+ * @param {string} [kind]
+ */
+function key(text, onclick, kind = "") {
+  return h("button.key", { type: "button", className: `key ${kind}`, onclick }, t(text));
 }
 
 /**
  * @param {string} label
+ * @param {HTMLElement} field
+ */
+function row(label, field) {
+  return h("label.row", {}, h("span.grow", {}, label), field);
+}
+
+/**
+ * @param {string} label
+ * @param {string} name
  * @param {string} value
  */
-function numberField(label, value) {
-  const field = h("input.field.number", { value, inputMode: "decimal", autocomplete: "off" });
-  return { field, label: h("label.row", {}, h("span.grow", {}, label), field) };
+function textField(label, name, value) {
+  return h("input.field", { ariaLabel: label, title: label, placeholder: t("scope.source"), value: setting(name, value), autocomplete: "off", spellcheck: false, data: { setting: name } });
+}
+
+/**
+ * @param {string} label
+ * @param {string} name
+ * @param {string} value
+ */
+function numberField(label, name, value) {
+  const field = textField(label, name, value);
+  field.classList.add("number");
+  field.inputMode = "decimal";
+  field.placeholder = "";
+  return field;
 }
 
 /**
@@ -84,6 +165,5 @@ function numberField(label, value) {
  * @param {string[]} values
  */
 function selectField(label, values) {
-  const field = h("select.field", {}, ...values.map((value) => h("option", { value }, t(/** @type {any} */ (`scope.${value}`)))));
-  return { field, label: h("label.row", {}, h("span.grow", {}, label), field) };
+  return h("select.field", { ariaLabel: label }, ...values.map((value) => h("option", { value }, t(/** @type {any} */ (`scope.${value}`)))));
 }

@@ -1,0 +1,121 @@
+"""MEMORY CONFIG: how the memory of the card is divided among its programs."""
+
+import re
+from dataclasses import dataclass
+from typing import Annotated
+
+from msgspec import Meta
+
+from openacr.client import Card, Level
+from openacr.errors import UserError
+from openacr.map import numbers as n
+from openacr.panel.commands.registry import Args, NoArgs, command
+from openacr.panel.control.orders import Order
+from openacr.panel.control.presses import End
+from openacr.panel.control.station import Station
+from openacr.panel.roles import Role
+
+DIMENSION = re.compile(r"DIM ((?:PROG|PLC)\d+)\((\d+)\)")
+SHARED = frozenset(f"PROG{number}" for number in range(8))  # these have a share without DIM
+Bytes = Annotated[int, Meta(ge=0, le=1 << 24)]
+
+
+class Division(Args, frozen=True):
+    """Bytes of every program and PLC program by name, PROG0 or PLC3; 0: none."""
+
+    sizes: dict[str, Bytes]
+    confirm: bool = False
+
+
+def _names(station: Station) -> list[str]:
+    model = station.machine.runner.settings.model
+    programs = [f"PROG{number}" for number in range(model.programs)]
+    return programs + [f"PLC{number}" for number in range(model.plcs)]
+
+
+def _require_rest(station: Station) -> None:
+    if station.machine.runner.is_busy:
+        raise UserError("the machine moves: the memory is shown and changed at rest only")
+
+
+def _running(station: Station) -> list[str]:
+    """What runs on the card beside the programs of this machine."""
+    session = station.machine
+    settings = session.runner.settings
+    own = {f"PROG{settings.master}", f"PROG{settings.watchdog_program}"}
+    model = settings.model
+    words = [n.PF_WORD + number for number in range(model.programs)]
+    words += [n.PLF_WORD + number for number in range(model.plcs)]
+    found = zip(_names(station), session.machine.read_rows(words), strict=True)
+    return [name for name, word in found if int(word) & n.PF_PROGRAM_RUNNING and name not in own]
+
+
+def _divided(card: Card) -> dict[str, int]:
+    lines = card.command("DIM")
+    return {name: int(size) for name, size in DIMENSION.findall("\n".join(lines))}
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """How the memory of the card is divided, what is free, and which programs run."""
+
+    sizes: dict[str, int]
+    free: int
+    running: list[str]
+
+    def data(self) -> dict[str, object]:
+        """As the screen gets it."""
+        return {"sizes": self.sizes, "free": self.free, "running": self.running}
+
+
+def _found(station: Station) -> Found:
+    _require_rest(station)
+    card = station.machine.card
+    card.go(Level())
+    found = _divided(card)
+    free = int(card.command("MEM")[0])
+    return Found({name: found.get(name, 0) for name in _names(station)}, free, _running(station))
+
+
+@command("memory.read", Role.SETUP, needs_control=False)
+def read(station: Station, order: Order, args: NoArgs) -> dict[str, object]:
+    """Read the bytes of every program and PLC program, and those that are free."""
+    return _found(station).data()
+
+
+@command("memory.set", Role.SERVICE)
+def divide(station: Station, order: Order, args: Division) -> dict[str, object]:
+    """Divide the memory of the card anew; what is stored in its programs is lost."""
+    before = _found(station)
+    _check(args, before)
+    wanted = {**before.sizes, **args.sizes}
+    station.hand_motion.presses.end_all(End.MODE, "the memory of the card is divided")
+    station.close()
+    try:
+        with Card.open(station.installation.target) as card:
+            for line in ("SYS", "HALT ALL", "NEW ALL", "CLEAR"):
+                card.command(line)
+            for name, size in wanted.items():
+                if size:
+                    card.command(f"DIM {name}({size})")
+    finally:
+        station.open(station.now_s)
+    return _found(station).data()
+
+
+def _check(args: Division, before: Found) -> None:
+    """Refuse what is not possible before anything is lost."""
+    if before.running:
+        names = " and ".join(before.running)
+        raise UserError(f"{names} of the card: running; halt it first")
+    for name, size in args.sizes.items():
+        if name not in before.sizes:
+            raise UserError(f"{name}: the card has {', '.join(before.sizes)}")
+        if not size and name in SHARED:
+            raise UserError(f"{name} cannot be without memory: 1 byte at least")
+    most = before.free + sum(before.sizes.values())
+    total = sum({**before.sizes, **args.sizes}.values())
+    if total > most:
+        raise UserError(f"{total} bytes in all: the card has {most}")
+    if not args.confirm:
+        raise UserError("programs, PLC programs and variables on the card are lost: confirm it")

@@ -1,0 +1,361 @@
+"""The screens of DIAGNOSTICS on a running virtual mill."""
+
+import re
+from collections.abc import Callable, Iterator
+from functools import partial
+
+import pytest
+from playwright.sync_api import Page, expect
+from tests.panel.bench import Served
+from tests.panel.browser.conftest import give, until_model
+
+from openacr.client import Level
+from openacr.map import parameters
+from openacr.panel.control.station import Station
+from openacr.sysvar.tabs import CONTROL, OFFSETS
+
+SHOW = "(name) => import('/js/frame/menu_bar.js').then(({ openMenu }) => openMenu(name))"
+LISTED = """() => [...document.querySelectorAll('#screen tbody tr')].map((row) =>
+  [row.cells[0].textContent, row.cells[1].textContent, row.cells[2].querySelector('strong').textContent])"""  # noqa: E501
+
+
+def open_diagnostics(page: Page, key: int, screen: str) -> None:
+    page.evaluate(SHOW, "diagnostics")
+    page.keyboard.press(f"F{key}")
+    page.wait_for_selector(f"#screen[data-screen={screen}]:not([hidden]) .screen-body > *")
+
+
+def at_rest(page: Page, served: Served) -> None:
+    until_model(page, "!model.state.value.busy")
+    until(page, lambda: not served.call(lambda station: station.machine.runner.is_busy))
+
+
+def until(page: Page, holds: Callable[[], bool]) -> None:
+    """Wait for something outside the browser; the test runs into its time-out otherwise."""
+    while not holds():
+        page.wait_for_timeout(50)
+
+
+@pytest.fixture
+def running(page: Page, served: Served) -> Iterator[Page]:
+    """The workspace while X moves slowly."""
+    give(page, "mdi.execute", line="G21 G91 G1 X60 F60")
+    until_model(page, "model.state.value.state === 'RUN'")
+    yield page
+    give(page, "stop.all")
+    at_rest(page, served)
+
+
+def state_of(page: Page, bit: int) -> str:
+    return str(page.locator(f"#screen [data-bit='{bit}'] .io-state").text_content())
+
+
+@pytest.mark.req("MILL-DIAG-IO", "MILL-DIAG-IO-COUNT")
+def test_io_status_shows_every_input_and_output_live(page: Page, served: Served) -> None:
+    """Of the ACR2000 with its 16 see test_diagnostics of the server; here 32 and two modules."""
+    store = served.panel.installation.store
+    store.write_text(OFFSETS.input_name[3], "Door closed")
+    open_diagnostics(page, 1, "io")
+    rows = page.locator("#screen .io-row")
+    expect(rows).to_have_count(64)
+    bits = [int(str(row.get_attribute("data-bit"))) for row in rows.all()]
+    assert bits == [*range(64)]
+    expect(page.locator("#screen [data-bit='3'] .io-name")).to_have_text("Door closed")
+    for bit in (40, 63):
+        for text, on in (("on", True), ("off", False)):
+            served.call(partial(_switch, bit=bit, on=on))
+            expect(page.locator(f"#screen [data-bit='{bit}'] .io-state")).to_have_text(text)
+            lamp = page.locator(f"#screen [data-bit='{bit}'] .lamp.is-on")
+            expect(lamp).to_have_count(int(on))
+    inputs = served.call(lambda station: int(station.machine.card.read(4096)))
+    expect(page.locator("#screen [data-bit='0'] .io-state")).to_have_text(
+        "on" if inputs & 1 else "off"
+    )
+    store.write(CONTROL.io_expansion_modules, 2)
+    expect(rows).to_have_count(64 + 2 * 64, timeout=20_000)
+    bits = [int(str(row.get_attribute("data-bit"))) for row in rows.all()]
+    assert bits == [
+        *range(32), *range(256, 288), *range(320, 352),
+        *range(32, 64), *range(288, 320), *range(352, 384),
+    ]  # fmt: skip
+    store.write(CONTROL.io_expansion_modules, 0)
+    expect(rows).to_have_count(64)
+    until_model(page, "model.status.value.machine.length === 3")
+
+
+@pytest.mark.req("MILL-DIAG-TERM", "MILL-DIAG-TERM-RUN")
+def test_the_terminal_sends_lines_as_they_are_also_while_a_program_runs(
+    page: Page, served: Served
+) -> None:
+    served.call(lambda station: station.machine.card.write(3, 41.5))
+    open_diagnostics(page, 2, "terminal")
+    text = page.locator("#screen .xterm-rows")
+    line = page.get_by_label("Line for the card")
+    line.fill("?P3")
+    line.press("Enter")
+    expect(text).to_contain_text("41.5")
+    give(page, "mdi.execute", line="G21 G91 G1 X60 F60")
+    until_model(page, "model.state.value.state === 'RUN'")
+    served.call(lambda station: station.machine.card.write(3, 42.25))
+    line.fill("?P3")
+    line.press("Enter")
+    expect(text).to_contain_text("42.25")
+    assert served.call(lambda station: station.machine.runner.is_busy)
+    give(page, "stop.all")
+    at_rest(page, served)
+
+
+# --- scope ----------------------------------------------------------------------------
+
+
+def fill(page: Page, values: dict[str, str]) -> None:
+    for label, value in values.items():
+        page.get_by_label(label, exact=True).fill(value)
+
+
+@pytest.mark.req("MILL-OV-SCOPE4", "MILL-DIAG-SCOPE-CH", "MILL-DIAG-SCOPE-TIME")
+def test_the_scope_shows_four_channels_while_the_machine_moves(running: Page) -> None:
+    page = running
+    open_diagnostics(page, 3, "scope")
+    for n, (source, scale, offset) in enumerate(
+        [
+            ("P12288", "1000", "0"), ("P12290", "500", "200"), ("P12291", "2", "-1"),
+            ("P12295", "5", "0"),
+        ],
+        1,
+    ):  # fmt: skip
+        fill(page, {
+            f"Source of channel {n}": source, f"Scale of channel {n}, units/div": scale,
+            f"Offset of channel {n}": offset,
+        })  # fmt: skip
+    fill(page, {"Sweep, ms/div": "50", "Sampling, ms": "5"})
+    page.locator("#screen").get_by_role("button", name="START", exact=True).click()
+    expect(page.locator("#screen .scope-chart .u-series")).to_have_count(5)
+    state = page.locator("#screen .hint[role=status]")
+    expect(state).to_have_text(re.compile(r"^[1-9]\d* samples$"))
+    first = str(state.text_content())
+    expect(state).not_to_have_text(first)  # it goes on
+    shown = page.evaluate(
+        "() => import('/js/scope/screen.js').then((module) => module.shown.value)"
+    )
+    assert shown["x"] == [0, 500]  # ten divisions of 50 ms
+    assert shown["y"] == [-5, 5]
+    assert len(shown["channels"]) == 4
+    times = shown["times"]
+    assert all(abs(t - 5.0 * k) < 1e-6 for k, t in enumerate(times))
+    assert len(times) <= 100  # 500 ms at 5 ms
+    page.get_by_label("Offset of channel 2", exact=True).fill("0")
+    page.get_by_role("button", name="STOP SCOPE").click()
+    expect(state).to_have_text(re.compile(r"^Stopped at \d+ samples$"))
+    fill(page, {"Sweep, ms/div": "0"})
+    page.locator("#screen").get_by_role("button", name="START", exact=True).click()
+    expect(page.locator("#prompt")).to_have_text(
+        "⚠ Ten divisions have 10 to 100000 samples: change sweep or sampling"
+    )
+
+
+@pytest.mark.req("MILL-DIAG-SCOPE-INDEX")
+def test_the_scope_runs_an_index_profile_and_records_it_from_its_start(
+    page: Page, served: Served
+) -> None:
+    at_rest(page, served)
+    open_diagnostics(page, 3, "scope")
+    fill(page, {
+        "Source of channel 1": "P12290", "Source of channel 2": "", "Source of channel 3": "",
+        "Source of channel 4": "", "Scale of channel 1, units/div": "1000",
+        "Sweep, ms/div": "100", "Sampling, ms": "5",
+        "Index profile": "ACC 500\nDEC 500\nSTP 500\nJRK 0\nF600\nRES X\nX5",
+    })  # fmt: skip
+    before = served.call(lambda station: station.machine.runner.stream.host.position()[0])
+    page.get_by_role("button", name="INDEX", exact=True).click()
+    dialog = page.get_by_role("dialog", name="INDEX")
+    expect(dialog.locator("p")).to_have_text("The axis moves now: X5. Is its path free?")
+    dialog.get_by_role("button", name="INDEX").click()
+    state = page.locator("#screen .hint[role=status]")
+    expect(state).to_have_text(re.compile(r"^([2-9]\d\d|\d{4,}) samples$"))  # 1 s and more
+    at_rest(page, served)
+    after = served.call(lambda station: station.machine.runner.stream.host.position()[0])
+    assert after - before == pytest.approx(5.0, abs=1e-6)
+    values = page.evaluate(
+        "() => import('/js/scope/screen.js').then((module) => module.shown.value.channels[0])"
+    )
+    assert len(values) == 200  # ten divisions of 100 ms, from the start
+    scale = served.call(lambda station: station.machine.runner.settings.named("X").pulses_per_unit)
+    assert (values[-1] - values[0]) * 1000.0 == pytest.approx(5.0 * scale, abs=3.0)
+    page.get_by_role("button", name="AUTOSCALE").click()
+    size = page.get_by_label("Scale of channel 1, units/div", exact=True).input_value()
+    assert float(size) * 8 >= 5.0 * scale
+    page.get_by_role("button", name="STOP SCOPE").click()
+
+
+# --- gains ----------------------------------------------------------------------------
+
+
+@pytest.mark.req("MILL-OV-TUNEHERE", "MILL-DIAG-GAIN", "MILL-DIAG-GAIN-ENTER")
+def test_gains_reach_the_running_card_at_enter_and_are_stored(
+    running: Page, served: Served
+) -> None:
+    page, store = running, served.panel.installation.store
+    axes = [a["name"] for a in page.evaluate(
+        "() => import('/js/core/app.js').then(({ model }) => model.axes)")]  # fmt: skip
+    kept, entered = {}, {}
+    open_diagnostics(page, 4, "gain")
+    assert page.locator("#screen [role=radio]").all_inner_texts() == axes
+    for axis in range(len(axes)):
+        page.locator("#screen [role=radio]").nth(axis).click()
+        for gain, name, value, offset in (
+            (0, "P Gain", round(0.003 + axis / 1e4, 9), 16),
+            (1, "I Gain", round(0.002 + axis / 1e4, 9), 17),
+        ):
+            cell = 150_000 + 1000 * axis + gain
+            number = 12288 + 256 * axis + offset
+
+            def on_card(number: int = number) -> float:
+                return float(served.call(lambda station: station.machine.card.read(number)))
+
+            before, kept[cell] = on_card(), store.read(cell)
+            field = page.locator(f"#gain-{cell}")
+            field.fill(str(value))
+            field.press("Tab")
+            assert on_card() == before  # typed, not entered
+            field.press("Enter")
+            expect(page.locator("#prompt")).to_have_text(
+                f"{name} is {value}; it is stored once the machine rests"
+            )
+            assert on_card() == pytest.approx(value, rel=1e-6)
+            assert store.read(cell) == kept[cell]
+            entered[cell] = value
+    assert served.call(lambda station: station.machine.runner.is_busy)
+    give(page, "stop.all")
+    at_rest(page, served)
+    until(page, lambda: {cell: store.read(cell) for cell in entered} == entered)
+    page.locator("#screen [role=radio]").first.click()
+    page.locator("#gain-150000").fill("999999")
+    page.locator("#gain-150000").press("Enter")
+    expect(page.locator("#prompt")).to_contain_text("cannot be 999999: a number from 0 to 10")
+    assert store.read(150_000) == 0.003
+    field = page.locator("#gain-150000")
+    field.fill("0.0025")
+    field.press("Enter")
+    expect(page.locator("#prompt")).to_have_text("P Gain is 0.0025")
+    assert store.read(150_000) == 0.0025
+
+
+# --- lists ----------------------------------------------------------------------------
+
+
+@pytest.mark.req("MILL-DIAG-PARAMS")
+def test_board_parameters_lists_every_parameter_with_its_value(page: Page, served: Served) -> None:
+    known = {f"P{p.number}": p.name for p in parameters().values()}
+    open_diagnostics(page, 5, "board")
+    place = page.locator("#screen .screen-head button", has_text=" of ")
+    total = len(known)
+    listed: dict[str, str] = {}
+    numbers = list(known)
+    for first in (0, 60, (total - 1) // 60 * 60):
+        expect(place).to_have_text(f"{first + 1}\u2013{min(total, first + 60)} of {total}")
+        expect(page.locator("#screen tbody strong").first).not_to_have_text("\u2013")
+        rows = page.evaluate(LISTED)
+        assert [number for number, _, _ in rows] == numbers[first : first + 60]
+        listed.update({number: name for number, name, _ in rows})
+        if first == 0:
+            page.get_by_role("button", name="NEXT", exact=True).click()
+        elif first == 60:
+            place.click()
+            page.locator("dialog .pad-value").fill(str(total))
+            page.keyboard.press("Enter")
+    assert listed == {number: known[number] for number in listed}
+    page.get_by_label("Name or number").fill("P12288")
+    expect(place).to_have_text("1\u20131 of 1")
+    value = page.locator("#screen tbody strong")
+    place_x = served.call(lambda station: station.machine.card.read(12288))
+    expect(value).to_have_text(str(int(place_x)))
+
+
+@pytest.mark.req("MILL-DIAG-CPU")
+def test_cpu_load_is_shown_in_per_cent_also_while_a_program_runs(
+    running: Page, served: Served
+) -> None:
+    page = running
+    lines = served.call(lambda station: station.machine.card.command("CPU"))
+    open_diagnostics(page, 7, "cpu")
+    shares = page.locator("#screen .cpu-row strong")
+    expect(shares).to_have_count(2)
+    wanted = [line.split()[1].replace("%", " %") for line in lines]
+    assert shares.all_inner_texts() == wanted
+    assert page.locator("#prompt").get_attribute("data-kind") != "error"
+    meters = page.locator("#screen meter").evaluate_all("(all) => all.map((each) => each.value)")
+    assert sum(meters) == pytest.approx(100.0)
+
+
+@pytest.mark.req("MILL-DIAG-FSTAT")
+def test_fast_status_shows_the_copies_of_the_card(page: Page, served: Served) -> None:
+    at_rest(page, served)
+    for line in ("FSTAT CLEAR", "FSTAT PERIOD 20", "FSTAT 0 (48,0,0)", "FSTAT ON"):
+        served.call(partial(_command, line=line))
+    rows = [p for p in parameters().values() if p.object == "FSTAT"]
+    open_diagnostics(page, 8, "fast")
+    live = page.locator("#screen .live")
+    expect(live).to_have_count(len(rows))
+    numbers = page.locator("#screen td.quiet").all_inner_texts()
+    assert numbers == [f"P{p.number}" for p in rows]
+    period = page.locator("#screen tr", has_text="FSTAT Period").locator(".live")
+    expect(period).to_have_text("20")
+
+
+@pytest.mark.req("MILL-DIAG-MEM", "MILL-DIAG-MEM-GUARD")
+def test_the_memory_is_divided_with_a_warning_and_not_while_a_program_runs(
+    page: Page, served: Served
+) -> None:
+    at_rest(page, served)
+    served.call(lambda station: station.machine.card.command("10 PRINT 1", program=1))
+    open_diagnostics(page, 9, "memory")
+    expect(page.locator("#screen .memory-row")).to_have_count(24)
+    labels = page.locator("#screen .memory-row label").all_inner_texts()
+    assert labels == [f"PROG{n}" for n in range(16)] + [f"PLC{n}" for n in range(8)]
+    field = page.locator("#memory-PROG1")
+    expect(field).to_have_value("65536")
+    expect(page.locator("#memory-PLC0")).to_have_value("0")
+    field.fill("many")
+    page.get_by_role("button", name="SAVE AND CLEAR THE CARD").click()
+    expect(page.locator("#prompt")).to_have_text("⚠ PROG1: a whole number of bytes")
+    field.fill("16384")
+    page.locator("#memory-PLC0").fill("2048")
+    give(page, "mdi.execute", line="G21 G91 G1 X30 F60")
+    until_model(page, "model.state.value.state === 'RUN'")
+    dialog = page.get_by_role("dialog", name="Memory configuration")
+    save = page.get_by_role("button", name="SAVE AND CLEAR THE CARD")
+    save.click()
+    expect(dialog.locator("p")).to_have_text(
+        "All programs, PLC programs and variables that are stored on the card are lost."
+        " The machine is set up again."
+    )
+    dialog.get_by_role("button", name="SAVE AND CLEAR THE CARD").click()
+    expect(page.locator("#prompt")).to_have_text(
+        "⚠ the machine moves: the memory is shown and changed at rest only"
+    )
+    give(page, "stop.all")
+    at_rest(page, served)
+    program = lambda station: station.machine.card.command("LIST", program=1)  # noqa: E731
+    assert served.call(program) == ["10 PRINT 1"]
+    save.click()
+    dialog.get_by_role("button", name="SAVE AND CLEAR THE CARD").click()
+    expect(page.locator("#prompt")).to_have_text("The memory of the card is divided anew")
+    expect(field).to_have_value("16384")
+    expect(page.locator("#memory-PLC0")).to_have_value("2048")
+    assert served.call(program) == []
+    lines = served.call(_dimensions)
+    assert {"DIM PROG1(16384)", "DIM PLC0(2048)"} <= set(lines)
+
+
+def _dimensions(station: Station) -> list[str]:
+    station.machine.card.go(Level())
+    return station.machine.card.command("DIM")
+
+
+def _switch(station: Station, *, bit: int, on: bool) -> None:
+    station.machine.card.write_bit(bit, on)
+
+
+def _command(station: Station, *, line: str) -> None:
+    station.machine.card.command(line)
