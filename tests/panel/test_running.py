@@ -209,8 +209,46 @@ def test_an_error_in_mdi_drops_the_blocks_after_it(hand: HandStation) -> None:
     hand.do("mdi.execute", lines=["G21 G90 G0 X5", "G1 Q8", "G0 X50"])
     hand.run(3.0)
     assert hand.station.snapshot.work[0] == 5.0
-    text = "Program error: MDI:1:4: E206 word has no meaning in this block: Q"
-    assert [alarm["text"] for alarm in hand.events("alarms")[-1]["active"]] == [text]
+    assert hand.said[-1] == "MDI:1:4: E206 word has no meaning in this block: Q"
+    assert hand.events("alarms")[-1]["active"] == []
+    assert hand.station.typed.data()["queue"] == []
+
+
+@pytest.mark.parametrize(
+    ("line", "text"),
+    [
+        ("G1 Q8", "MDI:1:4: E206 word has no meaning in this block: Q"),
+        ("G2 X5", "MDI:1:1: E231"),
+        ("G1 X5 F0", "MDI:1:7: E222"),
+    ],
+)
+def test_what_only_execution_finds_in_a_block_of_mdi_is_refused_without_an_alarm(
+    hand: HandStation, line: str, text: str
+) -> None:
+    before = hand.places()
+    assert text in hand.refused("mdi.execute", line=line)["text"]
+    hand.run(0.3)
+    assert (hand.places(), hand.state) == (before, "IDLE")
+    assert hand.events("alarms")[-1]["history"] == []
+    assert hand.do("mdi.buffer")["lines"] == []
+    hand.do("mdi.execute", line="G21 G90 G0 X5")
+    hand.until(lambda: not hand.is_busy)
+    hand.run(0.1)
+    assert hand.station.snapshot.work[0] == 5.0
+
+
+def test_a_position_is_set_to_a_value_in_the_unit_of_the_machine(hand: HandStation) -> None:
+    hand.do("mdi.execute", line="G20 G90 G0 X1")  # the unit of MDI is another one
+    hand.until(lambda: not hand.is_busy)
+    hand.run(0.1)
+    at = hand.places()
+    result = hand.do("zero.preset", values={"X": 12.5, "Z": -3.0})
+    assert (result["position"]["X"], result["position"]["Z"]) == (12.5, -3.0)
+    hand.run(0.1)
+    assert hand.station.snapshot.work[0] == 12.5
+    assert hand.station.snapshot.work[2] == -3.0
+    assert hand.places() == at
+    assert "axis Q is not configured" in hand.refused("zero.preset", values={"Q": 1.0})["text"]
 
 
 def test_stop_drops_the_blocks_that_wait(hand: HandStation) -> None:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from itertools import chain, repeat
+from itertools import chain, islice, repeat
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -312,9 +312,16 @@ class MillSession:
         return typed
 
     def start_block(self, typed: Mdi, block: str) -> None:
-        """Start one block of MDI; BlockError if it is invalid, UserError while the machine runs."""
+        """Start one block of MDI; BlockError if it is invalid, UserError while the machine runs.
+
+        It is executed up to its first entry before: what only execution finds (an arc without a
+        centre) is refused as well, and nothing moves.
+        """
+        self.runner.require_start()
         entries = _ended(typed.execute(block))
-        self.runner.run(partial(_given, entries), Options(is_mdi=True, is_repeated=False))
+        begun = list(islice(entries, 1))
+        options = Options(is_mdi=True, is_repeated=False)
+        self.runner.run(partial(_given, chain(begun, entries)), options)
 
     def jog(
         self, distances: Iterable[tuple[str, float]], attend: Callable[["MillSession"], None]

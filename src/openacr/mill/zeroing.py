@@ -24,10 +24,15 @@ def reader(shop: MillSession) -> Interpreter:
 
 def set_zero(shop: MillSession, axes: Iterable[int]) -> Point:
     """Set the floating zero of axes to their position (SET ZERO); returns the program position."""
+    return preset(shop, dict.fromkeys(axes, 0.0))
+
+
+def preset(shop: MillSession, values: dict[int, float]) -> Point:
+    """Set the floating zero so that axes read these values, in default units; as `set_zero`."""
     _require_rest(shop)
     run = reader(shop)
     with shop.cells.transaction():
-        preset_zero(run, dict.fromkeys(axes, 0.0))
+        preset_zero(run, values)
     return run.position
 
 

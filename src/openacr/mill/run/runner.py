@@ -185,6 +185,10 @@ class Runner:
         self._lifecycle.fire(Event.LOAD)
         self._times.restart()
 
+    def require_start(self) -> None:
+        """Require what starting a program needs: no active alarm, and nothing runs."""
+        self._require_idle(Event.LOAD)
+
     def home(self, axes: Sequence[int]) -> None:
         """Home axes in order of priority (HOME)."""
         self._make_ready(Event.HOME)

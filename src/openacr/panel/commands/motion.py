@@ -7,7 +7,7 @@ from msgspec import Meta
 
 from openacr.errors import UserError
 from openacr.mill.run.lifecycle import State
-from openacr.mill.zeroing import clear_all, goto_blocks, reader, set_zero
+from openacr.mill.zeroing import clear_all, goto_blocks, preset, reader, set_zero
 from openacr.panel.commands.registry import Args, NoArgs, command
 from openacr.panel.control.orders import Order
 from openacr.panel.control.presses import End, Key
@@ -51,6 +51,12 @@ class OfAxes(Args, frozen=True):
     """Names of axes; none: all of them."""
 
     axes: str = ""
+
+
+class Values(Args, frozen=True):
+    """What axes are to read, by name, in the unit of the machine."""
+
+    values: dict[str, Annotated[float, Meta(ge=-1e9, le=1e9)]]
 
 
 class Mode(Args, frozen=True):
@@ -152,6 +158,14 @@ def zero_set(station: Station, order: Order, args: OfAxes) -> dict[str, dict[str
     session = station.machine
     set_zero(session, indices(station, args.axes))
     return _position(station, reader(session).position)
+
+
+@command("zero.preset")
+def zero_preset(station: Station, order: Order, args: Values) -> dict[str, dict[str, float]]:
+    """Set the floating zero so that axes read these values where they are."""
+    settings = station.machine.runner.settings
+    values = {settings.named(name.upper()).index: value for name, value in args.values.items()}
+    return _position(station, preset(station.machine, values))
 
 
 @command("zero.clear")

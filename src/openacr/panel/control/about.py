@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from openacr.mill.config.readout import METRIC_MODE, Format
 from openacr.panel.control.installation import Installation
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import AXIS, CONTROL, DISPLAY, GENERAL
@@ -15,6 +16,8 @@ def machine_data(installation: Installation) -> dict[str, Any]:
         "name": installation.name,
         "card": installation.store.read_text(GENERAL.card_model),
         "unit": "mm" if installation.store.is_metric else "inch",
+        "shown": "mm" if installation.store.read(DISPLAY.control_mode) == METRIC_MODE else "inch",
+        "is_small": bool(installation.store.read(CONTROL.position_display)),
         "is_virtual": installation.is_virtual,
         "axes": axes(installation.store),
     }
@@ -23,7 +26,7 @@ def machine_data(installation: Installation) -> dict[str, Any]:
 def axes(store: Store) -> list[dict[str, Any]]:
     """The configured axes as the read-out shows them."""
     unit = "mm" if store.read(CONTROL.default_units) else "inch"
-    formats = DISPLAY.metric_format if unit == "mm" else DISPLAY.inch_format
+    formats = {"mm": DISPLAY.metric_format, "inch": DISPLAY.inch_format}
     found = []
     for index in range(8):
         if not store.read(AXIS.configured[index]):
@@ -35,7 +38,10 @@ def axes(store: Store) -> list[dict[str, Any]]:
                 "name": name,
                 "index": index,
                 "unit": "deg" if name in ROTARY else unit,
-                "decimals": round(10.0 * store.read(formats[index])) % 10,
+                "decimals": {
+                    each: Format.of(store.read(cells[index])).right
+                    for each, cells in formats.items()
+                },
                 "low": store.read(AXIS.minus_soft_limit[index]) if is_limited else None,
                 "high": store.read(AXIS.plus_soft_limit[index]) if is_limited else None,
                 "home_required": bool(store.read(AXIS.home_required[index])),

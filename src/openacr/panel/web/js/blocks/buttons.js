@@ -33,7 +33,9 @@ export function buttonsBlock(panel, endings) {
     key.querySelector(".lamp")?.classList.toggle("is-on", isLit);
     if (button.isToggle) key.ariaPressed = String(isLit);
   });
-  endings.add(() => endWords(), model.flags.watch(light), model.changed.watch(({ what, cells }) => (what === "" || (what === "forms" && cells.some((cell) => cell >= FIRST && cell < FIRST + 32 * STRIDE))) && void read()));
+  void read();
+  const isShown = (/** @type {number} */ cell) => cell >= FIRST && cell < FIRST + 32 * STRIDE;
+  endings.add(() => endWords(), model.flags.watch(light), model.changed.watch(({ what, cells }) => what === "forms" && cells.some(isShown) && void read()));
 }
 
 /** The buttons that have a caption; cells of each: caption, set bit, show bit, momentary or toggle. */

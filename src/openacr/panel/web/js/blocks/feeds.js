@@ -2,6 +2,7 @@
 import { model } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
 import { duration, plain } from "../core/format.js";
+import { lengthFactor, shownUnit } from "../core/units.js";
 import { t } from "../core/texts.js";
 
 /**
@@ -9,13 +10,13 @@ import { t } from "../core/texts.js";
  * @param {import("../core/signal.js").Endings} endings
  */
 export function feedsBlock(panel, endings) {
-  const { unit } = model.hello.value.machine;
+  const [unit, factor] = [shownUnit(), lengthFactor()];
   const perMinute = `${unit}/min`;
   const decimals = unit === "mm" ? 0 : 1;
   /** @type {[string, string, (status: import("../core/frames.js").Status) => string][]} */
   const rows = [
-    [t("feeds.actual"), perMinute, (status) => plain(status.feedActual, decimals)],
-    [t("feeds.set"), perMinute, (status) => plain(status.feedSet, decimals)],
+    [t("feeds.actual"), perMinute, (status) => plain(status.feedActual * factor, decimals)],
+    [t("feeds.set"), perMinute, (status) => plain(status.feedSet * factor, decimals)],
     [t("feeds.spindle"), t("feeds.rpm"), (status) => (model.is("spindle") ? plain(status.spindle) : t("feeds.off"))],
     [t("feeds.tool"), "", (status) => `T${status.tool}`],
     [t("feeds.coolant"), "", () => [model.is("flood") && t("feeds.flood"), model.is("mist") && t("feeds.mist")].filter(Boolean).join(" ") || t("feeds.off")],

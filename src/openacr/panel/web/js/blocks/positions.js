@@ -2,6 +2,7 @@
 import { model, refuse, report, give } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
 import { position } from "../core/format.js";
+import { chooseUnit, shownUnit, viewOf } from "../core/units.js";
 import { t } from "../core/texts.js";
 import { askNumber } from "../frame/number_pad.js";
 
@@ -12,10 +13,10 @@ const USED = 0.9; // share of the travel from which on a position is marked
  * @param {import("../core/signal.js").Endings} endings
  */
 export function positionBlock(panel, endings) {
-  const { axes } = model.hello.value.machine;
+  const { axes, is_small: isSmall } = model.hello.value.machine;
   const rows = axes.map((axis, n) => rowOf(axis, n));
-  panel.append(h("section.block.positions", { ariaLabel: t("block.position"), data: { axes: String(axes.length) } },
-    ...rows.map((row) => row.element)));
+  panel.append(h("section.block.positions", { ariaLabel: t("block.position"), data: { axes: String(axes.length), size: isSmall ? "small" : "big" } },
+    ...rows.map((row) => row.element), h("button.key.unit-key", { type: "button", title: t("units.switch"), onclick: () => chooseUnit(shownUnit() === "mm" ? "inch" : "mm") }, shownUnit() === "mm" ? "mm \u2192 inch" : "inch \u2192 mm")));
   endings.add(model.status.watch((status) => status && rows.forEach((row) => row.draw(status))));
   endings.add(model.state.watch((state) => rows.forEach((row) => row.home(state.homed ?? []))));
 }
@@ -25,7 +26,8 @@ export function positionBlock(panel, endings) {
  * @param {number} n
  */
 function rowOf(axis, n) {
-  const name = h("span.axis-name", {}, axis.name, h("small", {}, axis.unit));
+  const { unit, decimals, factor } = viewOf(axis);
+  const name = h("span.axis-name", {}, axis.name, h("small", {}, unit));
   const work = h("span.work-value.live", {}, "\u2013");
   const [machine, toGo] = [h("span.number.live", { title: t("position.machine") }), h("span.number.live", { title: t("position.togo") })];
   const sign = h("span.axis-sign", {});
@@ -38,9 +40,9 @@ function rowOf(axis, n) {
     element,
     /** @param {import("../core/frames.js").Status} status */
     draw(status) {
-      setText(work, position(status.work[n], axis.decimals));
-      setText(machine, position(status.machine[n], axis.decimals));
-      setText(toGo, position(status.toGo[n], axis.decimals));
+      setText(work, position(status.work[n] * factor, decimals));
+      setText(machine, position(status.machine[n] * factor, decimals));
+      setText(toGo, position(status.toGo[n] * factor, decimals));
       const isAtLimit = (status.limit >> n) & 1;
       const isMoving = (status.jogging >> n) & 1;
       element.classList.toggle("is-limit", Boolean(isAtLimit));
@@ -70,8 +72,9 @@ async function setWork(axis) {
     refuse(t("position.busy"));
     return;
   }
-  const value = await askNumber({ title: t("position.set", { axis: axis.name }), value: 0, unit: axis.unit, hint: t("position.hint") });
-  if (value !== null && (await give("mdi.execute", { line: `G92 ${axis.name}${value}` }))) report(t("position.done", { axis: axis.name }));
+  const { unit, factor } = viewOf(axis);
+  const value = await askNumber({ title: t("position.set", { axis: axis.name }), value: 0, unit, hint: t("position.hint") });
+  if (value !== null && (await give("zero.preset", { values: { [axis.name]: value / factor } }))) report(t("position.done", { axis: axis.name }));
 }
 
 /**
@@ -97,8 +100,8 @@ export function nextBlock(panel, endings) {
  * @param {(status: import("../core/frames.js").Status) => Float64Array} values
  */
 function simpleBlock(panel, endings, title, values) {
-  const cells = model.axes.map((axis) => ({ axis, value: h("span.number.live", {}, "\u2013") }));
+  const cells = model.axes.map((axis) => ({ axis, ...viewOf(axis), value: h("span.number.live", {}, "\u2013") }));
   panel.append(h("section.block", { ariaLabel: title }, h("h3", {}, title), h("div.simple-positions", {},
-    ...cells.map(({ axis, value }) => h("div.simple-row", {}, h("strong", {}, axis.name), value, h("span.quiet", {}, axis.unit))))));
-  endings.add(model.status.watch((status) => status && cells.forEach(({ axis, value }, n) => setText(value, position(values(status)[n], axis.decimals)))));
+    ...cells.map(({ axis, value, unit }) => h("div.simple-row", { data: { axis: axis.name } }, h("strong", {}, axis.name), value, h("span.quiet", {}, unit))))));
+  endings.add(model.status.watch((status) => status && cells.forEach(({ value, decimals, factor }, n) => setText(value, position(values(status)[n] * factor, decimals)))));
 }

@@ -96,7 +96,7 @@ const ON_CARD = {
   "loop.sum": "Summe, V", "loop.filter0": "Filter 0", "loop.filter1": "Filter 1", "loop.filtered": "Gefiltert, V", "loop.limits": "Drehmomentgrenzen, V", "loop.output": "Ausgang, V",
 
 const CARD = {
-  "cpu.foreground": "Servo-Interrupt", "cpu.background": "Für Programme übrig", "memory.warning": "Nur für erfahrenes Personal. Eine Änderung löscht alle Programme, SPS-Programme und Variablen der Karte.", "memory.save": "SPEICHERN UND KARTE LÖSCHEN",
+  "units.switch": "Anzeige zwischen mm und Zoll umschalten", "cpu.foreground": "Servo-Interrupt", "cpu.background": "Für Programme übrig", "memory.warning": "Nur für erfahrenes Personal. Eine Änderung löscht alle Programme, SPS-Programme und Variablen der Karte.", "memory.save": "SPEICHERN UND KARTE LÖSCHEN",
   "memory.lost": "Alle Programme, SPS-Programme und Variablen auf der Karte gehen verloren. Die Maschine wird neu eingerichtet.", "memory.bytes": "Byte", "memory.free": "Frei: {free} Byte", "memory.number": "{name}: eine ganze Zahl von Byte", "memory.done": "Der Speicher der Karte ist neu aufgeteilt",
 
 export default {  };

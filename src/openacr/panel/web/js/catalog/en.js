@@ -96,7 +96,7 @@ const ON_CARD = {
   "loop.sum": "Sum, V", "loop.filter0": "Filter 0", "loop.filter1": "Filter 1", "loop.filtered": "Filtered, V", "loop.limits": "Torque limits, V", "loop.output": "Output, V",
 
 const CARD = {
-  "cpu.foreground": "Servo interrupt", "cpu.background": "Left for programs", "memory.warning": "Only experienced personnel. A change loses all programs, PLC programs and variables on the card.", "memory.save": "SAVE AND CLEAR THE CARD",
+  "units.switch": "Switch the read-out between mm and inch", "cpu.foreground": "Servo interrupt", "cpu.background": "Left for programs", "memory.warning": "Only experienced personnel. A change loses all programs, PLC programs and variables on the card.", "memory.save": "SAVE AND CLEAR THE CARD",
   "memory.lost": "All programs, PLC programs and variables that are stored on the card are lost. The machine is set up again.", "memory.bytes": "bytes", "memory.free": "Free: {free} bytes", "memory.number": "{name}: a whole number of bytes", "memory.done": "The memory of the card is divided anew",
 
 export default {  };

@@ -4,6 +4,7 @@ import { model } from "../core/app.js";
 import { byId, h } from "../core/dom.js";
 import { keepSetting, setting } from "../core/settings.js";
 import { t } from "../core/texts.js";
+import { chosenUnit } from "../core/units.js";
 import { BLOCKS } from "../blocks/blocks.js";
 import { overrideStrip } from "../blocks/overrides.js";
 import { tabControl } from "./tabs.js";
@@ -33,10 +34,11 @@ export async function startStatus() {
   pane.append(overrideStrip(h("div.override-strip", {})));
   let names = "";
   model.hello.watch((hello) => {
-    const now = JSON.stringify(hello.machine.axes);
+    const now = JSON.stringify(hello.machine);
     if (now !== names) redraw(choose);
     names = now;
   });
+  chosenUnit.watch(() => redraw(choose));
   model.changed.watch(({ what, cells }) => what === "forms" && cells.some((cell) => cell >= FIRST_VIEW && cell < FIRST_VIEW + 3) && loadViews().then(() => redraw(choose)));
   await loadViews();
   redraw(choose);

@@ -3,6 +3,7 @@ import { give, model, refuse, report } from "../core/app.js";
 import { position } from "../core/format.js";
 import { forgetSettings } from "../core/settings.js";
 import { t } from "../core/texts.js";
+import { viewOf } from "../core/units.js";
 import { confirm } from "../frame/dialog.js";
 import { isReadOutVisible, openScreen } from "../frame/screen_host.js";
 import { beginRun } from "./begin.js";
@@ -48,7 +49,7 @@ export const ACTIONS = {
   async gotoZero() {
     if (!mayMove()) return;
     const status = model.status.value;
-    const places = model.axes.map((axis, n) => `${axis.name} ${position(status?.work[n] ?? Number.NaN, axis.decimals).trim()}`);
+    const places = model.axes.map((axis, n) => `${axis.name} ${position((status?.work[n] ?? Number.NaN) * viewOf(axis).factor, viewOf(axis).decimals).trim()}`);
     const text = t("gotozero.text", { places: places.join("   ") });
     if (await confirm(t("gotozero.title"), text, t("menu.gotozero"))) await give("zero.goto", { axes: "" });
   },

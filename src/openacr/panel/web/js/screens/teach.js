@@ -2,6 +2,7 @@
 import { give, model, refuse, report } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
 import { position } from "../core/format.js";
+import { viewOf } from "../core/units.js";
 import { t } from "../core/texts.js";
 import { axisChoice } from "../frame/axis_choice.js";
 import { askNumber } from "../frame/number_pad.js";
@@ -32,6 +33,6 @@ export const screen = {
     };
     body.append(h("p", {}, t("teach.text")), h("label.row", {}, h("span.grow", {}, t("teach.system")), system), choice.element, h("div.row.wrap", {},
       h("button.key.big.main", { type: "button", onclick: teach }, t("menu.teach")), h("button.key.big", { type: "button", onclick: length }, t("teach.length"))));
-    endings.add(model.status.watch((status) => status && model.axes.forEach((axis, n) => setText(places[n], position(status.machine[n], axis.decimals)))));
+    endings.add(model.status.watch((status) => status && model.axes.forEach((axis, n) => setText(places[n], position(status.machine[n] * viewOf(axis).factor, viewOf(axis).decimals)))));
   },
 };
