@@ -41,7 +41,8 @@ MENUS: dict[str, list[tuple[int, str, str]]] = {
     "diag": [
         (1, "SYS PARAM", "screen parameters"), (2, "P PARM", "screen pparm"),
         (3, "OFFSETS", "screen offsets"), (4, "WORK COORD", "form WORK"),
-        (5, "DIAGNOSTICS", "menu diagnostics"), (7, "DISPLAY", "menu display"),
+        (5, "DIAGNOSTICS", "menu diagnostics"), (6, "PROG/PLC", "screen programs"),
+        (7, "DISPLAY", "menu display"),
         (10, "MAIN MENU", "menu main"),
     ],
     "diagnostics": [
@@ -120,8 +121,8 @@ MENU_IDS = (
     "MILL-MENU-MAIN", "MILL-MENU-SETUP", "MILL-MENU-RUN", "MILL-MENU-STOP", "MILL-MENU-MANUAL",
     "MILL-MENU-MAIN-HOME", "MILL-MENU-MAIN-EDIT", "MILL-MENU-MAIN-RUNSETUP",
     "MILL-MENU-MAIN-RUNPROG", "MILL-MENU-MAIN-MANUAL", "MILL-MENU-MAIN-SETDIAG",
-    "MILL-MENU-MAIN-HELP", "MILL-MENU-DIAG", "MILL-OV-INPUTDEV", "MILL-SCR-FKEY",
-    "MILL-SCR-MENUBAR",
+    "MILL-MENU-MAIN-HELP", "MILL-MENU-DIAG", "MILL-MENU-SETDIAG",
+    "MILL-MENU-DISPLAY", "MILL-OV-INPUTDEV", "MILL-SCR-FKEY", "MILL-SCR-MENUBAR",
 )  # fmt: skip
 
 

@@ -1,7 +1,14 @@
 """Imports every module of commands: the table is complete then."""
 
 from openacr.panel.commands import (
-    memory, motion, people, programs, running, service, typing, watching,
+    memory,
+    motion,
+    people,
+    programs,
+    running,
+    service,
+    typing,
+    watching,
 )  # fmt: skip
 from openacr.panel.commands.registry import COMMANDS, carry_out
 

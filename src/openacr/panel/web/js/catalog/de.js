@@ -94,12 +94,11 @@ const ON_CARD = {
   "loop.current": "Position", "loop.gear": "Gear-Versatz", "loop.jog": "Tipp-Versatz", "loop.cam": "Cam-Versatz", "loop.backlash": "Umkehrspiel", "loop.ballscrew": "Spindel", "loop.primary": "1. Sollwert", "loop.secondary": "2. Sollwert", "loop.actual": "Istposition",
   "loop.error": "Schleppfehler", "loop.p": "P-Anteil, V", "loop.i": "I-Anteil, V", "loop.d": "D-Anteil, V", "loop.ffvel": "Vorsteuerung v, V", "loop.ffacc": "Vorsteuerung a, V", "loop.fbvel": "Rückführung v, V",
   "loop.sum": "Summe, V", "loop.filter0": "Filter 0", "loop.filter1": "Filter 1", "loop.filtered": "Gefiltert, V", "loop.limits": "Drehmomentgrenzen, V", "loop.output": "Ausgang, V",
+};
 
 const CARD = {
   "units.switch": "Anzeige zwischen mm und Zoll umschalten", "cpu.foreground": "Servo-Interrupt", "cpu.background": "Für Programme übrig", "memory.warning": "Nur für erfahrenes Personal. Eine Änderung löscht alle Programme, SPS-Programme und Variablen der Karte.", "memory.save": "SPEICHERN UND KARTE LÖSCHEN",
   "memory.lost": "Alle Programme, SPS-Programme und Variablen auf der Karte gehen verloren. Die Maschine wird neu eingerichtet.", "memory.bytes": "Byte", "memory.free": "Frei: {free} Byte", "memory.number": "{name}: eine ganze Zahl von Byte", "memory.done": "Der Speicher der Karte ist neu aufgeteilt",
-
-export default {  };
 };
 
 const ACCESS = {
@@ -110,10 +109,6 @@ const ACCESS = {
 };
 
 /** @type {Record<string, string>} */
-
-
-
-
-/** @type {Record<string, string>} */
 const texts = { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE, ...ON_CARD, ...ACCESS, ...CARD };
+
 export default texts;

@@ -94,12 +94,11 @@ const ON_CARD = {
   "loop.current": "Position", "loop.gear": "Gear offset", "loop.jog": "Jog offset", "loop.cam": "Cam offset", "loop.backlash": "Backlash", "loop.ballscrew": "Ballscrew", "loop.primary": "Primary setp.", "loop.secondary": "Second. setp.", "loop.actual": "Actual pos.",
   "loop.error": "Follow. error", "loop.p": "Proportional, V", "loop.i": "Integral, V", "loop.d": "Derivative, V", "loop.ffvel": "Feedforward v, V", "loop.ffacc": "Feedforward a, V", "loop.fbvel": "Feedback v, V",
   "loop.sum": "Sum, V", "loop.filter0": "Filter 0", "loop.filter1": "Filter 1", "loop.filtered": "Filtered, V", "loop.limits": "Torque limits, V", "loop.output": "Output, V",
+};
 
 const CARD = {
   "units.switch": "Switch the read-out between mm and inch", "cpu.foreground": "Servo interrupt", "cpu.background": "Left for programs", "memory.warning": "Only experienced personnel. A change loses all programs, PLC programs and variables on the card.", "memory.save": "SAVE AND CLEAR THE CARD",
   "memory.lost": "All programs, PLC programs and variables that are stored on the card are lost. The machine is set up again.", "memory.bytes": "bytes", "memory.free": "Free: {free} bytes", "memory.number": "{name}: a whole number of bytes", "memory.done": "The memory of the card is divided anew",
-
-export default {  };
 };
 
 const ACCESS = {
@@ -108,9 +107,5 @@ const ACCESS = {
   "exit.done": "You have left the screens. The controller program is still running.", "exit.ended": "AcroMill has ended.", "exit.again": "COME BACK",
   "login.title": "Log in", "login.role": "Role", "login.password": "Password", "login.go": "LOG IN",
 };
-
-
-
-
 
 export default { ...MENU, ...FRAME, ...BLOCKS, ...RUN, ...FORMS, ...SERVICE, ...ON_CARD, ...ACCESS, ...CARD };
