@@ -44,7 +44,7 @@ class Reading:
             near_limit=self._near(place),
             line=runner_source.line if runner_source else 0,
             tool=int(cells.read(CELLS.tool_in_spindle)),
-            feed_upm=cells.read(CELLS.feed),
+            feed_upm=self.work.run.modal.feed,
             speed_upm=place.speed_upm,
             spindle_rpm=cells.read(CELLS.spindle_speed) if self._spins else 0.0,
             feed_percent=PERCENT * runner.overrides.factor(Override.FEED),
