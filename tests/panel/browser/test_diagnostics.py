@@ -50,9 +50,8 @@ def state_of(page: Page, bit: int) -> str:
     return str(page.locator(f"#screen [data-bit='{bit}'] .io-state").text_content())
 
 
-@pytest.mark.req("MILL-DIAG-IO", "MILL-DIAG-IO-COUNT")
+@pytest.mark.req("MILL-DIAG-IO")
 def test_io_status_shows_every_input_and_output_live(page: Page, served: Served) -> None:
-    """Of the ACR2000 with its 16 see test_diagnostics of the server; here 32 and two modules."""
     store = served.panel.installation.store
     store.write_text(OFFSETS.input_name[3], "Door closed")
     open_diagnostics(page, 1, "io")
