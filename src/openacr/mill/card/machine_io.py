@@ -24,6 +24,7 @@ class MachineIo:
         inputs, outputs = line_numbers(settings.model.lines, modules)
         self.inputs, self.outputs = frozenset(inputs), frozenset(outputs)
         self._inverted_in = {n for n in self.inputs if settings.is_input_inverted(n)}
+        self._pressed: set[int] = set()
 
     def output(self, number: int, on: bool) -> None:
         """Switch an output; a number that is not configured is ignored."""
@@ -65,8 +66,21 @@ class MachineIo:
         """Whether an input is active when it is off."""
         return number in self._inverted_in
 
+    def press(self, number: int, on: bool) -> None:
+        """Hold an input active from a screen, as its switch does; False lets it go."""
+        if on:
+            self._pressed.add(number)
+        else:
+            self._pressed.discard(number)
+
+    def is_pressed(self, number: int) -> bool:
+        """Whether a screen holds an input active."""
+        return number in self._pressed
+
     def is_in(self, sample: CardState, number: int) -> bool:
-        """Whether an input is active; False if it does not exist."""
+        """Whether an input is active, or held by a screen; False if it does not exist."""
+        if number in self._pressed:
+            return True
         return self.has_input(number) and sample.input(number) != (number in self._inverted_in)
 
     def is_key_turned(self, sample: CardState) -> bool:

@@ -1,4 +1,8 @@
-"""Virtual push buttons: a press sets a flag of the card, as its cells say."""
+"""Virtual push buttons: a press sets a flag of the card, as its cells say.
+
+An input cannot be written on a card. A button whose bit is an input of the machine therefore acts
+as the switch that is wired to it: the input counts as active while the button is pressed.
+"""
 
 from openacr.errors import UserError
 from openacr.mill.session import MillSession
@@ -24,13 +28,13 @@ class Buttons:
             raise UserError(f"button {button} sets nothing (P{OFFSETS.button_set_bit[button]})")
         if read(OFFSETS.button_mode[button]) == TOGGLE:
             if is_pressed:
-                session.machine.set_flag(flag, not session.card.read_bit(flag))
+                _set(session, flag, on=not _is_set(session, flag))
             return
         if is_pressed:
             self._held[button] = (client, flag)
         else:
             self._held.pop(button, None)
-        session.machine.set_flag(flag, is_pressed)
+        _set(session, flag, on=is_pressed)
 
     def drop(self, session: MillSession | None, client: int) -> None:
         """Release what a client holds: it has gone."""
@@ -38,4 +42,16 @@ class Buttons:
             if holder == client:
                 del self._held[button]
                 if session is not None:
-                    session.machine.set_flag(flag, False)
+                    _set(session, flag, on=False)
+
+
+def _set(session: MillSession, flag: int, *, on: bool) -> None:
+    if session.runner.io.has_input(flag):
+        session.runner.io.press(flag, on)
+    else:
+        session.machine.set_flag(flag, on)
+
+
+def _is_set(session: MillSession, flag: int) -> bool:
+    io = session.runner.io
+    return io.is_pressed(flag) if io.has_input(flag) else session.card.read_bit(flag)
