@@ -20,7 +20,8 @@ HELPS: dict[str, tuple[str, str]] = {
     ),
     "edit": (
         "EDIT",
-        "Write a part program. Errors are marked while you type. The program that is running"
+        "Choose a file of the list, or type its name: one that does not exist begins a new part"
+        " program. Errors are marked while you type. The program that is running"
         " cannot be stored; a program that is loaded has to be loaded again to take the change.",
     ),
     "setup": (

@@ -59,6 +59,7 @@ def test_a_form_with_changes_asks_before_it_is_left(page: Page) -> None:
 
 def test_the_editor_marks_an_error_and_asks_before_changes_are_lost(page: Page) -> None:
     page.keyboard.press("F4")
+    page.get_by_role("dialog", name="OPEN").get_by_role("button", name="OPEN").click()
     text = page.locator(".cm-content")
     expect(text).to_contain_text("Plate 80 x 50 mm")
     text.click()
@@ -81,6 +82,7 @@ def test_the_editor_marks_an_error_and_asks_before_changes_are_lost(page: Page) 
 
 def test_a_new_text_is_saved_under_the_name_that_is_asked_for(page: Page, served: Served) -> None:
     page.keyboard.press("F4")
+    page.get_by_role("dialog", name="OPEN").get_by_role("button", name="OPEN").click()
     expect(page.locator(".cm-content")).to_contain_text("Plate 80 x 50 mm")
     page.get_by_role("button", name="NEW", exact=True).click()
     expect(page.locator("#screen-title")).to_have_text("Edit: new file")

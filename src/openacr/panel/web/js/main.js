@@ -7,9 +7,9 @@ async function start() {
   applyTheme();
   followSystemTheme();
   await useLanguage(setting("language", "en"));
-  const [clock, display, menuBar, prompt, screens, status, stop, top, held] = await Promise.all([
+  const [clock, display, menuBar, prompt, screens, status, stop, top, held, splitter] = await Promise.all([
     import("./frame/clock.js"), import("./frame/display.js"), import("./frame/menu_bar.js"), import("./frame/prompt.js"),
-    import("./frame/screen_host.js"), import("./frame/status.js"), import("./frame/stop.js"), import("./frame/top.js"), import("./motion/hold.js"),
+    import("./frame/screen_host.js"), import("./frame/status.js"), import("./frame/stop.js"), import("./frame/top.js"), import("./motion/hold.js"), import("./frame/splitter.js"),
   ]);
   link.onEvent = (event) => model.takeEvent(event);
   link.onFrame = (head, data) => model.takeFrame(head, data);
@@ -18,6 +18,7 @@ async function start() {
   top.startTop();
   status.startStatus();
   display.startDisplay();
+  splitter.startSplitter();
   prompt.startPrompt();
   screens.startScreens();
   menuBar.startMenuBar();

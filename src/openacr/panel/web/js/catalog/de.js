@@ -59,7 +59,7 @@ const RUN = {
 };
 
 const FORMS = {
-  "form.title": "Parameter", "form.save": "SPEICHERN", "form.undo": "ZURÜCK", "form.changed": "Nicht gespeichert: {count}", "form.locked": "Gesperrt: {reason}", "form.axis": "Achse", "form.previous": "ZURÜCK", "form.next": "WEITER", "form.page": "{first}–{last} von {total}",
+  "form.title": "Parameter", "form.savepage": "SEITE SPEICHERN", "form.save": "SPEICHERN", "form.undo": "ZURÜCK", "form.changed": "Nicht gespeichert: {count}", "form.locked": "Gesperrt: {reason}", "form.axis": "Achse", "form.previous": "ZURÜCK", "form.next": "WEITER", "form.page": "{first}–{last} von {total}",
   "form.goto": "Gehe zu Zeile", "form.goto.hint": "1 bis {last}", "form.saved": "Gespeichert: {count}", "form.refused": "Nicht gespeichert; abgelehnt: {count}", "form.leave": "Nicht gespeichert", "form.leave.text": "Änderungen, die ohne SPEICHERN verloren gehen: {count}", "form.drop": "VERWERFEN", "form.elsewhere": "Inzwischen anderswo geändert",
   "field.least": "mindestens {low}", "field.most": "höchstens {high}", "field.range": "{low} bis {high}", "field.typical": "üblich {value}", "field.default": "Vorgabe {value}", "field.motion": "nicht während ein Programm läuft",
   "parameters.title": "Systemparameter", "parameters.search": "Parameter suchen", "parameters.nothing": "Nichts gefunden", "offsets.title": "Korrekturen",
@@ -83,6 +83,7 @@ const SERVICE = {
 };
 
 const ON_CARD = {
+  "splitter.label": "Kante zwischen Status- und Anzeigefenster", "message.all": "Alle Meldungen", "message.more": "+{count}",
   "menu.programs": "PROG/ SPS", "programs.title": "Programme und SPS der Karte", "programs.list": "Programme und SPS", "programs.text": "Text, wie ihn die Karte auflistet", "programs.printed": "Ausgaben des Programms", "programs.read": "LESEN",
   "programs.choose": "Programm wählen", "programs.line": "Zeile {line}", "programs.bytes": "{used} Byte", "programs.nomemory": "kein Speicher", "programs.run": "START", "programs.halt": "HALT", "programs.pause": "PAUSE", "programs.resume": "WEITER",
   "programs.block": "EINZEL", "programs.step": "SCHRITT", "programs.listen": "MITHÖREN", "programs.edit": "ÄNDERN", "programs.clear": "LÖSCHEN", "programs.send": "SENDEN", "programs.sent": "{name}: {count} Zeilen sind auf der Karte gespeichert",

@@ -59,7 +59,7 @@ const RUN = {
 };
 
 const FORMS = {
-  "form.title": "Parameters", "form.save": "SAVE", "form.undo": "UNDO", "form.changed": "Not saved: {count}", "form.locked": "Locked: {reason}", "form.axis": "Axis", "form.previous": "PREVIOUS", "form.next": "NEXT", "form.page": "{first}\u2013{last} of {total}",
+  "form.title": "Parameters", "form.savepage": "SAVE PAGE", "form.save": "SAVE", "form.undo": "UNDO", "form.changed": "Not saved: {count}", "form.locked": "Locked: {reason}", "form.axis": "Axis", "form.previous": "PREVIOUS", "form.next": "NEXT", "form.page": "{first}\u2013{last} of {total}",
   "form.goto": "Go to row", "form.goto.hint": "1 to {last}", "form.saved": "Saved: {count}", "form.refused": "Not saved; refused: {count}", "form.leave": "Not saved", "form.leave.text": "Changes that are lost without SAVE: {count}", "form.drop": "DROP", "form.elsewhere": "Changed elsewhere meanwhile",
   "field.least": "at least {low}", "field.most": "at most {high}", "field.range": "{low} to {high}", "field.typical": "typical {value}", "field.default": "default {value}", "field.motion": "not while a program runs",
   "parameters.title": "System parameters", "parameters.search": "Find a parameter", "parameters.nothing": "Nothing found", "offsets.title": "Offsets",
@@ -83,6 +83,7 @@ const SERVICE = {
 };
 
 const ON_CARD = {
+  "splitter.label": "Edge between status and display window", "message.all": "All messages", "message.more": "+{count}",
   "menu.programs": "PROG/ PLC", "programs.title": "Programs and PLCs of the card", "programs.list": "Programs and PLCs", "programs.text": "Text as the card lists it", "programs.printed": "What the program prints", "programs.read": "READ",
   "programs.choose": "Choose a program", "programs.line": "line {line}", "programs.bytes": "{used} bytes", "programs.nomemory": "no memory", "programs.run": "RUN", "programs.halt": "HALT", "programs.pause": "PAUSE", "programs.resume": "RESUME",
   "programs.block": "BLOCK", "programs.step": "STEP", "programs.listen": "LISTEN", "programs.edit": "EDIT", "programs.clear": "CLEAR", "programs.send": "SEND", "programs.sent": "{name}: {count} lines are stored on the card",

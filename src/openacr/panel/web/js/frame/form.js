@@ -16,6 +16,7 @@ const PAGE = 20;
  * @property {string} name
  * @property {string} title
  * @property {string} role
+ * @property {string} section
  * @property {boolean} per_axis
  * @property {number} axis
  * @property {{ index: number, name: string }[]} axes
@@ -63,6 +64,7 @@ export function showForm(host, name, endings, setTitle = () => {}) {
   /** @param {Form} shown */
   function draw(shown) {
     setTitle(shown.title);
+    setText(saveKey, t(shown.section === "OFFSETS" ? "form.savepage" : "form.save"));
     fields = new Map();
     const isBarred = !model.may(shown.role);
     fill(tools, ...axisKeys(shown), ...pageKeys(shown));

@@ -27,7 +27,7 @@ export function alarmsTab(panel, endings) {
  * @param {boolean} isActive
  */
 function rowOf(alarm, isActive) {
-  const time = String(alarm.time ?? "").replace("T", " ");
+  const time = String(alarm.time ?? "").replace("T", " ").slice(0, 19); // local time of the machine
   return h("tr", { className: isActive ? "is-alarm" : "" }, h("td.number", {}, time), h("td.number", {}, `${isActive ? "\u26a0 " : ""}${alarm.code}`),
     h("td", {}, alarm.text, alarm.effect ? h("div.hint", {}, alarm.effect) : ""));
 }

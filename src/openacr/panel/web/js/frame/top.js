@@ -10,6 +10,9 @@ import { showTab } from "./display.js";
 /** @type {Record<string, string>} */
 const SIGNS = { IDLE: "\u25cb", RUN: "\u25b6", WAIT: "\u25d4", HOMING: "\u2302", PAUSED: "\u2016", HOLD: "\u25a0", ALARM: "\u26a0" };
 
+const MOST_MESSAGES = 3; // at once in the line; a key shows all of them
+const MOST_BESIDE_ALARM = 1;
+
 export function startTop() {
   model.state.watch(drawState);
   model.alarms.watch(drawAlarms);
@@ -28,27 +31,40 @@ function drawState() {
     reason ? h("span.reason", { title: reason }, reason) : "");
 }
 
+/** The first alarm with its keys, then user messages; without any the name of the loaded program. */
 function drawAlarms() {
   const area = byId("alarms");
   const { active } = model.alarms.value;
   area.classList.toggle("has-alarm", active.length > 0);
-  if (active.length) {
-    const [first] = active;
-    fill(area, h("span", { ariaHidden: "true" }, "\u26a0"), h("span.text", { title: first.text }, `${first.code} ${first.text}`),
-      active.length > 1 ? h("span", {}, t("alarm.more", { count: active.length - 1 })) : "",
-      h("button.key.bad", { type: "button", onclick: () => give("alarm.acknowledge") }, t("alarm.acknowledge")),
-      h("button.key", { type: "button", onclick: () => showTab("alarms") }, t("alarm.show")));
-    return;
-  }
-  const shown = model.messages.value.shown.map((each) => {
-    const text = h("span.user", {}, each.text);
-    text.style.background = COLORS[each.back] ?? "";
-    text.style.color = COLORS[each.color] ?? "";
-    return text;
-  });
+  const messages = model.messages.value.shown.map(messageOf);
+  const few = messages.slice(0, active.length ? MOST_BESIDE_ALARM : MOST_MESSAGES);
+  const more = messages.length - few.length;
   const loaded = model.program.value.loaded;
-  const name = loaded ? loaded.name : t("alarm.noprogram");
-  fill(area, ...(shown.length ? shown : [h("span.none", { title: loaded?.path ?? "" }, name)]));
+  const none = h("span.none", { title: loaded?.path ?? "" }, loaded ? loaded.name : t("alarm.noprogram"));
+  fill(area, ...(active.length ? alarmParts(active) : []), ...few,
+    more > 0 ? h("button.key", { type: "button", title: t("message.all"), onclick: showMessages }, t("message.more", { count: more })) : "",
+    active.length || messages.length ? "" : none);
+}
+
+/** @param {any[]} active */
+function alarmParts([first, ...others]) {
+  return [h("span", { ariaHidden: "true" }, "\u26a0"), h("span.text", { title: first.text }, `${first.code} ${first.text}`),
+    others.length ? h("span", {}, t("alarm.more", { count: others.length })) : "",
+    h("button.key.bad", { type: "button", onclick: () => give("alarm.acknowledge") }, t("alarm.acknowledge")),
+    h("button.key", { type: "button", onclick: () => showTab("alarms") }, t("alarm.show"))];
+}
+
+/** @param {any} message */
+function messageOf(message) {
+  const text = h("span.user", { title: message.text }, message.text);
+  text.style.background = COLORS[message.back] ?? "";
+  text.style.color = COLORS[message.color] ?? "";
+  return text;
+}
+
+function showMessages() {
+  const body = model.messages.value.shown.map((each) => h("p", {}, messageOf(each)));
+  void ask({ title: t("message.all"), body, choices: [{ text: t("key.close"), value: null }] });
 }
 
 function drawTools() {

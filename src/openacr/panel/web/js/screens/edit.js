@@ -19,7 +19,7 @@ export const screen = {
     const findings = h("div.findings.scroll", { hidden: true });
     const state = h("span.hint.grow", { role: "status" });
     const saveKey = h("button.key.main", { type: "button", onclick: () => save() }, t("edit.save"));
-    head.append(h("button.key", { type: "button", onclick: () => open() }, t("edit.open")), h("button.key", { type: "button", onclick: () => begin() }, t("edit.new")),
+    head.append(h("button.key", { type: "button", onclick: async () => { if (await mayDrop()) await open(path); } }, t("edit.open")), h("button.key", { type: "button", onclick: () => begin() }, t("edit.new")),
       h("button.key", { type: "button", onclick: () => saveAs() }, t("edit.saveas")), saveKey);
     body.classList.add("is-editor");
     body.append(host, findings, h("div.row", {}, state));
@@ -53,26 +53,37 @@ export const screen = {
     }
     beforeClose(mayDrop);
 
-    /** @param {string} name */
+    /**
+     * Read a file; one that does not exist begins with this name.
+     * @param {string} name
+     */
     async function read(name) {
       try {
         const file = await readFile(name);
         [path, version, saved] = [name, file.version, file.text];
-        editor.setText(file.text);
-        draw();
       } catch (error) {
-        refuse(error);
+        if (!(error instanceof ApiError) || error.status !== 404) {
+          refuse(error);
+          return;
+        }
+        [path, version, saved] = [name, null, ""];
       }
+      editor.setText(saved);
+      draw();
+      editor.focus();
     }
 
-    async function open() {
-      if (!(await mayDrop())) return;
-      let chosen = "";
-      const list = fileList({ kinds: ["program", "other", "batch"], chosen: (entry) => { chosen = entry.path; } });
-      const name = await ask({ title: t("edit.open"), body: [list.element], className: "wide", choices: [
-        { text: t("key.cancel"), value: null }, { text: t("edit.open"), kind: "main", isSubmit: true, value: () => chosen || undefined },
+    /**
+     * Ask for a file by list or name.
+     * @param {string} preset
+     */
+    async function open(preset) {
+      const name = h("input.field.grow", { value: preset, ariaLabel: t("edit.name"), autocomplete: "off", spellcheck: false });
+      const list = fileList({ kinds: ["program", "other", "batch"], chosen: (entry) => { name.value = entry.path; } });
+      const chosen = await ask({ title: t("edit.open"), body: [list.element, h("label.row", {}, t("edit.name"), name)], first: name, className: "wide", choices: [
+        { text: t("key.cancel"), value: null }, { text: t("edit.open"), kind: "main", isSubmit: true, value: () => withEnding(name.value.trim()) || undefined },
       ] });
-      if (name) await read(name);
+      if (chosen) await read(chosen);
     }
 
     async function begin() {
@@ -113,9 +124,16 @@ export const screen = {
       }
     }
 
-    if (!args.other && model.program.value.loaded?.kind === "file") await read(model.program.value.loaded.path);
-    else draw();
-    editor.focus();
-    if (args.other) void open();
+    draw();
+    const { loaded } = model.program.value;
+    void open(!args.other && loaded?.kind === "file" ? loaded.path : "");
   },
 };
+
+/**
+ * A name without an ending gets that of part programs.
+ * @param {string} name
+ */
+function withEnding(name) {
+  return !name || /\.[^./]+$/.test(name) ? name : `${name}.TXT`;
+}
