@@ -1,6 +1,7 @@
 """A panel on a served card whose link breaks and comes back, and stores that cannot be written."""
 
 import re
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -9,7 +10,9 @@ import pytest
 from tests.mill.live import SERVE, Process, until
 from tests.proxy import Proxy
 
-from openacr.client import Card
+from openacr.client import Card, ConnectionLostError, Level
+from openacr.client.links import TcpLink
+from openacr.client.stored import listing, rooms
 from openacr.panel.commands.all import carry_out
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.orders import Order
@@ -128,3 +131,61 @@ def test_another_panel_on_one_machine_is_refused_with_the_reason(
     finally:
         first.close()
         second.close()
+
+
+def test_programs_of_a_served_card_are_sent_listed_run_heard_and_halted(
+    served: str, tmp_path: Path
+) -> None:
+    remote = Remote(served, tmp_path)
+    text = "PROGRAM\nDIM LV(1)\n_more\nLV0 = LV0+1\nDWL 0.02\nPRINT LV0\nGOTO more\nENDP\n"
+    try:
+        until(lambda: remote.link() == "ok")
+        assert remote.send("card.send", program=3, text=text)["result"] == {
+            "name": "PROG3", "sent": 8,
+        }  # fmt: skip
+        future = remote.call(
+            lambda station: station.on_card.aside.begin(
+                lambda talk: listing(talk, Level.program(3))
+            )
+        )
+        assert [(line.number, line.text) for line in future.result(60.0)][3:5] == [
+            (40, " LV0 = LV0+1"), (50, " DWL 0.02"),
+        ]  # fmt: skip
+        assert remote.send("watch.begin", topic="programs", hz=10)["ok"]
+        assert remote.send("card.listen", program=3)["ok"]
+        assert remote.send("card.run", program=3)["ok"]
+        until(lambda: state_of(remote, "PROG3") not in ("", "halted"))
+        until(lambda: len(heard(remote).split()) >= 3)
+        assert remote.send("card.halt", program=3)["ok"]
+        until(lambda: state_of(remote, "PROG3") == "halted")
+    finally:
+        remote.close()
+
+
+def state_of(remote: Remote, name: str) -> str:
+    events = [event for event in remote.events if event["event"] == "programs"]
+    states = {each["name"]: each["state"] for each in events[-1]["programs"]} if events else {}
+    return str(states.get(name, ""))
+
+
+def heard(remote: Remote) -> str:
+    return "".join(e["text"] for e in remote.events if e["event"] == "listen")
+
+
+def test_a_card_that_does_not_answer_does_not_hold_up_the_control_thread(
+    served: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    remote = Remote(served, tmp_path)
+    is_free = threading.Event()
+    try:
+        until(lambda: remote.link() == "ok")
+        monkeypatch.setattr(TcpLink, "open", lambda _link: is_free.wait(60.0) and None)
+        future = remote.call(lambda station: station.on_card.aside.begin(rooms))
+        steps = [remote.call(lambda station: station.snapshot.number) for _ in range(3)]
+        until(lambda: remote.call(lambda station: station.snapshot.number) > steps[-1] + 3)
+        assert not future.done()
+        remote.call(lambda station: station.on_card.end())
+        assert isinstance(future.exception(60.0), ConnectionLostError)
+    finally:
+        is_free.set()
+        remote.close()

@@ -161,6 +161,15 @@ def test_a_line_that_would_be_carried_out_is_not_sent(
     assert error["text"].startswith(why)
 
 
+def test_a_shorter_text_leaves_nothing_of_the_longer_one(hand: HandStation) -> None:
+    sent(hand, "10 P0 = 1\n20 P1 = 1\n30 END\n")
+    sent(hand, "10 P0 = 2\n20 END\n")
+    assert listed(hand, Level.program(3)) == [(10, "P0 = 2"), (20, "END")]
+    sent(hand)
+    sent(hand, "15 P0 = 3\n")
+    assert listed(hand, Level.program(3)) == [(15, "P0 = 3")]
+
+
 def test_clear_erases_the_lines(hand: HandStation) -> None:
     sent(hand)
     hand.do("card.clear", program=3)
@@ -266,6 +275,20 @@ def test_stop_pauses_what_was_started_at_a_screen(watching: HandStation) -> None
         if stop == "stop.all":
             hand.do("card.run", program=3)
             hand.until(lambda: names(hand)["PROG3"]["state"] == "dwells")
+
+
+def test_a_plc_goes_on_through_every_stop(watching: HandStation) -> None:
+    hand = watching
+    card = hand.station.machine.card
+    card.go(Level())
+    card.command("DIM PLC0(2000)")
+    sent(hand, "10 LD 128\n20 OUT 129\n", plc=0)
+    hand.do("card.run", plc=0)
+    hand.until(lambda: names(hand)["PLC0"]["state"] == "running")
+    for stop in ("stop.hold", "stop.all", "stop.estop"):
+        hand.do(stop)
+        hand.run(0.3)
+        assert names(hand)["PLC0"]["state"] == "running"
 
 
 # --- listening ------------------------------------------------------------------------

@@ -77,6 +77,16 @@ def test_a_counter_has_two_inputs_and_shows_its_output_flag() -> None:
     assert (found.rows, found.columns) == (2, 3)
 
 
+def test_the_second_input_of_a_latch_is_below_all_branches_of_the_first() -> None:
+    found = picture("LD 0 OR 1", "LD 2 AND 3", "KR 0")
+    latch = found.symbols[-1]
+    assert (latch.column, latch.row, latch.reset_row) == (2, 0, 2)
+    assert {s.text: (s.column, s.row) for s in found.symbols[:-1]} == {
+        "0": (0, 0), "1": (0, 1), "2": (0, 2), "3": (1, 2),
+    }  # fmt: skip
+    assert (found.columns, found.rows) == (3, 3)
+
+
 @pytest.mark.parametrize(
     ("line", "kind", "number", "flag"),
     [

@@ -72,7 +72,7 @@ def required(station: Station, args: OfProgram) -> Level:
 def _require_rest(station: Station, level: Level, what: str) -> None:
     """Refuse while this machine moves; a program also while an alarm bars every start."""
     runner = station.machine.runner
-    if runner.is_busy or runner.jogging.is_active:
+    if runner.is_busy:
         raise UserError(f"the machine moves: {what}")
     if level.word == "PROG":
         runner.alarms.require_none()

@@ -5,6 +5,7 @@ carried out piece by piece between two steps of the control thread, which never 
 """
 
 import logging
+import threading
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
@@ -13,8 +14,8 @@ from typing import Any, TypeVar
 
 from openacr.client import ConnectionLostError, Options
 from openacr.client.drive import Conversation, perform
-from openacr.client.effects import Effect, Op, Pause, Receive
-from openacr.client.links import Link, SerialLink, link_to
+from openacr.client.effects import Effect, Op, Open, Pause, Receive
+from openacr.client.links import Link, ProcessLink, SerialLink, link_to
 from openacr.client.talk import Talk
 from openacr.errors import OpenacrError, UserError
 from openacr.panel.control.installation import Installation
@@ -45,6 +46,7 @@ class Aside:
         self._conversation: Conversation[Any] | None = None
         self._link: Link | None = None
         self._talk: Talk | None = None
+        self._opening: Future[None] | None = None
         self._until_s: float | None = None  # of a pause, or the end of a wait for bytes
         self._now_s = 0.0
 
@@ -132,9 +134,24 @@ class Aside:
     def _outcome(self, effect: Effect | None, link: Link) -> "bytes | Wait | None":
         if isinstance(effect, Receive):
             return link.read(0.0) or (b"" if self._has_passed(effect.wait_s) else WAIT)
+        if isinstance(effect, Open):
+            return self._opened(link)
         if isinstance(effect, Pause):
             return None if self._has_passed(effect.seconds) else WAIT
         return None if effect is None else perform(effect, link)
+
+    def _opened(self, link: Link) -> "Wait | None":
+        """Open the link; a host that does not answer is waited for in a thread of its own."""
+        if isinstance(link, ProcessLink):
+            link.open()
+            return None
+        if self._opening is None:
+            self._opening = _begun(link.open)
+        if not self._opening.done():
+            return WAIT
+        opening, self._opening = self._opening, None
+        opening.result()
+        return None
 
     def _has_passed(self, seconds: float | None) -> bool:
         """Whether a time has passed since this effect was first tried."""
@@ -167,7 +184,26 @@ class Aside:
 
     def _close(self) -> None:
         link, self._link, self._talk = self._link, None, None
+        opening, self._opening = self._opening, None
         self._until_s = None
-        if link is not None:
+        if link is not None and opening is not None:
+            opening.add_done_callback(lambda _done: link.close())
+        elif link is not None:
             with suppress(Exception):
                 link.close()
+
+
+def _begun(work: Callable[[], None]) -> "Future[None]":
+    """The future of something that may wait, done in a thread."""
+    future: Future[None] = Future()
+
+    def run() -> None:
+        try:
+            work()
+        except Exception as error:
+            future.set_exception(error)
+        else:
+            future.set_result(None)
+
+    threading.Thread(target=run, name="card", daemon=True).start()
+    return future

@@ -94,7 +94,7 @@ const ON_CARD = {
   "loop.label": "Regelkreis der Achse {axis}", "loop.open": "Regelkreis offen", "loop.closed": "Regelkreis geschlossen", "loop.filtering": "Filter ein", "loop.bypassed": "Filter aus",
   "loop.current": "Position", "loop.gear": "Gear-Versatz", "loop.jog": "Tipp-Versatz", "loop.cam": "Cam-Versatz", "loop.backlash": "Umkehrspiel", "loop.ballscrew": "Spindel", "loop.primary": "1. Sollwert", "loop.secondary": "2. Sollwert", "loop.actual": "Istposition",
   "loop.error": "Schleppfehler", "loop.p": "P-Anteil, V", "loop.i": "I-Anteil, V", "loop.d": "D-Anteil, V", "loop.ffvel": "Vorsteuerung v, V", "loop.ffacc": "Vorsteuerung a, V", "loop.fbvel": "Rückführung v, V",
-  "loop.sum": "Summe, V", "loop.filter0": "Filter 0", "loop.filter1": "Filter 1", "loop.filtered": "Gefiltert, V", "loop.limits": "Drehmomentgrenzen, V", "loop.output": "Ausgang, V",
+  "loop.sum": "Summe, V", "loop.filter0": "Filter 0", "loop.filter1": "Filter 1", "loop.filtered": "Gefiltert, V", "loop.limits": "Grenzen, V", "loop.output": "Ausgang, V",
 };
 
 const CARD = {

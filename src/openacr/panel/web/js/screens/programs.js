@@ -180,7 +180,7 @@ export const screen = {
       () => { if (listened && link.isOpen.value) void link.command("card.unlisten", { program: Number(listened.slice(4)) }).catch(() => {}); },
     );
     await readList();
-    const first = args.name ?? listed.find((each) => each.used && !each.owner)?.name ?? listed.find((each) => each.used)?.name ?? "PROG0";
+    const first = args.name ?? listed.find((each) => each.used && !each.owner)?.name ?? listed.find((each) => each.bytes && !each.owner)?.name ?? "PROG0";
     await choose(first);
     /** @type {HTMLElement | null} */ (items.querySelector("[aria-selected=true]"))?.focus();
   },
