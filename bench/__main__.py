@@ -19,6 +19,7 @@ ORDER = (
     "state",
     "timeline",
     "startup",
+    "language_server",
     "terminal_latency",
     "packets",
     "pollers",

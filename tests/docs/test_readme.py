@@ -29,7 +29,7 @@ def commands() -> list[list[str]]:
 
 def is_interactive(words: list[str]) -> bool:
     """Whether a command waits for input."""
-    return words[0] in ("serve", "term")
+    return words[0] in ("serve", "term", "lsp")
 
 
 @pytest.fixture

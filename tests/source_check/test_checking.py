@@ -123,6 +123,8 @@ def test_columns_count_characters_not_bytes(tmp_path: Path, line: str, column: i
     found = check_text(f"PROG0\nATTACH MASTER0\n{line}\n", tmp_path / "a.8k")
     assert [(fault.line, fault.column) for fault in found] == [(3, column)]
     assert line[column - 1 :].startswith("QQ")
+    close = check_text(f"PROG0\n{line.replace('QQ', 'SETT 1')}\n", tmp_path / "a.8k")
+    assert [fault.hint for fault in close] == ["did you mean SET?"]
 
 
 def test_a_text_is_checked_with_its_typographic_characters(tmp_path: Path) -> None:

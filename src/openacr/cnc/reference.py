@@ -109,9 +109,9 @@ def _codes(codes: Iterable[Code], *, has_groups: bool) -> str:
     for _, same in groupby(ordered, key=lambda code: (id(code.act), code.group, code.words)):
         run = list(same)
         names = _names(run)
-        cells = [names, _words(run[0]), run[0].summary]
+        cells = [names, words_of(run[0]), run[0].summary]
         if has_groups:
-            cells.insert(1, GROUPS[run[0].group] if run[0].group else "")
+            cells.insert(1, group_of(run[0]))
         rows.append(tuple(cells))
     return _rows(head, rows)
 
@@ -134,7 +134,13 @@ def _run(codes: list[Code]) -> str:
     return " ".join(code.name for code in codes)
 
 
-def _words(code: Code) -> str:
+def group_of(code: Code) -> str:
+    """The group of codes that replace each other; empty for a code that has none."""
+    return GROUPS[code.group] if code.group else ""
+
+
+def words_of(code: Code) -> str:
+    """The words a code uses beside itself, with their limits."""
     if code.takes_all:
         return "all letters are arguments"
     words = [letter for letter in dict.fromkeys(code.words) if letter != code.letter]

@@ -8,7 +8,7 @@ from openacr.basic.language import registry
 from openacr.basic.language.registry import Level
 from openacr.basic.language.written import call, command_before, function_at, syntax
 from openacr.errors import CardError
-from openacr.lang.lexer import Token, TokenKind, tokens
+from openacr.lang.lexer import Token, TokenKind, plain, tokens
 from openacr.lang.source import Span
 from openacr.messages import (
     SYNTAX_ERROR,
@@ -32,7 +32,7 @@ def hint_for(
 ) -> str:
     """What may help against a message about a line; `names` are the aliases and axes there."""
     first = text.split()[0]
-    word = text[span.column - 1 :][: span.length] if span else first
+    word = plain(text)[span.column - 1 :][: span.length] if span else first
     if message is UNKNOWN_COMMAND and level is Level.SYS and _belongs_to_language(word, first):
         return "not valid at the system level; `PROG n` goes to a program"
     if message in _WORDS and (close := _close_word(word, names)):

@@ -60,6 +60,21 @@ def _table(tab: Tab) -> str:
     return "\n".join(head + list(_rows(tab)))
 
 
+def facts_of_cell(found: Parameter) -> dict[str, str]:
+    """What the page says of one parameter, by the names of its columns; what is empty is left out.
+
+    The meaning is the text of its row.
+    """
+    facts = {
+        "Tab": found.tab,
+        "Type": KINDS[found.kind],
+        "Unit": found.row.unit,
+        "Default": _defaults(Store(), found.number, found.number),
+        "Values": _takes(found),
+    }
+    return {name: value for name, value in facts.items() if value}
+
+
 def _rows(tab: Tab) -> Iterator[str]:
     store = Store()
     for row in sorted(tab.rows, key=lambda each: each.k):

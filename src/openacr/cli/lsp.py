@@ -1,0 +1,63 @@
+"""`openacr lsp`: the language server for editors."""
+
+import gc
+import logging
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from openacr.cli.mill.check import AtStore, Dialect
+from openacr.errors import UserError, reason
+
+HOST = "127.0.0.1"
+LAST_PORT = 65535
+MISSING = "the language server needs pygls: pip install 'openacr[lsp]'"
+
+
+def lsp(
+    tcp: Annotated[
+        int | None,
+        typer.Option(metavar="PORT", help="Serve one client on this port of this computer."),
+    ] = None,
+    store: AtStore = None,
+    dialect: Dialect = None,
+    log: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Write what goes wrong into this file.")
+    ] = None,
+) -> None:
+    """Serve an editor: findings, proposals, names and more for controller files and part programs.
+
+    The Language Server Protocol over standard input and output. --store and --dialect say for
+    which machine and in which dialect part programs are read, as for `openacr mill check`.
+    """
+    if tcp is not None and not 0 < tcp <= LAST_PORT:
+        raise UserError(f"--tcp {tcp}: a port is a number from 1 to {LAST_PORT}")
+    _log_to(log)
+    try:
+        import pygls  # noqa: F401
+    except ImportError:
+        raise UserError(MISSING) from None
+    from openacr.language_server.features import serve
+    from openacr.language_server.server import Server
+
+    gc.freeze()  # what is imported stays
+    server = Server(store, dialect)
+    if tcp is not None:
+        typer.echo(f"listening lsp={HOST}:{tcp}", err=True)
+    try:
+        serve(server, tcp, HOST)
+    except OSError as error:
+        raise UserError(f"--tcp {tcp}: {reason(error)}") from None
+
+
+def _log_to(path: Path | None) -> None:
+    """Messages go into a file or nowhere: standard output is the protocol."""
+    if path is None:
+        logging.getLogger().addHandler(logging.NullHandler())
+        return
+    try:
+        handler = logging.FileHandler(path)
+    except OSError as error:
+        raise UserError(f"{path}: {reason(error)}") from None
+    logging.basicConfig(level=logging.WARNING, handlers=[handler])

@@ -1,0 +1,1 @@
+"""AcroBASIC and PLC programs in an editor."""

@@ -1,0 +1,1 @@
+"""Part programs in an editor, in both dialects of RS-274."""

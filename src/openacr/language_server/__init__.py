@@ -1,0 +1,1 @@
+"""The language server: `openacr.editing` by the Language Server Protocol."""

@@ -1,0 +1,135 @@
+"""The server: documents by URI, and what their changes cause."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from lsprotocol import types
+from pygls.lsp.server import LanguageServer
+
+from openacr.editing.document import Document, Edit, Place, units_of
+from openacr.language_server.checks import Checks
+from openacr.language_server.conversions import Columns, path_of, uri_of
+from openacr.language_server.protocol import Protocol
+
+if TYPE_CHECKING:
+    from openacr.editing.completions import Item
+    from openacr.editing.engine import Engine
+    from openacr.editing.symbols import Finding
+
+NAME = "openacr"
+
+
+def _bytes_of(text: str) -> int:
+    return len(text.encode(errors="replace"))
+
+
+WIDTHS = {"utf-8": _bytes_of, "utf-16": units_of, "utf-32": len}
+
+
+class Server(LanguageServer):
+    """Answers one client."""
+
+    def __init__(self, store: Path | None = None, dialect: str | None = None) -> None:
+        super().__init__(NAME, version(NAME), protocol_cls=Protocol)
+        self.checks = Checks(lambda: self.engine, self.publish)
+        self.columns = Columns(units_of)
+        self.proposed: list[Item] = []  # last, to say more of one of them
+        self._machine = store, dialect
+        self._is_warm = False
+        self._uris: dict[Path, str] = {}
+        self._versions: dict[Path, int] = {}
+
+    @cached_property
+    def engine(self) -> Engine:
+        """What answers; imported when the first document comes, so that the server starts soon."""
+        from openacr.editing.engine import Engine
+
+        return Engine(*self._machine)
+
+    def agree(self) -> None:
+        """Count columns in the unit that was agreed on."""
+        encoding = self.server_capabilities.position_encoding or "utf-16"
+        name = encoding if isinstance(encoding, str) else encoding.value
+        self.columns = Columns(WIDTHS.get(str(name), units_of))
+
+    # documents
+
+    def document(self, uri: str) -> Document:
+        """An open document; UserError if it is not open."""
+        return self.engine.document(path_of(uri))
+
+    def at(self, uri: str, position: types.Position) -> tuple[Document, Place]:
+        """A document and a place in it."""
+        document = self.document(uri)
+        return document, self.columns.place(document, position)
+
+    def uri(self, path: Path) -> str:
+        """The URI of a file, as the client writes it."""
+        return self._uris.get(path) or uri_of(path)
+
+    def opened(self, found: types.TextDocumentItem) -> None:
+        """Take over a document."""
+        path = path_of(found.uri)
+        self._uris[path], self._versions[path] = found.uri, found.version
+        self.engine.open(path, found.text, found.language_id)
+        self.checks.ask(self.engine.subject(path), 0.0)
+        self._warm_up()
+
+    def _warm_up(self) -> None:
+        if not self._is_warm:
+            self._is_warm = True
+            self.thread_pool.submit(self.engine.warm_up)
+
+    def changed(self, params: types.DidChangeTextDocumentParams) -> None:
+        """Change a document; one that was never opened is left alone."""
+        path = path_of(params.text_document.uri)
+        if path not in self.engine.files.unsaved:
+            return
+        self._versions[path] = params.text_document.version
+        document = self.engine.document(path)
+        for change in params.content_changes:
+            if isinstance(change, types.TextDocumentContentChangeWholeDocument):
+                document.replace(change.text)
+            else:
+                span = self.columns.span(document, change.range)
+                document.apply(Edit(span, change.text))
+        self.engine.files.forget()
+        self.checks.ask(self.engine.subject(path))
+
+    def closed(self, uri: str) -> None:
+        """Close a document; the file on the disk counts again."""
+        path = path_of(uri)
+        if path not in self.engine.files.unsaved:
+            return
+        subject = self.engine.subject(path)
+        self.engine.close(path)
+        self._uris.pop(path, None)
+        self._versions.pop(path, None)
+        self.checks.drop(path)
+        if subject != path and any(each.parent == subject for each in self.engine.files.unsaved):
+            self.checks.ask(subject)
+
+    def disk_changed(self) -> None:
+        """Files have changed on the disk: read and check again."""
+        self.engine.files.forget()
+        for subject in {self.engine.subject(path) for path in self.engine.files.unsaved}:
+            self.checks.ask(subject)
+
+    # what is wrong
+
+    def publish(self, path: Path, document: Document | None, found: list[Finding]) -> None:
+        """Send what was found in a file."""
+        text = document or self.engine.files.document(path) or Document.of(path, "")
+        present = self.engine.files.unsaved.get(path)
+        is_present = present is not None and present.revision == text.revision
+        self.text_document_publish_diagnostics(
+            types.PublishDiagnosticsParams(
+                self.uri(path),
+                [self.columns.diagnostic(text, each) for each in found],
+                version=self._versions.get(path) if is_present else None,
+            )
+        )
