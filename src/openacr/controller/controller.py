@@ -64,23 +64,28 @@ class Controller:
         self._origins = Origins()
 
     @classmethod
-    def from_project(cls, path: str | Path) -> Controller:
-        """Create a card from a project folder or controller file; LoadError on refused lines."""
-        controller, errors = cls.load(find_project(path))
+    def from_project(cls, path: str | Path, *, world: schema.World | None = None) -> Controller:
+        """Create a card from a project folder or controller file; LoadError on refused lines.
+
+        `world` takes the place of the machine file of the project.
+        """
+        controller, errors = cls.load(find_project(path), world=world)
         if errors:
             raise LoadError(errors)
         return controller
 
     @classmethod
     def load(
-        cls, project: Project, *, data: Path | None = None
+        cls, project: Project, *, data: Path | None = None, world: schema.World | None = None
     ) -> tuple[Controller, list[SourceError]]:
         """Create a card with a project loaded; returns it with the lines it refused.
 
         A card that finds programs in its data folder keeps them and uses only the machine
-        description of the project, like a machine that is switched on again.
+        description of the project, like a machine that is switched on again. `world` takes the
+        place of the machine file.
         """
-        world = load.load_world(project.machine) if project.machine else None
+        if world is None and project.machine:
+            world = load.load_world(project.machine)
         controller = cls(world.card.model if world else DEFAULT_MODEL, world=world, data=data)
         if not all(map(controller.system.programs.is_empty, controller.system.owners())):
             controller.nonvolatile.store.notice(

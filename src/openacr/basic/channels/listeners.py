@@ -17,6 +17,7 @@ class Listeners:
     def __init__(self, sessions: Mapping[str, Session]) -> None:
         self._sessions = sessions
         self.taps: list[Callable[[int, str], None]] = []  # hear everything, beside the channels
+        self.follower: Callable[[int, int], None] | None = None  # hears of lines in trace mode
 
     def of(self, program: int) -> Iterator[Session]:
         """The channels that listen to a program, in their fixed order."""
@@ -36,7 +37,10 @@ class Listeners:
         self.print(program, f"Error in PROG{program} line {line}: {message}{LINE_END}")
 
     def trace(self, program: int, line: int) -> None:
-        """TRON: the number of the line that is about to be executed."""
+        """TRON: the number of the line that is executed next; a follower alone hears of it."""
+        if self.follower is not None:
+            self.follower(program, line)
+            return
         self.print(program, f"[{line}]")
 
     def set_line_end(self, program: int, shown: bool) -> None:

@@ -1,0 +1,1 @@
+"""Tests of machine programs: cards as pytest fixtures, conditions, golden traces, coverage."""
