@@ -22,6 +22,7 @@ CONNECT_S = 5.0
 READ_BYTES = 65536
 STEP_S = 0.001
 HIGHEST_PORT = 65535
+_WINDOWS_PORT = re.compile(r"(?:\\\\\.\\)?COM\d+", re.IGNORECASE)  # COM3, \\.\COM12
 _TCP_TARGET = re.compile(r"(?:\[(?P<v6>[^\]]+)\]|(?P<host>[^:/]+))(?::(?P<port>\d+))?$")
 
 
@@ -287,7 +288,7 @@ def link_to(target: "str | Host", baud: int = DEFAULT_BAUD) -> Link:
 
 def wire_to(target: str, baud: int = DEFAULT_BAUD) -> Wire:
     """The link to `HOST[:PORT]` or to a serial port (a path, or COM1)."""
-    if "/" in target or re.fullmatch(r"COM\d+", target, re.IGNORECASE):
+    if "/" in target or _WINDOWS_PORT.fullmatch(target):
         return SerialLink(target, baud)
     found = _TCP_TARGET.fullmatch(target)
     if found is None:

@@ -10,6 +10,7 @@ import select
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -45,7 +46,7 @@ def term(
     link = wire_to(target, baud)
     link.open()
     try:
-        if sys.stdin.isatty() and sys.stdout.isatty() and os.name == "posix":
+        if sys.stdin.isatty() and sys.stdout.isatty():
             _interactive(link)
         else:
             _piped(link, wait)
@@ -77,8 +78,13 @@ def _interactive(link: "Wire") -> None:
     keyboard = Keyboard(_load_history())
     typer.echo(f"connected to {link.name}; Ctrl-C leaves", err=True)
     try:
-        with _raw_terminal():
-            _exchange(link, keyboard)
+        if find_spec("termios") is None:
+            from openacr.cli.live.console import exchange
+
+            exchange(link, keyboard)
+        else:
+            with _raw_terminal():
+                _exchange(link, keyboard)
     finally:
         _save_history(keyboard.history.lines)
         typer.echo("", err=True)
