@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.trajectory.measures import PERIOD_S, deviations, limits, planned, points
 from tests.trajectory.programs import Segments
+from tests.trajectory.random_programs import program
 
 from openacr.trajectory import Arc, Segment
 
@@ -58,3 +59,30 @@ def test_any_path_keeps_limits_tolerance_and_end(jerk: float | None, segments: S
     assert deviation <= 0.01
     assert vertex <= 0.01
     assert control[-1].tolist() == list(segments[-1].end)
+
+
+def require_all(seed: int, jerk: float | None = 20_000.0) -> None:
+    """No sample above a limit, no point off the path, and the end exact."""
+    segments, axes, tolerance = program(seed)
+    start = (0.0,) * axes
+    control = points(planned(segments, start, limits(jerk, axes)))
+    v, a, j = (np.diff(control, n, axis=0) / PERIOD_S**n for n in (1, 2, 3))
+    assert np.abs(v).max() <= 100.0 * ALLOWED, seed
+    if not any(segment.is_rapid for segment in segments):
+        assert np.linalg.norm(v, axis=1).max() <= 100.0 * ALLOWED, seed
+    assert np.abs(a).max() <= 1000.0 * ALLOWED, seed
+    assert jerk is None or np.abs(j).max() <= jerk * ALLOWED, seed
+    assert max(deviations(control, segments, start)) <= tolerance, seed
+    assert control[-1].tolist() == list(segments[-1].end), seed
+
+
+@pytest.mark.parametrize("seed", [*range(8), 201, 1106])
+def test_no_sample_of_a_random_program_is_above_a_limit(seed: int) -> None:
+    require_all(seed)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("hundred", range(20))
+def test_no_sample_of_two_thousand_programs_is_above_a_limit(hundred: int) -> None:
+    for seed in range(100 * hundred, 100 * (hundred + 1)):
+        require_all(seed)

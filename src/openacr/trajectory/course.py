@@ -37,6 +37,7 @@ class Course:
         for k in range(axes):
             self.H[course_cy.H_START + k] = start[k]
             self.H[course_cy.H_START + axes + k] = end[k]
+        self.Z = room(4)
         self.begin_s = 0.0  # of the stream
         self.lead_s = 0.0  # overlap with the course before
         self.committed_s = 0.0  # the law up to here is final

@@ -27,6 +27,7 @@ from openacr.trajectory.stream import Member, Stream
 PERIOD_S = 0.003
 NEARLY = 0.999  # of the jerk on straight lines: what rounding may take
 MOST_POINTS = 1024  # of one take
+APART = 4.0  # periods between the first and the last of three courses: no difference has both
 NEAR = 30.0  # tolerances around a corner within which the deviation of an overlap is examined
 _overlap_time = pick(overlap_cy.overlap_time)
 
@@ -196,8 +197,9 @@ class TrajectoryPlanner:
         """The time by which course b may begin before course a has ended."""
         end, start = before.tail[-1], after.head[0]
         tolerance = min(end.segment.tolerance_u, start.segment.tolerance_u)
-        longest = min(a.duration_s - a.lead_s, 0.5 * b.duration_s, b.committed_s,
-                      self._longest(before, after))  # fmt: skip
+        alone_s = a.duration_s - a.lead_s - APART * self.period_s
+        longest = max(0.0, min(alone_s, 0.5 * b.duration_s, b.committed_s,
+                               self._longest(before, after)))  # fmt: skip
         speed = max(end.segment.feed_ups, start.segment.feed_ups)
         rules = numbers([self.period_s, a.begin_s, 0.999 * tolerance, speed, longest,
                                        *self.limits.checked()])  # fmt: skip

@@ -44,6 +44,12 @@ KNOT = 2.0  # samples between two knots where the path bends
 SLOW_STEPS = 2.0  # of time between two knots where the feed is low
 END_ROWS = 8  # control points that shape an end
 MOST_AGAIN, AGAIN_SHARE = 3, 0.96
+SLOWER = (0.8, 0.5, 0.2, 0.0)  # shares between the slow law and the fastest
+SLOWDOWN, MOST_SLOWDOWNS = 1.05, 40
+SCALES = np.array(
+    [SLOWDOWN, 1.0, 1.0 / SLOWDOWN, 1.0 / SLOWDOWN**2]
+)  # of time, distance ... in a law
+PHASES = 4
 LEAST_KNOTS = 32  # ahead of what is committed
 RAMP = 12  # dense knots from one slow speed to the next
 MOST_TRIES = 40
@@ -146,35 +152,69 @@ class SmoothCourse(Course):
         """Plan the next window, and commit what may be run.
 
         Its setpoints are checked; where one is above a limit the window is planned again with less
-        of the jerk.
+        of the jerk, and then more slowly. TrajectoryError where nothing keeps the limits: what was
+        committed before still ends at rest.
         """
         self._tube.grow()
         points, origin = self._tube.control_points()
+        is_first = not len(self._knots)
+        law = self.Z, self.H[course_cy.H_ROWS], self.committed_s, self.is_complete
         self.set_path(points, self._tube.step, origin)
         before = self._knots, self._x, self._kept, self._level
         shares = self._rules.shares()
-        for _ in range(MOST_AGAIN):
-            self._plan_window(points, origin)
-            if self._samples_keep_limits():
-                return
+        for share in (*(1.0,) * (MOST_AGAIN + 1), *SLOWER):
             self._knots, self._x, self._kept, self._level = before
             self._rules.set_shares(shares)
-            self._rules.ease *= AGAIN_SHARE
-        self._plan_window(points, origin)
+            self._plan_window(points, origin, share)
+            if self._samples_keep_limits(is_first=is_first):
+                return
+            self._rules.ease *= AGAIN_SHARE if share == 1.0 else 1.0
+            if is_first and share < 1.0 and self._slow_down():
+                return
+        self.Z, self.H[course_cy.H_ROWS], self.committed_s, self.is_complete = law
+        line = self.sections.lines[-1]
+        raise TrajectoryError(f"line {line}: no speed keeps the limits")
 
-    def _samples_keep_limits(self) -> bool:
-        """Whether setpoints of the law are within the limits of acceleration and jerk."""
+    def _slow_down(self) -> bool:
+        """Run the first window, which begins at rest, more slowly; False where that is no help."""
+        for _ in range(MOST_SLOWDOWNS):
+            rows = np.asarray(self.Z).reshape(-1, 4)
+            rows[:] *= SCALES
+            self._kept = self._kept * SCALES
+            self.committed_s *= SLOWDOWN
+            self._x = self._x / SLOWDOWN**2
+            self._level /= SLOWDOWN**2
+            if self._samples_keep_limits(is_first=True):
+                return True
+        return False
+
+    def _samples_keep_limits(self, *, is_first: bool) -> bool:
+        """Whether setpoints of the law are within the limits of acceleration and jerk.
+
+        Where the course begins in the stream is not known before its first window is planned; then
+        several phases of the grid are examined.
+        """
+        period = self._period_s
+        begin = max(self._begun_s - 4.0 * period, 0.0)
+        grid = math.ceil((self.begin_s + begin) / period) * period - self.begin_s
+        starts = [grid - 4.0 * period * (grid < 4.0 * period)]
+        if is_first:
+            starts = [period * (phase / PHASES - 4.0) for phase in range(PHASES)]
+        return all(self._setpoints_keep_limits(start) for start in starts)
+
+    def _setpoints_keep_limits(self, begin_s: float) -> bool:
+        """Whether setpoints from one time of the course on are within the limits."""
         period, axes = self._period_s, self._limits.axes
-        begin = float(self._begun_s)
-        count = int((self.duration_s - begin) / period) + 4
+        count = int((self.duration_s - begin_s) / period) + 4
         points, gone = np.empty((count, axes)), np.empty(count)
-        _fill(self.H, self.C, self.Z, begin, period, count, flat(points), flat(gone))
+        _fill(self.H, self.C, self.Z, begin_s, period, count, flat(points), flat(gone))
         push = np.abs(np.diff(points, n=2, axis=0)).max(axis=0) / period**2
         jerk = np.abs(np.diff(points, n=3, axis=0)).max(axis=0) / period**3
         most = np.array(self._limits.checked())
         return bool((push <= most[axes : 2 * axes]).all() and (jerk <= most[2 * axes :]).all())
 
-    def _plan_window(self, points: Reals, origin: float) -> None:
+    def _plan_window(self, points: Reals, origin: float, share: float) -> None:
+        """Plan the window; `share` 0 is a slow law that keeps the limits, 1 the fastest."""
         curve = Curve(self.C, len(points), self._limits.axes, self._tube.step, origin)
         is_first = not len(self._knots)
         before = self._new_knots(points, origin)
@@ -198,7 +238,8 @@ class SmoothCourse(Course):
             line = self.sections.lines[-1]
             raise TrajectoryError(f"line {line}: no slow speed keeps the limits")
         slowness = 1.0 / math.sqrt(float(window.cap.max()))
-        self._x, steps = window.fit(start, slowness)
+        fastest, steps = window.fit(start, slowness)
+        self._x = window.tie(start + share * (fastest - start))
         self.steps += steps
         self._level = level
         self._commit(window, is_first)

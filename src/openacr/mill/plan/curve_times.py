@@ -1,6 +1,5 @@
 """The time a planned curve takes, move by move: as long as its control points on the card."""
 
-import math
 from collections import deque
 from collections.abc import Iterator
 
@@ -8,6 +7,7 @@ from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.plan.curve_window import CurveRows
 from openacr.mill.plan.encoding import Job
 from openacr.mill.plan.planned_path import PlannedPath
+from openacr.trajectory import TrajectoryError
 
 Phases = list[tuple[float, float, float]]
 NEAR_U = 1e-12
@@ -36,6 +36,8 @@ class CurveTimes:
             if self._rows is None:
                 self._rows, self.path.is_open = CurveRows(self.path.start), True
             yield from self._pass(self._rows.add(found)[1].tolist())
+        if self.path.fault:
+            raise TrajectoryError(self.path.fault)
         if self._rows is not None and self.path.is_at_end:
             yield from self._pass(self._rows.tail()[1].tolist())
             yield from self._end()
@@ -73,7 +75,7 @@ class CurveTimes:
         return job, phases
 
     def _end(self) -> Iterator[tuple[Job, Phases]]:
-        for job in self.path.begun(math.inf):
+        for job in self.path.begun(self.path.planned_u):
             self._add(job)
         while self._jobs:
             yield self._done()

@@ -17,7 +17,7 @@ from openacr.mill.config.settings import Settings
 from openacr.mill.plan.curve_limits import limits_of
 from openacr.mill.plan.encoding import Job
 from openacr.trajectory import Arc as PlanArc
-from openacr.trajectory import Segment, Setpoints, TrajectoryPlanner
+from openacr.trajectory import Segment, Setpoints, TrajectoryError, TrajectoryPlanner
 
 Rows = NDArray[np.float64]
 AHEAD_U = 1e-9
@@ -35,12 +35,14 @@ class PlannedPath:
         self._waiting: deque[Job] = deque()  # not passed to the planner
         self._planner: TrajectoryPlanner | None = None
         self._path_u = 0.0
+        self.planned_u = 0.0  # the path of the moves that the planner has
         self.feed = 1.0  # factor of the feeds of moves that follow: an override above 100 %
         self.start: Rows = np.zeros(len(self._axes))  # whole pulses
         self._known_s = self._passed_s = 0.0
         self._is_stopped = False  # the path known so far ends at rest
         self.is_at_end = False  # and all of it is planned
         self.is_open = False  # its control points are being sent
+        self.fault = ""  # why the rest of it cannot be planned: it ends at rest before that
 
     # --- moves --------------------------------------------------------------------------
 
@@ -68,6 +70,7 @@ class PlannedPath:
         if isinstance(entry, Arc):
             first, second = (self._axes.index(a) for a in (entry.plane.first, entry.plane.second))
             arc = PlanArc(first, second, entry.centre, entry.sweep_rad)
+        self.planned_u += job.length_u
         job.feed_scale = 1.0 if job.is_rapid else self.feed
         self._passed_s += job.length_u / job.feed_ups
         planner.add(
@@ -91,8 +94,8 @@ class PlannedPath:
         return tuple(point[axis] for axis in self._axes)
 
     def __len__(self) -> int:
-        """The moves that have not begun, and 1 for a curve that is not at its end."""
-        return len(self._jobs) + self.is_open
+        """The moves that have not begun, and 1 for a curve that is not at its end or has none."""
+        return len(self._jobs) + (self.is_open or bool(self.fault))
 
     @property
     def known_s(self) -> float:
@@ -116,8 +119,9 @@ class PlannedPath:
         self._jobs.clear()
         self._waiting.clear()
         self._planner = None
-        self._path_u = self._known_s = self._passed_s = 0.0
+        self._path_u = self.planned_u = self._known_s = self._passed_s = 0.0
         self.is_open = self._is_stopped = self.is_at_end = False
+        self.fault = ""
         return jobs
 
     # --- setpoints ----------------------------------------------------------------------
@@ -130,7 +134,16 @@ class PlannedPath:
                 self._planner.stop()
 
     def take(self) -> Setpoints | None:
-        """The next setpoints; None where nothing more can be planned yet."""
+        """The next setpoints; None where nothing more can be planned yet, or at all (`fault`)."""
+        if self.fault:
+            return None
+        try:
+            return self._next()
+        except TrajectoryError as error:
+            self.fault, self.is_at_end = str(error), True
+            return None
+
+    def _next(self) -> Setpoints | None:
         planner, found = self._planner, None
         while planner is not None and found is None:
             while self._passed_s < PASSED_S and self._pass_on(planner):
@@ -147,4 +160,4 @@ class PlannedPath:
         self.start = point
         if not self._jobs:
             self._planner = None
-            self._path_u = 0.0
+            self._path_u = self.planned_u = 0.0
