@@ -20,7 +20,9 @@ COUNTER = n.MA_BASE + n.MA_MOVE_COUNTER
 SPEED = 40  # pulses from one control point to the next: 8000/s
 
 
-def point(at: int, x: int, code0: int = LOCKED, acc: float | None = None) -> Move:
+def point(
+    at: int, x: int, code0: int = LOCKED, acc: float | None = None, weight: float = 1.0
+) -> Move:
     """A control point of slave 0."""
     return Move.of(
         {0: x},
@@ -28,7 +30,7 @@ def point(at: int, x: int, code0: int = LOCKED, acc: float | None = None) -> Mov
         code0=code0,
         code1=int(Code1.NURB),
         code3=int(Code3.CURVE),
-        scaling=(float(at), 1.0),
+        scaling=(float(at), weight),
     )
 
 
@@ -41,8 +43,15 @@ def end(at: int, code0: int = LOCKED) -> Move:
 class Curve(Sender):
     """A curve along X that begins at rest: 40 pulses per knot from its sixth point on."""
 
-    def __init__(self, code0: int = LOCKED, acc: float | None = None) -> None:
-        super().__init__("MBUF OFF", "DIM MBUF(100)", "MBUF ON", f"P{TIME_FACTOR}={KNOT_S}")
+    def __init__(
+        self,
+        *lines: str,
+        code0: int = LOCKED,
+        acc: float | None = None,
+        weights: tuple[float, ...] = (1.0,),
+    ) -> None:
+        super().__init__("MBUF OFF", "DIM MBUF(100)", "MBUF ON", f"P{TIME_FACTOR}={KNOT_S}", *lines)
+        self.weights = weights
         self.code0, self.knot, self.place = code0, 0, 0
         self.acc = acc
         for step in (0, 0, 0, 1, 4, 10, 20, 30, 36, 39):
@@ -51,7 +60,8 @@ class Curve(Sender):
     def send(self, step: int) -> "Curve":
         """Send the next control point."""
         self.place += step
-        self.host.send(point(self.knot, self.place, self.code0, self.acc).encode())
+        weight = self.weights[self.knot % len(self.weights)]
+        self.host.send(point(self.knot, self.place, self.code0, self.acc, weight).encode())
         self.knot += 1
         return self
 
@@ -97,14 +107,14 @@ def ticks_of(curve: Curve) -> int:
 def test_packets_that_complete_a_piece_are_counted_and_so_is_the_end(
     code0: int, counted: int
 ) -> None:
-    curve = Curve(LOCKED | code0).run(20).finish()
+    curve = Curve(code0=LOCKED | code0).run(20).finish()
     curve.rest()
     assert curve.knot == 40  # of order 4: the first six packets complete no piece
     assert curve.card.p[COUNTER] == counted
 
 
 def test_the_counter_shows_which_piece_runs() -> None:
-    curve = Curve(LOCKED | COUNTED).run(40)
+    curve = Curve(code0=LOCKED | COUNTED).run(40)
     ticks_per_knot = round(KNOT_S / curve.period_s)
     curve.course(10 * ticks_per_knot + 1)
     assert curve.card.p[COUNTER] == 11
@@ -120,7 +130,7 @@ def test_a_curve_of_time_takes_one_knot_per_time_factor() -> None:
 def test_the_override_scales_the_time_of_a_curve_unless_its_packets_lock_it(
     code0: int, factor: int
 ) -> None:
-    curve = Curve(code0).run(20).finish()
+    curve = Curve(code0=code0).run(20).finish()
     curve.card.p[FOV] = 0.5
     assert ticks_of(curve) == factor * round(37 * KNOT_S / curve.period_s)
 
@@ -150,3 +160,62 @@ def test_a_curve_without_further_points_stops_at_once_and_goes_on_with_a_ramp() 
     ramps = [(b - a) / curve.period_s for a, b in pairwise(again)]
     assert max(ramps) == pytest.approx(100_000.0, rel=1e-3)
     assert max(again) > 6000.0
+
+
+@pytest.mark.parametrize(("known", "at_rest_s"), [(80, 0.13), (40, 0.13)])
+def test_with_a_jerk_a_feed_hold_keeps_dec_and_jrk(known: int, at_rest_s: float) -> None:
+    curve = Curve("JRK 2000", acc=100.0).run(known)
+    curve.course(100)
+    curve.host.send(SetBit(FEED_HOLD).encode())
+    found = speeds(curve.course(400), curve.period_s)
+    ramps = [(b - a) / curve.period_s for a, b in pairwise(found)]
+    jerks = [(b - a) / curve.period_s for a, b in pairwise(ramps)]
+    begin = next(k for k, ramp in enumerate(ramps) if ramp < -1e-3)
+    assert found[begin] == pytest.approx(8000.0)
+    assert -100_000.0 * 0.995 <= min(ramps) < -85_000.0
+    assert max(map(abs, jerks)) <= 2_000_000.0 * 0.996
+    rest = next(k for k in range(begin, len(found)) if found[k] == 0.0)
+    assert (rest - begin) * curve.period_s == pytest.approx(at_rest_s, rel=0.06)
+    assert curve.card.bit[IN_FEEDHOLD]
+
+
+def test_a_feed_hold_that_has_too_few_points_ramps_as_a_move_does() -> None:
+    curve = Curve("JRK 2000", acc=100.0).run(14)
+    curve.course(60)
+    curve.host.send(SetBit(FEED_HOLD).encode())
+    found = speeds(curve.course(130), curve.period_s)
+    ramps = [(b - a) / curve.period_s for a, b in pairwise(found)]
+    steady = [ramp for ramp in ramps if ramp == pytest.approx(-100_000.0, rel=1e-3)]
+    assert len(steady) > 10
+    assert 0.0 < found[-1] < 7500.0
+
+
+def test_curves_with_weights_hold_as_moves_do() -> None:
+    curve = Curve("JRK 2000", acc=100.0, weights=(1.0, 2.0)).run(80)
+    curve.course(150)
+    curve.host.send(SetBit(FEED_HOLD).encode())
+    found = speeds(curve.course(400), curve.period_s)
+    ramps = [(b - a) / curve.period_s for a, b in pairwise(found)]
+    jerks = [(b - a) / curve.period_s for a, b in pairwise(ramps)]
+    assert found[-1] == 0.0
+    assert max(map(abs, jerks)) > 1e8
+
+
+def test_the_end_of_a_curve_is_not_hurried_by_a_feed_hold() -> None:
+    curve = Curve("JRK 2000", acc=100.0).run(20).finish()
+    curve.course(280)  # its last points slow it down already
+    curve.host.send(SetBit(FEED_HOLD).encode())
+    curve.course(200)
+    assert curve.at[0] == pytest.approx(1080.0)
+
+
+def test_a_hold_after_a_cycle_start_is_sought_again() -> None:
+    curve = Curve("JRK 2000", acc=100.0).run(85)
+    for _ in range(2):
+        curve.course(60)
+        curve.host.send(SetBit(FEED_HOLD).encode())
+        curve.course(420)
+        assert curve.card.bit[IN_FEEDHOLD]
+        curve.host.send(SetBit(FEED_HOLD + 1).encode())
+        curve.course(100)
+        assert not curve.card.bit[IN_FEEDHOLD]

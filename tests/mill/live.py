@@ -18,13 +18,17 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from openacr.client import Card
+from openacr.controller.journal import read_journal
+from openacr.controller.replay import Replay
+from openacr.controller.trace import Trace
+from openacr.engine.samples import Sample
 from openacr.map.numbers import AF1_JOG_ACTIVE, AF1_WORD, MF1_IN_MOTION, MF1_WORD
 from openacr.sysvar import Store
 
 LIMIT_S = 60.0  # for what has to come at all
 AXIS_POSITION, AXIS_STRIDE = 12288, 256
 PULSES = 10000.0
-SERVE = ("serve", "--ascii-port", "0", "--binary-port", "0", "--no-journal")
+SERVE = ("serve", "--ascii-port", "0", "--binary-port", "0")
 
 
 def until(what: Callable[[], bool], *, limit_s: float = LIMIT_S, about: str = "") -> None:
@@ -113,11 +117,13 @@ def serial_line() -> Iterator[tuple[str, str]]:
 class Plant:
     """A served card, seen through a connection of its own."""
 
-    def __init__(self, folder: Path, *words: str) -> None:
+    def __init__(self, folder: Path, *words: str, is_journalled: bool = False) -> None:
         self.folder = folder
         self.store = folder / "sysvar.db"
         self._processes: list[Process] = []
-        self.served = self._started(*SERVE, *words)
+        self._journal = folder / "journal"
+        kept = ("--journal", str(self._journal)) if is_journalled else ("--no-journal",)
+        self.served = self._started(*SERVE, *kept, *words)
         until(lambda: "ascii=" in self.served.text, about="the card is served")
         found = re.search(r"ascii=(\S+)", self.served.text)
         assert found is not None
@@ -163,6 +169,18 @@ class Plant:
         before = self.places()
         time.sleep(0.25)
         return self.places() == before
+
+    def lived_again(self, *samples: Sample) -> Trace:
+        """The samples of every tick of the card, which is ended and lives again by its journal."""
+        self.card.close()
+        self.served.signal(signal.SIGTERM)
+        self.served.ended()
+        (path,) = self._journal.rglob("*.journal")
+        again = Replay(read_journal(path))
+        again.card.record(samples=samples)
+        again.run()
+        assert again.difference is None
+        return again.card.trace()
 
     def outputs(self, *numbers: int) -> list[bool]:
         return self.card.read_bits(numbers)

@@ -25,9 +25,11 @@ from tests.mill.shop import Shop, end, src
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.overrides import Override
+from openacr.mill.run.feeding import Starved
 from openacr.mill.run.lifecycle import State
 from openacr.protocol.bits import SetBit
 from openacr.sysvar.tabs import FOV
+from openacr.trajectory import Setpoints, TrajectoryError, TrajectoryPlanner
 
 ROUNDING = 0.03  # of the jerk: positions of 24 bits over the cube of 4 ms
 
@@ -204,3 +206,42 @@ def test_a_dwell_a_stop_and_a_probe_come_between_curves() -> None:
     shop.runner.start()
     assert shop.until(State.IDLE) is State.IDLE
     assert shop.pulses() == (0, 0, 0)
+
+
+def test_a_path_that_cannot_be_planned_ends_at_rest_before_that(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    take, calls = TrajectoryPlanner.take, []
+
+    def fails(planner: TrajectoryPlanner) -> Setpoints | None:
+        calls.append(planner)
+        if len(calls) > 4:
+            raise TrajectoryError("line 70: no speed keeps the limits")
+        return take(planner)
+
+    monkeypatch.setattr(TrajectoryPlanner, "take", fails)
+    shop = planned_shop()
+    places = follow(shop, *path(wave(900)), end())
+    limits(places, shop)
+    assert shop.runner.state is State.ALARM
+    assert [(a.kind.code, a.detail) for a in shop.runner.alarms.active] == [
+        (60, "line 70: no speed keeps the limits")
+    ]
+    assert 30.0 < places[-1][0] < 300.0
+    assert off_path(places, wave(900)) <= TOLERANCE
+
+
+@pytest.mark.parametrize("late_polls", [60, 150, 400])
+def test_a_program_that_arrives_slowly_rests_on_its_path_and_goes_on(late_polls: int) -> None:
+    points = wave(240)
+    whole: list[c.Entry] = [*path(points), end()]
+    late: list[c.Entry] = [Starved()] * late_polls  # type: ignore[list-item]
+    moves = [*whole[:79], *late, *whole[79:159], *late, *whole[159:]]
+    shop = planned_shop()
+    places = follow(shop, *moves)
+    limits(places, shop)
+    assert shop.runner.state is State.IDLE
+    assert shop.pulses() == follow_end(points)
+    assert off_path(places, points) <= TOLERANCE
+    rests = np.abs(np.diff(places[100:-100], axis=0)).max(axis=1) == 0.0
+    assert int(np.diff(rests.astype(int)).clip(0).sum()) == 2

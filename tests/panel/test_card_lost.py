@@ -60,7 +60,7 @@ class Remote:
 
 @pytest.fixture
 def served(tmp_path: Path) -> Iterator[str]:
-    process = Process(SERVE[0], str(FOLDER), *SERVE[1:], store=tmp_path / "card.db")
+    process = Process(SERVE[0], str(FOLDER), *SERVE[1:], "--no-journal", store=tmp_path / "card.db")
     until(lambda: "ascii=" in process.text, about="the card is served")
     found = re.search(r"ascii=(\S+)", process.text)
     assert found is not None

@@ -1,7 +1,7 @@
 """Feedhold, cycle start, and dropping the moves of a master."""
 
 from openacr.kernel.axis.axis_cy import axis_jog_set
-from openacr.kernel.path.bezier_cy import is_bezier
+from openacr.kernel.path.bezier_cy import is_bezier, is_timed
 from openacr.kernel.path.corner_cy import corner_drop
 from openacr.kernel.path.curveflags_cy import curve_drop
 from openacr.kernel.path.hsint_cy import HSINT_NONE, HSINT_PASSING
@@ -15,6 +15,7 @@ from openacr.kernel.path.path_cy import (
 from openacr.kernel.path.plan_cy import master_plan
 from openacr.kernel.path.round_cy import round_hold_rate, round_holds
 from openacr.kernel.path.seek_cy import SEEK_NONE, SEEK_STOPPING
+from openacr.kernel.path.timed_stop_cy import GOES_ON, PLAIN, stop_seek
 from openacr.kernel.profile.profile_cy import profile_plan, profile_reset, profile_stop
 from openacr.kernel.profile.ramps_cy import DECELERATING, STOPPING
 from openacr.map.rows import axes, masters, moves, profiles
@@ -98,11 +99,15 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
     Where an end ramp no softer than that is already running, or the ramp would pass a target
     at which the path stops anyway, the move simply ends at its target.
     """
+    if I[masters.hold[m]] != FEEDHOLDING:
+        F[masters.stop_ups3[m]] = 0.0
     I[masters.hold[m]] = FEEDHOLDING
     I[mf1.word[m]] |= mf1.FEEDHOLDING
     if not I[masters.moving[m]]:
         return
     record: int = move_record(I, m)
+    if is_timed(I, record) and timed_holds(F, I, S, m):
+        return
     rate_ups2: float = F[moves.dec_ups2[record]]
     if rate_ups2 <= 0.0:
         rate_ups2 = F[moves.stp_ups2[record]]
@@ -123,6 +128,20 @@ def master_hold(F: F64, I: I32, S: F32, m: int) -> None:
             stp_ups2 = rate_ups2
         limit_ups: float = F[profiles.velocity[m]]
         profile_plan(F, I, m, end_u, limit_ups, 0.0, rate_ups2, rate_ups2, stp_ups2, jerk_ups3)
+
+
+def timed_holds(F: F64, I: I32, S: F32, m: int) -> bool:
+    """Slow a curve in time within the limits of its axes; False where it holds as a move does."""
+    found: int = stop_seek(F, I, S, m)
+    if found == PLAIN:
+        return False
+    if found == GOES_ON:
+        master_plan(F, I, S, m)
+        return True
+    rate_ups2: float = F[masters.stop_ups2[m]]
+    jerk_ups3: float = F[masters.stop_ups3[m]]
+    profile_stop(F, I, m, F[masters.section_u[m]], rate_ups2, jerk_ups3, DECELERATING)
+    return True
 
 
 def master_release(F: F64, I: I32, S: F32, m: int) -> None:

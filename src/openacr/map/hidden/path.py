@@ -181,6 +181,11 @@ MASTER = HiddenBlock(
         ("corner_out_cnt", SLAVES),
         "rotate_deg",  # ROTATE of programmed paths (motion/path/transform.py)
         ("rotate_center_u", 2),
+        "stop_ups2",  # rate and jerk of a feed hold of a curve in time (kernel/path/timed_stop_cy)
+        "stop_ups3",  # 0: not found yet, -1: as in any other move
+        ("stop_now", 3),
+        ("stop_accel", SLAVES),  # limits of the axes while it is sought, in pulses
+        ("stop_jerk", SLAVES),
     ),
     ints=(
         "program",  # program that owns the master, -1 none

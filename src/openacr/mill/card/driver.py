@@ -12,7 +12,7 @@ from functools import cached_property
 from openacr.client import Card, ConnectionLostError
 from openacr.client.errors import GarbledError, NoReplyError
 from openacr.client.values import Number
-from openacr.cnc.occupied import TRIPPED
+from openacr.cnc.occupied import LEAST_MOVES, RAN_SHORT, TRIPPED
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.protocol.bits import ClearBit, SetBit
@@ -25,7 +25,7 @@ CLEAR_S = 2.0  # longest time the card needs to clear a kill
 CLOCK_PERIOD_MS = 1 << 31
 BITS_PER_WORD = 32
 USER_FLAGS = n.FLAG_WORD_BASE + TRIPPED // BITS_PER_WORD  # the word with the watchdog's flag
-TRIPPED_MASK = 1 << TRIPPED % BITS_PER_WORD
+TRIPPED_MASK, RAN_SHORT_MASK = 1 << TRIPPED % BITS_PER_WORD, 1 << RAN_SHORT % BITS_PER_WORD
 LIMIT_LATCHES = (
     n.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
     n.AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
@@ -48,6 +48,7 @@ class CardState:
     modules: tuple[int, ...] = ()  # inputs of the expansion modules
     was_reset: bool = False  # the clock of the card has restarted
     has_tripped: bool = False  # the watchdog has stopped the machine
+    has_run_short: bool = False  # and has held a planned path that it had too little of
     is_guarded: bool = True  # the watchdog runs, where there is one
     may_have_lost: bool = False  # sent packets: the connection is a new one
 
@@ -161,6 +162,7 @@ class MachineDriver:
             clock, master, counter, inputs, tuple(drives), tuple(limits), tuple(modules),
             was_reset=was_reset,
             has_tripped=bool(flags & TRIPPED_MASK),
+            has_run_short=bool(flags & RAN_SHORT_MASK),
             is_guarded=bool(program & n.PF_PROGRAM_RUNNING),
             may_have_lost=self._has_lost,
         )  # fmt: skip
@@ -332,6 +334,10 @@ class MachineDriver:
         """Send feed and rapid override, 1 = as programmed."""
         self._transmit(FeedrateOverride.of([self.master], feed))
         self._transmit(RapidOverride.of([self.master], rapid))
+
+    def keep_moves(self, count: int) -> None:
+        """Let the watchdog hold the feed as soon as fewer than `count` moves wait."""
+        self.write(LEAST_MOVES, count)
 
     def reset_counter(self) -> None:
         """Reset the packet counter to zero."""

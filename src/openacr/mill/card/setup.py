@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from openacr.client import Card
 from openacr.client.errors import RefusedError
 from openacr.client.values import number_text
+from openacr.cnc.occupied import LEAST_MOVES, RAN_SHORT
 from openacr.map import numbers as n
 from openacr.mill.card import soft_limits
 from openacr.mill.card.ballscrew import Table, install
@@ -114,6 +115,8 @@ def _curves(settings: Settings) -> Iterator[str]:
     yield f"NURB RANK {RANK}"
     yield f"P{base + n.MA_NURB_TIME_FACTOR}={_number(PERIOD_S)}"
     yield f"P{base + n.MA_NURB_START_TIME}=0"
+    yield f"P{LEAST_MOVES}=0"
+    yield f"CLR {RAN_SHORT}"
 
 
 def _axis(axis: AxisSettings) -> Iterator[str]:

@@ -2,19 +2,21 @@
 
 The host increments a variable of the card. When that has not changed for the link timeout the
 card sets feed hold, stops jogs, and switches spindle, coolant and beam off, repeatedly until
-an acknowledgement clears its flag. It is plain AcroBASIC in one of the programs 0 to 7, which
-have time slices of their own.
+an acknowledgement clears its flag. A planned path leaves no time for that: it holds the feed as
+soon as fewer moves wait than the path needs to come to rest. It is plain AcroBASIC in one of the
+programs 0 to 7, which have time slices of their own.
 """
 
 from collections.abc import Iterator
 
 from openacr.client import Card
 from openacr.client.errors import RefusedError
-from openacr.cnc.occupied import HEARTBEAT, TRIPPED
+from openacr.cnc.occupied import HEARTBEAT, LEAST_MOVES, RAN_SHORT, TRIPPED
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.mill.card.actions import DAC_STRIDE, DAC_VALUE
 from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.config.curves import can_plan
 from openacr.mill.config.settings import NONE
 from openacr.sysvar.tabs import CONTROL
 
@@ -28,7 +30,9 @@ NO_WATCHDOG = (
 )
 FLAGS_PER_MASTER, FEED_HOLD_REQUEST = 32, 520
 MS_PER_S = 1000
+LINE_STEP = 10
 PERIOD_S = 0.1  # longest cycle of its program
+LOOK_S, QUICK_S = 0.05, 0.005  # between two cycles; of a machine that plans its paths
 
 
 class Watchdog:
@@ -99,7 +103,7 @@ class Watchdog:
 
     def _store(self) -> None:
         for number, line in enumerate(self.lines(), start=1):
-            self._card.command(f"{10 * number} {line}", program=self.program)
+            self._card.command(f"{LINE_STEP * number} {line}", program=self.program)
 
     def _type(self, *lines: str) -> None:
         for line in lines:
@@ -110,31 +114,39 @@ class Watchdog:
     def lines(self) -> list[str]:
         """The program lines, without their numbers 10, 20, 30 ..."""
         timeout_s = self._settings.link_timeout_s
-        first, wait, trip = 50, 70, 150  # line numbers that are jumped to
         clock = f"P{n.P_GLOBAL_SYSTEM_CLOCK}"
+        waiting = n.MA_BASE + n.MA_STRIDE * self._settings.master + n.MA_MBUF_FILLED
+        hold = f"SET {FEED_HOLD_REQUEST + FLAGS_PER_MASTER * self._settings.master}"
         begin = [
             NAME,
             "DIM LV(3)",
             f"DIM $V(1,{TEXT_LENGTH})",
-            f"IF (BIT{TRIPPED}) THEN GOTO {trip}",
-            f"LV0=P{HEARTBEAT}",
-            f"LV1={clock}",
-            "DWL 0.05",
-            f"IF (BIT{TRIPPED}) THEN GOTO {trip}",
-            f"IF (P{HEARTBEAT}<>LV0) THEN GOTO {first}",
+            f"IF (BIT{TRIPPED}) THEN GOTO {{trip}}",
+        ]
+        first = [f"LV0=P{HEARTBEAT}", f"LV1={clock}"]
+        wait = [
+            f"DWL {QUICK_S if can_plan(self._settings) else LOOK_S:g}",
+            f"IF (P{waiting}<P{LEAST_MOVES}) THEN GOTO {{short}}",
+            f"IF (BIT{TRIPPED}) THEN GOTO {{trip}}",
+            f"IF (P{HEARTBEAT}<>LV0) THEN GOTO {{first}}",
             f"LV2={clock}-LV1",
-            f"IF (LV2<0) THEN GOTO {first}",  # the clock has wrapped
-            f"IF (LV2<{round(timeout_s * MS_PER_S)}) THEN GOTO {wait}",
+            "IF (LV2<0) THEN GOTO {first}",  # the clock has wrapped
+            f"IF (LV2<{round(timeout_s * MS_PER_S)}) THEN GOTO {{wait}}",
             f"SET {TRIPPED}",
             f'$V0="host silent for {timeout_s:g} s: feed hold, spindle, coolant, beam off"',
         ]
-        end = ["DWL 0.05", f"IF (BIT{TRIPPED}) THEN GOTO {trip}", f"GOTO {first}"]
-        return [*begin, *self._stop(), *end]
+        trip = [hold, *self._stop()]
+        trip += [f"DWL {LOOK_S:g}", f"IF (BIT{TRIPPED}) THEN GOTO {{trip}}", "GOTO {first}"]
+        short = [hold, f"SET {RAN_SHORT}", f"P{LEAST_MOVES}=0", "GOTO {wait}"]
+        places, lines = {}, begin
+        for name, part in (("first", first), ("wait", wait), ("trip", trip), ("short", short)):
+            places[name] = LINE_STEP * (len(lines) + 1)
+            lines = lines + part
+        return [line.format(**places) for line in lines]
 
     def _stop(self) -> Iterator[str]:
-        """Commands for feed hold, jogs off, then spindle, coolant and beam off."""
+        """Commands for jogs off, then spindle, coolant and beam off."""
         settings = self._settings
-        yield f"SET {FEED_HOLD_REQUEST + FLAGS_PER_MASTER * settings.master}"
         for axis in settings.axes:
             yield f"AXIS{axis.index} JOG OFF"
         for number, is_on in self._io.safe_levels():

@@ -1,8 +1,10 @@
 """A planned curve on the card: its control points are sent as time passes, a few ahead.
 
-Overrides and feed holds act here, on the time of the plan, because the card only runs through its
-curve. So little is sent ahead (`depth`): it is what a hold has to wait for. A hold ends
-the curve where it has come to rest; the path continues from there as after any other hold.
+Overrides act here, on the time of the plan, because the card only runs through its curve. On the
+virtual machine, which cannot lose its host, so do feed holds, and little is sent ahead: it is what
+they have to wait for. Over a link the card holds the feed itself, and has as much of the curve as
+it needs to come to rest without its host (`Reserve`); its watchdog holds when it has less. After a
+hold the path continues from where it rests, as after any other hold.
 """
 
 import math
@@ -13,7 +15,9 @@ from numpy.typing import NDArray
 from openacr.mill.card.driver import CardState, MachineDriver
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
+from openacr.mill.plan.curve_limits import accelerations
 from openacr.mill.plan.curve_packets import COUNTED, LEAD, CurvePackets
+from openacr.mill.plan.curve_reserve import Reserve
 from openacr.mill.plan.curve_window import CurveWindow
 from openacr.mill.plan.encoding import Job
 from openacr.mill.plan.planned_path import PlannedPath
@@ -23,27 +27,30 @@ from openacr.trajectory.timescale import Progress
 
 AHEAD_S = 1.0  # of the plan known ahead of the points that are sent
 SHORT_S = 0.5  # of it left at which a program that does not arrive is brought to rest
-END = math.inf
-BUFFERED_S, BUFFERED_LINK_S = 0.04, 0.1  # of the curve on the card: virtual machine, others
+BUFFERED_S = 0.04  # of the curve on the virtual machine
+SPARE = 2  # places of the move buffer that stay free
 Rows = NDArray[np.float64]
 
 
 class CurveRun:
     """Sends one curve after the other to a card."""
 
-    def __init__(self, machine: MachineDriver, settings: Settings, tracker: Tracker) -> None:
+    def __init__(
+        self, machine: MachineDriver, settings: Settings, tracker: Tracker, most: int
+    ) -> None:
         self._machine = machine
         self._settings = settings
         self._tracker = tracker
         self._packets = CurvePackets(settings)
-        buffered_s = BUFFERED_S if machine.rounds_corners else BUFFERED_LINK_S
-        self.depth = math.ceil(buffered_s / PERIOD_S)  # pieces of the curve that wait on the card
+        self._reserve = None if machine.rounds_corners else Reserve(settings, most - SPARE)
+        self._guarded = 0  # pieces below which the watchdog holds
         self.jobs = 0  # moves begun
         self._path: PlannedPath | None = None
         self._window: CurveWindow | None = None
         self._is_begun = False  # the first packets of the curve are sent
-        self._before_u = 0.0  # the path at the control point before the last one
+        self._before_u = 0.0, 0.0  # the path at the two control points before the last one
         self._job: Job | None = None  # the last move begun
+        self._ramp_ups2 = min(accelerations(settings))
         self._factors = (1.0, 1.0)
         self._holds = False
 
@@ -64,27 +71,44 @@ class CurveRun:
             self.drop()
             return False
         self._holds = True
+        if self._reserve is not None:
+            self._guard(0)
+            self._machine.hold()
         return True
 
     def drop(self) -> None:
         """Forget the curve: the card holds none of it, or has dropped it."""
         self._path = self._window = self._job = None
         self._is_begun = self._holds = False
+        self._guard(0)
         self._packets = CurvePackets(self._settings)
+
+    @property
+    def depth(self) -> int:
+        """Pieces of the curve that are to wait on the card."""
+        if self._reserve is None:
+            return math.ceil(BUFFERED_S / PERIOD_S)
+        return self._reserve.least + self._reserve.on_the_line
+
+    def _guard(self, count: int) -> None:
+        """Let the watchdog hold the feed when fewer than `count` pieces wait."""
+        if count != self._guarded:
+            self._guarded = count
+            self._machine.keep_moves(count)
 
     # --- planning -----------------------------------------------------------------------
 
     def plan(self, path: PlannedPath, *, is_complete: bool, is_starved: bool) -> None:
         """Plan ahead; the curve begins with the next poll."""
-        if self._holds:
-            return
+        if self._holds or (self._window is not None and self._window.scale.is_complete):
+            return  # what has arrived meanwhile begins another curve
         path.feed = max(self._factors[0], 1.0)
         if is_complete or (is_starved and self._ahead_s < SHORT_S):
             path.stop()
         while self._ahead_s < AHEAD_S and (found := path.take()) is not None:
             if self._window is None:
                 self._path, self._window = path, CurveWindow(path.start, self._settings)
-                self._before_u = 0.0
+                self._before_u = 0.0, 0.0
                 path.is_open = True
             self._window.append(found)
         window = self._window
@@ -102,10 +126,16 @@ class CurveRun:
         if self._is_begun and (sample.is_killed or sample.may_have_lost):
             self.drop()  # a curve with missing points is not continued
             self._machine.hold()
+        if self._holds and self._reserve is not None and self._is_begun:
+            return  # the card holds; what it has of the curve is dropped and planned again
         if self._window is not None and (self._is_begun or self._tracker.is_at_end(sample)):
             packets = self._next_packets(self._window)
             if packets:
                 self._machine.send(packets)
+            if self._is_begun and self._reserve is not None:
+                least = self._reserve.least
+                if self._tracker.waiting > least + self._reserve.on_the_line // 2:
+                    self._guard(least)
         elif self._holds and self._tracker.is_at_end(sample):
             self._holds = False
             self._machine.hold()
@@ -145,15 +175,22 @@ class CurveRun:
                 self._append(packets, self._path.start)
 
     def _append(self, packets: list[Move], point: Rows) -> None:
-        packets.append(self._packets.point(point.tolist(), self._settings.speeds.feed_acc_ups2))
+        packets.append(self._packets.point(point.tolist(), self._ramp_ups2))
+        if self._reserve is not None:
+            self._reserve.note(point)
         if self._packets.is_counted:
             self._tracker.add_packet()
 
     def _note(self, path_u: float) -> None:
-        """Note the moves that begin in the piece of the last packet, which ends a point earlier."""
+        """Note the moves that begin in the piece of the last packet, which ends a point earlier.
+
+        A card that holds by itself rests within a piece: there a move counts from the first piece
+        that has nothing of the move before.
+        """
+        begin_u, end_u = self._before_u
         if self._packets.is_counted:
-            self._begin_jobs(self._before_u)
-        self._before_u = path_u
+            self._begin_jobs(end_u if self._reserve is None else begin_u)
+        self._before_u = end_u, path_u
 
     def _begin_jobs(self, path_u: float) -> None:
         if self._path is None:
@@ -165,11 +202,12 @@ class CurveRun:
 
     def _finish(self, packets: list[Move], point: Rows, *, has_ended: bool) -> None:
         """End the curve at rest, at a point that was sent three times."""
+        self._guard(0)
         while self._packets.count < COUNTED:
             self._append(packets, point)
         path = self._path
-        if has_ended:
-            self._begin_jobs(END)
+        if has_ended and path is not None and not path.fault:
+            self._begin_jobs(path.planned_u)  # others that have arrived belong to the next curve
         packets.append(self._packets.end())
         self._tracker.add_packet()
         self._window = self._path = self._job = None

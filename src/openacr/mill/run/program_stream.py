@@ -18,7 +18,16 @@ from openacr.mill.plan.travel_limits import first_excess
 from openacr.mill.run.curve_run import CurveRun
 from openacr.mill.run.entry_actions import EntryActions
 from openacr.mill.run.feeding import Fault, Feed, Halt, Starved
-from openacr.mill.run.rejoin import Place, first_of, lead_in, pace_of, place, rest_of, straight_back
+from openacr.mill.run.rejoin import (
+    Place,
+    apart_u,
+    first_of,
+    lead_in,
+    pace_of,
+    place,
+    rest_of,
+    straight_back,
+)
 from openacr.mill.run.run_host import RunHost
 from openacr.mill.run.tracking import Tracker, time_s
 
@@ -43,7 +52,7 @@ class ProgramStream:
         self._depth = depth
         self._probing = Probing(io, self._send, self.host.position, entry_actions.say)
         self._encoder = Encoder(io.settings)
-        self._curve = CurveRun(io.machine, io.settings, self.tracker)
+        self._curve = CurveRun(io.machine, io.settings, self.tracker, depth)
         self._feed: Feed | None = None
         self._excused: Job | None = None  # a last move whose end the machine left on purpose
         self._begin: c.Point = (0.0,) * c.AXES  # where the program was started
@@ -106,6 +115,8 @@ class ProgramStream:
             for note in feed.passed(self.tracker, is_at_rest=is_at_rest):
                 for _ in self._entry_actions.steps(note):
                     pass  # no note waits
+        if curve is not None and curve.fault and is_at_rest:
+            return Fault(alarms.PROGRAM_ERROR, curve.fault)
         halt = feed.halt if feed.is_empty and is_at_rest else None
         if halt is not None and (moved := self._moved_by_others()):
             return Fault(alarms.NOT_IN_PLACE, moved)
@@ -131,7 +142,7 @@ class ProgramStream:
     def is_planned(self) -> bool:
         """Whether the held or executing move is part of a planned curve, which is planned again."""
         job = self.tracker.current
-        return job is not None and job.last > job.count
+        return self._curve.is_begun or (job is not None and job.last > job.count)
 
     def excuse(self) -> None:
         """Accept that the machine leaves the end of its last move, by jogging or probing."""
@@ -341,9 +352,13 @@ class ProgramStream:
 
     def _withdrawn(self, here: c.Point) -> list[Job]:
         """The rest of the move held at `here`, and the moves after it."""
+        is_planned = self.is_planned
         jobs, held, rest = self.tracker.withdraw(), None, []
         if jobs and 0 < jobs[0].count <= self.tracker.started:
             held = jobs.pop(0)
+            while is_planned and jobs and self._is_on(jobs[0], held, here):
+                self.tracker.trail.add(held)
+                held = jobs.pop(0)
             first = first_of(held.entry, held.begin, here)
             for piece in self.pieces_of(held, first, held.begin):
                 self.tracker.trail.add(piece)
@@ -351,6 +366,15 @@ class ProgramStream:
         if self._feed is not None:
             self._feed.restart_count(jobs, held, rest[0] if rest else None)
         return rest + jobs
+
+    def _is_on(self, job: Job, before: Job, here: c.Point) -> bool:
+        """Whether a machine that rests within a planned curve is on a move, not the one before.
+
+        The piece of the curve that is executed may lead from one to the other.
+        """
+        if job.count > self.tracker.started + 1:
+            return False
+        return apart_u(job.entry, job.begin, here) < apart_u(before.entry, before.begin, here)
 
     def pieces_of(self, whole: Job, entry: Motion, begin: c.Point) -> list[Job]:
         """A part of a move as a separate move; empty if it has no length."""

@@ -67,6 +67,27 @@ def _turned(arc: Arc, begin: Point, here: Point) -> float:
     return turn * turned
 
 
+def apart_u(entry: Motion, begin: Point, here: Point) -> float:
+    """The distance of a point from a move."""
+    end = entry.end
+    if isinstance(entry, Arc):
+        share = _turned(entry, begin, here) / abs(entry.sweep_rad)
+    else:
+        along = [b - a for a, b in zip(begin, end, strict=True)]
+        square = sum(part * part for part in along)
+        gone = sum((h - a) * part for h, a, part in zip(here, begin, along, strict=True))
+        share = min(max(gone / square, 0.0), 1.0) if square > 0.0 else 0.0
+    nearest = [a + (b - a) * share for a, b in zip(begin, end, strict=True)]
+    if isinstance(entry, Arc):
+        first, second = entry.plane.first, entry.plane.second
+        start = math.atan2(begin[second] - entry.centre[1], begin[first] - entry.centre[0])
+        radius = entry.start_radius + (entry.end_radius - entry.start_radius) * share
+        angle = start + entry.sweep_rad * share
+        nearest[first] = entry.centre[0] + radius * math.cos(angle)
+        nearest[second] = entry.centre[1] + radius * math.sin(angle)
+    return math.dist(nearest, here)
+
+
 @dataclass(frozen=True, slots=True)
 class Place:
     """Where a path was left: the point, the direction in XY, and the move."""

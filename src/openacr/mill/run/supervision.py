@@ -5,6 +5,7 @@ from contextlib import suppress
 from functools import partial
 
 from openacr.client import ConnectionLostError
+from openacr.cnc.occupied import RAN_SHORT
 from openacr.errors import UserError
 from openacr.mill.card import alarms, homed
 from openacr.mill.card.action_player import ActionPlayer
@@ -80,12 +81,21 @@ class Supervision:
         elif sample.may_have_lost:
             with self._io.machine.repeating():
                 self._renew()
+        if sample.has_run_short:
+            self._go_on_after_rest()
         if step_s > self._io.settings.link_timeout_s and self.is_busy:
             self.raise_alarm(alarms.HOST_AWAY, f"{step_s:.1f}")
         if self._does_not_begin(sample):
             self.raise_alarm(alarms.NOT_MOVED, "")
         for kind, detail in self._watch.causes(sample, spins=self._spindle.is_on):
             self.raise_alarm(kind, detail)
+
+    def _go_on_after_rest(self) -> None:
+        """The watchdog has held a planned path of which too little had arrived: plan it again."""
+        self._io.machine.set_flag(RAN_SHORT, False)
+        self._say("the card had too little of the path and rests on it; it goes on from there")
+        if self._lifecycle.state is State.RUN and not self._player.is_active:
+            self._player.begin(self._stream.retake())
 
     def _does_not_begin(self, sample: CardState) -> bool:
         """Whether moves of the program or of a trace were sent and are not executed."""
