@@ -1,13 +1,15 @@
 """Trajectories within a tolerance: times with and without jerk, largest values, CPU time.
 
 Programs of five kinds at 100 mm/s, 1000 mm/s2 and 20,000 mm/s3 by axis. Values are those of the
-spline that is sent, which no sample exceeds.
+spline that is sent, which no sample exceeds. Where `linuxcnc-uspace` is installed its planner
+runs the same programs, in real time.
 """
 
 import numpy as np
 from tests.trajectory.measures import PERIOD_S, deviations, limits, planned, points
-from tests.trajectory.programs import KINDS
+from tests.trajectory.programs import KINDS, Segments
 
+from bench import linuxcnc
 from bench.figures import at_most, best_s, value_only
 
 TOLERANCES_U = (0.01, 0.05)
@@ -20,11 +22,33 @@ def main() -> None:
     for kind in KINDS:
         for tolerance in TOLERANCES_U:
             _figures(f"trajectory {kind} {tolerance}", kind, tolerance)
+    if linuxcnc.is_installed():
+        _side_by_side(TOLERANCES_U[0])
+
+
+def _side_by_side(tolerance: float) -> None:
+    """The same programs on LinuxCNC, whose version 2.9 limits no jerk."""
+    programs = {kind: make(tolerance) for kind, make in KINDS.items()}
+    found = linuxcnc.samples(
+        programs, {kind: _start(kind, each) for kind, each in programs.items()}
+    )
+    for kind, at in found.items():
+        name = f"LinuxCNC {kind} {tolerance}"
+        value_only(f"{name}: time", len(at) * linuxcnc.PERIOD_S, "s")
+        push, jerk = (
+            np.nanmax(np.abs(np.diff(at, n, axis=0))) / linuxcnc.PERIOD_S**n for n in (2, 3)
+        )
+        value_only(f"{name}: largest acceleration", float(push), "mm/s2")
+        value_only(f"{name}: largest jerk", float(jerk), "mm/s3")
+
+
+def _start(kind: str, segments: Segments) -> tuple[float, ...]:
+    return segments[0].end if kind == "surface" else (0.0, 0.0, 0.0)
 
 
 def _figures(name: str, kind: str, tolerance: float) -> None:
     segments = KINDS[kind](tolerance)
-    start = segments[0].end if kind == "surface" else (0.0, 0.0, 0.0)
+    start = _start(kind, segments)
     control = points(planned(segments, start, limits()))
     spent_s = best_s(lambda: planned(segments, start, limits()))
     free = points(planned(segments, start, limits(None)))

@@ -142,7 +142,7 @@ def test_no_path_is_planned_for_a_wrong_limit_or_number_of_axes() -> None:
 
 @pytest.mark.parametrize(
     ("kind", "tolerance", "time_s"),
-    [("corners", 0.01, 2.793), ("pocket", 0.01, 4.662), ("pocket", 0.05, 4.29),
+    [("corners", 0.01, 2.808), ("pocket", 0.01, 4.662), ("pocket", 0.05, 4.29),
      ("circles", 0.01, 2.031), ("surface", 0.01, 0.63), ("surface", 0.05, 0.63)],
 )  # fmt: skip
 def test_programs_take_their_time_to_one_percent(

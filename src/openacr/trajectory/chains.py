@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 from openacr.trajectory.segments import Direction, Piece, turn_rad
 
-SHARP_DEG = 25.0
+SHARP_DEG = 32.0
 STRAIGHT_RAD = 1e-7  # turns below are rounding of the coordinates
 
 
