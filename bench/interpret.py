@@ -34,6 +34,25 @@ X#2 Y#3
 IF #1<{PASSES} THEN GOTO 10
 RET
 """
+O_WORDS = f"""F100
+#1=0
+o1 while [#1 lt {PASSES}]
+#1=[#1+1]
+#2=[sin[#1]*10]
+#3=[cos[#1]*10]
+X#2 Y#3
+#4=[#4+#2]
+o1 endwhile
+M2
+"""
+EXPRESSIONS = "".join(f"G1 X{k}.5 Y(P200*{k % 7}+.5) F{k % 50 + 1}\n" for k in range(50_000))
+ARCS = "F100 G0 X0 Y0\n" + "".join(f"G3 X{k % 2} I{0.5 - k % 2}\n" for k in range(1, 50_000))
+HOLES = "F100 G0 Z5\nG99 G81 X0 Y0 Z-2 R1\n" + "".join(
+    f"X{k % 100} Y{k / 100:.2f}\n" for k in range(4_000)
+)
+COMPENSATED = "F100 G0 X-5 Y-5\nG41.1 D.1 G1 X0 Y0\n" + "".join(
+    f"X{k / 10:.1f} Y{k % 2 / 100:.2f}\n" for k in range(1, 10_000)
+)
 
 
 def finishing(lines: int) -> str:
@@ -116,10 +135,19 @@ def main() -> None:
     _file("a finishing program", finishing(LINES), 1.0)
     _file("a shop file", mixed(MIXED), 1.5)
     passes = PASSES / best_s(lambda: interpreted(LOOP), 3)
-    at_least("passes of a macro loop of 6 lines per second", passes, 100_000, "1/s")
-    words = "\n".join(f"G1 X{k}.5 Y(P200*{k % 7}) M8 F{k % 50 + 1}" for k in range(10_000))
-    value_only("lines with codes and formulas per second", 10_000 / best_s(
-        lambda: interpreted(words), 3), "1/s")  # fmt: skip
+    at_least("passes of a macro loop of 6 lines per second", passes, 180_000, "1/s")
+    passes = PASSES / best_s(lambda: interpreted(O_WORDS, "rs274ngc"), 3)
+    at_least("passes of a loop of 6 lines by O-words", passes, 180_000, "1/s")
+    _lines("blocks with expressions", EXPRESSIONS, "acromill", 150_000)
+    _lines("arcs", ARCS, "rs274ngc", 500_000)
+    _lines("holes of a canned cycle", HOLES, "rs274ngc", 100_000)
+    _lines("compensated lines", COMPENSATED, "rs274ngc", 200_000)
+
+
+def _lines(name: str, text: str, dialect: str, target: float) -> None:
+    """Lines of one kind, loaded and interpreted."""
+    per_s = text.count("\n") / best_s(lambda: interpreted(text, dialect), 3)
+    at_least(f"{name} per second", per_s, target, "1/s")
 
 
 if __name__ == "__main__":

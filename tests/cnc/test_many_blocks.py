@@ -13,7 +13,7 @@ from tests.cnc.test_fuzz import ACROMILL, OTHER, mutated
 from openacr.cnc.canonical import Arc, Line, Moves, Plane, Rapid, Source, batches
 from openacr.cnc.codes.fast import Sets
 from openacr.cnc.codes.table import DIALECTS
-from openacr.cnc.interpreter import blocks_cy, fast_plans, scanning
+from openacr.cnc.interpreter import blocks_cy, fast_plans, lines_cy, scanning
 from openacr.cnc.interpreter.execution import MOST_IDLE
 from openacr.cnc.interpreter.interpreter import Options
 from openacr.cnc.loading.skimming import Skimmer
@@ -275,7 +275,7 @@ def test_both_builds_skim_and_execute_alike(monkeypatch: pytest.MonkeyPatch) -> 
         text = program(chance, dialect)
         options = Options(has_batches=True, collects_errors=True)
         compiled = done(text, dialect, options, is_slow=False)
-        monkeypatch.setattr(scanning, "_run_lines", blocks_cy.run_lines)
+        monkeypatch.setattr(scanning, "_run_lines", lines_cy.run_lines)
         plain = done(text, dialect, options, is_slow=False)
         monkeypatch.undo()
         assert plain.entries == compiled.entries

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from tests.cnc.programs import Bench, Run, made, unrolled
 
 from openacr.cnc.canonical import Entry, Line, Polyline, Rapid
-from openacr.cnc.interpreter import blocks_cy as blocks
-from openacr.cnc.interpreter import scanning
+from openacr.cnc.interpreter import lines_cy, scanning
 from openacr.cnc.interpreter.interpreter import Interpreter, Options
 from openacr.cnc.interpreter.scanning import Scanner
 from openacr.cnc.loading.load import load
@@ -172,7 +171,7 @@ def test_the_executor_is_the_same_compiled_and_plain() -> None:
     chance = random.Random(5)
     text = "F10\n" + "\n".join(line(chance) for _ in range(400))
     entries = []
-    for function in (blocks.run_lines, pick(blocks.run_lines)):
+    for function in (lines_cy.run_lines, pick(lines_cy.run_lines)):
         done = made(text, axes=4, options=Options(has_batches=True))
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(scanning, "_run_lines", function)
@@ -186,7 +185,7 @@ def test_numbers_are_read_as_float_reads_them() -> None:
         digits = str(chance.randrange(10 ** chance.randrange(1, 16)))
         cut = chance.randrange(len(digits) + 1)
         text = f"{digits[:cut]}.{digits[cut:]}"
-        shapes = LineShapes({})
+        shapes = LineShapes({}, "(")
         data = memoryview(bytearray(text.encode()))
         end = scan.scan_number(data, 0, len(text), shapes.W)
         assert end == len(text)

@@ -1,6 +1,6 @@
 """The fast form of a code: what it comes down to where many blocks are executed at once.
 
-Blocks are executed at once (`cnc.interpreter.blocks_cy`) while no compensation, scaling, rotation,
+Blocks are executed at once (`cnc.interpreter.lines_cy`) while no compensation, scaling, rotation,
 cycle, modal macro or inverse time is on. Under these conditions the handler of a code with a
 fast form does exactly what the form says; a block with any other code is left to the handlers.
 """

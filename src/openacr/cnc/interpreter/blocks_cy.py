@@ -4,7 +4,8 @@ Each line has a shape (`scan_cy`), and each shape a plan in `P`, made once by Py
 
     axes named (mask), I J K R (mask 1 2 4 8), PLAIN, ALONE, count of steps, steps of 3 numbers
 
-A step sets a row of the modal state `M`, takes F, or moves as the motion in force does:
+A step sets a row of the modal state `M`, takes F, computes (`values_cy`), or moves as the motion
+in force does:
 
     position  p = word * times / per          + p in G91; rotary words as they are
     target    p + shift                       a row is written where the machine moves
@@ -32,33 +33,21 @@ from openacr.cnc.geometry.arc_cy import (
     arc_centre,
     arc_is_near,
 )
+from openacr.cnc.reading.rich_cy import K_RICH_SIZE
 from openacr.cnc.reading.scan_cy import (
     AXES,
-    K_HAS_WORDS,
-    K_LAST,
-    K_LINES,
-    K_NEXT,
     K_ROTARY,
-    K_SCAN_SIZE,
-    K_STATUS,
-    K_TOKENS,
-    SCAN_END,
-    SCAN_HARD,
-    SCAN_LEFT,
-    SCAN_NEW,
-    SCAN_SLOW,
-    SHAPE_NONE,
     W_SCAN_SIZE,
     W_WORDS,
-    scan_line,
-    scan_shape,
 )
-from openacr.views import F64, I32, U8
+from openacr.views import F64, I32
 
-__all__ = ["run_lines"]
-
-K_LETTER = K_SCAN_SIZE  # the letter of each axis
-K_RUN_SIZE = K_SCAN_SIZE + AXES
+K_LETTER = K_RICH_SIZE  # the letter of each axis
+K_LAST_LINE = K_LETTER + AXES  # number of the last line that was read
+K_READ = K_LETTER + AXES + 1  # count of lines read
+K_FIRST = K_LETTER + AXES + 2  # place of the data in the text
+K_JUMPS = K_LETTER + AXES + 3  # count of jumps
+K_RUN_SIZE = K_LETTER + AXES + 4
 
 W_POSITION = W_SCAN_SIZE  # program position, default units
 W_TARGET = W_POSITION + 8  # machine position
@@ -89,7 +78,9 @@ M_KEPT = 10  # the same from before the line
 M_IS_SHIFTED = 20
 M_IS_PLAIN = 21  # only straight feed moves of one pace are taken
 M_LINE = 22  # of the first line
-M_SIZE = 23
+M_HAS_VALUES = 23  # cells can be read and written here
+M_MOST_PASSES = 24  # of a jump; 0: jumps are not counted
+M_SIZE = 25
 
 P_AXES = 0
 P_WORDS = 1
@@ -102,6 +93,12 @@ STEP_SET = 0  # row, value
 STEP_UNIT = 1  # the same, and the factors of the unit
 STEP_FEED = 2
 STEP_MOVE = 3
+STEP_WORD = 4  # letter, formula
+STEP_VALUE = 5  # slot, formula
+STEP_STORE = 6  # kind, slot
+STEP_JUMP = 7  # JUMP_..., formula or 0
+JUMP_COUNTS = 1
+JUMP_IF_TRUE = 2  # else where it is false
 
 R_KIND = 0
 R_LINE = 1
@@ -119,6 +116,7 @@ ARC = 2
 TAKEN = 0
 MOVED = 1
 LEFT = 2
+JUMPED = 3
 
 INCREMENTAL = 91
 INCH = 20
@@ -269,80 +267,3 @@ def block_move(
     R[row * ROW + R_PLANE] = M[M_PLANE]
     M[M_IDLE] = 0
     return MOVED
-
-
-def block_run(
-    W: F64, K: I32, P: I32, plan: int, M: I32, A: F64, ends: F64, arcs: F64, R: I32, paces: F64,
-    row: int
-) -> int:  # fmt: skip
-    """Execute the steps of one block; LEFT where it is left as it was."""
-    if M[M_IS_PLAIN] and not P[plan + P_IS_PLAIN]:
-        return LEFT
-    if (P[plan + P_IS_ALONE] and row > 0) or M[M_IDLE] >= MOST_IDLE:
-        return LEFT
-    block_keep(W, M)
-    M[M_IDLE] = M[M_IDLE] + 1
-    done: int = TAKEN
-    at: int = plan + P_FIRST
-    for _ in range(P[plan + P_STEPS]):
-        step: int = P[at]
-        if step == STEP_MOVE:
-            done = block_move(W, K, P, plan, M, A, ends, arcs, R, row)
-        elif step == STEP_FEED:
-            done = block_feed(W, M, R, paces, row)
-        else:
-            M[P[at + 1]] = P[at + 2]
-            if step == STEP_UNIT:
-                units: int = W_UNITS if P[at + 2] == INCH else W_UNITS + 2
-                W[W_TIMES] = W[units]
-                W[W_PER] = W[units + 1]
-        if done == LEFT:
-            block_restore(W, M, paces)
-            return LEFT
-        at += 3
-    return done
-
-
-def run_lines(
-    data: U8, pos: int, stop: int, W: F64, K: I32, L: I32, T: I32, P: I32, M: I32, A: F64,
-    ends: F64, arcs: F64, R: I32, paces: F64, row: int, most: int
-) -> int:  # fmt: skip
-    """Execute lines from `pos` on until one is left, or there are `most` moves.
-
-    There are `row` moves already. Returns the count of all; K says where it ended and why.
-    """
-    line: int = 0
-    last: int = pos
-    status: int = SCAN_END
-    has_words: int = 0
-    while pos < stop and row < most and status == SCAN_END:
-        after: int = scan_line(data, pos, stop, W, K, L)
-        if after < 0:
-            status = SCAN_HARD
-            break
-        if K[K_TOKENS]:
-            plan: int = scan_shape(K, L, T)
-            if plan < 0:
-                status = SCAN_NEW if plan == SHAPE_NONE else SCAN_SLOW
-                break
-            done: int = block_run(W, K, P, plan, M, A, ends, arcs, R, paces, row)
-            if done == LEFT:
-                status = SCAN_LEFT
-                break
-            has_words = 1
-            if done == MOVED:
-                R[row * ROW + R_LINE] = M[M_LINE] + line
-                R[row * ROW + R_START] = pos
-                R[row * ROW + R_STOP] = after
-                row += 1
-            if P[plan + P_IS_ALONE]:
-                most = row
-        last = pos
-        line += 1
-        pos = after
-    K[K_LINES] = line
-    K[K_NEXT] = pos
-    K[K_LAST] = last
-    K[K_STATUS] = status
-    K[K_HAS_WORDS] = has_words
-    return row

@@ -116,10 +116,8 @@ class Execution:
     def _scan(self) -> bool:
         """Execute the lines that come next together; False if there are none."""
         flow = self._flow
-        if flow.next is not None or not self.scanner.is_free:
-            return False
         place = flow.ahead()
-        if place is None:
+        if place is None or not self.scanner.is_free:
             return False
         moves, place_after = self.scanner.read(place)
         if place_after is place:

@@ -102,7 +102,7 @@ class Interpreter:
         self.out: list[Entry] = []
         letters = self.planner.axes
         self.path = Path(cells, self.modal, letters, self.move)
-        self.parameters = (self.dialect.parameters or Parameters)(self)
+        self.parameters: Parameters = (self.dialect.parameters or Parameters)(self)
         self.o_words = OWords(self)
         self.offset_path = OffsetPath(self)
         self.execution = Execution(self)
@@ -113,8 +113,9 @@ class Interpreter:
         self.motions: Motions = MOTIONS
         self.is_rested = True
         self.is_ended = False
-        if self.options.collects_errors:
-            self.flow.jumped = Loops(self).jumped
+        self.loops = Loops(self) if self.options.collects_errors else None
+        if self.loops is not None:
+            self.flow.jumped = self.loops.jumped
         self.power_up()
 
     @property

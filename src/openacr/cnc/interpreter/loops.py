@@ -16,6 +16,7 @@ from openacr.cnc.state.shadow import Shadow
 if TYPE_CHECKING:
     from openacr.cnc.canonical import Point
     from openacr.cnc.interpreter.interpreter import Interpreter
+    from openacr.cnc.program.program import Node, Part
 
 MOST_PASSES = 500_000
 HINT = "it does not end by itself; a machine runs it until it is ended"
@@ -46,6 +47,16 @@ class Loops:
         if count & (count - 1) == 0:
             self._earlier[key] = run.path.target, self._state()
 
+    def passes(self, node: Node) -> tuple[int, Point | None]:
+        """How often a line has jumped, and where the machine was in the pass that is kept."""
+        key = id(node.part), node.line
+        earlier = self._earlier.get(key)
+        return self._cnts.get(key, 0), earlier[0] if earlier else None
+
+    def count(self, part: Part, line: int, passes: int) -> None:
+        """Note how often a line has jumped."""
+        self._cnts[id(part), line] = passes
+
     def _state(self) -> tuple[object, ...]:
         """All that decides how the program goes on; frames are compared by identity."""
         run = self._run
@@ -56,8 +67,8 @@ class Loops:
             tuple(run.parameters.values),
             dict(run.parameters.names),
             dict(run.parameters.global_names),
-            dict(getattr(run.parameters, "own", {})),
-            dict(cells.written) if isinstance(cells, Shadow) else None,
+            bytes(run.parameters.own or b""),
+            cells.written if isinstance(cells, Shadow) else None,
             dict(machine.parameters) if isinstance(machine, VirtualMachine) else None,
             run.o_words.left,
             tuple(run.flow.frames),

@@ -1,10 +1,10 @@
 """Runs of lines executed from the text, many at a time.
 
-While nothing but the words of a line decides what it does - no compensation, scaling, rotation,
-cycle, macro - the compiled executor reads the bytes (`blocks_cy`). For readers of whole programs
-the moves of many blocks come out as `Moves`; where a machine runs the program, runs of
-straight feed moves of one pace come out as a `Polyline`. The result is that of the lines
-one by one.
+While nothing but a line and the values of its formulas decide what it does - no compensation,
+scaling, rotation, cycle, modal macro - the compiled executor reads the bytes (`lines_cy`). For
+readers of whole programs the moves of many blocks come out as `Moves`; where a machine runs the
+program, runs of straight feed moves of one pace come out as a `Polyline`. The result is that of
+the lines one by one.
 """
 
 from __future__ import annotations
@@ -19,7 +19,11 @@ from openacr.cnc.canonical.batches import CURVE, POINT, ROW
 from openacr.cnc.codes.gcodes.motion import MOTIONS, NO_MOTION
 from openacr.cnc.codes.radii import NEAR_INCH
 from openacr.cnc.interpreter import blocks_cy as core
-from openacr.cnc.interpreter.fast_plans import FIELDS, fast_plan
+from openacr.cnc.interpreter import lines_cy, loops
+from openacr.cnc.interpreter.fast_plans import FIELDS, fast_plan, rich_plan
+from openacr.cnc.interpreter.formula_code import FormulaWriter
+from openacr.cnc.interpreter.program_values import Jumps, ProgramValues
+from openacr.cnc.interpreter.values_cy import X_SIZE
 from openacr.cnc.program.labels import Place
 from openacr.cnc.reading import scan_cy as scan
 from openacr.cnc.reading.findings import CodeError
@@ -35,11 +39,12 @@ if TYPE_CHECKING:
     from openacr.cnc.program.program import Part
     from openacr.views import F64
 
+MOST_SLOW = 20_000  # places of lines that are known to be left to the parser
 LEAST_ROWS = 16  # a Polyline has more
 MOST_NUMBERS = 32768  # of all plans
 OFF, NO_CYCLE = 40, 80
 FAST_MOTIONS = frozenset({0, 1, 2, 3, NO_MOTION})
-_run_lines = pick(core.run_lines)
+_run_lines = pick(lines_cy.run_lines)
 
 
 class Scanner:
@@ -47,13 +52,18 @@ class Scanner:
 
     def __init__(self, run: Interpreter) -> None:
         self._run = run
-        self._shapes = LineShapes(run.planner.axes, core.W_RUN_SIZE, core.K_RUN_SIZE)
+        bracket = run.dialect.grammar.brackets[0]
+        self._shapes = LineShapes(run.planner.axes, bracket, core.W_RUN_SIZE, core.K_RUN_SIZE)
         for letter, axis in run.planner.axes.items():
             self._shapes.K[core.K_LETTER + axis] = ord(letter) - ord("A")
         self._plans, self._plans_end = integers(MOST_NUMBERS), 0
+        self._stack = doubles(X_SIZE)
         self._modal, self._arc = integers(core.M_SIZE), doubles(core.A_RUN_SIZE)
         self._ends, self._arcs = doubles(MOST_ROWS * POINT), doubles(MOST_ROWS * CURVE)
         self._rows, self._paces = integers(MOST_ROWS * ROW), doubles(MOST_ROWS + 1)
+        self._values = ProgramValues(run)
+        self._jumps = Jumps(run)
+        self._slow: set[tuple[int, int]] = set()  # parts and places of lines
         self._bar: Place | None = None  # from its line to its offset there is no run of lines
         self._last: Place | None = None
         self.last: Place | None = None  # the last line that was executed, if it was here
@@ -85,6 +95,7 @@ class Scanner:
         text = start.part.text
         if start.offset >= text.end or start.part.is_cycles or self._is_barred(start):
             return None, start
+        self._jumps.arrived(start)
         data, place = self._shapes.bytes(text, start.offset)
         stop = min(len(data), text.end - start.offset + place)
         is_plain = not self._run.options.has_batches
@@ -92,8 +103,9 @@ class Scanner:
         first = start.offset - place
         rows, after = self._execute(data, Place(start.part, place, start.line), stop, first)
         after = Place(start.part, first + after.offset, after.line)
-        if after.line == start.line or (is_plain and rows < LEAST_ROWS):
+        if self._cnt == 0 or (is_plain and rows < LEAST_ROWS):
             self._bar = Place(start.part, after.offset, start.line)
+            self._note_slow(start)
             return None, start
         self._hand_back()
         self.last = self._last
@@ -106,24 +118,38 @@ class Scanner:
         `first` is the offset of the data in the text.
         """
         shapes, rows = self._shapes, 0
+        values, jumps = self._values, self._jumps
+        self._cnt = 0
+        jumps.begin(at.part, first, shapes.K)
         while True:
             self._modal[core.M_LINE] = at.line
             rows = _run_lines(
                 data, at.offset, stop, shapes.W, shapes.K, shapes.L, shapes.T, self._plans,
                 self._modal, self._arc, self._ends, self._arcs, self._rows, self._paces, rows,
-                MOST_ROWS,
+                MOST_ROWS, shapes.N, shapes.Q, self._stack, values.locals, values.own,
+                values.cells, values.states, values.access, jumps.rows, jumps.kept,
             )  # fmt: skip
-            line_cnt, after = shapes.K[scan.K_LINES], shapes.K[scan.K_NEXT]
-            if line_cnt:
-                last = first + shapes.K[scan.K_LAST]
-                self._last = Place(at.part, last, at.line + line_cnt - 1)
-            at = Place(at.part, after, at.line + line_cnt)
-            if shapes.status != scan.SCAN_NEW or not self._learn(at.part, first + after):
+            K = shapes.K
+            if K[core.K_READ]:
+                self._cnt += K[core.K_READ]
+                self._last = Place(at.part, first + K[scan.K_LAST], K[core.K_LAST_LINE])
+            at = Place(at.part, K[scan.K_NEXT], K[scan.K_LINES])
+            if shapes.status == scan.SCAN_LEFT:
+                jumps.left(at)
+            if shapes.status != scan.SCAN_NEW or not self._learn(at.part, first + at.offset):
+                jumps.end()
                 return rows, at
+
+    def _note_slow(self, start: Place) -> None:
+        """Remember that a line is always left to the parser."""
+        if self._shapes.status in (scan.SCAN_HARD, scan.SCAN_SLOW) and len(self._slow) < MOST_SLOW:
+            self._slow.add((id(start.part), start.offset))
 
     def _is_barred(self, start: Place) -> bool:
         """Whether a run from here on has been found too short: it ends at the same line."""
         bar = self._bar
+        if (id(start.part), start.offset) in self._slow:
+            return True
         return (
             bar is not None
             and bar.part is start.part
@@ -137,7 +163,7 @@ class Scanner:
         """Make the plan of the line at an offset, whose shape is new; False without room."""
         tokens = self._shapes.tokens()
         found = part.text.line(offset)
-        numbers = self._planned(decoded(found[0])) if found else None
+        numbers = self._planned(decoded(found[0]), part) if found else None
         if numbers is None or self._plans_end + len(numbers) > MOST_NUMBERS:
             return self._shapes.learn(tokens, scan.SHAPE_SLOW)
         first = self._plans_end
@@ -146,13 +172,17 @@ class Scanner:
             self._plans[k] = number
         return self._shapes.learn(tokens, first)
 
-    def _planned(self, raw: str) -> list[int] | None:
+    def _planned(self, raw: str, part: Part) -> list[int] | None:
         run = self._run
         try:
             plan = run.planner.plan(parse(raw, run.dialect.grammar))
         except CodeError:
             return None
-        return fast_plan(plan, plan.acts)
+        if not self._shapes.is_rich:
+            return fast_plan(plan, plan.acts)
+        writer = FormulaWriter(run.parameters, self._shapes.numbers())
+        branches = partial(run.o_words.is_plain, part=part)
+        return rich_plan(plan, plan.acts, writer, branches, assigns_last=run.dialect.assigns_last)
 
     # --- the state of the interpreter -----------------------------------------------------
 
@@ -170,6 +200,8 @@ class Scanner:
             M[row] = int(getattr(modal, field))
         M[core.M_PACE], M[core.M_HAS_FEED] = 0, modal.has_feed
         M[core.M_IDLE] = run.execution.idle_cnt
+        M[core.M_HAS_VALUES] = self._values.are_here and not is_plain
+        M[core.M_MOST_PASSES] = loops.MOST_PASSES if run.loops is not None else 0
         M[core.M_IS_SHIFTED], M[core.M_IS_PLAIN] = path.coordinates.is_shifted, is_plain
         self._paces[0] = modal.feed
 

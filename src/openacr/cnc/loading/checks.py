@@ -62,10 +62,14 @@ class Checks:
         self._m30_ends = cells.read(M30_ENDS) != 0.0
         self.seen = Seen(has_feed=cells.read(START_FEED) > 0.0)
 
-    def values(self, block: Block, plan: Plan) -> None:
-        """Check that parameters given by number exist, and may be assigned where they are."""
+    def values(self, block: Block, plan: Plan) -> bool:
+        """Check that parameters given by number exist, and may be assigned where they are.
+
+        Returns whether a line like this one, with other numbers, has to be checked as well.
+        """
         if plan.numbers is not None and not (block.assignments or block.statement):
-            return
+            return False
+        before = len(self._report.findings)
         for node, column in _formulas(block):
             for parameter in _parameters(node):
                 error = self._home_error(parameter)
@@ -76,6 +80,20 @@ class Checks:
                 self._check_written(assignment.index, assignment.column)
         if isinstance(block.statement, Input):
             self._check_written(block.statement.parameter, block.statement.column)
+        return len(self._report.findings) > before or self._has_other_numbers(block)
+
+    def _has_other_numbers(self, block: Block) -> bool:
+        """Whether a parameter has a number in brackets, `#(5)`: lines of a shape differ in it."""
+        if self._dialect.parameters:
+            return False
+        indices = [one.index for one in block.assignments]
+        for node, _ in _formulas(block):
+            indices += [parameter.index for parameter in _parameters(node)]
+        raw = self._report.where[2]
+        return any(
+            isinstance(index, Number) and raw[: index.at].rstrip()[-1:].upper() not in ("#", "P")
+            for index in indices
+        )
 
     def _home_error(self, parameter: Parameter) -> str | None:
         if not isinstance(parameter.index, Number) or self._dialect.parameters:

@@ -92,7 +92,7 @@ class Loader:
         self._planner = planner_of(cells, dialect)
         self._end = dialect.table.mcodes[2.0].act
         self._cycle_off = dialect.table.gcodes[80.0].act
-        self._skimmer = Skimmer(self._planner.axes)
+        self._skimmer = Skimmer(self._planner.axes, dialect.grammar.brackets[0])
         self._report = Report()
         self._findings = self._report.findings
         self._checks = Checks(self._report, cells, dialect)
@@ -134,14 +134,20 @@ class Loader:
             if taken is None:
                 break
             line += 1
+            known = len(self._findings)
             self._line(Place(part, offset, line), decoded(taken[0]), taken[1], depth)
             offset = taken[1]
-            while self._seen.has_feed or "W218" in self._report.warned:
+            # After a finding the next line is read: doubts that wait for it are at its place.
+            while len(self._findings) == known and self._may_skim():
                 skimmed, offset = self._skim(part, offset, line)
                 line += skimmed
                 if not skimmed:
                     break
         part.line_cnt = line
+
+    def _may_skim(self) -> bool:
+        """Whether the doubt of moves without a feed is settled."""
+        return self._seen.has_feed or "W218" in self._report.warned
 
     def _skim(self, part: Part, offset: int, line: int) -> tuple[int, int]:
         """Skip lines like those read before: they can have no error except in their labels."""
@@ -174,12 +180,13 @@ class Loader:
             plan = self._planner_plan(block, place)
             self._statement(block, place, after, depth)
             self._calls(plan, place)
-            self._checks.values(block, plan)
+            is_doubtful = self._checks.values(block, plan)
             for code, column in block.warnings:
                 self._report.warn(code, column)
             if not place.part.is_cycles:
                 self._checks.doubts(plan)
-                settled = None if block.warnings else plan
+                is_settled = not (block.warnings or block.statement or block.title or is_doubtful)
+                settled = plan if is_settled and not plan.is_computed else None
         except CodeError as fault:
             self._findings.append(fault.at(*self._report.where))
         self._skimmer.learn(asked, settled)

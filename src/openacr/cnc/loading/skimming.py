@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.codes.table import Step
 from openacr.cnc.reading import scan_cy as scan
+from openacr.cnc.reading import skim_cy
 from openacr.cnc.reading.line_shapes import MOST_ROWS, LineShapes, integers
 from openacr.compiled import pick
 
@@ -21,14 +22,14 @@ if TYPE_CHECKING:
 END = "M30"  # doubtful as the last block
 KNOWN = 0  # what the loader knows of a shape: that there is nothing to find
 TENTHS = 10
-_skim_lines = pick(scan.skim_lines)
+_skim_lines = pick(skim_cy.skim_lines)
 
 
 class Skimmer:
     """Skips the lines of a text that are like those the loader has read."""
 
-    def __init__(self, axes: dict[str, int]) -> None:
-        self._shapes = LineShapes(axes)
+    def __init__(self, axes: dict[str, int], bracket: str) -> None:
+        self._shapes = LineShapes(axes, bracket)
         self._labels = integers(3 * MOST_ROWS)
         self._asked: list[int] = []  # the shape of the line that comes next, if it is new
         self.motion = -1  # the last of G0 to G3 in these lines, -1 none
@@ -44,8 +45,9 @@ class Skimmer:
         data, place = shapes.bytes(text, offset)
         stop = min(len(data), text.end - offset + place)
         count = _skim_lines(
-            data, place, stop, shapes.W, shapes.K, shapes.L, shapes.T, self._labels, MOST_ROWS
-        )
+            data, place, stop, shapes.W, shapes.K, shapes.L, shapes.T, shapes.N, shapes.Q,
+            self._labels, MOST_ROWS,
+        )  # fmt: skip
         K = shapes.K
         if K[scan.K_STATUS] == scan.SCAN_NEW:
             self._asked = shapes.tokens()

@@ -79,7 +79,10 @@ class Flow:
         return node.next
 
     def ahead(self) -> Place | None:
-        """The position of the next line in the same text if it was not read yet; else None."""
+        """The position of the next line in the same text; None where that is not known."""
+        node = self.next
+        if node is not None:
+            return Place(node.part, node.offset, node.line) if node.offset >= 0 else None
         last = self.last
         if last is None:
             return self.place

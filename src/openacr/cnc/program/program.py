@@ -44,10 +44,11 @@ class Part:
 class Node:
     """One line in use: its text, its prepared block, and the next line."""
 
-    __slots__ = ("after", "is_include", "line", "next", "part", "raw", "ready", "source")
+    __slots__ = ("after", "is_include", "line", "next", "offset", "part", "raw", "ready", "source")
 
-    def __init__(self, part: Part, line: int, raw: str, after: int) -> None:
+    def __init__(self, part: Part, line: int, raw: str, after: int, offset: int = -1) -> None:
         self.part = part
+        self.offset = offset  # -1: not of the text
         self.line = line
         self.raw = raw
         self.after = after  # offset of the next line
@@ -126,7 +127,7 @@ class Nodes:
         if found is None:
             continues_at = place.part.continues_at
             return self.at(continues_at) if continues_at else None
-        node = Node(place.part, place.line, decoded(found[0]), found[1])
+        node = Node(place.part, place.line, decoded(found[0]), found[1], place.offset)
         node.is_include = (place.part.text.name, place.line) in self._program.includes
         return node
 

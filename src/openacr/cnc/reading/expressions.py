@@ -149,7 +149,7 @@ class ExpressionReader:
         if after < len(self.text) and self.text[after] in ".0123456789":
             raise CodeError("E106", after + 1)
         self.pos = after
-        return Number(float("".join(found[0].split())))
+        return Number(float("".join(found[0].split())), found.start())
 
     def integer(self) -> int:
         """Digits."""
@@ -193,7 +193,13 @@ class ExpressionReader:
             return inner
         if not char.isdecimal():
             raise self.fault("E105")
-        return Number(float(self.integer()))
+        return self.counted()
+
+    def counted(self) -> Number:
+        """Digits, as a number."""
+        self.blanks()
+        at = self.pos
+        return Number(float(self.integer()), at)
 
     def name(self) -> str:
         """Read `<name>`, ignoring case and blanks."""
@@ -272,5 +278,5 @@ class ExpressionReader:
 def negative(operand: Node) -> Node:
     """The negated operand."""
     if isinstance(operand, Number):
-        return Number(-operand.number)
+        return Number(-operand.number, operand.at)
     return Call(NEGATE, (operand,))

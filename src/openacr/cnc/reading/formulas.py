@@ -6,7 +6,7 @@ same functions, so that they give the same number.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from openacr.cnc.reading.functions import NAMES, Function
@@ -74,9 +74,10 @@ class Node(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A number as written."""
+    """A number as written; `at` is where it stands in the line, -1 elsewhere."""
 
     number: float
+    at: int = field(default=-1, compare=False)
 
     def value(self, at: Sources) -> float:
         """Itself."""

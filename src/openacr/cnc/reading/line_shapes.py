@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import ROTARY
+from openacr.cnc.reading import rich_cy as rich
 from openacr.cnc.reading import scan_cy as scan
 
 if TYPE_CHECKING:
@@ -26,16 +27,22 @@ def integers(count: int) -> I32:
 
 
 class LineShapes:
-    """Views for the scanner, with the axes of a machine; no shape is known at first."""
+    """Views for the scanner, with the axes of a machine; no shape is known at first.
+
+    `bracket` opens expressions.
+    """
 
     def __init__(
         self,
         axes: dict[str, int],
+        bracket: str,
         w_size: int = scan.W_SCAN_SIZE,
-        k_size: int = scan.K_SCAN_SIZE,
+        k_size: int = rich.K_RICH_SIZE,
     ) -> None:
         self.W, self.K = doubles(w_size), integers(k_size)
-        self.L, self.T = integers(scan.MOST_TOKENS), integers(scan.T_SIZE)
+        self.N, self.Q = doubles(rich.MOST_NUMBERS), integers(rich.MOST_NUMBERS)
+        self.K[rich.K_BRACKET] = ord(bracket)
+        self.L, self.T = integers(rich.MOST_RICH), integers(scan.T_SIZE)
         for letter in range(26):
             self.K[letter] = -1
         for name, axis in axes.items():
@@ -64,11 +71,21 @@ class LineShapes:
     def is_full(self) -> bool:
         """Whether no more shapes can be kept: further ones are left to the parser."""
         room = scan.T_SIZE - self._pool_end
-        return self._shape_cnt >= MOST_SHAPES or room < scan.MOST_TOKENS
+        return self._shape_cnt >= MOST_SHAPES or room < rich.MOST_RICH
 
     def tokens(self) -> list[int]:
         """The shape of the line the scanner read last."""
         return self.L[: self.K[scan.K_TOKENS]].tolist()
+
+    @property
+    def is_rich(self) -> bool:
+        """Whether the line the scanner read last has formulas, or what else is more than words."""
+        return bool(self.K[scan.K_TOKENS]) and self.L[0] == rich.RICH_LINE
+
+    def numbers(self) -> dict[int, tuple[int, float]]:
+        """The numbers of that line by their place in it, with their order."""
+        count = self.K[rich.K_NUMBERS]
+        return {self.Q[k]: (k, self.N[k]) for k in range(count)}
 
     def learn(self, tokens: list[int], meaning: int) -> bool:
         """Keep what a shape means; False where there is no room for it."""

@@ -60,7 +60,8 @@ def _plain(raw: str) -> Block | None:
     for word in _PLAIN_WORDS.finditer(raw, found.start(3)):
         letter, sign, digits = word.groups()
         number = -float(digits) if sign == "-" else float(digits)
-        block.words.append(Word(letter.upper(), Number(number), word.start() + 1))
+        value = Number(number, word.start(3))
+        block.words.append(Word(letter.upper(), value, word.start() + 1))
     return block
 
 
@@ -160,7 +161,7 @@ class _Parser(StatementReader):
             return False  # a printed minus
         letter, sign, digits = found.groups()
         number = -float(digits) if sign == "-" else float(digits)
-        block.words.append(Word(letter, Number(number), found.start() + 1))
+        block.words.append(Word(letter, Number(number, found.start(3)), found.start() + 1))
         self.pos = found.end()
         return True
 

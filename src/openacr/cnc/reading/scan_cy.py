@@ -50,7 +50,7 @@ HASH_MASK = 1073741823
 SHAPE_NONE = -2
 SHAPE_SLOW = -1
 T_POOL = 3072  # three numbers for each slot
-T_SIZE = 19456
+T_SIZE = 40960
 
 AXES = 8
 LONGEST = 256
@@ -63,7 +63,7 @@ CODE_O = 14
 LAST_CODE = 1000.0
 LONGEST_KIND = 12  # letters of MSG, DEBUG, PRINT and what else may come before a comma
 
-__all__ = ["scan_line", "scan_shape", "skim_lines"]
+__all__ = ["scan_line", "scan_shape"]
 
 
 def scan_blanks(data: U8, pos: int, stop: int) -> int:
@@ -243,41 +243,3 @@ def scan_motion(K: I32, L: I32) -> int:
         if code == 0 or code == 10 or code == 20 or code == 30:
             found = code
     return found
-
-
-def skim_lines(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32, T: I32, labels: I32,
-               most: int) -> int:  # fmt: skip
-    """Skip lines of known shapes; writes labels as (label, line from 0, position) to `labels`.
-
-    Returns the count of lines.
-    """
-    line: int = 0
-    count: int = 0
-    motion: int = -1
-    K[K_HAS_WORDS] = 0
-    K[K_STATUS] = SCAN_END
-    while pos < stop and count < most:
-        after: int = scan_line(data, pos, stop, W, K, L)
-        if after < 0:
-            K[K_STATUS] = SCAN_HARD
-            break
-        if K[K_TOKENS]:
-            meaning: int = scan_shape(K, L, T)
-            if meaning < 0:
-                K[K_STATUS] = SCAN_NEW if meaning == SHAPE_NONE else SCAN_SLOW
-                break
-            K[K_HAS_WORDS] = 1
-            code: int = scan_motion(K, L)
-            if code >= 0:
-                motion = code
-        if K[K_LABEL]:
-            labels[3 * count] = K[K_LABEL]
-            labels[3 * count + 1] = line
-            labels[3 * count + 2] = pos
-            count += 1
-        line += 1
-        pos = after
-    K[K_MOTION] = motion
-    K[K_LABELS] = count
-    K[K_NEXT] = pos
-    return line

@@ -68,7 +68,7 @@ class StatementReader(ExpressionReader):
             return self.bracketed()
         if not self.peek().isdecimal():
             raise self.fault("E108")
-        return Number(float(self.integer()))
+        return self.counted()
 
     def goto(self, at: int) -> Goto:
         """What follows GOTO."""

@@ -8,7 +8,8 @@ modal state where the program is read, not where the machine is.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from array import array
+from collections.abc import Callable, Iterable
 from typing import Protocol
 
 from openacr.cnc.canonical import Point
@@ -129,6 +130,7 @@ class Parameters:
     """Reads and writes by number, name or state."""
 
     last_local = LOCALS
+    own: array[float] | None = None  # numbers that are no cells, where a dialect has them
 
     def __init__(self, run: ParameterHost) -> None:
         self._run = run
@@ -136,7 +138,7 @@ class Parameters:
         self._modal = run.modal
         self._read_cell = run.cells.read
         # #1 to #33 of the call in force; #0, which no program can name, is 1 inside a call.
-        self.values: list[float] = [0.0] * (LOCALS + 1)
+        self.values = array("d", bytes(8 * (LOCALS + 1)))
         self.names: dict[str, float] = {}  # of this call
         self.global_names: dict[str, float] = {}
         self.assigned: set[int] = set()  # variables of the card the program has assigned
@@ -144,7 +146,7 @@ class Parameters:
 
     def reset(self) -> None:
         """A program starts: no call is in force."""
-        self.values[:] = [0.0] * len(self.values)
+        self.values[:] = array("d", bytes(8 * len(self.values)))
         self.names = {}
         self.assigned.clear()
 
@@ -153,10 +155,10 @@ class Parameters:
         """Whether #1 to #33 are locals now."""
         return self.values[0] != 0.0
 
-    def swap(self, values: list[float]) -> list[float]:
+    def swap(self, values: Iterable[float]) -> array[float]:
         """Replace the locals of the call; returns the previous ones."""
         kept = self.values[:]
-        self.values[:] = values
+        self.values[:] = array("d", values)
         return kept
 
     # --- for compiled formulas ----------------------------------------------------------

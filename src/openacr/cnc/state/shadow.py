@@ -1,8 +1,15 @@
 """Cells whose changes are kept apart until committed: for checks, previews and replays."""
 
 from contextlib import AbstractContextManager, nullcontext
+from typing import TYPE_CHECKING
 
 from openacr.cnc.state.hosts import Cells, Home
+
+if TYPE_CHECKING:
+    from openacr.views import F64, I32
+
+NEAR = 4096  # cells of programs, kept in arrays
+UNKNOWN, KNOWN, WRITTEN = 0, 1, 3  # states of a cell
 
 
 class Shadow:
@@ -11,9 +18,23 @@ class Shadow:
     def __init__(self, cells: Cells) -> None:
         self._cells = cells
         self._home = cells.home
-        self._kept: dict[int, float] = {}  # read before, or written
-        self.written: dict[int, float] = {}
+        # Read before, or written: cells of programs by number, and all others.
+        self.values: F64 = memoryview(bytearray(8 * NEAR)).cast("d")
+        self.states: I32 = memoryview(bytearray(4 * NEAR)).cast("i")
+        self._kept: dict[int, float] = {}
+        self._far: dict[int, float] = {}  # the others that were written
         self._is_open = False
+
+    @property
+    def written(self) -> dict[int, float]:
+        """The cells that were written, with their numbers: a copy."""
+        near = (n for n, state in enumerate(self.states) if state == WRITTEN)
+        return {n: self.values[n] for n in near} | self._far
+
+    @property
+    def has_values(self) -> bool:
+        """Whether its arrays are all there is to a cell of a program that is known."""
+        return not self._is_open
 
     def home(self, n: int) -> Home:
         """Where a number lives."""
@@ -23,6 +44,10 @@ class Shadow:
         """The number written last, or that of the cells."""
         if self._is_open:
             return self._cells.read(n)
+        if 0 <= n < NEAR:
+            if not self.states[n]:
+                self.values[n], self.states[n] = self._cells.read(n), KNOWN
+            return self.values[n]
         found = self._kept.get(n)
         if found is None:
             found = self._kept[n] = self._cells.read(n)
@@ -32,8 +57,10 @@ class Shadow:
         """Keep a number; after `commit` it is written to the cells at once."""
         if self._is_open:
             self._cells.write(n, value)
+        elif 0 <= n < NEAR:
+            self.values[n], self.states[n] = value, WRITTEN
         else:
-            self._kept[n] = self.written[n] = value
+            self._kept[n] = self._far[n] = value
 
     def read_text(self, n: int) -> str:
         """The text in a cell."""
@@ -48,5 +75,5 @@ class Shadow:
         with self._cells.transaction():
             for n, value in self.written.items():
                 self._cells.write(n, value)
-        self.written.clear()
+        self._far.clear()
         self._is_open = True

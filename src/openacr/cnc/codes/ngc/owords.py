@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from openacr.cnc.codes.ngc.contexts import Context, restored
 from openacr.cnc.program.flow import Frame, Level
 from openacr.cnc.program.labels import Place
-from openacr.cnc.program.program import Node, OPlace, Program
+from openacr.cnc.program.program import Node, OPlace, Part, Program
 from openacr.cnc.reading.blocks import OWord
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.reading.formulas import LOCALS, Formula
@@ -36,6 +36,7 @@ NEEDS_VALUE = frozenset({"WHILE", "IF", "ELSEIF", "REPEAT"})
 ENDS = {"WHILE": ("ENDWHILE",), "REPEAT": ("ENDREPEAT",), "SUB": ("ENDSUB",), "DO": ("WHILE",)}
 BRANCHES = ("ELSEIF", "ELSE", "ENDIF")
 LOOP_ENDS = ("ENDWHILE", "ENDREPEAT", "WHILE")
+PLAIN = (["WHILE", "ENDWHILE"], ["IF", "ENDIF"], ["IF", "ELSE", "ENDIF"])
 SUB, PROGRAM = "SUB", "PROGRAM"  # `O100 sub`, and a program O100 that M99 ends
 STARTS = (SUB, PROGRAM)
 VALUE, RETURNED = "_VALUE", "_VALUE_RETURNED"
@@ -94,6 +95,15 @@ class OWords:
             return result
 
         return do
+
+    def is_plain(self, word: OWord, part: Part) -> bool:
+        """Whether the words of a structure jump to where their lines alone decide.
+
+        That are WHILE and IF with ELSE, each once, with nothing else of that name.
+        """
+        kinds = [one.kind for one in self._run.program.o_words.get(word.name, [])
+                 if one.place.part is part]  # fmt: skip
+        return word.number is None and kinds in PLAIN
 
     # --- places -----------------------------------------------------------------------
 

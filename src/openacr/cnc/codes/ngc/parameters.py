@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+from array import array
 from collections.abc import Callable
 from typing import TYPE_CHECKING, cast
 
@@ -17,7 +18,7 @@ from openacr.cnc.geometry.coordinates import TURN, system_base
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.state.cells import LAST_RADIUS, LENGTHS, RADII
 from openacr.cnc.state.hosts import Cells
-from openacr.cnc.state.parameters import SHOWN, Parameters, number
+from openacr.cnc.state.parameters import SHOWN, ParameterHost, Parameters, number
 from openacr.sysvar import tabs
 
 if TYPE_CHECKING:
@@ -58,12 +59,17 @@ class NgcParameters(Parameters):
     """Reads and writes as the dialect numbers them."""
 
     last_local = 30
+    own: array[float]  # #31 to #5000, and what M66 found
+
+    def __init__(self, run: ParameterHost) -> None:
+        self.own = array("d", bytes(8 * (LAST + 1)))
+        super().__init__(run)
 
     def reset(self) -> None:
         """The start of a program: nothing is set, and #1 to #30 are there."""
         super().reset()
         self.values[0] = 1.0
-        self.own: dict[int, float] = {}
+        self.own[:] = array("d", bytes(8 * len(self.own)))
 
     def is_plain_cell(self, n: float) -> bool:
         """None is."""
@@ -89,7 +95,7 @@ class NgcParameters(Parameters):
             return self._run.path.shown(TOOL[k](self._cells, self._modal.tool_in_spindle))
         if not 1 <= k <= LAST:
             raise CodeError("E211", 0, f"#{k}")
-        return self.own.get(k, 0.0)
+        return self.own[k]
 
     def _shown(self, value: float) -> float:
         """A length in active units."""
