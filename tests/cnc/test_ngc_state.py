@@ -6,9 +6,12 @@ from tests.cnc.programs import Bench, Run, made, run
 from openacr.cnc.canonical import Line, PathMode, Say, SetCell, WaitBit
 from openacr.cnc.codes.ngc.contexts import FIELDS
 from openacr.cnc.codes.ngc.named import PREDEFINED
+from openacr.cnc.codes.ngc.parameters import axes_by_letter
 from openacr.cnc.interpreter.interpreter import Options
 from openacr.cnc.reading.findings import BlockError
 from openacr.cnc.state.cells import TOOL_IN_SPINDLE
+from openacr.cnc.state.shadow import Shadow
+from openacr.sysvar.tabs import AXIS
 
 
 def ngc(text: str, cells: dict[int, float] | None = None, **more: object) -> Run:
@@ -293,3 +296,26 @@ def test_m70_alone_restores_nothing_at_the_end_of_a_subroutine() -> None:
     text = "F10 G91|o1 call|G1 X1|X1|M2|o1 sub|{}|G90|o1 endsub"
     assert ngc(text.format("M70")).ends == [(1, 0, 0)]
     assert ngc(text.format("M73")).ends == [(1, 0, 0), (2, 0, 0)]
+
+
+def test_numbers_of_points_count_letters_not_axes(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = {AXIS.name[axis]: letter for axis, letter in enumerate("ZXAY")}
+    monkeypatch.setattr(Shadow, "read_text", lambda _, n: names.get(n, "CBUV"[n % 4]))
+    text = "G21 G0 X25.4 Y50.8 Z76.2 A30|(DEBUG,#5420 #5421 #5422 #5423)"
+    assert "say 25.4 50.8 76.2 30" in ngc(text, axes=4).story
+    done = ngc("#5221=1 #5222=2 #5223=3 #5224=4|G0 X0 Y0 Z0 A0|#5161=7|#5162=#5161", axes=4)
+    assert [done.p(910 + axis) for axis in range(5)] == [3, 1, 4, 2, 0]
+    assert done.entries[0].end[:4] == (3, 1, 4, 2)  # type: ignore[union-attr]
+    assert (done.p(280 + 1), done.p(280 + 3)) == (7, 7)
+
+
+def test_letters_without_an_axis_have_the_numbers_that_are_left() -> None:
+    assert axes_by_letter({"X": 0, "Y": 1, "Z": 2}) == list(range(8))
+    assert axes_by_letter({"Y": 0, "Z": 4, "X": 2}) == [2, 0, 4, 1, 3, 5, 6, 7]
+    assert axes_by_letter({"W": 0, "X": 1}) == [1, 0, 2, 3, 4, 5, 6, 7]
+
+
+def test_polar_words_without_a_motion_are_refused() -> None:
+    done = ngc("F10 G80|@1 ^30")
+    assert done.error is not None
+    assert (done.error.code, done.error.column) == ("E206", 1)

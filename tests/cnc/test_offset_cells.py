@@ -3,9 +3,13 @@
 from pathlib import Path
 
 import pytest
-from tests.cnc.programs import run
+from tests.cnc.programs import made, run
+from tests.cnc.test_many_blocks import done, require_same
 
 from openacr.cnc.canonical import Line, Rapid
+from openacr.cnc.interpreter.formulas_cy import MAY_WRITE
+from openacr.cnc.interpreter.interpreter import Options
+from openacr.cnc.interpreter.program_values import access
 from openacr.sysvar import Store
 from openacr.sysvar.lookup import one
 
@@ -54,3 +58,20 @@ def test_eight_work_systems_have_a_value_for_each_axis_and_keep_it(tmp_path: Pat
         done = run(f"{code}\nG0 X1 Y1 Z1", wanted)
         ends = [e.end for e in done.of(Rapid) if isinstance(e, Rapid)]
         assert ends[-1][:3] == pytest.approx([1 + system + axis / 8 for axis in range(3)])
+
+
+@pytest.mark.parametrize("cell", [839, 840, 847, 848, 849])
+def test_cells_about_the_ninth_system_are_the_same_in_a_loop_line_by_line(cell: int) -> None:
+    passes = f"P200=0\nN1 P200=P200+1\nP{cell}=P200\nX(P200)\nIF P200<40 THEN GOTO 1\n"
+    text = f"F10\nG59.2\n{passes}M2\n"
+    single = done(text, "acromill", Options(collects_errors=True), is_slow=True)
+    many = require_same(text, "acromill")
+    assert many.p(cell) == single.p(cell) == 40
+
+
+@pytest.mark.parametrize(("cell", "is_free"), [(833, True), (839, True), (840, False),
+                                               (848, False), (849, True), (899, True)])  # fmt: skip
+def test_cells_of_the_ninth_system_are_not_free(cell: int, is_free: bool) -> None:
+    parameters = made("M2\n").interpreter.parameters
+    assert parameters.is_free_cell(cell) is is_free
+    assert bool(access()[cell] & MAY_WRITE) is is_free

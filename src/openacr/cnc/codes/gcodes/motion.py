@@ -130,7 +130,9 @@ def counter_clockwise(run: Run, b: BlockContext) -> None:
 
 def no_motion(run: Run, b: BlockContext) -> None:
     """Axis words without an active motion."""
-    raise meaningless(run, b, b.plan.axes[0][1] if b.plan.axes else b.plan.modal_words[0])
+    polar = [word for word in run.dialect.grammar.polar if word in b.words]
+    words = [*(letter for _, letter in b.plan.axes), *b.plan.modal_words, *polar]
+    raise meaningless(run, b, words[0])
 
 
 MOTIONS: Motions = {

@@ -31,21 +31,25 @@ LAST_OWN = 5000
 LAST = 5999
 
 
-def _run_of(first: int, cell: int) -> dict[int, int]:
-    return {first + axis: cell + axis for axis in range(AXES)}
-
-
-CELLS = {
-    5070: tabs.CELLS.g31_tripped,
-    5210: tabs.CELLS.floating_zero_active,
-    **_run_of(5061, tabs.CELLS.g31_program_position[0]),
-    **_run_of(5161, tabs.CELLS.reference_point_1[0]),
-    **_run_of(5181, tabs.CELLS.reference_point_2[0]),
-    **_run_of(5211, tabs.CELLS.floating_zero_shift[0]),
-}
+CELLS = {5070: tabs.CELLS.g31_tripped, 5210: tabs.CELLS.floating_zero_active}
+POINTS = {
+    5061: tabs.CELLS.g31_program_position[0],
+    5161: tabs.CELLS.reference_point_1[0],
+    5181: tabs.CELLS.reference_point_2[0],
+    5211: tabs.CELLS.floating_zero_shift[0],
+}  # of X, then of Y, Z, A, B, C, U, V: the cell of axis 0
 for _n in range(SYSTEMS):
-    CELLS |= _run_of(FIRST_SYSTEM + SYSTEM_STEP * _n, system_base(_n + 1))
+    POINTS[FIRST_SYSTEM + SYSTEM_STEP * _n] = system_base(_n + 1)
     CELLS[FIRST_SYSTEM + SYSTEM_STEP * _n + ROTATION] = system_base(_n + 1) + TURN
+
+
+def axes_by_letter(axes: dict[str, int]) -> list[int]:
+    """The axis numbers of X Y Z A B C U V; letters without an axis have those that are left."""
+    used = {axes[letter] for letter in AXIS_LETTERS if letter in axes}
+    left = (axis for axis in range(AXES) if axis not in used)
+    return [axes[letter] if letter in axes else next(left) for letter in AXIS_LETTERS]
+
+
 TOOL: dict[int, Callable[[Cells, int], float]] = {
     5403: lambda cells, tool: cells.read(LENGTHS + tool),
     5410: lambda cells, tool: 2.0 * cells.read(RADII + min(tool, LAST_RADIUS)),
@@ -63,6 +67,11 @@ class NgcParameters(Parameters):
 
     def __init__(self, run: ParameterHost) -> None:
         self.own = array("d", bytes(8 * (LAST + 1)))
+        self._axes = axes_by_letter(cast("Run", run).planner.axes)
+        self._cell_of = dict(CELLS)
+        for first, cell in POINTS.items():
+            for place, axis in enumerate(self._axes):
+                self._cell_of[first + place] = cell + axis
         super().__init__(run)
 
     def reset(self) -> None:
@@ -84,12 +93,12 @@ class NgcParameters(Parameters):
         k = number(n)
         if 1 <= k <= self.last_local:
             return self.values[k]
-        if k in CELLS:
-            return self._read_cell(CELLS[k])
+        if k in self._cell_of:
+            return self._read_cell(self._cell_of[k])
         if k in STATES:
             return SHOWN[STATES[k]](self._modal)
         if FIRST_POSITION <= k < FIRST_POSITION + AXES:
-            value = self._run.path.program[k - FIRST_POSITION]
+            value = self._run.path.program[self._axes[k - FIRST_POSITION]]
             return value if AXIS_LETTERS[k - FIRST_POSITION] in ROTARY else self._shown(value)
         if k in TOOL:
             return self._run.path.shown(TOOL[k](self._cells, self._modal.tool_in_spindle))
@@ -128,8 +137,8 @@ class NgcParameters(Parameters):
             raise CodeError("E210")
         if 1 <= k <= self.last_local:
             self.values[k] = value
-        elif k in CELLS:
-            self.store(CELLS[k], value)
+        elif k in self._cell_of:
+            self.store(self._cell_of[k], value)
         elif 1 <= k <= LAST_OWN:
             self.own[k] = value
         else:
