@@ -67,6 +67,8 @@ class Tree:
             sys.executable,
             "-m",
             "pytest",
+            "-p",
+            "no:openacr",  # it would import the package before the mutant
             "-x",
             "-n",
             "0",

@@ -58,7 +58,11 @@ class Proxy:
             if self._is_cut:
                 near.close()
                 continue
-            far = socket.create_connection(self._target)
+            try:
+                far = socket.create_connection(self._target)
+            except OSError:  # what it stands for has ended
+                near.close()
+                continue
             self._pairs.append((near, far))
             for source, sink, flows in ((near, far, self._up), (far, near, self._down)):
                 source.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)

@@ -148,11 +148,11 @@ async def _serve(
     panel.station.on_link = lambda why: _report_link(installation.name, why)
 
     async def started() -> None:
-        stop_on_signals(server.stop)
         print(f"panel {server.url}", flush=True)
         if is_shown and sys.stdout is not None:
             await asyncio.to_thread(webbrowser.open, server.url)
 
+    stop_on_signals(server.stop)
     await server.serve(started)
 
 

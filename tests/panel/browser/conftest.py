@@ -4,6 +4,7 @@ Playwright keeps an event loop running in the thread of the tests for as long as
 open; other tests of the process start loops of their own, so no browser outlives its file.
 """
 
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -72,10 +73,15 @@ def to_main_menu(page: Page) -> None:
 
 
 def until_model(page: Page, holds: str) -> None:
-    """Wait until something holds of `model`, what the browser knows of the machine."""
-    page.wait_for_function(
-        f"async () => {{ const {{ model }} = await import('/js/core/app.js'); return {holds}; }}"
-    )
+    """Wait until something holds of `model`, what the browser knows of the machine.
+
+    The browser's own wait takes the promise of an import for the value.
+    """
+    asked = f"import('/js/core/app.js').then(({{ model }}) => Boolean({holds}))"
+    end_s = time.monotonic() + LONGEST_MS / 1000.0
+    while not page.evaluate(asked):
+        assert time.monotonic() < end_s, holds
+        page.wait_for_timeout(20)
 
 
 def give(page: Page, command: str, **args: object) -> object:

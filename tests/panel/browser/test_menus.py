@@ -248,7 +248,8 @@ def test_a_help_page_that_is_missing_is_said(page: Page) -> None:
 def test_exit_while_a_program_runs_asks_and_brings_the_machine_to_rest(
     page: Page, served: Served
 ) -> None:
-    give(page, "mdi.execute", line="G21 G91 G1 X50 F60")
+    until_model(page, "!model.state.value.busy")
+    assert give(page, "mdi.execute", line="G21 G91 G1 X50 F60") is not None
     until_model(page, "model.state.value.busy")
     page.keyboard.press("F10")
     dialog = page.get_by_role("dialog", name="EXIT")

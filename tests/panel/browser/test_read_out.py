@@ -230,14 +230,15 @@ def test_two_browsers_show_the_same_and_one_of_them_jogs(
     choose(page, served, "position")
     other = open_page(context, served.url)
     view(other, 3)
+    both = "({ tick: model.status.value.tick, x: model.status.value.work[0] })"
+    read = f"() => import('/js/core/app.js').then(({{ model }}) => {both})"
     give(page, "control.take")
-    give(page, "mdi.execute", line=SLOW)
+    begin = page.evaluate(read)["x"]
+    assert give(page, "mdi.execute", line=SLOW) is not None
     for one in (page, other):
         expect(one.locator("#state")).to_contain_text("RUN")
-    both = "({ tick: model.status.value.tick, x: model.status.value.work[0] })"
     for one in (page, other):
-        until_model(one, "model.status.value.work[0] > 1")
-    read = f"() => import('/js/core/app.js').then(({{ model }}) => {both})"
+        until_model(one, f"model.status.value.work[0] > {begin} + 1")
     first, second = page.evaluate(read), other.evaluate(read)
     # 1 mm/s: positions of the two lie apart by what the machine moved between the two readings.
     apart_s = abs(first["tick"] - second["tick"]) / 1000.0

@@ -2,8 +2,8 @@
 
 import asyncio
 import socket
-from collections.abc import AsyncIterator, Awaitable, Callable, Collection
-from contextlib import asynccontextmanager
+from collections.abc import AsyncIterator, Awaitable, Callable, Collection, Iterator
+from contextlib import asynccontextmanager, contextmanager
 from typing import TYPE_CHECKING
 
 import uvicorn
@@ -61,6 +61,15 @@ async def _page(panel: Panel, request: Request) -> Response:
     return await run_in_threadpool(static_file, request)
 
 
+class _Server(uvicorn.Server):
+    """A web server that leaves signals to the caller."""
+
+    @contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        """Handle no signals: uvicorn would raise them again after its end."""
+        yield
+
+
 class PanelServer:
     """A panel on a port."""
 
@@ -88,7 +97,7 @@ class PanelServer:
             server_header=False,
             timeout_graceful_shutdown=GRACE_S,
         )
-        self.server: Server = uvicorn.Server(config)
+        self.server: Server = _Server(config)
         panel.station.on_end = self._end_soon
         self._loop: asyncio.AbstractEventLoop | None = None
 
