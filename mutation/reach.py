@@ -59,7 +59,8 @@ def measure(tree: Tree, folders: list[str], *, pure: bool, workers: int) -> Reac
     times = tree.path / "durations.txt"
     arguments = [
         *folders, "-p", "no:openacr", "-m", "not soak", "-n", str(workers), "--cov=openacr",
-        "--cov-context=test", "--cov-report=", "--durations=0", "--durations-min=0", "--timeout=600",
+        "--cov-context=test", "--cov-report=", "--durations=0", "--durations-min=0",
+        "--timeout=600",
     ]  # fmt: skip
     with times.open("w") as output:
         ended = subprocess.run(
