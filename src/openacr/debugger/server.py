@@ -8,6 +8,7 @@ import time
 from queue import Empty, Queue
 from typing import IO, Any
 
+from openacr.debugger import answers as _answers  # noqa: F401 - fills the table
 from openacr.debugger.adapter import Adapter
 from openacr.debugger.wire import BrokenStreamError, read_message, write_message
 from openacr.io.pacing import Pacer
