@@ -46,7 +46,7 @@ o1 endwhile
 M2
 """
 EXPRESSIONS = "".join(f"G1 X{k}.5 Y(P200*{k % 7}+.5) F{k % 50 + 1}\n" for k in range(50_000))
-ARCS = "F100 G0 X0 Y0\n" + "".join(f"G3 X{k % 2} I{0.5 - k % 2}\n" for k in range(1, 50_000))
+ARCS = "F100 G0 X0 Y0\n" + "".join(f"G3 X{k % 2} I{k % 2 - 0.5}\n" for k in range(1, 50_000))
 HOLES = "F100 G0 Z5\nG99 G81 X0 Y0 Z-2 R1\n" + "".join(
     f"X{k % 100} Y{k / 100:.2f}\n" for k in range(4_000)
 )
