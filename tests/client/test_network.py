@@ -274,6 +274,29 @@ def test_no_card_there_is_reported_at_once() -> None:
         Card.open("/dev/no-such-port")
 
 
+def test_reading_that_is_cancelled_as_bytes_arrive_ends() -> None:
+    async def run() -> None:
+        with socket.create_server((LOOPBACK, 0)) as card:
+            link = AsyncTcpLink(TcpLink(LOOPBACK, card.getsockname()[1]))
+            await link.open()
+            reader, _ = link._connected()
+
+            async def read_on() -> None:
+                while True:
+                    await link.read(60.0)
+
+            reading = asyncio.ensure_future(read_on())
+            await asyncio.sleep(0)
+            reader.feed_data(b"SYS>")
+            await asyncio.sleep(0)  # the bytes are being handed over
+            reading.cancel()
+            await asyncio.wait([reading], timeout=5.0)
+            assert reading.cancelled()
+            await link.close()
+
+    asyncio.run(run())
+
+
 @pytest.mark.parametrize("is_async", [False, True])
 def test_a_card_that_reads_no_more_is_given_up(
     monkeypatch: pytest.MonkeyPatch, is_async: bool

@@ -261,7 +261,8 @@ class Client:
 
     async def take(self) -> None:
         """Receive one message."""
-        message = await asyncio.wait_for(self._socket.recv(), LIMIT_S)
+        async with asyncio.timeout(LIMIT_S):  # `wait_for` of Python 3.11 may lose a cancellation
+            message = await self._socket.recv()
         if isinstance(message, str):
             self.events.append(json.loads(message))
             return

@@ -53,8 +53,8 @@ class AsyncTcpLink:
     async def open(self) -> None:
         """Connect; asyncio sets TCP_NODELAY itself."""
         try:
-            connecting = asyncio.open_connection(*self._address)
-            self._streams = await asyncio.wait_for(connecting, CONNECT_S)
+            async with asyncio.timeout(CONNECT_S):
+                self._streams = await asyncio.open_connection(*self._address)
         except (OSError, OverflowError) as failure:
             raise cannot_connect(self.name, failure) from None
 
@@ -62,7 +62,8 @@ class AsyncTcpLink:
         """What has arrived."""
         reader, _ = self._connected()
         try:
-            data = await asyncio.wait_for(reader.read(READ_BYTES), timeout_s)
+            async with asyncio.timeout(timeout_s):
+                data = await reader.read(READ_BYTES)
         except TimeoutError:
             return b""
         except OSError as failure:

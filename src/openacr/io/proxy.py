@@ -76,9 +76,8 @@ class Proxy:
         self, number: int, requests: asyncio.StreamReader, host: asyncio.StreamWriter
     ) -> None:
         try:
-            answers, card = await asyncio.wait_for(
-                asyncio.open_connection(*self._address, limit=READ_BYTES), CONNECT_S
-            )
+            async with asyncio.timeout(CONNECT_S):
+                answers, card = await asyncio.open_connection(*self._address, limit=READ_BYTES)
         except OSError as failure:
             log.warning(
                 "cannot connect to %s:%d: %s", *self._address, reason(failure) or "no answer"
@@ -126,7 +125,8 @@ class Proxy:
                 target.write(data)
                 await target.drain()
             target.close()
-            await asyncio.wait_for(target.wait_closed(), CLOSE_S)
+            async with asyncio.timeout(CLOSE_S):
+                await target.wait_closed()
         except OSError as failure:  # a time-out, too
             log.info("connection %d: %s", number, reason(failure))
 
