@@ -54,6 +54,19 @@ class Capture:
         }
 
 
+def joined(earlier: Samples, later: Samples) -> Samples:
+    """Samples that wait and those that follow, as one piece of at most MOST_SAMPLES, the newest.
+
+    Samples of another capture, and those after a gap, take the place of the earlier ones.
+    """
+    first, channels, period_s = earlier
+    if later[0] != first + len(channels[0]) or len(channels) != len(later[1]):
+        return later
+    both = [[*a, *b] for a, b in zip(channels, later[1], strict=True)]
+    over = max(0, len(both[0]) - MOST_SAMPLES)
+    return first + over, [channel[over:] for channel in both], period_s
+
+
 class Scope:
     """The scope of one machine."""
 

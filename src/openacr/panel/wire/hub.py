@@ -3,9 +3,10 @@
 import asyncio
 import time
 from collections.abc import Callable
+from operator import or_
 from typing import Any
 
-from openacr.panel.control.scope import Samples
+from openacr.panel.control.scope import Samples, joined
 from openacr.panel.control.station import Station
 from openacr.panel.control.watches import Changed, Wish
 from openacr.panel.wire import frames
@@ -117,16 +118,18 @@ class Hub:
             browser.outbox.offer(Topic.STATUS, seq, frame, now_s)
 
     def _show_samples(self, taken: Samples) -> None:
-        """Send the new samples of the scope to the browsers that want them."""
-        first, channels, period_s = taken
-        now_s = self._clock()
-        seq, snapshot = self.next(Topic.SCOPE), self._station.snapshot
-        age_ms = 1000.0 * (now_s - snapshot.read_s)
-        frame = frames.scope(
-            seq, snapshot.tick_ms, age_ms, first=first, period_s=period_s, channels=channels
-        )
+        """Send the new samples of the scope to the browsers that want them; none is left out."""
+        snapshot = self._station.snapshot
+
+        def build(samples: Samples) -> tuple[int, bytes]:
+            first, channels, period_s = samples
+            seq, age_ms = self.next(Topic.SCOPE), 1000.0 * (self._clock() - snapshot.read_s)
+            return seq, frames.scope(
+                seq, snapshot.tick_ms, age_ms, first=first, period_s=period_s, channels=channels
+            )
+
         for browser in self._browsers.values():
-            browser.outbox.offer(Topic.SCOPE, seq, frame, now_s)
+            browser.outbox.put(Topic.SCOPE, taken, joined, build)
 
     def _show_values(self, wish: Wish, parameters: list[int], changed: Changed) -> None:
         """Send watched values to the browser that watches them; none is left out."""
@@ -143,7 +146,7 @@ class Hub:
             words = [(parameters[place], int(value)) for place, value in changes.items()]
             return seq, frames.flags(seq, snapshot.tick_ms, age_ms, words)
 
-        browser.outbox.put(topic, dict(changed), build)
+        browser.outbox.put(topic, dict(changed), or_, build)
 
     def next(self, topic: Topic) -> int:
         """The number of the next frame of a topic."""

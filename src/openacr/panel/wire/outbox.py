@@ -1,9 +1,11 @@
-"""What is on its way to one browser: words in order, and of each picture the newest one only."""
+"""What is on its path to one browser: texts in order, of each picture the newest one only."""
 
 import asyncio
 import json
+import time
 from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,7 +14,8 @@ from openacr.panel.wire.frames import Topic
 CREDITS = {Topic.STATUS: 3, Topic.SCOPE: 1, Topic.FLAGS: 2, Topic.WATCH: 2}
 MOST_WORDS = 2000  # texts that wait; a browser that reads nothing is closed
 
-Build = Callable[[dict[int, float]], tuple[int, bytes]]  # changes by place: number and frame
+Join = Callable[[Any, Any], Any]  # what waits and what follows it: both as one
+Build = Callable[[Any], tuple[int, bytes]]  # what has waited: number and frame
 
 
 class SlowError(Exception):
@@ -27,7 +30,7 @@ class _Flow:
     due_s: float = 0.0
     seq: int = 0  # of the frame that waits
     pending: bytes | None = None
-    changes: dict[int, float] = field(default_factory=dict)  # not sent yet, by place
+    waiting: Any = None  # put and not sent yet
     build: Build | None = None
     unread: deque[int] = field(default_factory=deque)  # sent and not acknowledged
 
@@ -35,7 +38,8 @@ class _Flow:
 class Outbox:
     """Frames and texts for one browser; `take` gives the next one."""
 
-    def __init__(self) -> None:
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
         self._words: deque[str] = deque()
         self._flows: dict[Topic, _Flow] = {}
         self._wake = asyncio.Event()
@@ -72,11 +76,11 @@ class Outbox:
         flow.due_s = max(flow.due_s + flow.every_s, now_s)
         self._wake.set()
 
-    def put(self, topic: Topic, changes: dict[int, float], build: Build) -> None:
-        """Send changed values; those that wait already are replaced, none is left out."""
+    def put(self, topic: Topic, part: Any, join: Join, build: Build) -> None:
+        """Send a part of a topic, joined to what waits already: none is left out."""
         flow = self._flows.get(topic)
         if flow is not None:
-            flow.changes.update(changes)
+            flow.waiting = part if flow.build is None else join(flow.waiting, part)
             flow.build = build
             self._wake.set()
 
@@ -98,16 +102,29 @@ class Outbox:
             if frame is not None:
                 return frame
             self._wake.clear()
-            await self._wake.wait()
+            with suppress(TimeoutError):
+                async with asyncio.timeout(self._until_due_s()):
+                    await self._wake.wait()
+
+    def _until_due_s(self) -> float | None:
+        """Time until a part that waits is due; None if none waits."""
+        due = [
+            flow.due_s - self._clock()
+            for topic, flow in self._flows.items()
+            if flow.build is not None and len(flow.unread) < CREDITS[topic]
+        ]
+        return max(0.0, min(due)) if due else None
 
     def _picture(self) -> bytes | None:
         """A frame whose topic has credit left."""
+        now_s = self._clock()
         for topic, flow in self._flows.items():
             if len(flow.unread) >= CREDITS[topic]:
                 continue
-            if flow.build is not None:
-                seq, frame = flow.build(flow.changes)
-                flow.changes, flow.build = {}, None
+            if flow.build is not None and now_s >= flow.due_s:
+                seq, frame = flow.build(flow.waiting)
+                flow.waiting = flow.build = None
+                flow.due_s = now_s + flow.every_s
                 flow.unread.append(seq)
                 return frame
             if flow.pending is not None:
