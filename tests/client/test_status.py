@@ -146,7 +146,7 @@ def test_serial_lines_begin_with_38400_baud_8n1_and_xon_xoff(
 @pytest.mark.parametrize(
     ("failure", "said"),
     [
-        (ConnectionRefusedError(111, "refused"), "10061: another device has this address"),
+        (ConnectionRefusedError(111, "refused"), "10061: no card listens at this address"),
         (TimeoutError("timed out"), "11010: wrong cable, or wrong address of the card"),
         (socket.gaierror(-2, "unknown"), "11003: wrong cable, or wrong address or mask"),
         (OSError(101, "unreachable"), "11003: wrong cable, or wrong address or mask"),

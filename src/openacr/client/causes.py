@@ -9,7 +9,7 @@ from openacr.errors import reason
 NO_DRIVER = "17054: no driver for the USB or serial port, or no such port"
 WRONG_NETWORK = "11003: wrong cable, or wrong address or mask of this host"
 NO_RESPONSE = "11010: wrong cable, or wrong address of the card"
-REFUSED = "10061: another device has this address, or no card listens there"
+REFUSED = "10061: no card listens at this address, or another device has it"
 NOT_REACHABLE = "17080: the card cannot be reached"
 
 _UNREACHABLE = frozenset(
