@@ -1,5 +1,7 @@
 """The debugger as editors use it: a process that speaks the protocol."""
 
+import subprocess
+import sys
 from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
@@ -10,7 +12,7 @@ from tests.debugger.project import card_of, write
 
 from openacr.controller.recorder import Recorder
 from openacr.debugger.server import serve
-from openacr.debugger.wire import BrokenStreamError, read_message
+from openacr.debugger.wire import BrokenStreamError
 
 
 @pytest.fixture
@@ -206,18 +208,38 @@ def test_a_launch_that_cannot_be_is_refused(
 
 
 @pytest.mark.parametrize(
-    "data",
+    ("data", "sentence"),
     [
-        b"", b"Content-Length: 5\r\n\r\n{", b"hello\r\n\r\n", b"Content-Length: x\r\n\r\n",
-        b"Content-Length: 99999999\r\n\r\n", b"Other: 1\r\n\r\n", b"Content-Length: 2\r\n\r\n[]",
-        b"Content-Length: 1\r\n\r\n{", b"x" * 10_000,
+        (b"hello\r\n\r\n", r"b'hello\\r\\n' is not a header"),
+        (b"x" * 10_000, r"b'x{60}' is not a header"),
+        (b"Content-Length: x\r\n\r\n", "Content-Length b'x': a number of bytes, at most 16777216"),
+        (
+            b"Content-Length: 16777217\r\n\r\n",
+            "Content-Length b'16777217': a number of bytes, at most 16777216",
+        ),
+        (b"Other: 1\r\n\r\n", "a message has no Content-Length"),
+        (b"Content-Length: 2\r\n\r\n[]", "a message is no JSON object"),
+        (b"Content-Length: 1\r\n\r\n{", r"a message is no JSON: .+"),
     ],
-)  # fmt: skip
-def test_what_is_no_message_ends_the_connection_with_a_sentence(data: bytes) -> None:
+)
+def test_what_is_no_message_ends_the_connection_with_a_sentence(data: bytes, sentence: str) -> None:
+    out = BytesIO()
+    with pytest.raises(BrokenStreamError, match=f"^{sentence}$"):
+        serve(BytesIO(data), out)
+    assert out.getvalue() == b""
+
+
+@pytest.mark.parametrize("data", [b"", b"Content-Length: 5\r\n\r\n{"])
+def test_the_end_of_the_stream_ends_the_session(data: bytes) -> None:
     out = BytesIO()
     serve(BytesIO(data), out)
     assert out.getvalue() == b""
-    try:
-        assert read_message(BytesIO(data)) is None
-    except BrokenStreamError as error:
-        assert str(error)
+
+
+def test_a_broken_stream_ends_the_debugger_with_its_sentence() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "openacr", "debug"], input=b"hello\r\n\r\n", capture_output=True,
+        timeout=60,
+    )  # fmt: skip
+    assert (done.returncode, done.stdout) == (2, b"")
+    assert done.stderr == b"error: b'hello\\r\\n' is not a header\n"

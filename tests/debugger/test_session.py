@@ -8,7 +8,8 @@ from tests.debugger.project import card_of
 from openacr.debugger.breakpoints import DataBreakpoint, Fault, LineBreakpoint
 from openacr.debugger.calls import depth_of, frames_of, listing, state_of
 from openacr.debugger.questions import answer, assign
-from openacr.debugger.session import DebugSession, Reason, Stop
+from openacr.debugger.session import DebugSession
+from openacr.debugger.stops import Reason, Stop
 from openacr.debugger.variables import Value, locals_of, program_state
 from openacr.errors import UserError
 from openacr.timeline import Moment

@@ -14,7 +14,8 @@ import msgspec
 from openacr.debugger import questions, requests
 from openacr.debugger.breakpoints import Fault, LineBreakpoint
 from openacr.debugger.calls import owners
-from openacr.debugger.session import DebugSession, Reason, Stop
+from openacr.debugger.session import DebugSession
+from openacr.debugger.stops import Reason, Stop
 from openacr.debugger.variables import Value
 from openacr.errors import OpenacrError, UserError
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 
 from openacr.controller.controller import Controller
+from openacr.debugger.stops import Stop
 from openacr.engine.watches import Watch, Watched, parameter_place
 from openacr.errors import UserError
 from openacr.map import numbers as at
@@ -76,14 +77,17 @@ class Fault(StrEnum):
     KILL = "motion-killed"
 
 
+Meaning = Callable[[], Stop | None]  # of a watch that has fired: the stop, if it is one
+
+
 @dataclass(slots=True)
 class Watching:
     """All watches of a debugged card, and what each one means."""
 
     watches: list[Watch] = field(default_factory=list)
-    meanings: list[DataBreakpoint | int] = field(default_factory=list)  # int: program or master
+    meanings: list[Meaning] = field(default_factory=list)
 
-    def add(self, watches: list[Watch], meaning: DataBreakpoint | int) -> None:
+    def add(self, watches: list[Watch], meaning: Meaning) -> None:
         """Watch for one more thing."""
         self.watches += watches
         self.meanings += [meaning] * len(watches)

@@ -18,12 +18,15 @@ log = logging.getLogger(__name__)
 SLICE_S = 0.02  # card time between two polls of the messages, at full speed
 IDLE_S = 0.005
 
-_END = None
+Message = dict[str, Any] | BrokenStreamError | None  # None: the connection has ended
 
 
 def serve(incoming: IO[bytes], outgoing: IO[bytes]) -> None:
-    """Answer requests until the client ends the session or its connection is lost."""
-    messages: Queue[dict[str, Any] | None] = Queue(1000)
+    """Answer requests until the client ends the session or its connection is lost.
+
+    BrokenStreamError if what comes in cannot be separated into messages any more.
+    """
+    messages: Queue[Message] = Queue(1000)
     threading.Thread(target=_read, args=(incoming, messages), daemon=True).start()
     adapter = Adapter(lambda message: write_message(outgoing, message))
     try:
@@ -32,22 +35,26 @@ def serve(incoming: IO[bytes], outgoing: IO[bytes]) -> None:
         log.info("the client is gone: %s", failure)
 
 
-def _read(incoming: IO[bytes], messages: Queue[dict[str, Any] | None]) -> None:
+def _read(incoming: IO[bytes], messages: Queue[Message]) -> None:
     try:
         while (message := read_message(incoming)) is not None:
             messages.put(message)
-    except (BrokenStreamError, OSError, ValueError) as failure:
-        log.error("the connection is given up: %s", failure)
-    messages.put(_END)
+    except BrokenStreamError as failure:
+        messages.put(failure)
+    except (OSError, ValueError) as failure:  # it is closed
+        log.info("the client is gone: %s", failure)
+    messages.put(None)
 
 
-def _answer(adapter: Adapter, messages: Queue[dict[str, Any] | None]) -> None:
+def _answer(adapter: Adapter, messages: Queue[Message]) -> None:
     pacer: Pacer | None = None
     while not adapter.is_ended:
         try:
             message = messages.get(block=not adapter.is_running)
-            if message is _END:
+            if message is None:
                 return
+            if isinstance(message, BrokenStreamError):
+                raise message
             adapter.take(message)
             pacer = None
         except Empty:

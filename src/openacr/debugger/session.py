@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import StrEnum
+from functools import partial
 
 from openacr.controller.controller import Controller
 from openacr.debugger import questions
@@ -23,32 +23,12 @@ from openacr.debugger.breakpoints import (
     running_watch,
 )
 from openacr.debugger.calls import PROGRAMS, depth_of, is_running, name_of
+from openacr.debugger.stops import Reason, Stop
 from openacr.errors import UserError
 from openacr.timeline import Moment, Timeline
 
 ALL_PROGRAMS = (1 << PROGRAMS) - 1
 _EMBEDDED = re.compile(r"\{([^{}]*)\}")  # an expression in a text to be printed
-
-
-class Reason(StrEnum):
-    """Why a debugged card stands."""
-
-    ENTRY = "entry"
-    BREAKPOINT = "breakpoint"
-    DATA = "data breakpoint"
-    STEP = "step"
-    PAUSE = "pause"
-    EXCEPTION = "exception"
-    GOTO = "goto"
-
-
-@dataclass(frozen=True, slots=True)
-class Stop:
-    """Why the card stands, at which program if that is known, with a sentence."""
-
-    reason: Reason
-    program: int | None = None
-    text: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,7 +170,8 @@ class DebugSession:
         if not only_step:
             self._watch()
         if self._step is not None:
-            self._watching.add([running_watch(self._step.program)], self._step.program)
+            program = self._step.program
+            self._watching.add([running_watch(program)], partial(self._ended, program))
         self.card.watch(self._watching.watches)
         programs = {each.program for each in self._lines.values()} if not only_step else set()
         if self._step is not None:
@@ -201,13 +182,13 @@ class DebugSession:
 
     def _watch(self) -> None:
         for each in self._data:
-            self._watching.add(each.watches(self.card), each)
+            self._watching.add(each.watches(self.card), partial(self._changed, each))
         if Fault.PROGRAM in self._faults:
             for program in range(PROGRAMS):
-                self._watching.add([running_watch(program)], program)
+                self._watching.add([running_watch(program)], partial(self._ended, program))
         if Fault.KILL in self._faults:
             for master in range(MASTERS):
-                self._watching.add([kill_watch(master)], PROGRAMS + master)
+                self._watching.add([kill_watch(master)], partial(self._killed, master))
 
     def _disarm(self) -> None:
         self.card.watch()
@@ -265,30 +246,28 @@ class DebugSession:
         if self.card.within:
             return stop
         for place in fired:
-            stop = self._meant(self._watching.meanings[place])
+            stop = self._watching.meanings[place]()
             if stop is not None:
                 return stop
         return None
 
-    def _meant(self, meaning: DataBreakpoint | int) -> Stop | None:
-        card = self.card
-        if isinstance(meaning, DataBreakpoint):
-            if not self._holds(0, meaning.condition):
-                return None
-            return Stop(Reason.DATA, None, f"{meaning.name} has changed")
-        if meaning >= PROGRAMS:
-            watch = kill_watch(meaning - PROGRAMS)
-            if not card.memory.I[watch.row] & watch.mask:
-                return None
-            return Stop(
-                Reason.EXCEPTION, None, f"the motion of MASTER{meaning - PROGRAMS} is killed"
-            )
-        failures = card.executor.threads.failures
-        if is_running(card, meaning):
+    def _changed(self, breakpoint: DataBreakpoint) -> Stop | None:
+        if not self._holds(0, breakpoint.condition):
             return None
-        if meaning in failures and Fault.PROGRAM in self._faults:
-            return Stop(Reason.EXCEPTION, meaning, failures[meaning])
-        step = self._step
-        if step is not None and step.program == meaning:
-            return Stop(Reason.STEP, meaning, f"{name_of(meaning)} has ended")
+        return Stop(Reason.DATA, None, f"{breakpoint.name} has changed")
+
+    def _killed(self, master: int) -> Stop | None:
+        watch = kill_watch(master)
+        if not self.card.memory.I[watch.row] & watch.mask:
+            return None  # the kill is cleared
+        return Stop(Reason.EXCEPTION, None, f"the motion of MASTER{master} is killed")
+
+    def _ended(self, program: int) -> Stop | None:
+        failures, step = self.card.executor.threads.failures, self._step
+        if is_running(self.card, program):
+            return None  # it has started
+        if program in failures and Fault.PROGRAM in self._faults:
+            return Stop(Reason.EXCEPTION, program, failures[program])
+        if step is not None and step.program == program:
+            return Stop(Reason.STEP, program, f"{name_of(program)} has ended")
         return None
