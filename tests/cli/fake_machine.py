@@ -7,10 +7,11 @@ import numpy as np
 
 from openacr.cli.plots import AxisCurves, Curves
 from openacr.cli.plots.curves import Array
-from openacr.cli.results import AxisReport, Event, Failure, Watched
+from openacr.cli.results import AxisReport, Event, Watched
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.scenario import Condition
+from openacr.scenario.played import Failure
 
 PERIOD_S = 0.0005
 

@@ -7,11 +7,11 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
-from openacr.cli.results import Failure
 from openacr.cli.run.controlled import ControlledMachine
 from openacr.cli.run.events import EventLog
 from openacr.controller import Controller
 from openacr.map.memory import Memory
+from openacr.scenario.played import Failure
 
 
 def no_failure(program: int) -> Failure:

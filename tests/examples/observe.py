@@ -3,11 +3,10 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from openacr.cli.run.controlled import ControlledMachine
-from openacr.cli.run.machine import MachineWorld
 from openacr.controller import Controller
 from openacr.project import find_project
 from openacr.scenario import Play, Verdict, load_scenario
+from openacr.scenario.played import CardWorld, PlayedCard
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -81,9 +80,9 @@ def observe(watch: Watch) -> Observation:
     """Play the whole scenario of an example."""
     controller, refused = Controller.load(find_project(watch.project))
     assert not refused, [str(error) for error in refused]
-    machine = ControlledMachine(controller)
+    machine = PlayedCard(controller)
     scenario = load_scenario(watch.project / watch.scenario)
-    play, world = Play(scenario, machine.period_s), MachineWorld(machine)
+    play, world = Play(scenario, machine.period_s), CardWorld(machine)
     found = Observation(controller)
 
     def hear(text: str) -> None:

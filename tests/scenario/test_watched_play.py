@@ -11,10 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from openacr.cli.run.controlled import ControlledMachine
-from openacr.cli.run.session import Options, Session, Until
+from openacr.cli.run.session import Options, Session
 from openacr.controller import Controller
 from openacr.project import Project, SourceFile
 from openacr.scenario import Condition, Scenario, Verdict
+from openacr.scenario.course import Until
 from openacr.scenario.schema import Action, Drag, Expectation, Key, State
 
 LIMIT_S = 0.6

@@ -1,4 +1,4 @@
-"""Results of a run as plain data: events, failures, axes, and the values chosen for recording."""
+"""Results of a run as plain data: events, axes, and the values chosen for recording."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -8,21 +8,6 @@ from openacr.errors import UserError
 if TYPE_CHECKING:
     from openacr.engine.samples import Sample
     from openacr.map.memory import Memory
-
-
-@dataclass(frozen=True, slots=True)
-class Failure:
-    """The error that ended a program: its text, and the line as it is listed."""
-
-    error: str
-    text: str = ""
-    file: str | None = None  # of the project that the line was read from, as the user named it
-    file_line: int | None = None
-
-    @property
-    def place(self) -> str:
-        """`file:line`, where the line is from a file."""
-        return f"{self.file}:{self.file_line}" if self.file else ""
 
 
 @dataclass(frozen=True, slots=True)

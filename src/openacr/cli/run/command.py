@@ -19,13 +19,12 @@ from openacr.project import decode, find_project
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from openacr.cli.run.session import Until
     from openacr.errors import SourceError
     from openacr.scenario import Scenario
+    from openacr.scenario.course import Until
 
 BAD_INPUT = 2
 MOST_S = 1e7  # some 116 days of a machine
-LONGEST_S = 600.0  # a run that is to end by itself ends here if it does not
 
 
 def run(
@@ -98,8 +97,9 @@ def run(
     if chosen and not (trace or plot):
         raise UserError("--watch: nothing shows the values; give --trace or --plot, too")
 
-    from openacr.cli.run.session import Options, Session, Until  # heavy: not for a slip above
+    from openacr.cli.run.session import Options, Session  # heavy: not for a slip above
     from openacr.scenario import load_scenario
+    from openacr.scenario.course import Until
 
     scenario_path = scenario or found.scenario
     story = load_scenario(scenario_path) if scenario_path else None
@@ -147,7 +147,7 @@ def parse_until(text: str | None) -> "Until | None":
     """Read `--until`: idle, a flag number, or a flag number with `-` for clear."""
     if text is None:
         return None
-    from openacr.cli.run.session import Until
+    from openacr.scenario.course import Until
 
     if text.strip().lower() == "idle":
         return Until()
@@ -173,6 +173,8 @@ def limit_s(for_s: float | None, scenario: "Scenario | None") -> float:
                 f"--for {for_s:g}: give a number of seconds above 0, at most {MOST_S:.0f}"
             )
         return for_s
+    from openacr.scenario.course import LONGEST_S
+
     return (scenario.duration_s if scenario else None) or LONGEST_S
 
 

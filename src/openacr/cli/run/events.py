@@ -6,12 +6,13 @@ servo period.
 
 from collections.abc import Callable, Iterator
 
-from openacr.cli.results import Event, Failure
-from openacr.cli.run import card_view
+from openacr.cli.results import Event
 from openacr.engine.watches import Watch, Watched
 from openacr.map import flag
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.scenario import card_view
+from openacr.scenario.played import Failure
 
 # Flags of an axis whose setting is an event, by word.
 AXIS_EVENTS = (

@@ -4,10 +4,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from openacr.cli.results import AxisReport, Event, Failure
-from openacr.cli.run import card_view
+from openacr.cli.results import AxisReport, Event
 from openacr.lang.characters import shown
-from openacr.scenario import State, Verdict
+from openacr.scenario import State, Verdict, card_view
+from openacr.scenario.played import Failure
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from openacr.map import numbers as at
 from openacr.map.block import FLAG_WORD_BASE
 from openacr.map.memory import Memory
-from openacr.scenario import State
+from openacr.scenario.schema import State
 
 PROGRAMS = range(at.PROG_COUNT)
 AXES = range(at.AX_COUNT)
