@@ -83,6 +83,9 @@ class FakeMachine:
     def mend(self, axis: int, kind: str | None) -> None:
         return None
 
+    def command(self, device: str, name: str, value: float) -> None:
+        return None
+
     def drag(self, axis: int, by_u: float) -> None:
         return None
 

@@ -19,10 +19,15 @@ from openacr.controller.replay import Replay
 from openacr.controller.ring import Ring, journals, own_ring
 from openacr.errors import StoreError
 from openacr.plant.network_schema import Canopen, Node
-from openacr.plant.schema import default_world
+from openacr.plant.schema import DeviceTable, default_world
 from openacr.protocol.events import ControlKey
 
-WITH_A_NODE = replace_world(default_world(), canopen=Canopen(node=(Node(id=1, analog_inputs=1),)))
+CURTAIN = DeviceTable(
+    kind="light-curtain", inputs={"clear": 31}, settings={"response_s": 0.0}, period_s=0.0005
+)
+WITH_A_NODE = replace_world(
+    default_world(), canopen=Canopen(node=(Node(id=1, analog_inputs=1),)), device=(CURTAIN,)
+)
 
 
 def recorded(folder: Path) -> Path:
@@ -44,6 +49,7 @@ def recorded(folder: Path) -> Path:
     card.set_analog(33288, 2.5)
     card.until(40, timeout_s=2.0)
     card.release_input(6)
+    card.command("light-curtain", "interrupted")
     card.mend(2, "encoder-noise")
     card.mend(3)
     card.p[3] = 2.5
@@ -137,6 +143,8 @@ def test_an_entry_that_is_left_out_is_noticed(tmp_path: Path, what: Entered) -> 
         card.fault(3, "obstacle", 0.5)
         if what is Entered.MEND:
             card.mend(3)
+    elif what is Entered.COMMAND:
+        card.command("light-curtain", "interrupted")
     elif what is Entered.ANALOG:
         card.set_analog(33288, 1.0)
     elif what is Entered.DRAG:

@@ -7,6 +7,7 @@ import msgspec
 import pytest
 
 from openacr.plant import schema
+from openacr.plant.devices.kinds import LIBRARY
 from openacr.plant.load import parse_world
 
 TEXT = (Path(__file__).parents[2] / "docs" / "machine.md").read_text()
@@ -14,12 +15,24 @@ PIECES = re.findall(r"```toml\n(.*?)```", TEXT, re.DOTALL)
 TABLES = (
     schema.Axis, schema.Motor, schema.Load, schema.PhaseDrive, schema.IdealDrive, schema.Wire,
     schema.Inputs, schema.Analog, schema.LimitSwitch, schema.HomeSwitch,
+    schema.DeviceTable,
 )  # fmt: skip
 
 
 @pytest.mark.parametrize("piece", PIECES)
 def test_every_piece_is_a_world(piece: str) -> None:
-    assert parse_world(piece).axis
+    world = parse_world(piece)
+    assert world.axis or world.device
+
+
+def test_every_kind_of_device_is_listed_with_its_commands_signals_and_settings() -> None:
+    listed = dict(re.findall(r"^\| `([a-z-]+)` \| (.*) \|$", TEXT, re.MULTILINE))
+    for kind, found in LIBRARY.items():
+        columns = [
+            re.sub(r" \(V\)", "", column).split(", ") for column in listed[kind].split(" | ")
+        ]
+        settings = [name for name in found.__struct_fields__ if not name.startswith("_")]
+        assert columns == [list(found.COMMANDS), list(found.SIGNALS), settings], kind
 
 
 @pytest.mark.parametrize("table", TABLES)

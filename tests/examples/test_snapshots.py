@@ -26,8 +26,8 @@ from openacr.compiled import is_compiled
 from openacr.controller.journal import read_journal
 from openacr.controller.replay import Replay
 assert not is_compiled
-for path in sys.argv[1:]:
-    again = Replay(read_journal(Path(path)))
+for path, folder in zip(sys.argv[1::2], sys.argv[2::2]):
+    again = Replay(read_journal(Path(path)), Path(folder))
     again.run()
     print(again.equal, again.difference)
 """
@@ -55,7 +55,7 @@ def journal_of(name: str, folder: Path, ticks: int) -> Path:
 @pytest.mark.parametrize("name", NAMES)
 def test_the_journal_of_an_example_is_replayed_to_equal_digests(name: str, tmp_path: Path) -> None:
     journal = read_journal(journal_of(name, tmp_path, 6000))
-    again = Replay(journal)
+    again = Replay(journal, EXAMPLES / name)
     again.run()
     assert (again.difference, again.equal) == (None, 4)
 
@@ -67,14 +67,18 @@ def test_a_journal_begun_in_the_middle_of_an_example_is_replayed(name: str, tmp_
     card.recorder = Recorder(card, path)
     card.advance(3000)
     card.close()
-    again = Replay(read_journal(path))
+    again = Replay(read_journal(path), EXAMPLES / name)
     again.run()
     assert (again.difference, again.equal) == (None, 2)
 
 
 @pytest.mark.skipif(not is_compiled, reason="there is no compiled core to compare with")
 def test_plain_python_replays_the_journals_of_all_examples(tmp_path: Path) -> None:
-    paths = [str(journal_of(name, tmp_path, IN_PLAIN_PYTHON_TK)) for name in NAMES]
+    paths = [
+        str(path)
+        for name in NAMES
+        for path in (journal_of(name, tmp_path, IN_PLAIN_PYTHON_TK), EXAMPLES / name)
+    ]
     found = subprocess.run(
         [sys.executable, "-c", _REPLAY, *paths],
         env=os.environ | {"OPENACR_PURE": "1"},
@@ -91,7 +95,7 @@ def test_a_card_restored_at_any_moment_agrees_at_every_later_tick(name: str) -> 
     card = started(name)
     for _ in range(3):
         card.advance(chance.randrange(1, 1500))
-        again = Controller(card.model, world=card.world)
+        again = Controller(card.model, world=card.world, device_folder=card.device_folder)
         again.take_over(decode(encode(card.snapshot())))
         assert again.image() == card.image()
         for tick in range(30):

@@ -51,6 +51,9 @@ class Bench:
     def mend(self, axis: int, kind: str | None) -> None:
         self.deeds.append((self.tick, "mend", axis, kind))
 
+    def command(self, device: str, name: str, value: float) -> None:
+        self.deeds.append((self.tick, "command", device, name, value))
+
     def type_text(self, text: str, stream: str | None) -> None:
         self.deeds.append((self.tick, "type", text, stream))
 
@@ -478,6 +481,28 @@ def test_faults_are_put_in_and_taken_back() -> None:
         (2, "fault", 4, "friction", 0.5),
         (4, "mend", 2, "jam"),
         (4, "mend", 3, None),
+    ]
+
+
+def test_devices_are_commanded_by_hand() -> None:
+    bench, _ = play(
+        """
+        [[at]]
+        time_s = 0.001
+        command = {device = "left", name = "part"}
+        [[at]]
+        time_s = 0.002
+        command = {device = "left", name = "part", value = false}
+        [[at]]
+        time_s = 0.003
+        command = {device = "belt", name = "speed", value = 2.5}
+        """,
+        8,
+    )
+    assert bench.deeds == [
+        (2, "command", "left", "part", 1.0),
+        (4, "command", "left", "part", 0.0),
+        (6, "command", "belt", "speed", 2.5),
     ]
 
 

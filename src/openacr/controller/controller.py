@@ -48,13 +48,16 @@ class Controller:
         *,
         world: schema.World | None = None,
         data: Path | None = None,
+        device_folder: Path | None = None,
     ) -> None:
-        parts = self._parts = CardParts(model, world=world, data=data)
+        parts = self._parts = CardParts(model, world=world, data=data, device_folder=device_folder)
+        self.device_folder = device_folder  # of Python files with devices of the world
         self.model, self.world, self.card, self.memory = (
             parts.model, parts.world, parts.card, parts.memory
         )  # fmt: skip
         self.system, self.executor, self.control = parts.system, parts.executor, parts.control
         self.plcs, self.networks, self.streams = parts.plcs, parts.networks, parts.streams
+        self.devices = parts.devices
         self.nonvolatile, self.p, self.bit = parts.nonvolatile, parts.p, parts.bit
         self._inputs = parts.inputs
         self._engine = EngineRun(parts)
@@ -86,7 +89,12 @@ class Controller:
         """
         if world is None and project.machine:
             world = load.load_world(project.machine)
-        controller = cls(world.card.model if world else DEFAULT_MODEL, world=world, data=data)
+        controller = cls(
+            world.card.model if world else DEFAULT_MODEL,
+            world=world,
+            data=data,
+            device_folder=project.root,
+        )
         if not all(map(controller.system.programs.is_empty, controller.system.owners())):
             controller.nonvolatile.store.notice(
                 f"the card has programs in {data} and keeps them; of {project.root} only the"
@@ -383,6 +391,14 @@ class Controller:
     def mend(self, axis: int, kind: str | None = None) -> None:
         """End one kind of fault of an axis, or all of them."""
         self._surroundings.mend(axis, kind)
+
+    def command(self, device: str, name: str, value: float = 1.0) -> None:
+        """Give a command to a device of the machine by hand, as a person at it would.
+
+        UserError for a device or command that does not exist, and for a command that is wired.
+        """
+        number, taken = self.devices.command(device, name, value)
+        self._inputs.note(Entered.COMMAND, number, float(taken), name=name)
 
     # reading
 

@@ -219,6 +219,8 @@ class EngineRun:
                 self._parts.streams.escape(name)
         elif reason == loop_cy.ROOM:
             self._parts.streams.moves.drain()
+        elif reason == loop_cy.DEVICES:
+            self._parts.devices.attend(self._parts.tick, self._parts.period_s)
         elif reason == loop_cy.NETWORKS:
             self._parts.networks.attend()
             self._parts.streams.settle()

@@ -13,6 +13,7 @@ A journal file is text, one record per line:
     [tick, "drag", axis, units]             a load is pushed by hand
     [tick, "fault", axis, kind, value]      a fault of the machine begins
     [tick, "mend", axis, kind]              the fault ends; "" for all kinds
+    [tick, "command", device, name, value]  a command by hand to a device of the machine
     [tick, "parameter", number, value]      a parameter written from Python
     [tick, "flag", number, 0 or 1]          a flag written from Python
     [tick, "key", code]                     Ctrl-X, Ctrl-Y or Ctrl-Z pressed from Python
@@ -63,6 +64,7 @@ class Entered(StrEnum):
     DRAG = "drag"
     FAULT = "fault"
     MEND = "mend"
+    COMMAND = "command"
     PARAMETER = "parameter"
     FLAG = "flag"
     KEY = "key"
@@ -75,9 +77,9 @@ class Entered(StrEnum):
 class JournalEntry:
     """One input to the card, `tick` ticks into its life.
 
-    `number` is the stream, input, axis, parameter, flag or key. `text` holds bytes (one
-    character each), the kind of a stream, or a digest; `name` the stream requested, or the
-    kind of a fault.
+    `number` is the stream, input, axis, device, parameter, flag or key. `text` holds bytes (one
+    character each), the kind of a stream, or a digest; `name` the stream requested, the kind of
+    a fault or the command.
     """
 
     tick: int
@@ -156,7 +158,7 @@ def _record(entry: JournalEntry) -> list[Any]:
         return [*head, entry.text, entry.name]
     if entry.what in (Entered.CLOSE, Entered.KEY, Entered.RELEASE, Entered.WITHIN):
         return head
-    if entry.what is Entered.FAULT:
+    if entry.what in (Entered.FAULT, Entered.COMMAND):
         return [*head, entry.name, entry.value]
     if entry.what is Entered.MEND:
         return [*head, entry.name]
@@ -177,6 +179,7 @@ _FORMS: dict[Entered, Any] = {
     Entered.WITHIN: _NUMBER,
     Entered.KEY: tuple[_Tick, Entered, ControlKey],
     Entered.FAULT: tuple[_Tick, Entered, _Number, str, float],
+    Entered.COMMAND: tuple[_Tick, Entered, _Number, str, float],
     Entered.MEND: tuple[_Tick, Entered, _Number, str],
     Entered.DIGEST: _DIGEST,
     Entered.END: _DIGEST,
@@ -192,7 +195,7 @@ def _entry(record: list[Any]) -> JournalEntry:
         return JournalEntry(tick, what, rest[0], rest[1].value, name=rest[2])
     if what is Entered.BYTES:
         return JournalEntry(tick, what, rest[0], rest[1])
-    if what is Entered.FAULT:
+    if what in (Entered.FAULT, Entered.COMMAND):
         return JournalEntry(tick, what, rest[0], value=rest[2], name=rest[1])
     if what is Entered.MEND:
         return JournalEntry(tick, what, rest[0], name=rest[1])

@@ -36,6 +36,7 @@ from openacr.motion.axis import drive
 from openacr.motion.card import Card
 from openacr.network.networks import Networks
 from openacr.plant import apply, schema
+from openacr.plant.attached_devices import AttachedDevices
 from openacr.plc.control import Plcs
 from openacr.plc.reader import PlcLine, read_line
 from openacr.protocol.events import ControlKey
@@ -50,6 +51,7 @@ class CardParts:
         *,
         world: schema.World | None = None,
         data: Path | None = None,
+        device_folder: Path | None = None,
     ) -> None:
         self.model = _model(model)
         self.world = world or schema.default_world(self.model)
@@ -59,6 +61,7 @@ class CardParts:
         self.executor = Executor(self.system)
         self.plcs = Plcs(self.memory, self._plc_text)
         self.networks = Networks(self.memory, self._deliver)
+        self.devices = AttachedDevices(self.memory, self.world, device_folder)
         self.control = ProgramControl(self.system, self.executor, self.plcs)
         self.system.control = self.control
         self.system.runner = self.executor
@@ -115,6 +118,7 @@ class CardParts:
         self.memory.I[P_FIRMWARE_VERSION] = self.model.firmware_number
         self.memory.I[P_UPDATE_NUMBER] = self.model.update
         self.networks.power_up()
+        self.devices.power_up()
 
     def _ask_reboot(self) -> None:
         self._wants_reboot = True

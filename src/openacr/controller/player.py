@@ -71,6 +71,8 @@ class Player:
             card.fault(entry.number, entry.name, entry.value)
         elif what is Entered.MEND:
             card.mend(entry.number, entry.name or None)
+        elif what is Entered.COMMAND:
+            card.command(card.devices.label(entry.number), entry.name, entry.value)
         elif what is Entered.ANALOG:
             card.set_analog(entry.number, entry.value)
         elif what is Entered.DRAG:

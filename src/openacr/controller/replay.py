@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 from openacr.controller.controller import Controller
 from openacr.controller.journal import Journal, JournalEntry
@@ -22,10 +23,10 @@ class Difference:
 class Replay:
     """One replay; `card` is the card at the point reached so far."""
 
-    def __init__(self, journal: Journal) -> None:
+    def __init__(self, journal: Journal, device_folder: Path | None = None) -> None:
         self.journal = journal
         header = journal.header
-        self.card = Controller(header.model, world=header.world)
+        self.card = Controller(header.model, world=header.world, device_folder=device_folder)
         self.card.is_journalled = False
         self.card.take_over(journal.snapshot)
         if (self.card.digest(), self.card.lived_tk) != (header.digest, header.tick):

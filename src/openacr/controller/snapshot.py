@@ -27,6 +27,7 @@ from openacr.map import numbers
 from openacr.map.memory import Memory
 from openacr.models import Model
 from openacr.plant import schema
+from openacr.plant.attached_devices import AttachedDevices
 from openacr.protocol.packets import PacketError
 
 
@@ -40,6 +41,7 @@ class WholeCard(Protocol):
     executor: Executor
     streams: Streams
     nonvolatile: Persistence
+    devices: AttachedDevices
 
     @property
     def tick(self) -> int:
@@ -59,6 +61,7 @@ class Beside(Struct, frozen=True):
     language: Language
     streams: StreamsState
     moves: list[bytes]  # packets of binary moves waiting for room
+    devices: list[bytes]  # state of each device of the machine, as JSON
     stored: dict[str, bytes]  # the non-volatile memory
     lived_before_tk: Index
 
@@ -84,6 +87,7 @@ def take(card: WholeCard) -> Snapshot:
             language_state.take(card.system, card.executor),
             card.streams.state(),
             card.streams.moves.state(),
+            card.devices.state(),
             card.nonvolatile.state(),
             card.lived_tk - card.tick,
         ),
@@ -101,6 +105,7 @@ def put_back(card: WholeCard, snapshot: Snapshot) -> None:
     moves = card.streams.moves.state()
     try:
         _put_back(card, snapshot.rows, snapshot.beside.language, snapshot.beside.moves)
+        card.devices.restore(snapshot.beside.devices)
     except StoreError:
         _put_back(card, rows, language, moves)
         raise

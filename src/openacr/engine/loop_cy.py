@@ -29,6 +29,8 @@ from openacr.map.numbers import (
     KRI_BASE,
     KRI_MISSING_DACS,
     KRI_MOVES_WAITING,
+    MDVF_BASE,
+    MDVF_DUE_TK,
     MSI_BASE,
     MSI_QUEUED,
     MSI_ROOM_BELOW,
@@ -75,12 +77,14 @@ STOPPED = 4  # the end of a tick at which the caller wanted to be called
 WATCH = 5  # a watched value has changed in the completed tick
 ROOM = 6  # binary moves wait, and the buffer of their master has room
 NETWORKS = 7  # a network needs service
+DEVICES = 8  # a device of the machine is due
 THREAD = 16
 
 # Progress within the current tick (row in_tick); 0: not begun.
 SERVO_DONE = 1
-NETWORKS_DONE = 2
-REQUESTS_DONE = 3
+DEVICES_DONE = 2
+NETWORKS_DONE = 3
+REQUESTS_DONE = 4
 
 PROGRAMS = 16
 CONTROLS = (
@@ -148,6 +152,11 @@ def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64) -> int:
     while True:
         number: int = I[SYSI_BASE + SYSI_TICK_HIGH] * 2147483648 + I[SYSI_BASE + SYSI_TICK_LOW]
         if I[e + ENGI_IN_TICK] == SERVO_DONE:
+            I[e + ENGI_IN_TICK] = DEVICES_DONE
+            due: float = F[MDVF_BASE + MDVF_DUE_TK]
+            if due > 0.0 and float(number) >= due:
+                return DEVICES
+        if I[e + ENGI_IN_TICK] == DEVICES_DONE:
             I[e + ENGI_IN_TICK] = NETWORKS_DONE
             if networks_due(F, I, number):
                 return NETWORKS

@@ -318,6 +318,7 @@ def _write_input_words(memory: Memory, world: World) -> dict[int, int]:
     """List the words that hold wired inputs; the onboard inputs always come first."""
     on, off = world.inputs.on, world.inputs.off
     wired = [*(box.input for box in _boxes(world)), *(wire.input for wire in world.wire), *on, *off]
+    wired += [number for device in world.device for number in device.inputs.values()]
     words = sorted({input_place(number)[0] for number in wired} | {at.W_INPUTS})
     slots = {word: slot for slot, word in enumerate(words)}
     for word, slot in slots.items():

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from difflib import get_close_matches
 
 from openacr.plant.check_analog import analog_faults
+from openacr.plant.check_devices import device_faults
 from openacr.plant.check_networks import (
     canopen_faults,
     drive_faults,
@@ -190,6 +191,15 @@ def _wires(world: World) -> Iterator[Complaint]:
             yield Complaint((*path, "output"), text, _ranges("outputs", _outputs(world)))
 
 
+def _device_outputs(world: World) -> Iterator[Complaint]:
+    for index, device in enumerate(world.device):
+        for name, number in device.outputs.items():
+            if not within(number, _outputs(world)):
+                text = f"output {number} is not an output"
+                path: Path = ("device", index, "outputs", name)
+                yield Complaint(path, text, _ranges("outputs", _outputs(world)))
+
+
 def _region_faults(
     region: dict[str, tuple[float, float]], labels: dict[str, Axis], path: Path
 ) -> Iterator[Complaint]:
@@ -226,6 +236,9 @@ def _sources(world: World) -> Iterator[tuple[Path, int, str]]:
             yield ("axis", index, switch.key, "input"), switch.input, what
     for index, wire in enumerate(world.wire):
         yield ("wire", index, "input"), wire.input, wire.name or f"wire[{index}]"
+    for index, device in enumerate(world.device):
+        for name, number in device.inputs.items():
+            yield ("device", index, "inputs", name), number, f"{name} of {device.label}"
     for level in ("on", "off"):
         for index, number in enumerate(getattr(world.inputs, level)):
             yield ("inputs", level, index), number, f"the constant level {level}"
@@ -273,5 +286,7 @@ CHECKS: tuple[Callable[[World], Iterator[Complaint]], ...] = (
     canopen_faults,
     drive_faults,
     analog_faults,
+    device_faults,
+    _device_outputs,
     _size,
 )

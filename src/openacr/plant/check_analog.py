@@ -2,21 +2,30 @@
 
 from collections.abc import Iterator
 
-from openacr.plant.complaint import Complaint
+from openacr.plant.complaint import Complaint, Path
 from openacr.plant.schema import Analog, World
 
 
 def analog_faults(world: World) -> Iterator[Complaint]:
     """Yield the contradictions among the analog inputs."""
     axes = {axis.number for axis in world.axis}
-    taken: dict[int, int] = {}
+    taken: dict[int, Path] = {}
+    for path, channel in _sources(world):
+        other = taken.setdefault(channel, path)
+        if other != path:
+            text = f"two voltages at analog input {channel}"
+            yield Complaint(path, text, f"the other is {other[0]}[{other[1]}]")
     for index, analog in enumerate(world.analog):
-        other = taken.setdefault(analog.input, index)
-        if other != index:
-            text = f"two voltages at analog input {analog.input}"
-            yield Complaint(("analog", index, "input"), text, f"the other is analog[{other}]")
         for key, text, hint in _faults(analog, axes):
             yield Complaint(("analog", index, key), text, hint)
+
+
+def _sources(world: World) -> Iterator[tuple[Path, int]]:
+    for index, analog in enumerate(world.analog):
+        yield ("analog", index, "input"), analog.input
+    for index, device in enumerate(world.device):
+        for name, channel in device.analogs.items():
+            yield ("device", index, "analogs", name), channel
 
 
 def _faults(analog: Analog, axes: set[int]) -> Iterator[tuple[str, str, str]]:

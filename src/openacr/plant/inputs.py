@@ -79,6 +79,18 @@ def release(memory: Memory, flag: int) -> None:
     _put(memory, word, mask, memory.I[row + at.PLNI_LEVEL] & mask != 0)
 
 
+def drive(memory: Memory, flag: int, on: bool) -> None:
+    """Set the level to which the machine drives an input; a forced one keeps its level."""
+    word, mask = input_place(flag)
+    slot = _driven(memory, word, mask)
+    if slot is None:
+        return
+    row = word_row(slot)
+    _put(memory, row + at.PLNI_LEVEL, mask, on)
+    if not memory.I[row + at.PLNI_STUCK] & mask:
+        _put(memory, word, mask, on)
+
+
 def is_driven(memory: Memory, flag: int) -> bool:
     """Whether the machine drives an input."""
     return _driven(memory, *input_place(flag)) is not None

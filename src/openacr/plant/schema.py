@@ -43,6 +43,7 @@ FullSteps = Annotated[int, Meta(ge=4, le=100_000)]
 Speed = Annotated[float, Meta(ge=0, le=1e6)]
 Torque = Annotated[float, Meta(ge=0, le=1e6)]
 Damping = Annotated[float, Meta(ge=0, le=2)]
+DevicePeriod = Annotated[float, Meta(ge=0.0001, le=1)]
 Degrees = Annotated[float, Meta(ge=-360, le=360)]
 
 
@@ -258,6 +259,25 @@ class Inputs(_Table, frozen=True):
     off: tuple[FlagNumber, ...] = ()
 
 
+class DeviceTable(_Table, frozen=True):
+    """A device that is a Python class: its kind, and what of the card each name is wired to."""
+
+    kind: str
+    name: str = ""
+    outputs: dict[str, FlagNumber] = {}
+    dacs: dict[str, AxisNumber] = {}
+    axes: dict[str, AxisNumber] = {}
+    inputs: dict[str, FlagNumber] = {}
+    analogs: dict[str, Channel] = {}
+    settings: dict[str, bool | int | float | str] = {}
+    period_s: DevicePeriod = 0.001
+
+    @property
+    def label(self) -> str:
+        """The name of the device, or its kind if it has no name."""
+        return self.name or self.kind
+
+
 class World(_Table, frozen=True):
     """The machine around the card, and the card model."""
 
@@ -268,6 +288,7 @@ class World(_Table, frozen=True):
     inputs: Inputs = Inputs()
     canopen: Canopen | None = None
     drive: tuple[TalkingDrive, ...] = ()
+    device: tuple[DeviceTable, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

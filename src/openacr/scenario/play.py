@@ -208,6 +208,8 @@ class Play:
         if action.mend is not None:
             kind = action.mend.kind
             world.mend(action.mend.axis, None if kind is None else kind.value)
+        if action.command is not None:
+            world.command(action.command.device, action.command.name, float(action.command.value))
         if action.checkpoint is not None:
             self._reach(action.checkpoint, world.tick)
 

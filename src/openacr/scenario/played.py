@@ -80,6 +80,9 @@ class Played(Protocol):
     def mend(self, axis: int, kind: str | None) -> None:
         """End one kind of fault of an axis, or all."""
 
+    def command(self, device: str, name: str, value: float) -> None:
+        """Give a command to a device of the machine by hand."""
+
     def set_analog(self, parameter: int, value: float) -> None:
         """Bring a value to the analog input a parameter shows."""
 
@@ -97,6 +100,7 @@ class CardWorld:
         self.release_input = card.release_input
         self.fault = card.fault
         self.mend = card.mend
+        self.command = card.command
         self.set_analog = card.set_analog
         self.type_text = card.type_text
         self.drag = card.drag
@@ -143,6 +147,7 @@ class PlayedCard:
         self.release_input = controller.release_input
         self.fault = controller.fault
         self.mend = controller.mend
+        self.command = controller.command
         self.set_analog = controller.set_analog
         self.drag = controller.drag
 

@@ -14,6 +14,7 @@ from openacr.plant.faults import QUANTITIES
 from openacr.scenario.schema import (
     Action,
     Analog,
+    Command,
     Condition,
     Drag,
     Expectation,
@@ -38,11 +39,12 @@ STRUCT_OF_KEY: dict[str, type[Struct]] = {
     "analog": Analog,
     "fault": Fault,
     "mend": Mend,
+    "command": Command,
 }
 
 _SUBJECTS = ("parameter", "flag", "axis", "program", "printed", "between")
 _DEEDS = ("set", "clear", "release", "press", "send", "key", "drag", "analog", "fault", "mend",
-          "checkpoint")  # fmt: skip
+          "command", "checkpoint")  # fmt: skip
 _CONDITIONS = ("bit", "parameter", "axis", "printed", "program")
 _MOMENTS = ("time_s", "when", "after")
 # Of each of these sets an entry has at least one key; of those below it has exactly one.

@@ -99,6 +99,14 @@ class Analog(Struct, frozen=True, forbid_unknown_fields=True):
     value: float
 
 
+class Command(Struct, frozen=True, forbid_unknown_fields=True):
+    """Give a command to a device of the machine by hand; `value` of a contact is true or false."""
+
+    device: Text
+    name: Text
+    value: bool | float = True
+
+
 class Action(Struct, frozen=True, forbid_unknown_fields=True):
     """One entry of `[[at]]`: a moment and what the operator does then."""
 
@@ -119,6 +127,7 @@ class Action(Struct, frozen=True, forbid_unknown_fields=True):
     analog: Analog | None = None
     fault: Fault | None = None
     mend: Mend | None = None
+    command: Command | None = None
     checkpoint: Text | None = None
 
 

@@ -47,3 +47,6 @@ class World(Protocol):
 
     def mend(self, axis: int, kind: str | None) -> None:
         """End one kind of fault of an axis, or all."""
+
+    def command(self, device: str, name: str, value: float) -> None:
+        """Give a command to a device of the machine by hand."""

@@ -228,7 +228,9 @@ class Timeline:
     def save(self, path: Path, *, seen: Callable[[float], None] = lambda part: None) -> None:
         """Write the present branch as a journal; `seen` gets the part that is done, 0 to 1."""
         branch = self.branch
-        card = Controller(self.card.model, world=self.card.world)
+        card = Controller(
+            self.card.model, world=self.card.world, device_folder=self.card.device_folder
+        )
         card.is_journalled = False
         card.take_over(branch.keyframes[0].snapshot)
         card.recorder = Recorder(card, path)

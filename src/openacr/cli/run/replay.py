@@ -32,7 +32,10 @@ def replay(
     ] = False,
     project: Annotated[
         Path | None,
-        typer.Option(help="Of a recording: the machine; default: eight exact axes."),
+        typer.Option(
+            help="Of a recording: the machine (default: eight exact axes); of a journal: the folder"
+            " of the Python files of its devices."
+        ),
     ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Of a recording: print the first difference as JSON.")
@@ -60,14 +63,12 @@ def replay(
 
         replay_recording(journal, project, as_json=as_json)
         return
-    _refuse(
-        "for recordings of `openacr record`", {"--project": project is not None, "--json": as_json}
-    )
+    _refuse("for recordings of `openacr record`", {"--json": as_json})
     from openacr.controller.journal import read_journal
     from openacr.controller.replay import Replay
 
     read = read_journal(journal)
-    again = Replay(read)
+    again = Replay(read, project)
     if not check:
         again.card.listen(_show_text)
     started_s = time.perf_counter()

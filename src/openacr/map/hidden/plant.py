@@ -173,6 +173,13 @@ INPUT_WORD = HiddenBlock(
     },
 )
 
+DEVICES = HiddenBlock(
+    prefix="MDV",
+    family="machine_devices",
+    count=1,
+    doubles=("due_tk",),  # tick of the next step of a device; 0: there are none
+)
+
 GENERAL = HiddenBlock(
     prefix="PLG",
     family="plant",

@@ -17,5 +17,5 @@ speed_cps = tuple(range(187073, 187425, 22))
 ACCEL_SIZE = 8
 accel = tuple(range(187081, 187433, 22))
 INTS_SIZE = 1
-ints = tuple(range(440524, 440540))
-points = tuple(range(440524, 440540))
+ints = tuple(range(440526, 440542))
+points = tuple(range(440526, 440542))
