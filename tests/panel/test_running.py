@@ -30,6 +30,47 @@ def test_a_program_is_loaded_started_stopped_and_ends(hand: HandStation) -> None
     assert hand.station.snapshot.work == (10.0, 10.0, 60.0)
 
 
+def test_the_executing_block_is_one_of_a_program_only_while_that_runs(hand: HandStation) -> None:
+    """Not a block of MDI, not the last one of a program that has ended, not of another text."""
+    (hand.installation.programs / "SUB.TXT").write_text("; sub\nN500 G1 X1\nRET\n")
+    loaded(hand, "G21 G91 F300\nG1 X1\nGOSUB 500\nX1\nM2\n$I SUB.TXT\n")
+    seen = []
+
+    def note() -> bool:
+        now = hand.station.part.data()
+        block = (now["file"], now["line"], now["text"], hand.station.snapshot.line)
+        if block[:2] == ("SUB.TXT", 2) and block[3] != 0:
+            return False  # the snapshot is older than the program
+        if block[0] and block[0] == "t.nc" and block[3] != block[1]:
+            return False
+        if block not in seen:
+            seen.append(block)
+        return not hand.is_busy
+
+    hand.do("run.begin")
+    assert hand.events("state")[-1]["running"]
+    hand.until(note)
+    assert [block for block in seen if block[0]] == [
+        ("t.nc", 2, "G1 X1", 2),
+        ("SUB.TXT", 2, "N500 G1 X1", 0),
+        ("t.nc", 4, "X1", 4),
+    ]
+    hand.run(0.1)
+    for command, args in (
+        ("mode", {"mode": "auto"}),
+        ("mdi.execute", {"line": "G91 G1 X2 F300"}),
+        ("home.start", {"axes": "Z"}),
+    ):
+        hand.do(command, **args)
+        hand.run(0.2)
+        now = hand.station.part.data()
+        assert (now["file"], now["line"], now["text"]) == ("", 0, "")
+        assert hand.station.snapshot.line == 0
+        assert not hand.events("state")[-1]["running"]
+        assert hand.is_busy is (command != "mode")
+        hand.until(lambda: not hand.is_busy)
+
+
 def test_stop_holds_the_feed_and_resume_goes_on(hand: HandStation) -> None:
     loaded(hand)
     hand.do("run.begin")

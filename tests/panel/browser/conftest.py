@@ -92,6 +92,27 @@ def give(page: Page, command: str, **args: object) -> object:
     )
 
 
+def load_file(page: Page, name: str) -> None:
+    """LOAD PROG of a file of the part folder, which leads to the menu RUN PROG."""
+    to_main_menu(page)
+    page.keyboard.press("F5")
+    page.keyboard.press("F3")
+    page.get_by_role("option", name=name).click()
+    page.get_by_role("button", name="LOAD FILE").click()
+    expect(page.locator("#alarms")).to_have_text(name)
+    expect(page.locator("#screen")).to_be_hidden()
+    expect(page.locator("#menu")).to_have_attribute("data-shown", "run")
+
+
+def begin_run(page: Page) -> None:
+    """START of the menu RUN PROG, from line 1."""
+    page.keyboard.press("F2")
+    dialog = page.get_by_role("dialog", name="RUN")
+    expect(dialog.get_by_role("textbox", name="Start line")).to_have_value("1")
+    page.keyboard.press("Enter")
+    until_model(page, "model.state.value.running")
+
+
 def open_page(context: BrowserContext, url: str) -> Page:
     """Open the workspace; whatever the browser complains about is kept in `page.complaints`."""
     page = context.new_page()

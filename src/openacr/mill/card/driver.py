@@ -117,6 +117,7 @@ class MachineDriver:
         self._has_sent = False  # since the last poll
         self._has_lost = False  # packets that were being sent when a connection broke
         self._barred = ""  # why nothing more is sent to the card
+        self.polled: CardState | None = None  # as the last poll has read it
 
     # --- seeing -----------------------------------------------------------------------
 
@@ -167,6 +168,7 @@ class MachineDriver:
             may_have_lost=self._has_lost,
         )  # fmt: skip
         self._note_clearing(is_killed=sample.is_killed)
+        self.polled = sample
         return sample
 
     def _note_clearing(self, *, is_killed: bool) -> None:

@@ -8,9 +8,10 @@ from openacr.mill.card.alarms import Alarm
 from openacr.mill.config.overrides import Override
 from openacr.mill.config.settings import NONE
 from openacr.mill.run.lifecycle import State
+from openacr.mill.session import MillSession
 from openacr.panel.control.about import machine_data
-from openacr.panel.control.loaded import Part
 from openacr.panel.control.modals import modals
+from openacr.panel.control.part import Part
 from openacr.panel.control.shared import Shared
 from openacr.panel.control.typed import Typed
 from openacr.sysvar.tabs import CELLS
@@ -50,12 +51,13 @@ class Facts:
                 "state": State.IDLE.name,
                 "reason": station.lost,
                 "busy": False,
+                "running": False,
                 "jogging": False,
                 "options": self._options(station),
                 "asking": None,
                 "tool_wanted": False,
                 "mode": station.mode,
-                "estop": {"wired": False, "on": False},
+                "estop": {"wired": False, "on": False, "alarm": False},
                 "link": "lost",
                 "passes": 0,
                 "parts": 0,
@@ -70,12 +72,17 @@ class Facts:
             "state": runner.state.name,
             "reason": runner.reason,
             "busy": runner.is_busy,
+            "running": self._part.executing.is_under_way,
             "jogging": runner.jogging.is_active,
             "options": self._options(station),
             "asking": None if ask is None else {"text": ask.text, "parameter": ask.parameter},
             "tool_wanted": runner.entry_actions.changer.wants_confirmation,
             "mode": station.mode,
-            "estop": {"wired": settings.wiring.emergency_stop != NONE, "on": 10 in codes},
+            "estop": {
+                "wired": settings.wiring.emergency_stop != NONE,
+                "on": _is_in(session, settings.wiring.emergency_stop),
+                "alarm": 10 in codes,
+            },
             "link": "lost" if 3 in codes or runner.is_out_of_reach else "ok",
             "passes": runner.passes,
             "parts": int(session.cells.read(CELLS.parts_finished)),
@@ -190,6 +197,12 @@ class Facts:
     def machine(self, station: Shared) -> Data:
         """What the machine is: card, unit, axes."""
         return machine_data(station.installation)
+
+
+def _is_in(session: MillSession, number: int) -> bool:
+    """Whether an input was active when the card was polled last."""
+    polled = session.machine.polled
+    return polled is not None and session.runner.io.is_in(polled, number)
 
 
 def _alarm(alarm: Alarm, when: str) -> Data:

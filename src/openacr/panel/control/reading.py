@@ -23,14 +23,15 @@ class Reading:
         self._session = session
         self.work = WorkSystem(session)
 
-    def snapshot(self, number: int, tick_ms: float, now_s: float, left_s: float) -> Snapshot:
+    def snapshot(
+        self, number: int, tick_ms: float, now_s: float, left_s: float, line: int
+    ) -> Snapshot:
         """Read the machine; a link error where its card does not answer.
 
-        `left_s` is the predicted time to the end of the program.
+        `left_s` is the predicted time to the end of the program, `line` the one it executes.
         """
         session, runner = self._session, self._session.runner
         place = read_place(session)
-        runner_source = runner.source
         to_go, following_end = self._ahead(place)
         cells = session.cells
         return Snapshot(
@@ -42,7 +43,7 @@ class Reading:
             homed=self._mask(lambda axis: runner.settings.is_homed(axis)),
             jogging=place.moving,
             near_limit=self._near(place),
-            line=runner_source.line if runner_source else 0,
+            line=line,
             tool=int(cells.read(CELLS.tool_in_spindle)),
             feed_upm=self.work.run.modal.feed,
             speed_upm=place.speed_upm,

@@ -21,10 +21,10 @@ from openacr.panel.control.facts import Facts
 from openacr.panel.control.hand_motion import HandMotion
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.later import LATER
-from openacr.panel.control.loaded import Part
 from openacr.panel.control.on_card import OnCard
 from openacr.panel.control.orders import Order, failure
 from openacr.panel.control.pace import Sampler
+from openacr.panel.control.part import Part
 from openacr.panel.control.people import Person
 from openacr.panel.control.presses import End
 from openacr.panel.control.reading import Reading
@@ -199,7 +199,7 @@ class Station(Shared):
 
     def _sample(self, now_s: float) -> None:
         number, left_s = self.snapshot.number + 1, self.part.left_s()
-        snapshot = self.reading.snapshot(number, self._tick_ms, now_s, left_s)
+        snapshot = self.reading.snapshot(number, self._tick_ms, now_s, left_s, self.part.line)
         self.ticks.note(snapshot.tick_ms, now_s)
         self.snapshot = snapshot
         self.on_snapshot()

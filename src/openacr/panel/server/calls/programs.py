@@ -77,16 +77,9 @@ def file_of(call: Call, path: str) -> Path:
 
 def locked(call: Call) -> str:
     """The path of the program that is under way; empty if none is."""
-    station = call.panel.station
-    loaded, session = station.part.loaded, station.session
-    if (
-        loaded is None
-        or session is None
-        or not session.runner.is_busy
-        or session.runner.options.is_mdi
-    ):
-        return ""
-    return loaded.path
+    part = call.panel.station.part
+    loaded = part.loaded
+    return loaded.path if loaded is not None and part.executing.is_under_way else ""
 
 
 def _require_unlocked(call: Call, path: str) -> None:

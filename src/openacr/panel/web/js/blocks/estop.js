@@ -12,8 +12,8 @@ export function estopBlock(panel, endings) {
   const box = h("section.block.estop", { ariaLabel: t("block.estop"), title: t("estop.software") }, h("div.row", {}, sign, text));
   panel.append(box);
   endings.add(model.state.watch(({ estop }) => {
-    setText(sign, estop?.on ? "\u26a0" : estop?.wired ? "\u2713" : "?");
-    setText(text, estop?.on ? t("estop.on") : estop?.wired ? t("estop.off") : t("estop.none"));
-    box.classList.toggle("is-on", Boolean(estop?.on));
+    setText(sign, estop?.on || estop?.alarm ? "\u26a0" : estop?.wired ? "\u2713" : "?");
+    setText(text, estop?.on ? t("estop.on") : estop?.alarm ? t("estop.left") : estop?.wired ? t("estop.off") : t("estop.none"));
+    box.classList.toggle("is-on", Boolean(estop?.on || estop?.alarm));
   }));
 }

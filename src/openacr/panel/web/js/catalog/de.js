@@ -34,13 +34,13 @@ const BLOCKS = {
   "position.busy": "Eine Position lässt sich setzen, solange nichts läuft", "position.homed": "referenziert", "position.nothomed": "nicht referenziert",
   "feeds.actual": "F ist", "feeds.set": "F soll", "feeds.spindle": "Spindel", "feeds.rpm": "1/min", "feeds.off": "aus", "feeds.tool": "Werkzeug", "feeds.coolant": "Kühlung", "feeds.flood": "Strahl", "feeds.mist": "Nebel",
   "feeds.line": "Zeile", "feeds.time": "Laufzeit", "feeds.left": "Restzeit", "feeds.parts": "Teile",
-  "estop.on": "Not-Halt ist betätigt", "estop.off": "Not-Halt ist frei", "estop.none": "Not-Halt: nicht verdrahtet", "estop.software": "STOP auf diesem Bildschirm ist kein Not-Halt.",
+  "estop.on": "Not-Halt ist betätigt", "estop.off": "Not-Halt ist frei", "estop.left": "Not-Halt ist wieder frei: Alarm quittieren", "estop.none": "Not-Halt: nicht verdrahtet", "estop.software": "STOP auf diesem Bildschirm ist kein Not-Halt.",
   "buttons.none": "Keine Tasten definiert: SETUP/DIAGN., ANZEIGE, TASTENFELD", "override.label": "Overrides", "override.feed": "Vorschub", "override.rapid": "Eilgang", "override.spindle": "Spindel", "override.open": "Alle Overrides",
   "override.more": "Vorschub-Override höher", "override.less": "Vorschub-Override tiefer", "override.wired": "am Schalter des Bedienpults",
   "pad.back": "löschen", "pad.clear": "leeren", "pad.sign": "Vorzeichen", "pad.none": "Keine Zahl: Ziffern, . + - * / und Klammern", "pad.open": "Ziffernblock",
   "graphics.views": "Ansichten", "graphics.label": "Werkzeugbahn des Programms", "graphics.top": "OBEN", "graphics.front": "VORN", "graphics.side": "SEITE", "graphics.iso": "3D", "graphics.fit": "GANZ", "graphics.in": "Vergrößern", "graphics.out": "Verkleinern",
   "graphics.stock": "ROHTEIL", "graphics.computing": "Rohteil: {percent} %", "graphics.dip": "Eilgang im Material: Satz {lines}", "graphics.below": "Unter dem Rohteil: Satz {lines}", "graphics.sound": "Kein Eilgang im Material, kein Schnitt unter dem Rohteil",
-  "graphics.loading": "{name} wird geladen …", "program.follow": "FOLGEN", "program.from": "AB ZEILE {line}", "io.title": "E/A-Status", "io.inputs": "Eingänge", "io.outputs": "Ausgänge", "io.on": "ein", "io.off": "aus",
+  "graphics.loading": "{name} wird geladen …", "graphics.draw": "ZEICHNEN", "graphics.notdrawn": "nicht gezeichnet: Default Graphics (P250002) ist aus", "program.runs": "läuft", "program.rests": "geladen, läuft nicht", "program.follow": "FOLGEN", "program.from": "AB ZEILE {line}", "io.title": "E/A-Status", "io.inputs": "Eingänge", "io.outputs": "Ausgänge", "io.on": "ein", "io.off": "aus",
 };
 
 const RUN = {

@@ -34,13 +34,13 @@ const BLOCKS = {
   "position.busy": "A position can be set while nothing runs", "position.homed": "homed", "position.nothomed": "not homed",
   "feeds.actual": "Feed", "feeds.set": "F set", "feeds.spindle": "Spindle", "feeds.rpm": "rpm", "feeds.off": "off", "feeds.tool": "Tool", "feeds.coolant": "Coolant", "feeds.flood": "flood", "feeds.mist": "mist",
   "feeds.line": "Line", "feeds.time": "Run time", "feeds.left": "Time left", "feeds.parts": "Parts",
-  "estop.on": "Emergency stop is on", "estop.off": "Emergency stop is off", "estop.none": "Emergency stop: not wired", "estop.software": "STOP on this screen is not an emergency stop.",
+  "estop.on": "Emergency stop is on", "estop.off": "Emergency stop is off", "estop.left": "Emergency stop is off again: its alarm is to be acknowledged", "estop.none": "Emergency stop: not wired", "estop.software": "STOP on this screen is not an emergency stop.",
   "buttons.none": "No push buttons are defined: SET/DIAG, DISPLAY, BUTTON PANEL", "override.label": "Overrides", "override.feed": "Feed", "override.rapid": "Rapid", "override.spindle": "Spindle", "override.open": "All overrides",
   "override.more": "Feed override up", "override.less": "Feed override down", "override.wired": "set by its switch on the panel",
   "pad.back": "delete", "pad.clear": "clear", "pad.sign": "change sign", "pad.none": "Not a number: digits, . + - * / and parentheses", "pad.open": "Number pad",
   "graphics.views": "Views", "graphics.label": "Tool path of the program", "graphics.top": "TOP", "graphics.front": "FRONT", "graphics.side": "SIDE", "graphics.iso": "3D", "graphics.fit": "FIT", "graphics.in": "Zoom in", "graphics.out": "Zoom out",
   "graphics.stock": "STOCK", "graphics.computing": "Stock: {percent} %", "graphics.dip": "Rapid in material: line {lines}", "graphics.below": "Below the blank: line {lines}", "graphics.sound": "No rapid in material, no cut below the blank",
-  "graphics.loading": "Loading {name} \u2026", "program.follow": "FOLLOW", "program.from": "RUN FROM {line}", "io.title": "I/O status", "io.inputs": "Inputs", "io.outputs": "Outputs", "io.on": "on", "io.off": "off",
+  "graphics.loading": "Loading {name} \u2026", "graphics.draw": "DRAW", "graphics.notdrawn": "not drawn: Default Graphics (P250002) is false", "program.runs": "runs", "program.rests": "loaded, not running", "program.follow": "FOLLOW", "program.from": "RUN FROM {line}", "io.title": "I/O status", "io.inputs": "Inputs", "io.outputs": "Outputs", "io.on": "on", "io.off": "off",
 };
 
 const RUN = {

@@ -6,7 +6,7 @@ import { Signal } from "./signal.js";
  * @typedef {{ name: string, index: number, unit: string, decimals: { mm: number, inch: number }, low: number | null, high: number | null, home_required: boolean }} Axis
  * @typedef {{ kind: string, name: string, card: string, unit: string, shown: string, is_small: boolean, is_virtual: boolean, axes: Axis[] }} Machine
  * @typedef {{ name: string, path: string, kind: string, lines: number, errors: number, warnings: number, seconds: number | null,
- *   extents: Record<string, [number, number]> | null, tools: number[], id: string }} Loaded
+ *   extents: Record<string, [number, number]> | null, tools: number[], id: string, drawn: boolean }} Loaded
  */
 
 const PRINTED = 200;
@@ -21,7 +21,7 @@ export class Model {
       limits: { tick_ms: 200, keep_ms: 50, dead_man_ms: 200, stale_ms: 500, upload: 268435456 },
     });
     this.state = new Signal(/** @type {any} */ ({
-      state: "IDLE", reason: "", options: {}, asking: null, tool_wanted: false, mode: "auto", estop: { wired: false, on: false }, link: "ok", can: {},
+      state: "IDLE", running: false, reason: "", options: {}, asking: null, tool_wanted: false, mode: "auto", estop: { wired: false, on: false }, link: "ok", can: {},
     }));
     this.program = new Signal(/** @type {{ loaded: Loaded | null, loading: any, line: number, file: string, text: string, batch: any }} */ (
       { loaded: null, loading: null, line: 0, file: "", text: "", batch: null }));

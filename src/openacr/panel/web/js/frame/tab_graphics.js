@@ -1,4 +1,5 @@
-// The GRAPHICS tab: the path of the loaded program, what is cut of it, and the tool.
+// The GRAPHICS tab: the path of the loaded program, what is cut of it, and the tool. Default Graphics says
+// whether a program is drawn when it is loaded, or at the key DRAW.
 import { get } from "../core/api.js";
 import { model } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
@@ -9,9 +10,8 @@ import { createPicture } from "../draw/picture.js";
 import { stockView } from "./stock_view.js";
 
 const FLIPS = Object.freeze({ x: "850021", y: "850022", exchange: "850023" });
-let pathOf = ""; // id of the program whose path is kept
-let cut = 0;
-let lastLine = 0;
+let [loadOf, pathOf] = ["", ""]; // the load that is followed, and the program whose path is kept
+let [cut, lastLine, lastTime] = [0, 0, 0];
 
 /**
  * @param {HTMLElement} panel
@@ -21,8 +21,19 @@ export async function graphicsTab(panel, endings) {
   panel.classList.add("graphics");
   const note = h("div.picture-note", { attr: { "aria-live": "polite" } });
   const stock = stockView();
-  const picture = await createPicture(panel, endings, { clicked: (line) => chosenLine.set(line), hasTool: true, more: [stock.key] });
+  const drawKey = h("button.key", { type: "button", hidden: true, onclick: () => {
+    drawKey.hidden = true;
+    void begin(model.program.value.loaded?.id ?? "");
+  } }, t("graphics.draw"));
+  const picture = await createPicture(panel, endings, { clicked: (line) => chosenLine.set(line), hasTool: true, more: [drawKey, stock.key] });
   stock.show(picture, endings);
+  let isOld = false;
+  const renew = () => {
+    if (!isOld || model.state.value.running) return; // what is cut stays as it was drawn
+    isOld = false;
+    void read(pathOf);
+    stock.renew();
+  };
   panel.append(note, stock.note);
   endings.add(
     path.watch((drawn) => {
@@ -31,17 +42,18 @@ export async function graphicsTab(panel, endings) {
     }),
     chosenLine.watch((line) => picture.choose(line)),
     model.program.watch((program) => {
-      void follow(program.loaded?.id ?? "");
+      follow(program.loaded);
       stock.follow(program.loaded?.id ?? "");
+      drawKey.hidden = Boolean(pathOf) || !program.loaded;
       setText(note, program.loading ? t("graphics.loading", { name: program.loading.name }) : noteOf(program.loaded));
     }),
     model.status.watch((status) => status && draw(status)),
     model.hello.watch(() => picture.setLimits(limitsOf())),
     model.changed.watch(({ what }) => {
-      if (what !== "forms") return;
-      void read(pathOf); // offsets shift the path
-      stock.renew();
+      if (what === "forms") isOld = true; // offsets shift the path
+      renew();
     }),
+    model.state.watch(renew),
   );
   void readFlips().then((flip) => flip && picture.setFlip(flip));
 
@@ -49,9 +61,11 @@ export async function graphicsTab(panel, endings) {
   function draw(status) {
     const places = [0, 1, 2].map((n) => status.machine[n] ?? 0);
     picture.setTool(places[0], places[1], places[2]);
-    if (!path.value || status.line === lastLine) return;
-    if (status.line === 0 || (status.runTime < 1 && status.line < lastLine)) cut = 0;
-    else cut = reached(path.value, cut, status.line);
+    if (!path.value || !status.line) return; // what was cut stays until the next run
+    if (status.runTime < lastTime) [cut, lastLine] = [0, 0];
+    lastTime = status.runTime;
+    if (status.line === lastLine) return;
+    cut = reached(path.value, cut, status.line);
     lastLine = status.line;
     picture.cutTo(cut);
   }
@@ -60,15 +74,23 @@ export async function graphicsTab(panel, endings) {
 /** @param {import("../core/model.js").Loaded | null} loaded */
 function noteOf(loaded) {
   if (!loaded) return t("alarm.noprogram");
+  if (!pathOf) return `${loaded.name} \u00b7 ${t("graphics.notdrawn")}`;
   return loaded.seconds === null ? loaded.name : `${loaded.name} \u00b7 ${duration(loaded.seconds)}`;
 }
 
 /**
- * Fetch the path when another program has been loaded.
- * @param {string} id
+ * Draw what is loaded anew, unless it is not to be drawn.
+ * @param {import("../core/model.js").Loaded | null} loaded
  */
-async function follow(id) {
-  if (id === pathOf) return;
+function follow(loaded) {
+  const load = loaded ? `${loaded.id} ${loaded.drawn}` : "";
+  if (load === loadOf) return;
+  loadOf = load;
+  void begin(loaded?.drawn ? loaded.id : "");
+}
+
+/** @param {string} id */
+async function begin(id) {
   pathOf = id;
   cut = 0;
   await read(id);

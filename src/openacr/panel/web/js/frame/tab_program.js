@@ -1,4 +1,4 @@
-// The PROGRAM tab: the text of the loaded program with the executing line.
+// The PROGRAM tab: the text of the loaded program; while it runs, the executing block is marked.
 import { get } from "../core/api.js";
 import { model } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
@@ -13,10 +13,11 @@ import { createListing } from "./listing.js";
  */
 export function programTab(panel, endings) {
   let isFollowing = true;
-  const name = h("strong.grow", {}, "");
+  const [name, phase] = [h("strong.name", {}, ""), h("span.grow.quiet", { role: "status" }, "")];
+  const elsewhere = h("div.active-block.mono", { role: "status", hidden: true }); // a block of an included text
   const followKey = h("button.key", { type: "button", ariaPressed: "true", onclick: () => setFollowing(!isFollowing) }, t("program.follow"));
   const fromKey = h("button.key", { type: "button", hidden: true, onclick: () => beginRun({ dry: false, line: chosenLine.value }) }, "");
-  panel.append(h("div.row.pane-tools", {}, name, fromKey, followKey));
+  panel.append(h("div.row.pane-tools", {}, name, phase, fromKey, followKey), elsewhere);
   const listing = createListing(panel, {
     read: async (first, lines) => (await get("program/listing", { first, lines })).lines,
     clicked: (line) => chosenLine.set(line),
@@ -31,13 +32,16 @@ export function programTab(panel, endings) {
   }
   let [id, line] = ["", -1];
   endings.add(
-    model.program.watch(({ loaded }) => {
+    model.program.watch(({ loaded, file, line: at, text }) => {
       setText(name, loaded?.name ?? t("alarm.noprogram"));
+      elsewhere.hidden = !file || file === loaded?.name;
+      setText(elsewhere, `\u25b6 ${file} ${at}  ${text}`);
       if ((loaded?.id ?? "") === id) return;
       id = loaded?.id ?? "";
       listing.forget();
       listing.setTotal(loaded?.lines ?? 0);
     }),
+    model.state.watch(({ running }) => setText(phase, t(running ? "program.runs" : "program.rests"))),
     model.status.watch((status) => {
       if (!status || status.line === line) return;
       line = status.line;

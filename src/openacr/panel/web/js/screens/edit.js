@@ -35,7 +35,7 @@ export const screen = {
     endings.add(() => editor.close());
 
     const isChanged = () => editor.text() !== saved;
-    const isLocked = () => Boolean(path && model.program.value.loaded?.path === path && model.state.value.busy);
+    const isLocked = () => Boolean(path && model.program.value.loaded?.path === path && model.state.value.running);
     function draw() {
       setTitle(`${t("edit.title")}: ${path || t("edit.unnamed")}${isChanged() ? " *" : ""}`);
       saveKey.disabled = isLocked() || !isChanged();

@@ -3,6 +3,7 @@ import { h } from "../core/dom.js";
 import { Endings } from "../core/signal.js";
 import { give } from "../core/app.js";
 import { t } from "../core/texts.js";
+import { showTab } from "../frame/display.js";
 import { openMenu } from "../frame/menu_bar.js";
 import { batchSource, dripSource, fileSource } from "../load/files.js";
 import { dxfSource } from "../load/dxf.js";
@@ -32,10 +33,13 @@ export const screen = {
 };
 
 /**
- * Load a program, then go to RUN PROG.
+ * Load a program, then go to RUN PROG; the graphics of a program that is drawn are put up.
  * @param {string} cmd
  * @param {Record<string, any>} values
  */
 async function load(cmd, values) {
-  if (await give(cmd, values)) openMenu("run");
+  const loaded = await give(cmd, values);
+  if (!loaded) return;
+  openMenu("run");
+  if (loaded.drawn) await showTab("graphics");
 }

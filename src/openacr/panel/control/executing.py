@@ -1,0 +1,36 @@
+"""The block of a part program that is executed now."""
+
+from collections.abc import Callable
+
+from openacr.cnc.canonical import Source
+from openacr.mill.run.lifecycle import State
+from openacr.panel.control.shared import Shared
+
+UNDER_WAY = frozenset({State.RUN, State.WAIT, State.PAUSED, State.HOLD})
+
+
+class Executing:
+    """The block that a part program is at; empty while none runs. Neither MDI nor homing is one."""
+
+    def __init__(self, station: Shared) -> None:
+        self._station = station
+        self.file = ""
+        self.line = 0  # of that file
+        self.text = ""
+
+    @property
+    def is_under_way(self) -> bool:
+        """Whether a part program runs, waits or is held."""
+        session = self._station.session
+        if session is None or session.runner.options.is_mdi:
+            return False
+        return session.runner.state in UNDER_WAY
+
+    def follow(self, text_of: Callable[[Source], str]) -> None:
+        """Note the executing block, and its text when it is another one than before."""
+        source = self._station.machine.runner.source if self.is_under_way else None
+        file, line = (source.file, source.line) if source is not None else ("", 0)
+        if (file, line) == (self.file, self.line):
+            return
+        self.file, self.line = file, line
+        self.text = "" if source is None else (source.text or text_of(source)).strip()

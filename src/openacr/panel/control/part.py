@@ -1,0 +1,243 @@
+"""The part program of one machine: loaded from a file, a library part, a drawing or a batch."""
+
+from collections.abc import Callable
+from concurrent.futures import Future
+from dataclasses import dataclass, field
+from math import nan
+from pathlib import Path
+from typing import Any
+
+from openacr.cnc.interpreter.replay import Replay
+from openacr.cnc.loading.batch import Entry, read_batch
+from openacr.errors import OpenacrError, UserError
+from openacr.mill.session import Start
+from openacr.panel.control.executing import Executing
+from openacr.panel.control.loaded import Loaded
+from openacr.panel.control.orders import Order, failure
+from openacr.panel.control.shared import Shared
+
+
+@dataclass(slots=True)
+class _Batch:
+    """A batch under way: its runs, and which one it is."""
+
+    name: str
+    entries: list[Entry]
+    programs: dict[Path, Loaded]
+    index: int = 0
+    is_running: bool = False
+    start: Start = field(default_factory=Start)
+
+
+class Part:
+    """The program of one machine."""
+
+    def __init__(self, station: Shared) -> None:
+        self._station = station
+        self.loaded: Loaded | None = None
+        self.loading = ""
+        self._batch: _Batch | None = None
+        self._rehearsed: tuple[str, Start, Replay] | None = None
+        self._tokens = 0
+        self.executing = Executing(station)
+        self.is_single = False
+        self.is_skipping = False
+        self.stops_optionally = False
+        self.changed: Callable[[], None] = lambda: None  # another program is loaded
+
+    @property
+    def required(self) -> Loaded:
+        """The loaded program; UserError if there is none."""
+        if self.loaded is None:
+            raise UserError("no program is loaded")
+        return self.loaded
+
+    # --- loading ----------------------------------------------------------------------
+
+    def require_free(self) -> None:
+        """Refuse another program while one runs or is being loaded."""
+        session = self._station.session
+        if session is not None and session.runner.is_busy and not session.runner.options.is_mdi:
+            raise UserError(f"a program runs: the state is {session.runner.state.name}")
+        if self.loading:
+            raise UserError(f"{self.loading} is being loaded")
+
+    def load(self, file: Path, path: str, order: Order, *, kind: str, dialect: str) -> None:
+        """Load a program beside the control thread; the order is answered at the end."""
+        self.require_free()
+        store = self._station.installation.store
+        self.loading = file.name
+
+        def done(future: Future[Loaded]) -> None:
+            self.loading = ""
+            try:
+                loaded = future.result()
+            except Exception as error:
+                order.answer({"ok": False, "error": failure(_explained(error))})
+                return
+            self.take(loaded)
+            order.answer({"ok": True, "result": loaded.data()})
+
+        self._station.jobs.begin(lambda: Loaded.read(file, path, kind, store, dialect), done)
+
+    def take(self, loaded: Loaded | None) -> None:
+        """Make a program the one that START starts."""
+        self.loaded, self._batch, self._rehearsed = loaded, None, None
+        self.changed()
+
+    def note_facts(
+        self, version: str, facts: dict[str, Any], findings: list[dict[str, Any]]
+    ) -> None:
+        """Note what reading the whole program has shown."""
+        if self.loaded is not None and self.loaded.version == version:
+            self.loaded.facts, self.loaded.found = facts, findings
+
+    def note_stored(self, path: str) -> None:
+        """A file was stored: a loaded program stays as it was."""
+        if self.loaded is not None and self.loaded.path == path:
+            self.loaded.is_stale = True
+
+    def close(self) -> None:
+        """Unload the program."""
+        self.require_free()
+        self.take(None)
+
+    def load_batch(self, file: Path, order: Order, place: Callable[[Path], str]) -> None:
+        """Load all programs of a batch file; it runs them one after the other."""
+        self.require_free()
+        store = self._station.installation.store
+        self.loading = file.name
+
+        def work() -> _Batch:
+            batch = read_batch(file)
+            programs = {
+                each: Loaded.read(each, place(each), "batch", store, "") for each in batch.programs
+            }
+            for each in programs.values():
+                _require_sound(each)
+            return _Batch(file.name, list(batch.runs()), programs)
+
+        def done(future: Future[_Batch]) -> None:
+            self.loading = ""
+            try:
+                batch = future.result()
+            except Exception as error:
+                order.answer({"ok": False, "error": failure(_explained(error))})
+                return
+            self.take(batch.programs[batch.entries[0].path])
+            self._batch = batch
+            order.answer({"ok": True, "result": self.required.data()})
+
+        self._station.jobs.begin(work, done)
+
+    # --- running ----------------------------------------------------------------------
+
+    def rehearse(self, start: Start) -> dict[str, Any]:
+        """Read the lines before a start line; what differs is confirmed by the operator."""
+        loaded = self.required
+        _require_sound(loaded)
+        self._station.machine.runner.alarms.require_none()
+        replay = self._station.machine.rehearse(loaded.program, start)
+        self._tokens += 1
+        token = f"{loaded.version[:8]}-{self._tokens}"
+        self._rehearsed = (token, start, replay)
+        return {
+            "token": token,
+            "line": start.line,
+            "differences": [
+                {"name": each.name, "present": each.present, "wanted": each.wanted}
+                for each in replay.differences
+            ],
+            "warnings": [str(each) for each in replay.warnings],
+            "needs_tool": replay.needs_tool,
+            "safe_z": replay.safe_level(),
+        }
+
+    def begin(self, start: Start, confirm: str) -> None:
+        """Start the loaded program; a later line only with what its rehearsal was confirmed by."""
+        loaded = self.required
+        _require_sound(loaded)
+        replay = None
+        if start.line > 1:
+            if self._rehearsed is None or self._rehearsed[0] != confirm:
+                raise UserError(f"line {start.line}: what differs there is confirmed first")
+            _token, rehearsed, replay = self._rehearsed
+            if rehearsed.line != start.line or rehearsed.is_dry != start.is_dry:
+                raise UserError(f"line {start.line}: line {rehearsed.line} was confirmed")
+        self._rehearsed = None
+        self._station.machine.start(loaded.program, start, replay)
+        if self._batch is not None:
+            self._batch.is_running, self._batch.start = True, start
+
+    def poll(self) -> None:
+        """Start the next program of a batch; follow the executing block."""
+        session = self._station.machine
+        self._follow()
+        batch = self._batch
+        if batch is None or not batch.is_running or session.runner.is_busy:
+            return
+        if session.runner.was_aborted or session.runner.alarms.bars_start:
+            batch.is_running = False
+            return
+        batch.index += 1
+        if batch.index >= len(batch.entries):
+            batch.index = 0
+            batch.is_running = session.runner.settings.repeats
+            if not batch.is_running:
+                return
+        self.loaded = batch.programs[batch.entries[batch.index].path]
+        self.changed()
+        session.start(self.loaded.program, batch.start)
+
+    def _follow(self) -> None:
+        loaded = self.loaded
+        self.executing.follow(loaded.text_of if loaded is not None else lambda _source: "")
+
+    @property
+    def line(self) -> int:
+        """The executing line of the loaded text; 0 in an included one, and while none runs."""
+        executing, loaded = self.executing, self.loaded
+        return executing.line if loaded is not None and loaded.has(executing.file) else 0
+
+    def left_s(self) -> float:
+        """The predicted time to the end of the program, without overrides; NaN if unknown."""
+        session, loaded = self._station.session, self.loaded
+        seconds = loaded.facts.get("seconds") if loaded is not None else None
+        if session is None or seconds is None or session.runner.options.is_mdi:
+            return nan
+        return max(0.0, float(seconds) - session.runner.run_s)
+
+    def data(self) -> dict[str, Any]:
+        """The program, and where it is."""
+        batch, executing = self._batch, self.executing
+        return {
+            "loaded": self.loaded.data() if self.loaded else None,
+            "loading": {"name": self.loading, "done": None} if self.loading else None,
+            "line": executing.line,
+            "file": executing.file,
+            "text": executing.text,
+            "batch": None
+            if batch is None
+            else {
+                "name": batch.name,
+                "index": batch.index,
+                "count": len(batch.entries),
+                "names": [each.path.name for each in batch.entries],
+            },
+        }
+
+
+def _require_sound(loaded: Loaded) -> None:
+    errors = loaded.program.errors
+    if errors:
+        more = f" and {len(errors) - 1} more errors" if len(errors) > 1 else ""
+        raise UserError(f"{loaded.name} cannot be started: {errors[0]}{more}")
+
+
+def _explained(error: Exception) -> Exception:
+    """A failure of loading as the operator reads it."""
+    if isinstance(error, OSError) and not isinstance(error, OpenacrError):
+        return UserError(f"{error.filename or 'the file'}: {(error.strerror or '').lower()}")
+    if isinstance(error, MemoryError):
+        return UserError("the program is too big for the memory of this computer")
+    return error
