@@ -10,6 +10,7 @@ import pytest
 from tests.panel.bench import LIMIT_S, Served
 
 from openacr.cnc.parts.library import part_named
+from openacr.sysvar.tabs import GENERAL
 
 
 @pytest.fixture
@@ -220,6 +221,50 @@ def test_the_path_follows_the_work_offset(web: httpx.Client, panel: Served) -> N
     assert first.headers["etag"] != second.headers["etag"]
     assert struct.unpack_from("<f", second.content, 64 + 12) == (120.0,)
     assert struct.unpack_from("<3f", second.content, 48) == (100.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("form", "values", "end"),
+    [
+        ("MODALS", {"100013": "91"}, 30.0),  # G91
+        ("MODALS", {"100014": "20"}, 508.0),  # G20
+    ],
+)
+def test_the_path_follows_the_run_setup(
+    web: httpx.Client, panel: Served, form: str, values: dict[str, str], end: float
+) -> None:
+    (panel.programs / "line.nc").write_text("G53\nF300\nG1 X10\nX20\nM2\n")
+    first = ready(lambda: web.get("/api/path", params={"path": "line.nc"}))
+    assert web.put(f"/api/forms/{form}", json={"values": values}).status_code == 200
+    second = ready(lambda: web.get("/api/path", params={"path": "line.nc"}))
+    assert first.headers["etag"] != second.headers["etag"]
+    assert struct.unpack_from("<f", second.content, 64 + 24) == (end,)
+
+
+def test_the_path_follows_p_parameters(web: httpx.Client, panel: Served) -> None:
+    (panel.programs / "line.nc").write_text("G21 G90 G53\nG1 X(P199) F300\nM2\n")
+    first = ready(lambda: web.get("/api/path", params={"path": "line.nc"}))
+    web.put("/api/pparm", json={"values": {"199": 7.5}})
+    second = ready(lambda: web.get("/api/path", params={"path": "line.nc"}))
+    assert first.headers["etag"] != second.headers["etag"]
+    assert struct.unpack_from("<f", second.content, 64 + 12) == (7.5,)
+
+
+def test_a_change_of_set_modals_chooses_the_start_set_unless_it_says_otherwise(
+    web: httpx.Client, panel: Served
+) -> None:
+    store, chosen = panel.panel.installation.store, GENERAL.start_set_chosen
+    path = "/api/forms/MODALS"
+    assert web.put(path, json={"values": {"100012": "99"}}).status_code == 422
+    assert store.read(chosen) == 0.0
+    web.put(path, json={"values": {}})
+    assert store.read(chosen) == 0.0
+    stored = web.put(path, json={"values": {"100012": "18"}}).json()["stored"]
+    assert stored == {"100012": "18", "100010": "1"}
+    web.put(path, json={"values": {"100010": "0"}})
+    assert store.read(chosen) == 0.0
+    web.put(path, json={"values": {"100012": "19", "100010": "0"}})
+    assert (store.read(chosen), store.read(GENERAL.start_plane)) == (0.0, 19.0)
 
 
 def test_time_and_extents_of_the_sample_become_known(web: httpx.Client, panel: Served) -> None:

@@ -28,7 +28,7 @@ from openacr.sysvar.tabs import (
 
 SYSTEM, OFFSET, SETUP, PANEL = "SYS PARAM", "OFFSETS", "RUN SETUP", "DISPLAY"
 _SECRET = frozenset({GENERAL.password_hash})
-_STARTS = (
+STARTS = (  # SET MODALS
     GENERAL.start_set_chosen,
     GENERAL.start_motion,
     GENERAL.start_plane,
@@ -39,7 +39,7 @@ _STARTS = (
     GENERAL.start_return_level,
     GENERAL.start_ij,
 )
-_OF_SETUP = frozenset({*_STARTS, GENERAL.cmp_rad, GENERAL.run_setup_feedrate})
+_OF_SETUP = frozenset({*STARTS, GENERAL.cmp_rad, GENERAL.run_setup_feedrate})
 
 
 def _work(store: Store, _axis: int | None) -> list[Group]:
@@ -160,7 +160,10 @@ FORMS: dict[str, Form] = {
         Form("WORK", "Work coordinates 1 to 8", OFFSET, Role.SETUP, _work),
         Form("CMPRAD", "CMP RAD", SETUP, Role.OPERATE, listed("", [GENERAL.cmp_rad]), key="F1"),
         Form("FEEDRATE", "Feedrate", SETUP, Role.OPERATE, _feeds, key="F4"),
-        Form("MODALS", "Set modals", SETUP, Role.OPERATE, listed("", _STARTS), key="F7"),
+        Form(
+            "MODALS", "Set modals", SETUP, Role.OPERATE, listed("", STARTS), key="F7",
+            implied={GENERAL.start_set_chosen: 1.0},
+        ),
         Form("MESSAGES", "User messages", PANEL, Role.SERVICE, _messages),
         Form("BUTTONS", "Virtual push buttons", PANEL, Role.SERVICE, _buttons),
         Form("IONAMES", "Names of inputs and outputs", PANEL, Role.SETUP, _line_names),

@@ -1,7 +1,7 @@
 """A form: which cells it has, who may change them, and how they are grouped."""
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from openacr.panel.roles import Role
@@ -33,6 +33,7 @@ class Form:
     is_per_axis: bool = False
     is_paged: bool = False
     key: str = ""
+    implied: Mapping[int, float] = field(default_factory=dict)  # cells set by SAVE of any others
 
     def all_cells(self, store: Store) -> frozenset[int]:
         """All cells that may be changed on this form."""

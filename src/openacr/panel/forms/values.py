@@ -117,7 +117,10 @@ def _text(value: Value) -> str:
 
 
 def save(form: Form, store: Store, values: Mapping[str, str]) -> dict[str, Any]:
-    """Store values by cell number: all of them, or none and RefusedError with the reasons."""
+    """Store values by cell number: all of them, or none and RefusedError with the reasons.
+
+    Cells that a change of this form implies are stored with it, unless they are given.
+    """
     allowed = form.all_cells(store)
     refused: dict[str, str] = {}
     changes: list[tuple[Parameter, Value]] = []
@@ -129,6 +132,8 @@ def save(form: Form, store: Store, values: Mapping[str, str]) -> dict[str, Any]:
             changes.append((found, _parsed(store, found, text)))
         except (UserError, MapError) as error:
             refused[key] = str(error)
+    given = {found.number for found, _ in changes}
+    changes += [(known(n), v) for n, v in form.implied.items() if changes and n not in given]
     try:
         with store.transaction():
             for found, value in changes:

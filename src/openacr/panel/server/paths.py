@@ -11,26 +11,35 @@ from openacr.errors import UserError
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.loaded import version_of
 from openacr.panel.control.thread import ControlThread
+from openacr.panel.forms.catalogue import STARTS
 from openacr.panel.work.paths import Found, read_file
 from openacr.panel.work.pool import Pool
 from openacr.sysvar import Store
-from openacr.sysvar.tabs import CELLS, CONTROL, DISPLAY, GENERAL, SPEEDS
+from openacr.sysvar.schema import CARD_VARIABLES
+from openacr.sysvar.tabs import CELLS, COMPATIBILITY, CONTROL, DISPLAY, GENERAL, SPEEDS
 
 KEPT = 6
-# Cells a path depends on: zeros, offsets, radii, and how arcs and colours are drawn.
+# Cells a path depends on: P parameters, zeros, offsets, radii, the codes that programs begin
+# with, and how arcs and colours are drawn.
 CELLS_READ = (
+    *range(CARD_VARIABLES.stop, CELLS.user_variables[0]),
     *range(CELLS.floating_zero_active, CELLS.work_system_in_use),
     *CELLS.d_radius,
     *CELLS.d_wear,
     *CELLS.h_length,
     *CELLS.h_wear,
+    *STARTS,
     GENERAL.cmp_rad,
-    GENERAL.start_work_system,
-    GENERAL.start_set_chosen,
+    GENERAL.run_setup_feedrate,
+    SPEEDS.cut_speed,
     SPEEDS.chord_tolerance,
     SPEEDS.max_machine_speed,
     CONTROL.default_units,
+    CONTROL.ij_inversion,
+    CONTROL.power_up_incremental_or_absolute,
     CONTROL.path_color,
+    COMPATIBILITY.compatibility,
+    DISPLAY.control_mode,
     DISPLAY.color_via_d_codes,
 )
 
