@@ -1,4 +1,4 @@
-"""Several processes on one store: seen at once, never torn, never lost."""
+"""Several processes and threads on one store: seen at once, never torn, never lost."""
 
 import os
 import signal
@@ -8,11 +8,14 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from threading import Thread
 
 import pytest
 
 from openacr.sysvar import Store
 from openacr.sysvar.database import Database
+from openacr.sysvar.tabs import CONTROL
+from openacr.sysvar.values import Value
 
 
 @contextmanager
@@ -192,3 +195,23 @@ def _seconds_per_read(store: Store) -> float:
     for _ in range(1000):
         store.read(2001)
     return (time.perf_counter() - begin) / 1000
+
+
+def test_a_default_that_is_read_while_another_thread_changes_the_unit_is_not_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with Store(tmp_path / "s.db") as store:
+        writer = Thread(target=store.write, args=(CONTROL.default_units, 1))
+        default = store.default
+
+        def interrupted(n: int) -> Value:
+            found = default(n)
+            if n == CONTROL.default_lead_in_radius and not writer.ident:
+                writer.start()
+                writer.join(0.5)  # it has to wait for the end of the read
+            return found
+
+        monkeypatch.setattr(store, "default", interrupted)
+        store.read(CONTROL.default_lead_in_radius)
+        writer.join()
+        assert store.read(CONTROL.default_lead_in_radius) == 6.35

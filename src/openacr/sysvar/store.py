@@ -178,7 +178,8 @@ class Store:
         parameter = self.parameter(n)
         if parameter.is_text:
             raise MapError(f"{parameter} holds text")
-        return self._held.keep_default(n, float(self.default(n)))
+        with self._lock:  # a write of another thread may change what the default depends on
+            return self._held.keep_default(n, float(self.default(n)))
 
     def _first_text(self, n: int) -> str:
         parameter = self.parameter(n)
