@@ -34,8 +34,9 @@ HELPS: dict[str, tuple[str, str]] = {
     "load": (
         "LOAD PROG",
         "USER FILE: a program of the folder. LIBRARY PART: a part with sizes to choose. DXF FILE: a"
-        " drawing that is converted to a program. BATCH FILE: a list of programs, run one after"
-        " the other. RS232 DRIP FEED: a program that runs while it arrives over a serial line.",
+        " drawing that is converted to a program, cut at the Z that is asked for. BATCH FILE: a"
+        " list of programs, run one after the other. RS232 DRIP FEED: a program that runs"
+        " while it arrives over a serial line.",
     ),
     "feedrate": ("FEEDRATE", "The feed of programs before their first F; 0: Cut Speed."),
     "pparm": (
@@ -43,7 +44,11 @@ HELPS: dict[str, tuple[str, str]] = {
         "P0 to P99 are variables of the card, P100 to P199 of the store. Programs read and write"
         " them while they run.",
     ),
-    "modals": ("SET MODALS", "The codes that are active when a program starts."),
+    "modals": (
+        "SET MODALS",
+        "The codes that are active when a program starts, until it says others. SAVE puts them in"
+        " force; without Start set chosen programs start as at power-up.",
+    ),
     "run": (
         "RUN PROG",
         "RUN starts the loaded program at a line. At a later line than 1 the lines before it are"

@@ -32,6 +32,8 @@ MISFITS = """() => {
   return found;
 }""".replace("LEAST", str(LEAST_PX)).replace("FREE", ".findings .item")  # noqa: E501
 
+SHOW = "(name) => import('/js/frame/menu_bar.js').then(({ openMenu }) => openMenu(name))"
+
 # The editor is left out: its text has the focus, which axe does not see in a shadow root.
 AXE_RUN = """() => axe.run({ exclude: ['.editor'] }, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21aa'] }).then((result) =>
   result.violations.map((each) => `${each.id}: ${each.nodes.map((node) => node.target.join(' ')).slice(0, 3).join(', ')}`))"""  # noqa: E501
@@ -143,12 +145,22 @@ def test_stop_is_within_reach_while_a_dialog_is_open(page: Page) -> None:
     assert page.get_by_role("dialog").count() == 0
 
 
-def test_every_text_is_shown_in_german(context: BrowserContext, page: Page) -> None:
+def test_every_text_is_shown_in_german_and_every_key_fits(
+    context: BrowserContext, page: Page
+) -> None:
     page.evaluate("localStorage.setItem('openacr.panel.language', 'de')")
     page.reload()
     page.wait_for_selector("body:not(.is-stale)")
-    assert page.locator("[data-fkey=F5]").inner_text().endswith("EINRICHTEN")
+    label = page.locator("[data-fkey=F5] span").inner_text()
+    assert label.replace("\u00ad", "") == "EINRICHTEN"
     assert page.locator("html").get_attribute("lang") == "de"
+    page.set_viewport_size({"width": 800, "height": 600})
+    found = {}
+    for menu in page.evaluate(MENUS):
+        page.evaluate(SHOW, menu)
+        found[menu] = page.evaluate(MISFITS)
+    assert {menu: each for menu, each in found.items() if each} == {}
+    page.set_viewport_size({"width": 1024, "height": 768})
     page.evaluate("localStorage.clear()")
     page.reload()
     page.wait_for_selector("body:not(.is-stale)")

@@ -17,10 +17,11 @@ Lines = Annotated[tuple[Line, ...], Meta(max_length=10_000)]
 
 
 class Typed(Args, frozen=True):
-    """One block, or several that run one after the other."""
+    """One block, or several that run one after the other; `kept`: the text of MDI has them."""
 
     line: Line = ""
     lines: Lines = ()
+    kept: bool = False
 
 
 class Buffer(Args, frozen=True):
@@ -42,7 +43,7 @@ def execute(station: Station, order: Order, args: Typed) -> None:
     blocks = [line for line in (args.line, *args.lines) if line.strip()]
     if not blocks:
         raise UserError("no block was typed")
-    station.typed.put(blocks)
+    station.typed.put(blocks, is_shown=not args.kept)
 
 
 @command("mdi.buffer", needs_control=False)

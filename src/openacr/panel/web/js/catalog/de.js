@@ -1,12 +1,12 @@
 // Deutsche Texte. Die Namen der Tasten sind die der AcroMill-Anleitung, wo sie auf Maschinen üblich sind.
 const MENU = {
-  "menu.label": "Funktionstasten", "menu.home": "REFERENZ", "menu.clrzero": "NULL LÖSCHEN", "menu.setzero": "NULL SETZEN", "menu.edit": "EDITOR", "menu.setup": "EINRICHTEN", "menu.run": "PRO\u00adGRAMM",
-  "menu.manual": "HAND", "menu.diag": "SETUP/ DIAGN.", "menu.help": "HILFE", "menu.exit": "ENDE", "menu.main": "HAUPT\u00adMENÜ", "menu.cmprad": "RADIUS", "menu.load": "LADEN", "menu.feedrate": "VOR\u00adSCHUB",
+  "menu.label": "Funktionstasten", "menu.home": "REFE\u00adRENZ", "menu.clrzero": "NULL LÖSCHEN", "menu.setzero": "NULL SETZEN", "menu.edit": "EDITOR", "menu.setup": "EIN\u00adRICHTEN", "menu.run": "PRO\u00adGRAMM",
+  "menu.manual": "HAND", "menu.diag": "SETUP/\u200bDIAGN.", "menu.help": "HILFE", "menu.exit": "ENDE", "menu.main": "HAUPT\u00adMENÜ", "menu.cmprad": "RADIUS", "menu.load": "LADEN", "menu.feedrate": "VOR\u00adSCHUB",
   "menu.pparm": "P PARAM", "menu.modals": "G-CODES", "menu.stop": "STOP", "menu.start": "START", "menu.runline": "AB ZEILE", "menu.dryrun": "PROBE\u00adLAUF", "menu.fov": "OVER\u00adRIDES", "menu.block": "EINZEL\u00adSATZ",
-  "menu.abort": "ABBRUCH", "menu.back": "RÜCK\u00adWÄRTS", "menu.halt": "HALT", "menu.forward": "VOR\u00adWÄRTS", "menu.resume": "WEITER", "menu.jog": "TIPPEN", "menu.mdi": "MDI", "menu.handwheel": "HAND\u00adRAD",
+  "menu.abort": "AB\u00adBRUCH", "menu.back": "RÜCK\u00adWÄRTS", "menu.halt": "HALT", "menu.forward": "VOR\u00adWÄRTS", "menu.resume": "WEITER", "menu.jog": "TIPPEN", "menu.mdi": "MDI", "menu.handwheel": "HAND\u00adRAD",
   "menu.teach": "TEACH", "menu.gotozero": "ZUM NULL\u00adPUNKT", "menu.sysparam": "SYSTEM\u00adPARAM", "menu.offsets": "KORREK\u00adTUREN", "menu.work": "NULL\u00adPUNKTE", "menu.diagnostics": "DIAG\u00adNOSE",
   "menu.display": "ANZEIGE", "menu.iostatus": "E/A STATUS", "menu.terminal": "TERMI\u00adNAL", "menu.scope": "SCOPE", "menu.gain": "REGLER", "menu.board": "KARTEN\u00adPARAM", "menu.servo": "REGEL\u00adKREIS", "menu.cpu": "CPU-LAST",
-  "menu.fast": "FAST STATUS", "menu.memory": "SPEICHER", "menu.ionames": "E/A NAMEN", "menu.buttons": "TASTEN\u00adFELD", "menu.resize": "FENSTER ZURÜCK", "menu.messages": "MEL\u00adDUNGEN", "menu.views": "ANSICH\u00adTEN",
+  "menu.fast": "FAST STATUS", "menu.memory": "SPEI\u00adCHER", "menu.ionames": "E/A NAMEN", "menu.buttons": "TASTEN\u00adFELD", "menu.resize": "FENSTER ZURÜCK", "menu.messages": "MEL\u00adDUNGEN", "menu.views": "ANSICH\u00adTEN",
 };
 
 const FRAME = {
@@ -66,8 +66,8 @@ const FORMS = {
   "load.title": "Programm laden", "load.source": "Quelle", "load.file": "DATEI", "load.part": "TEILEBIBLIOTHEK", "load.dxf": "DXF", "load.batch": "STAPEL", "load.drip": "SERIELL", "load.files": "Programme", "load.text": "Text der Datei", "load.choose": "Eine Datei wählen",
   "load.go": "LADEN", "load.upload": "HOCHLADEN", "load.drop": "Dateien können hier abgelegt werden.", "load.toobig": "{name} ist größer als {most}", "load.uploaded": "{name} ist hochgeladen", "load.locked": "geladen", "load.more": "{count} weitere Zeilen", "load.port": "Schnittstelle",
   "load.drip.text": "Das Programm wird während des Laufs von einer seriellen Schnittstelle gelesen. Ohne Angabe gilt die der Seite COMMUNICATIONS.", "load.drip.start": "LESEN",
-  "dxf.kind": "Art", "dxf.path": "Zusammenhängende Bahn", "dxf.drill": "Bohrbild", "dxf.direction": "Richtung", "dxf.cw": "0 im Uhrzeigersinn", "dxf.ccw": "1 gegen den Uhrzeigersinn", "dxf.layer": "Layer", "dxf.all": "alle Layer", "dxf.output": "Ausgabedatei", "dxf.convert": "UMWANDELN", "dxf.done": "Umgewandelt: {name}",
-  "edit.title": "Editor", "edit.text": "Text des Programms", "edit.open": "ÖFFNEN", "edit.new": "NEU", "edit.save": "SPEICHERN", "edit.saveas": "SPEICHERN ALS", "edit.name": "Dateiname (.TXT)", "edit.saved": "{name} ist gespeichert", "edit.unnamed": "neue Datei", "edit.lines": "{count} Zeilen", "edit.locked": "Dieses Programm läuft: Es lässt sich jetzt nicht ändern",
+  "dxf.kind": "Art", "dxf.path": "Zusammenhängende Bahn", "dxf.drill": "Bohrbild", "dxf.direction": "Richtung", "dxf.cw": "0 im Uhrzeigersinn", "dxf.ccw": "1 gegen den Uhrzeigersinn", "dxf.depth": "Z des Schnitts", "dxf.tool": "Fräser, D-Nummer", "dxf.layer": "Layer", "dxf.all": "alle Layer", "dxf.output": "Ausgabedatei", "dxf.convert": "UMWANDELN", "dxf.done": "Umgewandelt: {name}",
+  "edit.title": "Editor", "edit.text": "Text des Programms", "edit.dxf": "DXF", "edit.open": "ÖFFNEN", "edit.new": "NEU", "edit.save": "SPEICHERN", "edit.saveas": "SPEICHERN ALS", "edit.name": "Dateiname (.TXT)", "edit.saved": "{name} ist gespeichert", "edit.unnamed": "neue Datei", "edit.lines": "{count} Zeilen", "edit.locked": "Dieses Programm läuft: Es lässt sich jetzt nicht ändern",
   "edit.leave": "Nicht gespeichert", "edit.leave.text": "{name} hat ungespeicherte Änderungen.", "edit.conflict": "Inzwischen geändert", "edit.overwrite": "ÜBERSCHREIBEN",
 };
 
@@ -79,12 +79,12 @@ const SERVICE = {
   "gain.title": "Reglerverstärkung", "gain.warning": "Ein Wert wirkt auf den Regelkreis, sobald er eingegeben ist.", "gain.store": "in den Maschinenparametern behalten", "gain.enter": "EINGABE", "gain.done": "{gain} ist {value}", "gain.later": "{gain} ist {value}; gespeichert wird, sobald die Maschine ruht",
   "board.title": "Kartenparameter", "board.search": "Name oder Nummer", "board.number": "Nummer", "board.name": "Name", "board.value": "Wert", "board.doc": "Bedeutung", "board.written": "P{number} ist {value}",
   "pparm.title": "P-Parameter", "pparm.done": "P{n} ist {value}", "servo.title": "Regelkreis", "cpu.title": "CPU-Last", "fast.title": "Fast Status", "memory.title": "Speicheraufteilung",
-  "views.title": "Ansichten", "views.block": "Block", "views.save": "ANSICHT SPEICHERN", "views.saved": "Die Ansichten sind gespeichert", "help.title": "Hilfe", "help.text": "Links eine Taste wählen.", "help.none": "Zu dieser Taste gibt es keine Seite.",
+  "views.title": "Ansichten", "views.block": "Block", "views.save": "ANSICHT SPEICHERN", "views.saved": "Die Ansichten sind gespeichert", "help.title": "Hilfe", "help.none": "Zu dieser Taste gibt es keine Seite.",
 };
 
 const ON_CARD = {
   "splitter.label": "Kante zwischen Status- und Anzeigefenster", "message.all": "Alle Meldungen", "message.more": "+{count}",
-  "menu.programs": "PROG/ SPS", "programs.title": "Programme und SPS der Karte", "programs.list": "Programme und SPS", "programs.text": "Text, wie ihn die Karte auflistet", "programs.printed": "Ausgaben des Programms", "programs.read": "LESEN",
+  "menu.programs": "PROG/\u200bSPS", "programs.title": "Programme und SPS der Karte", "programs.list": "Programme und SPS", "programs.text": "Text, wie ihn die Karte auflistet", "programs.printed": "Ausgaben des Programms", "programs.read": "LESEN",
   "programs.choose": "Programm wählen", "programs.line": "Zeile {line}", "programs.bytes": "{used} Byte", "programs.nomemory": "kein Speicher", "programs.run": "START", "programs.halt": "HALT", "programs.pause": "PAUSE", "programs.resume": "WEITER",
   "programs.block": "EINZEL", "programs.step": "SCHRITT", "programs.listen": "MITHÖREN", "programs.edit": "ÄNDERN", "programs.clear": "LÖSCHEN", "programs.send": "SENDEN", "programs.sent": "{name}: {count} Zeilen sind auf der Karte gespeichert",
   "programs.run.title": "{name} starten?", "programs.run.text": "Ein Programm der Karte kann sofort Achsen bewegen. STOP hält es an; die Overrides dieser Maschine wirken nicht darauf.",

@@ -1,7 +1,7 @@
 // English texts of the screens. Names of keys are those of the AcroMill guide.
 const MENU = {
   "menu.label": "Function keys", "menu.home": "HOME", "menu.clrzero": "CLR ZERO", "menu.setzero": "SET ZERO", "menu.edit": "EDIT", "menu.setup": "RUN SETUP", "menu.run": "RUN PROG",
-  "menu.manual": "MANUAL", "menu.diag": "SET/ DIAG", "menu.help": "HELP", "menu.exit": "EXIT", "menu.main": "MAIN MENU", "menu.cmprad": "CMP RAD", "menu.load": "LOAD PROG", "menu.feedrate": "FEED RATE",
+  "menu.manual": "MANUAL", "menu.diag": "SET/\u200bDIAG", "menu.help": "HELP", "menu.exit": "EXIT", "menu.main": "MAIN MENU", "menu.cmprad": "CMP RAD", "menu.load": "LOAD PROG", "menu.feedrate": "FEED RATE",
   "menu.pparm": "P PARM", "menu.modals": "SET MODALS", "menu.stop": "STOP", "menu.start": "START", "menu.runline": "RUN", "menu.dryrun": "DRY RUN", "menu.fov": "OVER\u00adRIDES", "menu.block": "BLOCK",
   "menu.abort": "ABORT", "menu.back": "BACK", "menu.halt": "HALT", "menu.forward": "FOR\u00adWARD", "menu.resume": "RESUME", "menu.jog": "JOG", "menu.mdi": "MDI", "menu.handwheel": "HAND WHEEL",
   "menu.teach": "TEACH", "menu.gotozero": "GOTO ZERO", "menu.sysparam": "SYS PARAM", "menu.offsets": "OFFSETS", "menu.work": "WORK COORD", "menu.diagnostics": "DIAG\u00adNOSTICS",
@@ -66,8 +66,8 @@ const FORMS = {
   "load.title": "Load program", "load.source": "Source", "load.file": "USER FILE", "load.part": "LIBRARY PART", "load.dxf": "DXF FILE", "load.batch": "BATCH FILE", "load.drip": "DRIP FEED", "load.files": "Part programs", "load.text": "Text of the file", "load.choose": "Choose a file",
   "load.go": "LOAD FILE", "load.upload": "UPLOAD", "load.drop": "Files can be dropped here.", "load.toobig": "{name} is larger than {most}", "load.uploaded": "{name} is uploaded", "load.locked": "loaded", "load.more": "{count} more lines", "load.port": "Port",
   "load.drip.text": "The program is read from a serial port while it runs. An empty port is that of the COMMUNICATIONS tab.", "load.drip.start": "START READING",
-  "dxf.kind": "Kind", "dxf.path": "Continuous path", "dxf.drill": "Drill pattern", "dxf.direction": "Trace direction", "dxf.cw": "0 clockwise", "dxf.ccw": "1 counter-clockwise", "dxf.layer": "Layer", "dxf.all": "all layers", "dxf.output": "Output file", "dxf.convert": "CONVERT", "dxf.done": "Conversion was successful: {name}",
-  "edit.title": "Edit", "edit.text": "Text of the program", "edit.open": "OPEN", "edit.new": "NEW", "edit.save": "SAVE", "edit.saveas": "SAVE AS", "edit.name": "File name (.TXT)", "edit.saved": "{name} is saved", "edit.unnamed": "new file", "edit.lines": "{count} lines", "edit.locked": "This program runs: it cannot be changed now",
+  "dxf.kind": "Kind", "dxf.path": "Continuous path", "dxf.drill": "Drill pattern", "dxf.direction": "Trace direction", "dxf.cw": "0 clockwise", "dxf.ccw": "1 counter-clockwise", "dxf.depth": "Z of the cut", "dxf.tool": "Cutter, D number", "dxf.layer": "Layer", "dxf.all": "all layers", "dxf.output": "Output file", "dxf.convert": "CONVERT", "dxf.done": "Conversion was successful: {name}",
+  "edit.title": "Edit", "edit.text": "Text of the program", "edit.dxf": "DXF", "edit.open": "OPEN", "edit.new": "NEW", "edit.save": "SAVE", "edit.saveas": "SAVE AS", "edit.name": "File name (.TXT)", "edit.saved": "{name} is saved", "edit.unnamed": "new file", "edit.lines": "{count} lines", "edit.locked": "This program runs: it cannot be changed now",
   "edit.leave": "Not saved", "edit.leave.text": "{name} has changes that are not saved.", "edit.conflict": "Changed meanwhile", "edit.overwrite": "OVERWRITE",
 };
 
@@ -79,12 +79,12 @@ const SERVICE = {
   "gain.title": "Gain", "gain.warning": "A gain acts on the servo loop the moment it is entered.", "gain.store": "keep it in the parameters of the machine", "gain.enter": "ENTER", "gain.done": "{gain} is {value}", "gain.later": "{gain} is {value}; it is stored once the machine rests",
   "board.title": "Board parameters", "board.search": "Name or number", "board.number": "Number", "board.name": "Name", "board.value": "Value", "board.doc": "Meaning", "board.written": "P{number} is {value}",
   "pparm.title": "P parameters", "pparm.done": "P{n} is {value}", "servo.title": "Servo loop", "cpu.title": "CPU load", "fast.title": "Fast status", "memory.title": "Memory configuration",
-  "views.title": "Setup screen", "views.block": "Block", "views.save": "SAVE VIEW", "views.saved": "The views are saved", "help.title": "Help", "help.text": "Choose a key on the left.", "help.none": "There is no page on this key.",
+  "views.title": "Setup screen", "views.block": "Block", "views.save": "SAVE VIEW", "views.saved": "The views are saved", "help.title": "Help", "help.none": "There is no page on this key.",
 };
 
 const ON_CARD = {
   "splitter.label": "Edge between status and display window", "message.all": "All messages", "message.more": "+{count}",
-  "menu.programs": "PROG/ PLC", "programs.title": "Programs and PLCs of the card", "programs.list": "Programs and PLCs", "programs.text": "Text as the card lists it", "programs.printed": "What the program prints", "programs.read": "READ",
+  "menu.programs": "PROG/\u200bPLC", "programs.title": "Programs and PLCs of the card", "programs.list": "Programs and PLCs", "programs.text": "Text as the card lists it", "programs.printed": "What the program prints", "programs.read": "READ",
   "programs.choose": "Choose a program", "programs.line": "line {line}", "programs.bytes": "{used} bytes", "programs.nomemory": "no memory", "programs.run": "RUN", "programs.halt": "HALT", "programs.pause": "PAUSE", "programs.resume": "RESUME",
   "programs.block": "BLOCK", "programs.step": "STEP", "programs.listen": "LISTEN", "programs.edit": "EDIT", "programs.clear": "CLEAR", "programs.send": "SEND", "programs.sent": "{name}: {count} lines are stored on the card",
   "programs.run.title": "Start {name}?", "programs.run.text": "A program of the card can move axes at once. STOP pauses it; it is not held by the overrides of this machine.",

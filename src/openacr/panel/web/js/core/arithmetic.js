@@ -1,4 +1,5 @@
 // Sums in the number pad: + - * / and parentheses, decimal point or comma.
+import { t } from "./texts.js";
 
 const TOKEN = /\s*(?:(\d+(?:\.\d*)?|\.\d+)|([-+*/()]))/y;
 
@@ -55,4 +56,16 @@ function split(text) {
  */
 export function tidy(value) {
   return String(Number(value.toPrecision(12)));
+}
+
+/**
+ * The number in a field, null where it is empty; an error that names the field for any other text.
+ * @param {HTMLInputElement} field
+ * @param {string} label
+ */
+export function numberIn(field, label) {
+  if (!field.value.trim()) return null;
+  const value = evaluate(field.value);
+  if (value === null) throw new Error(`${label}: ${t("pad.none")}`);
+  return value;
 }

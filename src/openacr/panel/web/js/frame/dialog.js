@@ -63,7 +63,8 @@ export function ask({ title, body, choices, first, className = "" }) {
     dialog.show();
     open.push(dialog);
     part();
-    (first ?? keys[keys.length - 1])?.focus();
+    const safest = keys[choices.at(-1)?.kind === "bad" ? 0 : keys.length - 1]; // Enter ends nothing unread
+    (first ?? safest)?.focus();
     if (first instanceof HTMLInputElement) first.select(); // the first digit replaces the value
   });
 }

@@ -91,7 +91,7 @@ function inputFor(row, id) {
 
 /** @param {FormRow} row */
 function limitsOf(row) {
-  const [low, high] = [row.low, row.high];
+  const [low, high] = row.kind === "boolean" || row.words ? [null, null] : [row.low, row.high];
   if (low === null && high === null) return "";
   if (high === null) return t("field.least", { low: String(low) });
   return low === null ? t("field.most", { high }) : t("field.range", { low, high });

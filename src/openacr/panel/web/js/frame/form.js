@@ -61,6 +61,15 @@ export function showForm(host, name, endings, setTitle = () => {}) {
     draw(form);
   }
 
+  /** The first row has the focus of a form that was just opened: its value is typed at once. */
+  function begin() {
+    const top = rows.querySelector("input:enabled:not([readonly]), select:enabled");
+    const isElsewhere = document.activeElement?.closest("dialog, [role=tablist], .form-tabs");
+    if (!(top instanceof HTMLElement) || isElsewhere) return;
+    top.focus();
+    if (top instanceof HTMLInputElement) top.select();
+  }
+
   /** @param {Form} shown */
   function draw(shown) {
     setTitle(shown.title);
@@ -117,8 +126,8 @@ export function showForm(host, name, endings, setTitle = () => {}) {
     if (!Object.keys(values).length) return true;
     for (const field of fields.values()) field.refuse("");
     try {
-      const { stored } = await send("PUT", `forms/${name}`, { values });
-      report(t("form.saved", { count: Object.keys(stored ?? values).length }));
+      await send("PUT", `forms/${name}`, { values });
+      report(t("form.saved", { count: Object.keys(values).length }));
       await load();
       return true;
     } catch (error) {
@@ -147,7 +156,11 @@ export function showForm(host, name, endings, setTitle = () => {}) {
     if (changed().length) setText(note, t("form.elsewhere"));
     else void load();
   }));
-  void load().catch(refuse);
+  host.addEventListener("keydown", (event) => {
+    const isField = event.target instanceof HTMLInputElement && event.target.type !== "checkbox";
+    if (event.key === "Enter" && isField) void save();
+  });
+  void load().then(begin).catch(refuse);
   return mayLeave;
 }
 

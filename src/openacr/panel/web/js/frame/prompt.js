@@ -13,7 +13,9 @@ export function startPrompt() {
     const last = model.says.value.at(-1);
     const said = last === over ? "" : last?.text ?? "";
     if (asking) {
-      show("ask", asking.text || t("ask.value"), h("button.key.main", { type: "button", onclick: () => answer(asking) }, t("ask.answer")));
+      const key = h("button.key.main", { type: "button", onclick: () => answer(asking) }, t("ask.answer"));
+      const isNew = show("ask", asking.text || t("ask.value"), key);
+      if (isNew && !document.activeElement?.closest("dialog, #screen, input")) key.focus(); // Enter answers
     } else if (toolWanted) {
       show("ask", reason || t("tool.wanted"), h("button.key.main", { type: "button", onclick: () => give("run.confirm") }, t("tool.changed")));
     } else if (prompt.value.text) show(prompt.value.kind, prompt.value.text);
@@ -23,13 +25,15 @@ export function startPrompt() {
    * @param {string} kind
    * @param {string} text
    * @param {HTMLElement} [key]
+   * @returns {boolean} whether it was not shown before
    */
   function show(kind, text, key) {
     const id = `${kind}|${text}`;
-    if (line.dataset.shown === id) return;
+    if (line.dataset.shown === id) return false;
     line.dataset.shown = id;
     line.dataset.kind = kind;
     fill(line, h("span.text", { title: text }, kind === "error" ? `\u26a0 ${text}` : text), key);
+    return true;
   }
   model.state.watch(({ state }) => {
     if (before === "HOMING" && state !== before) over = model.says.value.at(-1); // steps of a homing that is over

@@ -1,10 +1,13 @@
 // DXF FILE: a drawing becomes a part program; continuous path or drill pattern.
-import { get, send } from "../core/api.js";
+import { ApiError, get, send } from "../core/api.js";
 import { refuse, report } from "../core/app.js";
+import { numberIn } from "../core/arithmetic.js";
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { fetchPath } from "../draw/path.js";
 import { createPicture } from "../draw/picture.js";
+import { confirm } from "../frame/dialog.js";
+import { openScreen } from "../frame/screen_host.js";
 import { fileList } from "./file_list.js";
 
 /**
@@ -14,34 +17,64 @@ import { fileList } from "./file_list.js";
  */
 export async function dxfSource(host, endings, load) {
   let [path, written] = ["", ""];
-  const layer = h("select.field", { ariaLabel: t("dxf.layer") }, h("option", { value: "" }, t("dxf.all")));
-  const direction = h("select.field", {}, h("option", { value: "0" }, t("dxf.cw")), h("option", { value: "1" }, t("dxf.ccw")));
-  const kind = h("select.field", {}, h("option", { value: "" }, t("dxf.path")), h("option", { value: "1" }, t("dxf.drill")));
-  const output = h("input.field.mono", { ariaLabel: t("dxf.output"), autocomplete: "off", spellcheck: false });
-  const [convert, go] = [h("button.key.main", { type: "button", disabled: true, onclick: () => make() }, t("dxf.convert")), h("button.key.big", { type: "button", disabled: true, onclick: () => load("program.load", { path: written }) }, t("load.go"))];
-  const drawing = h("div.preview", {});
+  const fields = createFields();
+  const drawing = h("div.preview.grow", {});
+  const notes = h("div.scroll.dxf-notes", { role: "status" });
+  const convert = h("button.key.main", { type: "button", disabled: true, onclick: () => make(false) }, t("dxf.convert"));
+  const edit = h("button.key", { type: "button", disabled: true, onclick: () => openScreen("edit", { path: written }) }, t("menu.edit"));
+  const go = h("button.key.big", { type: "button", disabled: true, onclick: () => load("program.load", { path: written }) }, t("load.go"));
   const list = fileList({ kinds: ["dxf"], chosen: async (entry) => {
     path = entry.path;
     convert.disabled = false;
-    output.value = entry.path.replace(/\.dxf$/i, "") + ".TXT";
+    fields.output.value = entry.path.replace(/\.dxf$/i, "") + ".TXT";
     const { layers } = await get("dxf/layers", { path }).catch(() => ({ layers: [] }));
-    fill(layer, h("option", { value: "" }, t("dxf.all")), ...layers.map((/** @type {any} */ each) => h("option", { value: each.name ?? each }, each.name ?? each)));
+    fill(fields.layer, h("option", { value: "" }, t("dxf.all")), ...layers.map((/** @type {any} */ each) => h("option", { value: each.name ?? each }, each.name ?? each)));
   } });
-  const row = (/** @type {string} */ label, /** @type {HTMLElement} */ field) => h("label.row", {}, h("span.grow", {}, label), field);
-  host.append(h("div.load-two", {}, list.element, h("div.stack.load-side.scroll", {}, row(t("dxf.kind"), kind), row(t("dxf.direction"), direction), row(t("dxf.layer"), layer), row(t("dxf.output"), output),
-    h("div.row", {}, convert, h("span.grow", {}), go), drawing)));
+  host.append(h("div.load-parts", {}, list.element, fields.element,
+    h("div.stack.load-side", {}, drawing, notes, h("div.row.wrap", {}, convert, h("span.grow", {}), edit, go))));
   const picture = await createPicture(drawing, endings);
 
-  async function make() {
+  /** @param {boolean} replace */
+  async function make(replace) {
     try {
-      const answer = await send("POST", "dxf", { path, direction: Number(direction.value), layer: layer.value, drill: kind.value === "1", output: output.value.trim() });
+      const answer = await send("POST", "dxf", { path, replace, ...fields.values() });
       written = answer.path;
-      go.disabled = false;
+      go.disabled = edit.disabled = false;
       report(t("dxf.done", { name: written }));
+      fill(notes, ...answer.notes.map((/** @type {string} */ text) => h("div.notice", {}, text)));
       await list.read();
       picture.setPath(await fetchPath("path", { path: written }));
     } catch (error) {
-      refuse(error);
+      const isThere = error instanceof ApiError && error.body?.error?.code === "conflict";
+      if (!isThere) refuse(error);
+      else if (await confirm(t("dxf.convert"), error.message, t("edit.overwrite"))) await make(true);
     }
   }
+}
+
+/** What is asked of a drawing; a number that is left empty is as the parameters of the machine say. */
+function createFields() {
+  const kind = h("select.field", { onchange: () => draw() }, h("option", { value: "" }, t("dxf.path")), h("option", { value: "1" }, t("dxf.drill")));
+  const depth = numberField();
+  const tool = numberField();
+  const direction = h("select.field", {}, h("option", { value: "0" }, t("dxf.cw")), h("option", { value: "1" }, t("dxf.ccw")));
+  const layer = h("select.field", { ariaLabel: t("dxf.layer") }, h("option", { value: "" }, t("dxf.all")));
+  const output = h("input.field.mono", { ariaLabel: t("dxf.output"), autocomplete: "off", spellcheck: false });
+  const row = (/** @type {string} */ label, /** @type {HTMLElement} */ field) => h("label.stack.dxf-field", {}, h("span", {}, label), field);
+  const ofPath = [row(t("dxf.direction"), direction), row(t("dxf.tool"), tool)];
+  const draw = () => ofPath.forEach((each) => { each.hidden = kind.value === "1"; });
+  const element = h("div.stack.scroll.part-form", {}, row(t("dxf.kind"), kind), row(t("dxf.depth"), depth), row(t("dxf.output"), output), ...ofPath, row(t("dxf.layer"), layer));
+  const values = () => {
+    const isDrill = kind.value === "1";
+    const z = numberIn(depth, t("dxf.depth"));
+    return {
+      output: output.value.trim(), layer: layer.value, drill: isDrill, direction: Number(direction.value),
+      tool: isDrill ? 0 : numberIn(tool, t("dxf.tool")) ?? 0, ...(z === null ? {} : { [isDrill ? "drill_z" : "cut_z"]: z }),
+    };
+  };
+  return { element, output, layer, values };
+}
+
+function numberField() {
+  return h("input.field.number", { inputMode: "decimal", autocomplete: "off" });
 }

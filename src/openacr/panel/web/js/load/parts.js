@@ -1,6 +1,7 @@
 // LIBRARY PART: a form for the sizes of a part, and its picture while they are typed.
 import { get } from "../core/api.js";
 import { refuse } from "../core/app.js";
+import { numberIn } from "../core/arithmetic.js";
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { fetchPath } from "../draw/path.js";
@@ -30,9 +31,9 @@ export async function partSource(host, endings, load) {
   const choose = (/** @type {any} */ part) => {
     for (const key of list.children) key.setAttribute("aria-selected", String(/** @type {HTMLElement} */ (key).dataset.part === part.name));
     const fields = part.sizes.map((/** @type {any} */ each) => ({ each, input: h("input.field.number", { id: `part-P${each.cell}`, value: String(each.default ?? ""), inputMode: "decimal", autocomplete: "off" }) }));
-    const values = () => Object.fromEntries(fields.map((/** @type {any} */ { each, input }) => [`P${each.cell}`, Number(input.value.replace(",", "."))]));
+    const values = () => Object.fromEntries(fields.map((/** @type {any} */ { each, input }) => [`P${each.cell}`, numberIn(input, each.text)]).filter((/** @type {any} */ [, value]) => value !== null));
     fill(form, h("h3", {}, part.title || part.name), ...fields.map((/** @type {any} */ { each, input }) =>
-      h("div.form-row", {}, h("label", { htmlFor: input.id }, each.text), h("div.row.form-input", {}, input, each.unit ? h("span.unit", {}, each.unit) : ""), h("span.hint", {}, rangeOf(each)))));
+      h("div.form-row", {}, h("label", { htmlFor: input.id }, each.text), h("div.row.form-input", {}, input, each.unit ? h("span.unit", {}, each.unit) : ""), h("span.hint", {}, `P${each.cell} \u00b7 ${rangeOf(each)}`))));
     fill(conditions, [part.start, ...part.checks].filter(Boolean).join(" \u00b7 "));
     let timer = setTimeout(() => {}, 0);
     const draw = async () => {
@@ -50,7 +51,13 @@ export async function partSource(host, endings, load) {
       timer = setTimeout(draw, WAIT_MS);
     });
     go.disabled = false;
-    go.onclick = () => load("program.part", { part: part.name, values: values() });
+    go.onclick = () => {
+      try {
+        void load("program.part", { part: part.name, values: values() });
+      } catch (error) {
+        refuse(error); // not a number
+      }
+    };
     void draw();
   };
   fill(list, ...parts.map((/** @type {any} */ part) => h("button.key.item", { type: "button", role: "option", ariaSelected: "false", data: { part: part.name }, onclick: () => choose(part) },

@@ -4,6 +4,7 @@ import { model, refuse, report } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { ask, askText } from "../frame/dialog.js";
+import { openScreen } from "../frame/screen_host.js";
 import { fileList } from "../load/file_list.js";
 
 /** @type {import("../frame/screen_host.js").Screen} */
@@ -20,6 +21,7 @@ export const screen = {
     const state = h("span.hint.grow", { role: "status" });
     const saveKey = h("button.key.main", { type: "button", onclick: () => save() }, t("edit.save"));
     head.append(h("button.key", { type: "button", onclick: async () => { if (await mayDrop()) await open(path); } }, t("edit.open")), h("button.key", { type: "button", onclick: () => begin() }, t("edit.new")),
+      h("button.key", { type: "button", onclick: () => openScreen("load", { source: "dxf" }) }, t("edit.dxf")),
       h("button.key", { type: "button", onclick: () => saveAs() }, t("edit.saveas")), saveKey);
     body.classList.add("is-editor");
     body.append(host, findings, h("div.row", {}, state));
@@ -126,7 +128,8 @@ export const screen = {
 
     draw();
     const { loaded } = model.program.value;
-    void open(!args.other && loaded?.kind === "file" ? loaded.path : "");
+    if (args.path) void read(args.path);
+    else void open(!args.other && loaded?.kind === "file" ? loaded.path : "");
   },
 };
 

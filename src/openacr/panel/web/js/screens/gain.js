@@ -1,6 +1,7 @@
 // GAIN: the gains of one axis; ENTER writes a value to the card at once.
 import { get } from "../core/api.js";
 import { give, model, refuse, report } from "../core/app.js";
+import { evaluate } from "../core/arithmetic.js";
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 
@@ -34,7 +35,12 @@ function rowOf(axis, row, store) {
   const field = h("input.field.number", { id: `gain-${row.number}`, value: row.value, inputMode: "decimal", autocomplete: "off" });
   const enter = async (/** @type {Event} */ event) => {
     event.preventDefault();
-    const answer = await give("gain.set", { axis: axis.name, gain: row.name, value: Number(field.value.replace(",", ".")), store: store.checked });
+    const value = evaluate(field.value);
+    if (value === null) {
+      refuse(`${row.name}: ${t("pad.none")}`);
+      return;
+    }
+    const answer = await give("gain.set", { axis: axis.name, gain: row.name, value, store: store.checked });
     if (!answer) return;
     field.value = String(answer.value);
     report(t(store.checked && !answer.is_stored ? "gain.later" : "gain.done", { gain: row.name, value: answer.value }));

@@ -16,23 +16,26 @@ export const screen = {
   title: "help.title",
   area: "full",
   show({ body }) {
-    const text = h("article.help-text.scroll", { tabIndex: 0 }, h("p", {}, t("help.text")));
+    const text = h("article.help-text.scroll", { tabIndex: 0 });
     const list = h("div.form-tabs.scroll", {});
     body.classList.add("is-tabbed");
     body.append(list, text);
+    const show = async (/** @type {HTMLElement} */ item, /** @type {string} */ key, /** @type {string} */ label) => {
+      for (const each of list.children) each.setAttribute("aria-current", String(each === item));
+      const page = await get(`help/${key}`).catch(() => ({ title: label, text: t("help.none") }));
+      fill(text, h("h2", {}, page.title), ...page.text.split(/\n\s*\n/).map((/** @type {string} */ part) => h("p", {}, part)));
+    };
     const seen = new Set();
     for (const [menu, keys] of Object.entries(MENUS)) {
       for (const entry of keys) {
         const [topic, key] = [entry.label, pageOf(entry)];
         if (!key || seen.has(topic)) continue;
         seen.add(topic);
-        list.append(h("button.key.item", { type: "button", onclick: () => show(key, t(entry.label)) }, h("span.name", {}, t(entry.label)), h("span.quiet", { title: menu }, `F${entry.key}`)));
+        const item = h("button.key.item", { type: "button", onclick: () => show(item, key, t(entry.label)) }, h("span.name", {}, t(entry.label)), h("span.quiet", { title: menu }, `F${entry.key}`));
+        list.append(item);
       }
     }
-    const show = async (/** @type {string} */ key, /** @type {string} */ label) => {
-      const page = await get(`help/${key}`).catch(() => ({ title: label, text: t("help.none") }));
-      fill(text, h("h2", {}, page.title), ...page.text.split(/\n\s*\n/).map((/** @type {string} */ part) => h("p", {}, part)));
-    };
+    list.querySelector("button")?.click();
   },
 };
 

@@ -8,6 +8,8 @@ import { mayMove } from "../motion/actions.js";
 import { holdByKeyboard, makeHeld, releaseAll, releaseKeyboard } from "../motion/hold.js";
 
 const PRESETS = [1, 2, 3, 4, 5];
+const CROSS = ["X", "Y"];
+const CROSS_WIDE = 3; // columns
 /** @type {Record<string, [string, 1 | -1]>} */
 const ARROWS = { ArrowRight: ["X", 1], ArrowLeft: ["X", -1], ArrowUp: ["Y", 1], ArrowDown: ["Y", -1], PageUp: ["Z", 1], PageDown: ["Z", -1] };
 const fast = new Signal(false);
@@ -24,11 +26,13 @@ export const screen = {
     body.append(h("div.jog-choices", {}, speeds, increments), keys, h("p.hint", {}, t("jog.text")));
     /** @type {Map<string, HTMLElement>} */
     const held = new Map();
-    model.axes.forEach((axis, n) => {
+    const beside = model.axes.filter(({ name }) => !CROSS.includes(name));
+    const after = beside.length < model.axes.length ? CROSS_WIDE : 0;
+    model.axes.forEach((axis) => {
       for (const direction of /** @type {const} */ ([-1, 1])) {
         const sign = direction > 0 ? "+" : "\u2212";
         const key = h("button.key.jog-key", { type: "button", ariaLabel: `${axis.name} ${direction > 0 ? "plus" : "minus"}` }, `${axis.name}${sign}`);
-        [key.style.gridColumn, key.style.gridRow] = placeOf(axis.name, n, direction);
+        [key.style.gridColumn, key.style.gridRow] = placeOf(axis.name, after + beside.indexOf(axis), direction);
         held.set(`${axis.name}${direction}`, key);
         jogKey(key, axis.name, direction);
         keys.append(key);
@@ -52,12 +56,12 @@ export const screen = {
 /**
  * X and Y as a cross, every other axis as a column beside it.
  * @param {string} name
- * @param {number} n
+ * @param {number} n columns before that of an axis beside the cross
  * @param {1 | -1} direction
  */
 function placeOf(name, n, direction) {
   if (name === "X") return [direction > 0 ? "3" : "1", "2"];
-  return [name === "Y" ? "2" : String(n + 2), direction > 0 ? "1" : "3"];
+  return [name === "Y" ? "2" : String(n + 1), direction > 0 ? "1" : "3"];
 }
 
 /**

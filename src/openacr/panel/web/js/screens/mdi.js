@@ -20,7 +20,7 @@ export const screen = {
     let isEdited = false;
     const execute = async () => {
       const text = line.value.trim();
-      if (!text || !mayMove()) return;
+      if (!text || !mayMove() || (isEdited && !(await keepEdit()))) return;
       if (await give("mdi.execute", { line: text })) {
         line.value = "";
         place = 0;
@@ -38,12 +38,16 @@ export const screen = {
       keep.hidden = false;
     });
     const lines = () => buffer.value.split("\n").filter((each) => each.trim());
-    const keep = h("button.key", { type: "button", hidden: true, onclick: async () => {
-      if (!(await give("mdi.buffer", { lines: lines() }))) return;
-      isEdited = false;
-      keep.hidden = true;
-    } }, t("mdi.keep"));
-    const runAll = h("button.key", { type: "button", onclick: () => mayMove() && give("mdi.execute", { lines: lines() }) }, t("mdi.runall"));
+    const keepEdit = async () => {
+      const done = await give("mdi.buffer", { lines: lines() });
+      isEdited = isEdited && !done;
+      keep.hidden = !isEdited;
+      return done;
+    };
+    const keep = h("button.key", { type: "button", hidden: true, onclick: keepEdit }, t("mdi.keep"));
+    const runAll = h("button.key", { type: "button", onclick: async () => {
+      if (mayMove() && (!isEdited || (await keepEdit()))) await give("mdi.execute", { lines: lines(), kept: true });
+    } }, t("mdi.runall"));
     const save = h("button.key", { type: "button", onclick: () => saveAs(buffer.value) }, t("mdi.save"));
     const clear = h("button.key", { type: "button", onclick: async () => {
       if (await give("mdi.buffer", { lines: [] })) buffer.value = "";

@@ -8,7 +8,7 @@ export const screen = {
   title: "override.label",
   show({ body, endings }) {
     const places = /** @type {const} */ (["feed", "rapid", "spindle"]).map((which) => ({ which, host: h("div.clicks", { role: "radiogroup", ariaLabel: t(`override.${which}`) }), head: h("h3", {}) }));
-    for (const { host, head } of places) body.append(h("section", {}, head, host));
+    for (const { host, head } of places) body.append(h("section.stack.click-row", {}, head, host));
     let before = "";
     endings.add(model.overrides.watch((overrides) => {
       if (JSON.stringify(overrides) === before) return;
@@ -18,7 +18,7 @@ export const screen = {
         fill(head, `${t(`override.${which}`)}  ${Math.round(percent)} %${wired ? ` \u2013 ${t("override.wired")}` : ""}`);
         const isFocused = host.contains(document.activeElement);
         fill(host, ...table.map((/** @type {number} */ value, /** @type {number} */ n) =>
-          h("button.key", { type: "button", role: "radio", ariaChecked: String(n === click), disabled: wired, onclick: () => give("override.choose", { which, click: n }) }, `${Math.round(value)}`)));
+          h("button.key", { type: "button", role: "radio", ariaChecked: String(n === click), autofocus: which === "feed" && n === click, disabled: wired, onclick: () => give("override.choose", { which, click: n }) }, `${Math.round(value)}`)));
         if (isFocused) /** @type {HTMLElement | null} */ (host.querySelector("[aria-checked=true]"))?.focus();
       }
     }));

@@ -1,0 +1,195 @@
+"""Zero, jog keys, MDI, what programs print and ask, editing beside a run."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, expect
+from tests.panel.bench import Served
+from tests.panel.browser.conftest import begin_run, give, load_file, to_main_menu, until_model
+
+from openacr.sysvar.tabs import AXIS
+
+PLACE = (1.588, -2.12, 60.0)  # the guide's example of CLR ZERO
+
+
+def at_rest(page: Page, served: Served) -> None:
+    until_model(page, "!model.state.value.busy")
+    while served.call(lambda station: station.machine.runner.is_busy):
+        page.wait_for_timeout(20)
+
+
+def reads(page: Page, *wanted: float) -> None:
+    """The read-out shows these positions, program coordinates."""
+    shown = page.locator("#status .positions .work-value")
+    for n, value in enumerate(wanted):
+        sign = "\u2212" if value < 0 else "\u2007"
+        expect(shown.nth(n)).to_have_text(f"{sign}{abs(value):.3f}")
+
+
+@pytest.fixture
+def placed(page: Page, served: Served) -> Iterator[Page]:
+    """The workspace with the machine at a place of G54; nothing runs afterwards."""
+    page.click("#status-tab-view1")
+    give(page, "zero.clear")
+    x, y, z = PLACE
+    assert give(page, "mdi.execute", line=f"G21 G90 G54 G0 X{x} Y{y} Z{z}") is not None
+    reads(page, *PLACE)
+    at_rest(page, served)
+    yield page
+    give(page, "stop.all")
+    at_rest(page, served)
+    give(page, "zero.clear")
+    to_main_menu(page)
+
+
+@pytest.mark.req("MILL-MENU-MAIN-SETZERO", "MILL-MENU-MAIN-CLRZERO", "MILL-MENU-RUN-SETZERO")
+def test_set_zero_of_both_menus_and_clr_zero(placed: Page, served: Served) -> None:
+    """All axes and single ones, by keyboard and by finger; nothing moves."""
+    page = placed
+    before = served.call(lambda station: station.snapshot.commanded)
+    after = {}
+    for menu, keys in (("main", ("F3",)), ("run", ("F6", "F8"))):
+        to_main_menu(page)
+        for key in keys:
+            page.keyboard.press(key)
+        expect(page.locator("#screen-title")).to_have_text("Set zero")
+        page.get_by_role("checkbox", name="Y").check()
+        page.locator("#screen").get_by_role("button", name="SET ZERO").click()
+        expect(page.locator("#prompt")).to_have_text("Y read 0 now")
+        reads(page, PLACE[0], 0.0, PLACE[2])
+        every = page.get_by_role("checkbox", name="All axes")
+        every.focus()
+        page.keyboard.press("Space")
+        page.locator("#screen").get_by_role("button", name="SET ZERO").tap()
+        expect(page.locator("#prompt")).to_have_text("X Y Z read 0 now")
+        reads(page, 0.0, 0.0, 0.0)
+        cells = served.panel.installation.store
+        after[menu] = [cells.read(n) for n in range(800, 833)]
+        to_main_menu(page)
+        page.keyboard.press("F2")
+        page.keyboard.press("Enter")
+        expect(page.locator("#prompt")).to_have_text("The floating zero is cleared")
+        reads(page, *PLACE)
+    assert after["main"] == after["run"]
+    assert served.call(lambda station: station.snapshot.commanded) == before
+
+
+@pytest.mark.req("MILL-SCR-PRINT", "MILL-SCR-PROMPT", "MILL-MENU-RUN-EDIT")
+def test_what_a_program_prints_and_asks_is_in_one_line_and_another_is_edited_meanwhile(
+    placed: Page, served: Served
+) -> None:
+    page = placed
+    (served.programs / "ASK.TXT").write_text(
+        '(MSG, Clamp the part)\nM0\nINPUT "Depth in mm", P151\nPRINT "depth=";P151\nM0\n'
+        "G91 G1 X(P151) F600\nM2\n"
+    )
+    (served.programs / "OTHER.TXT").write_text("G0 X1\nM2\n")
+    line = page.locator("#prompt")
+    load_file(page, "ASK.TXT")
+    begin_run(page)
+    expect(line).to_have_text("Clamp the part")
+    expect(page.locator("#state")).to_contain_text("HOLD")
+    page.keyboard.press("F2")
+    expect(line).to_contain_text("Depth in mm")
+    answer = line.get_by_role("button", name="ANSWER")
+    expect(answer).to_be_focused()
+    page.keyboard.press("Enter")
+    pad = page.get_by_role("dialog", name="Depth in mm")
+    page.keyboard.type("deep")
+    page.keyboard.press("Enter")
+    expect(pad.locator(".refusal")).to_contain_text("Not a number")
+    pad.get_by_role("textbox").fill("2*1.5")
+    page.keyboard.press("Enter")
+    expect(line).to_have_text("depth=3")
+    assert served.panel.installation.store.read(151) == 3.0
+
+    page.keyboard.press("F9")
+    dialog = page.get_by_role("dialog", name="OPEN")
+    name = dialog.get_by_role("textbox", name="File name (.TXT)")
+    expect(name).to_have_value("")  # not that of the loaded one
+    dialog.get_by_role("option", name="OTHER.TXT").click()
+    dialog.get_by_role("button", name="OPEN").click()
+    expect(page.locator("#screen-title")).to_have_text("Edit: OTHER.TXT")
+    page.locator(".cm-content").click()
+    page.keyboard.press("Control+a")
+    page.keyboard.type("G0 X4\n")
+    page.get_by_role("button", name="SAVE", exact=True).click()
+    expect(line).to_have_text("OTHER.TXT is saved")
+    assert (served.programs / "OTHER.TXT").read_text() == "G0 X4\n"
+    assert served.call(lambda station: station.part.data()["loaded"]["name"]) == "ASK.TXT"
+    page.keyboard.press("Escape")
+    expect(page.locator("#state")).to_contain_text("HOLD")
+    page.keyboard.press("F2")
+    reads(page, PLACE[0] + 3.0, PLACE[1], PLACE[2])
+
+
+@pytest.mark.req("MILL-MDI-BUFEDIT")
+def test_the_buffer_of_mdi_is_edited_run_and_kept(placed: Page, served: Served) -> None:
+    page = placed
+    page.keyboard.press("F7")
+    page.keyboard.press("F1")
+    block = page.get_by_role("textbox", name="Block", exact=True)
+    expect(block).to_be_focused()
+    buffer = page.get_by_role("textbox", name="Executed blocks")
+
+    def kept() -> list[str]:
+        return served.call(lambda station: list(station.typed.text))
+
+    first = kept()
+    page.keyboard.type("G91 G0 X5")
+    page.keyboard.press("Enter")
+    reads(page, PLACE[0] + 5.0)
+    at_rest(page, served)
+    assert kept() == [*first, "G91 G0 X5"]
+    expect(buffer).to_have_value("\n".join(kept()))
+    buffer.fill("G91 G0 X-3\nG0 Y1")  # a mistake is mended
+    page.get_by_role("button", name="KEEP EDIT").click()
+    expect(page.get_by_role("button", name="KEEP EDIT")).to_be_hidden()
+    assert kept() == ["G91 G0 X-3", "G0 Y1"]
+    page.get_by_role("button", name="RUN ALL").click()
+    reads(page, PLACE[0] + 2.0, PLACE[1] + 1.0)
+    at_rest(page, served)
+    assert kept() == ["G91 G0 X-3", "G0 Y1"]  # not twice
+    buffer.fill("G91 G0 X-2\nG0 Y1")
+    block.fill("G91 G0 Z0")
+    page.keyboard.press("Enter")  # keeps what was edited
+    until_model(page, "model.mdi.value.buffer.length === 3")
+    assert kept() == ["G91 G0 X-2", "G0 Y1", "G91 G0 Z0"]
+    expect(buffer).to_have_value("G91 G0 X-2\nG0 Y1\nG91 G0 Z0")
+
+
+@pytest.mark.req("MILL-JOG-SCREEN")
+def test_every_configured_axis_has_a_plus_and_a_minus_key(page: Page, served: Served) -> None:
+    """X and Y as a cross, the others beside it in any order, on a screen of 800 x 600."""
+    store = served.panel.installation.store
+    page.set_viewport_size({"width": 800, "height": 600})
+    for names in ("XYZ", "XYZA", "ZYXA"):
+        with store.transaction():
+            for n, name in enumerate(names):
+                store.write_text(AXIS.name[n], name)
+            store.write(AXIS.configured[3], float(len(names) == 4))
+        until_model(page, f"model.axes.map(({{ name }}) => name).join('') === '{names}'")
+        to_main_menu(page)
+        page.keyboard.press("F7")
+        page.keyboard.press("F2")
+        keys = page.locator("#screen .jog-key")
+        expect(keys).to_have_count(2 * len(names))
+        found: dict[str, Any] = {
+            str(key.get_attribute("aria-label")): key.bounding_box() for key in keys.all()
+        }
+        assert set(found) == {f"{name} {sign}" for name in names for sign in ("plus", "minus")}
+        assert len({(round(box["x"]), round(box["y"])) for box in found.values()}) == len(found)
+        assert all(box["width"] >= 44 and box["height"] >= 44 for box in found.values())
+        assert all(box["x"] + box["width"] <= 800 for box in found.values())
+        for name in names:
+            plus, minus = found[f"{name} plus"], found[f"{name} minus"]
+            along, across = ("x", "y") if name == "X" else ("y", "x")
+            assert plus[across] == minus[across]
+            assert (plus[along] > minus[along]) is (name == "X")
+    page.set_viewport_size({"width": 1024, "height": 768})
+
+
+def test_the_browser_has_nothing_to_complain_about(page: Page) -> None:
+    complaints: list[str] = page.complaints  # type: ignore[attr-defined]
+    assert [each for each in complaints if "Applying inline style" not in each] == []
