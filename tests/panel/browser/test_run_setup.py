@@ -204,9 +204,9 @@ def test_load_prog_offers_every_source_and_drawings_are_found_from_there_and_fro
         if file:
             expect(page.get_by_role("option", name=file)).to_be_visible()
 
-    for way in ("load", "edit"):
+    for menu in ("load", "edit"):
         to_main_menu(page)
-        if way == "edit":
+        if menu == "edit":
             page.keyboard.press("F4")
             expect(page.get_by_role("dialog", name="OPEN")).to_be_visible()
             page.keyboard.press("Escape")  # no file yet
