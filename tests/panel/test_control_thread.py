@@ -164,7 +164,7 @@ def test_keys_end_and_nothing_waits_after_a_stop_that_fails(
     assert [(e["press"], e["ended"]) for e in hand.events("jog")][1:] == [(2, "stop")]
 
 
-FAILURE = "the control of the machine has failed: ZeroDivisionError: nothing there"
+FAILURE = "Control of the machine has failed: ZeroDivisionError: nothing there"
 
 
 def test_a_step_that_fails_again_and_again_ends_keys_and_is_said_every_ten_seconds(
@@ -198,7 +198,7 @@ def test_another_failure_is_said_at_once(thread: Hand, monkeypatch: pytest.Monke
 
     monkeypatch.setattr(hand.station.jobs, "poll", other)
     thread.turn(0.0)
-    assert hand.said[-2:] == [FAILURE, "the control of the machine has failed: KeyError: 'X'"]
+    assert hand.said[-2:] == [FAILURE, "Control of the machine has failed: KeyError: 'X'"]
 
 
 def test_the_thread_lives_on_when_the_machine_cannot_be_opened(

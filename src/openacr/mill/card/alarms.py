@@ -62,6 +62,7 @@ NO_REST = _alarm(15, "Machine does not come to rest: drives are switched off", E
 NOT_IN_PLACE = _alarm(16, "Machine was moved by another program: {}", Effect.ABORT)
 CARD_RESET = _alarm(17, "Card was reset: its axes have lost their positions", Effect.ABORT)
 NOT_MOVED = _alarm(18, "Card does not make the moves it was sent", Effect.ABORT)
+CONTROL_FAILED = _alarm(19, "Control of the machine has failed: {}", Effect.ABORT)
 SOFT_LIMIT = _alarm(20, "Soft limit axis {}", Effect.HOLD)
 TARGET_BEYOND = _alarm(21, "Target beyond soft limit: {}", Effect.ABORT)
 LIMIT_CROSSED = _alarm(22, "Card stopped axis {} beyond its soft limit", Effect.ABORT)

@@ -273,6 +273,10 @@ class Runner:
         """Kill all motion, switch drives and spindle off (alarm 9): an operator at a screen."""
         self._supervision.raise_alarm(alarms.SCREEN_STOP, detail)
 
+    def fail(self, cause: str) -> None:
+        """End what runs (alarm 19): its caller cannot poll the machine any more."""
+        self._supervision.raise_alarm(alarms.CONTROL_FAILED, cause)
+
     def bring_to_rest(self) -> None:
         """Bring everything that moves to rest: the caller leaves the machine."""
         if self._manual.is_active:

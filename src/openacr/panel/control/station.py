@@ -13,11 +13,12 @@ from typing import Any
 
 from openacr.client import ConnectionLostError
 from openacr.errors import OpenacrError
-from openacr.mill.card.alarms import AlarmError
+from openacr.mill.card.alarms import CONTROL_FAILED, AlarmError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.mill.run.lifecycle import State
 from openacr.panel.control.buttons import Buttons
 from openacr.panel.control.facts import Facts
+from openacr.panel.control.failures import Failures
 from openacr.panel.control.hand_motion import HandMotion
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.later import LATER
@@ -76,6 +77,7 @@ class Station(Shared):
         self.stopped_s = 0.0  # when the last stop was received
         self.must_renew = False  # settings were stored that count from the next session
         self._facts = Facts(self, self.part, self.typed)
+        self._failures = Failures(self, partial(self.hand_motion.presses.end_all, End.ALARM))
         self._carry_out = carry_out
         self._retry_s = 0.0
         self._poll_at = self._snapshot_at = 0.0
@@ -170,6 +172,7 @@ class Station(Shared):
         if len(session.runner.alarms.history) != self._alarms:
             self._alarms = len(session.runner.alarms.history)
             self._guarded(lambda: self.hand_motion.presses.end_all(End.ALARM, self._last_alarm()))
+        self._failures.forget()
 
     def _last_alarm(self) -> str:
         history = self.machine.runner.alarms.history
@@ -230,13 +233,14 @@ class Station(Shared):
         except (OpenacrError, *LINK_ERRORS) as error:
             self.say(str(error))
 
-    def fail(self, text: str, *, is_new: bool) -> None:
-        """A step has failed: held keys end; a failure that is not the last one again is said."""
+    def fail(self, cause: str, *, is_new: bool) -> None:
+        """A step has failed: what moves ends; a cause that is not the last one again is said."""
         try:
-            self.hand_motion.presses.end_all(End.ALARM, text)
+            self._failures.note(cause, self.now_s)
         finally:
             if is_new:
-                self.say(text)
+                self.say(CONTROL_FAILED.text.format(cause))
+            self._facts.tell()
 
     # --- settings ---------------------------------------------------------------------
 

@@ -35,7 +35,7 @@ class ControlThread:
         self.station = station
         self._clock = clock
         self._orders: Waiting[Order | Work] = Waiting()
-        self._failure, self._failure_s = "", 0.0  # of a step, and when it was said
+        self._failure, self._failure_s = "", 0.0  # cause of the last one, and when it was said
         self._is_over = threading.Event()
         self._thread = threading.Thread(target=self._run, name="control", daemon=True)
 
@@ -101,18 +101,18 @@ class ControlThread:
             self._report(error)
 
     def _report(self, error: Exception) -> None:
-        """A step has failed: no key moves an axis, and the operator reads why."""
-        text = f"the control of the machine has failed: {type(error).__name__}: {error}"
+        """A step has failed: no key moves an axis, in the end nothing does, and it is said why."""
+        cause = f"{type(error).__name__}: {error}"
         now_s = self._clock()
-        is_new = text != self._failure or now_s - self._failure_s >= AGAIN_S
+        is_new = cause != self._failure or now_s - self._failure_s >= AGAIN_S
         if is_new:
-            self._failure, self._failure_s = text, now_s
+            self._failure, self._failure_s = cause, now_s
             log.error("a step of the control thread has failed", exc_info=error)
         try:
-            self.station.fail(text, is_new=is_new)
+            self.station.fail(cause, is_new=is_new)
         except Exception:
             if is_new:
-                log.exception("held keys could not be ended")
+                log.exception("what moves the machine could not be ended")
 
     def _carry_out(self, idle_s: float) -> None:
         """Carry out orders that wait, for `ORDERS_S`; without any, wait for one up to `idle_s`."""
