@@ -1,8 +1,10 @@
 """A panel on a served card whose link breaks and comes back, and stores that cannot be written."""
 
 import re
+import socket
 import threading
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -10,10 +12,11 @@ import pytest
 from tests.mill.live import SERVE, Process, until
 from tests.proxy import Proxy
 
-from openacr.client import Card, ConnectionLostError, Level
-from openacr.client.links import TcpLink
+from openacr.client import Card, ConnectionLostError, Level, links
+from openacr.client.links import TcpLink, link_to
 from openacr.client.stored import listing, rooms
 from openacr.panel.commands.all import carry_out
+from openacr.panel.control import terminal
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.orders import Order
 from openacr.panel.control.people import Person
@@ -189,3 +192,91 @@ def test_a_card_that_does_not_answer_does_not_hold_up_the_control_thread(
     finally:
         is_free.set()
         remote.close()
+
+
+@pytest.fixture
+def deaf() -> Iterator[str]:
+    """The address of a peer that accepts nothing: the queue of its connections is full."""
+    with ExitStack() as sockets:
+        server = sockets.enter_context(socket.socket())
+        server.bind(("127.0.0.1", 0))
+        server.listen(0)
+        address = server.getsockname()
+        for _ in range(20):
+            caller = sockets.enter_context(socket.socket())
+            caller.setblocking(False)
+            caller.connect_ex(address)
+        yield f"{address[0]}:{address[1]}"
+
+
+def test_a_terminal_of_a_peer_that_accepts_nothing_does_not_hold_up_the_control_thread(
+    served: str, deaf: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    remote = Remote(served, tmp_path)
+    answers: list[dict[str, Any]] = []
+    try:
+        until(lambda: remote.link() == "ok")
+        monkeypatch.setattr(terminal, "link_to", lambda _target: link_to(deaf))
+        monkeypatch.setattr(links, "CONNECT_S", 60.0)
+        remote.control.put(Order(ME, "term.open", {}, remote.control.now_s(), answers.append))
+        steps = [remote.call(lambda station: station.snapshot.number) for _ in range(3)]
+        until(lambda: remote.call(lambda station: station.snapshot.number) > steps[-1] + 3)
+        assert remote.send("term.line", text="?P0")["error"]["text"] == "the terminal is not open"
+        assert answers == []
+        assert remote.send("term.close")["ok"]
+        monkeypatch.setattr(terminal, "link_to", lambda _target: link_to("127.0.0.1:1"))
+        refused = remote.send("term.open")
+        assert "cannot connect to 127.0.0.1:1: Connection refused" in refused["error"]["text"]
+        monkeypatch.setattr(terminal, "link_to", link_to)
+        assert remote.send("term.open")["ok"]  # another try is a new connection
+        assert remote.send("term.line", text="?P0")["ok"]
+    finally:
+        remote.close()
+
+
+def test_a_terminal_that_is_left_while_it_is_opened_is_closed_once_it_is_open(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    is_free = threading.Event()
+    link = TcpLink("127.0.0.1", 1)
+    is_closed = threading.Event()
+    monkeypatch.setattr(link, "open", lambda: is_free.wait(60.0) and None)
+    monkeypatch.setattr(link, "close", is_closed.set)
+    monkeypatch.setattr(terminal, "link_to", lambda _target: link)
+    installation = Installation.at("127.0.0.1:1", opened(tmp_path / "sysvar.db"), tmp_path)
+    beside = terminal.Terminal(installation)
+    opening = beside.open(1)
+    assert beside.open(2) is opening
+    beside.close(1)
+    beside.close(2)
+    assert not is_closed.is_set()
+    is_free.set()
+    assert is_closed.wait(60.0)
+    assert beside.poll() == ""
+    installation.close()
+
+
+def test_a_terminal_whose_connection_breaks_says_so_and_the_machine_goes_on(
+    served: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with Proxy(served) as proxy:
+        remote = Remote(served, tmp_path)
+        try:
+            until(lambda: remote.link() == "ok")
+            monkeypatch.setattr(terminal, "link_to", lambda _target: link_to(proxy.address))
+            assert remote.send("term.open")["ok"]
+            proxy.cut()
+            until(lambda: printed(remote).endswith(terminal.LOST))
+            before = remote.call(lambda station: station.snapshot.tick_ms)
+            until(lambda: remote.call(lambda station: station.snapshot.tick_ms) > before)
+            assert printed(remote).count(terminal.LOST) == 1
+            proxy.mend()
+            assert remote.send("term.open")["ok"]
+            assert remote.send("term.line", text="?P0")["ok"]
+            until(lambda: not printed(remote).endswith(terminal.LOST))
+        finally:
+            remote.close()
+
+
+def printed(remote: Remote) -> str:
+    return "".join(e["text"] for e in remote.events if e["event"] == "term")

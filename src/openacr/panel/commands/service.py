@@ -11,6 +11,7 @@ from openacr.mill.card.setup import GAIN_WORDS
 from openacr.mill.config.settings import GAINS
 from openacr.mill.manual.profile import parse
 from openacr.panel.commands.registry import Args, NoArgs, command
+from openacr.panel.control.later import LATER, Later, answer_with
 from openacr.panel.control.orders import Order
 from openacr.panel.control.presses import End
 from openacr.panel.control.scope import Trigger
@@ -110,9 +111,10 @@ class OfLength(Args, frozen=True):
 
 
 @command("term.open", Role.SERVICE)
-def term_open(station: Station, order: Order, args: NoArgs) -> None:
+def term_open(station: Station, order: Order, args: NoArgs) -> Later:
     """Open the terminal of the card; what it prints comes as events `term`."""
-    station.terminal.open(order.person.client)
+    answer_with(order, station.terminal.open(order.person.client), lambda _opened: None)
+    return LATER
 
 
 @command("term.line", Role.SERVICE)

@@ -5,7 +5,6 @@ carried out piece by piece between two steps of the control thread, which never 
 """
 
 import logging
-import threading
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
@@ -15,10 +14,11 @@ from typing import Any, TypeVar
 from openacr.client import ConnectionLostError, Options
 from openacr.client.drive import Conversation, perform
 from openacr.client.effects import Effect, Op, Open, Pause, Receive
-from openacr.client.links import Link, ProcessLink, SerialLink, link_to
+from openacr.client.links import Link, SerialLink, link_to
 from openacr.client.talk import Talk
 from openacr.errors import OpenacrError, UserError
 from openacr.panel.control.installation import Installation
+from openacr.panel.control.opening import close, opened
 
 log = logging.getLogger(__name__)
 T = TypeVar("T")
@@ -141,12 +141,9 @@ class Aside:
         return None if effect is None else perform(effect, link)
 
     def _opened(self, link: Link) -> "Wait | None":
-        """Open the link; a host that does not answer is waited for in a thread of its own."""
-        if isinstance(link, ProcessLink):
-            link.open()
-            return None
+        """Open the link; a host that does not answer is not waited for here."""
         if self._opening is None:
-            self._opening = _begun(link.open)
+            self._opening = opened(link)
         if not self._opening.done():
             return WAIT
         opening, self._opening = self._opening, None
@@ -186,24 +183,5 @@ class Aside:
         link, self._link, self._talk = self._link, None, None
         opening, self._opening = self._opening, None
         self._until_s = None
-        if link is not None and opening is not None:
-            opening.add_done_callback(lambda _done: link.close())
-        elif link is not None:
-            with suppress(Exception):
-                link.close()
-
-
-def _begun(work: Callable[[], None]) -> "Future[None]":
-    """The future of something that may wait, done in a thread."""
-    future: Future[None] = Future()
-
-    def run() -> None:
-        try:
-            work()
-        except Exception as error:
-            future.set_exception(error)
-        else:
-            future.set_result(None)
-
-    threading.Thread(target=run, name="card", daemon=True).start()
-    return future
+        if link is not None:
+            close(link, opening)

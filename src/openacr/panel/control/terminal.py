@@ -1,10 +1,12 @@
 """The terminal of the card on a screen: a stream of its own, beside that of the session."""
 
-from contextlib import suppress
+from concurrent.futures import Future
 
+from openacr.client import ConnectionLostError
 from openacr.client.links import Link, SerialLink, link_to
 from openacr.errors import UserError
 from openacr.panel.control.installation import Installation
+from openacr.panel.control.opening import close, opened
 from openacr.protocol.events import ControlKey
 
 KEYS = {
@@ -17,23 +19,28 @@ KEYS = {
 QUERY = "?"  # lines that only read
 
 
+LOST = "\r\n(the connection is lost: open the terminal again)\r\n"
+
+
 class Terminal:
     """One terminal of the card; every client that has opened it sees what it prints."""
 
     def __init__(self, installation: Installation) -> None:
         self._installation = installation
         self._link: Link | None = None
+        self._opening: Future[None] | None = None
         self.clients: set[int] = set()
 
-    def open(self, client: int) -> None:
-        """Connect, for this client as well; UserError where the card has one line only."""
-        if self._link is None:
+    def open(self, client: int) -> "Future[None]":
+        """Connect, for this client as well: done once it is; UserError on a serial port."""
+        if self._opening is None or self._has_failed:
+            self.end()
             link = link_to(self._installation.target)
             if isinstance(link, SerialLink):
                 raise UserError("a card on a serial port has no second connection for a terminal")
-            link.open()
-            self._link = link
+            self._link, self._opening = link, opened(link)
         self.clients.add(client)
+        return self._opening
 
     def close(self, client: int) -> None:
         """Disconnect a client; the last one ends the connection."""
@@ -43,10 +50,19 @@ class Terminal:
 
     def end(self) -> None:
         """End the connection."""
-        link, self._link = self._link, None
+        link, opening = self._link, self._opening
+        self._link = self._opening = None
         if link is not None:
-            with suppress(Exception):
-                link.close()
+            close(link, opening)
+
+    @property
+    def _is_open(self) -> bool:
+        opening = self._opening
+        return opening is not None and opening.done() and not opening.exception()
+
+    @property
+    def _has_failed(self) -> bool:
+        return self._opening is not None and self._opening.done() and not self._is_open
 
     def line(self, text: str, *, is_busy: bool) -> None:
         """Type a line; while the machine moves only those that ask."""
@@ -61,12 +77,16 @@ class Terminal:
         self._connected().write(KEYS[name])
 
     def poll(self) -> str:
-        """What the card has printed since."""
-        if self._link is None:
+        """What the card has printed since; a connection that has broken ends."""
+        if self._link is None or not self._is_open:
             return ""
-        return self._link.read(0.0).decode("latin-1")
+        try:
+            return self._link.read(0.0).decode("latin-1")
+        except ConnectionLostError:
+            self.end()
+            return LOST
 
     def _connected(self) -> Link:
-        if self._link is None:
+        if self._link is None or not self._is_open:
             raise UserError("the terminal is not open")
         return self._link
