@@ -1,11 +1,14 @@
 """Files of the screens: pages at `/`, `/bench` and `/login`, everything else by its own path."""
 
+import gzip
 import hashlib
 from functools import lru_cache
 from pathlib import Path
 
 from starlette.requests import Request
-from starlette.responses import FileResponse, PlainTextResponse, Response
+from starlette.responses import PlainTextResponse, Response
+
+from openacr.panel.server.modules import with_modules
 
 WEB = Path(__file__).parents[1] / "web"
 PAGES = {"": "index.html", "bench": "bench.html", "login": "login.html"}
@@ -34,17 +37,19 @@ def static_file(request: Request, root: Path = WEB) -> Response:
     if place is None:
         text = f"/{path}: there is no such page" if path else "no screens are installed"
         return PlainTextResponse(text, status_code=404)
-    stamp = place.stat()
-    tag = _tag(place, stamp.st_mtime_ns, stamp.st_size)
+    body = _body(place)
+    if place.suffix == ".html":
+        page = with_modules(body.decode(), lambda module: _body(root / module).decode())
+        body = page.encode()
+    tag = f'"{hashlib.blake2b(body, digest_size=12).hexdigest()}"'
     headers = {"ETag": tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding"}
     if request.headers.get("if-none-match") == tag:
         return Response(status_code=304, headers=headers)
-    sent = place
-    packed = place.with_name(place.name + ".gz")
-    if "gzip" in request.headers.get("accept-encoding", "") and packed.is_file():
-        sent = packed
+    if "gzip" in request.headers.get("accept-encoding", ""):
         headers["Content-Encoding"] = "gzip"
-    return FileResponse(sent, media_type=TYPES[place.suffix], headers=headers)
+        packed = place.with_name(f"{place.name}.gz")
+        body = _body(packed) if packed.is_file() else _packed(body)
+    return Response(body, media_type=TYPES[place.suffix], headers=headers)
 
 
 def _place(root: Path, name: str) -> Path | None:
@@ -57,6 +62,17 @@ def _place(root: Path, name: str) -> Path | None:
     return place if place.resolve().is_relative_to(root.resolve()) else None
 
 
+def _body(place: Path) -> bytes:
+    """The content of a file, which is kept as long as the file is not changed."""
+    stamp = place.stat()
+    return _read(place, stamp.st_mtime_ns, stamp.st_size)
+
+
 @lru_cache(maxsize=512)
-def _tag(place: Path, _changed_ns: int, _size: int) -> str:
-    return f'"{hashlib.blake2b(place.read_bytes(), digest_size=12).hexdigest()}"'
+def _read(place: Path, _changed_ns: int, _size: int) -> bytes:
+    return place.read_bytes()
+
+
+@lru_cache(maxsize=512)
+def _packed(body: bytes) -> bytes:
+    return gzip.compress(body, mtime=0)

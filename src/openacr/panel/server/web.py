@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import uvicorn
 from starlette.applications import Starlette
-from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route, WebSocketRoute
@@ -58,7 +57,7 @@ async def _page(panel: Panel, request: Request) -> Response:
     is_page = path.strip("/") in ("", "bench")
     if is_page and panel.accounts.role_of(request.cookies.get(panel.cookie)) is None:
         return RedirectResponse("/login", status_code=303)
-    return await run_in_threadpool(static_file, request)
+    return static_file(request)
 
 
 class _Server(uvicorn.Server):
@@ -134,9 +133,13 @@ def _bound(address: str, port: int) -> socket.socket:
     try:
         found = socket.getaddrinfo(address, port, type=socket.SOCK_STREAM)
         family, *_, place = found[0]
-        return socket.create_server((str(place[0]), port), family=family)
+        bound = socket.create_server((str(place[0]), port), family=family)
     except OSError as error:
         hint = "; --port 0 takes a free one" if error.errno == 98 else ""
         raise UserError(
             f"cannot listen on {address}:{port}: {(error.strerror or str(error)).lower()}{hint}"
         ) from None
+    # Connections inherit it. Head and body of an answer are two writes: without it the second
+    # one waits for the acknowledgement of the first, up to 40 ms.
+    bound.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    return bound

@@ -1,30 +1,31 @@
-// Start of the operator's workspace.
+// Start of the operator's workspace: read-out and keys first, then the display window.
 import { link, model } from "./core/app.js";
 import { applyTheme, followSystemTheme, setting } from "./core/settings.js";
 import { useLanguage } from "./core/texts.js";
 
 async function start() {
-  applyTheme();
-  followSystemTheme();
-  await useLanguage(setting("language", "en"));
-  const [clock, display, menuBar, prompt, screens, status, stop, top, held, splitter] = await Promise.all([
-    import("./frame/clock.js"), import("./frame/display.js"), import("./frame/menu_bar.js"), import("./frame/prompt.js"),
-    import("./frame/screen_host.js"), import("./frame/status.js"), import("./frame/stop.js"), import("./frame/top.js"), import("./motion/hold.js"), import("./frame/splitter.js"),
-  ]);
   link.onEvent = (event) => model.takeEvent(event);
   link.onFrame = (head, data) => model.takeFrame(head, data);
   link.subscribe({ topic: "status", hz: 25 });
-  link.open();
+  link.open(); // values arrive while the modules do
+  applyTheme();
+  followSystemTheme();
+  await useLanguage(setting("language", "en"));
+  const [clock, status, menuBar, top, prompt, stop, held, screens] = await Promise.all([
+    import("./frame/clock.js"), import("./frame/status.js"), import("./frame/menu_bar.js"), import("./frame/top.js"),
+    import("./frame/prompt.js"), import("./frame/stop.js"), import("./motion/hold.js"), import("./frame/screen_host.js"),
+  ]);
   top.startTop();
   status.startStatus();
-  display.startDisplay();
-  splitter.startSplitter();
   prompt.startPrompt();
   screens.startScreens();
   menuBar.startMenuBar();
   stop.startStop();
   held.startHeldKeys();
   clock.startClock();
+  const [display, splitter] = await Promise.all([import("./frame/display.js"), import("./frame/splitter.js")]);
+  display.startDisplay();
+  splitter.startSplitter();
 }
 
 void start();

@@ -5,7 +5,6 @@ import { applyTheme, keepSetting, setting } from "../core/settings.js";
 import { LANGUAGES, t, textOr } from "../core/texts.js";
 import { COLORS } from "../draw/colors.js";
 import { ask } from "./dialog.js";
-import { showTab } from "./display.js";
 
 /** @type {Record<string, string>} */
 const SIGNS = { IDLE: "\u25cb", RUN: "\u25b6", WAIT: "\u25d4", HOMING: "\u2302", PAUSED: "\u2016", HOLD: "\u25a0", ALARM: "\u26a0" };
@@ -51,7 +50,7 @@ function alarmParts([first, ...others]) {
   return [h("span", { ariaHidden: "true" }, "\u26a0"), h("span.text", { title: first.text }, `${first.code} ${first.text}`),
     others.length ? h("span", {}, t("alarm.more", { count: others.length })) : "",
     h("button.key.bad", { type: "button", onclick: () => give("alarm.acknowledge") }, t("alarm.acknowledge")),
-    h("button.key", { type: "button", onclick: () => showTab("alarms") }, t("alarm.show"))];
+    h("button.key", { type: "button", onclick: async () => (await import("./display.js")).showTab("alarms") }, t("alarm.show"))];
 }
 
 /** @param {any} message */
