@@ -138,11 +138,12 @@ def _set_password(installation: "Installation", word: str) -> None:
 async def _serve(
     installation: "Installation", address: str, port: int, names: list[str], *, is_shown: bool
 ) -> None:
+    from openacr.cli.run.journals import ring_root
     from openacr.io.server import is_loopback
     from openacr.panel.server.panel import Panel, require_password
     from openacr.panel.server.web import PanelServer
 
-    panel = Panel(installation)
+    panel = Panel(installation, journals=ring_root())
     require_password(panel, address, is_loopback=is_loopback(address))
     server = PanelServer(panel, address, port, names=[*names, address])
     panel.station.on_link = lambda why: _report_link(installation.name, why)

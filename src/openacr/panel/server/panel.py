@@ -3,6 +3,7 @@
 import asyncio
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
+from pathlib import Path
 from typing import Any, Protocol
 
 from starlette.concurrency import run_in_threadpool
@@ -41,8 +42,10 @@ class Panel:
         installation: Installation,
         *,
         control: Callable[[Station], ControlThread] = ControlThread,
+        journals: Path | None = None,
     ) -> None:
         self.installation = installation
+        self.journals = journals  # the folder of those that served cards leave
         self.station = Station(installation, carry_out)
         self.control = control(self.station)
         self.hub = Hub(self.station, self.control.now_s)

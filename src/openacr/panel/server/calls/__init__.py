@@ -4,6 +4,7 @@ from openacr.panel.server.calls import (
     card,
     forms,
     help,
+    journals,
     lines,
     on_card,
     parts,
@@ -12,4 +13,15 @@ from openacr.panel.server.calls import (
     session,
 )
 
-__all__ = ["card", "forms", "help", "lines", "on_card", "parts", "pictures", "programs", "session"]
+__all__ = [
+    "card",
+    "forms",
+    "help",
+    "journals",
+    "lines",
+    "on_card",
+    "parts",
+    "pictures",
+    "programs",
+    "session",
+]
