@@ -44,8 +44,9 @@ def test_the_last_move_of_a_program_is_the_printed_packet() -> None:
 def test_an_arc_followed_by_a_tangent_line_is_the_printed_packet() -> None:
     arc = c.Arc(src(1), at(1, 1), c.Plane.XY, (0.0, 1.0), math.pi / 2, 1.0, 1.0, c.Pace(60.0))
     first, _ = planned([arc, line(2, at(1, 2), feed=60.0)])
+    ramp = "71FDC742"  # sqrt(100^2 - (1^2/1)^2): what the turn leaves of Master Feed ACC
     assert first.encode() == bytes.fromhex(
-        "04 B8 30 03 00 0000803F 0000C842 10270000 10270000 00000000 10270000"
+        f"04 B8 30 03 00 0000803F {ramp} 10270000 10270000 00000000 10270000"
     )
 
 
@@ -118,7 +119,9 @@ def test_a_position_beyond_32_bits_is_refused() -> None:
 def test_an_arc_is_slowed_to_what_the_machine_gives_across() -> None:
     coder = encoder(P650_008=100.0, P650_000=60000.0)
     arc = c.Arc(src(1), at(0), c.Plane.XY, (0.01, 0.0), math.pi, 0.01, 0.01, c.Pace(6000.0))
-    assert coder.job(arc, at(0.02)).feed_ups == pytest.approx(math.sqrt(100.0 * 0.01))
+    job = coder.job(arc, at(0.02))
+    assert job.feed_ups == pytest.approx(math.sqrt(math.sqrt(0.75) * 100.0 * 0.01), rel=1e-14)
+    assert job.ramp_ups2 == pytest.approx(50.0, rel=1e-14)  # half of it changes the speed
 
 
 def test_rotary_axes_alone_move_at_degrees_per_minute() -> None:

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.mill.planned import motion_s
 from tests.mill.prediction import predicted
 from tests.mill.shop import PULSES, Shop, at, end, line, rapid, src
 
@@ -132,6 +133,36 @@ def test_no_axis_exceeds_its_own_acceleration_in_a_corner() -> None:
     second = np.abs(np.diff(places, n=2, axis=0)).max(axis=0) / shop.controller.period_s**2
     assert 20.0 < second[1] <= 30.0 * (1 + 1e-6)
     assert off_path(places, points) <= 0.02 + 1e-6
+
+
+def staircase(seed: int) -> tuple[tuple[float, float], list[Point]]:
+    """Limits of X and Y, and legs along them and across."""
+    chance = random.Random(seed)
+    own = chance.choice([100.0, 60.0]), chance.choice([30.0, 10.0, 100.0])
+    x, y, points = 0.0, 0.0, []
+    for _ in range(14):
+        reach = 10.0 ** chance.uniform(-2.0, 0.5)
+        across = chance.uniform(-1.0, 1.0), chance.uniform(-1.0, 1.0)
+        dx, dy = chance.choice([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), across])
+        x, y = x + reach * dx, y + reach * dy
+        points.append((x, y))
+    return own, points
+
+
+@pytest.mark.parametrize("seed", [9, 22, 23, 25, 58])
+def test_what_one_move_does_in_a_corner_is_within_the_limit_of_the_axis_of_the_other(
+    seed: int,
+) -> None:
+    own, points = staircase(seed)
+    cells = {f"P{AXIS.max_axis_acceleration[a]}": value for a, value in enumerate(own)}
+    shop = Shop(**cells)
+    entries = lines(points, feed=6000.0, tolerance_u=0.05)
+    expected = predicted(entries, Settings(shop.store), at()).time_s
+    places = followed(shop, *entries)
+    period_s = shop.controller.period_s
+    second = np.abs(np.diff(places, n=2, axis=0)).max(axis=0) / period_s**2
+    assert (second <= np.array(own) * (1 + 1e-6)).all()
+    assert abs(motion_s(places, period_s) - expected) <= 2.0 * period_s
 
 
 def test_many_lines_together_and_one_by_one_are_planned_alike() -> None:

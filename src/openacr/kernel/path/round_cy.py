@@ -24,7 +24,7 @@ from openacr.kernel.path.lookahead_cy import (
     look_record,
 )
 from openacr.kernel.path.path_cy import master_limit, move_record
-from openacr.kernel.path.round_law_cy import round_accel, round_brake, round_ramp2
+from openacr.kernel.path.round_law_cy import round_accel, round_brake, round_limit, round_ramp2
 from openacr.kernel.path.round_pass_cy import (
     CORNER_AFTER,
     CORNER_BEFORE,
@@ -253,7 +253,7 @@ def round_corner(
     velocity_ups: float = F[profiles.velocity[m]]
     now_v2: float = velocity_ups * velocity_ups
     jerk_ups3: float = F[moves.jrk_ups3[record]]
-    accel_ups2: float = round_accel(F, record)
+    accel_ups2: float = round_limit(turn, reach_u, cap_ups, round_accel(F, record), jerk_ups3)
     leaving_ups: float = min(sqrt(w_v2), min(limit_ups, cap_ups))
     if jerk_ups3 > 0.0:
         if velocity_ups <= LINGER * leaving_ups or F[profiles.accel[m]] != 0.0:
@@ -339,13 +339,19 @@ def round_hold_rate(F: F64, I: I32, m: int, rate_ups2: float) -> float:
     if not round_through(F, I, m, move_record(I, m)):
         return rate_ups2
     part: int = round_part(F, I, m)
-    accel_ups2: float = round_accel(F, move_record(I, m))
+    record: int = move_record(I, m)
     velocity_ups: float = F[profiles.velocity[m]]
     turn: float = F[masters.corner_in_turn[m]]
     reach_u: float = F[masters.corner_in_u[m]]
+    cap_ups: float = F[masters.corner_in_ups[m]]
     if part == CORNER_AFTER:
         turn = F[masters.corner_out_turn[m]]
         reach_u = F[masters.corner_out_u[m]]
-    if part == LINE or reach_u <= 0.0 or accel_ups2 <= 0.0:
+        cap_ups = F[masters.corner_out_ups[m]]
+    if part == LINE or reach_u <= 0.0:
+        return rate_ups2
+    jerk_ups3: float = F[moves.jrk_ups3[record]]
+    accel_ups2: float = round_limit(turn, reach_u, cap_ups, round_accel(F, record), jerk_ups3)
+    if accel_ups2 <= 0.0:
         return rate_ups2
     return min(rate_ups2, round_brake(turn, reach_u, accel_ups2, velocity_ups * velocity_ups))

@@ -20,7 +20,7 @@ from openacr.kernel.profile.ramps_cy import ramp_distance, rest_speed
 from openacr.map.rows import masters, moves, profiles
 from openacr.views import F32, F64, I32
 
-__all__ = ["round_between", "round_brake", "round_cap", "round_ramp2"]
+__all__ = ["round_between", "round_brake", "round_cap", "round_limit", "round_ramp2"]
 
 SHARE = 0.98  # of the acceleration limit may be sideways: some is left to brake with
 STRAIGHT = 1e-7  # smaller changes of direction are ignored
@@ -109,6 +109,19 @@ def round_cap(turn: float, reach_u: float, limit_ups2: float, jerk_ups3: float) 
     if limit_ups2 > 0.0:
         cap_ups = sqrt(SHARE * limit_ups2 * 2.0 * reach_u / turn)
     return cap_ups
+
+
+def round_limit(
+    turn: float, reach_u: float, cap_ups: float, accel_ups2: float, jerk_ups3: float
+) -> float:
+    """The acceleration limit within a corner of a move that may use `accel_ups2` on its line.
+
+    Without jerk that of the weaker of the two moves, from which `round_cap` has found the highest
+    speed: in a corner, what changes the speed of one goes along the other, too.
+    """
+    if jerk_ups3 > 0.0 or cap_ups >= ENDLESS:
+        return accel_ups2
+    return cap_ups * cap_ups * turn / (2.0 * SHARE * reach_u)
 
 
 def round_pays(F: F64, a: int, b: int, reach_u: float, limit_ups2: float, jerk_ups3: float) -> bool:

@@ -15,7 +15,13 @@ from openacr.kernel.path.lookahead_cy import (
     look_record,
     look_speed,
 )
-from openacr.kernel.path.round_law_cy import STRAIGHT, line_start2, round_accel, round_ramp2
+from openacr.kernel.path.round_law_cy import (
+    STRAIGHT,
+    line_start2,
+    round_accel,
+    round_limit,
+    round_ramp2,
+)
 from openacr.map.rows import masters, moves
 from openacr.views import F32, F64, I32
 
@@ -43,6 +49,16 @@ def round_cap2(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
     if F[moves.corner_u[a]] > 0.0:
         return F[moves.corner_ups[a]] * F[moves.corner_ups[a]]
     return round_join2(F, I, S, m, a, b)
+
+
+def round_half2(
+    F: F64, corner: int, r: int, reach_u: float, jerk_ups3: float, w_v2: float
+) -> float:
+    """Highest speed squared at the other end of the half of a corner that is in move r."""
+    turn: float = F[moves.corner_turn[corner]]
+    cap_ups: float = F[moves.corner_ups[corner]]
+    limit_ups2: float = round_limit(turn, reach_u, cap_ups, round_accel(F, r), jerk_ups3)
+    return round_ramp2(turn, reach_u, limit_ups2, jerk_ups3, w_v2)
 
 
 def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int, last: int) -> float:
@@ -75,7 +91,7 @@ def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int, last: int) -
         if k == 0 and part == CORNER_AFTER:
             break
         if reach_u > 0.0:
-            w_v2 = round_ramp2(F[moves.corner_turn[r]], reach_u, round_accel(F, r), jerk_ups3, w_v2)
+            w_v2 = round_half2(F, r, r, reach_u, jerk_ups3, w_v2)
             cap_v2: float = min(F[moves.corner_ups[r]] * F[moves.corner_ups[r]], top_v2)
             if w_v2 >= cap_v2:
                 w_v2 = cap_v2
@@ -90,8 +106,7 @@ def round_pass(F: F64, I: I32, S: F32, m: int, part: int, far: int, last: int) -
             break
         corner_v2: float = round_cap2(F, I, S, m, a, r)
         if before_u > 0.0:
-            turn: float = F[moves.corner_turn[a]]
-            w_v2 = round_ramp2(turn, before_u, round_accel(F, r), jerk_ups3, min(w_v2, corner_v2))
+            w_v2 = round_half2(F, a, r, before_u, jerk_ups3, min(w_v2, corner_v2))
         if w_v2 >= corner_v2:
             w_v2 = corner_v2
             capped = True

@@ -86,9 +86,21 @@ class Encoder:
         if isinstance(entry, Polyline):
             yield from self._lines(entry, begin)
             return
-        for piece in self._pieces(entry, begin):
-            yield self.job(piece, begin)
-            begin = piece.end
+        if isinstance(entry, Arc) and not self._runs(entry.plane):
+            yield from self._chord_jobs(entry, begin)
+        else:
+            yield self.job(entry, begin)
+
+    def _chord_jobs(self, arc: Arc, begin: Point) -> Iterator[Job]:
+        """The chords of an arc, no faster than the arc itself where they are moves of their own."""
+        whole = self.job(arc, begin)
+        for chord in self._chords(arc, begin):
+            job = self.job(chord, begin)
+            if not job.tolerance_u and not job.path_tolerance_u:
+                job.feed_ups = min(job.feed_ups, whole.feed_ups)
+                job.ramp_ups2 = min(job.ramp_ups2, whole.ramp_ups2)
+            yield job
+            begin = chord.end
 
     def _lines(self, entry: Polyline, begin: Point) -> Iterator[Job]:
         from openacr.mill.plan.polylines import columns, lines
@@ -127,10 +139,11 @@ class Encoder:
         if tolerance > 0.0:
             sent = self._geometry.line(self._place(begin_cnt), self._place(finish_cnt))
             shape = sent if sent.length_u > 0.0 else shape
+        speed_ups = self._speed(entry, shape, is_planned=planned_u > 0.0)
         return Job(
             length_u=shape.length_u,
-            feed_ups=self._speed(entry, shape),
-            ramp_ups2=self._geometry.ramp_limit(shape, ramp, rounds=tolerance > 0.0),
+            feed_ups=speed_ups,
+            ramp_ups2=self._geometry.ramp_limit(shape, ramp, speed_ups, rounds=tolerance > 0.0),
             tolerance_u=tolerance,
             start=shape.start,
             end=shape.end,
@@ -157,18 +170,14 @@ class Encoder:
         plane = (entry.plane.first, entry.plane.second)
         return self._geometry.arc(begin, entry.end, plane, entry.centre, entry.sweep_rad)
 
-    def _speed(self, entry: Motion, shape: MoveShape) -> float:
+    def _speed(self, entry: Motion, shape: MoveShape, *, is_planned: bool) -> float:
         """Units per second (degrees where only rotary axes move), within all limits."""
         speeds = self._speeds
         if isinstance(entry, Rapid):
             speed = min(speeds.rapid_ups, speeds.trial_ups) if self._is_dry else speeds.rapid_ups
         else:
             speed = self.line_speed(entry.pace)
-        if isinstance(entry, Arc):
-            # The centripetal acceleration v^2 / r must not exceed that of the machine.
-            radius = min(entry.start_radius, entry.end_radius)
-            speed = min(speed, math.sqrt(speeds.arc_acc_ups2 * radius))
-        return min(speed, self._geometry.speed_limit(shape))
+        return min(speed, self._geometry.speed_limit(shape, is_planned=is_planned))
 
     def tolerance(self, pace: Pace) -> float:
         """The largest deviation of the path at corners between straight moves."""
@@ -238,13 +247,6 @@ class Encoder:
         return None
 
     # --- forms the card supports ---------------------------------------------------------
-
-    def _pieces(self, entry: Motion, begin: Point) -> Iterator[Motion]:
-        """Convert a canonical move to forms the card can run: other arcs become chords."""
-        if isinstance(entry, Arc) and not self._runs(entry.plane):
-            yield from self._chords(entry, begin)
-        else:
-            yield entry
 
     @property
     def runs_arcs(self) -> bool:

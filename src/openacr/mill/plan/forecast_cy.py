@@ -9,7 +9,13 @@ from one move on, in falling order; `X` and `J`: numbers and counts, continued f
 """
 
 from openacr.cmath import atan2, fabs, sqrt
-from openacr.kernel.path.round_law_cy import STRAIGHT, round_brake, round_cap, round_ramp2
+from openacr.kernel.path.round_law_cy import (
+    STRAIGHT,
+    round_brake,
+    round_cap,
+    round_limit,
+    round_ramp2,
+)
 from openacr.mill.plan.move_rows_cy import (
     AXES,
     Q_CAP,
@@ -156,16 +162,18 @@ def forecast_join(X: F64, Q: F64, i: int, j: int) -> None:
         Q[i + Q_CORNER] = Q[i + Q_CAP]
 
 
-def forecast_before2(turn: float, reach: float, cap: float, w: float, ramp: float) -> float:
+def forecast_before2(turn: float, reach: float, cap: float, w: float) -> float:
     """The highest squared speed at one end of half a corner whose other end has `w`."""
+    ramp: float = round_limit(turn, reach, cap, 0.0, 0.0)
     reached: float = round_ramp2(turn, reach, ramp, 0.0, w)
     return reached if reached < cap * cap else cap * cap
 
 
-def forecast_pass2(turn: float, reach: float, w: float, goal: float, ramp: float) -> float:
+def forecast_pass2(turn: float, reach: float, cap: float, w: float, goal: float) -> float:
     """The squared speed after half a corner entered with `w` that may end with `goal`."""
     if goal <= w:
         return goal
+    ramp: float = round_limit(turn, reach, cap, 0.0, 0.0)
     top: float = round_ramp2(turn, reach, ramp, 0.0, w)
     top = goal if goal < top else top
     rate: float = round_brake(turn, reach, ramp, top)
@@ -183,7 +191,7 @@ def forecast_back(
     ahead = ahead if ahead < top else top
     length: float = Q[i + Q_LENGTH]
     if Q[i + Q_IS_ROUND] > 0.0:
-        ahead = forecast_before2(Q[i + Q_TURN], Q[i + Q_REACH], Q[i + Q_CAP], ahead, ramp)
+        ahead = forecast_before2(Q[i + Q_TURN], Q[i + Q_REACH], Q[i + Q_CAP], ahead)
         ahead = ahead if ahead < top else top
         length = length - Q[i + Q_REACH]
     X[X_AHEAD2] = ahead
@@ -194,7 +202,7 @@ def forecast_back(
     line = line if line < top else top
     line = line if line < cap * cap else cap * cap
     X[X_LINE2] = line
-    return forecast_before2(turn, reach, cap, line, ramp)
+    return forecast_before2(turn, reach, cap, line)
 
 
 def forecast_brake(Q: F64, i: int) -> float:
@@ -299,7 +307,9 @@ def forecast_travel(J: I32, X: F64, Q: F64, i: int) -> None:
     seconds: float = 0.0
     top: float = begin
     if enters:
-        line: float = sqrt(forecast_pass2(X[X_TURN], X[X_REACH], begin * begin, X[X_LINE2], a))
+        line: float = sqrt(
+            forecast_pass2(X[X_TURN], X[X_REACH], X[X_CAP], begin * begin, X[X_LINE2])
+        )
         seconds = forecast_phase(X[X_REACH], begin, line)
         begin = line
         left -= X[X_REACH]
@@ -323,7 +333,9 @@ def forecast_travel(J: I32, X: F64, Q: F64, i: int) -> None:
     top = end if end > top else top
     if leaves:
         goal: float = Q[i + Q_EXIT] * Q[i + Q_EXIT]
-        after: float = sqrt(forecast_pass2(Q[i + Q_TURN], Q[i + Q_REACH], end * end, goal, a))
+        after: float = sqrt(
+            forecast_pass2(Q[i + Q_TURN], Q[i + Q_REACH], Q[i + Q_CAP], end * end, goal)
+        )
         seconds += forecast_phase(Q[i + Q_REACH], end, after)
         end = after
         top = end if end > top else top

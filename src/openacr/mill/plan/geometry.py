@@ -8,11 +8,28 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from openacr.compiled import pick
 from openacr.mill.config.settings import Settings
 from openacr.mill.config.tabs import AxisSettings
+from openacr.mill.plan import arc_law_cy
 from openacr.mill.plan.rounding import Direction
 
 Point = Sequence[float]  # machine position, one value per axis 0..7
+_bend = pick(arc_law_cy.arc_bend)
+_widening = pick(arc_law_cy.arc_widening)
+_skew = pick(arc_law_cy.arc_skew)
+_speed = pick(arc_law_cy.arc_speed)
+_ramp = pick(arc_law_cy.arc_ramp)
+
+
+@dataclass(frozen=True, slots=True)
+class Bend:
+    """The turn of an arc in the plane of two axes, in the terms of `arc_law_cy`."""
+
+    plane: tuple[int, int]
+    per_u: float
+    widening: float
+    skew: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +40,7 @@ class MoveShape:
     start: Direction | None
     end: Direction | None
     share: tuple[float, ...]
+    bend: Bend | None = None  # of an arc
 
 
 def linear_axes(settings: Settings) -> list[int]:
@@ -65,11 +83,9 @@ class Geometry:
         axes are added as on a helix.
         """
         first, second = plane
-        radius = 0.5 * (
-            math.dist((start[first], start[second]), centre)
-            + math.dist((end[first], end[second]), centre)
-        )
-        arc_u = radius * abs(sweep_rad)
+        begin_u = math.dist((start[first], start[second]), centre)
+        end_u = math.dist((end[first], end[second]), centre)
+        arc_u = 0.5 * (begin_u + end_u) * abs(sweep_rad)
         rise = {axis: end[axis] - start[axis] for axis in self._linear if axis not in plane}
         length = math.sqrt(arc_u * arc_u + sum(d * d for d in rise.values()))
         if length == 0.0:
@@ -80,7 +96,11 @@ class Geometry:
         tangents = [
             self._tangent(point, plane, centre, turn, rise, length) for point in (start, end)
         ]
-        return MoveShape(length, tangents[0], tangents[1], tuple(share))
+        bend = None
+        if arc_u > 0.0:
+            radii = begin_u, end_u, sweep_rad
+            bend = Bend(plane, _bend(*radii, arc_u / length), _widening(*radii), _skew(*radii))
+        return MoveShape(length, tangents[0], tangents[1], tuple(share), bend)
 
     def _tangent(
         self,
@@ -103,17 +123,26 @@ class Geometry:
         """Whether only linear axes move."""
         return shape.start is not None and not any(shape.share[axis] for axis in self._rotary)
 
-    def speed_limit(self, shape: MoveShape) -> float:
-        """The highest vector speed within all axis limits, units/s."""
+    def speed_limit(self, shape: MoveShape, *, is_planned: bool = False) -> float:
+        """The highest vector speed within all axis limits, units/s.
+
+        Of a planned path the planner finds what its turns leave; Arc Acceleration it does not know.
+        """
         limits = [self._speeds.max_ups] if shape.start is not None else []
         limits += _per_axis(((one, one.max_speed_ups) for one in self._axes), shape)
         if self._speeds.rotary_max > 0.0:
             rotary = (one for one in self._axes if one.index in self._rotary)
             limits += _per_axis(((one, self._speeds.rotary_max) for one in rotary), shape)
+        if shape.bend is not None and is_planned:
+            limits.append(math.sqrt(self._speeds.arc_acc_ups2 / shape.bend.per_u))
+        elif shape.bend is not None:
+            limits.append(_speed(self._arc_limit(shape.bend), shape.bend.per_u))
         return min(limits, default=math.inf)
 
-    def ramp_limit(self, shape: MoveShape, ramp_ups2: float, *, rounds: bool = False) -> float:
-        """The highest vector acceleration within all axis limits, units/s2.
+    def ramp_limit(
+        self, shape: MoveShape, ramp_ups2: float, speed_ups: float, *, rounds: bool = False
+    ) -> float:
+        """The highest vector acceleration at up to a speed within all axis limits, units/s2.
 
         In a rounded corner it can have any direction, so it is within the limit of every axis.
         """
@@ -121,7 +150,15 @@ class Geometry:
             own = [one.max_acceleration_ups2 for one in self._axes if shape.share[one.index] > 0.0]
             return min([ramp_ups2, *(limit for limit in own if limit > 0.0)])
         own = _per_axis(((one, one.max_acceleration_ups2) for one in self._axes), shape)
+        if (bend := shape.bend) is not None:
+            limit = self._arc_limit(bend)
+            own.append(_ramp(limit, bend.per_u, bend.widening, bend.skew, speed_ups))
         return min([ramp_ups2, *own])
+
+    def _arc_limit(self, bend: Bend) -> float:
+        """The acceleration of an arc in any direction of its plane [units/s2]."""
+        own = (one.max_acceleration_ups2 for one in self._axes if one.index in bend.plane)
+        return min([self._speeds.arc_acc_ups2, *(limit for limit in own if limit > 0.0)])
 
 
 def _per_axis(limits: Iterable[tuple[AxisSettings, float]], shape: MoveShape) -> list[float]:

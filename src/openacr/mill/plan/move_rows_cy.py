@@ -4,14 +4,17 @@ The formulas are those of `geometry` and `encoding`, where they are explained:
 
     line   L = |d|                        tangent d / L           share of an axis |d_a| / L
     arc    L = sqrt((r sweep)^2 + |rise|^2)    tangent a quarter turn ahead of the radius, tilted
-    feed   the lowest of F, the machine, limit_a / share_a, and sqrt(a r) on arcs
+    feed   the lowest of F, the machine, limit_a / share_a, and what an arc allows
+    ramp   the lowest of the machine, limit_a / share_a, and what the turn of an arc leaves
 
 `Q` is the row of a move, `Y` has the axes of the machine, AXIS numbers each, `X` the speeds of the
-machine, `J` integers. `U`: scratch, a displacement and shares. A row whose positions are to be
-looked at one by one is flagged: it may be beyond a soft limit or the pulses of a packet.
+machine, `J` integers. `U`: scratch, a displacement, shares, and the bend of an arc. A row whose
+positions are to be looked at one by one is flagged: it may be beyond a soft limit or the pulses of
+a packet.
 """
 
 from openacr.cmath import fabs, floor, sqrt
+from openacr.mill.plan.arc_law_cy import arc_bend, arc_ramp, arc_skew, arc_speed, arc_widening
 from openacr.views import F64, I32
 
 AXES = 8
@@ -69,7 +72,10 @@ LONG_MAX = 2147483647.0
 
 U_DELTA = 0
 U_SHARE = 8
-U_SIZE = 16
+U_BEND = 16  # of an arc, 0: of a line
+U_WIDENING = 17
+U_SKEW = 18
+U_SIZE = 19
 
 __all__ = ["move_row"]
 
@@ -137,6 +143,10 @@ def move_arc(
         return
     U[U_SHARE + first] = arc_u / length
     U[U_SHARE + second] = arc_u / length
+    if arc_u > 0.0:
+        U[U_BEND] = arc_bend(r0, r1, arcs[a + 2], arc_u / length)
+        U[U_WIDENING] = arc_widening(r0, r1, arcs[a + 2])
+        U[U_SKEW] = arc_skew(r0, r1, arcs[a + 2])
     turn: float = arc_u / length if arcs[a + 2] > 0.0 else -arc_u / length
     n0: float = r0 if r0 > 0.0 else 1.0
     n1: float = r1 if r1 > 0.0 else 1.0
@@ -177,6 +187,24 @@ def move_limits(J: I32, X: F64, Y: F64, U: F64, Q: F64, q: int, rounds: bool) ->
                 ramp = limit
     Q[q + Q_FEED] = feed
     Q[q + Q_RAMP] = ramp
+
+
+def move_turns(
+    J: I32, X: F64, Y: F64, U: F64, Q: F64, q: int, first: int, second: int
+) -> None:  # fmt: skip
+    """Lower feed and ramp of an arc to what the limits of the two axes of its plane leave."""
+    limit: float = X[X_ARC_RAMP]
+    for k in range(J[J_AXES]):
+        axis: int = int(Y[k * Y_SIZE + Y_INDEX])
+        own: float = Y[k * Y_SIZE + Y_RAMP]
+        if (axis == first or axis == second) and 0.0 < own < limit:
+            limit = own
+    speed: float = arc_speed(limit, U[U_BEND])
+    if speed < Q[q + Q_FEED]:
+        Q[q + Q_FEED] = speed
+    ramp: float = arc_ramp(limit, U[U_BEND], U[U_WIDENING], U[U_SKEW], Q[q + Q_FEED])
+    if ramp < Q[q + Q_RAMP]:
+        Q[q + Q_RAMP] = ramp
 
 
 def move_is_linear(J: I32, Y: F64, U: F64) -> bool:
@@ -235,6 +263,7 @@ def move_row(
     """Fill in the row of a move to the point at `at`; returns whether it is flagged."""
     first: int = -1
     second: int = -1
+    U[U_BEND] = 0.0
     for axis in range(AXES):
         U[U_DELTA + axis] = ends[at + axis] - begin[axis]
     Q[q + Q_IS_RAPID] = 1.0 if kind == RAPID else 0.0
@@ -245,10 +274,6 @@ def move_row(
         first = 2 if plane == ZX else (1 if plane == YZ else 0)
         second = 0 if plane == ZX else (2 if plane == YZ else 1)
         move_arc(J, Y, U, Q, q, begin, ends, at, arcs, a, first, second)
-        radius: float = arcs[a + 3] if arcs[a + 3] < arcs[a + 4] else arcs[a + 4]
-        limit: float = sqrt(X[X_ARC_RAMP] * radius)
-        if limit < Q[q + Q_FEED]:
-            Q[q + Q_FEED] = limit
     else:
         move_line(J, Y, U, Q, q)
         if kind == LINE and tolerance > 0.0 and Q[q + Q_HAS_TANGENT] > 0.0:
@@ -256,4 +281,6 @@ def move_row(
                 Q[q + Q_TOLERANCE] = tolerance
                 move_as_sent(J, Y, U, Q, q, begin, ends, at)
     move_limits(J, X, Y, U, Q, q, Q[q + Q_TOLERANCE] > 0.0)
+    if U[U_BEND] > 0.0:
+        move_turns(J, X, Y, U, Q, q, first, second)
     return move_is_flagged(J, Y, begin, ends, at, arcs, a, first, second)

@@ -141,13 +141,13 @@ def backward_pass(move: PlannedMove, entry_corner: Corner | None) -> SquaredSpee
     ahead = min(move.exit_ups**2, top)
     shape = move.length_u
     if move.corner is not None:
-        ahead = min(move.corner.before2(ahead, ramp), top)
+        ahead = min(move.corner.before2(ahead), top)
         shape -= move.corner.reach_u
     if entry_corner is None:
         line = ahead + 2.0 * ramp * shape
         return SquaredSpeeds(line, line, ahead)
     line = min(ahead + 2.0 * ramp * (shape - entry_corner.reach_u), top, entry_corner.cap_ups**2)
-    return SquaredSpeeds(entry_corner.before2(line, ramp), line, ahead)
+    return SquaredSpeeds(entry_corner.before2(line), line, ahead)
 
 
 Moves = TypeVar("Moves", bound=PlannedMove)

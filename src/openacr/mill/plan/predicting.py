@@ -207,7 +207,7 @@ def travel(job: Job, begin_ups: float, entry_corner: Corner | None = None) -> Ph
     may = backward_pass(job, entry_corner)
     phases: Phases = []
     if entry_corner is not None:
-        line = math.sqrt(entry_corner.pass2(begin * begin, may.line, a))
+        line = math.sqrt(entry_corner.pass2(begin * begin, may.line))
         phases.append((entry_corner.reach_u, begin, line))
         begin, rest_u = line, rest_u - entry_corner.reach_u
     if job.corner is None:
@@ -215,7 +215,7 @@ def travel(job: Job, begin_ups: float, entry_corner: Corner | None = None) -> Ph
     rest_u -= job.corner.reach_u
     phases += _straight(rest_u, begin, math.sqrt(may.ahead), job.feed_ups, a)
     entry = phases[-1][2]
-    end = math.sqrt(job.corner.pass2(entry * entry, job.exit_ups**2, a))
+    end = math.sqrt(job.corner.pass2(entry * entry, job.exit_ups**2))
     phases.append((job.corner.reach_u, entry, end))
     return phases
 

@@ -22,11 +22,12 @@ _brake = pick(round_law_cy.round_brake)
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """A rounded corner: the size of its turn, its reach along the path, its highest speed."""
+    """A rounded corner: the size of its turn, its reach along the path, its limits."""
 
     turn: float  # length of the difference of the two unit tangents
     reach_u: float
     cap_ups: float
+    ramp_ups2: float  # of the weaker of the two moves
 
     @classmethod
     def between(
@@ -37,16 +38,16 @@ class Corner:
         if turn <= round_law_cy.STRAIGHT:
             return None
         reach = min(REACH * tolerance_u / turn, 0.5 * shorter_u)
-        return cls(turn, reach, _cap(turn, reach, ramp, NO_JERK))
+        return cls(turn, reach, _cap(turn, reach, ramp, NO_JERK), ramp)
 
-    def before2(self, w: float, ramp: float) -> float:
+    def before2(self, w: float) -> float:
         """The highest squared speed at one end of a half whose other end has `w`."""
-        return min(_ramp2(self.turn, self.reach_u, ramp, NO_JERK, w), self.cap_ups**2)
+        return min(_ramp2(self.turn, self.reach_u, self.ramp_ups2, NO_JERK, w), self.cap_ups**2)
 
-    def pass2(self, w: float, goal: float, ramp: float) -> float:
+    def pass2(self, w: float, goal: float) -> float:
         """The squared speed after a half entered with `w` that may end with `goal`."""
         if goal <= w:
             return goal
-        top = min(goal, _ramp2(self.turn, self.reach_u, ramp, NO_JERK, w))
-        rate = _brake(self.turn, self.reach_u, ramp, top)
+        top = min(goal, _ramp2(self.turn, self.reach_u, self.ramp_ups2, NO_JERK, w))
+        rate = _brake(self.turn, self.reach_u, self.ramp_ups2, top)
         return min(top, w + 2.0 * rate * self.reach_u)

@@ -363,7 +363,7 @@ class SPEEDS:
         "u/s2",
         low=0,
         high=1e9,
-        doc="Largest acceleration on arcs, 0 = Master Feed ACC/DEC.",
+        doc="Largest acceleration on arcs, of the turn and along it; 0 = Master Feed ACC/DEC.",
     )
     in_position_time_out = tab.real(
         14,
