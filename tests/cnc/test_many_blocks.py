@@ -233,6 +233,12 @@ def test_idle_blocks_are_counted_across_batches() -> None:
     assert (found.error.code, found.error.line) == ("A62", MOST_IDLE + 3)
 
 
+def test_lines_without_motion_leave_the_machine_exactly_where_it_is() -> None:
+    found = require_same("F9 X.1\nG92 X.7\nG90\nM8\nX.7\nM2", "rs274ngc")
+    ends = [entry.end[0] for entry in found.entries if isinstance(entry, Line)]
+    assert ends == [0.225, 0.225 - 2.0**-55]
+
+
 def test_the_end_of_a_text_is_its_last_line() -> None:
     for text in ("F1\nX1\nX2", "F1\nX1\nX2\n", "F1\nX1\n\n(end)\n", "F1\nM8\nX1\nM9\n"):
         assert require_same(text, "acromill").entries[-1].source.line == len(text.splitlines())

@@ -190,10 +190,10 @@ class Path:
         self.placed = self.coordinates.from_machine(target)
         self.program = self.coordinates.backward(self.placed)
 
-    def jump(self, program: Point) -> None:
+    def jump(self, program: Point, target: Point) -> None:
         """Take over the end of many lines, without scaling and rotation."""
         self.program = self.placed = program
-        self.target = self.issued = self.coordinates.to_machine(program)
+        self.target = self.issued = target
 
     def _straight(self, b: BlockContext, end: Point, placed: Point, pace: Pace | None) -> None:
         b.has_moved = True

@@ -214,7 +214,10 @@ class Scanner:
         modal.feed, modal.has_feed = W[core.W_FEED], bool(M[core.M_HAS_FEED])
         path.times, path.per = W[core.W_TIMES], W[core.W_PER]
         path.change_pace()
-        path.jump(tuple(W[core.W_POSITION : core.W_POSITION + AXES]))
+        path.jump(
+            tuple(W[core.W_POSITION : core.W_POSITION + AXES]),
+            tuple(W[core.W_TARGET : core.W_TARGET + AXES]),
+        )
         run.execution.idle_cnt = M[core.M_IDLE]
 
     # --- what came out ----------------------------------------------------------------------

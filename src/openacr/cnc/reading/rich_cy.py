@@ -18,11 +18,11 @@ from openacr.cnc.reading.scan_cy import (
     K_SCAN_SIZE,
     K_TOKENS,
     LAST_CODE,
-    LONGEST,
     TOKEN_CODE,
     W_VALUE,
     scan_blanks,
     scan_label,
+    scan_next,
     scan_number,
     scan_remark,
 )
@@ -195,12 +195,4 @@ def scan_rich(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32, N: F64, Q: 
                 return -1
         earlier = 0 if has_blank else before
         before = character
-    if pos - start > LONGEST:
-        return -1
-    if pos < stop and data[pos] == 13:
-        pos += 1
-        if pos < stop and data[pos] == 10:
-            pos += 1
-    elif pos < stop:
-        pos += 1
-    return pos
+    return scan_next(data, pos, stop, start)

@@ -176,6 +176,19 @@ def scan_word(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32) -> int:
     return pos
 
 
+def scan_next(data: U8, pos: int, stop: int, start: int) -> int:
+    """Skip the end of a line at `pos`; returns the next line, -1 if the line is too long."""
+    if pos - start > LONGEST:
+        return -1
+    if pos < stop and data[pos] == 13:
+        pos += 1
+        if pos < stop and data[pos] == 10:
+            pos += 1
+    elif pos < stop:
+        pos += 1
+    return pos
+
+
 def scan_line(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32) -> int:
     """Read the line at `pos`; returns the position of the next one, -1 if it is not plain."""
     K[K_LABEL] = 0
@@ -199,15 +212,7 @@ def scan_line(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32) -> int:
         if pos < 0:
             return -1
         pos = scan_blanks(data, pos, stop)
-    if pos - start > LONGEST:
-        return -1
-    if pos < stop and data[pos] == 13:
-        pos += 1
-        if pos < stop and data[pos] == 10:
-            pos += 1
-    elif pos < stop:
-        pos += 1
-    return pos
+    return scan_next(data, pos, stop, start)
 
 
 def scan_slot(K: I32, L: I32, T: I32) -> int:
