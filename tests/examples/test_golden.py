@@ -23,6 +23,7 @@ SHORT_RUNS = (
     ("plc_excess_error", "PROG0\rPGAIN X0\rX20\r", 1_000),
     ("canopen_io", "PROG0\rRUN\r", 1_200),
     ("brushless", "PROG0\rRUN\r", 1_600),
+    ("pick_and_label", "PROG0\rRUN\r", 1_600),
 )
 _PURE = """
 import sys

@@ -29,6 +29,7 @@ LOCKED = Watch("gantry_lock", (MOTION, 1024), 2)
 SHEAR = Watch("cam_flying_shear", (32, 792, 822, 1024), 2)
 BRUSHLESS = Watch("brushless", (MOTION, 1024, 3584, 3585), 1)
 TUNING = Watch("tuning", (MOTION, 512, 513, 514, 1024), 1)
+LABELS = Watch("pick_and_label", (10, 11, 12, 13, 14, 32, 33, 34, MOTION, 1024), 1)
 
 ALL = (
     GANTRY,
@@ -50,4 +51,5 @@ ALL = (
     SHEAR,
     BRUSHLESS,
     TUNING,
+    LABELS,
 )
