@@ -17,6 +17,34 @@ PERIOD_S = 0.0005
 
 
 @dataclass
+class FakeSurroundings:
+    """Inputs are flags; whatever else is done has no effect."""
+
+    memory: Memory
+
+    def set_input(self, bit: int, on: bool) -> None:
+        self.memory.set_bit(bit, on)
+
+    def release_input(self, bit: int) -> None:
+        self.memory.set_bit(bit, False)
+
+    def fault(self, axis: int, kind: str, value: float) -> None:
+        return None
+
+    def mend(self, axis: int, kind: str | None) -> None:
+        return None
+
+    def command(self, device: str, name: str, value: float) -> None:
+        return None
+
+    def drag(self, axis: int, by_u: float) -> None:
+        return None
+
+    def set_analog(self, parameter: int, value: float) -> None:
+        return None
+
+
+@dataclass
 class FakeMachine:
     """Lives tick by tick; `world` is called after every tick."""
 
@@ -71,26 +99,9 @@ class FakeMachine:
     def failure(self, program: int) -> Failure:
         return Failure("Divide by zero", "P1 = 1/0")
 
-    def set_input(self, bit: int, on: bool) -> None:
-        self.memory.set_bit(bit, on)
-
-    def release_input(self, bit: int) -> None:
-        self.memory.set_bit(bit, False)
-
-    def fault(self, axis: int, kind: str, value: float) -> None:
-        return None
-
-    def mend(self, axis: int, kind: str | None) -> None:
-        return None
-
-    def command(self, device: str, name: str, value: float) -> None:
-        return None
-
-    def drag(self, axis: int, by_u: float) -> None:
-        return None
-
-    def set_analog(self, parameter: int, value: float) -> None:
-        return None
+    @property
+    def surroundings(self) -> FakeSurroundings:
+        return FakeSurroundings(self.memory)
 
     def axis_reports(self) -> tuple[AxisReport, ...]:
         return self.reports

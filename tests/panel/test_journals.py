@@ -16,7 +16,7 @@ OLD, NEW = f"mill/1{SUFFIX}", f"lathe/12{SUFFIX}"
 
 @pytest.fixture
 def web(quiet_panel: Served, tmp_path: Path) -> Iterator[httpx.Client]:
-    """A panel beside two journals of served cards, and files that are none."""
+    """A panel beside two journals of served cards, and other files."""
     root = tmp_path / "journals"
     quiet_panel.panel.journals = root
     for name, text, changed_s in (

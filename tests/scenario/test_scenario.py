@@ -37,6 +37,10 @@ class Bench:
     def program_state(self, program: int) -> State:
         return self.states.get(program, State.IDLE)
 
+    @property
+    def surroundings(self) -> "Bench":
+        return self
+
     def set_input(self, bit: int, on: bool) -> None:
         self.bits[bit] = on
         self.deeds.append((self.tick, "input", bit, on))

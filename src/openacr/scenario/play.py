@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from openacr.scenario.judge import Verdict, condition_text, judge, never
 from openacr.scenario.rules import END, START
 from openacr.scenario.schema import Action, Condition, Expectation, Scenario
-from openacr.scenario.world import World
+from openacr.scenario.world import Surroundings, World
 
 
 @dataclass(slots=True, eq=False)
@@ -93,7 +93,7 @@ class Play:
         """Do everything that is due now; one checkpoint may make others due at once."""
         for release in [r for r in self._releases if r[0] <= world.tick]:
             self._releases.remove(release)
-            world.release_input(release[1])
+            world.surroundings.release_input(release[1])
         self._pull(world)
         while any(self._look(pending, world) for pending in self._pending):
             pass  # evaluated from the start again, to keep the order of the file
@@ -111,7 +111,7 @@ class Play:
 
     def _pull(self, world: World) -> None:
         for pull in self._pulls:
-            world.drag(pull.axis, pull.by_u)
+            world.surroundings.drag(pull.axis, pull.by_u)
         self._pulls = [pull for pull in self._pulls if pull.end_tk > world.tick]
 
     def _ticks(self, seconds: float) -> int:
@@ -184,12 +184,7 @@ class Play:
         return above and (condition.below is None or value < condition.below)
 
     def _act(self, action: Action, world: World) -> None:
-        for bit in (*action.set, *action.press):
-            world.set_input(bit, True)
-        for bit in action.clear:
-            world.set_input(bit, False)
-        for bit in action.release:
-            world.release_input(bit)
+        _switch_inputs(action, world.surroundings)
         release = world.tick + max(1, self._ticks(action.press_s))
         self._releases += [(release, bit) for bit in action.press]
         if action.send is not None or action.key is not None:
@@ -198,18 +193,10 @@ class Play:
         if action.drag is not None:
             ticks = max(1, self._ticks(action.drag.over_s))
             pull = _Pull(action.drag.axis, action.drag.by / ticks, world.tick + ticks - 1)
-            world.drag(pull.axis, pull.by_u)
+            world.surroundings.drag(pull.axis, pull.by_u)
             if pull.end_tk > world.tick:
                 self._pulls.append(pull)
-        if action.analog is not None:
-            world.set_analog(action.analog.input, action.analog.value)
-        if action.fault is not None:
-            world.fault(action.fault.axis, action.fault.kind.value, action.fault.value)
-        if action.mend is not None:
-            kind = action.mend.kind
-            world.mend(action.mend.axis, None if kind is None else kind.value)
-        if action.command is not None:
-            world.command(action.command.device, action.command.name, float(action.command.value))
+        _change_machine(action, world.surroundings)
         if action.checkpoint is not None:
             self._reach(action.checkpoint, world.tick)
 
@@ -237,3 +224,23 @@ def _moment_text(item: Action | Expectation) -> str:
     parts = [f"after {item.after}"] if item.after else []
     parts += [f"when {condition_text(item.when)}"] if item.when else []
     return ", ".join(parts)
+
+
+def _switch_inputs(action: Action, machine: Surroundings) -> None:
+    for bit in (*action.set, *action.press):
+        machine.set_input(bit, True)
+    for bit in action.clear:
+        machine.set_input(bit, False)
+    for bit in action.release:
+        machine.release_input(bit)
+
+
+def _change_machine(action: Action, machine: Surroundings) -> None:
+    if action.analog is not None:
+        machine.set_analog(action.analog.input, action.analog.value)
+    if (fault := action.fault) is not None:
+        machine.fault(fault.axis, fault.kind.value, fault.value)
+    if (mend := action.mend) is not None:
+        machine.mend(mend.axis, None if mend.kind is None else mend.kind.value)
+    if (command := action.command) is not None:
+        machine.command(command.device, command.name, float(command.value))

@@ -16,6 +16,7 @@ from openacr.map.memory import Memory
 from openacr.scenario import card_view
 from openacr.scenario.schema import Condition, State
 from openacr.scenario.watches import watches
+from openacr.scenario.world import Surroundings
 
 _KINDS = {"COM": StreamKind.SERIAL, "DPC": StreamKind.DPCB}
 
@@ -68,26 +69,9 @@ class Played(Protocol):
     def type_text(self, text: str, stream: str | None) -> None:
         """Type text on a stream, by default the terminal of the run."""
 
-    def set_input(self, bit: int, on: bool) -> None:
-        """Switch an input; one that the machine drives is forced until it is released."""
-
-    def release_input(self, bit: int) -> None:
-        """Release an input that was switched."""
-
-    def fault(self, axis: int, kind: str, value: float) -> None:
-        """Cause a fault on an axis of the machine."""
-
-    def mend(self, axis: int, kind: str | None) -> None:
-        """End one kind of fault of an axis, or all."""
-
-    def command(self, device: str, name: str, value: float) -> None:
-        """Give a command to a device of the machine by hand."""
-
-    def set_analog(self, parameter: int, value: float) -> None:
-        """Bring a value to the analog input a parameter shows."""
-
-    def drag(self, axis: int, by_u: float) -> None:
-        """Move the load of an axis by hand, at once."""
+    @property
+    def surroundings(self) -> Surroundings:
+        """The machine around the card."""
 
 
 class CardWorld:
@@ -96,14 +80,8 @@ class CardWorld:
     def __init__(self, card: Played) -> None:
         self._card = card
         self._begin_tk = card.tick
-        self.set_input = card.set_input
-        self.release_input = card.release_input
-        self.fault = card.fault
-        self.mend = card.mend
-        self.command = card.command
-        self.set_analog = card.set_analog
+        self.surroundings = card.surroundings
         self.type_text = card.type_text
-        self.drag = card.drag
 
     @property
     def tick(self) -> int:
@@ -143,13 +121,7 @@ class PlayedCard:
         self._overhear: Callable[[str], None] = lambda text: None
         self._awaits_text = False
         self._was_heard = False
-        self.set_input = controller.set_input
-        self.release_input = controller.release_input
-        self.fault = controller.fault
-        self.mend = controller.mend
-        self.command = controller.command
-        self.set_analog = controller.set_analog
-        self.drag = controller.drag
+        self.surroundings: Surroundings = controller
 
     @property
     def memory(self) -> Memory:

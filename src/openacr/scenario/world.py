@@ -5,6 +5,31 @@ from typing import Protocol
 from openacr.scenario.schema import State
 
 
+class Surroundings(Protocol):
+    """What a person or a mishap does to the machine around a card."""
+
+    def set_input(self, bit: int, on: bool) -> None:
+        """Switch one input; one that the machine drives is forced until it is released."""
+
+    def release_input(self, bit: int) -> None:
+        """Release an input: off, or the level the machine drives it to."""
+
+    def drag(self, axis: int, by_u: float) -> None:
+        """Move the load of an axis by hand, at once."""
+
+    def set_analog(self, parameter: int, value: float) -> None:
+        """Apply a value to the analog input a parameter shows."""
+
+    def fault(self, axis: int, kind: str, value: float) -> None:
+        """Cause a fault on an axis of the machine."""
+
+    def mend(self, axis: int, kind: str | None) -> None:
+        """End one kind of fault of an axis, or all."""
+
+    def command(self, device: str, name: str, value: float) -> None:
+        """Give a command to a device of the machine by hand."""
+
+
 class World(Protocol):
     """The interface through which a scenario reads and acts on the card and its machine."""
 
@@ -27,26 +52,9 @@ class World(Protocol):
     def program_state(self, program: int) -> State:
         """Return the state of a program."""
 
-    def set_input(self, bit: int, on: bool) -> None:
-        """Switch one input; one that the machine drives is forced until it is released."""
-
-    def release_input(self, bit: int) -> None:
-        """Release an input: off, or the level the machine drives it to."""
-
     def type_text(self, text: str, stream: str | None) -> None:
         """Type text on a stream."""
 
-    def drag(self, axis: int, by_u: float) -> None:
-        """Move the load of an axis by hand, at once."""
-
-    def set_analog(self, parameter: int, value: float) -> None:
-        """Apply a value to the analog input a parameter shows."""
-
-    def fault(self, axis: int, kind: str, value: float) -> None:
-        """Cause a fault on an axis of the machine."""
-
-    def mend(self, axis: int, kind: str | None) -> None:
-        """End one kind of fault of an axis, or all."""
-
-    def command(self, device: str, name: str, value: float) -> None:
-        """Give a command to a device of the machine by hand."""
+    @property
+    def surroundings(self) -> Surroundings:
+        """The machine around the card, on which a scenario acts."""
