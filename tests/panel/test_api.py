@@ -47,7 +47,7 @@ def test_a_form_has_units_limits_help_and_values(web: httpx.Client) -> None:
 
 
 def test_limits_of_lengths_are_in_the_unit_of_the_machine(web: httpx.Client) -> None:
-    rows = web.get("/api/forms/CONTROL").json()["groups"][0]["rows"]
+    rows = web.get("/api/forms/CONTROL2").json()["groups"][0]["rows"]
     epsilon = next(row for row in rows if row["name"] == "Epsilon for Compensation")
     assert (epsilon["unit"], epsilon["value"], epsilon["low"]) == ("mm", "0.0508", 0.0)
     assert epsilon["low_open"]

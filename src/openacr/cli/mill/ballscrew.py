@@ -8,7 +8,6 @@ import typer
 from openacr.cli.mill.check import AtStore
 from openacr.cli.sysvar.change import Password, require_service
 from openacr.errors import UserError
-from openacr.wording import counted
 
 if TYPE_CHECKING:
     from openacr.mill.card.ballscrew import Table
@@ -24,8 +23,8 @@ def import_table(
     password: Password = None,
 ) -> None:
     """Check the table of an axis, copy it beside the store and switch it on."""
-    from openacr.cli.run.output import require_writable, write_text
     from openacr.mill.card.ballscrew import read
+    from openacr.mill.card.ballscrew_store import keep, summary
     from openacr.sysvar.location import open_to_write
     from openacr.sysvar.tabs import OFFSETS
 
@@ -33,13 +32,8 @@ def import_table(
         number, name = _axis(cells, axis)
         table = read(file, name)
         require_service(cells, [OFFSETS.ballscrew_on[number]], password)
-        kept = _folder(cells) / f"ballscrew_{name}.txt"
-        require_writable(kept)
-        write_text(kept, table.text())
-        with cells.transaction():
-            cells.write_text(OFFSETS.ballscrew_file[number], kept.name)
-            cells.write(OFFSETS.ballscrew_on[number], 1)
-    typer.echo(f"{kept}: {_summary(table)}; active from the next start")
+        kept = keep(cells, number, table, is_on=True)
+    typer.echo(f"{kept}: {summary(table)}; active from the next start")
 
 
 def export_table(
@@ -50,18 +44,15 @@ def export_table(
     store: AtStore = None,
 ) -> None:
     """Write the ballscrew table of an axis to a file."""
-    from openacr.mill.card.ballscrew import read
+    from openacr.mill.card.ballscrew_store import kept
     from openacr.sysvar.location import open_to_read
     from openacr.sysvar.tabs import OFFSETS
 
     with open_to_read(store) as cells:
         number, name = _axis(cells, axis)
-        kept = cells.read_text(OFFSETS.ballscrew_file[number])
-        if not kept:
-            raise UserError(
-                f"axis {name} has no ballscrew table (P{OFFSETS.ballscrew_file[number]})"
-            )
-        table = read(_folder(cells) / kept, name)
+        table = kept(cells, number, name)
+    if table is None:
+        raise UserError(f"axis {name} has no ballscrew table (P{OFFSETS.ballscrew_file[number]})")
     _give(table, file)
 
 
@@ -103,24 +94,13 @@ def _axis(cells: "Store", axis: str) -> tuple[int, str]:
     return letters[name], name
 
 
-def _folder(cells: "Store") -> Path:
-    """Beside the store; the folder one stands in for one that is not made yet."""
-    return cells.path.parent if cells.path else Path()
-
-
 def _give(table: "Table", file: Path | None) -> None:
     from openacr.cli.run.output import require_writable, write_text
+    from openacr.mill.card.ballscrew_store import summary
 
     if file is None:
         typer.echo(table.text(), nl=False)
         return
     require_writable(file)
     write_text(file, table.text())
-    typer.echo(f"{file}: {_summary(table)}")
-
-
-def _summary(table: "Table") -> str:
-    first, last = table.entries[0][0], table.entries[-1][0]
-    positions = counted(len(table.entries), "position")
-    largest = max(abs(error) for _, error in table.entries)
-    return f"{positions} from {first:g} to {last:g}, largest error {largest:g}"
+    typer.echo(f"{file}: {summary(table)}")

@@ -40,6 +40,8 @@ STARTS = (  # SET MODALS
     GENERAL.start_ij,
 )
 _OF_SETUP = frozenset({*STARTS, GENERAL.cmp_rad, GENERAL.run_setup_feedrate})
+_CONTROL = frozenset(CONTROL.tab.base + offset for offset in CONTROL.tab.cells)
+_CONTROL_1 = frozenset(cell for cell in _CONTROL if cell < CONTROL.epsilon_for_compensation)
 
 
 def _work(store: Store, _axis: int | None) -> list[Group]:
@@ -110,7 +112,14 @@ FORMS: dict[str, Form] = {
     for form in (
         Form("SERVO", "Servo", SYSTEM, Role.SERVICE, per_axis(SERVO.tab), is_per_axis=True),
         Form("AXES", "Axes", SYSTEM, Role.SERVICE, per_axis(AXIS.tab), is_per_axis=True),
-        Form("CONTROL", "Control", SYSTEM, Role.SERVICE, whole(CONTROL.tab)),
+        Form(
+            "CONTROL", "Control, page 1", SYSTEM, Role.SERVICE,
+            whole(CONTROL.tab, hidden=_CONTROL - _CONTROL_1),
+        ),
+        Form(
+            "CONTROL2", "Control, page 2", SYSTEM, Role.SERVICE,
+            whole(CONTROL.tab, hidden=_CONTROL_1),
+        ),
         Form("POLARITY", "Control, page 3: polarity", SYSTEM, Role.SERVICE, _polarity),
         Form("HOME", "Home", SYSTEM, Role.SERVICE, per_axis(HOME.tab), is_per_axis=True),
         Form("JOG", "Jog", SYSTEM, Role.SERVICE, per_axis(JOG.tab), is_per_axis=True),

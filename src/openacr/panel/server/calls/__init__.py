@@ -1,6 +1,7 @@
 """The calls of `/api`, by theme; importing this package fills the table."""
 
 from openacr.panel.server.calls import (
+    ballscrew,
     card,
     forms,
     help,
@@ -14,6 +15,7 @@ from openacr.panel.server.calls import (
 )
 
 __all__ = [
+    "ballscrew",
     "card",
     "forms",
     "help",

@@ -78,7 +78,7 @@ export function fieldFor(row, changed, isPerAxis = false) {
  */
 function inputFor(row, id) {
   if (row.kind === "boolean") return h("input", { id, type: "checkbox", checked: Number(row.number_value) !== 0, disabled: row.fixed });
-  if (row.words) {
+  if (row.words && row.kind === "choice") {
     const chosen = String(row.number_value);
     const options = Object.entries(row.words).map(([value, text]) => h("option", { value, selected: value === chosen }, text));
     if (!(chosen in row.words)) options.unshift(h("option", { value: row.value, selected: true }, row.value));
@@ -99,7 +99,7 @@ function limitsOf(row) {
 
 /** @param {FormRow} row */
 function hintOf(row) {
-  const facts = [limitsOf(row), row.typical ? t("field.typical", { value: row.typical }) : "", row.default !== "" && !row.is_default ? t("field.default", { value: row.default }) : "",
+  const facts = [limitsOf(row), ...(row.kind === "integer" ? Object.entries(row.words ?? {}).map(([value, word]) => `${value}: ${word}`) : []), row.typical ? t("field.typical", { value: row.typical }) : "", row.default !== "" && !row.is_default ? t("field.default", { value: row.default }) : "",
     row.motion ? t("field.motion") : ""].filter(Boolean).join(" \u00b7 ");
   return [row.help, facts].filter(Boolean).join(" \u2014 ");
 }

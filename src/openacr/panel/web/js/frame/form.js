@@ -4,9 +4,9 @@ import { model, refuse, report } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { fieldFor } from "./field.js";
-import { ask } from "./dialog.js";
 import { logIn } from "./log_in.js";
 import { askNumber } from "./number_pad.js";
+import { mayDrop } from "./unsaved.js";
 
 const PAGE = 20;
 
@@ -141,15 +141,7 @@ export function showForm(host, name, endings, setTitle = () => {}) {
     }
   }
 
-  /** Unsaved changes are saved, dropped or kept on the screen as the operator decides. */
-  async function mayLeave() {
-    const count = changed().length;
-    if (!count) return true;
-    const chosen = await ask({ title: t("form.leave"), body: [h("p", {}, t("form.leave.text", { count }))], choices: [
-      { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" }, { text: t("form.save"), value: "save", kind: "main" },
-    ] });
-    return chosen === "drop" || (chosen === "save" && (await save()));
-  }
+  const mayLeave = () => mayDrop(changed().length, save);
 
   endings.add(model.changed.watch((what) => {
     if (what.what !== "forms" || !form || !what.cells?.some((cell) => fields.has(String(cell)))) return;

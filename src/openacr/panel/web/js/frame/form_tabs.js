@@ -7,9 +7,9 @@ import { showForm } from "./form.js";
 /**
  * @param {import("./screen_host.js").Place} place
  * @param {(form: { name: string, title: string, section: string, role: string }) => boolean} isMeant
- * @param {string} [first]
+ * @param {Record<string, (host: HTMLElement, endings: Endings) => () => boolean | Promise<boolean>>} [others] forms with a page of their own
  */
-export async function showFormTabs({ body, endings, beforeClose }, isMeant, first) {
+export async function showFormTabs({ body, endings, beforeClose }, isMeant, others = {}) {
   const { forms } = await get("forms");
   const mine = forms.filter(isMeant);
   const list = h("div.form-tabs.scroll", { role: "tablist", attr: { "aria-orientation": "vertical" } });
@@ -33,7 +33,7 @@ export async function showFormTabs({ body, endings, beforeClose }, isMeant, firs
       key.ariaSelected = String(isChosen);
       key.tabIndex = isChosen ? 0 : -1;
     }
-    mayLeave = showForm(host, name, own);
+    mayLeave = others[name]?.(host, own) ?? showForm(host, name, own);
   }
   list.append(...mine.map((/** @type {any} */ form) =>
     h("button.key.item", { type: "button", role: "tab", data: { form: form.name }, onclick: () => choose(form.name) }, form.title)));
@@ -46,5 +46,5 @@ export async function showFormTabs({ body, endings, beforeClose }, isMeant, firs
     next.click();
     next.focus();
   });
-  if (mine.length) await choose(mine.find((/** @type {any} */ form) => form.name === first)?.name ?? mine[0].name);
+  if (mine.length) await choose(mine[0].name);
 }

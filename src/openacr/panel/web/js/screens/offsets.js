@@ -1,9 +1,10 @@
 // OFFSETS: radii and lengths, ballscrew, backlash and reference points.
+import { showBallscrew } from "../frame/ballscrew.js";
 import { showFormTabs } from "../frame/form_tabs.js";
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: "offsets.title",
   area: "full",
-  show: (place) => showFormTabs(place, (form) => form.section === "OFFSETS" && form.name !== "WORK"),
+  show: (place) => showFormTabs(place, (form) => form.section === "OFFSETS" && form.name !== "WORK", { BALLSCREW: showBallscrew }),
 };
