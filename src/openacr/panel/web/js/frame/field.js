@@ -91,7 +91,8 @@ function inputFor(row, id) {
 
 /** @param {FormRow} row */
 function limitsOf(row) {
-  const [low, high] = row.kind === "boolean" || row.words ? [null, null] : [row.low, row.high];
+  if (row.kind !== "real" && row.kind !== "integer") return "";
+  const [low, high] = [row.low, row.high];
   if (low === null && high === null) return "";
   if (high === null) return t("field.least", { low: String(low) });
   return low === null ? t("field.most", { high }) : t("field.range", { low, high });
@@ -99,7 +100,7 @@ function limitsOf(row) {
 
 /** @param {FormRow} row */
 function hintOf(row) {
-  const facts = [limitsOf(row), ...(row.kind === "integer" ? Object.entries(row.words ?? {}).map(([value, word]) => `${value}: ${word}`) : []), row.typical ? t("field.typical", { value: row.typical }) : "", row.default !== "" && !row.is_default ? t("field.default", { value: row.default }) : "",
+  const facts = [limitsOf(row), ...(row.kind === "integer" ? Object.entries(row.words ?? {}).map(([value, word]) => `${value}: ${word}`) : []), row.typical ? t("field.typical", { value: row.typical }) : "", row.default !== "" && !row.is_default ? t("field.default", { value: row.words?.[row.default] ?? row.default }) : "",
     row.motion ? t("field.motion") : ""].filter(Boolean).join(" \u00b7 ");
   return [row.help, facts].filter(Boolean).join(" \u2014 ");
 }
