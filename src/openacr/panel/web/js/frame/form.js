@@ -54,9 +54,12 @@ export function showForm(host, name, endings, setTitle = () => {}) {
     setText(note, count ? t("form.changed", { count }) : form?.locked ? t("form.locked", { reason: form.locked }) : "");
   }
 
-  async function load() {
+  /** @param {boolean} [keepsTyped] what is typed until the answer comes stays */
+  async function load(keepsTyped = false) {
     const query = { axis: form?.per_axis === false ? undefined : axis, first, count: PAGE };
-    form = /** @type {Form} */ (await get(`forms/${name}`, query));
+    const now = /** @type {Form} */ (await get(`forms/${name}`, query));
+    if (keepsTyped && changed().length) return;
+    form = now;
     if (form.per_axis && form.axis !== undefined) axis = form.axis;
     draw(form);
   }
@@ -146,7 +149,7 @@ export function showForm(host, name, endings, setTitle = () => {}) {
   endings.add(model.changed.watch((what) => {
     if (what.what !== "forms" || !form || !what.cells?.some((cell) => fields.has(String(cell)))) return;
     if (changed().length) setText(note, t("form.elsewhere"));
-    else void load();
+    else void load(true);
   }));
   host.addEventListener("keydown", (event) => {
     const isField = event.target instanceof HTMLInputElement && event.target.type !== "checkbox";
