@@ -235,6 +235,13 @@ def test_gains_reach_the_running_card_at_enter_and_are_stored(
     expect(page.locator("#prompt")).to_contain_text("cannot be 999999: a number from 0 to 10")
     assert store.read(150_000) == 0.003
     field = page.locator("#gain-150000")
+    for text in ("high", ""):  # no number, and no 0 either
+        field.fill(text)
+        field.press("Enter")
+        expect(page.locator("#prompt")).to_contain_text("P Gain: Not a number")
+        assert store.read(150_000) == 0.003
+        page.locator("#screen [role=radio]").first.click()
+        expect(field).to_have_value("0.003")
     field.fill("0.0025")
     field.press("Enter")
     expect(page.locator("#prompt")).to_have_text("P Gain is 0.0025")

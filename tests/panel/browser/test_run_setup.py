@@ -204,6 +204,12 @@ def test_load_prog_offers_every_source_and_drawings_are_found_from_there_and_fro
         if file:
             expect(page.get_by_role("option", name=file)).to_be_visible()
 
+    page.get_by_role("radio", name="LIBRARY PART").click()
+    page.get_by_label("Radius of the middle line").fill("wide")
+    page.get_by_role("button", name="LOAD FILE").click()
+    expect(page.locator("#prompt")).to_contain_text("Radius of the middle line: Not a number")
+    assert served.call(lambda station: station.part.data()["loaded"]["kind"]) == "file"
+
     for menu in ("load", "edit"):
         to_main_menu(page)
         if menu == "edit":

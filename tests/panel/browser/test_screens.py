@@ -33,6 +33,7 @@ MISFITS = """() => {
 }""".replace("LEAST", str(LEAST_PX)).replace("FREE", ".findings .item")  # noqa: E501
 
 SHOW = "(name) => import('/js/frame/menu_bar.js').then(({ openMenu }) => openMenu(name))"
+OPEN = "(name) => import('/js/frame/screen_host.js').then(({ openScreen }) => openScreen(name))"
 
 # The editor is left out: its text has the focus, which axe does not see in a shadow root.
 AXE_RUN = """() => axe.run({ exclude: ['.editor'] }, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21aa'] }).then((result) =>
@@ -164,6 +165,39 @@ def test_every_text_is_shown_in_german_and_every_key_fits(
     page.evaluate("localStorage.clear()")
     page.reload()
     page.wait_for_selector("body:not(.is-stale)")
+
+
+def test_a_phone_shows_the_read_out_and_stop_with_every_menu_and_while_jogging(
+    page: Page,
+) -> None:
+    wide, high = 390, 844
+    page.set_viewport_size({"width": wide, "height": high})
+    page.click("#status-tab-view1")
+    found = {}
+    for place in [*page.evaluate(MENUS), "jog", "mdi", "home"]:
+        if place in PATHS:
+            page.evaluate(SHOW, place)
+        else:
+            page.evaluate(OPEN, place)
+            page.wait_for_selector(f"#screen[data-screen={place}] button")
+        shown = page.evaluate(MISFITS)
+        rows = page.locator("#status .position-row, #stop .stop-key, #screen .jog-key")
+        for row in rows.all():
+            row.click(trial=True, position={"x": 8, "y": 8})  # nothing lies over it
+            box = row.bounding_box()
+            assert box is not None
+            if not (0 <= box["x"] and box["x"] + box["width"] <= wide):
+                shown.append(f"{row.inner_text()} is beside the window")
+            if not (0 <= box["y"] and box["y"] + box["height"] <= high):
+                shown.append(f"{row.inner_text()} is below the window")
+        panel = page.locator("#status-panel")
+        fits = "(e) => [...e.querySelectorAll('.position-row')].every((row) => row.getBoundingClientRect().bottom <= e.getBoundingClientRect().bottom)"  # noqa: E501
+        if not panel.evaluate(fits):
+            shown.append("an axis is cut off")
+        if shown:
+            found[place] = shown
+    page.set_viewport_size({"width": 1024, "height": 768})
+    assert found == {}
 
 
 def test_the_browser_has_nothing_to_complain_about(page: Page) -> None:

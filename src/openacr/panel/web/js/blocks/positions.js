@@ -2,7 +2,7 @@
 import { model, refuse, report, give } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
 import { position } from "../core/format.js";
-import { chooseUnit, shownUnit, viewOf } from "../core/units.js";
+import { viewOf } from "../core/units.js";
 import { t } from "../core/texts.js";
 import { askNumber } from "../frame/number_pad.js";
 
@@ -16,7 +16,7 @@ export function positionBlock(panel, endings) {
   const { axes, is_small: isSmall } = model.hello.value.machine;
   const rows = axes.map((axis, n) => rowOf(axis, n));
   panel.append(h("section.block.positions", { ariaLabel: t("block.position"), data: { axes: String(axes.length), size: isSmall ? "small" : "big" } },
-    ...rows.map((row) => row.element), h("button.key.unit-key", { type: "button", title: t("units.switch"), onclick: () => chooseUnit(shownUnit() === "mm" ? "inch" : "mm") }, shownUnit() === "mm" ? "mm \u2192 inch" : "inch \u2192 mm")));
+    ...rows.map((row) => row.element)));
   endings.add(model.status.watch((status) => status && rows.forEach((row) => row.draw(status))));
   endings.add(model.state.watch((state) => rows.forEach((row) => row.home(state.homed ?? []))));
 }

@@ -95,9 +95,14 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
     requestAnimationFrame(() => paint(hasMoved));
   };
 
+  /** The box of the path; null for one that leads nowhere, as that of a program that asks first. */
+  function pathBox() {
+    const box = path && path.lines.length ? cutBox(path) : null;
+    return box && [0, 1, 2].some((n) => box[n + 3] > box[n]) ? box : null;
+  }
+
   function fit() {
-    const box = stock ? stockBox(stock) : path && path.lines.length ? cutBox(path) : limits ? [...limits] : [0, 0, 0, 100, 100, 10];
-    camera.fit(box);
+    camera.fit(stock ? stockBox(stock) : pathBox() ?? (limits ? [...limits] : [0, 0, 0, 100, 100, 10]));
     repaint();
   }
 

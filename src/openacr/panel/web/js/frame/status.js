@@ -1,10 +1,10 @@
 // The status window: VIEW1 to VIEW3, each a choice of blocks, and the overrides below them.
 import { get } from "../core/api.js";
 import { model } from "../core/app.js";
-import { byId, h } from "../core/dom.js";
+import { byId, fill, h } from "../core/dom.js";
 import { keepSetting, setting } from "../core/settings.js";
 import { t } from "../core/texts.js";
-import { chosenUnit } from "../core/units.js";
+import { chooseUnit, chosenUnit, shownUnit } from "../core/units.js";
 import { BLOCKS } from "../blocks/blocks.js";
 import { overrideStrip } from "../blocks/overrides.js";
 import { tabControl } from "./tabs.js";
@@ -31,17 +31,27 @@ export async function startStatus() {
     },
   }));
   const choose = tabControl(pane, t("status.label"), tabs, (id) => keepSetting("view", id));
-  pane.append(overrideStrip(h("div.override-strip", {})));
+  const unitKey = h("button.key.plain.unit-key", { type: "button", title: t("units.switch"), onclick: () => chooseUnit(otherUnit()) });
+  pane.append(unitKey, overrideStrip(h("div.override-strip", {})));
+  const drawUnit = () => fill(unitKey, h("strong", {}, shownUnit()), h("small", {}, ` \u2192 ${otherUnit()}`));
   let names = "";
   model.hello.watch((hello) => {
     const now = JSON.stringify(hello.machine);
     if (now !== names) redraw(choose);
     names = now;
+    drawUnit();
   });
-  chosenUnit.watch(() => redraw(choose));
+  chosenUnit.watch(() => {
+    drawUnit();
+    redraw(choose);
+  });
   model.changed.watch(({ what, cells }) => what === "forms" && cells.some((cell) => cell >= FIRST_VIEW && cell < FIRST_VIEW + 3) && loadViews().then(() => redraw(choose)));
   await loadViews();
   redraw(choose);
+}
+
+function otherUnit() {
+  return shownUnit() === "mm" ? "inch" : "mm";
 }
 
 /** @param {(id: string) => void} choose */

@@ -38,12 +38,12 @@ export async function partSource(host, endings, load) {
     let timer = setTimeout(() => {}, 0);
     const draw = async () => {
       turn.abort();
-      turn = new AbortController();
+      const mine = (turn = new AbortController());
       try {
         const body = JSON.stringify({ values: values(), tool: 0 });
-        picture.setPath(await fetchPath(`parts/${part.name}/path`, {}, { method: "POST", headers: { "Content-Type": "application/json" }, body, signal: turn.signal }));
+        picture.setPath(await fetchPath(`parts/${part.name}/path`, {}, { method: "POST", headers: { "Content-Type": "application/json" }, body, signal: mine.signal }));
       } catch (error) {
-        if (!turn.signal.aborted) refuse(error);
+        if (!mine.signal.aborted) refuse(error);
       }
     };
     for (const { input } of fields) input.addEventListener("input", () => {
