@@ -167,11 +167,26 @@ def test_every_text_is_shown_in_german_and_every_key_fits(
     page.wait_for_selector("body:not(.is-stale)")
 
 
+# What of read-out, STOP and jog keys a finger does not reach on a phone.
+OUT_OF_REACH = """() => {
+  const panel = document.querySelector('#status-panel').getBoundingClientRect();
+  const found = document.body.classList.contains('is-stale') ? ['the banner is shown'] : [];
+  for (const each of document.querySelectorAll('#status .position-row, #stop .stop-key, #screen .jog-key')) {
+    const box = each.getBoundingClientRect();
+    const isRow = each.matches('.position-row');
+    const name = each.textContent.slice(0, 9);
+    if (box.left < 0 || box.right > innerWidth || box.bottom > (isRow ? panel.bottom : innerHeight)) found.push(`${name} is cut off`);
+    const top = document.elementFromPoint(box.left + 8, box.top + 8);
+    if (!isRow && !each.contains(top)) found.push(`${name} is covered`);
+  }
+  return found;
+}"""  # noqa: E501
+
+
 def test_a_phone_shows_the_read_out_and_stop_with_every_menu_and_while_jogging(
     page: Page,
 ) -> None:
-    wide, high = 390, 844
-    page.set_viewport_size({"width": wide, "height": high})
+    page.set_viewport_size({"width": 390, "height": 844})
     page.click("#status-tab-view1")
     found = {}
     for place in [*page.evaluate(MENUS), "jog", "mdi", "home"]:
@@ -180,24 +195,13 @@ def test_a_phone_shows_the_read_out_and_stop_with_every_menu_and_while_jogging(
         else:
             page.evaluate(OPEN, place)
             page.wait_for_selector(f"#screen[data-screen={place}] button")
-        shown = page.evaluate(MISFITS)
-        rows = page.locator("#status .position-row, #stop .stop-key, #screen .jog-key")
-        for row in rows.all():
-            row.click(trial=True, position={"x": 8, "y": 8})  # nothing lies over it
-            box = row.bounding_box()
-            assert box is not None
-            if not (0 <= box["x"] and box["x"] + box["width"] <= wide):
-                shown.append(f"{row.inner_text()} is beside the window")
-            if not (0 <= box["y"] and box["y"] + box["height"] <= high):
-                shown.append(f"{row.inner_text()} is below the window")
-        panel = page.locator("#status-panel")
-        fits = "(e) => [...e.querySelectorAll('.position-row')].every((row) => row.getBoundingClientRect().bottom <= e.getBoundingClientRect().bottom)"  # noqa: E501
-        if not panel.evaluate(fits):
-            shown.append("an axis is cut off")
-        if shown:
-            found[place] = shown
+        for _ in range(100):  # a busy machine shows its banner meanwhile
+            found[place] = page.evaluate(OUT_OF_REACH) + page.evaluate(MISFITS)
+            if not found[place]:
+                break
+            page.wait_for_timeout(50)
     page.set_viewport_size({"width": 1024, "height": 768})
-    assert found == {}
+    assert {place: each for place, each in found.items() if each} == {}
 
 
 def test_the_browser_has_nothing_to_complain_about(page: Page) -> None:
