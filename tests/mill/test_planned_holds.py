@@ -72,6 +72,16 @@ def test_a_hold_rests_within_the_limits_and_the_path_goes_on(at_s: float) -> Non
     assert first - at_s <= 0.35  # the hold itself, what is on the card, and two polls
 
 
+@pytest.mark.parametrize("percent", [93.0, 97.0, 99.0])
+def test_an_override_just_below_100_percent_is_the_speed_of_the_run(percent: float) -> None:
+    shop = planned_shop(**{f"P{FOV.percents[9]}": percent})  # 90 by default
+    places = follow(shop, *square(), actions=[(0.0, feed(percent))])
+    limits(places, shop)
+    speeds = np.linalg.norm(np.diff(places, axis=0), axis=1) / shop.controller.period_s
+    assert speeds.max() == pytest.approx(percent * SPEED / 100, rel=1e-3)
+    assert shop.pulses() == (0, 0, 0)
+
+
 def test_two_holds_in_one_program() -> None:
     shop = planned_shop()
     actions = [(0.2, stop), (0.7, go_on), (1.1, stop), (1.6, go_on)]

@@ -1,7 +1,7 @@
 """Override and feed hold in front of a plan: limits, ends, stops, and the return to 100 %."""
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 import pytest
@@ -16,6 +16,8 @@ from openacr.trajectory.timescale import Progress, TimeScale
 pytestmark = pytest.mark.evidence("oracle", "distances to the planned path by scipy")
 
 Event = tuple[float, float, float]  # from, to [s], scale
+SLOW = [0.0, 0.0, 0.2, 0.5, 0.8]
+SCALES = [*SLOW, 0.93, 0.95, 0.98, 0.99]
 
 
 def scaled(plan: Rows) -> TimeScale:
@@ -53,12 +55,12 @@ class Ride:
         return (rests[0] + 1) * PERIOD_S if len(rests) else math.inf
 
 
-def some_events(seed: int) -> list[Event]:
+def some_events(seed: int, among: Sequence[float] = SCALES) -> list[Event]:
     """Holds and overrides of 50 to 600 ms, one every 0.1 to 0.6 s."""
     chance, events, now_s = np.random.default_rng(seed), [], 0.1
     while now_s < 60.0:
         end_s = now_s + chance.uniform(0.05, 0.6)
-        events.append((now_s, end_s, float(chance.choice([0.0, 0.0, 0.2, 0.5, 0.8]))))
+        events.append((now_s, end_s, float(chance.choice(among))))
         now_s = end_s + chance.uniform(0.1, 0.6)
     return events
 
@@ -96,7 +98,7 @@ def test_two_hundred_events_are_among_these() -> None:
 
 @pytest.mark.parametrize("every_ms", [1.0, 0.5])
 def test_samples_of_the_curve_keep_the_limits_in_every_phase(every_ms: float) -> None:
-    ride = Ride(plans.smooth(3), some_events(3))
+    ride = Ride(plans.smooth(3), some_events(3, SLOW))
     per_knot = round(1000 * PERIOD_S / every_ms)
     period_s = PERIOD_S / per_knot
     for phase in np.arange(0.0, 1.0, 0.25):
@@ -130,11 +132,38 @@ def test_an_override_is_reached_exactly() -> None:
     assert ride.scales[-1] == 0.3
 
 
-@pytest.mark.parametrize(("want", "scale"), [(0.919, 0.919), (0.93, 0.92), (0.99, 0.92), (1, 1)])
-def test_just_below_full_speed_the_scale_stays_where_limits_are_kept(
-    want: float, scale: float
+@pytest.mark.parametrize("want", [0.9, 0.92, 0.921, 0.94, 0.96, 0.98, 0.99, 0.999])
+@pytest.mark.parametrize("plan", [plans.line(160.0, jerk=0.96 * JERK), plans.circle(3.0)])
+def test_every_scale_just_below_full_speed_is_reached_exactly(want: float, plan: Rows) -> None:
+    ride = Ride(plan, [(0.0, 99.0, want)])
+    assert np.mean(ride.scales == want) > 0.95
+    assert (ride.points[-1] == plan[-1]).all()
+    speed, accel, jerk = highest(ride.points)
+    assert speed == pytest.approx(want * highest(plan)[0], rel=1e-3)
+    assert accel <= ACCEL * (1 + 1e-8)
+    assert jerk <= JERK * (1 + 1e-8)
+
+
+@pytest.mark.parametrize("want", [0.95, 0.97, 0.985])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_scale_that_the_plan_leaves_no_jerk_for_is_given_up_for_a_while(
+    want: float, seed: int
 ) -> None:
-    assert Ride(plans.line(80.0), [(0.0, 9.0, want)]).scales[-1] == scale
+    plan = plans.lines(seed)
+    assert highest(plan)[2] > 0.999 * JERK
+    ride = Ride(plan, [(0.0, 99.0, want)])
+    assert ride.scales.min() >= timescale_cy.STEADY - 1e-9
+    assert 0.3 < np.mean(ride.scales == want) < 1.0
+    assert highest(ride.points)[2] <= JERK * (1 + 1e-8)
+    assert (ride.points[-1] == plan[-1]).all()
+
+
+def test_a_hold_and_full_speed_follow_a_scale_just_below_it() -> None:
+    plan = plans.line(160.0, jerk=0.96 * JERK)
+    ride = Ride(plan, [(0.0, 0.5, 0.97), (0.5, 1.0, 0.0), (1.3, 9.0, 0.97)])
+    assert 0.97 in ride.scales and 1.0 in ride.scales and 0.0 in ride.scales
+    assert ride.scales[-1] == 0.97
+    assert ride.rest_s(0.5) <= 0.25
 
 
 @pytest.mark.parametrize("scale", [0.92, 0.9, 0.71, 0.33])

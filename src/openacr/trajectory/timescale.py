@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from openacr.compiled import pick
 from openacr.trajectory import timescale_cy as core
+from openacr.trajectory import timescale_points_cy as layout
 from openacr.views import F64
 
 Rows = NDArray[np.float64]
@@ -44,23 +45,23 @@ class TimeScale:
         jerk_ups3: Sequence[float],
     ) -> None:
         axes = len(start)
-        if not 0 < axes <= core.AXES:
-            raise ValueError(f"{axes} axes: 1 to {core.AXES} are possible")
+        if not 0 < axes <= layout.AXES:
+            raise ValueError(f"{axes} axes: 1 to {layout.AXES} are possible")
         self._axes = axes
         self._rows: Rows = np.tile(np.asarray(start, dtype=np.float64), (3, 1))
         self._view: F64 = cast("F64", self._rows.ravel().data)
-        self._ints = np.zeros(core.K_SIZE, dtype=np.int32)
-        self._numbers = np.zeros(core.W_SIZE)
+        self._ints = np.zeros(layout.K_SIZE, dtype=np.int32)
+        self._numbers = np.zeros(layout.W_SIZE)
         self._dropped = -1  # knot of the plan that is knot 0 of this window
-        self._ints[core.K_AXES] = axes
-        self._ints[core.K_COUNT] = 3
+        self._ints[layout.K_AXES] = axes
+        self._ints[layout.K_COUNT] = 3
         numbers = self._numbers
-        numbers[core.W_S] = numbers[core.W_SIGMA] = numbers[core.W_WANT] = 1.0
+        numbers[layout.W_S] = numbers[layout.W_SIGMA] = numbers[layout.W_WANT] = 1.0
         for axis in range(axes):
-            numbers[core.W_ACCEL + axis] = acceleration_ups2[axis] * period_s**2
-            numbers[core.W_JERK + axis] = jerk_ups3[axis] * period_s**3
+            numbers[layout.W_ACCEL + axis] = acceleration_ups2[axis] * period_s**2
+            numbers[layout.W_JERK + axis] = jerk_ups3[axis] * period_s**3
             for k in range(3):
-                numbers[core.W_SENT + core.AXES * k + axis] = start[axis]
+                numbers[layout.W_SENT + layout.AXES * k + axis] = start[axis]
 
     # --- the plan -----------------------------------------------------------------------
 
@@ -73,45 +74,45 @@ class TimeScale:
 
     def complete(self) -> None:
         """Note that the plan ends at rest with the last control points."""
-        self._ints[core.K_COMPLETE] = 1
+        self._ints[layout.K_COMPLETE] = 1
 
     @property
     def is_complete(self) -> bool:
         """Whether the end of the plan is known."""
-        return bool(self._ints[core.K_COMPLETE])
+        return bool(self._ints[layout.K_COMPLETE])
 
     def _show(self) -> None:
         self._view = cast("F64", np.ascontiguousarray(self._rows).ravel().data)
-        self._ints[core.K_COUNT] = len(self._rows)
+        self._ints[layout.K_COUNT] = len(self._rows)
 
     def _drop(self) -> None:
         """Forget what has been passed."""
-        passed = int(self._numbers[core.W_S]) - 1
+        passed = int(self._numbers[layout.W_S]) - 1
         if passed >= KEPT:
             self._rows = self._rows[passed:]
-            self._numbers[core.W_S] -= passed
+            self._numbers[layout.W_S] -= passed
             self._dropped += passed
             self._show()
 
     @property
     def ahead(self) -> float:
         """Knots of the plan that are known and still to come."""
-        return max(len(self._rows) - 3 - float(self._numbers[core.W_S]), 0.0)
+        return max(len(self._rows) - 3 - float(self._numbers[layout.W_S]), 0.0)
 
     # --- the scale ----------------------------------------------------------------------
 
     @property
     def want(self) -> float:
         """The wanted scale, 0 to 1."""
-        return float(self._numbers[core.W_WANT])
+        return float(self._numbers[layout.W_WANT])
 
     @want.setter
     def want(self, scale: float) -> None:
         if not 0.0 <= scale <= 1.0:
             raise ValueError(f"scale {scale}: allowed are 0 to 1")
-        self._numbers[core.W_WANT] = scale
+        self._numbers[layout.W_WANT] = scale
         if self._is_at_start:
-            self._numbers[core.W_SIGMA] = core.scale_goal(scale)
+            self._numbers[layout.W_SIGMA] = core.scale_start(scale)
 
     @property
     def _is_at_start(self) -> bool:
@@ -120,18 +121,20 @@ class TimeScale:
     @property
     def scale(self) -> float:
         """The present scale."""
-        return float(self._numbers[core.W_SIGMA])
+        return float(self._numbers[layout.W_SIGMA])
 
     @property
     def is_at_rest(self) -> bool:
         """Whether the last three control points are one."""
-        sent = self._numbers[core.W_SENT : core.W_SENT + 3 * core.AXES].reshape(3, core.AXES)
+        sent = self._numbers[layout.W_SENT : layout.W_SENT + 3 * layout.AXES].reshape(
+            3, layout.AXES
+        )
         return bool((sent == sent[0]).all())
 
     @property
     def knot(self) -> float:
         """Where the plan has been passed to, in knots from its beginning."""
-        return float(self._numbers[core.W_S]) + self._dropped
+        return float(self._numbers[layout.W_S]) + self._dropped
 
     def next(self) -> tuple[Progress, Rows]:
         """The next control point; the last one again where there is none."""
@@ -142,7 +145,7 @@ class TimeScale:
         if progress is Progress.WAITS:
             return progress, self._last
         if progress is Progress.ENDED:
-            at = core.W_SENT
+            at = layout.W_SENT
             numbers[at : at + self._axes] = self._rows[-1]
             progress = Progress.ENDED if self.is_at_rest else Progress.MOVES
         self._drop()
@@ -150,4 +153,4 @@ class TimeScale:
 
     @property
     def _last(self) -> Rows:
-        return self._numbers[core.W_SENT : core.W_SENT + self._axes].copy()
+        return self._numbers[layout.W_SENT : layout.W_SENT + self._axes].copy()

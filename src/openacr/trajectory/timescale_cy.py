@@ -21,49 +21,52 @@ acceleration by sigma^2 and jerk by sigma^3 while the resampling raises jerk by 
 most; and where it is 1 with s whole, because then nothing is resampled. A maneuver that ends
 at 1 therefore ends at a whole s.
 
-`C` holds the control points row by row, the first of them that of knot -1 of this window.
-`K` and `W` hold integers and numbers: the names below.
+Between STEADY and 1 a constant scale keeps the limits of most plans, and of those that switch
+their jerk at every knot it does not. So a return to STEADY, in three phases of K_BACK periods,
+has been compared before the scale arrives there and before each period it stays; where none is
+found any more, the last one is run.
+
+`C`, `K` and `W` are those of `timescale_points_cy`.
 """
 
-from openacr.cmath import fabs, floor, rint
+from openacr.cmath import floor
+from openacr.trajectory.timescale_points_cy import (
+    AXES,
+    K_BACK,
+    K_COAST,
+    K_COMPLETE,
+    K_COUNT,
+    K_FIRST,
+    K_LAST,
+    K_TRIED_BACK,
+    SLACK,
+    W_GOAL,
+    W_NOW,
+    W_PLAN_U,
+    W_RHO,
+    W_S,
+    W_SENT,
+    W_SIGMA,
+    W_TRIAL,
+    W_TRIAL_SPEED2,
+    W_U,
+    W_WANT,
+    scale_arrive,
+    scale_keeps,
+    scale_point,
+    scale_push,
+    scale_tick,
+)
 from openacr.views import F64, I32
 
-__all__ = ["scale_advance", "scale_point"]
+__all__ = ["scale_advance", "scale_start"]
 
-# K: integers
-K_AXES = 0
-K_COUNT = 1  # control points that are known
-K_COMPLETE = 2  # they end at rest
-K_FIRST = 3  # periods left of the present maneuver, by phase
-K_COAST = 4
-K_LAST = 5
-K_SIZE = 6
 PHASES = 3
-
-# W: numbers
-W_S = 0  # knots from the beginning of the window
-W_SIGMA = 1
-W_RHO = 2
-W_WANT = 3
-W_U = 4  # u of the three phases
-W_GOAL = 7  # scale at the end of the maneuver
-W_ACCEL = 8  # limits of the second differences, by axis
-W_JERK = 16  # limits of the third differences
-W_SENT = 24  # the last three control points sent, the newest first
-W_SENT_SPEED2 = 48  # square of the highest speed of the plan around the newest one
-W_NOW = 49  # s, sigma, rho of a trial
-W_TRIAL = 52  # its last three control points
-W_TRIAL_SPEED2 = 76
-W_NEXT = 80  # the next control point
-W_NEXT_SPEED2 = 88
-W_PLAN_U = 89  # u of the three phases of a maneuver that is laid out
-W_SIZE = 92
-
-AXES = 8
-STEADY = 0.92  # highest constant scale other than 1
+STEADY = 0.92  # highest scale below 1 that may stay constant whatever the plan does
 LONGEST = 96  # periods of a maneuver
+SHORT_BACK = 6  # periods of a phase of a return to STEADY, at least and at most
+LONG_BACK = 30
 FOLLOWING = 3  # periods after a maneuver whose control points still depend on it
-SLACK = 1e-9  # relative, of rounding
 
 # What `scale_advance` has done.
 SENT = 0
@@ -71,109 +74,37 @@ AT_END = 1
 UNKNOWN = 2  # the plan is not known as far as the next control point
 
 
-def scale_goal(want: float) -> float:
-    """The constant scale that stands for a wanted one."""
-    if want >= 1.0:
-        return 1.0
-    return max(min(want, STEADY), 0.0)
+def scale_is_steady(sigma: float) -> bool:
+    """Whether a scale may stay constant whatever the plan does."""
+    return sigma <= STEADY or sigma >= 1.0
 
 
-def scale_point(C: F64, K: I32, W: F64, s: float, sigma: float, rho: float) -> bool:
-    """Write the control point at s to W[W_NEXT]; False where the plan is not known that far."""
-    axes: int = K[K_AXES]
-    last: int = K[K_COUNT] - 3  # interval with all its control points
-    i: int = int(floor(s))
-    x: float = s - i
-    if i > last or (i == last and x > 0.0):
-        if not K[K_COMPLETE]:
-            return False
-        i = last
-        x = 0.0
-    if i == last:  # the interval before, at its end
-        i -= 1
-        x = 1.0
-    r: float = 1.0 - x
-    b0: float = r * r * r / 6.0
-    b1: float = (3.0 * x * x * x - 6.0 * x * x + 4.0) / 6.0
-    b2: float = (3.0 * r * r * r - 6.0 * r * r + 4.0) / 6.0
-    b3: float = x * x * x / 6.0
-    fastest2: float = 0.0
-    for k in range(3):
-        speed2: float = 0.0
-        for axis in range(axes):
-            step: float = C[(i + k + 1) * axes + axis] - C[(i + k) * axes + axis]
-            speed2 += step * step
-        fastest2 = max(fastest2, speed2)
-    W[W_NEXT_SPEED2] = fastest2
-    for axis in range(axes):
-        c0: float = C[i * axes + axis]
-        c1: float = C[(i + 1) * axes + axis]
-        c2: float = C[(i + 2) * axes + axis]
-        c3: float = C[(i + 3) * axes + axis]
-        place: float = b0 * c0 + b1 * c1 + b2 * c2 + b3 * c3
-        slope: float = 0.5 * (
-            r * r * (c1 - c0) + (1.0 + 2.0 * x * r) * (c2 - c1) + x * x * (c3 - c2)
-        )
-        bend: float = r * (c0 - 2.0 * c1 + c2) + x * (c1 - 2.0 * c2 + c3)
-        W[W_NEXT + axis] = place - (bend * sigma * sigma + slope * rho) / 6.0
-    if sigma == 1.0 and rho == 0.0 and x == 0.0:
-        for axis in range(axes):
-            W[W_NEXT + axis] = C[(i + 1) * axes + axis]
-    if sigma == 1.0 and rho == 0.0 and x == 1.0:
-        for axis in range(axes):
-            W[W_NEXT + axis] = C[(i + 2) * axes + axis]
-    return True
+def scale_start(want: float) -> float:
+    """The scale that a plan begins at, at rest, for a wanted one."""
+    return want if scale_is_steady(want) else STEADY
 
 
-def scale_tick(W: F64, at: int, u: float) -> None:
-    """Take s, sigma and rho at W[at] on by one period."""
-    W[at] += W[at + 1] + W[at + 2] / 2.0 + u / 6.0
-    W[at + 1] += W[at + 2] + u / 2.0
-    W[at + 2] += u
+def scale_back(goal: float, back: int) -> float:
+    """Find u of the first phase of a return to STEADY; that of the third is its negative."""
+    return (STEADY - goal) / (2.0 * back * back)
 
 
-def scale_arrive(W: F64, at: int, goal: float) -> None:
-    """End a maneuver: what rounding has left is dropped."""
-    W[at + 1] = goal
-    W[at + 2] = 0.0
-    if goal >= 1.0:
-        W[at] = rint(W[at])
+def scale_try(
+    C: F64, K: I32, W: F64, first: int, coast: int, last: int, goal: float, back: int
+) -> int:
+    """How many periods of the maneuver at W[W_PLAN_U] and of what follows keep all limits.
 
-
-def scale_keeps(K: I32, W: F64, sent: int, speed2: float) -> bool:
-    """Whether the next control point after those at W[sent] keeps the limits."""
-    axes: int = K[K_AXES]
-    square: float = 0.0
-    for axis in range(axes):
-        c0: float = W[W_NEXT + axis]
-        c1: float = W[sent + axis]
-        c2: float = W[sent + AXES + axis]
-        c3: float = W[sent + 2 * AXES + axis]
-        square += (c0 - c1) * (c0 - c1)
-        if fabs(c0 - 2.0 * c1 + c2) > W[W_ACCEL + axis] * (1.0 + SLACK):
-            return False
-        if fabs(c0 - 3.0 * c1 + 3.0 * c2 - c3) > W[W_JERK + axis] * (1.0 + SLACK):
-            return False
-    return square <= max(speed2, W[W_NEXT_SPEED2]) * (1.0 + SLACK)
-
-
-def scale_push(W: F64, sent: int) -> None:
-    """Note the next control point as the newest of those at W[sent]."""
-    for k in range(2 * AXES):
-        W[sent + 3 * AXES - 1 - k] = W[sent + 2 * AXES - 1 - k]
-    for axis in range(AXES):
-        W[sent + axis] = W[W_NEXT + axis]
-    W[sent + 3 * AXES] = W[W_NEXT_SPEED2]
-
-
-def scale_try(C: F64, K: I32, W: F64, first: int, coast: int, last: int, goal: float) -> bool:
-    """Whether the maneuver at W[W_PLAN_U] keeps all limits, and the periods that follow it."""
+    What follows is the return to STEADY in three phases of `back` periods, if any, and FOLLOWING
+    periods.
+    """
     for k in range(3):
         W[W_NOW + k] = W[W_S + k]
     for k in range(3 * AXES + 1):
         W[W_TRIAL + k] = W[W_SENT + k]
     periods: int = first + coast + last
-    for n in range(periods + FOLLOWING):
+    whole: int = periods + PHASES * back
+    rest: float = scale_back(goal, back) if back > 0 else 0.0
+    for n in range(whole + FOLLOWING):
         u: float = 0.0
         if n < first:
             u = W[W_PLAN_U]
@@ -181,19 +112,46 @@ def scale_try(C: F64, K: I32, W: F64, first: int, coast: int, last: int, goal: f
             u = W[W_PLAN_U + 1]
         elif n < periods:
             u = W[W_PLAN_U + 2]
+        elif n < periods + back:
+            u = rest
+        elif periods + 2 * back <= n < whole:
+            u = -rest
         before: float = W[W_NOW]
         scale_tick(W, W_NOW, u)
         if n == periods - 1:
             scale_arrive(W, W_NOW, goal)
+        elif n == whole - 1:
+            scale_arrive(W, W_NOW, STEADY)
         sigma: float = W[W_NOW + 1]
         if sigma < -SLACK or sigma > 1.0 + SLACK or W[W_NOW] < before:
-            return False
+            return n
         if not scale_point(C, K, W, W[W_NOW], sigma, W[W_NOW + 2]):
-            return False
+            return n
         if not scale_keeps(K, W, W_TRIAL, W[W_TRIAL_SPEED2]):
-            return False
+            return n
         scale_push(W, W_TRIAL)
-    return True
+    return whole + FOLLOWING
+
+
+def scale_holds(C: F64, K: I32, W: F64, first: int, coast: int, last: int, goal: float) -> bool:
+    """Whether the maneuver at W[W_PLAN_U] keeps all limits, and what can follow it."""
+    periods: int = first + coast + last
+    back: int = 0
+    if not scale_is_steady(goal):
+        back = K[K_BACK] if K[K_BACK] > 0 else SHORT_BACK  # the last one will mostly do again
+    kept: int = scale_try(C, K, W, first, coast, last, goal, back)
+    is_kept: bool = kept == periods + PHASES * back + FOLLOWING
+    K[K_TRIED_BACK] = back
+    if is_kept or back == 0 or kept < periods:
+        return is_kept
+    back = SHORT_BACK
+    while back <= LONG_BACK:
+        K[K_TRIED_BACK] = back
+        kept = scale_try(C, K, W, first, coast, last, goal, back)
+        if kept == periods + PHASES * back + FOLLOWING:
+            return True
+        back += back >> 1
+    return False
 
 
 def scale_ramps(W: F64, m: float, p: float, q: float, goal: float) -> None:
@@ -252,17 +210,42 @@ def scale_lay(C: F64, K: I32, W: F64, first: int, coast: int, last: int, goal: f
     q: float = last
     scale_ramps(W, m, p, q, goal)
     if goal < 1.0:
-        return scale_try(C, K, W, first, coast, last, goal)
+        return scale_holds(C, K, W, first, coast, last, goal)
     if coast == 0:
         return False
     end: float = scale_end(W, m, p, q)
     low: float = floor(end)
     scale_shift(W, m, p, q, low - end)
-    if scale_try(C, K, W, first, coast, last, goal):
+    if scale_holds(C, K, W, first, coast, last, goal):
         return True
     scale_ramps(W, m, p, q, goal)
     scale_shift(W, m, p, q, low + 1.0 - end)
-    return scale_try(C, K, W, first, coast, last, goal)
+    return scale_holds(C, K, W, first, coast, last, goal)
+
+
+def scale_take(K: I32, W: F64, first: int, coast: int, last: int, goal: float, back: int) -> None:
+    """Let the maneuver at W[W_PLAN_U] be the next one."""
+    K[K_FIRST] = first
+    K[K_COAST] = coast
+    K[K_LAST] = last
+    K[K_BACK] = back
+    W[W_GOAL] = goal
+    for k in range(PHASES):
+        W[W_U + k] = W[W_PLAN_U + k]
+
+
+def scale_stay(C: F64, K: I32, W: F64) -> None:
+    """Stay at a scale that is not steady for one period, or take the return to STEADY."""
+    goal: float = W[W_SIGMA]
+    for k in range(PHASES):
+        W[W_PLAN_U + k] = 0.0
+    if scale_holds(C, K, W, 1, 0, 0, goal):
+        scale_take(K, W, 1, 0, 0, goal, K[K_TRIED_BACK])
+        return
+    back: int = K[K_BACK]
+    W[W_PLAN_U] = scale_back(goal, back)
+    W[W_PLAN_U + 2] = -W[W_PLAN_U]
+    scale_take(K, W, back, back, back, STEADY, 0)
 
 
 def scale_seek(C: F64, K: I32, W: F64, goal: float, most: int) -> bool:
@@ -275,12 +258,7 @@ def scale_seek(C: F64, K: I32, W: F64, goal: float, most: int) -> bool:
             if ramp >= 1 and (quarter == 0 or ramp != before):
                 coast: int = periods - 2 * ramp
                 if scale_lay(C, K, W, ramp, coast, ramp, goal):
-                    K[K_FIRST] = ramp
-                    K[K_COAST] = coast
-                    K[K_LAST] = ramp
-                    W[W_GOAL] = goal
-                    for k in range(PHASES):
-                        W[W_U + k] = W[W_PLAN_U + k]
+                    scale_take(K, W, ramp, coast, ramp, goal, K[K_TRIED_BACK])
                     return True
         periods += 1 + (periods >> 3)
     return False
@@ -288,12 +266,14 @@ def scale_seek(C: F64, K: I32, W: F64, goal: float, most: int) -> bool:
 
 def scale_advance(C: F64, K: I32, W: F64) -> int:
     """Go on by one period: write the next control point to W[W_NEXT]; SENT, AT_END or UNKNOWN."""
-    goal: float = scale_goal(W[W_WANT])
+    goal: float = W[W_WANT]
     left: int = K[K_FIRST] + K[K_COAST] + K[K_LAST]
     if left > 0:
         scale_seek(C, K, W, goal, left if W[W_GOAL] == goal else LONGEST + 1)
     elif W[W_SIGMA] != goal:
         scale_seek(C, K, W, goal, LONGEST + 1)
+    if K[K_FIRST] + K[K_COAST] + K[K_LAST] == 0 and not scale_is_steady(W[W_SIGMA]):
+        scale_stay(C, K, W)
     for k in range(3):
         W[W_NOW + k] = W[W_S + k]
     phase: int = 0
