@@ -3,6 +3,7 @@
 import random
 from dataclasses import replace
 from itertools import islice
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -13,7 +14,7 @@ from tests.cnc.test_fuzz import ACROMILL, OTHER, mutated
 from openacr.cnc.canonical import Arc, Line, Moves, Plane, Rapid, Source, batches
 from openacr.cnc.codes.fast import Sets
 from openacr.cnc.codes.table import DIALECTS
-from openacr.cnc.interpreter import blocks_cy, fast_plans, lines_cy, scanning
+from openacr.cnc.interpreter import fast_plans, lines_cy, run_rows_cy, scanning
 from openacr.cnc.interpreter.execution import MOST_IDLE
 from openacr.cnc.interpreter.interpreter import Options
 from openacr.cnc.loading.skimming import Skimmer
@@ -32,6 +33,7 @@ G3 X1 Y1 R2 F50.5
 G3 X1 Y1 R-2
 G2 X2 Y1 Z-.5 I.5
 G2 I1 J0
+G2 I1 J0 P2
 G3 X0 Y0 I-1
 g3 x.5 y.5 i.25 j.25 ; finish
 G18 G2 X1 Z1 I.5 K.5
@@ -108,7 +110,7 @@ def one_by_one(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(Skimmer, "skim", lambda _, text, offset: (0, offset))
 
 
-def done(text: str, dialect: str, options: Options, *, is_slow: bool) -> Run:
+def done(text: str | Path, dialect: str, options: Options, *, is_slow: bool) -> Run:
     """A program run to its end or error, moves by themselves."""
     with pytest.MonkeyPatch.context() as patch:
         if is_slow:
@@ -135,6 +137,9 @@ def require_same(text: str, dialect: str) -> Run:
         assert one == other, text
     if len(single.entries) < MOST:
         assert many.interpreter.modal == single.interpreter.modal
+        if single.error is None:
+            assert many.interpreter.execution.idle_cnt == single.interpreter.execution.idle_cnt
+        assert many.interpreter.drilling == single.interpreter.drilling
         assert many.interpreter.position == single.interpreter.position
         assert many.interpreter.path.target == single.interpreter.path.target
         assert many.interpreter.warnings == single.interpreter.warnings
@@ -252,16 +257,17 @@ def test_a_blank_line_after_the_last_block_hides_no_doubt() -> None:
 
 def test_the_fields_of_fast_forms_are_rows_of_the_core() -> None:
     fields = [name for name in fast_plans.FIELDS if hasattr(Modal(), name)]
-    assert len(fields) == blocks_cy.M_FIELDS
+    assert len(fields) == run_rows_cy.M_FIELDS
     for dialect in DIALECTS.values():
         rows = [*dialect.table.gcodes.values(), *dialect.table.mcodes.values()]
-        used = {code.fast.field for code in rows if isinstance(code.fast, Sets)}
+        forms = [form for code in rows for form in code.fast or ()]
+        used = {form.field for form in forms if isinstance(form, Sets)}
         assert used <= set(fields)
     assert (batches.RAPID, batches.LINE, batches.ARC) == (
-        blocks_cy.RAPID, blocks_cy.LINE, blocks_cy.ARC,
+        run_rows_cy.RAPID, run_rows_cy.LINE, run_rows_cy.ARC,
     )  # fmt: skip
-    assert (batches.ROW, batches.POINT, batches.CURVE) == (blocks_cy.ROW, 8, blocks_cy.CURVE)
-    assert blocks_cy.MOST_IDLE == MOST_IDLE
+    assert (batches.ROW, batches.POINT, batches.CURVE) == (run_rows_cy.ROW, 8, run_rows_cy.CURVE)
+    assert run_rows_cy.MOST_IDLE == MOST_IDLE
 
 
 def test_more_shapes_than_there_is_room_for_are_read_one_by_one() -> None:

@@ -1,10 +1,12 @@
 """The forecast of many moves at once: the same times and findings as move by move."""
 
 import random
+from collections.abc import Callable
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.cnc import test_many_holes
 from tests.cnc.programs import made, unrolled
 from tests.cnc.test_many_blocks import program
 
@@ -72,7 +74,7 @@ def at_once(
     for entry in entries:
         made.add(entry)
     made.close()
-    return made.found, desk.findings(lambda source: str(source.line))
+    return made.found, desk.findings(lambda source: f"{source.file} {source.line}")
 
 
 def one_by_one(
@@ -83,13 +85,13 @@ def one_by_one(
     for entry in unrolled(iter(entries)):
         made.add(entry)
     made.close()
-    return made.found, desk.findings(lambda source: str(source.line))
+    return made.found, desk.findings(lambda source: f"{source.file} {source.line}")
 
 
-def require_same(seed: int) -> list[Entry]:
+def require_same(seed: int, write: Callable[[random.Random, str], str] = program) -> list[Entry]:
     chance = random.Random(seed)
     dialect = chance.choice(["acromill", "rs274ngc"])
-    lines = program(chance, dialect).splitlines()
+    lines = write(chance, dialect).splitlines()
     if chance.random() < 0.5:
         lines.insert(0, "G64 P.02" if dialect == "rs274ngc" else "G62")
     if chance.random() < 0.5:
@@ -108,6 +110,12 @@ def require_same(seed: int) -> list[Entry]:
     )
     assert found == expected
     return entries
+
+
+@settings(max_examples=30, deadline=None)
+@given(seed=st.integers(0, 10**9))
+def test_holes_have_the_same_times_and_findings_at_their_lines(seed: int) -> None:
+    require_same(seed, test_many_holes.program)
 
 
 @settings(max_examples=120, deadline=None)

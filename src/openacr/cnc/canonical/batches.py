@@ -14,25 +14,32 @@ if TYPE_CHECKING:
     from openacr.views import F64, I32
 
 RAPID, LINE, ARC = 0, 1, 2  # kinds of moves
-ROW, POINT, CURVE = 6, 8, 5  # numbers of a move in `rows`, `ends` and `arcs`
+ROW, POINT, CURVE = 7, 8, 5  # numbers of a move in `rows`, `ends` and `arcs`
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Origin:
+    """A text that moves come from; `text_of` reads the line between two places in it."""
+
+    file: str
+    text_of: Callable[[int, int], str]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Moves:
     """Rapids, lines and arcs in their order, none inserted or compensated.
 
-    Each has in `rows` its kind, line, pace (index in `paces`), plane (17 to 19), and where its text
-    begins and ends; in `ends` its end point; in `arcs`, for arcs, the centre on the first
-    and second axis of the plane, the sweep in radians, and the radii at start and end.
-    `text_of` reads the text from its begin and end.
+    Each has in `rows` its kind, line, pace (index in `paces`), plane (17 to 19), where its line
+    begins and ends, and in which text (index in `origins`); in `ends` its end point; in `arcs`, for
+    arcs, the centre on the first and second axis of the plane, the sweep in radians, and the
+    radii at start and end.
     """
 
-    file: str
+    origins: tuple[Origin, ...]
     rows: I32
     ends: F64
     arcs: F64
     paces: tuple[Pace, ...]
-    text_of: Callable[[int, int], str]
 
     def __len__(self) -> int:
         return len(self.rows) // ROW
@@ -44,8 +51,9 @@ class Moves:
 
     def source_of(self, k: int) -> Source:
         """Where a move comes from."""
-        _, line, _, _, begin, end = self.rows[ROW * k : ROW * (k + 1)]
-        return Source(self.file, line, self.text_of(begin, end))
+        _, line, _, _, begin, end, origin = self.rows[ROW * k : ROW * (k + 1)]
+        found = self.origins[origin]
+        return Source(found.file, line, found.text_of(begin, end))
 
     def end_of(self, k: int) -> Point:
         """Where a move ends."""
@@ -53,7 +61,7 @@ class Moves:
 
     def entry(self, k: int) -> Rapid | Line | Arc:
         """One move by itself."""
-        kind, _, pace, plane, _, _ = self.rows[ROW * k : ROW * (k + 1)]
+        kind, _, pace, plane, *_ = self.rows[ROW * k : ROW * (k + 1)]
         end = self.end_of(k)
         if kind == RAPID:
             return Rapid(self.source_of(k), end)

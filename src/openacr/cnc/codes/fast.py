@@ -17,25 +17,32 @@ class Does(Enum):
 
     NOTHING = auto()
     TAKES_FEED = auto()  # F
-    MOVES = auto()  # as the motion in force
+    MOVES = auto()  # as the motion or cycle in force
+    DRILLS = auto()  # begins or changes a cycle
+    ENDS_CYCLE = auto()
+    RESTS = auto()  # the handler only tells of a wait: it is called in its place between moves
 
 
 @dataclass(frozen=True, slots=True)
 class Sets:
     """A field of the modal state gets a value, without `value` the number of the code.
 
-    With `is_alone` the moves before and after differ in more than their ends.
+    With `is_alone` the moves before and after differ in more than their ends. With `is_barred` no
+    cycle is active.
     """
 
     field: str
     value: int | None = None
     is_alone: bool = False
+    is_barred: bool = False
 
 
 Fast = Does | Sets
-FastForms = Fast | Mapping[float, Fast] | None  # for all codes of a handler, or by number
+Forms = tuple[Fast, ...]  # one after another
+FastForms = Fast | Forms | Mapping[float, Fast | Forms]  # for all codes of a handler, or by number
 
 
-def form_of(forms: FastForms, number: float) -> Fast | None:
-    """The fast form of one code."""
-    return forms.get(number) if isinstance(forms, Mapping) else forms
+def forms_of(forms: FastForms | None, number: float) -> Forms | None:
+    """The fast forms of one code; None where only its handler knows what it does."""
+    found = forms.get(number) if isinstance(forms, Mapping) else forms
+    return found if found is None or isinstance(found, tuple) else (found,)

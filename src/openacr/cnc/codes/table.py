@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
-from openacr.cnc.codes.fast import Fast, FastForms, form_of
+from openacr.cnc.codes.fast import FastForms, Forms, forms_of
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.reading.formulas import NEAR
 from openacr.cnc.reading.grammar import Grammar
@@ -140,7 +140,7 @@ class Code:
     limits: tuple[Limit, ...] = ()
     acts_dry: bool = True  # also in DRY RUN
     takes_all: bool = False  # every other word is an argument
-    fast: Fast | None = None  # None: only the handler knows what it does
+    fast: Forms | None = None  # None: only the handler knows what it does
     is_polar: bool = False  # @ and ^ may take the place of X and Y
 
     @property
@@ -184,7 +184,7 @@ class Table:
         axes: Axes = Axes.NONE,
         limits: tuple[Limit, ...] = (),
         takes_all: bool = False,
-        fast: FastForms = None,
+        fast: FastForms | None = None,
         is_polar: bool = False,
     ) -> Callable[[Handler], Handler]:
         """Register a function as G codes."""
@@ -194,7 +194,7 @@ class Table:
                 self.add(
                     Code(
                         "G", number, step, act, group, words + takes, takes, axes, limits,
-                        takes_all=takes_all, fast=form_of(fast, number), is_polar=is_polar,
+                        takes_all=takes_all, fast=forms_of(fast, number), is_polar=is_polar,
                     )
                 )  # fmt: skip
             return act
@@ -225,12 +225,19 @@ class Table:
         return register
 
     def letter(
-        self, letter: str, *, step: Step, limits: tuple[Limit, ...] = (), fast: Fast | None = None
+        self,
+        letter: str,
+        *,
+        step: Step,
+        limits: tuple[Limit, ...] = (),
+        fast: FastForms | None = None,
     ) -> Callable[[Handler], Handler]:
         """Register a function as a word that acts by itself."""
 
         def register(act: Handler) -> Handler:
-            self.add(Code(letter, 0.0, step, act, words=letter, limits=limits, fast=fast))
+            self.add(
+                Code(letter, 0.0, step, act, words=letter, limits=limits, fast=forms_of(fast, 0.0))
+            )
             return act
 
         return register

@@ -119,13 +119,10 @@ class Execution:
         place = flow.ahead()
         if place is None or not self.scanner.is_free:
             return False
-        moves, place_after = self.scanner.read(place)
+        place_after = self.scanner.read(place)
         if place_after is place:
             return False
         flow.go_place(place_after)
-        if moves is not None:
-            self._run.out.append(moves)
-            self._run.is_rested = False
         return True
 
     def _race(self, frame: Frame | None) -> bool:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from openacr.cnc.canonical import AXIS_LETTERS
-from openacr.cnc.codes.fast import Does, Sets
-from openacr.cnc.interpreter import blocks_cy as core
+from openacr.cnc.canonical import AXES
+from openacr.cnc.codes.fast import Does, Fast, Sets
+from openacr.cnc.interpreter import run_rows_cy as core
 from openacr.cnc.interpreter.formula_code import FormulaWriter, NoCodeError
 from openacr.cnc.interpreter.values_cy import MOST_VALUES
 from openacr.cnc.reading.blocks import Assignment, Block, Goto, If, OWord, Statement
@@ -16,22 +17,45 @@ from openacr.cnc.reading.functions import EQUAL
 from openacr.cnc.reading.statement_reader import INPUTS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterable
 
     from openacr.cnc.codes.block_plan import Plan
-    from openacr.cnc.codes.table import Code
+    from openacr.cnc.codes.table import Code, Limit
 
-FIELDS = ("motion", "plane", "distance", "centres", "unit", "return_level", "path")
-ARC_WORDS = "IJKR"
+FIELDS = ("motion", "plane", "distance", "centres", "unit", "return_level", "path", "cycle")
+MOTION_WORDS = "IJKRQPL"  # of arcs and cycles
 STRAIGHT = 1
-_KNOWN_WORDS = frozenset(AXIS_LETTERS + ARC_WORDS + "F")
+_SET_STEPS = {"unit": core.STEP_UNIT}
 _LOOPS = core.JUMP_COUNTS
 # O-words that may jump, as far as the line alone says where to.
 _BRANCHES = {"ENDWHILE": _LOOPS, "WHILE": 0, "IF": 0, "ELSE": 0}
 
 
+class Notes:
+    """Codes whose handlers are called between moves, and limits of words, of all plans of a run."""
+
+    def __init__(self, limits: Callable[[int, Limit], None]) -> None:
+        self.codes: list[tuple[Plan, Code]] = []
+        self._limits: list[Limit] = []
+        self._write = limits
+
+    def add(self, plan: Plan, code: Code) -> int:
+        """The number of a code of a plan."""
+        self.codes.append((plan, code))
+        return len(self.codes) - 1
+
+    def limit(self, limit: Limit) -> int:
+        """The number of a limit; NoCodeError without room."""
+        if limit not in self._limits:
+            if len(self._limits) == core.MOST_LIMITS:
+                raise NoCodeError
+            self._limits.append(limit)
+            self._write(len(self._limits) - 1, limit)
+        return self._limits.index(limit)
+
+
 @dataclass(slots=True)
-class _Steps:
+class Steps:
     """Steps of a plan, and the code of formulas after them."""
 
     steps: list[tuple[int, int, int | list[int]]] = field(default_factory=list)
@@ -54,79 +78,116 @@ class _Steps:
         return written + code
 
 
-def fast_plan(plan: Plan, acts: Iterable[Code]) -> list[int] | None:
+Jumping = Callable[["Statement", FormulaWriter, Steps], None]
+
+
+def fast_plan(plan: Plan, acts: Iterable[Code], notes: Notes) -> list[int] | None:
     """The numbers of a plan of words with numbers; None where a code or a word has no fast form."""
-    return _planned(plan, acts, _Steps(), has_values=False)
+    try:
+        return _planned(plan, acts, Steps(), notes, has_values=False)
+    except NoCodeError:
+        return None
 
 
 def rich_plan(
     plan: Plan,
     acts: Iterable[Code],
     writer: FormulaWriter,
-    branches: Callable[[OWord], bool],
+    notes: Notes,
+    jump: Jumping,
     *,
     assigns_last: bool,
 ) -> list[int] | None:
     """The numbers of a plan with formulas, assignments or a jump; None where one has no fast form.
 
-    `branches` says whether an O-word only jumps to where the line alone decides.
+    `jump` adds the steps of a statement.
     """
-    block, body = plan.block, _Steps()
+    block, body = plan.block, Steps()
     if block.messages or block.is_skippable or block.is_percent or block.title:
         return None
     try:
         if not assigns_last:
             _each(block, writer, body)
         for letter, word in plan.words.items():
-            if word.parameter is not None:
-                return None
-            body.add(core.STEP_WORD, ord(letter) - ord("A"), writer.code(word.value))
+            body.add(core.STEP_WORD, _letter(letter), writer.code(word.value))
         if assigns_last:
             _together(block, writer, body)
         if block.statement is not None:
-            _jump(block.statement, writer, body, branches)
+            jump(block.statement, writer, body)
+        return _planned(plan, acts, body, notes, has_values=True)
     except NoCodeError:
         return None
-    return _planned(plan, acts, body, has_values=True)
+
+
+def _letter(letter: str) -> int:
+    return ord(letter) - ord("A")
 
 
 def _planned(
-    plan: Plan, acts: Iterable[Code], body: _Steps, *, has_values: bool
-) -> list[int] | None:
-    if plan.is_computed or not _KNOWN_WORDS.issuperset(plan.words):
-        return None
-    is_plain, is_alone = not any(letter in plan.words for letter in ARC_WORDS), False
+    plan: Plan, acts: Iterable[Code], body: Steps, notes: Notes, *, has_values: bool
+) -> list[int]:
+    """The numbers of a plan; NoCodeError where a code has no fast form."""
+    if plan.is_computed or plan.is_polar or any(word.parameter for word in plan.words.values()):
+        raise NoCodeError
+    acts = tuple(acts)
     for code in acts:
-        form = code.fast
-        match form:
-            case Does.NOTHING:
-                is_plain = is_plain and code.letter == "MACRO"
-            case Does.TAKES_FEED:
-                body.add(core.STEP_FEED)
-            case Does.MOVES:
-                body.add(core.STEP_MOVE)
-            case Sets(name, value, alone) if name in FIELDS:
-                number = int(code.number) if value is None else value
-                kind = core.STEP_UNIT if name == "unit" else core.STEP_SET
-                body.add(kind, FIELDS.index(name), number)
-                is_plain = is_plain and (name, number) == ("motion", STRAIGHT)
-                is_alone = is_alone or alone
-            case _:
-                return None
+        for limit in code.limits:
+            if limit.letter in plan.words:
+                body.add(core.STEP_LIMIT, _letter(limit.letter), notes.limit(limit))
+    is_alone = False
+    for code in acts:
+        for form in code.fast or (None,):
+            _act(form, code, plan, body, notes)
+            is_alone |= isinstance(form, Sets) and form.is_alone
+    if len(body.steps) > core.MOST_STEPS:
+        raise NoCodeError
     axes = sum(1 << axis for axis, _ in plan.axes)
-    words = sum(1 << k for k, letter in enumerate(ARC_WORDS) if letter in plan.words)
-    head = [axes, words, is_plain and not has_values, is_alone, len(body.steps)]
-    return head + body.numbers()
+    taken = {each for code in acts if code.fast != (Does.DRILLS,) for each in code.takes}
+    free = [letter for letter in plan.words if letter not in taken]
+    words = sum(1 << k for k, letter in enumerate(MOTION_WORDS) if letter in free)
+    is_plain = not (has_values or words) and _is_plain(acts)
+    return [axes, words, is_plain, is_alone, len(body.steps), *body.numbers()]
 
 
-def _value(one: Assignment, slot: int, writer: FormulaWriter, body: _Steps) -> None:
+def _is_plain(acts: tuple[Code, ...]) -> bool:
+    """Whether codes are straight feed moves and what belongs to them."""
+    return all(
+        code.letter in ("F", "MOTION", "MACRO") or (code.letter, code.number) == ("G", STRAIGHT)
+        for code in acts
+    )
+
+
+def _act(form: Fast | None, code: Code, plan: Plan, body: Steps, notes: Notes) -> None:
+    """The steps of a fast form of a code."""
+    match form:
+        case Does.NOTHING:
+            pass
+        case Does.TAKES_FEED:
+            body.add(core.STEP_FEED)
+        case Does.MOVES:
+            body.add(core.STEP_MOVE)
+        case Does.DRILLS:
+            body.add(core.STEP_DRILL, int(code.number))
+        case Does.ENDS_CYCLE:
+            body.add(core.STEP_END_CYCLE)
+        case Does.RESTS if len(plan.words) <= AXES:
+            letters = [_letter(letter) for letter in plan.words]
+            body.add(core.STEP_NOTE, notes.add(plan, code), [len(letters), *letters])
+        case Sets(name, value, is_barred=is_barred) if name in FIELDS:
+            kind = core.STEP_BAR if is_barred else _SET_STEPS.get(name, core.STEP_SET)
+            body.add(kind, FIELDS.index(name), int(code.number) if value is None else value)
+        case _:
+            raise NoCodeError
+
+
+def _value(one: Assignment, slot: int, writer: FormulaWriter, body: Steps) -> None:
     if isinstance(one.index, str) or slot + 1 >= MOST_VALUES:
         raise NoCodeError
     body.add(core.STEP_VALUE, slot, writer.target(one.index))
     body.add(core.STEP_VALUE, slot + 1, writer.code(one.value))
 
 
-def _each(block: Block, writer: FormulaWriter, body: _Steps) -> None:
+def _each(block: Block, writer: FormulaWriter, body: Steps) -> None:
     """Assignments one after another; with computed numbers of parameters they wait for rest."""
     for one in block.assignments:
         _value(one, 0, writer, body)
@@ -135,7 +196,7 @@ def _each(block: Block, writer: FormulaWriter, body: _Steps) -> None:
         raise NoCodeError
 
 
-def _together(block: Block, writer: FormulaWriter, body: _Steps) -> None:
+def _together(block: Block, writer: FormulaWriter, body: Steps) -> None:
     """Assignments with the values from before the block."""
     for k, one in enumerate(block.assignments):
         _value(one, 2 * k, writer, body)
@@ -153,10 +214,13 @@ def _may_test_input(condition: Node, writer: FormulaWriter) -> bool:
             return False
 
 
-def _jump(
-    statement: Statement, writer: FormulaWriter, body: _Steps, branches: Callable[[OWord], bool]
+def jump(
+    statement: Statement, writer: FormulaWriter, body: Steps, branches: Callable[[OWord], bool]
 ) -> None:
-    """A jump to a place that is always the same, with its condition."""
+    """A jump to a place that is always the same, with its condition.
+
+    `branches` says whether an O-word only jumps to where the line alone decides.
+    """
     match statement:
         case Goto(Number()):
             body.add(core.STEP_JUMP, core.JUMP_COUNTS)

@@ -91,7 +91,7 @@ class FormulaWriter:
                 return vm.DO_LOCAL if n <= vm.OWN_LOCALS else vm.DO_OWN, n
         elif is_hash and 1 <= n <= vm.LOCALS:
             return vm.DO_HASH, n
-        elif parameters.is_plain_cell(n):
+        elif parameters.is_plain_cell(n, is_hash=is_hash):
             return vm.DO_CELL, n
         raise NoCodeError
 

@@ -1,10 +1,20 @@
-"""Lines executed many at a time: the steps of their plans (`blocks_cy`), one line after another.
+"""Lines executed many at a time: the steps of their plans, one line after another.
 
 `data` is the text, `T` what is known of shapes (`scan_cy`), `J` and `H` jumps (`values_cy`).
 """
 
 from openacr.cnc.interpreter.blocks_cy import (
-    INCH,
+    block_feed,
+    block_keep,
+    block_limit,
+    block_move,
+    block_note,
+    block_restore,
+    block_set,
+)
+from openacr.cnc.interpreter.cycles_cy import cycle_end, cycle_run
+from openacr.cnc.interpreter.formulas_cy import formula_run
+from openacr.cnc.interpreter.run_rows_cy import (
     JUMP_COUNTS,
     JUMP_IF_TRUE,
     JUMPED,
@@ -13,39 +23,31 @@ from openacr.cnc.interpreter.blocks_cy import (
     K_LAST_LINE,
     K_READ,
     LEFT,
+    M_AT,
+    M_CYCLE,
     M_HAS_VALUES,
     M_IDLE,
     M_IS_PLAIN,
     M_LINE,
     M_MOST_PASSES,
+    M_ROWS,
     MOST_IDLE,
-    MOVED,
+    MOST_ROWS,
+    MOST_STROKE,
+    NO_CYCLE,
     P_FIRST,
     P_IS_ALONE,
     P_IS_PLAIN,
     P_STEPS,
-    R_LINE,
-    R_START,
-    R_STOP,
-    ROW,
+    STEP_DRILL,
+    STEP_END_CYCLE,
     STEP_FEED,
     STEP_JUMP,
+    STEP_LIMIT,
     STEP_MOVE,
-    STEP_STORE,
-    STEP_UNIT,
-    STEP_VALUE,
+    STEP_NOTE,
     TAKEN,
-    W_PER,
     W_TARGET,
-    W_TIMES,
-    W_UNITS,
-    block_feed,
-    block_keep,
-    block_move,
-    block_restore,
-)
-from openacr.cnc.interpreter.formulas_cy import (
-    formula_run,
 )
 from openacr.cnc.interpreter.values_cy import (
     J_PLACE,
@@ -53,13 +55,10 @@ from openacr.cnc.interpreter.values_cy import (
     X_UNDO_CNT,
     jump_is_plain,
     jump_place,
-    value_keep,
-    value_store,
+    value_step,
     value_undo,
 )
-from openacr.cnc.reading.rich_cy import (
-    scan_rich,
-)
+from openacr.cnc.reading.rich_cy import scan_rich
 from openacr.cnc.reading.scan_cy import (
     K_HAS_WORDS,
     K_LAST,
@@ -73,7 +72,6 @@ from openacr.cnc.reading.scan_cy import (
     SCAN_NEW,
     SCAN_SLOW,
     SHAPE_NONE,
-    W_WORDS,
     scan_line,
     scan_shape,
 )
@@ -105,29 +103,14 @@ def block_jump(
     return JUMPED
 
 
-def block_value(
-    W: F64, P: I32, plan: int, at: int, N: F64, X: F64, V: F64, U: F64, C: F64, Z: I32, B: I32
-) -> int:  # fmt: skip
-    """Compute a word or a value, or assign one."""
-    step: int = P[at]
-    if step == STEP_STORE:
-        return TAKEN if value_store(P[at + 1], P[at + 2], X, V, U, C, Z, B) else LEFT
-    if step == STEP_VALUE:
-        return TAKEN if value_keep(P, plan + P[at + 2], N, X, V, U, C, Z, B, P[at + 1]) else LEFT
-    if not formula_run(P, plan + P[at + 2], N, X, V, U, C, Z, B):
-        return LEFT
-    W[W_WORDS + P[at + 1]] = X[0]
-    return TAKEN
-
-
 def block_run(
     W: F64, K: I32, P: I32, plan: int, M: I32, A: F64, ends: F64, arcs: F64, R: I32, paces: F64,
-    row: int, line: int, N: F64, X: F64, V: F64, U: F64, C: F64, Z: I32, B: I32, J: I32, H: F64
+    line: int, N: F64, X: F64, V: F64, U: F64, C: F64, Z: I32, B: I32, J: I32, H: F64
 ) -> int:  # fmt: skip
     """Execute the steps of one block; LEFT where it is left as it was."""
     if M[M_IS_PLAIN] and not P[plan + P_IS_PLAIN]:
         return LEFT
-    if (P[plan + P_IS_ALONE] and row > 0) or M[M_IDLE] >= MOST_IDLE:
+    if (P[plan + P_IS_ALONE] and M[M_ROWS] > 0) or M[M_IDLE] >= MOST_IDLE - MOST_STROKE:
         return LEFT
     block_keep(W, M)
     X[X_UNDO_CNT] = 0.0
@@ -136,20 +119,26 @@ def block_run(
     at: int = plan + P_FIRST
     for _ in range(P[plan + P_STEPS]):
         step: int = P[at]
-        if step == STEP_MOVE:
-            done = block_move(W, K, P, plan, M, A, ends, arcs, R, row)
+        if step == STEP_MOVE and M[M_CYCLE] == NO_CYCLE:
+            done = block_move(W, K, P, plan, M, A, ends, arcs, R)
         elif step == STEP_FEED:
-            done = block_feed(W, M, R, paces, row)
+            done = block_feed(W, M, R, paces)
         elif step == STEP_JUMP:
             done = block_jump(W, K, P, plan, at, M, line, N, X, V, U, C, Z, B, J, H)
-        elif step > STEP_MOVE:
-            done = block_value(W, P, plan, at, N, X, V, U, C, Z, B)
+        elif step == STEP_MOVE or step == STEP_DRILL:
+            done = cycle_run(
+                W, K, P, plan, P[at + 1], M, A, ends, R, paces, N, X, V, U, C, Z, B
+            )  # fmt: skip
+        elif step == STEP_LIMIT:
+            done = block_limit(W, P[at + 1], P[at + 2])
+        elif step == STEP_NOTE:
+            done = block_note(W, P, plan, at, M, R, ends)
+        elif step == STEP_END_CYCLE:
+            cycle_end(M)
+        elif step > STEP_MOVE and step < STEP_JUMP:
+            done = value_step(W, P, plan, at, N, X, V, U, C, Z, B)
         else:
-            M[P[at + 1]] = P[at + 2]
-            if step == STEP_UNIT:
-                units: int = W_UNITS if P[at + 2] == INCH else W_UNITS + 2
-                W[W_TIMES] = W[units]
-                W[W_PER] = W[units + 1]
+            done = block_set(W, M, step, P[at + 1], P[at + 2])
         if done == LEFT:
             block_restore(W, M, paces)
             value_undo(X, V, U, C, Z)
@@ -160,13 +149,14 @@ def block_run(
 
 def run_lines(
     data: U8, pos: int, stop: int, W: F64, K: I32, L: I32, T: I32, P: I32, M: I32, A: F64,
-    ends: F64, arcs: F64, R: I32, paces: F64, row: int, most: int, N: F64, Q: I32, X: F64, V: F64,
-    U: F64, C: F64, Z: I32, B: I32, J: I32, H: F64
-) -> int:  # fmt: skip
-    """Execute lines from `pos` on until one is left, or there are `most` moves.
+    ends: F64, arcs: F64, R: I32, paces: F64, N: F64, Q: I32, X: F64, V: F64, U: F64, C: F64,
+    Z: I32, B: I32, J: I32, H: F64
+) -> None:  # fmt: skip
+    """Execute lines from `pos` on until one is left, or there is no room for more moves.
 
-    There are `row` moves already. Returns the count of all; K says where it ended and why.
+    K says where it ended and why.
     """
+    most: int = MOST_ROWS
     line: int = M[M_LINE]
     last: int = pos
     last_line: int = line
@@ -174,7 +164,7 @@ def run_lines(
     status: int = SCAN_END
     has_words: int = 0
     K[K_JUMPS] = 0
-    while 0 <= pos < stop and row < most and status == SCAN_END:
+    while 0 <= pos < stop and M[M_ROWS] < most and status == SCAN_END:
         after: int = scan_line(data, pos, stop, W, K, L)
         if after < 0 and M[M_HAS_VALUES]:
             after = scan_rich(data, pos, stop, W, K, L, N, Q)
@@ -187,20 +177,18 @@ def run_lines(
             if plan < 0:
                 status = SCAN_NEW if plan == SHAPE_NONE else SCAN_SLOW
                 break
+            M[M_AT] = line
+            M[M_AT + 1] = pos
+            M[M_AT + 2] = after
             done = block_run(
-                W, K, P, plan, M, A, ends, arcs, R, paces, row, line, N, X, V, U, C, Z, B, J, H
+                W, K, P, plan, M, A, ends, arcs, R, paces, line, N, X, V, U, C, Z, B, J, H
             )
             if done == LEFT:
                 status = SCAN_LEFT
                 break
             has_words = 1
-            if done == MOVED:
-                R[row * ROW + R_LINE] = line
-                R[row * ROW + R_START] = pos
-                R[row * ROW + R_STOP] = after
-                row += 1
             if P[plan + P_IS_ALONE]:
-                most = row
+                most = M[M_ROWS]
         last = pos
         last_line = line
         count += 1
@@ -216,4 +204,3 @@ def run_lines(
     K[K_READ] = count
     K[K_STATUS] = status
     K[K_HAS_WORDS] = has_words
-    return row

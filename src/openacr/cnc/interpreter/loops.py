@@ -16,6 +16,7 @@ from openacr.cnc.state.shadow import Shadow
 if TYPE_CHECKING:
     from openacr.cnc.canonical import Point
     from openacr.cnc.interpreter.interpreter import Interpreter
+    from openacr.cnc.program.flow import Frame
     from openacr.cnc.program.program import Node, Part
 
 MOST_PASSES = 500_000
@@ -28,6 +29,7 @@ class Loops:
     def __init__(self, run: Interpreter) -> None:
         self._run = run
         self._cnts: dict[tuple[int, int], int] = {}
+        self._hole: Frame | None = None  # passes of a cycle are counted hole by hole
         self._earlier: dict[tuple[int, int], tuple[Point, tuple[object, ...]]] = {}
 
     def jumped(self) -> None:
@@ -37,6 +39,9 @@ class Loops:
         if node is None:
             return
         key = id(node.part), node.line
+        if node.part.is_cycles and run.flow.frames[-1] is not self._hole:
+            self._hole = run.flow.frames[-1]
+            self._cnts = {k: count for k, count in self._cnts.items() if k[0] != key[0]}
         count = self._cnts.get(key, 0) + 1
         self._cnts[key] = count
         if count > MOST_PASSES:

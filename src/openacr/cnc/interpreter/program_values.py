@@ -6,8 +6,8 @@ from functools import cache
 from typing import TYPE_CHECKING, cast
 
 from openacr.cnc.canonical import AXES
-from openacr.cnc.interpreter import blocks_cy as core
 from openacr.cnc.interpreter import formulas_cy as vm
+from openacr.cnc.interpreter import run_rows_cy as core
 from openacr.cnc.interpreter import values_cy as values
 from openacr.cnc.program.labels import Place
 from openacr.cnc.reading.line_shapes import doubles, integers

@@ -67,7 +67,7 @@ def _prepared(block: Block, node: Node, run: Interpreter) -> Ready:
             for letter, word in plan.words.items()
             if word.parameter is None or not transfers
         )
-    acts = tuple(code for code in plan.acts if code.acts_dry or not run.options.is_dry)
+    acts = acting(plan, run)
     limits = tuple(limit for code in plan.acts for limit in code.limits) if values else ()
     beside = block.messages or late
     quick: Quick | None = None
@@ -90,6 +90,11 @@ def _prepared(block: Block, node: Node, run: Interpreter) -> Ready:
         quick if is_bare else None,
         is_plain,
     )
+
+
+def acting(plan: Plan, run: Interpreter) -> tuple[Code, ...]:
+    """The codes of a block that act: in DRY RUN not all do."""
+    return tuple(code for code in plan.acts if code.acts_dry or not run.options.is_dry)
 
 
 def _computed(block: Block, run: Interpreter) -> Act:
@@ -229,11 +234,12 @@ def _lines(one: Assignment, parameters: Parameters) -> list[str]:
 
 def _store(kind: str, n: float, parameters: Parameters) -> str:
     """The fastest function that writes a parameter."""
-    if parameters.is_free_cell(n):
+    is_hash = kind == "#"
+    if parameters.is_free_cell(n, is_hash=is_hash):
         return f"keep({int(n)}, v)"
-    if parameters.is_plain_cell(n):
+    if parameters.is_plain_cell(n, is_hash=is_hash):
         return f"put({int(n)}, v)"
-    if parameters.is_card_cell(n):
+    if parameters.is_card_cell(n, is_hash=is_hash):
         return f"set_card({int(n)}, v)"
     return f"write({kind!r}, {n!r}, v)"
 

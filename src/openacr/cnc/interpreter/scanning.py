@@ -1,7 +1,7 @@
 """Runs of lines executed from the text, many at a time.
 
 While nothing but a line and the values of its formulas decide what it does - no compensation,
-scaling, rotation, cycle, modal macro - the compiled executor reads the bytes (`lines_cy`). For
+scaling, rotation, modal macro - the compiled executor reads the bytes (`lines_cy`). For
 readers of whole programs the moves of many blocks come out as `Moves`; where a machine runs the
 program, runs of straight feed moves of one pace come out as a `Polyline`. The result is that of
 the lines one by one.
@@ -10,24 +10,28 @@ the lines one by one.
 from __future__ import annotations
 
 from array import array
-from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, cast
 
-from openacr.cnc.canonical import AXES, Moves, Pace, Polyline, Source
-from openacr.cnc.canonical.batches import CURVE, POINT, ROW
+from openacr.cnc.canonical import AXES
+from openacr.cnc.codes.fast import Does
 from openacr.cnc.codes.gcodes.motion import MOTIONS, NO_MOTION
 from openacr.cnc.codes.radii import NEAR_INCH
-from openacr.cnc.interpreter import blocks_cy as core
 from openacr.cnc.interpreter import lines_cy, loops
-from openacr.cnc.interpreter.fast_plans import FIELDS, fast_plan, rich_plan
+from openacr.cnc.interpreter import run_rows_cy as core
+from openacr.cnc.interpreter.drill_state import hand_back_drilling, take_drilling
+from openacr.cnc.interpreter.fast_plans import FIELDS, Notes, fast_plan, jump, rich_plan
 from openacr.cnc.interpreter.formula_code import FormulaWriter
 from openacr.cnc.interpreter.program_values import Jumps, ProgramValues
+from openacr.cnc.interpreter.ready import acting
+from openacr.cnc.interpreter.scanned import Scanned
+from openacr.cnc.interpreter.strokes import MOST_NUMBERS, Strokes
 from openacr.cnc.interpreter.values_cy import X_SIZE
 from openacr.cnc.program.labels import Place
+from openacr.cnc.reading import rich_cy as rich
 from openacr.cnc.reading import scan_cy as scan
 from openacr.cnc.reading.findings import CodeError
-from openacr.cnc.reading.line_shapes import MOST_ROWS, LineShapes, doubles, integers
+from openacr.cnc.reading.line_shapes import LineShapes, doubles, integers
 from openacr.cnc.reading.parser import parse
 from openacr.cnc.reading.text import decoded
 from openacr.cnc.state.cells import EPSILON
@@ -35,13 +39,14 @@ from openacr.cnc.state.modal import INCH, METRIC, PER_MINUTE
 from openacr.compiled import pick
 
 if TYPE_CHECKING:
+    from openacr.cnc.codes.table import Limit
     from openacr.cnc.interpreter.interpreter import Interpreter
     from openacr.cnc.program.program import Part
     from openacr.views import F64
 
 MOST_SLOW = 20_000  # places of lines that are known to be left to the parser
 LEAST_ROWS = 16  # a Polyline has more
-MOST_NUMBERS = 32768  # of all plans
+MOST_PLANNED = 32768  # numbers of all plans
 OFF, NO_CYCLE = 40, 80
 FAST_MOTIONS = frozenset({0, 1, 2, 3, NO_MOTION})
 _run_lines = pick(lines_cy.run_lines)
@@ -53,14 +58,16 @@ class Scanner:
     def __init__(self, run: Interpreter) -> None:
         self._run = run
         bracket = run.dialect.grammar.brackets[0]
-        self._shapes = LineShapes(run.planner.axes, bracket, core.W_RUN_SIZE, core.K_RUN_SIZE)
+        sizes = core.W_RUN_SIZE, core.K_RUN_SIZE, rich.MOST_NUMBERS + MOST_NUMBERS
+        self._shapes = LineShapes(run.planner.axes, bracket, *sizes)
         for letter, axis in run.planner.axes.items():
             self._shapes.K[core.K_LETTER + axis] = ord(letter) - ord("A")
-        self._plans, self._plans_end = integers(MOST_NUMBERS), 0
+        self._plans, self._plans_end = integers(MOST_PLANNED), 1
         self._stack = doubles(X_SIZE)
         self._modal, self._arc = integers(core.M_SIZE), doubles(core.A_RUN_SIZE)
-        self._ends, self._arcs = doubles(MOST_ROWS * POINT), doubles(MOST_ROWS * CURVE)
-        self._rows, self._paces = integers(MOST_ROWS * ROW), doubles(MOST_ROWS + 1)
+        self._notes = Notes(self._limit)
+        self._strokes = Strokes(run, self._shapes.N, self._notes, self._keep)
+        self._scanned = Scanned(run, self._notes, self._strokes.nodes)
         self._values = ProgramValues(run)
         self._jumps = Jumps(run)
         self._slow: set[tuple[int, int]] = set()  # parts and places of lines
@@ -74,8 +81,7 @@ class Scanner:
         run = self._run
         modal, path = run.modal, run.path
         return (
-            modal.cycle == NO_CYCLE
-            and modal.motion in FAST_MOTIONS
+            modal.motion in FAST_MOTIONS
             and modal.compensation == OFF
             and modal.feed_mode == PER_MINUTE
             and run.macro is None
@@ -84,17 +90,14 @@ class Scanner:
             and path.coordinates.is_plain
             and run.motions is MOTIONS
             and not run.is_replaying
-            and (run.options.has_batches or modal.motion == 1)
+            and (run.options.has_batches or (modal.motion == 1 and modal.cycle == NO_CYCLE))
         )
 
-    def read(self, start: Place) -> tuple[Moves | Polyline | None, Place]:
-        """The moves of the lines from a position on, and the position after them.
-
-        The position is `start` itself where no line was taken.
-        """
+    def read(self, start: Place) -> Place:
+        """Execute lines together; returns the position after them, `start` where none was taken."""
         text = start.part.text
         if start.offset >= text.end or start.part.is_cycles or self._is_barred(start):
-            return None, start
+            return start
         self._jumps.arrived(start)
         data, place = self._shapes.bytes(text, start.offset)
         stop = min(len(data), text.end - start.offset + place)
@@ -106,28 +109,32 @@ class Scanner:
         if self._cnt == 0 or (is_plain and rows < LEAST_ROWS):
             self._bar = Place(start.part, after.offset, start.line)
             self._note_slow(start)
-            return None, start
+            return start
         self._hand_back()
+        if is_plain:
+            self._scanned.polyline(rows, start.part, data)
+        else:
+            self._scanned.moves(rows, self._modal[core.M_PACE] + 1, start.part, data)
+        self._run.execution.idle_cnt = self._modal[core.M_IDLE]
         self.last = self._last
-        made = self._polyline if is_plain else self._moves
-        return made(rows, start, data), after
+        return after
 
     def _execute(self, data: memoryview, at: Place, stop: int, first: int) -> tuple[int, Place]:
         """The count of moves of the lines from a position in the data on, and the line after them.
 
         `first` is the offset of the data in the text.
         """
-        shapes, rows = self._shapes, 0
+        shapes, found = self._shapes, self._scanned
         values, jumps = self._values, self._jumps
         self._cnt = 0
         jumps.begin(at.part, first, shapes.K)
         while True:
             self._modal[core.M_LINE] = at.line
-            rows = _run_lines(
+            _run_lines(
                 data, at.offset, stop, shapes.W, shapes.K, shapes.L, shapes.T, self._plans,
-                self._modal, self._arc, self._ends, self._arcs, self._rows, self._paces, rows,
-                MOST_ROWS, shapes.N, shapes.Q, self._stack, values.locals, values.own,
-                values.cells, values.states, values.access, jumps.rows, jumps.kept,
+                self._modal, self._arc, found.ends, found.arcs, found.rows, found.paces,
+                shapes.N, shapes.Q, self._stack, values.locals, values.own, values.cells,
+                values.states, values.access, jumps.rows, jumps.kept,
             )  # fmt: skip
             K = shapes.K
             if K[core.K_READ]:
@@ -138,7 +145,7 @@ class Scanner:
                 jumps.left(at)
             if shapes.status != scan.SCAN_NEW or not self._learn(at.part, first + at.offset):
                 jumps.end()
-                return rows, at
+                return self._modal[core.M_ROWS], at
 
     def _note_slow(self, start: Place) -> None:
         """Remember that a line is always left to the parser."""
@@ -164,13 +171,24 @@ class Scanner:
         tokens = self._shapes.tokens()
         found = part.text.line(offset)
         numbers = self._planned(decoded(found[0]), part) if found else None
-        if numbers is None or self._plans_end + len(numbers) > MOST_NUMBERS:
-            return self._shapes.learn(tokens, scan.SHAPE_SLOW)
-        first = self._plans_end
-        self._plans_end += len(numbers)
+        first = self._keep(numbers) if numbers else 0
+        return self._shapes.learn(tokens, first or scan.SHAPE_SLOW)
+
+    def _keep(self, numbers: list[int]) -> int:
+        """The place of a plan among all; 0 without room."""
+        first, end = self._plans_end, self._plans_end + len(numbers)
+        if end > MOST_PLANNED:
+            return 0
+        self._plans_end = end
         for k, number in enumerate(numbers, first):
             self._plans[k] = number
-        return self._shapes.learn(tokens, first)
+        return first
+
+    def _limit(self, k: int, limit: Limit) -> None:
+        """Keep a limit of words."""
+        at = core.W_LIMITS + 3 * k
+        for place, number in enumerate((limit.low, limit.high, limit.is_whole)):
+            self._shapes.W[at + place] = number
 
     def _planned(self, raw: str, part: Part) -> list[int] | None:
         run = self._run
@@ -178,11 +196,20 @@ class Scanner:
             plan = run.planner.plan(parse(raw, run.dialect.grammar))
         except CodeError:
             return None
+        for code in plan.codes:
+            if code.fast == (Does.DRILLS,):
+                self._use_cycle(int(code.number))
+        acts = acting(plan, run)
         if not self._shapes.is_rich:
-            return fast_plan(plan, plan.acts)
+            return fast_plan(plan, acts, self._notes)
         writer = FormulaWriter(run.parameters, self._shapes.numbers())
-        branches = partial(run.o_words.is_plain, part=part)
-        return rich_plan(plan, plan.acts, writer, branches, assigns_last=run.dialect.assigns_last)
+        jumps = partial(jump, branches=partial(run.o_words.is_plain, part=part))
+        last = run.dialect.assigns_last
+        return rich_plan(plan, acts, writer, self._notes, jumps, assigns_last=last)
+
+    def _use_cycle(self, code: int) -> None:
+        """Let the core know the text of a cycle."""
+        self._modal[core.M_STROKES + code - core.FIRST_CYCLE] = self._strokes.place(code)
 
     # --- the state of the interpreter -----------------------------------------------------
 
@@ -203,7 +230,11 @@ class Scanner:
         M[core.M_HAS_VALUES] = self._values.are_here and not is_plain
         M[core.M_MOST_PASSES] = loops.MOST_PASSES if run.loops is not None else 0
         M[core.M_IS_SHIFTED], M[core.M_IS_PLAIN] = path.coordinates.is_shifted, is_plain
-        self._paces[0] = modal.feed
+        self._scanned.paces[0] = modal.feed
+        M[core.M_ROWS] = M[core.M_AT + 3] = 0
+        take_drilling(run, W, M)
+        if modal.cycle != NO_CYCLE:
+            self._use_cycle(modal.cycle)
 
     def _hand_back(self) -> None:
         run, W, M = self._run, self._shapes.W, self._modal
@@ -218,44 +249,8 @@ class Scanner:
             tuple(W[core.W_POSITION : core.W_POSITION + AXES]),
             tuple(W[core.W_TARGET : core.W_TARGET + AXES]),
         )
-        run.execution.idle_cnt = M[core.M_IDLE]
-
-    # --- what came out ----------------------------------------------------------------------
-
-    def _paces_of(self, count: int) -> tuple[Pace, ...]:
-        """The paces of the moves: they differ in the feed alone."""
-        present = self._run.path.plain_pace()
-        return tuple(_with_feed(present, feed) for feed in self._paces[:count])
-
-    def _moves(self, rows: int, start: Place, data: memoryview) -> Moves | None:
-        if not rows:
-            return None
-        kept = integers(rows * ROW)
-        kept[:] = self._rows[: rows * ROW]
-        ends, arcs = doubles(rows * POINT), doubles(rows * CURVE)
-        ends[:], arcs[:] = self._ends[: rows * POINT], self._arcs[: rows * CURVE]
-        paces = self._paces_of(self._modal[core.M_PACE] + 1)
-        return Moves(start.part.text.name, kept, ends, arcs, paces, partial(_text, data))
-
-    def _polyline(self, rows: int, start: Place, data: memoryview) -> Polyline:
-        import numpy as np
-
-        R = self._rows
-        ends = np.array(self._ends[: rows * POINT]).reshape(rows, POINT)
-        lines = np.array(R[core.R_LINE : rows * ROW : ROW], np.int64)
-        text = _text(data, R[core.R_START], R[core.R_STOP])
-        source = Source(start.part.text.name, int(lines[0]), text)
-        return Polyline(source, ends, lines, self._paces_of(1)[0])
+        hand_back_drilling(run, W, M)
 
 
 def _view(point: tuple[float, ...]) -> F64:
     return cast("F64", memoryview(array("d", point)))
-
-
-def _with_feed(pace: Pace, feed: float) -> Pace:
-    return pace if pace.feed_upm == feed else replace(pace, feed_upm=feed)
-
-
-def _text(data: memoryview, begin: int, end: int) -> str:
-    """The text of a line, without its end."""
-    return decoded(bytes(data[begin:end]).rstrip(b"\r\n"))

@@ -32,7 +32,7 @@ N_SIZE = 6
 
 RAPID = 0
 ARC = 2
-ROW = 6
+ROW = 7
 CURVE = 5
 ZX = 18
 YZ = 19

@@ -19,7 +19,8 @@ from openacr.cnc.interpreter.formulas_cy import (
     formula_run,
     formula_whole,
 )
-from openacr.cnc.reading.scan_cy import AXES
+from openacr.cnc.interpreter.run_rows_cy import LEFT, STEP_STORE, STEP_VALUE, TAKEN
+from openacr.cnc.reading.scan_cy import AXES, W_WORDS
 from openacr.views import F64, I32
 
 STORE_CELL = 0
@@ -28,8 +29,9 @@ STORE_OWN = 2
 
 X_VALUES = MOST_OPERANDS
 MOST_VALUES = 16
+MOST_UNDO = 4096
 X_UNDO = X_VALUES + MOST_VALUES  # place, value and state from before, of each assignment
-X_UNDO_CNT = X_UNDO + 3 * MOST_VALUES
+X_UNDO_CNT = X_UNDO + 3 * MOST_UNDO
 X_SIZE = X_UNDO_CNT + 1
 PLACE_OWN = 100
 PLACE_CELL = 10000
@@ -44,13 +46,25 @@ JUMPS = 64
 JUMP_MASK = 63
 
 
-def value_note(X: F64, place: int, value: float, state: int) -> None:
-    """Note what an assignment replaces."""
+def value_note(X: F64, place: int, value: float, state: int) -> bool:
+    """Note what an assignment replaces; False where there is no room."""
+    if X[X_UNDO_CNT] >= MOST_UNDO:
+        return False
     at: int = X_UNDO + 3 * int(X[X_UNDO_CNT])
     X[at] = float(place)
     X[at + 1] = value
     X[at + 2] = float(state)
     X[X_UNDO_CNT] = X[X_UNDO_CNT] + 1.0
+    return True
+
+
+def value_cell(n: int, value: float, X: F64, C: F64, Z: I32) -> bool:
+    """Write a cell of the store."""
+    if not value_note(X, PLACE_CELL + n, C[n], Z[n]):
+        return False
+    C[n] = value
+    Z[n] = IS_KNOWN | IS_WRITTEN
+    return True
 
 
 def value_store(kind: int, slot: int, X: F64, V: F64, U: F64, C: F64, Z: I32, B: I32) -> bool:
@@ -59,21 +73,18 @@ def value_store(kind: int, slot: int, X: F64, V: F64, U: F64, C: F64, Z: I32, B:
     value: float = X[X_VALUES + slot + 1]
     most: int = OWN_LOCALS if kind == STORE_OWN else LOCALS
     if (kind == STORE_OWN or (kind == STORE_HASH and V[0] != 0.0)) and 1 <= n <= most:
-        value_note(X, n, V[n], 0)
+        if not value_note(X, n, V[n], 0):
+            return False
         V[n] = value
         return True
     if kind == STORE_OWN:
-        if n < 1 or n > LAST_OWN:
+        if n < 1 or n > LAST_OWN or not value_note(X, PLACE_OWN + n, U[n], 0):
             return False
-        value_note(X, PLACE_OWN + n, U[n], 0)
         U[n] = value
         return True
     if n < 0 or n >= CELLS or not B[n] & MAY_WRITE:
         return False
-    value_note(X, PLACE_CELL + n, C[n], Z[n])
-    C[n] = value
-    Z[n] = IS_KNOWN | IS_WRITTEN
-    return True
+    return value_cell(n, value, X, C, Z)
 
 
 def value_undo(X: F64, V: F64, U: F64, C: F64, Z: I32) -> None:
@@ -101,6 +112,21 @@ def value_keep(
         return False
     X[X_VALUES + slot] = X[0]
     return True
+
+
+def value_step(
+    W: F64, P: I32, plan: int, at: int, N: F64, X: F64, V: F64, U: F64, C: F64, Z: I32, B: I32
+) -> int:  # fmt: skip
+    """Compute a word or a value, or assign one."""
+    step: int = P[at]
+    if step == STEP_STORE:
+        return TAKEN if value_store(P[at + 1], P[at + 2], X, V, U, C, Z, B) else LEFT
+    if step == STEP_VALUE:
+        return TAKEN if value_keep(P, plan + P[at + 2], N, X, V, U, C, Z, B, P[at + 1]) else LEFT
+    if not formula_run(P, plan + P[at + 2], N, X, V, U, C, Z, B):
+        return LEFT
+    W[W_WORDS + P[at + 1]] = X[0]
+    return TAKEN
 
 
 def jump_place(J: I32, line: int) -> int:

@@ -48,10 +48,10 @@ class Names(Sources, Protocol):
     def last_local(self) -> int:
         """The last of the locals #1, #2, ... of the present call; 0 outside calls."""
 
-    def is_plain_cell(self, n: float) -> bool:
+    def is_plain_cell(self, n: float, *, is_hash: bool) -> bool:
         """Whether a parameter is nothing but a cell of the store."""
 
-    def is_card_cell(self, n: float) -> bool:
+    def is_card_cell(self, n: float, *, is_hash: bool) -> bool:
         """Whether a parameter is a variable of the card that programs may write."""
 
     def names_of_formulas(self) -> dict[str, object]:
@@ -123,9 +123,9 @@ class Parameter:
 
 def _read(n: float, at: Names, is_hash: bool) -> str:
     """The fastest Python expression that reads a parameter."""
-    if at.is_plain_cell(n):
+    if at.is_plain_cell(n, is_hash=is_hash):
         return f"cell({int(n)})"
-    if at.is_card_cell(n):
+    if at.is_card_cell(n, is_hash=is_hash):
         return f"card({int(n)})"
     return f"read_hash({n!r})" if is_hash else f"read_p({n!r})"
 

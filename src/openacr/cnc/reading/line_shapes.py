@@ -38,9 +38,10 @@ class LineShapes:
         bracket: str,
         w_size: int = scan.W_SCAN_SIZE,
         k_size: int = rich.K_RICH_SIZE,
+        n_size: int = rich.MOST_NUMBERS,
     ) -> None:
         self.W, self.K = doubles(w_size), integers(k_size)
-        self.N, self.Q = doubles(rich.MOST_NUMBERS), integers(rich.MOST_NUMBERS)
+        self.N, self.Q = doubles(n_size), integers(rich.MOST_NUMBERS)
         self.K[rich.K_BRACKET] = ord(bracket)
         self.L, self.T = integers(rich.MOST_RICH), integers(scan.T_SIZE)
         for letter in range(26):

@@ -164,17 +164,18 @@ class Parameters:
 
     # --- for compiled formulas ----------------------------------------------------------
 
-    def is_plain_cell(self, n: float) -> bool:
-        """Whether a parameter is nothing but a cell of the store."""
+    def is_plain_cell(self, n: float, *, is_hash: bool) -> bool:
+        """Whether Pn, or #n outside calls, is nothing but a cell of the store."""
         k = int(n)
         is_stored = FIRST_STORED <= k <= LAST_STORED and k == n
         return is_stored and k not in SHOWN and k != FEED_CELL
 
-    def is_free_cell(self, n: float) -> bool:
+    def is_free_cell(self, n: float, *, is_hash: bool) -> bool:
         """Whether a program may write it, and nothing follows from that."""
-        return self.is_plain_cell(n) and any(first <= n <= last for first, last in FREE_CELLS)
+        is_plain = self.is_plain_cell(n, is_hash=is_hash)
+        return is_plain and any(first <= n <= last for first, last in FREE_CELLS)
 
-    def is_card_cell(self, n: float) -> bool:
+    def is_card_cell(self, n: float, *, is_hash: bool) -> bool:
         """Whether a parameter is a variable of the card that programs may write."""
         return 0 <= n <= LAST_CARD and n == int(n)
 

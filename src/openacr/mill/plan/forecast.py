@@ -125,7 +125,8 @@ class Forecast(Timing):
     def _many(self, moves: c.Moves) -> None:
         """Plan moves; those that are flagged are shown to the desk."""
         J, count = self._J, len(moves)
-        J[core.J_FILE] = self._file(moves.file)
+        for k, origin in enumerate(moves.origins):
+            J[core.J_FILES + k] = self._file(origin.file)
         J[row.J_UNHOMED] = self._desk.unhomed if self._desk else 0
         paces = doubles(len(moves.paces) * core.PACE)
         for k, pace in enumerate(moves.paces):

@@ -76,8 +76,8 @@ J_LEAST = 5  # moves kept at least
 J_MOVES = 6  # moves released
 J_CHAIN_CNT = 7
 J_SLOW_CNT = 8  # moves of chains that do not reach their feed
-J_FILE = 9
-J_SIZE = 10
+J_FILES = 9  # of the two texts that moves come from
+J_SIZE = 11
 
 EXACT = 1.0  # modes; others pass corners at their feed
 CORNER = 2.0
@@ -89,7 +89,7 @@ REACHED = 0.999999  # of the feed; speeds of the plan are results of square root
 DEGREES = 57.29577951308232
 LINEAR = 5
 PACE = 4  # numbers of a pace: speed, mode, tolerance, F in units/s
-ROW = 6  # of a move in `rows`
+ROW = 7  # of a move in `rows`
 CURVE = 5
 ENDLESS = 1.0e300
 
@@ -399,6 +399,6 @@ def forecast_moves(
             Q[q + Q_MODE] = paces[pace + 1] if kind > 0 else EXACT
             Q[q + Q_WANTED] = paces[pace + 3] if kind > 0 else 0.0
             Q[q + Q_LINE] = float(rows[k * ROW + 1])
-            Q[q + Q_FILE] = float(J[J_FILE])
+            Q[q + Q_FILE] = float(J[J_FILES + rows[k * ROW + 6]])
             forecast_add(J, X, Q, B)
     return flagged

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import BlockEnd, Entry, Plane, Point, Spin, Spindle
 from openacr.cnc.codes.active import Drilling
+from openacr.cnc.codes.fast import Does
 from openacr.cnc.codes.table import Axes, Group, Limit, Step
 from openacr.cnc.codes.tables import ACROMILL
 from openacr.cnc.program.flow import Frame, Level
@@ -31,7 +32,7 @@ TURNS = {74: Spin.COUNTER_CLOCKWISE, 84: Spin.CLOCKWISE}  # tapping starts like 
 SHIFT_SIGNS = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
 
 
-@gcode(80, step=Step.CYCLE_OFF, group=Group.CYCLE)
+@gcode(80, step=Step.CYCLE_OFF, group=Group.CYCLE, fast=Does.ENDS_CYCLE)
 def no_cycle(run: Run, b: BlockContext) -> None:
     """End of the cycle."""
     run.modal.cycle = NONE
@@ -42,6 +43,7 @@ def no_cycle(run: Run, b: BlockContext) -> None:
     73, 74, 76, 81, 82, 83, 84, 85, 86, 87, 88, 89,
     step=Step.MOTION, group=Group.CYCLE, words="RQPL", takes="RQPL", axes=Axes.MOVE,
     limits=(Limit("L", 0, 9999, "E250", is_whole=True), Limit("P", 0, 999.9, "E250")),
+    fast=Does.DRILLS,
 )  # fmt: skip
 def cycle(run: Run, b: BlockContext) -> Iterator[Entry]:
     """Drill, tap or bore at X Y from level R to Z; the cycle stays active until G80."""
@@ -135,8 +137,7 @@ def _one(run: Run, b: BlockContext, drilling: Drilling, left: int) -> Iterator[E
         for n, value in enumerate(_cells(run, drilling, left), CELLS.cycle_code):
             run.cells.write(n, value)
     kept = modal.cycle, modal.motion, modal.distance, modal.path, run.motions
-    label = kept[0] * LABELS + run.dialect.cycle_labels.get(kept[0], 0)
-    start = run.flow.find(label, run.program.cycles, b.plan.column(""))
+    start = run.flow.find(label_of(run, kept[0]), run.program.cycles, b.plan.column(""))
     modal.cycle, modal.distance, run.motions = NONE, 90, IN_CYCLE
     yield from run.execution.call(Frame(Level.CYCLE), start, [0.0] * (LOCALS + 1))
     run.motions = kept[4]
@@ -147,9 +148,14 @@ def _one(run: Run, b: BlockContext, drilling: Drilling, left: int) -> Iterator[E
             run.tell(BlockEnd(b.source))
 
 
+def label_of(run: Run, code: int) -> int:
+    """The label of a cycle in the text of cycles."""
+    return code * LABELS + run.dialect.cycle_labels.get(code, 0)
+
+
 def _cells(run: Run, drilling: Drilling, left: int) -> list[float]:
     """P249 to P270, in active units."""
-    modal, path, read = run.modal, run.path, run.cells.read
+    modal, path = run.modal, run.path
     plane, code = modal.plane_axes, modal.cycle
     r, bottom = drilling.levels
     i = max(drilling.initial, r) if run.dialect.rises_first else drilling.initial
@@ -157,7 +163,7 @@ def _cells(run: Run, drilling: Drilling, left: int) -> list[float]:
     is_to_r = modal.return_level == 99 and code not in TO_INITIAL
     placed = [_level(run, plane, z) for z in (bottom, r, i, r if is_to_r else i)]
     q = drilling.words.get("Q", 0.0)
-    signs = SHIFT_SIGNS[int(read(CONTROL.fine_bore_shift_direction))]
+    signs = shift_signs(run)
     return [
         float(code),
         *[path.shown(x) for x in (first, second, *placed)],
@@ -165,7 +171,7 @@ def _cells(run: Run, drilling: Drilling, left: int) -> list[float]:
         drilling.words.get("P", 0.0),
         path.shown(modal.feed),
         float(left),
-        *[path.shown(x) for x in _clearances(run)],
+        *[path.shown(x) for x in clearances(run)],
         signs[0] * q,
         signs[1] * q,
         float(modal.spin.value),
@@ -178,7 +184,12 @@ def _cells(run: Run, drilling: Drilling, left: int) -> list[float]:
     ]
 
 
-def _clearances(run: Run) -> tuple[float, float]:
+def shift_signs(run: Run) -> tuple[float, float]:
+    """Where the shift of fine boring goes along the first and second axis."""
+    return SHIFT_SIGNS[int(run.cells.read(CONTROL.fine_bore_shift_direction))]
+
+
+def clearances(run: Run) -> tuple[float, float]:
     """Retract of G73 and clearance of G83."""
     inch = run.dialect.clearance_inch
     if inch is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Dwell
-from openacr.cnc.codes.fast import Sets
+from openacr.cnc.codes.fast import Does, Sets
 from openacr.cnc.codes.table import Axes, Group, Limit, Step
 from openacr.cnc.codes.tables import ACROMILL
 
@@ -17,7 +17,7 @@ gcode = ACROMILL.gcode
 SECONDS = Limit("F", 0.1, 999.9, "E240", is_needed=True)
 
 
-@gcode(4, step=Step.DWELL, takes="F", axes=Axes.BARRED, limits=(SECONDS,))
+@gcode(4, step=Step.DWELL, takes="F", axes=Axes.BARRED, limits=(SECONDS,), fast=Does.RESTS)
 def dwell(run: Run, b: BlockContext) -> None:
     """Rest for F seconds; the feed stays what it was."""
     run.tell(Dwell(b.source, b.words["F"]))

@@ -25,17 +25,18 @@ if TYPE_CHECKING:
 gcode, letter = ACROMILL.gcode, ACROMILL.letter
 NO_CYCLE, NO_MOTION = 80, 80
 CLOCKWISE, COUNTER_CLOCKWISE = -1, 1
+SELECTS = Sets("motion"), Sets("cycle", NO_CYCLE)
 _LENGTHS = "IJKR"
 _TURNS = Limit("P", 1, 9999, "E222", is_whole=True)
 
 
-@gcode(0, 1, step=Step.MOTION, group=Group.MOTION, fast=Sets("motion"))
+@gcode(0, 1, step=Step.MOTION, group=Group.MOTION, fast=SELECTS)
 def straight(run: Run, b: BlockContext) -> None:
     """G0 moves at rapid speed, G1 at feed, in a straight line; a cycle ends."""
     select(run, b)
 
 
-@gcode(2, 3, step=Step.MOTION, group=Group.MOTION, words="IJKRP", fast=Sets("motion"))
+@gcode(2, 3, step=Step.MOTION, group=Group.MOTION, words="IJKRP", fast=SELECTS)
 def arc(run: Run, b: BlockContext) -> None:
     """G2 cuts arcs clockwise, G3 counter-clockwise, in P turns; a cycle ends."""
     select(run, b)

@@ -17,7 +17,7 @@ gcode = ACROMILL.gcode
 READING = Limit("F", 0, 2, "E222", is_needed=True, is_whole=True)
 
 
-@gcode(17, 18, 19, step=Step.PLANE, group=Group.PLANE, fast=Sets("plane"))
+@gcode(17, 18, 19, step=Step.PLANE, group=Group.PLANE, fast=Sets("plane", is_barred=True))
 def plane(run: Run, b: BlockContext) -> None:
     """The plane of arcs, compensation, rotation and cycles: XY, ZX, YZ."""
     if run.modal.plane == b.number:

@@ -53,13 +53,14 @@ RS274NGC.include(
 
 
 @gcode(4, step=Step.DWELL, takes="P",
-       limits=(Limit("P", 0, 1e6, "E222", is_needed=True),))  # fmt: skip
+       limits=(Limit("P", 0, 1e6, "E222", is_needed=True),), fast=Does.RESTS)  # fmt: skip
 def dwell(run: Run, b: BlockContext) -> None:
     """Rest for P seconds, then move if there are axis words."""
     run.tell(Dwell(b.source, b.words["P"]))
 
 
-@gcode(80, step=Step.CYCLE_OFF, group=Group.CYCLE)
+@gcode(80, step=Step.CYCLE_OFF, group=Group.CYCLE,
+       fast=(Does.ENDS_CYCLE, Sets("motion", motion.NO_MOTION)))  # fmt: skip
 def no_motion(run: Run, b: BlockContext) -> None:
     """No motion is active: axis words have no meaning until one is chosen, here or later."""
     run.modal.cycle = cycles.NONE
@@ -69,7 +70,7 @@ def no_motion(run: Run, b: BlockContext) -> None:
 
 @gcode(73, 74, 81, 82, 83, 84, 85, 86, 89, step=Step.MOTION, group=Group.MOTION,
        words="RQPL", takes="RQPL", axes=Axes.MOVE, is_polar=True,
-       limits=(Limit("L", 1, 9999, "E250", is_whole=True),))  # fmt: skip
+       limits=(Limit("L", 1, 9999, "E250", is_whole=True),), fast=Does.DRILLS)  # fmt: skip
 def cycle(run: Run, b: BlockContext) -> Iterator[Entry]:
     """A canned cycle; it ends at the higher of R and where it began (G98) or at R (G99)."""
     no_open_curve(run, b)

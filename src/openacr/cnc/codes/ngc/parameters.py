@@ -80,13 +80,13 @@ class NgcParameters(Parameters):
         self.values[0] = 1.0
         self.own[:] = array("d", bytes(8 * len(self.own)))
 
-    def is_plain_cell(self, n: float) -> bool:
-        """None is."""
-        return False
+    def is_plain_cell(self, n: float, *, is_hash: bool) -> bool:
+        """Those that the texts of cycles name."""
+        return not is_hash and super().is_plain_cell(n, is_hash=is_hash)
 
-    def is_card_cell(self, n: float) -> bool:
-        """None is."""
-        return False
+    def is_card_cell(self, n: float, *, is_hash: bool) -> bool:
+        """Those that the texts of cycles name."""
+        return not is_hash and super().is_card_cell(n, is_hash=is_hash)
 
     def read_hash(self, n: float) -> float:
         """Parameter #n; 0 where nothing was written."""

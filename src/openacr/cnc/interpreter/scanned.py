@@ -1,0 +1,103 @@
+"""What came out of lines that were executed together: entries of the arrays."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+from openacr.cnc.canonical import Moves, Pace, Polyline, Source
+from openacr.cnc.canonical.batches import CURVE, POINT, ROW, Origin
+from openacr.cnc.interpreter import run_rows_cy as core
+from openacr.cnc.program.block_context import BlockContext
+from openacr.cnc.program.program import Node
+from openacr.cnc.reading.line_shapes import doubles, integers
+from openacr.cnc.reading.text import decoded
+
+if TYPE_CHECKING:
+    from openacr.cnc.interpreter.fast_plans import Notes
+    from openacr.cnc.interpreter.interpreter import Interpreter
+    from openacr.cnc.program.program import Part
+    from openacr.views import F64, I32
+
+
+class Scanned:
+    """The rows of many lines of a text, and how they become entries."""
+
+    def __init__(self, run: Interpreter, notes: Notes, nodes: dict[int, Node]) -> None:
+        self._run = run
+        self._notes = notes
+        self._nodes = nodes  # of the cycles
+        room = core.MOST_ROWS + core.MOST_STEPS
+        self.ends, self.arcs = doubles(room * POINT), doubles(room * CURVE)
+        self.rows, self.paces = integers(room * ROW), doubles(room + 1)
+
+    def moves(self, count: int, paces: int, part: Part, data: memoryview) -> None:
+        """Hand out moves of `paces` paces, with the entries of codes between them."""
+        run, rows = self._run, integers(count * ROW)
+        rows[:] = self.rows[: count * ROW]
+        ends, arcs = doubles(count * POINT), doubles(count * CURVE)
+        ends[:], arcs[:] = self.ends[: count * POINT], self.arcs[: count * CURVE]
+        origins = self._origins(part, data)
+        known = self._paces(paces)
+        first = 0
+        kinds = rows[core.R_KIND :: ROW].tolist() if count else []
+        notes = [k for k, kind in enumerate(kinds) if kind == core.NOTE]
+        for k in (*notes, count):
+            if k > first:
+                run.out.append(Moves(
+                    origins, rows[first * ROW : k * ROW], ends[first * POINT : k * POINT],
+                    arcs[first * CURVE : k * CURVE], known,
+                ))  # fmt: skip
+                run.is_rested = False
+            if k < count:
+                self._note(k, rows, ends, part, data)
+            first = k + 1
+
+    def _note(self, k: int, rows: I32, ends: F64, part: Part, data: memoryview) -> None:
+        """Let a code act that tells something between two moves."""
+        line, number, begin, end, text = (
+            rows[ROW * k + at]
+            for at in (core.R_LINE, core.R_PLANE, core.R_START, core.R_STOP, core.R_TEXT)
+        )
+        plan, code = self._notes.codes[number]
+        node = self._nodes[begin] if text else Node(part, line, _text(data, begin, end), end)
+        values = ends[POINT * k : POINT * (k + 1)]
+        b = BlockContext(node, plan, dict(zip(plan.words, values, strict=False)))
+        b.number = code.number
+        code.act(self._run, b)
+
+    def polyline(self, count: int, part: Part, data: memoryview) -> None:
+        """Hand out straight feed moves of one pace."""
+        import numpy as np
+
+        R = self.rows
+        ends = np.array(self.ends[: count * POINT]).reshape(count, POINT)
+        lines = np.array(R[core.R_LINE : count * ROW : ROW], np.int64)
+        text = _text(data, R[core.R_START], R[core.R_STOP])
+        source = Source(part.text.name, int(lines[0]), text)
+        self._run.out.append(Polyline(source, ends, lines, self._paces(1)[0]))
+        self._run.is_rested = False
+
+    def _paces(self, count: int) -> tuple[Pace, ...]:
+        """The paces of the moves: they differ in the feed alone."""
+        present = self._run.path.plain_pace()
+        return tuple(_with_feed(present, feed) for feed in self.paces[:count])
+
+    def _origins(self, part: Part, data: memoryview) -> tuple[Origin, ...]:
+        """The texts of the moves: that of the program, then that of the cycles."""
+        own = Origin(part.text.name, partial(_text, data))
+        if not self._nodes:
+            return (own,)
+        nodes = self._nodes
+        name = next(iter(nodes.values())).part.text.name
+        return own, Origin(name, lambda begin, _: nodes[begin].raw)
+
+
+def _with_feed(pace: Pace, feed: float) -> Pace:
+    return pace if pace.feed_upm == feed else replace(pace, feed_upm=feed)
+
+
+def _text(data: memoryview, begin: int, end: int) -> str:
+    """The text of a line, without its end."""
+    return decoded(bytes(data[begin:end]).rstrip(b"\r\n"))
