@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from tests.cnc.programs import Run, made, unrolled
 from tests.cnc.test_fuzz import ACROMILL, OTHER, mutated
 
-from openacr.cnc.canonical import Arc, Line, Moves, Plane, Rapid, Source, batches
+from openacr.cnc.canonical import Arc, Coolant, Line, Moves, Plane, Rapid, Source, batches
 from openacr.cnc.codes.fast import Sets
 from openacr.cnc.codes.table import DIALECTS
 from openacr.cnc.interpreter import fast_plans, lines_cy, run_rows_cy, scanning
@@ -73,8 +73,12 @@ N0 X3
 (drill 5 mm, then ream) X1
 ; all of it
 X1 (open
+M7
 M8
 M9
+M8 X2
+X3 M9
+F20 M7 G2 X1 Y1 R2
 S1000
 S1000 M3
 T2
@@ -236,6 +240,30 @@ def test_idle_blocks_are_counted_across_batches() -> None:
     found = require_same(text.replace("X2", "G90\nX2"), "rs274ngc")
     assert found.error is not None
     assert (found.error.code, found.error.line) == ("A62", MOST_IDLE + 3)
+
+
+def test_coolant_stands_in_its_place_between_the_moves() -> None:
+    text = "F60 X1\nM8 X2\nX3 M9\nM7\nX4 (dry)\nM2"
+    found = require_same(text, "acromill").entries
+    shown = [entry.end[0] if isinstance(entry, Line) else entry for entry in found[:-1]]
+    assert shown == [
+        1.125,
+        Coolant(Source("PROGRAM", 2, "M8 X2"), mist=False, flood=True),
+        2.125,
+        3.125,
+        Coolant(Source("PROGRAM", 3, "X3 M9"), mist=False, flood=False),
+        Coolant(Source("PROGRAM", 4, "M7"), mist=True, flood=False),
+        4.125,
+    ]
+    dry = Options(is_dry=True, has_batches=True)
+    assert [len(moves) for moves in made(text, options=dry).interpreter.entries()
+            if isinstance(moves, Moves)] == [4]  # fmt: skip
+
+
+def test_blocks_are_idle_until_one_moves_or_waits() -> None:
+    for code, idle_cnt in (("M8", 4), ("G4 P1", 1)):
+        many = require_same(f"F60\nX1\n{code}\n{code}\n{code}\nM2", "rs274ngc")
+        assert many.interpreter.execution.idle_cnt == idle_cnt
 
 
 def test_lines_without_motion_leave_the_machine_exactly_where_it_is() -> None:

@@ -20,7 +20,10 @@ class Does(Enum):
     MOVES = auto()  # as the motion or cycle in force
     DRILLS = auto()  # begins or changes a cycle
     ENDS_CYCLE = auto()
-    RESTS = auto()  # the handler only tells of a wait: it is called in its place between moves
+    # The handler neither reads nor changes what the core executes, and only hands out entries: it
+    # is called in its place between the moves, when these become entries.
+    SHOWS = auto()
+    RESTS = auto()  # an entry that waits: what follows is no longer idle
 
 
 @dataclass(frozen=True, slots=True)

@@ -209,6 +209,7 @@ class Table:
         takes: str = "",
         acts_dry: bool = True,
         limits: tuple[Limit, ...] = (),
+        fast: FastForms | None = None,
     ) -> Callable[[Handler], Handler]:
         """Register a function as M codes."""
 
@@ -217,7 +218,7 @@ class Table:
                 self.add(
                     Code(
                         "M", number, step, act, None, words + takes, takes,
-                        limits=limits, acts_dry=acts_dry,
+                        limits=limits, acts_dry=acts_dry, fast=forms_of(fast, number),
                     )
                 )  # fmt: skip
             return act

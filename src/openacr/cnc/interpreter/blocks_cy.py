@@ -68,6 +68,7 @@ from openacr.cnc.interpreter.run_rows_cy import (
     R_TEXT,
     ROW,
     STEP_BAR,
+    STEP_NOTE,
     STEP_UNIT,
     TAKEN,
     W_EPSILON,
@@ -134,7 +135,8 @@ def block_note(W: F64, P: I32, plan: int, at: int, M: I32, R: I32, ends: F64) ->
     letters: int = plan + P[at + 2]
     for k in range(P[letters]):
         ends[row * AXES + k] = W[W_WORDS + P[letters + 1 + k]]
-    M[M_IDLE] = 0
+    if P[at] == STEP_NOTE:
+        M[M_IDLE] = 0
     return TAKEN
 
 

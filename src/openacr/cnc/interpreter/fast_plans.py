@@ -170,9 +170,10 @@ def _act(form: Fast | None, code: Code, plan: Plan, body: Steps, notes: Notes) -
             body.add(core.STEP_DRILL, int(code.number))
         case Does.ENDS_CYCLE:
             body.add(core.STEP_END_CYCLE)
-        case Does.RESTS if len(plan.words) <= AXES:
+        case Does.RESTS | Does.SHOWS if len(plan.words) <= AXES:
             letters = [_letter(letter) for letter in plan.words]
-            body.add(core.STEP_NOTE, notes.add(plan, code), [len(letters), *letters])
+            step = core.STEP_NOTE if form is Does.RESTS else core.STEP_SHOW
+            body.add(step, notes.add(plan, code), [len(letters), *letters])
         case Sets(name, value, is_barred=is_barred) if name in FIELDS:
             kind = core.STEP_BAR if is_barred else _SET_STEPS.get(name, core.STEP_SET)
             body.add(kind, FIELDS.index(name), int(code.number) if value is None else value)

@@ -46,6 +46,7 @@ from openacr.cnc.interpreter.run_rows_cy import (
     STEP_LIMIT,
     STEP_MOVE,
     STEP_NOTE,
+    STEP_SHOW,
     TAKEN,
     W_TARGET,
 )
@@ -131,7 +132,7 @@ def block_run(
             )  # fmt: skip
         elif step == STEP_LIMIT:
             done = block_limit(W, P[at + 1], P[at + 2])
-        elif step == STEP_NOTE:
+        elif step == STEP_NOTE or step == STEP_SHOW:
             done = block_note(W, P, plan, at, M, R, ends)
         elif step == STEP_END_CYCLE:
             cycle_end(M)

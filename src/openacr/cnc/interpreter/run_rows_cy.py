@@ -97,10 +97,11 @@ STEP_JUMP = 7  # JUMP_..., formula or 0
 STEP_BAR = 8  # row, value: left in a cycle, unless it is so already
 STEP_DRILL = 9  # code
 STEP_END_CYCLE = 10
-STEP_NOTE = 11  # number of the note, letters of its words: count, then each
+STEP_NOTE = 11  # number of the note, letters of its words: count, then each; a wait
 STEP_LIMIT = 12  # letter, limit
 STEP_GO = 13  # in a cycle: line, formula or 0
 STEP_RETURN = 14  # in a cycle: -, formula or 0
+STEP_SHOW = 15  # as STEP_NOTE, no wait
 JUMP_COUNTS = 1
 JUMP_IF_TRUE = 2  # else where it is false
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Coolant, Spin, Spindle
+from openacr.cnc.codes.fast import Does
 from openacr.cnc.codes.table import Step
 from openacr.cnc.codes.tables import ACROMILL
 
@@ -29,21 +30,21 @@ def spindle_off(run: Run, b: BlockContext) -> None:
     run.tell(Spindle(b.source, Spin.OFF, run.modal.speed))
 
 
-@mcode(7, step=Step.COOLANT, acts_dry=False)
+@mcode(7, step=Step.COOLANT, acts_dry=False, fast=Does.SHOWS)
 def mist_on(run: Run, b: BlockContext) -> None:
     """Mist coolant on."""
     run.modal.mist = True
     _coolant(run, b)
 
 
-@mcode(8, step=Step.COOLANT, acts_dry=False)
+@mcode(8, step=Step.COOLANT, acts_dry=False, fast=Does.SHOWS)
 def flood_on(run: Run, b: BlockContext) -> None:
     """Flood coolant on."""
     run.modal.flood = True
     _coolant(run, b)
 
 
-@mcode(9, step=Step.COOLANT_OFF, acts_dry=False)
+@mcode(9, step=Step.COOLANT_OFF, acts_dry=False, fast=Does.SHOWS)
 def coolant_off(run: Run, b: BlockContext) -> None:
     """All coolant off, after the motion of the block."""
     run.modal.mist = run.modal.flood = False
