@@ -55,7 +55,7 @@ $(INSTALLED): pyproject.toml $(MADE)
 	@echo "installing packages into $(VENV)"
 	@$(PIP) install --upgrade pip "setuptools>=77" wheel "cython>=3.1" || \
 		echo "pip and setuptools were not upgraded; carrying on with what is there"
-	@OPENACR_PURE=1 $(PIP) install --no-build-isolation --editable ".[dev,dxf,lsp,panel,plot]"
+	@OPENACR_PURE=1 $(PIP) install --no-build-isolation --editable ".[dev,dxf,lsp,panel,plot,sweep]"
 	@touch $@
 
 $(BUILT): $(CORE_SOURCES) $(INSTALLED)
@@ -102,7 +102,7 @@ lowest:
 	@test -x $(LOWEST)/bin/python || $(PYTHON) -m venv $(LOWEST)
 	@$(LOWEST)/bin/python -m pip install -qq uv
 	OPENACR_PURE=1 $(LOWEST)/bin/uv pip install --python $(LOWEST)/bin/python -q \
-		--resolution lowest-direct --editable ".[dev,dxf,lsp,panel,plot]"
+		--resolution lowest-direct --editable ".[dev,dxf,lsp,panel,plot,sweep]"
 	$(LOWEST)/bin/python setup.py --quiet build_ext --inplace
 	$(LOWEST)/bin/python -m pytest -n $(WORKERS) -m "not soak" $(TESTS)
 

@@ -18,6 +18,7 @@ ORDER = (
     "check",
     "state",
     "timeline",
+    "sweep",
     "startup",
     "language_server",
     "terminal_latency",

@@ -37,6 +37,7 @@ COMMANDS: dict[str, Entry | Family] = {
     "serve": Entry("serve", "serve"),
     "panel": Entry("panel", "panel"),
     "replay": Entry("run.replay", "replay"),
+    "sweep": Entry("sweep.command", "sweep"),
     "debug": Entry("debug", "debug"),
     "term": Entry("live.term", "term"),
     "download": Entry("live.download", "download"),

@@ -3,6 +3,9 @@
 from dataclasses import dataclass
 from enum import Enum
 
+from openacr.errors import MapError, UserError
+from openacr.map import flag
+from openacr.map.numbers import FLAG_LAST
 from openacr.scenario import card_view
 from openacr.scenario.play import Play
 from openacr.scenario.played import CardWorld, Played
@@ -34,6 +37,24 @@ class Until:
         if self.bit is None:
             return "idle"
         return f"BIT{self.bit} {'set' if self.is_on else 'clear'}"
+
+
+def read_until(text: str) -> Until:
+    """Read `idle`, a flag that is to be set (516), or one that is to be clear (-516).
+
+    UserError for anything else, and for a flag that does not exist.
+    """
+    if text.strip().lower() == "idle":
+        return Until()
+    number = text.strip().upper().removeprefix("-").removeprefix("BIT").strip()
+    if not (number.isascii() and number.isdigit()):
+        hint = "give `idle`, a flag that is to be set (516) or one that is to be clear (-516)"
+        raise UserError(hint)
+    try:
+        flag(int(number))
+    except MapError as error:
+        raise UserError(f"{error} (flags are 0..{FLAG_LAST})") from None
+    return Until(int(number), not text.strip().startswith("-"))
 
 
 def stored_but_idle(card: Played) -> list[int]:

@@ -12,7 +12,7 @@ import typer
 
 from openacr.cli.refusals import failed_json
 from openacr.cli.run.watched import watched
-from openacr.errors import MapError, UserError
+from openacr.errors import UserError
 from openacr.lang.characters import shown
 from openacr.project import decode, find_project
 
@@ -147,22 +147,12 @@ def parse_until(text: str | None) -> "Until | None":
     """Read `--until`: idle, a flag number, or a flag number with `-` for clear."""
     if text is None:
         return None
-    from openacr.scenario.course import Until
-
-    if text.strip().lower() == "idle":
-        return Until()
-    number = text.strip().upper().removeprefix("-").removeprefix("BIT").strip()
-    if not (number.isascii() and number.isdigit()):
-        hint = "give `idle`, a flag that is to be set (516) or one that is to be clear (-516)"
-        raise UserError(f"--until {text}: {hint}")
-    from openacr.map import flag
-    from openacr.map.numbers import FLAG_LAST
+    from openacr.scenario.course import read_until
 
     try:
-        flag(int(number))
-    except MapError as error:
-        raise UserError(f"--until {text}: {error} (flags are 0..{FLAG_LAST})") from None
-    return Until(int(number), not text.strip().startswith("-"))
+        return read_until(text)
+    except UserError as error:
+        raise UserError(f"--until {text}: {error}") from None
 
 
 def limit_s(for_s: float | None, scenario: "Scenario | None") -> float:
