@@ -105,6 +105,7 @@ COMMANDS: dict[str, Entry | Family] = {
             ),
         },
     ),
+    "verify": Entry("verify.command", "verify"),
     "sysvar": Family(
         "System parameters, offsets and variables of the CNC side (the SYSVAR store).",
         {

@@ -118,3 +118,24 @@ def test_a_tool_path_is_stepped_through_and_its_kinds_are_switched_off(
     page.locator("#keys input").first.check()
     page.wait_for_timeout(100)
     assert page.evaluate(INK, "strokes") > 0
+
+
+def test_the_page_of_a_verified_folder_lists_programs_by_their_result(
+    page: Page, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
+    shop = tmp_path / "shop"
+    shop.mkdir()
+    (shop / "good.nc").write_text("G20\n" + PART)
+    (shop / "wr<b>ng.nc").write_text("X\nM2\n")
+    target = tmp_path / "shop.html"
+    words = ["verify", str(shop), "--workers", "1", "--html", str(target)]
+    assert CliRunner().invoke(app, words).exit_code == 1
+    page.goto(target.as_uri())
+    page.locator("tbody tr").nth(1).wait_for()
+    assert page.locator("tbody b").all_text_contents() == ["good.nc", "wr<b>ng.nc"]
+    assert page.locator("tbody tr").nth(1).locator("li").first.text_content() == (
+        "1:2 E105 value expected after letter"
+    )
+    page.locator("select").select_option("errors")
+    assert page.locator("tbody tr:visible b").all_text_contents() == ["wr<b>ng.nc"]

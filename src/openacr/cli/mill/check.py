@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from openacr.cli.mill.trace import Every, ToTrace, require_trace, trace_file
-from openacr.errors import UserError, unreadable
-from openacr.project import require_text
 from openacr.wording import counted
 
 if TYPE_CHECKING:
@@ -24,8 +22,6 @@ if TYPE_CHECKING:
 FAILED = 1
 S_PER_MIN = 60
 CONTEXT_COLUMNS = 72
-BEGINNING_BYTES = 65536  # examined to tell text from other files
-TAPE_CONTROLS = b"\x00\x0b\x11\x12\x13\x14\x7f"  # leader, reader and punch, rubout
 
 PartProgram = Annotated[Path, typer.Argument(metavar="FILE.nc", help="Part program.")]
 AtStore = Annotated[
@@ -58,31 +54,12 @@ def loaded(file: Path, store: "Store", dialect: str | None) -> tuple["Program", 
 
     An unusual dialect found by the features of the file is reported on standard error.
     """
-    from openacr.cnc.loading.load import load
-    from openacr.mill.config.dialects import choose
-    from openacr.mill.config.folders import folders_of
+    from openacr.mill.plan.checking import opened
 
-    require_file(file)
-    choice = choose(file, store, dialect)
-    folder = store.path.parent if store.path else None
-    program = load(file, store, choice.name, folders_of(store, folder))
+    program, choice = opened(file, store, dialect)
     if choice.is_worth_reporting or (program.errors and choice.is_doubtful):
         typer.echo(f"{file}: {choice.text}", err=True)
     return program, choice.name
-
-
-def require_file(file: Path) -> None:
-    """Refuse a part program that cannot be read."""
-    if file.is_dir():
-        raise UserError(f"{file}: this is a folder, not a part program")
-    if not file.exists():
-        raise UserError(f"{file}: no such file")
-    try:
-        with file.open("rb") as opened:
-            beginning = opened.read(BEGINNING_BYTES)
-    except OSError as error:
-        raise unreadable(file, error) from None
-    require_text(file, beginning, controls=TAPE_CONTROLS, what="part programs")
 
 
 def printable(text: str) -> str:

@@ -4,7 +4,7 @@ import json as json_format
 
 import typer
 
-from openacr.cli.mill.check import AsJson, AtStore, Dialect, PartProgram, opened_store, require_file
+from openacr.cli.mill.check import AsJson, AtStore, Dialect, PartProgram, opened_store
 
 
 def show_dialect(
@@ -12,6 +12,7 @@ def show_dialect(
 ) -> None:
     """Show the dialect in which a part program would be read, and the reason."""
     from openacr.mill.config.dialects import choose
+    from openacr.mill.plan.checking import require_file
 
     require_file(file)
     with opened_store(store) as cells:

@@ -1,5 +1,6 @@
 """What `openacr mill check` finds: a program read once, its moves checked against the machine."""
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,16 +11,46 @@ from openacr.cnc.loading.load import load
 from openacr.cnc.program.program import Program
 from openacr.cnc.reading.findings import Finding
 from openacr.cnc.state.hosts import VirtualMachine
+from openacr.errors import OpenacrError, UserError, unreadable
 from openacr.mill.config.curves import can_plan
-from openacr.mill.config.dialects import choose_for
+from openacr.mill.config.dialects import Choice, choose, choose_for
 from openacr.mill.config.folders import folders_of
 from openacr.mill.config.settings import NONE, Settings
 from openacr.mill.plan.forecast import Desk, Forecast
-from openacr.mill.plan.predicting import Prediction, Predictor, Reader, Timing
+from openacr.mill.plan.predicting import Prediction, Predictor, Reader
 from openacr.mill.plan.preflight import Preflight
+from openacr.project import require_text
 from openacr.sysvar import Store
 
 BEGIN = (0.0,) * 8
+BEGINNING_BYTES = 65536  # examined to tell text from other files
+TAPE_CONTROLS = b"\x00\x0b\x11\x12\x13\x14\x7f"  # leader, reader and punch, rubout
+
+
+class TooLongError(OpenacrError):
+    """A program that takes more machine time than it may."""
+
+
+def opened(file: Path, cells: Store, dialect: str | None = None) -> tuple[Program, Choice]:
+    """Load the program in a file with its macros; UserError for a file that cannot be read."""
+    require_file(file)
+    choice = choose(file, cells, dialect)
+    folder = cells.path.parent if cells.path else None
+    return load(file, cells, choice.name, folders_of(cells, folder)), choice
+
+
+def require_file(file: Path) -> None:
+    """Refuse a part program that cannot be read."""
+    if file.is_dir():
+        raise UserError(f"{file}: this is a folder, not a part program")
+    if not file.exists():
+        raise UserError(f"{file}: no such file")
+    try:
+        with file.open("rb") as opened:
+            beginning = opened.read(BEGINNING_BYTES)
+    except OSError as error:
+        raise unreadable(file, error) from None
+    require_text(file, beginning, controls=TAPE_CONTROLS, what="part programs")
 
 
 def check_text(text: str, path: Path, cells: Store, dialect: str | None = None) -> list[Finding]:
@@ -44,11 +75,12 @@ def surveyed(
     reader: Reader | None = None,
     desk: Desk | None = None,
     look: Callable[[Entry], None] | None = None,
+    limit_s: float = math.inf,
 ) -> tuple[Survey, Prediction]:
     """Read a program; `reader` gets every move as it is planned, `desk` those that may be refused.
 
     `look` gets every canonical entry; `rounds`: as on the virtual machine, which supports path
-    tolerances.
+    tolerances. TooLongError as soon as it takes more than `limit_s` of machine time.
     """
     options = options or Options()
     settings = Settings(cells)
@@ -59,7 +91,7 @@ def surveyed(
     else:
         timing = Forecast(settings, BEGIN, is_dry=options.is_dry, rounds=rounds, desk=desk)
     machine = VirtualMachine(is_probed=settings.wiring.probe != NONE)
-    found = survey(program, cells, dialect, options, machine, _both(timing, look))
+    found = survey(program, cells, dialect, options, machine, _both(timing, look, limit_s))
     timing.close()
     return found, timing.found
 
@@ -72,22 +104,35 @@ def checked(
     options: Options | None = None,
     rounds: bool = True,
     look: Callable[[Entry], None] | None = None,
+    limit_s: float = math.inf,
 ) -> tuple[Survey, Prediction]:
     """Read a program, with findings about moves that the machine refuses or makes slower."""
     preflight = Preflight(Settings(cells))
     found, prediction = surveyed(
-        program, cells, dialect, options=options, rounds=rounds, desk=preflight, look=look
+        program,
+        cells,
+        dialect,
+        options=options,
+        rounds=rounds,
+        desk=preflight,
+        look=look,
+        limit_s=limit_s,
     )
     found.add(preflight.findings(program.text_of))
     return found, prediction
 
 
-def _both(timing: Timing, look: Callable[[Entry], None] | None) -> Callable[[Entry], None]:
-    if look is None:
+def _both(
+    timing: Forecast | Predictor, look: Callable[[Entry], None] | None, limit_s: float
+) -> Callable[[Entry], None]:
+    if look is None and limit_s == math.inf:
         return timing.add
 
     def add(entry: Entry) -> None:
         timing.add(entry)
-        look(entry)
+        if look is not None:
+            look(entry)
+        if timing.found.time_s > limit_s:
+            raise TooLongError(f"it takes more than {limit_s:g} s of machine time")
 
     return add

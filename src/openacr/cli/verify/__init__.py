@@ -1,0 +1,1 @@
+"""`openacr verify`: the part programs of a shop against its machine."""

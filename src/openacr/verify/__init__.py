@@ -1,0 +1,1 @@
+"""All part programs of a folder checked against one machine."""
