@@ -119,6 +119,16 @@ def test_a_changed_program_makes_it_another_sweep(tmp_path: Path) -> None:
         rows_of(file)
 
 
+def test_a_changed_device_makes_it_another_sweep(tmp_path: Path) -> None:
+    project = axis_project(tmp_path / "p")
+    (project / "gripper.py").write_text("WIDTH = 1\n")
+    file = sweep_file(tmp_path, FEW)
+    rows_of(file)
+    (project / "gripper.py").write_text("WIDTH = 2\n")
+    with pytest.raises(UserError, match="results of another sweep"):
+        rows_of(file)
+
+
 @pytest.mark.parametrize("content", [b"", b"PAR1 no table PAR1", b"a,b\n1,2\n"])
 def test_a_file_that_is_not_of_results_is_refused_and_kept(tmp_path: Path, content: bytes) -> None:
     formula_project(tmp_path / "p")

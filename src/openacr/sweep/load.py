@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from openacr.errors import SourceError, UserError
+from openacr.errors import SourceError, UserError, read_bytes
 from openacr.plant import toml_file
 from openacr.plant.complaint import Complaint
 from openacr.plant.explaining import explain, not_finite
@@ -32,6 +32,7 @@ def load_sweep(path: Path) -> Study:
     study = Study(
         project=project,
         machine=toml_file.read_text(project.machine) if project.machine else None,
+        devices=_device_files(project),
         scenario=scenario,
         scenario_text=scenario_text,
         limit_s=limit_s,
@@ -64,6 +65,13 @@ def parse_sweep(text: str, path: str = "sweep.toml") -> tuple[Head, Tables]:
 
 def _placed(text: str, path: str, complaints: list[Complaint]) -> Iterator[SourceError]:
     return (toml_file.wrong(text, path, each.path, each.text, each.hint) for each in complaints)
+
+
+def _device_files(project: Project) -> tuple[bytes, ...]:
+    """The Python files beside machine.toml: what they say decides results, too."""
+    if project.machine is None:
+        return ()
+    return tuple(map(read_bytes, sorted(project.machine.parent.glob("*.py"))))
 
 
 def _scenario(folder: Path, project: Project, named: str | None) -> tuple[Scenario | None, str]:

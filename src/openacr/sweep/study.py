@@ -22,6 +22,7 @@ class Study:
 
     project: Project
     machine: str | None  # text of machine.toml
+    devices: tuple[bytes, ...]  # the Python files beside it, which devices are read from
     scenario: Scenario | None
     scenario_text: str
     limit_s: float
@@ -46,8 +47,8 @@ class Study:
         }
         files = [(str(each.place), each.number, each.data) for each in self.project.sources]
         decides = (
-            files, self.machine, self.scenario_text, self.limit_s, str(self.until), self.every_tk,
-            targets, self.measures,
+            files, self.machine, self.devices, self.scenario_text, self.limit_s,
+            str(self.until), self.every_tk, targets, self.measures,
         )  # fmt: skip
         return blake2b(repr(decides).encode(), digest_size=16).hexdigest()
 
