@@ -13,11 +13,15 @@ export const screen = {
     const store = h("input", { type: "checkbox", checked: true });
     const rows = h("div.stack.grow.scroll", {});
     body.append(h("div.notice", {}, t("gain.warning")), axes, rows, h("label.check", {}, store, t("gain.store")));
+    /** @type {import("../core/model.js").Axis | null} */
+    let chosen = null;
     const show = async (/** @type {import("../core/model.js").Axis} */ axis) => {
+      chosen = axis;
+      fill(rows); // until they are read, nothing can be typed
       fill(axes, ...model.axes.map((each) => h("button.key", { type: "button", role: "radio", ariaChecked: String(each === axis), onclick: () => show(each) }, each.name)));
       try {
         const form = await get("forms/SERVO", { axis: axis.index });
-        fill(rows, ...form.groups.flatMap((/** @type {any} */ group) => group.rows).filter((/** @type {any} */ row) => row.kind === "real").map((/** @type {any} */ row) => rowOf(axis, row, store)));
+        if (axis === chosen) fill(rows, ...form.groups.flatMap((/** @type {any} */ group) => group.rows).filter((/** @type {any} */ row) => row.kind === "real").map((/** @type {any} */ row) => rowOf(axis, row, store)));
       } catch (error) {
         refuse(error);
       }
