@@ -127,12 +127,11 @@ def test_a_file_is_not_replaced_without_force(tmp_path: Path) -> None:
     assert (tmp_path / "s.jsonl").read_text() == "mine"
 
 
-@pytest.mark.parametrize("words", [["--project", "x"], ["--json"]])
-def test_options_of_recordings_are_refused_for_journals(tmp_path: Path, words: list[str]) -> None:
+def test_an_option_of_recordings_is_refused_for_journals(tmp_path: Path) -> None:
     (tmp_path / "j").write_bytes(b"journal")
-    result = openacr("replay", tmp_path / "j", *words)
+    result = openacr("replay", tmp_path / "j", "--json")
     assert result.exit_code == 2
-    assert f"{words[0]} is for recordings of `openacr record`" in result.stderr
+    assert "--json is for recordings of `openacr record`" in result.stderr
 
 
 @pytest.mark.parametrize("words", [["--check"], ["--until", "1"]])

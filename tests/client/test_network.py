@@ -265,7 +265,7 @@ def test_asyncio_reconnects_as_well(served: Served) -> None:
 def test_no_card_there_is_reported_at_once() -> None:
     with socket.create_server((LOOPBACK, 0)) as taken:
         port = taken.getsockname()[1]
-    said = f"^cannot connect to {LOOPBACK}:{port}: .+ \\(10061: another device"
+    said = f"^cannot connect to {LOOPBACK}:{port}: .+ \\(10061: no card listens at"
     with pytest.raises(ConnectionLostError, match=said):
         Card.open(f"{LOOPBACK}:{port}")
     with pytest.raises(ConnectionLostError, match=said):

@@ -13,7 +13,7 @@ from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_play
 from tests.panel.bench import Served
 from tests.panel.browser.chromium import MISSING, OPTIONS, found
 
-LONGEST_MS = 20_000  # of any wait: a machine may be busy
+LONGEST_MS = 60_000  # of any wait: a machine may be busy
 expect.set_options(timeout=LONGEST_MS)
 READY = "() => document.querySelector('body:not(.is-stale) #menu .menu-key')"
 

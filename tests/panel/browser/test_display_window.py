@@ -86,7 +86,7 @@ def test_a_part_is_drawn_when_it_is_loaded_unless_default_graphics_is_false(
     to_main_menu(page)
     page.keyboard.press("F8")
     page.keyboard.press("F1")
-    page.get_by_role("tab", name="Control", exact=True).click()
+    page.get_by_role("tab", name="Control, page 1", exact=True).click()
     box = page.get_by_role("checkbox", name="Default Graphics")
     expect(box).to_be_checked()
     box.uncheck()

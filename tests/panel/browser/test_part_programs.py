@@ -149,7 +149,7 @@ def offsets(page: Page, tab: str) -> None:
 TABS = {
     "R offsets (geometric)": CELLS.d_radius[2], "R offsets (wear)": CELLS.d_wear[2],
     "H offsets (geometric)": CELLS.h_length[2], "H offsets (wear)": CELLS.h_wear[2],
-    "Ballscrew": OFFSETS.ballscrew_file[1], "Backlash": OFFSETS.backlash[1],
+    "Backlash": OFFSETS.backlash[1],
     "Reference points": CELLS.reference_point_2[0],
 }  # fmt: skip
 
@@ -178,8 +178,7 @@ def test_every_page_of_offsets_is_on_the_disk_after_save_page_and_unchanged_with
 def on_disk(served: Served, cell: int) -> str:
     """A cell as another process reads it from the file of the store."""
     with Store(served.store) as disk:
-        is_text = cell in OFFSETS.ballscrew_file
-        return disk.read_text(cell) if is_text else f"{disk.read(cell):g}"
+        return f"{disk.read(cell):g}"
 
 
 def test_the_browser_has_nothing_to_complain_about(page: Page) -> None:
