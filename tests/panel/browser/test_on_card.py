@@ -1,4 +1,4 @@
-"""PROGRAM/PLC, the PLC tab and the servo loop: what a person sees and does there."""
+"""PROGRAM/PLC and the PLC tab: what a person sees and does there."""
 
 import re
 from collections.abc import Iterator
@@ -179,7 +179,7 @@ def test_a_text_is_edited_sent_and_cleared(programs: Page, served: Served) -> No
     assert listing_of(served, Level.program(3)) == ""
     item(page, "PLC0").click()
     chosen(page, "EDIT")
-    assert text.input_value() == LADDER.rstrip("\n")
+    expect(text).to_have_value(LADDER.rstrip("\n"))
     text.fill(LADDER + "80 LD 7 OUT 41\n")
     chosen(page, "SEND")
     expect(page.locator("#prompt")).to_have_text("PLC0: 8 lines are stored on the card")
@@ -305,30 +305,7 @@ def test_power_flows_through_closed_contacts_only(
     assert page.evaluate(CARRIED, [rung, on, False]) == [False, False, False]
 
 
-# --- servo loop -----------------------------------------------------------------------
-
-
-def test_the_servo_loop_of_the_chosen_axis_is_drawn_with_its_values(
-    page: Page, served: Served
-) -> None:
-    for press in ("F8", "F5", "F6"):
-        page.keyboard.press(press)
-
-    def value(box: str, n: int = 0) -> Locator:
-        return page.locator(f"[data-box={box}] text[text-anchor=end]").nth(n)
-
-    expect(page.locator(".loop-picture [data-box] .title")).to_have_count(22)
-    expect(value("p", 1)).to_have_text("0.002441")
-    page.get_by_role("radio", name="Y").click()
-    served.call(lambda station: station.machine.card.write("axis1.gear offset", 250))
-    served.call(lambda station: station.machine.card.write(12288 + 256 + 17, 0.125))
-    expect(value("gear")).to_have_text("250")
-    expect(value("i", 1)).to_have_text("0.125")
-    expect(value("limits")).to_have_text("10")
-    expect(page.locator("#screen [role=status]")).to_have_text("Loop closed · filters off")
-    served.call(lambda station: station.machine.card.write("axis1.gear offset", 0))
-    served.call(lambda station: station.machine.card.write(12288 + 256 + 17, 0.0))
-    expect(value("gear")).to_have_text("0")
+# --- values ---------------------------------------------------------------------------
 
 
 def test_two_screens_share_one_subscription_of_values(page: Page, served: Served) -> None:
