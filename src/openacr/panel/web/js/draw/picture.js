@@ -2,14 +2,14 @@
 import { h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { Camera } from "./camera.js";
-import { COLORS } from "./colors.js";
+import { BLACK, COLORS } from "./colors.js";
 import { listenToGestures } from "./gestures.js";
 import { KIND, cutBox, strokesOf } from "./path.js";
 import { painterFor } from "./renderer.js";
 import { stockBox, stockPainter } from "./stock.js";
 import { lineAt, paintChosen, paintGround } from "./underlay.js";
 
-const NAMES = ["feed", "rapid", "cut", "grid", "limit", "stock", "dip", "below", "text"];
+const NAMES = ["rapid", "cut", "grid", "limit", "stock", "dip", "below", "text"];
 const NOWHERE = [0, 0, 0];
 const CROSS = "M0 -14V14M-14 0H14M-6 0A6 6 0 1 0 6 0A6 6 0 1 0 -6 0";
 
@@ -59,10 +59,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
   });
   /** @type {import("./path.js").Style[]} */
   let styles = [];
-  const looks = () => {
-    const hasTools = new Set(styles.filter(({ kind }) => kind !== KIND.rapid).map(({ color }) => color)).size > 1;
-    return styles.map(({ kind, color }) => lookOf(kind, hasTools ? (color === 0 ? colors.text : (COLORS[color] ?? colors.feed)) : colors.feed, colors.rapid));
-  };
+  const looks = () => styles.map(({ kind, color }) => lookOf(kind, color === BLACK ? colors.text : COLORS[color], colors.rapid));
 
   function paint(isMoving = false) {
     asked = false;

@@ -28,10 +28,15 @@ export async function graphicsTab(panel, endings) {
   const picture = await createPicture(panel, endings, { clicked: (line) => chosenLine.set(line), hasTool: true, more: [drawKey, stock.key] });
   stock.show(picture, endings);
   let isOld = false;
+  const turn = async () => {
+    const flip = await readFlips();
+    if (flip) picture.setFlip(flip);
+  };
   const renew = () => {
     if (!isOld || model.state.value.running) return; // what is cut stays as it was drawn
     isOld = false;
     void read(pathOf);
+    void turn();
     stock.renew();
   };
   panel.append(note, stock.note);
@@ -50,12 +55,12 @@ export async function graphicsTab(panel, endings) {
     model.status.watch((status) => status && draw(status)),
     model.hello.watch(() => picture.setLimits(limitsOf())),
     model.changed.watch(({ what }) => {
-      if (what === "forms") isOld = true; // offsets shift the path
+      if (what === "forms") isOld = true; // offsets shift the path, DISPLAY flips it
       renew();
     }),
     model.state.watch(renew),
   );
-  void readFlips().then((flip) => flip && picture.setFlip(flip));
+  void turn();
 
   /** @param {import("../core/frames.js").Status} status */
   function draw(status) {

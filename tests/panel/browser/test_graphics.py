@@ -1,0 +1,132 @@
+"""GRAPHICS as CONTROL and DISPLAY of SYS PARAM set it: colour and directions of path and cursor."""
+
+import itertools
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, expect
+from tests.panel.bench import Served
+from tests.panel.browser.conftest import give, load_file, to_main_menu, until_model
+
+from openacr.sysvar.tabs import CONTROL, DISPLAY
+
+ANGLE = "G21 G91 F600\nG1 X20\nY10\nM2\n"
+GREEN, RED, BROWN = (0, 0x9E, 0x73), (0xB0, 0, 0x20), (0x8B, 0x5A, 0x2B)  # 10, 4 and 6
+# How many pixels of the path are opaque and of a colour, and how many of any other.
+COUNTED = """([red, green, blue]) => {
+  const canvas = document.querySelector('#display .picture [data-layer=strokes]');
+  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  let [same, other] = [0, 0];
+  for (let n = 0; n < data.length; n += 4) {
+    if (data[n + 3] < 250) continue;
+    if (data[n] === red && data[n + 1] === green && data[n + 2] === blue) same += 1;
+    else other += 1;
+  }
+  return [same, other];
+}"""
+# Middle of the cursor, and the box of the mark of the chosen line: pixels of the window.
+SEEN = """() => {
+  const canvas = document.querySelector('#display .picture [data-layer=over]');
+  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  const place = canvas.getBoundingClientRect();
+  const box = [Infinity, Infinity, -Infinity, -Infinity];
+  for (let n = 0; n < data.length / 4; n++) {
+    if (data[4 * n + 3] < 250) continue;
+    const [x, y] = [place.x + n % canvas.width, place.y + Math.floor(n / canvas.width)];
+    box.splice(0, 4, Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y));
+  }
+  const cursor = document.querySelector('#display .tool-cursor').getBoundingClientRect();
+  return { box, cursor: [cursor.x + cursor.width / 2, cursor.y + cursor.height / 2] };
+}"""  # noqa: E501
+CHOOSE = "(line) => import('/js/draw/path.js').then((path) => path.chosenLine.set(line))"
+STORE = """([form, values]) => fetch(`/api/forms/${form}`,
+  { method: 'PUT', body: JSON.stringify({ values }) }).then((answer) => answer.ok)"""
+
+
+@pytest.fixture
+def drawn(page: Page, served: Served) -> Page:
+    """The workspace with the path of a right angle, as it is drawn by default."""
+    (served.programs / "ANGLE.TXT").write_text(ANGLE)
+    load_file(page, "ANGLE.TXT")
+    to_main_menu(page)
+    until_counted(page, GREEN)
+    return page
+
+
+def until_counted(page: Page, color: tuple[int, int, int]) -> None:
+    """Wait until the path is drawn in one colour."""
+    page.wait_for_function(
+        f"(color) => {{ const [same, other] = ({COUNTED})(color); return same > 100 && !other; }}",
+        arg=color,
+    )
+
+
+@pytest.mark.req("MILL-SYS-CTL-PATHCOLOR")
+def test_the_path_has_the_colour_of_the_index_that_control_holds(
+    drawn: Page, served: Served
+) -> None:
+    page, store = drawn, served.panel.installation.store
+    assert store.default(CONTROL.path_color) == store.read(CONTROL.path_color) == 10
+    for index, color in ((4, RED), (6, BROWN), (10, GREEN)):
+        page.keyboard.press("F8")
+        page.keyboard.press("F1")
+        page.get_by_role("tab", name="Control, page 2", exact=True).click()
+        field = page.get_by_label("Path Color", exact=True)
+        field.fill("16")
+        page.get_by_role("button", name="SAVE", exact=True).click()
+        expect(page.locator(f"#cell-{CONTROL.path_color}-refusal")).to_contain_text("0 to 15")
+        field.fill(str(index))
+        page.get_by_role("button", name="SAVE", exact=True).click()
+        expect(page.locator("#prompt")).to_have_text("Saved: 1")
+        assert store.read(CONTROL.path_color) == index
+        to_main_menu(page)
+        until_counted(page, color)
+
+
+@pytest.mark.req("MILL-SYS-DISP-COMBINE")
+def test_flips_and_exchange_are_combined_and_turn_path_and_cursor_alike(drawn: Page) -> None:
+    page = drawn
+    give(page, "mdi.execute", line="G21 G91 G1 X20 Y10 F6000")
+    until_model(
+        page,
+        "!model.state.value.busy && Math.abs(model.status.value.machine[0] - 20) < 0.1"
+        " && Math.abs(model.status.value.machine[1] - 10) < 0.1",
+    )
+    cells = (DISPLAY.flip_x_axis, DISPLAY.flip_y_axis, DISPLAY.exchange_xy)
+    for flip_x, flip_y, exchange in itertools.product((False, True), repeat=3):
+        switches = (flip_x, flip_y, exchange)
+        values = {str(cell): str(int(on)) for cell, on in zip(cells, switches, strict=True)}
+        assert page.evaluate(STORE, ["DISPLAY", values])
+        x, y = (-1 if flip_x else 1), (-1 if flip_y else 1)
+        legs = [(0, x), (y, 0)] if exchange else [(x, 0), (0, y)]  # of X20 and Y10, up is plus
+        for line, leg in enumerate(legs, 2):
+            page.evaluate(CHOOSE, line)
+            until_seen(page, line == 3, leg)
+    page.evaluate(CHOOSE, 0)
+
+
+def until_seen(page: Page, is_last: bool, leg: tuple[int, int]) -> None:
+    """Wait until a leg has its direction, with the cursor at the end of the last one.
+
+    The cursor is at X20 Y10: off the first leg by half its length, at right angles to it.
+    """
+    seen: dict[str, Any] = {}
+    for _ in range(400):
+        seen = page.evaluate(SEEN)
+        left, top, right, bottom = seen["box"]
+        if left < right:
+            across, down = leg[0] != 0, leg[1] != 0
+            x = (left + right) / 2 if down else (right if leg[0] > 0 else left)
+            y = (top + bottom) / 2 if across else (top if leg[1] > 0 else bottom)
+            is_along = (right - left > bottom - top) == across
+            off = (seen["cursor"][0] - x, seen["cursor"][1] - y)
+            is_near = max(map(abs, off)) <= 4
+            if is_along and is_near == is_last:
+                return
+        page.wait_for_timeout(20)
+    pytest.fail(f"{leg}: {seen}")
+
+
+def test_the_browser_has_nothing_to_complain_about(page: Page) -> None:
+    complaints: list[str] = page.complaints  # type: ignore[attr-defined]
+    assert [each for each in complaints if "422" not in each] == []
