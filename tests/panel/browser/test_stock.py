@@ -39,6 +39,7 @@ def test_the_stock_is_shown_instead_of_the_path_until_its_key_is_pressed_again(
     key.click()
     expect(key).to_have_attribute("aria-pressed", "true")
     expect(note).to_have_text("No rapid in material, no cut below the blank", timeout=60_000)
+    page.wait_for_function(f"() => ({PIXELS})().shown")
     above = page.evaluate(PIXELS)
     assert above["red"] == 0
     assert above["shown"] > above["all"] / 10
@@ -65,7 +66,7 @@ def test_a_rapid_in_material_is_red_and_its_line_is_named(
     key.click()
     note = page.locator(".stock-note")
     expect(note).to_have_text(re.compile("Rapid in material: line 8"), timeout=60_000)
-    assert page.evaluate(PIXELS)["red"] > 10
+    page.wait_for_function(f"() => ({PIXELS})().red > 10")
     page.get_by_role("button", name="3D", exact=True).click()
     page.wait_for_timeout(300)
     page.screenshot(path=pictures / "stock-rapid.png")
