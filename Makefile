@@ -7,7 +7,7 @@
 #   make soak    the long-running tests
 #   make lowest  all tests with the oldest versions of the packages that are allowed
 #   make mutate  break changed lines and list what no test notices (WHAT=package, BASE=revision, MOST=n)
-#   make docs    write the reference pages anew
+#   make docs    write the reference pages and the grammars of editors anew
 #   make web-lint   type-check and lint the screens' JavaScript (needs Node)
 #   make web-bundle bundle the libraries of the screens anew (needs Node and a registry)
 #   make site    the documentation as web pages with a search, in build/site
@@ -115,6 +115,7 @@ docs: $(BUILT)
 	$(PY) -m openacr.sysvar.reference docs/sysvar-tables.md
 	$(PY) -m openacr.cnc.reference docs/part-program-codes.md
 	$(PY) -m openacr.mill.run.lifecycle_page docs/run-life-cycle.md
+	$(PY) -m openacr.editing.grammars editors/vscode/syntaxes
 
 # The libraries of the panel's screens come bundled; Node is needed only to change or to check them.
 WEB := web-bundle

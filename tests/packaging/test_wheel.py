@@ -12,7 +12,8 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 SOURCES = (
-    "src", "examples", "parts", "pyproject.toml", "setup.py", "MANIFEST.in", "README.md", "LICENSE",
+    "src", "editors", "examples", "parts", "pyproject.toml", "setup.py", "MANIFEST.in", "README.md",
+    "LICENSE",
 )  # fmt: skip
 
 

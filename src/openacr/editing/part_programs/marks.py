@@ -28,7 +28,7 @@ _PART = re.compile(
 _COMMENT_IN_TEXT = re.compile(r"\([^)]*\)?|;.*")
 _DIGITS = re.compile(r"\d+")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)")
-_ROUTINE_WORDS = frozenset(
+ROUTINE_WORDS = frozenset(
     ("SUB", "ENDSUB", "CALL", "RETURN", "WHILE", "ENDWHILE", "DO", "IF", "ELSEIF", "ELSE", "ENDIF",
      "REPEAT", "ENDREPEAT", "BREAK", "CONTINUE")
 )  # fmt: skip
@@ -185,7 +185,7 @@ class _Marks:
                 return word, Kind.COMMAND
             if word in self.grammar.operators or word == "NOT":
                 return word, Kind.OPERATOR
-            if self.kind and word in _ROUTINE_WORDS:
+            if self.kind and word in ROUTINE_WORDS:
                 return word, Kind.COMMAND
         return letters[0], Kind.WORD
 
