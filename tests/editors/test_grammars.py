@@ -125,7 +125,7 @@ def test_every_statement_function_and_operator_of_part_programs_has_its_colour(
 ) -> None:
     text = DIALECTS[dialect].grammar
     for scope, words in (
-        (COMMAND, text.statements), (FUNCTION, {*text.functions, *text.states}),
+        (COMMAND, text.statements), (FUNCTION, {*text.functions, *text.states, "EXISTS"}),
         ("keyword.operator.word", {word for word in text.operators if word.isalpha()}),
     ):  # fmt: skip
         for word in words:
@@ -147,7 +147,9 @@ SHORT = {
         ("acrobasic", "_Head2 : REM it's", "label _Head2|separator :|remark REM it's"),
         ("acrobasic", "10 GOSUB Head2", "label 10|command GOSUB|label Head2"),
         ("acrobasic", "goto 100", "command goto|label 100"),
+        ("acrobasic", "GOSUB _ Head", "command GOSUB|label _ Head"),
         ("acrobasic", "X10", "number 10"),
+        ("acrobasic", "X&B1010", "number &B1010"),
         ("acrobasic", 'PRINT "a""b REM" \' c', "command PRINT|string \"a\"\"b REM\"|remark ' c"),
         ("acrobasic", "? &HFF", "command ?|number &HFF"),
         ("acrobasic", "P12288=1.5E-3", "variable P12288|operator =|number 1.5E-3"),

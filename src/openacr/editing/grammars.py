@@ -109,7 +109,7 @@ def _acrobasic() -> Iterator[Rule]:
     yield _rule(
         "",
         rf"{_BEFORE}({_any_of(JUMPS)}){_AFTER}"
-        rf"(?:{BLANK}(_?{BLANK}[A-Z][A-Z0-9]*|[0-9]+))?",
+        rf"(?:{BLANK}([A-Z][A-Z0-9]*|[0-9]+))?",
         COMMAND, LABEL,
     )  # fmt: skip
     yield _rule("", rf"^{BLANK}([0-9]+)", LABEL)
