@@ -17,6 +17,7 @@ from openacr.cli.mill.check import (
     show_findings,
 )
 from openacr.errors import UserError
+from openacr.mill.plan.quantities import Quantity
 from openacr.wording import counted
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from openacr.cli.plots.toolpath import Scene
     from openacr.cnc.interpreter.survey import Survey
     from openacr.cnc.program.program import Program
+    from openacr.mill.plan.path_motion import Motion
     from openacr.mill.plan.tool_path import ToolPath
     from openacr.sysvar import Store
 
@@ -45,15 +47,25 @@ def plot_program(
     is_stock: Annotated[
         bool, typer.Option("--stock", help="Draw what is left of the blank: PNG or SVG.")
     ] = False,
+    colour: Annotated[
+        Quantity | None,
+        typer.Option(help="Colour the path by the motion that is planned: PNG or SVG."),
+    ] = None,
 ) -> None:
     """Draw the tool path of a part program: PNG, SVG or interactive HTML."""
     from openacr.cli.plots.formats import require
     from openacr.cli.plots.toolpath_formats import draw_path
     from openacr.cli.run.output import require_different, require_writable, write_whole
 
-    target = picture or file.with_suffix(".png" if is_stock else ".html")
-    if is_stock and target.suffix.lower() == ".html":
-        raise UserError(f"{target}: pictures with --stock end in .png or .svg")
+    if colour and (is_stock or by_tool):
+        raise UserError(
+            f"--colour {colour} with --{'stock' if is_stock else 'by-tool'}: "
+            "one picture has one of them"
+        )
+    only = "--stock" if is_stock else "--colour" if colour else ""
+    target = picture or file.with_suffix(".png" if only else ".html")
+    if only and target.suffix.lower() == ".html":
+        raise UserError(f"{target}: pictures with {only} end in .png or .svg")
     require(target)
     require_different((file, target))
     require_writable(target)
@@ -62,16 +74,15 @@ def plot_program(
         return
     with opened_store(store) as cells:
         program, name = loaded(file, cells, dialect)
-        scene, survey = scene_of(program, cells, name, by_tool=by_tool)
+        scene, survey = scene_of(program, cells, name, by_tool=by_tool, colour=colour)
     show_findings(in_folder(survey.findings, file))
     if not len(scene.drawing.kinds):
         if survey.errors:
             raise typer.Exit(FAILED)
         raise UserError(f"{file}: no moves to draw")
+    _require_known(file, scene)
     if scene.is_cut:
-        typer.echo(
-            f"note: the picture shows the first {len(scene.drawing.kinds):,} points", err=True
-        )
+        typer.echo(f"note: the picture shows the first {scene.point_cnt:,} points", err=True)
     write_whole(target, lambda partial: draw_path(scene, partial))
     move_cnt = sum(survey.move_cnts.values()) - survey.move_cnts["dwell"]
     typer.echo(f"{target}: {counted(move_cnt, 'move')}")
@@ -101,7 +112,12 @@ def _plot_stock(file: Path, target: Path, store: Path | None, dialect: str | Non
 
 
 def scene_of(
-    program: "Program", cells: "Store", dialect: str, *, by_tool: bool = False
+    program: "Program",
+    cells: "Store",
+    dialect: str,
+    *,
+    by_tool: bool = False,
+    colour: Quantity | None = None,
 ) -> "tuple[Scene, Survey]":
     """The picture of a program, and the survey from reading it."""
     from openacr.cli.plots.toolpath import Scene
@@ -115,7 +131,7 @@ def scene_of(
     axes = tuple(letters[letter] for letter in names)
     if len(axes) < 2:
         raise UserError("two of the axes X, Y and Z are needed for a picture")
-    survey, path = _surveyed(program, cells, dialect, axes)
+    survey, path, motion = _surveyed(program, cells, dialect, axes, colour)
     view = View.of(cells, survey.tools, by_tool=by_tool)
     path.has_tools = view.has_tool_colors
     readout, is_metric = Readout(cells), bool(cells.read(CONTROL.default_units))
@@ -129,7 +145,8 @@ def scene_of(
         view=view,
         digits=tuple(readout.format(axis, is_metric=is_metric).right for axis in axes),
         has_errors=bool(survey.errors),
-        is_cut=path.is_full,
+        is_cut=motion.is_cut if motion else path.is_full,
+        motion=motion,
     )
     return scene, survey
 
@@ -140,13 +157,46 @@ def _of_axes(values: "Sequence[float]", axes: tuple[int, ...]) -> tuple[float, .
 
 
 def _surveyed(
-    program: "Program", cells: "Store", dialect: str, axes: tuple[int, ...]
-) -> "tuple[Survey, ToolPath]":
+    program: "Program",
+    cells: "Store",
+    dialect: str,
+    axes: tuple[int, ...],
+    colour: Quantity | None,
+) -> "tuple[Survey, ToolPath, Motion | None]":
     from openacr.cnc.interpreter.interpreter import Options
     from openacr.cnc.interpreter.survey import survey
     from openacr.mill.plan.tool_path import ToolPath
     from openacr.sysvar.tabs import SPEEDS
 
     path = ToolPath(axes, cells.read(SPEEDS.chord_tolerance))
-    found = survey(program, cells, dialect, Options(watch=path), look=path.add)
-    return found, path
+    options = Options(watch=path)
+    if colour is None:
+        return survey(program, cells, dialect, options, look=path.add), path, None
+    from openacr.mill.config.settings import Settings
+    from openacr.mill.plan.checking import surveyed
+    from openacr.mill.plan.path_motion import PathMotion
+
+    reader = PathMotion(Settings(cells), axes, colour)
+    found, prediction = surveyed(
+        program, cells, dialect, options=options, reader=reader, look=path.add
+    )
+    if prediction.without_jerk and colour is not Quantity.JERK:
+        alone = counted(prediction.without_jerk, "move")
+        typer.echo(
+            f"note: {alone} not planned as a curve: the picture leaves out Path jerk"
+            f" (P{SPEEDS.path_jerk}), the run has longer ramps",
+            err=True,
+        )
+    return found, path, reader.finished()
+
+
+def _require_known(file: Path, scene: "Scene") -> None:
+    """Refuse a picture of a quantity that no move has."""
+    from openacr.sysvar.tabs import SPEEDS
+
+    if scene.motion is not None and not scene.motion.known.any():
+        raise UserError(
+            f"{file}: no move has a planned {scene.motion.quantity}; paths are planned where Path"
+            f" jerk (P{SPEEDS.path_jerk}) and a tolerance (G64 P, or P{SPEEDS.path_tolerance})"
+            " are above 0"
+        )

@@ -1,9 +1,13 @@
 """The tool path of a part program as a picture: what is shown, and how it looks."""
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from openacr.mill.config.view import View
 from openacr.mill.plan.tool_path import Drawing, Kind
+
+if TYPE_CHECKING:
+    from openacr.mill.plan.path_motion import Motion
 
 RAPID, INSERTED, CONTOUR = "#999999", "#D5007F", "#444444"
 DENSE_CNT = 5000  # from this number of moves on they are drawn thin, shaded by their height
@@ -24,6 +28,12 @@ class Scene:
     digits: tuple[int, ...] = (4, 4, 4)  # decimals, by axis
     has_errors: bool = False
     is_cut: bool = False  # there are more moves than a picture holds
+    motion: "Motion | None" = None  # what the path is coloured by, in place of kinds and tools
+
+    @property
+    def point_cnt(self) -> int:
+        """How many points are drawn."""
+        return len(self.drawing.kinds if self.motion is None else self.motion.values)
 
     @property
     def has_contours(self) -> bool:

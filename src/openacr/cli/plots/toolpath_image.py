@@ -16,6 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from openacr.cli.plots.motion_colors import add_bar, draw_motion, unknown_handle
 from openacr.cli.plots.saved import save
 from openacr.cli.plots.toolpath import CONTOUR, LineStyle, Scene, bands_of, shade, style_of
 from openacr.mill.plan.tool_path import Array, thinned
@@ -60,6 +61,8 @@ def build_figure(scene: Scene) -> Figure:
     else:
         panels = figure.subplot_mosaic([["space", "top"]], width_ratios=[1.2, 1.0])
     _space_view(panels["space"], scene)
+    if scene.motion is not None:
+        add_bar(figure, panels["space"], scene.motion, scene.unit)
     _flat_view(panels["top"], scene, (0, 1), "from above")
     _headline(figure, scene)
     return figure
@@ -80,7 +83,10 @@ def _headline(figure: Figure, scene: Scene) -> None:
         ha="left",
         color="#B00020" if scene.has_errors else "black",
     )
-    handles = [_handle(look) for _, _, look in _looks(scene)]
+    if scene.motion is None:
+        handles = [_handle(look) for _, _, look in _looks(scene)]
+    else:
+        handles = [unknown_handle()] if scene.motion.unknown.any() else []
     if scene.has_contours:
         handles.append(Line2D([], [], color=CONTOUR, linewidth=0.8, label="programmed contour"))
     handles.append(
@@ -115,10 +121,24 @@ def _draw(panel: Axes, scene: Scene, to: npt.NDArray[np.float64], scale: float) 
     for contour in drawing.contours:
         seen = thinned(contour @ to, step)
         panel.plot(*seen.T, color=CONTOUR, linewidth=0.8 * scale)
-    bands = bands_of(drawing)
+    if scene.motion is None:
+        _draw_kinds(panel, scene, to, step, scale)
+    else:
+        draw_motion(panel, scene.motion, to, step, scale)
+    start, end = drawing.points[0] @ to, drawing.points[-1] @ to
+    panel.plot(*start, "o", color="black", markersize=8, fillstyle="none")
+    panel.plot(*end, "s", color="black", markersize=4)
+    panel.set_aspect("equal", adjustable="datalim")
+
+
+def _draw_kinds(
+    panel: Axes, scene: Scene, to: npt.NDArray[np.float64], step: float, scale: float
+) -> None:
+    """All moves in the colours and dashes of their kinds and tools."""
+    bands = bands_of(scene.drawing)
     for kind, tool, look in _looks(scene):
         for band in range(bands):
-            seen = thinned(drawing.strokes(kind, tool, band, bands) @ to, step)
+            seen = thinned(scene.drawing.strokes(kind, tool, band, bands) @ to, step)
             panel.plot(
                 *seen.T,
                 color=shade(look.color, band, bands),
@@ -126,10 +146,6 @@ def _draw(panel: Axes, scene: Scene, to: npt.NDArray[np.float64], scale: float) 
                 linestyle=_dashes(look),
                 solid_capstyle="round",
             )
-    start, end = drawing.points[0] @ to, drawing.points[-1] @ to
-    panel.plot(*start, "o", color="black", markersize=8, fillstyle="none")
-    panel.plot(*end, "s", color="black", markersize=4)
-    panel.set_aspect("equal", adjustable="datalim")
 
 
 def _flat_view(panel: Axes, scene: Scene, directions: tuple[int, int], title: str) -> None:

@@ -1,12 +1,14 @@
 """The time a planned curve takes, move by move: as long as its control points on the card."""
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+
+import numpy as np
 
 from openacr.mill.config.curves import PERIOD_S
-from openacr.mill.plan.curve_window import CurveRows
+from openacr.mill.plan.curve_window import REST, CurveRows
 from openacr.mill.plan.encoding import Job
-from openacr.mill.plan.planned_path import PlannedPath
+from openacr.mill.plan.planned_path import PlannedPath, Rows
 from openacr.trajectory import TrajectoryError
 
 Phases = list[tuple[float, float, float]]
@@ -16,8 +18,11 @@ NEAR_U = 1e-12
 class CurveTimes:
     """Follows one curve from rest to rest without a card."""
 
-    def __init__(self, path: PlannedPath) -> None:
+    def __init__(self, path: PlannedPath, watch: Callable[[Rows], None] | None = None) -> None:
+        """`watch` gets the control points at the end of the curve."""
         self.path = path
+        self._watch = watch
+        self._points: list[Rows] = []  # for it
         self.rest_s = 0.0  # at rest at its end
         self._rows: CurveRows | None = None
         self._jobs: deque[Job] = deque()  # begun and not done
@@ -35,16 +40,18 @@ class CurveTimes:
         while (found := self.path.take()) is not None:
             if self._rows is None:
                 self._rows, self.path.is_open = CurveRows(self.path.start), True
-            yield from self._pass(self._rows.add(found)[1].tolist())
+            yield from self._pass(*self._rows.add(found))
         if self.path.fault:
             raise TrajectoryError(self.path.fault)
         if self._rows is not None and self.path.is_at_end:
-            yield from self._pass(self._rows.tail()[1].tolist())
+            yield from self._pass(*self._rows.tail())
             yield from self._end()
 
-    def _pass(self, knots: list[float]) -> Iterator[tuple[Job, Phases]]:
-        """Pass knots, one every period, given by their places on the path."""
-        for knot_u in knots:
+    def _pass(self, points: Rows, paths: Rows) -> Iterator[tuple[Job, Phases]]:
+        """Pass control points, one every period, with their places on the path."""
+        if self._watch is not None:
+            self._points.append(points)
+        for knot_u in paths.tolist():
             for job in self.path.begun(knot_u):
                 self._add(job)
             step_u = max(knot_u - self._at_u, 0.0)
@@ -79,6 +86,10 @@ class CurveTimes:
             self._add(job)
         while self._jobs:
             yield self._done()
+        if self._watch is not None:
+            begin = np.repeat(self.path.start[None, :], REST, axis=0)
+            self._watch(np.concatenate([begin, *self._points]))
+            self._points = []
         self._rows = None
         self._at_u = 0.0
         self.path.end_at(self.path.start)

@@ -52,6 +52,7 @@ class Job(PlannedMove):
     begin_cnt: Pulses
     finish_cnt: Pulses
     path_tolerance_u: float = 0.0  # of a path planned with a jerk limit, 0: a move of its own
+    is_in_curve: bool = False  # its path is part of a planned curve
     feed_scale: float = 1.0  # the override its path is planned with
     count: int = 0  # the number of its first packet, 0 until it is sent
     last: int = 0  # the number of its last packet

@@ -53,6 +53,7 @@ class PlannedPath:
             self.start = np.array(places)
             self._planner = TrajectoryPlanner(places, limits_of(self._settings), PERIOD_S)
         self._is_stopped = self.is_at_end = False
+        job.is_in_curve = True
         self._jobs.append((self._path_u, job))
         self._path_u += job.length_u
         self._known_s += job.length_u / job.feed_ups

@@ -29,7 +29,7 @@ from openacr.mill.plan.route import Route
 
 if TYPE_CHECKING:
     from openacr.mill.plan.curve_times import CurveTimes
-    from openacr.mill.plan.planned_path import PlannedPath
+    from openacr.mill.plan.planned_path import PlannedPath, Rows
 
 TOGETHER = 512  # moves planned at once
 # Parts of a move at constant acceleration: length, speed at the begin and at the end. Plain
@@ -69,6 +69,9 @@ class Reader(Protocol):
 
     def rested(self, seconds: float) -> None:
         """Receive a stop, with the time of its dwell or 0."""
+
+    def curve(self, points: Rows) -> None:
+        """Receive all control points of a planned curve, after its moves."""
 
 
 class Timing(ABC):
@@ -169,7 +172,7 @@ class Predictor(Timing):
         from openacr.mill.plan.curve_times import CurveTimes  # loads numpy: most runs have none
 
         if self._curve is None or self._curve.path is not path:
-            self._curve = CurveTimes(path)
+            self._curve = CurveTimes(path, self._reader.curve if self._reader else None)
         curve = self._curve
         for job, phases in curve.advance(is_complete=is_complete):
             self._pass(job, phases)

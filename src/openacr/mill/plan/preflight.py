@@ -6,6 +6,7 @@ axis is checked as if it were homed, and one warning names those that are not.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Probe, Rapid, Source
 from openacr.cnc.reading.findings import Finding, found
@@ -14,6 +15,9 @@ from openacr.mill.config.settings import S_PER_MIN, Settings
 from openacr.mill.plan.encoding import LONG_MAX, Encoder, Job
 from openacr.mill.plan.predicting import Phases
 from openacr.mill.plan.travel_limits import Excess, excesses, limited
+
+if TYPE_CHECKING:
+    from openacr.mill.plan.planned_path import Rows
 
 REACHED = 1.0 - 1e-6  # of the feed; speeds of the plan are results of square roots
 REACHED_PLANNED = 0.99  # a planned path is somewhat shorter than the programmed one
@@ -132,6 +136,9 @@ class Preflight:
     def rested(self, seconds: float) -> None:
         """A planned curve ends at rest."""
         self._close()
+
+    def curve(self, points: "Rows") -> None:
+        """Ignore control points: the planner keeps their limits."""
 
     def passed(self, job: Job, phases: Phases) -> None:
         """Check the speed of a planned move."""

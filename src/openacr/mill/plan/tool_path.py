@@ -262,13 +262,7 @@ class Drawing:
         chosen = (pairs[:, 0] == kind) & (pairs[:, 1] == tool)
         if bands > 1:
             chosen &= self._bands(bands) == band
-        at = np.flatnonzero(chosen)
-        if not len(at):
-            return np.empty((0, DRAWN_CNT))
-        begins = np.flatnonzero(np.diff(at, prepend=-2) != 1)
-        lifted = np.full((2 * len(begins), DRAWN_CNT), np.nan)
-        lifted[1::2] = self.points[at[begins]]
-        return np.insert(self.points[at + 1], np.repeat(begins, 2), lifted, axis=0)
+        return strokes_of(self.points, chosen)
 
     def _bands(self, bands: int) -> Index:
         heights = 0.5 * (self.points[:-1, 2] + self.points[1:, 2])
@@ -276,6 +270,17 @@ class Drawing:
         low, high = float(cuts.min(initial=0.0)), float(cuts.max(initial=0.0))
         share = (heights - low) / max(high - low, 1e-12)
         return np.clip((share * bands).astype(np.intp), 0, bands - 1)
+
+
+def strokes_of(points: Array, chosen: npt.NDArray[np.bool_]) -> Array:
+    """The chosen of the moves between successive points, with NaN where the pen is lifted."""
+    at = np.flatnonzero(chosen)
+    if not len(at):
+        return np.empty((0, points.shape[1]))
+    begins = np.flatnonzero(np.diff(at, prepend=-2) != 1)
+    lifted = np.full((2 * len(begins), points.shape[1]), np.nan)
+    lifted[1::2] = points[at[begins]]
+    return np.insert(points[at + 1], np.repeat(begins, 2), lifted, axis=0)
 
 
 def thinned(points: Array, step: float) -> Array:

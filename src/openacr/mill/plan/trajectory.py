@@ -54,6 +54,9 @@ class Trajectory:
     def read(self, job: Job) -> None:
         """Ignore a move that is not planned yet."""
 
+    def curve(self, points: Rows) -> None:
+        """Ignore control points: the phases of the moves are sampled."""
+
     def passed(self, job: Job, phases: Phases) -> None:
         """Receive a planned move; the one before it is sampled, because its corner is now known."""
         self._sample(job)
