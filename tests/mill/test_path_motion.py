@@ -103,6 +103,7 @@ def test_spirals_and_rounded_corners_have_the_acceleration_of_their_samples(
     speeds, _ = motion(entries, SPEED)
     steps = np.linalg.norm(np.diff(found.points, axis=0), axis=1)
     moving = found.moves
+    assert steps[~moving] == pytest.approx(0.0, abs=1e-12)  # both moves meet on the corner
     ends = np.cumsum(np.where(moving, steps / np.where(moving, speeds.values / 60, 1.0), 0.0))
     middles = (ends - 0.5 * np.where(moving, steps / np.nan_to_num(speeds.values / 60, nan=1), 0))[
         moving
@@ -127,6 +128,13 @@ def test_a_planned_path_has_a_value_for_every_period_of_its_control_points() -> 
         assert found.points[-1].tolist() == [60, 0, 0]
     middle = len(found.values) // 2
     assert found.values[middle] == pytest.approx(0.0, abs=1e-3 * JERK)
+
+
+def test_a_planned_speed_is_that_of_the_middle_of_its_period() -> None:
+    found, _ = motion([*path([(60.0, 0.0)]), end()], SPEED, planned_shop())
+    steps = np.linalg.norm(np.diff(found.points, axis=0), axis=1)
+    most = JERK * PERIOD_S**2 / 24  # what the jerk makes of a mean
+    assert found.values / 60 == pytest.approx(steps / PERIOD_S, abs=1.01 * most)
 
 
 def test_a_planned_circle_has_v_squared_by_r() -> None:
