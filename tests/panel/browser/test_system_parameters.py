@@ -119,7 +119,7 @@ def test_io_status_has_the_lines_of_the_card_model_and_of_its_modules(
         assert bits == [*inputs, *outputs]
 
 
-@pytest.mark.req("MILL-BEY-BSC-SCREEN")
+@pytest.mark.req("MILL-BEY-BSC-SCREEN", "MILL-OFS-MENU", "MILL-OFS-SAVEPAGE")
 def test_the_ballscrew_screen_lists_edits_imports_exports_and_switches_a_table(
     page: Page, served: Served, tmp_path: Path
 ) -> None:
@@ -129,7 +129,9 @@ def test_the_ballscrew_screen_lists_edits_imports_exports_and_switches_a_table(
     page.keyboard.press("F8")
     page.keyboard.press("F3")
     page.get_by_role("tab", name="Ballscrew", exact=True).click()
-    page.locator("#screen").get_by_role("radio", name="Y", exact=True).click()
+    chosen = page.locator("#screen").get_by_role("radio", name="Y", exact=True)
+    chosen.click()
+    expect(chosen).to_be_checked()
     with page.expect_file_chooser() as chooser:
         page.get_by_role("button", name="IMPORT").click()
     chooser.value.set_files(file)
