@@ -306,20 +306,24 @@ def test_more_shapes_than_there_is_room_for_are_read_one_by_one() -> None:
     require_same("G21\nF9\n" + "\n".join(sorted(shapes)) + "\nM2", "rs274ngc")
 
 
+def require_equal_builds(text: str, dialect: str, patch: pytest.MonkeyPatch) -> None:
+    """A program executed many lines at a time, by the compiled core and by plain Python."""
+    options = Options(has_batches=True, collects_errors=True)
+    compiled = done(text, dialect, options, is_slow=False)
+    patch.setattr(scanning, "_run_lines", lines_cy.run_lines)
+    plain = done(text, dialect, options, is_slow=False)
+    patch.undo()
+    assert plain.entries == compiled.entries
+    assert plain.interpreter.modal == compiled.interpreter.modal
+    assert plain.cells.written == compiled.cells.written
+
+
+@pytest.mark.skipif(not is_compiled, reason="only plain Python here")
 def test_both_builds_skim_and_execute_alike(monkeypatch: pytest.MonkeyPatch) -> None:
-    if not is_compiled:
-        pytest.skip("only plain Python here")
     for seed in range(40):
         chance = random.Random(seed)
         dialect = chance.choice(["acromill", "rs274ngc"])
-        text = program(chance, dialect)
-        options = Options(has_batches=True, collects_errors=True)
-        compiled = done(text, dialect, options, is_slow=False)
-        monkeypatch.setattr(scanning, "_run_lines", lines_cy.run_lines)
-        plain = done(text, dialect, options, is_slow=False)
-        monkeypatch.undo()
-        assert plain.entries == compiled.entries
-        assert plain.interpreter.modal == compiled.interpreter.modal
+        require_equal_builds(program(chance, dialect), dialect, monkeypatch)
 
 
 def test_a_run_too_short_is_not_tried_again_at_each_of_its_lines(

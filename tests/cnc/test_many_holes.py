@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.cnc.programs import CYCLES, made
 from tests.cnc.test_fuzz import mutated
-from tests.cnc.test_many_blocks import done, require_same
+from tests.cnc.test_many_blocks import done, require_equal_builds, require_same
 
 from openacr.cnc.canonical import Dwell, Entry, Line, Moves, Rapid, Source, Sync
-from openacr.cnc.interpreter import lines_cy, loops, scanning
+from openacr.cnc.interpreter import loops
 from openacr.cnc.interpreter.interpreter import Options
 from openacr.compiled import is_compiled
 
@@ -247,17 +247,9 @@ def test_cycles_of_the_user_are_drilled_together(tmp_path: Path) -> None:
         assert many.cells.written == single.cells.written
 
 
+@pytest.mark.skipif(not is_compiled, reason="only plain Python here")
 def test_both_builds_drill_alike(monkeypatch: pytest.MonkeyPatch) -> None:
-    if not is_compiled:
-        pytest.skip("only plain Python here")
     for seed in range(60):
         chance = random.Random(seed)
         dialect = chance.choice(["acromill", "rs274ngc"])
-        text = program(chance, dialect)
-        options = Options(has_batches=True, collects_errors=True)
-        compiled = done(text, dialect, options, is_slow=False)
-        monkeypatch.setattr(scanning, "_run_lines", lines_cy.run_lines)
-        plain = done(text, dialect, options, is_slow=False)
-        monkeypatch.undo()
-        assert plain.entries == compiled.entries
-        assert plain.cells.written == compiled.cells.written
+        require_equal_builds(program(chance, dialect), dialect, monkeypatch)

@@ -2,9 +2,8 @@
 
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
+from openacr.closing import Closing
 from openacr.sweep.campaign import Campaign, Progress
 from openacr.sweep.load import load_sweep
 from openacr.sweep.results import Results, Row
@@ -73,22 +72,14 @@ ENDP
 """
 
 
-class Here:
+class Here(Closing):
     """Does the tasks in this process, one after the other."""
 
     size = 1
     deaths = 0
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        return None
+    def close(self) -> None:
+        """Nothing is open."""
 
     def results(
         self, call: Call[Task, Result], tasks: Iterable[Task]

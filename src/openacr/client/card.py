@@ -7,7 +7,6 @@ from threading import RLock
 from typing import Self, TypeVar
 
 from openacr.client import transfer, values
-from openacr.client.closing import Closing
 from openacr.client.drive import carry_out
 from openacr.client.effects import Op
 from openacr.client.errors import ConnectionLostError
@@ -20,6 +19,7 @@ from openacr.client.requests import Follow, Level, Press
 from openacr.client.talk import Talk
 from openacr.client.transfer import Progress, Report
 from openacr.client.values import Number, next_due_s
+from openacr.closing import Closing
 from openacr.protocol.events import ControlKey
 from openacr.protocol.move import Move
 from openacr.protocol.packets import Packet

@@ -5,8 +5,8 @@ import time
 from collections.abc import Generator
 
 from openacr.client.causes import cannot_connect
-from openacr.client.closing import Closing
 from openacr.client.errors import ConnectionLostError, NoReplyError
+from openacr.closing import Closing
 from openacr.errors import UserError, reason
 from openacr.protocol.status import (
     LIFE_S,

@@ -16,9 +16,9 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from threading import RLock
-from types import TracebackType
-from typing import NamedTuple, Self
+from typing import NamedTuple
 
+from openacr.closing import Closing
 from openacr.errors import MapError, StoreError
 from openacr.sysvar import lookup, rules, values
 from openacr.sysvar.counter import ASK, SIZE, Counter, is_settled
@@ -54,7 +54,7 @@ class Changes(NamedTuple):
     token: int
 
 
-class Store:
+class Store(Closing):
     """The SYSVAR store in a file, or in memory without a path.
 
     A missing file is created; `is_metric` applies to a new one only: the defaults of lengths
@@ -87,17 +87,6 @@ class Store:
             raise
         if is_metric and not self._token:
             self.begin_metric()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def close(self) -> None:
         """Close the file; everything written is in it."""

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable, Iterator
 from itertools import islice
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
+from openacr.closing import Closing
 from openacr.errors import UserError
 from openacr.workers.calls import Call, Done, Lost, Result, Task
 
@@ -13,7 +13,7 @@ PATIENCE_S = 10
 DIED = "the worker processes died"
 
 
-class ClusterPool:
+class ClusterPool(Closing):
     """The workers of a Dask scheduler; they need the same version of openacr."""
 
     def __init__(self, address: str) -> None:
@@ -44,15 +44,7 @@ class ClusterPool:
         self._seen = set(workers)
         return sum(each["nthreads"] for each in workers.values())
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Leave the cluster; its workers go on for others."""
         self._client.close()
 
