@@ -151,10 +151,7 @@ def test_a_button_gets_a_caption_a_bit_to_set_and_a_bit_to_show(page: Page, serv
     to_main_menu(page)
     view(page, 3)
     door = page.get_by_role("button", name="Door")
-    door.wait_for()
-    box = door.bounding_box()
-    assert box is not None
-    page.mouse.move(box["x"] + 5, box["y"] + 5)
+    door.hover()  # once it is there and stays at its place
     page.mouse.down()
     until(page, lambda: bit(served, LAMP))
     page.mouse.up()
