@@ -41,9 +41,9 @@ def _kind_faults(path: Path, table: DeviceTable) -> Iterator[Complaint]:
         return
     if table.kind not in LIBRARY:
         close = get_close_matches(table.kind, LIBRARY, 1)
-        hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(LIBRARY)}"
+        hint = f"did you mean {close[0]!r}?" if close else f"known are {', '.join(LIBRARY)};"
         text = f"the device kind {table.kind!r} is not known"
-        yield Complaint((*path, "kind"), text, f"{hint} (an own class: press.py:Press)")
+        yield Complaint((*path, "kind"), text, f"{hint} a class of a file is press.py:Press")
         return
     yield from class_faults(path, table, LIBRARY[table.kind])
 
