@@ -4,11 +4,11 @@ import socket
 import struct
 import threading
 from contextlib import suppress
-from types import TracebackType
-from typing import Self
+
+from openacr.closing import Closing
 
 
-class Proxy:
+class Proxy(Closing):
     """A port that leads to another one; `freeze_*` holds bytes back without a word to any end."""
 
     def __init__(self, address: str) -> None:
@@ -35,15 +35,8 @@ class Proxy:
     def ws_url(self) -> str:
         return f"ws://{self.address}/ws"
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
+        """End the line."""
         self._is_over = True
         self.thaw()
         self._server.close()

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from playwright.sync_api import Page, expect
 from tests.panel.bench import Served
+from tests.panel.browser.conftest import load_file
 
 # How many pixels of the picture of the material have a colour, and how many are red.
 PIXELS = """() => {
@@ -21,12 +22,7 @@ BAD = "G21 F600\nG10 L12 P1 R4\nD1\nG0 X1 Y1 Z5\nX0 Y0\nG1 Z-6\nX60\nG0 Y40\nZ5\
 
 
 def load(page: Page, name: str) -> None:
-    page.keyboard.press("F5")
-    page.keyboard.press("F3")
-    page.get_by_role("option", name=name).click()
-    page.get_by_role("button", name="LOAD FILE").click()
-    expect(page.locator("#alarms")).to_have_text(name)
-    expect(page.locator("#screen")).to_be_hidden()
+    load_file(page, name)
     page.keyboard.press("F10")
 
 
