@@ -8,6 +8,7 @@
 #   make lowest  all tests with the oldest versions of the packages that are allowed
 #   make mutate  break changed lines and list what no test notices (WHAT=package, BASE=revision, MOST=n)
 #   make docs    write the reference pages and the grammars of editors anew
+#   make editor-test  the extension in Visual Studio Code in a browser (CODE_SERVER=folder, needs Node)
 #   make web-lint   type-check and lint the screens' JavaScript (needs Node)
 #   make web-bundle bundle the libraries of the screens anew (needs Node and a registry)
 #   make site    the documentation as web pages with a search, in build/site
@@ -19,7 +20,7 @@
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup demo test browser lint bench soak lowest mutate docs web-lint web-bundle site clean
+.PHONY: help setup demo test browser lint bench soak lowest mutate docs editor-test web-lint web-bundle site clean
 
 VENV := .venv
 PY := $(VENV)/bin/python
@@ -40,7 +41,7 @@ PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc)
 WORKERS ?= 2
 
 help:
-	@sed -n '3,15s/^# *//p' Makefile
+	@sed -n '3,16s/^# *//p' Makefile
 
 setup: $(BUILT)
 
@@ -55,7 +56,7 @@ $(INSTALLED): pyproject.toml $(MADE)
 	@echo "installing packages into $(VENV)"
 	@$(PIP) install --upgrade pip "setuptools>=77" wheel "cython>=3.1" || \
 		echo "pip and setuptools were not upgraded; carrying on with what is there"
-	@OPENACR_PURE=1 $(PIP) install --no-build-isolation --editable ".[dev,dxf,lsp,panel,plot,sweep]"
+	@OPENACR_PURE=1 $(PIP) install --no-build-isolation --editable ".[dev,bridge,dxf,lsp,panel,plot,sweep]"
 	@touch $@
 
 $(BUILT): $(CORE_SOURCES) $(INSTALLED)
@@ -102,7 +103,7 @@ lowest:
 	@test -x $(LOWEST)/bin/python || $(PYTHON) -m venv $(LOWEST)
 	@$(LOWEST)/bin/python -m pip install -qq uv
 	OPENACR_PURE=1 $(LOWEST)/bin/uv pip install --python $(LOWEST)/bin/python -q \
-		--resolution lowest-direct --editable ".[dev,dxf,lsp,panel,plot,sweep]"
+		--resolution lowest-direct --editable ".[dev,bridge,dxf,lsp,panel,plot,sweep]"
 	$(LOWEST)/bin/python setup.py --quiet build_ext --inplace
 	$(LOWEST)/bin/python -m pytest -n $(WORKERS) -m "not soak" $(TESTS)
 
@@ -128,6 +129,11 @@ $(WEB_TOOLS): $(WEB)/package-lock.json
 
 web-lint: $(WEB_TOOLS)
 	$(NPM) run lint
+
+# editors/vscode/README.md says how code-server is installed.
+editor-test: $(BUILT)
+	@test -n "$(CODE_SERVER)" || { echo "error: CODE_SERVER=FOLDER of code-server is needed"; exit 2; }
+	CODE_SERVER="$(CODE_SERVER)" $(PY) -m pytest -n 0 tests/editors/in_the_editor.py
 
 web-bundle: $(WEB_TOOLS)
 	$(NPM) run bundle

@@ -18,6 +18,7 @@ ORDER = (
     "check",
     "state",
     "timeline",
+    "debugging",
     "sweep",
     "startup",
     "language_server",
@@ -31,7 +32,10 @@ ORDER = (
     "big_file",
     "mill_run",
     "panel",
+    "scope",
+    "ladder",
     "panel_graphics",
+    "bridge",
 )
 
 

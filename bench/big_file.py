@@ -1,6 +1,5 @@
-"""A part program of 100 MB: lines per second and the memory it takes."""
+"""A part program of 100 MB, a mixed shop file: lines per second and the memory it takes."""
 
-import random
 import subprocess
 import sys
 import tempfile
@@ -8,6 +7,7 @@ import time
 from pathlib import Path
 
 from bench.figures import at_least, at_most, value_only
+from bench.interpret import mixed
 from openacr.cnc.canonical import Moves
 from openacr.cnc.interpreter.interpreter import Interpreter, Options
 from openacr.cnc.loading.load import load
@@ -16,25 +16,21 @@ from openacr.cnc.state.shadow import Shadow
 from openacr.sysvar import Store
 
 SIZE_MB = 100
+DIALECT = "rs274ngc"
 LINES_OF_A_PIECE = 100_000
 STATUS = Path("/proc/self/status")
 
 
 def written(path: Path) -> int:
     """Write the program; how many lines it has."""
-    chance = random.Random(1)
-    rows = [
-        f"G1 X{chance.uniform(-9, 9):.4f} Y{chance.uniform(-9, 9):.4f} Z-{chance.random():.4f}"
-        for _ in range(LINES_OF_A_PIECE)
-    ]
+    rows = mixed(LINES_OF_A_PIECE).splitlines()[:-1]
     piece = "\n".join(rows).encode() + b"\n"
     pieces = SIZE_MB * 1_000_000 // len(piece) + 1
     with path.open("wb") as file:
-        file.write(b"G90 G64 F1000\n")
         for _ in range(pieces):
             file.write(piece)
         file.write(b"M2\n")
-    return pieces * LINES_OF_A_PIECE + 2
+    return pieces * len(rows) + 1
 
 
 def own_memory_mb() -> float:
@@ -52,16 +48,16 @@ def measure() -> None:
         cells = Shadow(Store())
         before_mb = own_memory_mb() if STATUS.exists() else 0.0
         began = time.process_time()
-        program = load(path, cells)
+        program = load(path, cells, DIALECT)
         most_mb, moves = 0.0, 0
         options = Options(has_batches=True)
-        for entry in Interpreter(program, cells, VirtualMachine(), options=options).entries():
+        for entry in Interpreter(program, cells, VirtualMachine(), DIALECT, options).entries():
             moves += len(entry) if isinstance(entry, Moves) else 1
             if STATUS.exists():
                 most_mb = max(most_mb, own_memory_mb())
         seconds = time.process_time() - began
     value_only(f"moves of a file of {SIZE_MB} MB", moves, "moves")
-    at_least("lines of it loaded and interpreted per second", line_cnt / seconds, 700_000, "1/s")
+    at_least("lines of it loaded and interpreted per second", line_cnt / seconds, 300_000, "1/s")
     if STATUS.exists():
         at_most("memory it takes beside the file", most_mb - before_mb, 32.0, "MB")
 

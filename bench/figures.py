@@ -4,6 +4,7 @@ CPU time of this process is measured where possible (best of several runs), so t
 work on the machine disturbs little.
 """
 
+import os
 import resource
 import subprocess
 import time
@@ -26,15 +27,21 @@ def best_s(work: Callable[[], object], runs: int = RUNS) -> float:
 
 def command_s(command: Sequence[str], runs: int = RUNS, *, may_fail: bool = False) -> float:
     """The least CPU time of several runs of a command."""
-    times = []
+    times, environment = [], as_installed()
     for _ in range(runs):
-        began = _children_s()
-        subprocess.run(command, check=not may_fail, capture_output=True)
-        times.append(_children_s() - began)
+        began = children_s()
+        subprocess.run(command, check=not may_fail, capture_output=True, env=environment)
+        times.append(children_s() - began)
     return max(min(times), 1e-9)
 
 
-def _children_s() -> float:
+def as_installed() -> dict[str, str]:
+    """The environment for commands: Python keeps byte code, as where it is installed."""
+    return {n: value for n, value in os.environ.items() if n != "PYTHONDONTWRITEBYTECODE"}
+
+
+def children_s() -> float:
+    """CPU time of all processes of this one that have ended."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 

@@ -22,6 +22,7 @@ LINES = 200_000
 MIXED = 50_000
 PASSES = 50_000
 STORE = Store()
+SWITCHES = "G17", "G90", "G40", "G17 G90 G21", "M8", "G54", "S8000 M3", "T1 M6", "S6500", "M5"
 LOOP = f"""F100
 G65 P9000
 M2
@@ -89,7 +90,7 @@ def mixed(lines: int) -> str:
         elif kind < 0.93:
             rows.append(f"G1 X{x:.4f} F{chance.randrange(100, 900)} (finish)")
         elif kind < 0.97:
-            rows.append(chance.choice(["G17", "G90", "G40", "G17 G90 G21", "M8", "G54"]))
+            rows.append(chance.choice(SWITCHES))
         else:
             rows += ["G0 Z2", f"G0 X{x:.4f} Y{y:.4f}", "G1 Z-1 F200"]
     return "\n".join([*rows, "M30"]) + "\n"

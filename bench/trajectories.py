@@ -1,13 +1,15 @@
 """Trajectories within a tolerance: times with and without jerk, largest values, CPU time.
 
 Programs of five kinds at 100 mm/s, 1000 mm/s2 and 20,000 mm/s3 by axis. Values are those of the
-spline that is sent, which no sample exceeds. Where `linuxcnc-uspace` is installed its planner
-runs the same programs, in real time.
+spline that is sent, which no sample exceeds. Small parts of the programs are compared with the
+best motions that are found for path and time together (tests/trajectory/joint_optimum.py). Where
+`linuxcnc-uspace` is installed its planner runs the same programs, in real time.
 """
 
 import numpy as np
+from tests.trajectory.joint_optimum import Path, fewest
 from tests.trajectory.measures import PERIOD_S, deviations, limits, planned, points
-from tests.trajectory.programs import KINDS, Segments
+from tests.trajectory.programs import KINDS, PARTS, Segments
 
 from bench import linuxcnc
 from bench.figures import at_most, best_s, value_only
@@ -22,6 +24,8 @@ def main() -> None:
     for kind in KINDS:
         for tolerance in TOLERANCES_U:
             _figures(f"trajectory {kind} {tolerance}", kind, tolerance)
+    for kind in PARTS:
+        _optima(f"trajectory part of {kind} {TOLERANCES_U[0]}", PARTS[kind](TOLERANCES_U[0]))
     if linuxcnc.is_installed():
         _side_by_side(TOLERANCES_U[0])
 
@@ -40,6 +44,17 @@ def _side_by_side(tolerance: float) -> None:
         )
         value_only(f"{name}: largest acceleration", float(push), "mm/s2")
         value_only(f"{name}: largest jerk", float(jerk), "mm/s3")
+
+
+def _optima(name: str, part: Segments) -> None:
+    """How much longer plans take than the joint optimum, and what the jerk costs at least."""
+    start, best = (0.0, 0.0, 0.0), {}
+    for has_jerk in (True, False):
+        plan = points(planned(part, start, limits() if has_jerk else limits(None)))
+        best[has_jerk] = len(fewest(Path.of(part, start, PERIOD_S, has_jerk=has_jerk), plan))
+        of = f"{name}, {'with' if has_jerk else 'without'} jerk"
+        value_only(f"{of}: time / joint optimum", len(plan) / best[has_jerk], "")
+    value_only(f"{name}: joint optimum with jerk / plan without", best[True] / len(plan), "")
 
 
 def _start(kind: str, segments: Segments) -> tuple[float, ...]:

@@ -20,6 +20,7 @@ class Proxy(Closing):
         self._up.set()
         self._down.set()
         self._pairs: list[tuple[socket.socket, socket.socket]] = []
+        self._changes = threading.Lock()  # of the pairs: they are made in the thread
         self._is_cut = self._is_over = False
         threading.Thread(target=self._accept, daemon=True).start()
 
@@ -56,9 +57,14 @@ class Proxy(Closing):
             except OSError:  # what it stands for has ended
                 near.close()
                 continue
-            self._pairs.append((near, far))
+            for end in (near, far):
+                end.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            with self._changes:
+                self._pairs.append((near, far))
+            if self._is_cut or self._is_over:  # meanwhile
+                self._close()
+                continue
             for source, sink, flows in ((near, far, self._up), (far, near, self._down)):
-                source.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
                 threading.Thread(target=self._copy, args=(source, sink, flows), daemon=True).start()
 
     def _copy(self, source: socket.socket, sink: socket.socket, flows: threading.Event) -> None:
@@ -98,17 +104,14 @@ class Proxy(Closing):
 
     def reset(self) -> None:
         """Both ends get a reset; a new connection may be made at once."""
-        for pair in self._pairs:
-            for end in pair:
-                with suppress(OSError):
-                    linger = struct.pack("ii", 1, 0)
-                    end.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
-        self._close()
+        self._close(linger=struct.pack("ii", 1, 0))
 
-    def _close(self) -> None:
-        for pair in self._pairs:
-            for end in pair:
-                with suppress(OSError):
-                    end.shutdown(socket.SHUT_RDWR)
-                end.close()
-        self._pairs.clear()
+    def _close(self, linger: bytes | None = None) -> None:
+        with self._changes:
+            pairs, self._pairs = self._pairs, []
+        for end in (end for pair in pairs for end in pair):
+            with suppress(OSError):
+                if linger is not None:
+                    end.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
+                end.shutdown(socket.SHUT_RDWR)
+            end.close()

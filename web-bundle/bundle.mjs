@@ -12,7 +12,11 @@ import { build } from "esbuild";
 
 const HERE = dirname(fileURLToPath(import.meta.url));
 const OUT = join(HERE, "../src/openacr/panel/web/vendor");
-const SHEETS = { "uplot.css": "uplot/dist/uPlot.min.css", "xterm.css": "@xterm/xterm/css/xterm.css" };
+const SHEETS = {
+  "dockview.css": () => sheetWithin("dockview-core/dist/dockview-core.js", "light"),
+  "uplot.css": () => read("node_modules/uplot/dist/uPlot.min.css").toString(),
+  "xterm.css": () => read("node_modules/@xterm/xterm/css/xterm.css").toString(),
+};
 const INPUTS = ["package.json", "package-lock.json", "bundle.mjs"];
 
 // The terminal writes its rules into style elements, which the policy of the panel's server forbids.
@@ -35,6 +39,14 @@ function put(name, data) {
   if (!/[.](js|css)$/.test(name)) return;
   writeFileSync(join(OUT, `${name}.gz`), packed);
   outputs[`${name}.gz`] = hash(packed);
+}
+
+/** The style sheet that a script carries as a text, with one of its themes. */
+function sheetWithin(source, theme) {
+  const text = /\.textContent = ("(?:[^"\\]|\\.)*")/.exec(read(`node_modules/${source}`).toString());
+  if (!text) throw new Error(`${source} no longer carries a style sheet`);
+  const other = new RegExp(`(?<=^|})[^{}]*\\.dockview-theme-(?!${theme}[ .{,\\n])[^{}]*{[^{}]*}`, "g");
+  return JSON.parse(text[1]).replace(other, "");
 }
 
 /** The package a bundled file belongs to, e.g. "@codemirror/view". */
@@ -69,7 +81,7 @@ for (const entry of entries) {
 }
 for (const [name, source] of Object.entries(SHEETS)) {
   put(name, (await build({
-    stdin: { contents: read(`node_modules/${source}`).toString(), loader: "css" },
+    stdin: { contents: source(), loader: "css" },
     minify: true,
     write: false,
   })).outputFiles[0].contents);

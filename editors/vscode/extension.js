@@ -2,6 +2,7 @@
 // languages is in openacr itself; here is only what the editor needs to call it.
 "use strict";
 
+const { spawn } = require("node:child_process");
 const path = require("node:path");
 const vscode = require("vscode");
 const { LanguageClient } = require("vscode-languageclient/node");
@@ -34,7 +35,7 @@ async function startServer() {
     await client.start();
   } catch (error) {
     vscode.window.showErrorMessage(
-      `openacr: the language server does not start: ${error.message}. ` +
+      `openacr: the language server does not start: ${error?.message ?? error} ` +
         "Is openacr[lsp] installed, and is the setting openacr.path its path?",
     );
   }
@@ -130,14 +131,39 @@ const debuggerFactory = {
   },
 };
 
-/** F5 without a launch.json debugs the project of the active file. */
+/** F5 without a launch.json debugs the active part program, or the project of the active file. */
+async function activeConfiguration() {
+  const document = await activeDocument(LANGUAGES);
+  if (!document) return undefined;
+  const launch = { type: "openacr", request: "launch", stopOnEntry: true };
+  if (CONTROLLER.includes(document.languageId)) {
+    return { ...launch, name: "Project", program: await projectOf(document.uri) };
+  }
+  const { uri } = document;
+  const [store, dialect] = ["store", "dialect"].map((name) => setting(name, uri));
+  return { ...launch, name: "Part program", partProgram: uri.fsPath, store, dialect };
+}
+
+/** Why a program does not start; undefined if it does. */
+function reasonAgainst(command) {
+  return new Promise((resolve) => {
+    const child = spawn(command, ["--version"], { stdio: "ignore" });
+    child.once("error", (error) => resolve(error.message));
+    child.once("spawn", () => resolve(undefined));
+  });
+}
+
+/** The editor itself says nothing where the program of a debugger does not start. */
 const debugConfigurations = {
-  async resolveDebugConfiguration(_folder, configuration) {
-    if (configuration.type || configuration.request || configuration.name) return configuration;
-    const document = await activeDocument(CONTROLLER);
-    if (!document) return undefined;
-    const program = await projectOf(document.uri);
-    return { type: "openacr", request: "launch", name: "Project", program, stopOnEntry: true };
+  async resolveDebugConfiguration(folder, configuration) {
+    const isGiven = configuration.type || configuration.request || configuration.name;
+    const resolved = isGiven ? configuration : await activeConfiguration();
+    const reason = resolved && (await reasonAgainst(setting("path", folder?.uri)));
+    if (!reason) return resolved;
+    vscode.window.showErrorMessage(
+      `openacr: the debugger does not start: ${reason}. Is the setting openacr.path its path?`,
+    );
+    return undefined;
   },
 };
 

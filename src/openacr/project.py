@@ -103,7 +103,7 @@ def find_project(path: Path | str, unsaved: Mapping[Path, bytes] = _NOTHING) -> 
     `unsaved` are controller files as an editor holds them, which need not exist.
     """
     place = Path(path)
-    if place.is_dir():
+    if is_folder(place, unsaved):
         return _folder(place, unsaved)
     if not place.exists() and place not in unsaved:
         raise UserError(f"{place}: no such file or folder")
@@ -112,6 +112,11 @@ def find_project(path: Path | str, unsaved: Mapping[Path, bytes] = _NOTHING) -> 
     source = read_source(place, unsaved=unsaved)
     _refuse_part_program(source)
     return Project(place, source)
+
+
+def is_folder(place: Path, unsaved: Mapping[Path, bytes] = _NOTHING) -> bool:
+    """Whether a path is a folder, be it one of files that only an editor holds."""
+    return place.is_dir() or any(each.parent == place for each in unsaved)
 
 
 def _refuse_part_program(source: SourceFile) -> None:
@@ -179,7 +184,7 @@ def require_text(
 
 def _folder(root: Path, unsaved: Mapping[Path, bytes]) -> Project:
     try:
-        found = {entry for entry in root.iterdir() if entry.is_file()}
+        found = {entry for entry in root.iterdir() if entry.is_file()} if root.is_dir() else set()
     except OSError as error:
         raise unreadable(root, error) from None
     entries = sorted(found.union(path for path in unsaved if path.parent == root))

@@ -12,7 +12,8 @@ from openacr.compiled import is_compiled
 from openacr.map import numbers as at
 
 LEADER = 1  # axis Y jogs and leads gear and cam of X
-FASTEST_CPS = 2000 + 1500 + 2 * 1000 + 1000  # move at twice its feed, jog, gear, cam
+LEADER_CPS = 1 / PERIOD_S  # of 1000; as whole counts: one in a period at most
+FASTEST_CPS = 2000 + 1500 + 2 * LEADER_CPS + LEADER_CPS  # move at twice its feed, jog, gear, cam
 ROWS = [
     at.AXF_BASE + getattr(at, f"AXF_{part}_CNT")
     for part in ("POSITION", "GEAR", "JOG", "CAM", "KINEMATICS")

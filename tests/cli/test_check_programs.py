@@ -213,7 +213,10 @@ def test_the_machine_file_may_tell_the_servo_period(tmp_path: Path) -> None:
 
 
 def test_a_path_tolerance_is_warned_of_because_real_cards_have_none(tmp_path: Path) -> None:
-    text = "an extension of openacr: real cards refuse it"
+    text = (
+        "an extension of openacr: real cards refuse it"
+        " (it limits corners between straight moves, not the turn of arcs)"
+    )
     lines = ("LOOK ON LOOK TOL 0.01", "LOOK ANG (1,2)", "IF (P0) THEN LOOK TOL 0")
     assert faults(tmp_path, *lines) == [f"2:9: warning: {text}", f"4:14: warning: {text}"]
     assert "2:1: warning" in check(_written(tmp_path, "PROG0\nLOOK TOL 1\n")).stdout
@@ -331,6 +334,13 @@ def test_programs_larger_than_their_memory_are_found(tmp_path: Path) -> None:
     assert first.startswith("prog9.8k:1:1: Out of memory (the text takes")
 
 
+def test_a_text_takes_the_place_of_the_one_before_it(tmp_path: Path) -> None:
+    program = "PROGRAM\nP0=1\nENDP\n"
+    whole = 8 + LINE_BYTES + 8
+    setup = ("DIM P(1)", f"DIM PROG0({whole})", "PROG0", *program.split("\n"))
+    assert room(tmp_path, *setup, prog0=program) == []
+
+
 def test_variables_take_from_the_memory_of_their_program(tmp_path: Path) -> None:
     program = "PROGRAM\nLV0=1\nENDP\n"
     whole = 8 + LINE_BYTES + 8
@@ -373,6 +383,7 @@ def test_check_finds_what_a_card_refuses_for_lack_of_memory(tmp_path: Path) -> N
 def test_a_computed_size_ends_the_arithmetic(tmp_path: Path) -> None:
     assert room(tmp_path, "DIM P(5)", "P0=8", "DIM PROG0(P0)", prog0="PROGRAM\nP0=1\nENDP\n") == []
     assert room(tmp_path, "DIM P(5)", "IF (P0) THEN DIM PROG0(8)", "DIM PROG0(8)") == []
+    assert room(tmp_path, "DIM P(5)", "DIM PROG0(P0)", "DIM PROG1(8)", "DIM PROG1(8)") == []
 
 
 def test_a_program_for_which_no_set_up_is_known_has_its_memory(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
+from openacr import wording
 from openacr.cli.main import app
 from openacr.starter.supplied import examples
 
@@ -42,7 +43,7 @@ def test_the_list_as_json_names_the_files() -> None:
         "title": "Camera gantry: the tutorial machine of the programming guide",
         "files": [
             "README.md", "configure.toml", "machine.toml", "prog0.8k", "prog1.8k",
-            "scenario.toml", "setup.8k",
+            "scenario.toml", "settings.toml", "setup.8k",
         ],
     }  # fmt: skip
 
@@ -108,3 +109,8 @@ def test_names_are_completed() -> None:
     words = [sys.executable, "-c", "from openacr.cli.main import app; app(prog_name='openacr')"]
     found = subprocess.run(words, env=environment, capture_output=True, text=True, check=False)
     assert found.stdout.split() == ["gantry", "gantry_lock"]
+
+
+def test_a_folder_with_a_space_is_shown_in_quotes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(wording, "WINDOWS", False)
+    assert command("copy", "square", "my mill").stderr == "run it: openacr run 'my mill'\n"

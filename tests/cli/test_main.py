@@ -47,6 +47,15 @@ def test_help_lists_every_command() -> None:
         assert f"\n  {name} " in shown
 
 
+@pytest.mark.parametrize(
+    "family", [name for name, each in COMMANDS.items() if isinstance(each, Family)]
+)
+def test_a_family_offers_no_completion_of_its_own(family: str) -> None:
+    shown = CliRunner().invoke(app, [family, "--help"]).output
+    assert "-h, --help" in shown
+    assert "completion" not in shown
+
+
 HEAVY = {"numpy", "matplotlib", "rich", "asyncio", "serial", "starlette"}
 SLOW = {"pydantic", "importlib.metadata", "importlib.resources", "zipfile"}
 
@@ -120,7 +129,7 @@ def test_values_of_parameters_have_the_types_of_the_command() -> None:
     [
         (["--count", "0"], "Invalid value for '--count'"),
         (["--count", "a"], "Invalid value for '--count'"),
-        (["--kept", "nowhere"], "path 'nowhere' does not exist"),
+        (["--kept", "nowhere"], "'nowhere' does not exist"),
         (["--folder", __file__], "is a file"),
     ],
 )

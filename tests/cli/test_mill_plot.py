@@ -17,7 +17,7 @@ from openacr.cli.plots.toolpath import RAPID, Scene, shade
 from openacr.cli.plots.toolpath_image import build_figure
 from openacr.cnc.loading.load import load
 from openacr.cnc.parts.library import names, part_named, prepared
-from openacr.mill.config.view import COLORS
+from openacr.mill.config.colors import COLORS
 from openacr.mill.plan import tool_path
 from openacr.sysvar import Store
 
@@ -185,9 +185,9 @@ def colors_of(scene: Scene) -> set[str]:
 
 @pytest.mark.req("MILL-GFX-PATHCOLOR")
 def test_the_path_color_is_that_of_the_store(part: Path) -> None:
-    assert COLORS[10] in colors_of(scene_of(part))
-    assert COLORS[4] in colors_of(scene_of(part, P250114=4))
-    assert COLORS[10] not in colors_of(scene_of(part, P250114=4))
+    assert COLORS[10].on_light in colors_of(scene_of(part))
+    assert COLORS[4].on_light in colors_of(scene_of(part, P250114=4))
+    assert COLORS[10].on_light not in colors_of(scene_of(part, P250114=4))
 
 
 @pytest.mark.req("MILL-SYS-DISP-DCOLOR")
@@ -195,9 +195,12 @@ def test_tools_have_colors_when_the_store_says_so(tmp_path: Path) -> None:
     part = tmp_path / "TOOLS.NC"
     part.write_text("F10\nT1 M6\nX1\nT2 M6\nX2\nT18 M6\nY1\nM2\n")
     off = scene_of(part)
-    assert {COLORS[n] for n in (1, 2, 4, 10)} & colors_of(off) == {COLORS[10]}
+    assert {COLORS[n].on_light for n in (1, 2, 4, 10)} & colors_of(off) == {COLORS[10].on_light}
     on = scene_of(part, P850020=1, P901001=4)
-    assert {COLORS[n] for n in (1, 2, 4, 10)} & colors_of(on) == {COLORS[4], COLORS[2]}
+    assert {COLORS[n].on_light for n in (1, 2, 4, 10)} & colors_of(on) == {
+        COLORS[4].on_light,
+        COLORS[2].on_light,
+    }
     assert [look.get_label() for look in build_figure(on).legends[0].get_lines()][:3] == [
         "feed T1",
         "feed T2",

@@ -251,7 +251,7 @@ def test_a_start_at_a_line_is_not_agreed_to_without_an_operator(
 def test_a_level_that_only_the_operator_knows_is_asked_for(card: Controller, part: str) -> None:
     Path(part).write_text("G1 Z-1 F600\nX3\nX5\nM2\n")
     code, text = mill("run", part, "--line", "3", "--yes")
-    assert (code, "--safe-z names its machine position" in text) == (2, True)
+    assert (code, "its machine position has to be given (Safe Z, --safe-z)" in text) == (2, True)
     assert mill("run", part, "--line", "3", "--yes", "--safe-z", "0.5", "--quiet")[0] == 0
     assert (card.p[12288], card.p[12800]) == (50000, -10000)
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
+from openacr import wording
 from openacr.cli import new as command
 from openacr.cli.main import app
 
@@ -158,3 +159,8 @@ def test_the_words_of_an_option_are_completed() -> None:
     words = [sys.executable, "-c", code]
     found = subprocess.run(words, env=environment, capture_output=True, text=True, check=False)
     assert found.stdout.split() == ["axis", "gantry", "mill", "turntable"]
+
+
+def test_a_folder_with_a_space_is_shown_in_quotes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(wording, "WINDOWS", False)
+    assert new("my mill").stderr == "run it: openacr run 'my mill'\n"

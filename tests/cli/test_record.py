@@ -1,6 +1,7 @@
 """`openacr record` and the replay of what it wrote, as commands."""
 
 import json
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -55,6 +56,38 @@ def test_a_session_is_recorded_and_replayed(tmp_path: Path) -> None:
     assert same.stdout.endswith(": every answer is the same\n")
 
 
+def received(fd: int, count: int) -> bytes:
+    """Read this count of bytes, which may come in pieces."""
+    data = b""
+    while len(data) < count:
+        data += os.read(fd, count - len(data))
+    return data
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pseudo terminals of POSIX")
+def test_a_serial_line_is_recorded_until_a_signal(tmp_path: Path) -> None:
+    import pty
+    import tty
+
+    (host, host_line), (card, card_line) = pty.openpty(), pty.openpty()
+    for each in (host_line, card_line):
+        tty.setraw(each)
+    file, ports = tmp_path / "s.jsonl", (os.ttyname(card_line), os.ttyname(host_line))
+    with running("record", ports[0], file, "--host-port", ports[1], "--baud", 9600) as line:
+        assert line == f"joined {ports[1]} card={ports[0]}\n"
+        for sender, receiver, data in (
+            (host, card, b"?6*7\r"),
+            (card, host, b"?6*7\r\n42\r\nSYS>"),
+        ):
+            os.write(sender, data)
+            assert received(receiver, len(data)) == data
+    for each in (host, host_line, card, card_line):
+        os.close(each)
+    assert file.stat().st_mode & 0o777 == 0o600
+    replayed = openacr("replay", file)
+    assert replayed.stdout.endswith(" events: every answer is the same\n")
+
+
 @pytest.fixture
 def recording(tmp_path: Path) -> Path:
     path = tmp_path / "s.jsonl"
@@ -102,7 +135,9 @@ def test_a_recording_that_is_cut_off_is_replayed_to_its_last_whole_line(recordin
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["/dev/ttyUSB0"], "a serial line cannot be recorded; give HOST or HOST:PORT"),
+        (["/dev/ttyUSB0"], "/dev/ttyUSB0 is recorded between two serial ports: give --host-port"),
+        (["/dev/ttyNO", "--host-port", "/dev/ttyNO2"], "cannot open serial port /dev/ttyNO"),
+        (["127.0.0.1:1", "--host-port", "COM1"], "--host-port is for a card on a serial port"),
         (["127.0.0.1:1", "--listen", "0.0.0.0"], "other machines reach 0.0.0.0"),
         (["127.0.0.1:1", "--allow", "10.0.0.0/8", "--insecure"], "exclude each other"),
         (["127.0.0.1:1", "--allow", "home"], "write networks like 192.168.10.0/24"),

@@ -10,23 +10,37 @@ import pytest
 from jsonschema import Draft202012Validator
 from typer.testing import CliRunner
 
+from openacr.bridge.load import parse_bridge
 from openacr.cli.explain.schema import Kind, schema_of
 from openacr.cli.main import app
 from openacr.configure.load import parse_answers
 from openacr.errors import SourceError
 from openacr.plant.load import parse_world
 from openacr.scenario import parse_scenario
+from openacr.sweep.load import parse_sweep
 
 ROOT = Path(__file__).parents[2]
 LOADERS: dict[Kind, Callable[[str, str], object]] = {
     Kind.MACHINE: parse_world,
     Kind.SCENARIO: parse_scenario,
     Kind.CONFIGURE: parse_answers,
+    Kind.BRIDGE: parse_bridge,
+    Kind.SWEEP: parse_sweep,
 }
-FILES = sorted(path for kind in Kind for path in (ROOT / "examples").glob(f"*/{kind}.toml"))
+SWEEPS = ("gains", "tolerances", "best")
+FILES = [
+    (kind, path)
+    for kind in Kind
+    for name in (SWEEPS if kind is Kind.SWEEP else (kind,))
+    for path in sorted((ROOT / "examples").glob(f"*/{name}.toml"))
+]
 AXIS = "[[axis]]\nnumber = 0\nencoder_lines = 1000\n"
 IDEAL = 'drive = { mode = "ideal", revs_per_s_per_volt = 1.0 }\n'
 ANSWERS = '[[axis]]\nnumber = 0\nname = "X"\nunits_per_rev = 5.0\ncounts_per_rev = 8000\n'
+ON = "[prometheus]\n"
+VARY = "[vary.a]\nparameter = 0\nvalues = [1, 2]\n"
+MEASURES = '[measures]\nm = "at_end(P0)"\n'
+SWEEP = f'project = "p"\n{VARY}{MEASURES}'
 DONE = "[[at]]\ntime_s = 1\nset = [3]\n"
 
 REFUSED = [
@@ -62,6 +76,33 @@ REFUSED = [
     (Kind.CONFIGURE, ANSWERS.replace('"X"', '"TOOLONG"')),
     (Kind.CONFIGURE, ANSWERS.replace("8000", "0")),
     (Kind.CONFIGURE, "[card]\ncanopen = { nodes = 5 }\n" + ANSWERS),
+    (Kind.BRIDGE, ON + "port = 65536\n"),
+    (Kind.BRIDGE, "rate_hz = 0\n" + ON),
+    (Kind.BRIDGE, "[promtheus]\n"),
+    (Kind.BRIDGE, "[mtconnect]\nbuffer = 99\n"),
+    (Kind.BRIDGE, ON + '[[value]]\nname = "1st"\nflag = 1\n'),
+    (Kind.BRIDGE, ON + '[[value]]\nname = "a"\n'),
+    (Kind.BRIDGE, ON + '[[value]]\nname = "a"\nflag = 1\nparameter = 1\n'),
+    (Kind.SWEEP, SWEEP.replace('project = "p"\n', "")),
+    (Kind.SWEEP, "runs = 3\n" + SWEEP),
+    (Kind.SWEEP, "duration_s = 0\n" + SWEEP),
+    (Kind.SWEEP, "every_tk = 0\n" + SWEEP),
+    (Kind.SWEEP, SWEEP.replace(VARY, "")),
+    (Kind.SWEEP, SWEEP.replace(VARY, "[vary]\n")),
+    (Kind.SWEEP, SWEEP.replace(MEASURES, "[measures]\n")),
+    (Kind.SWEEP, SWEEP.replace("vary.a", "vary.A")),
+    (Kind.SWEEP, SWEEP.replace("vary.a", f"vary.{'a' * 41}")),
+    (Kind.SWEEP, SWEEP.replace("m =", "1m =")),
+    (Kind.SWEEP, SWEEP.replace("parameter = 0\n", "")),
+    (Kind.SWEEP, SWEEP.replace("values = [1, 2]\n", "")),
+    (Kind.SWEEP, SWEEP.replace("parameter = 0", 'parameter = 0\nline = "P0={}"')),
+    (Kind.SWEEP, SWEEP.replace("values = [1, 2]", "values = [1]\nrange = [1, 2]\nsteps = 2")),
+    (Kind.SWEEP, SWEEP.replace("values = [1, 2]", "range = [1, 2]\nsteps = 1")),
+    (Kind.SWEEP, SWEEP.replace("values = [1, 2]", "range = [1]\nsteps = 2")),
+    (Kind.SWEEP, SWEEP + '[design]\nkind = "latin"\n'),
+    (Kind.SWEEP, SWEEP + "[optimise]\ntrials = 5\n"),
+    (Kind.SWEEP, SWEEP + '[optimise]\nminimise = "m"\nmaximise = "m"\n'),
+    (Kind.SWEEP, SWEEP + '[optimise]\nminimise = "m"\ntrials = 0\n'),
 ]
 ACCEPTED = [
     (Kind.MACHINE, ""),
@@ -71,6 +112,16 @@ ACCEPTED = [
     (Kind.SCENARIO, DONE),
     (Kind.SCENARIO, DONE + "[[expect]]\nflag = 33\nis = true\n"),
     (Kind.CONFIGURE, ANSWERS),
+    (Kind.BRIDGE, ON),
+    (Kind.BRIDGE, ON + '[[value]]\nname = "a"\nparameter = "axis0.ppu"\n'),
+    (Kind.SWEEP, SWEEP),
+    (Kind.SWEEP, SWEEP.replace("vary.a", f"vary.{'a' * 40}")),
+    (Kind.SWEEP, "until = -516\n" + SWEEP.replace("values = [1, 2]", "range = [1, 2]\nsteps = 2")),
+    (Kind.SWEEP, 'until = "idle"\n' + SWEEP + '[optimise]\nmaximise = "m"\n'),
+    (
+        Kind.SWEEP,
+        SWEEP.replace("[1, 2]\n", '[1]\n[vary.b]\nmachine = ["card.period_s"]\nvalues = [1]\n'),
+    ),
 ]
 
 
@@ -84,13 +135,15 @@ def test_a_schema_is_one_itself(kind: Kind) -> None:
     Draft202012Validator.check_schema(schema_of(kind))
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}/{path.name}")
-def test_the_examples_pass(path: Path) -> None:
-    assert complaints(Kind(path.stem), path.read_text(encoding="utf-8")) == []
+@pytest.mark.parametrize(
+    ("kind", "path"), FILES, ids=[f"{path.parent.name}/{path.name}" for _, path in FILES]
+)
+def test_the_examples_pass(kind: Kind, path: Path) -> None:
+    assert complaints(kind, path.read_text(encoding="utf-8")) == []
 
 
 def test_there_are_examples_of_every_kind() -> None:
-    assert {Kind(path.stem) for path in FILES} == set(Kind)
+    assert {kind for kind, _ in FILES} == set(Kind)
 
 
 @pytest.mark.parametrize(("kind", "text"), REFUSED)

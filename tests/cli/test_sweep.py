@@ -83,7 +83,7 @@ def test_a_search_shows_its_best_run(tmp_path: Path) -> None:
         (("-o", "x.csv"), "error: x.csv: results end in .parquet"),
         (("--workers", "2", "--scheduler", "x"), "error: --workers and --scheduler exclude each"),
         (("--plot", "x.html"), "error: x.html: pictures of sweeps end in .png or .svg"),
-        (("--plot", "x.pdf"), "error: x.pdf: pictures end in"),
+        (("--plot", "x.pdf"), "error: x.pdf: pictures of sweeps end in .png or .svg"),
         (("-o", "nowhere/x.parquet"), "error: nowhere/x.parquet: cannot be written: there is no"),
     ],
 )

@@ -102,6 +102,34 @@ def test_arrays_of_a_program(card: Card) -> None:
         card.read_array(2, "XA0")
 
 
+@pytest.mark.parametrize("word", ["LA", "SA"])
+def test_long_arrays_are_read_whole_or_in_parts(card: Card, word: str) -> None:
+    for line in (f"DIM {word}(2)", f"DIM {word}0(3)", f"DIM {word}1(600)"):
+        card.command(line, program=2)
+    values = [-7 if word == "LA" else -7.25, 5, 11]
+    for index, value in zip((0, 255, 599), values, strict=True):
+        card.write_array(2, f"{word}1", [value], first=index)
+    whole: list[float] = [0] * 600
+    whole[0], whole[255], whole[599] = values
+    assert card.read_array(2, f"{word}1") == whole
+    assert card.read_array(2, f"{word}1", range(250, 600, 5)) == whole[250:600:5]
+    assert card.read_array(2, f"{word}1", range(599, 598, -1)) == [11]
+    assert card.read_array(2, f"{word}1", range(0)) == []
+    for array, part in ((1, range(599, 601)), (1, range(-1, 1)), (2, range(1))):
+        with pytest.raises(RefusedError):
+            card.read_array(2, f"{word}{array}", part)
+
+
+def test_a_thousand_elements_are_read_with_few_packets() -> None:
+    card, link = wrapped()
+    for line in ("DIM LA(1)", "DIM LA0(4000)"):
+        card.command(line, program=2)
+    card.read_array(2, "LA0", range(1))
+    before = link.writes
+    assert card.read_array(2, "LA0", range(4000)) == [0] * 4000
+    assert link.writes == before + 5  # four words that lead to it, 16 packets of 255 at once
+
+
 def test_levels_are_reached_when_needed(card: Card) -> None:
     assert card.command("ATTACH", program=3) == []
     assert card.level == Level.program(3)

@@ -64,7 +64,8 @@ def test_the_light_of_an_axis_and_the_motion_it_bars(card: Controller) -> None:
 
 
 def test_lights_by_flags_alone() -> None:
-    assert [axis_light(flags) for flags in (0, 1 << 17, 1, 1 << 29 | 1 << 17)] == [
+    states = [(False, False), (False, True), (True, False), (True, True)]
+    assert [axis_light(is_faulty=a, is_enabled=b) for a, b in states] == [
         Light.OFF, Light.GREEN, Light.RED, Light.RED,
     ]  # fmt: skip
     shown = [bus_light(state, is_installed=True) for state in (0, 1, 2, 6, 7, 11)]
@@ -94,6 +95,8 @@ def test_inputs_and_enables_of_limits_stand_side_by_side(card: Controller) -> No
         (3, False, False),
         (4, True, False),  # toggles without effect
     ]
+    card.bit[16132 + 32] = True  # encountered before, on the positive side
+    assert [limit.is_latched for limit in of_axis(card, 1).limits] == [True, False]
     card.send("AXIS1 HLIM 2\r")
     enabled = of_axis(card, 1).limits[1]
     assert (enabled.is_on, enabled.is_active, enabled.is_enabled) == (True, True, True)

@@ -1,5 +1,7 @@
 """Loops that move without end: a check ends with the line, programs that end are not touched."""
 
+from pathlib import Path
+
 import pytest
 from tests.cnc.programs import STORE, made
 
@@ -44,9 +46,61 @@ def test_a_loop_that_moves_without_end_is_an_error(text: str, line: int, dialect
     assert found(of(text, dialect)) == [(SAME, line, HINT)]
 
 
-def test_a_loop_that_changes_for_ever_ends_too(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("target", ["10", "(5*2)"])
+@pytest.mark.parametrize("period", range(1, 10))
+def test_a_loop_ends_when_the_state_of_pass_1_2_4_8_comes_back(target: str, period: int) -> None:
+    text = f"F10|P200=0|N10 P200=(P200+1) MOD {period}|G1 X(P200+1)|X0|GOTO {target}"
+    kept = next(2**k for k in range(5) if 2**k >= period)
+    assert of(text).move_cnts["feed"] == 2 * (kept + period)
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "dialect"),
+    [
+        ("P200=0|N10 P200=P200+1|G90|GOTO 10", 4, "acromill"),
+        ("P200=0|N10 P200=P200+1|P201=1|P202=1|IF P200>0 THEN GOTO 10|M2", 5, "acromill"),
+        ("#1=0|O1 while [1]|#1=[#1+1]|#2=1|#3=1|O1 endwhile", 6, "rs274ngc"),
+        ("GOTO 10|N10 P200=P200+1|P201=1|P202=1|IF 1=1 THEN GOTO 10|M2", 5, "acromill"),
+    ],
+)  # fmt: skip
+def test_a_loop_without_motion_ends_at_the_line_that_jumps(
+    text: str, line: int, dialect: str
+) -> None:
+    assert found(of(text, dialect)) == [("endless loop", line, "")]
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        # the loop has ended: 1 + 2*49,999 lines, then two more
+        ("P200=0|N10 P200=P200+1|IF P200<49999 THEN GOTO 10|P201=1|P202=1|P203=1|G0 X1|M2", 5),
+        # the loop has ended, and the jump back around it was one: 6 + 2*49,996, then three more
+        ("P200=0|N10 P201=1|P202=1|P203=1|P200=P200+1|N20 P204=P204+1|IF P204<49996 THEN GOTO 20|"
+         "GOTO 10|M2", 4),
+    ],
+)  # fmt: skip
+def test_lines_without_motion_after_a_loop_are_named_themselves(text: str, line: int) -> None:
+    assert found(of(text)) == [("endless loop", line, "")]
+
+
+def test_a_loop_in_another_file_is_not_that_of_the_program(tmp_path: Path) -> None:
+    idle = "".join(f"P{n}=1\n" for n in range(201, 221))
+    (tmp_path / "IDLE.TXT").write_text(f"N50 P200=1\n{idle}RET\n")
+    main = (
+        "\n" * 29
+        + "P100=0\nN10 P210=P210+1\nIF P210<49990 THEN GOTO 10\nGOSUB 50\nM2\n$I IDLE.TXT\n"
+    )
+    shadow = Shadow(STORE)
+    errors = survey(load(main, shadow, folder=tmp_path), shadow).errors
+    assert [(each.file, each.text) for each in errors] == [("IDLE.TXT", "endless loop")]
+
+
+@pytest.mark.parametrize("target", ["10", "(5*2)"])  # read by the core, and without it
+def test_a_loop_that_changes_for_ever_ends_too(
+    monkeypatch: pytest.MonkeyPatch, target: str
+) -> None:
     monkeypatch.setattr(loops, "MOST_PASSES", 1000)
-    text = "F10|P200=0|N10 P200=P200+.001|G1 X(P200)|{}GOTO 10|M2"
+    text = f"F10|P200=0|N10 P200=P200+.001|G1 X(P200)|{{}}GOTO {target}|M2"
     more = "endless loop: more than 1,000 passes"
     assert found(of(text.format(""))) == [(more, 5, HINT)]
     assert found(of(text.format("IF P200<1.0005 THEN "))) == []  # 1000 jumps

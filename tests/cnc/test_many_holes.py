@@ -199,8 +199,9 @@ def test_a_hole_that_cannot_be_finished_together_is_drilled_by_itself() -> None:
 
 
 def test_words_of_a_cycle_last_into_blocks_read_by_themselves() -> None:
-    for between in ("M8", "G92 X.1", "X5 L0", "G80\nG0 Z4", "G0 Z3\nG81"):
-        text = f"F10 G0 Z2\nG98 G83 X1 Z-1 R.5 Q.3 P1\nX2\n{between}\nX3\nX4{CYCLES}"
+    for between in ("M8", "G92 X.1", "X5 L0", "G80\nG0 Z4", "G0 Z3\nG81", "M4", "M5", "S9",
+                    "T2 M6"):  # fmt: skip
+        text = f"F10 G0 Z2 M3\nG98 G83 X1 Z-1 R.5 Q.3 P1\nX2\n{between}\nX3\nX4{CYCLES}"
         require_same(text, "acromill")
 
 

@@ -120,7 +120,7 @@ def test_the_level_may_be_named_and_the_higher_one_counts() -> None:
     ],
 )
 def test_without_a_level_the_tool_is_not_moved_over_the_part(text: str) -> None:
-    with pytest.raises(StartError, match="--safe-z names its machine position"):
+    with pytest.raises(StartError, match="its machine position has to be given"):
         approach(text, text.count("\n") + 1, at(1, 1, -1))
 
 

@@ -365,3 +365,20 @@ def test_a_device_that_fails_ends_the_run_with_its_name(
     card = card_of(PROBE, tmp_path)
     with pytest.raises(UserError, match=f"^the device probe.py:Probe {re.escape(sentence)}"):
         card.advance(1)
+
+
+def test_an_edge_of_a_device_is_captured_at_the_end_of_the_next_servo_interrupt() -> None:
+    card = card_of(GRIPPER.replace("closed = 13", "closed = 26"))  # external input of axis 2
+    for line in (
+        "PROG0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS2 "X"', "PPU X400", "PGAIN X0.01",
+        "DRIVE ON X", "JOG VEL X100", "JOG ACC X10000", "JOG FWD X", "INTCAP X2", "SET 34",
+    ):  # fmt: skip
+        card.send(f"{line}\r")
+    assert card.until(26, timeout_s=1.0)
+    before_cnt = card.p[at.AX_BASE + 2 * at.AX_STRIDE + at.AX_ACTUAL_POSITION]
+    card.advance(1)
+    after_cnt = card.p[at.AX_BASE + 2 * at.AX_STRIDE + at.AX_ACTUAL_POSITION]
+    assert after_cnt > before_cnt
+    assert card.p[at.AX_BASE + 2 * at.AX_STRIDE + at.AX_HARDWARE_CAPTURE] == after_cnt
+    card.advance(100)
+    assert card.p[at.AX_BASE + 2 * at.AX_STRIDE + at.AX_HARDWARE_CAPTURE] == after_cnt

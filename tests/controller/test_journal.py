@@ -254,19 +254,23 @@ def test_a_journal_cannot_tell_of_a_return_to_a_snapshot(tmp_path: Path) -> None
     card.close()
 
 
-def test_a_full_disk_ends_the_journal_and_not_the_card(tmp_path: Path) -> None:
+def test_a_full_disk_ends_the_journal_and_not_the_card(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
     full = Path("/dev/full")
     if not full.exists():
         pytest.skip("no device that is always full")
     card = Controller()
     with pytest.raises(StoreError, match="No space left"):
         Recorder(card, full)
+    assert caplog.messages == []  # the error alone says it
     card.recorder = recorder = Recorder(card, tmp_path / "a")
     recorder.records._file.close()
     recorder.records._file = full.open("wb", buffering=0)
     assert card.send("?1\r").endswith("1\r\nSYS>")
     card.close()
     assert "No space left" in recorder.failure
+    assert caplog.messages == [f"{tmp_path / 'a'} is not complete: {recorder.failure}"]
 
 
 def test_watching_does_not_change_the_card(tmp_path: Path) -> None:

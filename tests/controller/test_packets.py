@@ -172,14 +172,14 @@ def test_what_does_not_exist_reads_zero_and_keeps_the_host_in_step(axes: Host) -
         assert axes.raw(data) == data + bytes(4)
 
 
-GROUPS = csv.DictReader((Path(__file__).parents[1] / "data" / "binary-groups.csv").open())
+GROUPS = Path(__file__).parents[1] / "data" / "binary-groups.csv"
 
 
 @pytest.mark.req("BIN-050", "BIN-051", "BIN-052", "BIN-053", "BIN-059")
 def test_every_documented_group_reads_the_parameters_it_names() -> None:
     card = Controller("ACR8020")
     host = Host(card)
-    for row in GROUPS:
+    for row in csv.DictReader(GROUPS.read_text("utf-8").splitlines()):
         first, stride, count = int(row["first_parameter"]), int(row["stride"]), int(row["count"])
         fields = [first + stride * n for n in range(count)]
         for n, number in enumerate(fields):

@@ -56,6 +56,10 @@ class Client:
         """The body of the next event of a kind."""
         return dict(self._wait(lambda each: each.get("event") == name)["body"])
 
+    def kept(self) -> list[Json]:
+        """What has come and was not waited for, before the last answer."""
+        return self._kept
+
     def stop(self) -> tuple[str, int]:
         """Reason and thread of the next stop."""
         body = self.event("stopped")
@@ -92,6 +96,10 @@ class Client:
         """End the session; the exit code."""
         self.ask("disconnect")
         return self.process.wait(LIMIT_S)
+
+    def hang_up(self) -> None:
+        """Close the line as an editor does that dies."""
+        self._in.close()
 
     def close(self) -> None:
         self.process.kill()

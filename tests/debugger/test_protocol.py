@@ -10,9 +10,21 @@ import pytest
 from tests.debugger.client import LIMIT_S, Client, RefusedError
 from tests.debugger.project import card_of, write
 
+from openacr.controller import Controller
 from openacr.controller.recorder import Recorder
 from openacr.debugger.server import serve
 from openacr.debugger.wire import BrokenStreamError
+from openacr.plant.load import parse_world
+
+LAMP = """\
+from typing import ClassVar
+from openacr.plant.devices.device import Device
+
+class Lamp(Device):
+    SIGNALS: ClassVar = {"lit": bool}
+    def step(self, dt_s, commands):
+        return {"lit": True}
+"""
 
 
 @pytest.fixture
@@ -55,6 +67,28 @@ def test_a_session_from_its_beginning_to_its_end(begun: Client, tmp_path: Path) 
     assert begun.stop() == ("breakpoint", 1)
     begun.ask("reverseContinue", threadId=1)
     assert begun.stop() == ("entry", 1)
+    assert begun.end() == 0
+
+
+def test_a_line_of_a_plc_stops_where_its_coil_changes(begun: Client, tmp_path: Path) -> None:
+    source = {"path": str(tmp_path / "plc0.8k")}
+    found = begun.ask("setBreakpoints", source=source, breakpoints=[{"line": 1}, {"line": 2}])
+    assert [each["verified"] for each in found["breakpoints"]] == [False, True]
+    assert "no coil of a PLC on this line" in found["breakpoints"][0]["message"]
+    places = begun.ask("breakpointLocations", source=source, line=1, endLine=2)
+    assert places == {"breakpoints": [{"line": 2}]}
+    begun.ask("evaluate", expression="RUN PLC0", context="repl")
+    begun.ask("evaluate", expression="SET 40", context="repl")
+    begun.ask("continue", threadId=1)
+    stop = begun.event("stopped")
+    assert (stop["reason"], stop["threadId"], stop["text"]) == ("breakpoint", 17, "BIT41 is set")
+    assert begun.place(17) == ("plc0.8k", 2)
+    (frame,) = begun.ask("stackTrace", threadId=17)["stackFrames"]
+    scopes = begun.ask("scopes", frameId=frame["id"])["scopes"]
+    assert [each["name"] for each in scopes] == ["Rung", "Time"]
+    begun.ask("next", threadId=17)
+    assert begun.stop()[0] == "step"
+    assert begun.ask("stackTrace", threadId=17)["stackFrames"] == []
     assert begun.end() == 0
 
 
@@ -146,7 +180,7 @@ def test_data_faults_and_texts_are_protocol_too(begun: Client, tmp_path: Path) -
     )
     assert found == {"breakpoints": [{"line": line} for line in (2, 3, 4, 5)]}
     found = begun.ask("setBreakpoints", source={"sourceReference": 17}, breakpoints=[{"line": 1}])
-    assert "watch one of its flags" in found["breakpoints"][0]["message"]
+    assert "no coil of a PLC" in found["breakpoints"][0]["message"]
     assert begun.end() == 0
 
 
@@ -243,3 +277,19 @@ def test_a_broken_stream_ends_the_debugger_with_its_sentence() -> None:
     )  # fmt: skip
     assert (done.returncode, done.stdout) == (2, b"")
     assert done.stderr == b"error: b'hello\\r\\n' is not a header\n"
+
+
+def test_a_journal_with_own_devices_needs_their_folder(client: Client, tmp_path: Path) -> None:
+    journal = str(tmp_path / "a.journal")
+    (tmp_path / "lamp.py").write_text(LAMP)
+    world = parse_world('[[device]]\nkind = "lamp.py:Lamp"\ninputs = { lit = 10 }\n')
+    card = Controller(world=world, device_folder=tmp_path)
+    card.recorder = Recorder(card, tmp_path / "a.journal")
+    card.advance(500)
+    card.close()
+    with pytest.raises(RefusedError, match="lamp"):
+        client.launch(tmp_path, program="", journal=journal)
+    client.ask("launch", journal=journal, devices=str(tmp_path), speed=0, stopOnEntry=True)
+    client.ask("configurationDone")
+    assert client.stop()[0] == "entry"
+    assert client.end() == 0

@@ -5,12 +5,14 @@ from pathlib import Path
 import pytest
 from tests.debugger.project import card_of
 
+from openacr.client.program_variables import Value
+from openacr.controller import Controller
 from openacr.debugger.breakpoints import DataBreakpoint, Fault, LineBreakpoint
-from openacr.debugger.calls import depth_of, frames_of, listing, state_of
+from openacr.debugger.calls import depth_of, frames_of, levels_of, listing, state_of
 from openacr.debugger.questions import answer, assign
 from openacr.debugger.session import DebugSession
 from openacr.debugger.stops import Reason, Stop
-from openacr.debugger.variables import Value, locals_of, program_state
+from openacr.debugger.variables import locals_of, program_state
 from openacr.errors import UserError
 from openacr.timeline import Moment
 
@@ -244,6 +246,25 @@ def test_a_change_at_a_line_takes_effect_there_and_in_another_branch(bench: Benc
     assert bench.card.p[0] == known
 
 
+def test_open_levels_are_known_with_their_lines() -> None:
+    card = Controller()
+    card.send(
+        "PROG0\rPROGRAM\rDIM LV(2)\rFOR LV0 = 1 TO 3 STEP 1\rWHILE (LV1 < 5)\rGOSUB sub\r"
+        "LV1 = LV1+1\rWEND\rNEXT\rEND\r_sub\rIF (LV0 > 0)\rDWL 1\rENDIF\rRETURN\rENDP\rRUN\r"
+    )
+    card.advance(seconds=0.3)
+    assert [str(level) for level in levels_of(card, 0)] == [
+        "FOR line 30", "WHILE line 40", "GOSUB line 50", "IF line 110",
+    ]  # fmt: skip
+    assert list(program_state(card, 0)) == [
+        Value("state", "dwells"),
+        Value("levels", "FOR line 30, WHILE line 40, GOSUB line 50, IF line 110"),
+    ]
+    card.send("HALT\r")
+    assert levels_of(card, 0) == []
+    assert list(program_state(card, 0)) == [Value("state", "ended")]
+
+
 def test_variables_and_states_are_shown(bench: Bench) -> None:
     bench.card.send("PROG1\rDIM SV(1)\rDIM DV(1)\rDIM DA(2)\rDIM DA1(2)\rDIM $V(1,9)\r")
     bench.card.send('SV0=1.5\rDV0=-1/3\rDA1(1)=2.25\r$V0="it"\r')
@@ -254,6 +275,6 @@ def test_variables_and_states_are_shown(bench: Bench) -> None:
     ]  # fmt: skip
     bench.session.run(100)
     assert [value.name for value in locals_of(bench.card, 0)] == ["LV0", "LV1", "LV2"]
-    assert state_of(bench.card, 0) == "dwells (DWL)"
+    assert state_of(bench.card, 0) == "dwells"
     assert state_of(bench.card, 1) == "ended"
     assert listing(bench.card, 16) == ["10 LD 40", "20 OUT 41"]

@@ -29,3 +29,14 @@ def test_every_decision_has_its_number_date_and_status_and_is_in_the_index() -> 
     assert {path.name for path in FOLDER.iterdir()} == {
         "README.md", *(path.name for path in FOLDER.glob("[0-9]*-*.md")),
     }  # fmt: skip
+
+
+def test_a_link_to_a_decision_leads_there_and_has_its_number() -> None:
+    pages = [*FOLDER.parent.rglob("*.md"), *(FOLDER.parents[1].glob("*.md"))]
+    links = re.compile(r"\[(?P<text>[^\]]*)\]\((?P<path>[^)]*\b(?P<number>\d{4})-[a-z0-9-]+\.md)\)")
+    found = [(page, link) for page in pages for link in links.finditer(page.read_text())]
+    assert len(found) > 100
+    for page, link in found:
+        assert (page.parent / link["path"]).is_file(), f"{page.name}: {link['path']}"
+        numbers = re.fullmatch(r"(?:decision )?(\d+)", link["text"])
+        assert numbers is None or int(numbers[1]) == int(link["number"]), f"{page.name}: {link[0]}"

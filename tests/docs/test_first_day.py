@@ -98,7 +98,7 @@ def test_every_command_of_the_tutorial_prints_what_the_page_shows(folder: Folder
     for command, shown in conversations():
         printed = folder.run(command, shown)
         assert matches(shown, printed), f"$ {command}\n{printed}"
-    assert os.path.getsize(folder.path / "plate" / "motion.svg") > 1000
+    assert os.path.getsize(folder.path / "plate" / "motion.html") > 1000
 
 
 def test_the_comparison_notices_a_line_that_is_not_printed() -> None:

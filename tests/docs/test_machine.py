@@ -7,6 +7,7 @@ import msgspec
 import pytest
 
 from openacr.plant import schema
+from openacr.plant.body_schema import Body, Sign
 from openacr.plant.devices.kinds import LIBRARY
 from openacr.plant.load import parse_world
 
@@ -15,7 +16,7 @@ PIECES = re.findall(r"```toml\n(.*?)```", TEXT, re.DOTALL)
 TABLES = (
     schema.Axis, schema.Motor, schema.Load, schema.PhaseDrive, schema.IdealDrive, schema.Wire,
     schema.Inputs, schema.Analog, schema.LimitSwitch, schema.HomeSwitch,
-    schema.DeviceTable,
+    schema.DeviceTable, Body, Sign,
 )  # fmt: skip
 
 

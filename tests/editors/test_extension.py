@@ -112,7 +112,7 @@ def test_every_offered_configuration_is_one_the_debugger_takes() -> None:
         *DEBUGGER["initialConfigurations"],
         *(each["body"] for each in DEBUGGER["configurationSnippets"]),
     ]
-    assert len(offered) == 3
+    assert len(offered) == 4
     for each in offered:
         assert (
             (each["type"], each["request"]) == (DEBUGGER["type"], "launch") == ("openacr", "launch")
@@ -121,7 +121,7 @@ def test_every_offered_configuration_is_one_the_debugger_takes() -> None:
             name: value for name, value in each.items() if name not in ("type", "request", "name")
         }
         assert set(own) <= set(LAUNCH)
-        assert ("program" in own) != ("journal" in own)
+        assert len({"program", "journal", "partProgram"} & set(own)) == 1
         msgspec.convert(own, requests.Launch)
 
 
@@ -135,15 +135,20 @@ def test_the_attributes_are_those_of_the_page() -> None:
 def test_the_debugger_is_the_one_that_the_script_starts() -> None:
     assert 'registerDebugAdapterDescriptorFactory("openacr"' in SCRIPT
     assert 'new vscode.DebugAdapterExecutable(command, ["debug"])' in SCRIPT
-    assert [each["language"] for each in CLAIMS["breakpoints"]] == ["acrobasic"]
-    assert DEBUGGER["languages"] == ["acrobasic", "acroplc"]
+    assert [each["language"] for each in CLAIMS["breakpoints"]] == ["acrobasic", "rs274"]
+    assert DEBUGGER["languages"] == ["acrobasic", "acroplc", "rs274"]
 
 
 def test_the_only_package_needed_is_the_language_client() -> None:
     assert list(PACKAGE["dependencies"]) == ["vscode-languageclient"]
     assert "devDependencies" not in PACKAGE
     needed = set(re.findall(r'require\("([^"]+)"\)', SCRIPT))
-    assert needed == {"node:path", "vscode", "vscode-languageclient/node"}
+    assert needed == {
+        "node:child_process",
+        "node:path",
+        "vscode",
+        "vscode-languageclient/node",
+    }
 
 
 # problems

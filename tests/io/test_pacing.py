@@ -145,4 +145,4 @@ def test_only_the_stamps_of_files_and_alarms_read_the_date() -> None:
         if dated.search(path.read_text(encoding="utf-8"))
     }
     panel = {"panel/control/facts.py", "panel/files.py", "panel/server/calls/journals.py"}
-    assert found == {"cli/run/journals.py", "mill/card/alarms.py"} | panel
+    assert found == {"cli/run/journals.py", "mill/card/alarms.py", "bridge/clock.py"} | panel

@@ -353,6 +353,17 @@ def test_a_port_of_this_computer_serves_one_client(store: Path) -> None:
         process.communicate()
 
 
+def test_a_port_in_use_is_refused_as_by_all_commands_that_listen() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        done = subprocess.run(
+            [*COMMAND, "--tcp", str(port)],
+            capture_output=True, text=True, timeout=PATIENCE_S, check=False,
+        )  # fmt: skip
+    said = f"error: port {port} on 127.0.0.1 is in use (is it running already?); choose another one"
+    assert (done.returncode, done.stderr.splitlines()[-1]) == (2, f"{said} with --tcp PORT")
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

@@ -3,7 +3,8 @@
 import pytest
 
 from openacr.errors import MapError
-from openacr.map import find_flag, find_parameter, flag, flags_of, parameter
+from openacr.map import find_flag, find_parameter, flag, flags, flags_of, parameter, parameters
+from openacr.map.tables import BLOCKS, FLAG_BLOCKS
 
 
 @pytest.mark.parametrize("text", ["12291", "P12291", "p12291", " P 12291 "])
@@ -59,3 +60,24 @@ def test_a_record_tells_everything() -> None:
     found = parameter(12375 + 512)
     assert (found.name, found.object, found.index) == ("PPU", "AXIS", 2)
     assert (found.kind, found.unit, found.default) == ("FP32", "pulse/unit", 1)
+
+
+@pytest.mark.parametrize("number", [-1, 17664])
+def test_numbers_next_to_the_flags_are_refused(number: int) -> None:
+    assert {flag(0).bit, flag(17663).bit} == {0, 31}
+    with pytest.raises(MapError, match=f"BIT{number}$"):
+        flag(number)
+
+
+def test_one_record_is_the_record_of_the_table() -> None:
+    for number in (0, 516, 17663):
+        assert flag(number) is flags()[number]
+    for number in (0, 4096, 12291):  # a global variable, a flag word, a row of an axis
+        assert parameter(number) is parameters()[number]
+
+
+def test_every_number_is_declared_once() -> None:
+    rows = sum(len(block.rows) * len(list(block.bases())) for block in BLOCKS)
+    words = sum(block.count for block in FLAG_BLOCKS)
+    assert len(parameters()) == rows + words
+    assert len(flags()) == 32 * words

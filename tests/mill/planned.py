@@ -10,8 +10,9 @@ from tests.mill.shop import PULSES, Shop, at, end, line
 
 from openacr.cnc import canonical as c
 from openacr.map import numbers as n
+from openacr.mill.config.overrides import Override
 from openacr.mill.run.lifecycle import Options
-from openacr.sysvar.tabs import SPEEDS
+from openacr.sysvar.tabs import FOV, SPEEDS
 
 Reals = NDArray[np.float64]
 Point = tuple[float, ...]
@@ -49,6 +50,26 @@ def square(**pace: float) -> list[c.Entry]:
 def wave(count: int = 100) -> list[Point]:
     """Chords of 0.4 mm along a curve in space."""
     return [(0.4 * k, 2.0 * math.sin(0.1 * k), math.cos(0.12 * k) - 1.0) for k in range(1, count)]
+
+
+def stop(shop: Shop) -> None:
+    """Press feed hold."""
+    shop.runner.stop()
+
+
+def go_on(shop: Shop) -> None:
+    """Resume."""
+    shop.runner.resume()
+
+
+def feed(percent: float) -> Action:
+    """Turn the override switch to a click of this percentage."""
+
+    def turn(shop: Shop) -> None:
+        clicks = [shop.store.read(cell) for cell in FOV.percents]
+        shop.runner.overrides.choose(Override.FEED, clicks.index(percent))
+
+    return turn
 
 
 def follow(

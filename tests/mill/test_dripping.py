@@ -1,67 +1,19 @@
 """Programs that come in over a serial line: pseudo-terminals stand for the line."""
 
-import fcntl
-import os
-import sys
-import termios
-import time
 from collections.abc import Iterator
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
+from tests.mill.sender import Sender
 from tests.mill.shop import STEP_S, Shop
 
 from openacr.errors import UserError
-from openacr.mill.config.communications import Line, receive
-from openacr.mill.run.dripping import FULL, XOFF, XON, Drip
+from openacr.mill.config.communications import Line
+from openacr.mill.run.dripping import FULL, Drip
+from openacr.mill.run.handshake import XOFF, XON
 from openacr.mill.run.lifecycle import State
 
 END = b"\x1a"
-FULL_LINE = 4095  # bytes that a pseudo-terminal keeps
-
-
-class Sender:
-    """The far end of a serial line."""
-
-    def __init__(self) -> None:
-        self._master, slave = os.openpty()
-        self.port = os.ttyname(slave)
-        self._slave = slave
-        os.set_blocking(self._master, False)
-        self.heard = b""
-
-    def send(self, text: str | bytes) -> None:
-        """Send and wait for the kernel, which hands bytes on in its own time."""
-        data = text.encode() if isinstance(text, str) else text
-        while data:
-            arrived = self._waiting()
-            try:
-                sent = os.write(self._master, data)
-            except BlockingIOError:
-                time.sleep(0.001)
-                continue
-            data = data[sent:]
-            for _ in range(1000):
-                if self._waiting() >= min(arrived + sent, FULL_LINE):
-                    break
-                time.sleep(0.001)
-
-    def _waiting(self) -> int:
-        """Bytes that the near end can read."""
-        return int.from_bytes(fcntl.ioctl(self._slave, termios.FIONREAD, bytes(4)), sys.byteorder)
-
-    def listen(self) -> bytes:
-        """What came back since the beginning."""
-        try:
-            self.heard += os.read(self._master, 100)
-        except BlockingIOError:
-            pass
-        return self.heard
-
-    def close(self) -> None:
-        for end in (self._master, self._slave):
-            os.close(end)
 
 
 @pytest.fixture
@@ -207,26 +159,3 @@ def test_a_port_that_is_not_there_is_an_error() -> None:
     shop.store.write_text(750_000, "/dev/no-such-port")
     with pytest.raises(UserError, match="cannot open serial port /dev/no-such-port"):
         Drip(Line.of(shop.store), shop.store)
-
-
-@pytest.mark.req("MILL-LOAD-LINK")
-@pytest.mark.parametrize("last", [END, b""])
-def test_a_part_file_is_received_and_stored(sender: Sender, last: bytes, tmp_path: Path) -> None:
-    shop = Shop()
-    target = tmp_path / "PART.TXT"
-    with Line.of(shop.store, sender.port).open(wait_s=2.0) as port:
-        sender.send(b"G90 F600\r\nG1 X1\r\nM2\r\n" + last)
-        assert receive(port, target, silence_s=0.2) == 18
-    assert target.read_bytes() == b"G90 F600\nG1 X1\nM2\n"
-    assert list(tmp_path.iterdir()) == [target]
-    shop.run_text(target.read_text())
-    assert x_of(shop) == 10_000
-
-
-def test_a_silent_line_leaves_no_file(sender: Sender, tmp_path: Path) -> None:
-    with (
-        Line.of(Shop().store, sender.port).open(wait_s=0.1) as port,
-        pytest.raises(UserError, match="nothing was received"),
-    ):
-        receive(port, tmp_path / "PART.TXT")
-    assert list(tmp_path.iterdir()) == []

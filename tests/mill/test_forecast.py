@@ -149,3 +149,21 @@ def test_both_builds_forecast_alike(monkeypatch: pytest.MonkeyPatch) -> None:
             monkeypatch.setattr(forecast, f"_{name}", getattr(forecast_cy, f"forecast_{name}"))
         assert at_once(entries, settings, is_dry=False, rounds=True) == compiled
         monkeypatch.undo()
+
+
+@pytest.mark.parametrize("unit", ["G20", "G21"])
+def test_turns_count_as_corner_steps_in_both(unit: str) -> None:
+    turns = [f"G1 X{k / 10} Y{k % 3 / 30} A{4 * (k % 2)} C{k % 3}" for k in range(1, 40)]
+    text = "\n".join([unit, "G91.1 F900", *turns, "G3 X1 Y1 I1 J0 A9", "G1 X2 A0", "M2"])
+    times = []
+    for step in (0.0, 0.4):
+        cells = {AXIS.home_required[axis]: 0.0 for axis in range(7)}
+        entries, found = entries_of(text, cells | {SPEEDS.corner_step: step}, "rs274ngc")
+        assert entries
+        times += [
+            each(entries, found, is_dry=False, rounds=True)[0].feed_s
+            for each in (at_once, one_by_one)
+        ]
+    assert times[0] == pytest.approx(times[1], rel=1e-12)
+    assert times[2] == pytest.approx(times[3], rel=1e-12)
+    assert times[2] > 1.01 * times[0]

@@ -49,7 +49,12 @@ PROGRAMS: dict[str, list[c.Entry]] = {
     "wave": [*path(wave()), end()],
     "circle": circle(5.0),
     "rapids": [*path(SQUARE[:2]), rapid(3, at(1.0, 2.0, 3.0)), *path(SQUARE[2:]), end()],
-}
+    "plunge": [
+        *path([(10.0, 0.0)], 0.5 * FEED), rapid(2, at(30.0)), rapid(3, at(30.0, 30.0, 5.0)),
+        rapid(4, at(30.0, 30.0, 2.0)), line(5, at(30.0, 30.0), feed=600.0, tolerance_u=TOLERANCE),
+        end(),
+    ],
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", PROGRAMS)

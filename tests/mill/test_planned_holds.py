@@ -11,14 +11,16 @@ from tests.mill.planned import (
     SPEED,
     SQUARE,
     TOLERANCE,
-    Action,
+    feed,
     follow,
+    go_on,
     highest,
     motion_s,
     off_path,
     path,
     planned_shop,
     square,
+    stop,
     wave,
 )
 from tests.mill.shop import Shop, end, src
@@ -32,24 +34,6 @@ from openacr.sysvar.tabs import FOV
 from openacr.trajectory import Setpoints, TrajectoryError, TrajectoryPlanner
 
 ROUNDING = 0.03  # of the jerk: positions of 24 bits over the cube of 4 ms
-
-
-def stop(shop: Shop) -> None:
-    shop.runner.stop()
-
-
-def go_on(shop: Shop) -> None:
-    shop.runner.resume()
-
-
-def feed(percent: float) -> Action:
-    """Turn the override switch to a click of this percentage."""
-
-    def turn(shop: Shop) -> None:
-        clicks = [shop.store.read(cell) for cell in FOV.percents]
-        shop.runner.overrides.choose(Override.FEED, clicks.index(percent))
-
-    return turn
 
 
 def limits(places: np.ndarray, shop: Shop) -> None:
@@ -146,6 +130,19 @@ def test_an_override_above_100_percent_replans_what_follows() -> None:
     limits(places, faster)
 
 
+def test_an_override_above_100_percent_is_soon_seen_on_a_path_of_short_chords() -> None:
+    shop = planned_shop()
+    percent = max(shop.store.read(cell) for cell in FOV.percents)
+    program: list[c.Entry] = [*path(wave(300), feed=0.5 * FEED), end()]
+    places = follow(shop, *program, actions=[(0.5, feed(percent))])
+    period_s = shop.controller.period_s
+    speed = np.linalg.norm(np.diff(places, axis=0), axis=1) / period_s
+    faster = np.flatnonzero(speed > 0.51 * SPEED)
+    assert 0.5 < faster[0] * period_s < 1.35
+    assert speed.max() == pytest.approx(0.5 * SPEED * percent / 100.0, rel=0.01)
+    limits(places, shop)
+
+
 def test_an_abort_comes_to_rest_on_the_path() -> None:
     shop = planned_shop()
     places = follow(shop, *square(), actions=[(0.2, lambda shop: shop.runner.abort())])
@@ -221,13 +218,15 @@ def test_a_dwell_a_stop_and_a_probe_come_between_curves() -> None:
 def test_a_path_that_cannot_be_planned_ends_at_rest_before_that(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    take, calls = TrajectoryPlanner.take, []
+    take = TrajectoryPlanner.take
+    taken: list[Setpoints] = []
 
     def fails(planner: TrajectoryPlanner) -> Setpoints | None:
-        calls.append(planner)
-        if len(calls) > 4:
+        if len(taken) >= 4:
             raise TrajectoryError("line 70: no speed keeps the limits")
-        return take(planner)
+        found = take(planner)
+        taken.extend([] if found is None else [found])
+        return found
 
     monkeypatch.setattr(TrajectoryPlanner, "take", fails)
     shop = planned_shop()
@@ -241,7 +240,7 @@ def test_a_path_that_cannot_be_planned_ends_at_rest_before_that(
     assert off_path(places, wave(900)) <= TOLERANCE
 
 
-@pytest.mark.parametrize("late_polls", [60, 150, 400])
+@pytest.mark.parametrize("late_polls", [100, 150, 400])
 def test_a_program_that_arrives_slowly_rests_on_its_path_and_goes_on(late_polls: int) -> None:
     points = wave(240)
     whole: list[c.Entry] = [*path(points), end()]

@@ -73,6 +73,13 @@ def test_the_zero_of_the_work_system_moves_the_blank(store: Store) -> None:
     assert (found.stock.blank.low[0], found.stock.blank.high[2]) == (98.0, -50.0)
 
 
+def test_the_zero_is_that_of_the_work_system_of_the_first_cut(store: Store) -> None:
+    store.write(CELLS.work_systems[1][2], -50.0)
+    store.write(CELLS.h_length[1], 7.0)
+    found = cut(store, "G0 X1 Y1 Z5\nG55 G43 H1\nG0 X0 Y0 Z5\nD1 G1 Z-3\nX20\nG54 X30\nM2\n")
+    assert found.stock.blank.high[2] == -50.0
+
+
 def test_a_rapid_in_material_is_named_by_its_line(store: Store) -> None:
     found = cut(store, f"{HOME}D1 G1 Z-3\nX20\nG0 Y10\nZ5\nM2\n")
     assert found.rapid_lines == (6,)

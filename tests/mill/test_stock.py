@@ -8,8 +8,9 @@ import pytest
 import shapely
 
 from openacr.compiled import is_compiled
+from openacr.mill.config.tools import Tip
 from openacr.mill.plan import removal_cy, stock
-from openacr.mill.plan.stock import Array, Blank, Cutter, Mark, Stock, Sweep, Tip
+from openacr.mill.plan.stock import Array, Blank, Cutter, Mark, Stock, Sweep
 
 pytestmark = pytest.mark.evidence(
     "oracle", "areas swept by discs of shapely, volumes in closed form, envelopes by brute force"

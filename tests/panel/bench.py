@@ -2,14 +2,17 @@
 
 import asyncio
 import json
+import os
 import struct
 import threading
+import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, TypeVar
 
 from openacr.panel.commands.all import carry_out
+from openacr.panel.control.installation import Installation
 from openacr.panel.control.orders import Order
 from openacr.panel.control.people import Person
 from openacr.panel.control.station import Station
@@ -22,7 +25,17 @@ from openacr.panel.server.web import PanelServer
 T = TypeVar("T")
 LIMIT_S = 60.0
 STEP_S = 0.002
+JOBS_S = 300.0  # of a clock on the wall: an axis is identified in plain Python, too
 HEAD = struct.Struct("<BBHIdd")
+
+
+def is_alive(process: int) -> bool:
+    """Whether there is a process of this number."""
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return True
 
 
 class HandStation:
@@ -47,11 +60,19 @@ class HandStation:
             self.station.step(self.now_s)
 
     def until(self, holds: Callable[[], bool], limit_s: float = 60.0) -> None:
-        """Let time pass until something holds."""
+        """Let time pass until something holds; it stands still for work beside the thread."""
         end_s = self.now_s + limit_s
         while not holds():
+            self._let_jobs_end()
             assert self.now_s < end_s, f"never came: {self.state} {self.said[-3:]}"
             self.run(0.01)
+
+    def _let_jobs_end(self) -> None:
+        end_s = time.monotonic() + JOBS_S
+        while self.station.jobs.are_open:
+            assert time.monotonic() < end_s, "work beside the control thread never ended"
+            time.sleep(STEP_S)
+            self.station.jobs.poll()
 
     def send(
         self, name: str, /, *, who: Person | None = None, old_s: float = 0.0, **args: Any
@@ -62,6 +83,7 @@ class HandStation:
         self.station.order(order, self.now_s)
         if not answers and name != "jog.keep":
             while not answers:  # a program is loaded beside the control thread
+                self._let_jobs_end()
                 self.run(STEP_S)
         return answers[0] if answers else None
 
@@ -153,9 +175,14 @@ class Served:
     """A panel that serves a port of its own, in a thread of this process."""
 
     def __init__(
-        self, folder: Path, *, by_hand: bool = False, prepare: Callable[[Panel], None] | None = None
+        self,
+        folder: Path,
+        *,
+        by_hand: bool = False,
+        prepare: Callable[[Panel], None] | None = None,
+        installation: Installation | None = None,
     ) -> None:
-        installation = embedded(folder)
+        installation = installation or embedded(folder)
         self.panel = Panel(installation, control=HandControl if by_hand else ControlThread)
         if prepare is not None:
             prepare(self.panel)
@@ -269,7 +296,7 @@ class Client:
         self.frames.append(message)
         topic, _, _, seq, _, _ = HEAD.unpack_from(message)
         if self.acks:
-            names = {1: "status", 2: "flags", 3: "watch", 4: "scope"}
+            names = {1: "status", 2: "flags", 3: "watch", 4: "scope", 5: "world"}
             await self._socket.send(json.dumps({"ack": names[topic], "seq": seq}))
 
     async def wait(self, found: Callable[[], T | None]) -> T:

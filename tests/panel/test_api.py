@@ -1,7 +1,10 @@
 """HTTP calls of a panel: forms, programs, paths, the description of the interface."""
 
 import gzip
+import math
+import os
 import struct
+import sys
 import time
 from typing import Any
 
@@ -9,8 +12,13 @@ import httpx
 import pytest
 from tests.panel.bench import LIMIT_S, Served
 
+from openacr.client.panels import PANELS
 from openacr.cnc.parts.library import part_named
-from openacr.sysvar.tabs import GENERAL
+from openacr.map import flags, parameters
+from openacr.mill.plan.blank import SIZES
+from openacr.sysvar.tabs import CELLS, GENERAL
+
+HEAD = 88  # of the block of a path
 
 
 @pytest.fixture
@@ -129,6 +137,24 @@ def test_programs_are_listed_read_and_stored(web: httpx.Client, panel: Served) -
     assert whole.headers["etag"] == f'"{stored.json()["version"]}"'
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="names of files are Unicode there")
+def test_a_name_that_is_not_utf8_is_listed_and_says_why_it_cannot_be_opened(
+    web: httpx.Client, panel: Served
+) -> None:
+    old = os.fsencode(panel.programs) + b"/Geh\xe4use.nc"  # of a shop that wrote Latin-1
+    with open(old, "w") as file:
+        file.write("G0 X1\nM2\n")
+    entries = web.get("/api/programs").json()["entries"]
+    named = next(entry for entry in entries if entry["name"].startswith("Geh"))
+    assert (named["name"], named["path"]) == ("Geh\ufffduse.nc", "Geh\ufffduse.nc")
+    assert "plate.nc" in [entry["name"] for entry in entries]
+    answer = web.get("/api/programs/text", params={"path": named["path"]})
+    assert answer.status_code == 404
+    assert answer.json()["error"]["text"] == (
+        "Geh\ufffduse.nc: this name is not UTF-8: rename the file on the computer"
+    )
+
+
 def test_a_file_that_was_changed_meanwhile_is_not_overwritten(
     web: httpx.Client, panel: Served
 ) -> None:
@@ -190,9 +216,9 @@ def test_the_path_of_the_loaded_program_is_one_block_of_bytes(
     answer = ready(lambda: web.get("/api/path", params={"path": "square.nc"}))
     blob = answer.content
     mark, points, lines, flags = struct.unpack_from("<4sIII", blob)
-    assert (mark, points, lines, flags & 1) == (b"OAP1", 5, 3, 1)
+    assert (mark, points, lines, flags & 1) == (b"OAP2", 5, 3, 1)
     assert struct.unpack_from("<3f", blob, 48) == (200.0, 150.0, -60.0)
-    places = [struct.unpack_from("<3f", blob, 64 + 12 * n) for n in range(points)]
+    places = [struct.unpack_from("<3f", blob, HEAD + 12 * n) for n in range(points)]
     assert places == [
         (0, 0, 0),
         (210, 0, 0),
@@ -201,7 +227,7 @@ def test_the_path_of_the_loaded_program_is_one_block_of_bytes(
         (220, 160, -55),
     ]  # machine coordinates; axes that no block has named yet stay
     assert struct.unpack_from("<6f", blob, 16) == (0.0, 0.0, -55.0, 220.0, 160.0, 0.0)
-    at = 64 + 12 * points
+    at = HEAD + 12 * points
     assert struct.unpack_from(f"<{points}I", blob, at) == (0, 2, 3, 4, 5)
     at += 4 * points
     assert struct.unpack_from(f"<{lines}I", blob, at) == (0, 1, 3)
@@ -213,13 +239,40 @@ def test_the_path_of_the_loaded_program_is_one_block_of_bytes(
     assert again.status_code == 304
 
 
+def test_the_path_has_the_blank_of_the_sizes_in_the_store_around_what_is_cut(
+    web: httpx.Client, panel: Served
+) -> None:
+    text = "G21 G90 G55\nG43 H1 G0 X10 Y5 Z5\nG1 Z-2 F300\nX20 Y35\nG0 X99\nM2\n"
+    (panel.programs / "blank.nc").write_text(text)
+    store = panel.panel.installation.store
+    store.write(CELLS.h_length[1], 7.0)
+    zero = [CELLS.work_systems[1][axis] for axis in range(3)]
+    for cell, value in zip(zero, (100.0, 50.0, -60.0), strict=True):
+        store.write(cell, value)
+
+    def blank() -> tuple[float, ...]:
+        answer = ready(lambda: web.get("/api/path", params={"path": "blank.nc"}))
+        return struct.unpack_from("<6f", answer.content, 60)
+
+    assert all(map(math.isnan, blank()))
+    default = float(store.default(SIZES[2]))
+    store.write(SIZES[2], default)  # as large as if it were not stored, but it is
+    top = -60.0 + 7.0  # program Z0 where the spindle is, with the length of the tool
+    assert blank() == pytest.approx((110.0, 55.0, top - default, 120.0, 85.0, top))
+    for cell, size in zip(SIZES, (40.0, 50.0, 6.0), strict=True):
+        store.write(cell, size)
+    assert blank() == (95.0, 45.0, top - 6.0, 135.0, 95.0, top)
+    (panel.programs / "blank.nc").write_text("G21 G90\nG0 X10\nM2\n")
+    assert all(map(math.isnan, blank()))
+
+
 def test_the_path_follows_the_work_offset(web: httpx.Client, panel: Served) -> None:
     (panel.programs / "line.nc").write_text("G21 G90\nG1 X20 F300\nM2\n")
     first = ready(lambda: web.get("/api/path", params={"path": "line.nc"}))
     web.put("/api/forms/WORK", json={"values": {"910": "100", "911": "0", "912": "0"}})
     second = ready(lambda: web.get("/api/path", params={"path": "line.nc"}))
     assert first.headers["etag"] != second.headers["etag"]
-    assert struct.unpack_from("<f", second.content, 64 + 12) == (120.0,)
+    assert struct.unpack_from("<f", second.content, HEAD + 12) == (120.0,)
     assert struct.unpack_from("<3f", second.content, 48) == (100.0, 0.0, 0.0)
 
 
@@ -238,7 +291,7 @@ def test_the_path_follows_the_run_setup(
     assert web.put(f"/api/forms/{form}", json={"values": values}).status_code == 200
     second = ready(lambda: web.get("/api/path", params={"path": "line.nc"}))
     assert first.headers["etag"] != second.headers["etag"]
-    assert struct.unpack_from("<f", second.content, 64 + 24) == (end,)
+    assert struct.unpack_from("<f", second.content, HEAD + 24) == (end,)
 
 
 def test_the_path_follows_p_parameters(web: httpx.Client, panel: Served) -> None:
@@ -247,7 +300,7 @@ def test_the_path_follows_p_parameters(web: httpx.Client, panel: Served) -> None
     web.put("/api/pparm", json={"values": {"199": 7.5}})
     second = ready(lambda: web.get("/api/path", params={"path": "line.nc"}))
     assert first.headers["etag"] != second.headers["etag"]
-    assert struct.unpack_from("<f", second.content, 64 + 12) == (7.5,)
+    assert struct.unpack_from("<f", second.content, HEAD + 12) == (7.5,)
 
 
 def test_a_change_of_set_modals_chooses_the_start_set_unless_it_says_otherwise(
@@ -289,7 +342,7 @@ def test_parts_of_the_library_have_sizes_and_pictures(web: httpx.Client) -> None
     assert len(parts) == 27
     part = parts[0]
     answer = web.post(f"/api/parts/{part['name']}/path", json={})
-    assert answer.content[:4] == b"OAP1"
+    assert answer.content[:4] == b"OAP2"
     assert part == part_named(part["name"]).data()  # as the command line describes it
     size = part["sizes"][0]
     wrong = {"values": {f"P{size['cell']}": size["high"] * 2 + 1}}
@@ -302,8 +355,61 @@ def test_parameters_of_the_card_are_found(web: httpx.Client) -> None:
     answer = web.get("/api/card/parameters", params={"text": "actual position", "object": "axis"})
     numbers = [each["number"] for each in answer.json()["parameters"]]
     assert 12_290 in numbers
-    flags = web.get("/api/card/flags", params={"text": "in motion", "index": 0}).json()["flags"]
-    assert 516 in [each["number"] for each in flags]
+    query: dict[str, str | int] = {"text": "in motion", "index": 0}
+    found = web.get("/api/card/flags", params=query).json()["flags"]
+    assert 516 in [each["number"] for each in found]
+
+
+def test_objects_of_the_card_are_listed_with_what_is_found_in_each(web: httpx.Client) -> None:
+    def groups(**params: str | int) -> list[dict[str, Any]]:
+        found: list[dict[str, Any]] = web.get("/api/card/groups", params=params).json()["groups"]
+        return found
+
+    everything = groups()
+    assert sum(each["parameters"] for each in everything) == len(parameters())
+    assert sum(each["flags"] for each in everything) == len(flags())
+    assert groups(text="in motion", object="master", index=1) == [
+        {"object": "MASTER", "index": 1, "parameters": 0, "flags": 1}
+    ]
+    assert groups(text="BIT5161") == [{"object": "MASTER", "index": 1, "parameters": 0, "flags": 1}]
+    assert groups(text="p12288") == [{"object": "AXIS", "index": 0, "parameters": 1, "flags": 0}]
+    bare = groups(object="none")
+    assert [(each["object"], each["index"]) for each in bare] == [("none", None)]
+    query: dict[str, str | int] = {"object": "none", "count": 500}
+    listed = web.get("/api/card/parameters", params=query).json()["parameters"]
+    assert len(listed) == bare[0]["parameters"]
+    assert {each["object"] for each in listed} == {""}
+
+
+def test_parameters_and_flags_are_found_by_number_and_by_name(web: httpx.Client) -> None:
+    names = "BIT516; axis0.actual position;P5;"
+    items = web.get("/api/card/named", params={"names": names}).json()["items"]
+    assert [each["id"] for each in items] == ["BIT516", "P12290", "P5"]
+    assert (items[0]["name"], items[0]["parameter"], items[0]["bit"]) == ("In Motion", 4112, 4)
+    assert (items[1]["unit"], items[1]["object"], items[1]["index"]) == ("pulse", "AXIS", 0)
+    for name, text in (
+        ("P1000000", "there is no parameter P1000000"), ("BIT99999", "there is no flag BIT99999"),
+        ("BIT5;turnip", "no parameter and no flag is named 'turnip'"),
+    ):  # fmt: skip
+        refused = web.get("/api/card/named", params={"names": name})
+        assert refused.status_code == 422
+        assert refused.json()["error"]["text"] == text
+
+
+def test_panels_of_status_name_what_each_row_is_of_each_object(web: httpx.Client) -> None:
+    listed = web.get("/api/card/panels").json()["panels"]
+    assert [each["name"] for each in listed] == [panel.name for panel in PANELS]
+    found = web.get("/api/card/panel", params={"name": "streams"}).json()
+    assert found["objects"] == ["COM1", "COM2", "FIFO", "DPCB"]
+    row = found["groups"][0]["rows"][1]
+    assert row["name"] == "Line Buffer Count"
+    assert [each["name"] for each in row["items"]] == [
+        f"{thing} Line Buffer Count" for thing in found["objects"]
+    ]
+    assert row["items"][0]["id"] == f"P{row['items'][0]['number']}"
+    refused = web.get("/api/card/panel", params={"name": "stars"})
+    assert refused.status_code == 422
+    assert "no panel 'stars': there are axes" in refused.json()["error"]["text"]
 
 
 def test_operator_variables_of_card_and_store_are_read_and_written(web: httpx.Client) -> None:
@@ -350,7 +456,7 @@ def test_packed_answers_are_gzip(web: httpx.Client, panel: Served) -> None:
     answer = ready(lambda: web.get("/api/path", params={"path": "line.nc"}))
     assert answer.headers["content-encoding"] == "gzip"
     with httpx.stream("GET", f"{panel.url}/api/path", params={"path": "line.nc"}) as raw:
-        assert gzip.decompress(b"".join(raw.iter_raw()))[:4] == b"OAP1"
+        assert gzip.decompress(b"".join(raw.iter_raw()))[:4] == b"OAP2"
 
 
 @pytest.mark.parametrize(

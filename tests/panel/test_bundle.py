@@ -14,7 +14,10 @@ ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "web-bundle"
 VENDOR = ROOT / "src/openacr/panel/web/vendor"
 MANIFEST = json.loads((VENDOR / "manifest.json").read_text(encoding="utf-8"))
-LIBRARIES = ["codemirror.js", "three.js", "uplot.css", "uplot.js", "xterm.css", "xterm.js"]
+LIBRARIES = [
+    "codemirror.js", "dockview.css", "dockview.js", "three.js", "uplot.css", "uplot.js",
+    "xterm.css", "xterm.js",
+]  # fmt: skip
 
 
 def sha256(path: Path) -> str:

@@ -73,15 +73,15 @@ def test_the_card_is_asked_only_while_a_screen_watches(
     hand: HandStation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[int] = []
-    machine = hand.station.machine.machine
-    read_rows = machine.read_rows
+    card = hand.station.times.history
+    read_rows = card.read_rows
 
     def counted(parameters: list[int]) -> list[float]:
         if 7168 in parameters:
             asked.append(1)
         return read_rows(parameters)
 
-    monkeypatch.setattr(machine, "read_rows", counted)
+    monkeypatch.setattr(card, "read_rows", counted)
     hand.run(0.5)
     assert asked == []
     hand.do("watch.begin", topic="programs", hz=60)

@@ -2,6 +2,7 @@
 
 import re
 import signal
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import httpx
@@ -9,7 +10,9 @@ import pytest
 from tests.mill.live import LIMIT_S, Process, until
 
 
-def test_the_panel_starts_without_configuration_and_ends_cleanly(tmp_path: Path) -> None:
+def test_the_panel_starts_without_configuration_and_ends_cleanly_while_it_computes_a_path(
+    tmp_path: Path,
+) -> None:
     words = ("panel", "--no-browser", "--port", "0", "--store", str(tmp_path / "sysvar.db"))
     process = Process(*words, store=tmp_path / "other.db")
     try:
@@ -19,8 +22,17 @@ def test_the_panel_starts_without_configuration_and_ends_cleanly(tmp_path: Path)
         assert httpx.get(f"{found[1]}api/me", timeout=LIMIT_S).json()["role"] == "service"
         names = httpx.get(f"{found[1]}api/programs", timeout=LIMIT_S).json()["entries"]
         assert "plate.nc" in [entry["name"] for entry in names]
-        process.signal(signal.SIGTERM)
-        assert process.ended() == 0
+        parts = f"{found[1]}api/parts"
+        name = httpx.get(parts, timeout=LIMIT_S).json()["parts"][0]["name"]
+        with ThreadPoolExecutor() as waiting:
+            path = waiting.submit(
+                httpx.post, f"{parts}/{name}/path", json={"values": {}}, timeout=LIMIT_S
+            )
+            assert httpx.get(parts, timeout=LIMIT_S).status_code == 200  # the call has arrived
+            process.signal(signal.SIGTERM)
+            assert process.ended() == 0
+            assert path.result().status_code in (422, 200)  # 200: it was quicker than the signal
+        assert "Traceback" not in process.text
     finally:
         process.close()
 
@@ -32,6 +44,8 @@ def test_the_panel_starts_without_configuration_and_ends_cleanly(tmp_path: Path)
         (("--port", "70000"), "port 70000 is not in 0..65535"),
         (("a:b:c",), "'a:b:c' is neither HOST, HOST:PORT nor a serial port"),
         (("card:70000",), "card:70000: port 70000 is not in 0..65535"),
+        (("jobs/mill",), "jobs/mill: there is no such folder, nor such a serial port"),
+        ((__file__,), "test_command_line.py is a file: a project is a folder"),
         (("--set-password", "boss"), "'boss' is not one of view, operate, setup, service"),
     ],
 )
@@ -44,6 +58,17 @@ def test_a_wrong_start_is_said_in_one_line(
         assert process.ended() == 2
         assert text in process.text
         assert "Traceback" not in process.text
+    finally:
+        process.close()
+
+
+def test_a_serial_port_that_is_not_plugged_in_yet_is_waited_for(tmp_path: Path) -> None:
+    words = ("panel", "/dev/openacr-none", "--no-browser", "--port", "0")
+    process = Process(*words, "--store", str(tmp_path / "sysvar.db"), store=tmp_path / "other.db")
+    try:
+        found = "/dev/openacr-none: NO CARD FOUND"
+        until(lambda: found in process.text, about="the port is looked for")
+        until(lambda: "panel http" in process.text, about="the panel listens")
     finally:
         process.close()
 

@@ -10,6 +10,7 @@ from tests.panel.bench import HandStation, Served
 from openacr.map import numbers as n
 from openacr.mill.card.machine_io import line_numbers
 from openacr.panel.control.people import Person
+from openacr.panel.control.scope import Samples
 from openacr.panel.roles import Role
 from openacr.sysvar.tabs import CONTROL
 
@@ -78,7 +79,7 @@ def test_the_memory_is_not_divided_while_programs_run(hand: HandStation) -> None
 
 
 def test_an_index_profile_is_run_and_recorded_from_its_start(hand: HandStation) -> None:
-    taken: list[tuple[int, list[list[float]], float]] = []
+    taken: list[Samples] = []
     hand.station.sampled = taken.append
     before = hand.places()
     result = hand.do("scope.index", profile=PROFILE, channels=[12290], period_ms=5.0, samples=400)
@@ -86,7 +87,7 @@ def test_an_index_profile_is_run_and_recorded_from_its_start(hand: HandStation) 
     hand.until(lambda: not hand.is_busy)
     hand.run(0.1)
     assert [b - a for a, b in zip(before, hand.places(), strict=True)] == [5.0, 0.0, 0.0]
-    values = [value for _first, channels, _period in taken for value in channels[0]]
+    values = [float(value) for _first, block, _period in taken for value in block[0]]
     scale = hand.station.machine.runner.settings.named("X").pulses_per_unit
     assert taken[0][0] == 0
     assert abs(values[0] - values[1]) <= 1.0  # recorded before it moved

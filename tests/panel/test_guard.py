@@ -210,7 +210,7 @@ def test_the_form_of_the_log_in_page_works_without_scripts(panel: Served) -> Non
 
 def test_the_wait_after_wrong_passwords_is_at_least_a_second_in_words(panel: Served) -> None:
     with guarded(panel) as web:
-        panel.panel.accounts._failed["127.0.0.1"] = (3, time.monotonic() + 29.5)
+        panel.panel.accounts.delays._failed["127.0.0.1"] = (3, time.monotonic() + 29.5)
         answer = web.post("/api/login", json={"role": "view", "password": "secret view"})
         assert answer.status_code == 429
         waits = re.fullmatch(

@@ -21,6 +21,7 @@ from tests.panel.bench import LIMIT_S, Client, Served
 from tests.proxy import Proxy
 
 from openacr.panel.control.place import read_place
+from openacr.panel.control.station import Station
 
 
 def until(holds: Callable[[], bool]) -> None:
@@ -35,7 +36,12 @@ def is_moving(panel: Served) -> bool:
 
 
 def place(panel: Served) -> tuple[float, ...]:
-    return panel.call(lambda station: read_place(station.machine).commanded)
+    return panel.call(_commanded)
+
+
+def _commanded(station: Station) -> tuple[float, ...]:
+    machine = station.machine
+    return read_place(machine.runner.settings, machine.machine.read_rows).commanded
 
 
 def held(panel: Served) -> bool:

@@ -231,7 +231,7 @@ def test_goto_zero_does_not_become_part_of_the_mdi_text(hand: HandStation) -> No
     hand.do("zero.set", axes="")
     hand.do("zero.goto", axes="")
     hand.until(lambda: not hand.is_busy)
-    assert hand.do("mdi.buffer") == {"lines": []}
+    assert hand.do("mdi.buffer") == {"lines": [], "on": True}
 
 
 def test_mdi_runs_blocks_in_order_and_keeps_their_text(hand: HandStation) -> None:
@@ -244,6 +244,19 @@ def test_mdi_runs_blocks_in_order_and_keeps_their_text(hand: HandStation) -> Non
     hand.run(0.1)
     assert hand.station.snapshot.work[0] == 10.0  # still incremental
     assert hand.do("mdi.buffer")["lines"] == ["G21 G90 G0 X5", "G1 X8 F600", "G91 G0 X1", "G0 X1"]
+
+
+def test_mdi_keeps_what_it_executes_only_while_its_buffer_is_on(hand: HandStation) -> None:
+    hand.do("mdi.execute", line="G21 G90 G0 X5")
+    hand.until(lambda: not hand.is_busy)
+    assert hand.do("mdi.buffer", on=False) == {"lines": ["G21 G90 G0 X5"], "on": False}
+    hand.do("mdi.execute", line="G0 X6")
+    hand.until(lambda: not hand.is_busy)
+    assert hand.do("mdi.buffer", lines=["G0 X7"]) == {"lines": ["G0 X7"], "on": False}
+    hand.do("mdi.buffer", on=True)
+    hand.do("mdi.execute", line="G0 X8")
+    hand.until(lambda: not hand.is_busy)
+    assert hand.do("mdi.buffer") == {"lines": ["G0 X7", "G0 X8"], "on": True}
 
 
 def test_an_error_in_mdi_drops_the_blocks_after_it(hand: HandStation) -> None:

@@ -7,6 +7,7 @@ import pytest
 from tests.panel.bench import HandStation
 
 from openacr.panel.control.people import Person
+from openacr.panel.control.scope import Samples
 from openacr.panel.roles import Role
 
 
@@ -24,6 +25,27 @@ def test_the_terminal_types_lines_and_shows_what_the_card_prints(hand: HandStati
     assert "not open" in hand.refused("term.line", text="X")["text"]
 
 
+def test_each_terminal_is_a_stream_of_its_own(hand: HandStation) -> None:
+    for terminal, line in ((0, "?P12288"), (3, "PROG3")):
+        hand.do("term.open", terminal=terminal)
+        hand.do("term.line", terminal=terminal, text=line)
+    hand.run(0.2)
+    texts = {
+        n: "".join(each["text"] for each in hand.events("term") if each["terminal"] == n)
+        for n in range(4)
+    }
+    assert texts[0].endswith("?P12288\r\n0\r\nSYS>")
+    assert texts[3].endswith("PROG3\r\nP03>")
+    assert (texts[1], texts[2]) == ("", "")
+    hand.do("term.close", terminal=3)
+    assert "not open" in hand.refused("term.key", terminal=3, key="esc")["text"]
+    hand.do("term.key", terminal=0, key="esc")
+    assert "$.terminal" in hand.refused("term.open", terminal=4)["text"]
+    hand.do("term.open", terminal=2)
+    hand.station.leave(1)
+    assert [hand.station.terminals[n].clients for n in range(4)] == [set()] * 4
+
+
 def test_the_terminal_only_asks_while_the_machine_moves(hand: HandStation) -> None:
     hand.do("term.open")
     hand.do("mdi.execute", line="G21 G91 G1 X50 F600")
@@ -39,6 +61,26 @@ def test_the_terminal_needs_the_role_service(hand: HandStation) -> None:
     assert hand.send("term.open", who=other)["error"]["needs"] == "service"
 
 
+def test_a_flag_of_the_card_is_set_and_cleared_by_the_service(hand: HandStation) -> None:
+    card = hand.station.machine.card
+    for on in (True, True, False):
+        assert hand.do("card.flag", flag=1920, on=on) == {"on": on}
+        assert card.read_bit(1920) is on
+    assert hand.refused("card.flag", flag=99999, on=True)["text"]
+    other = Person(2, Role.SETUP, "10.0.0.2")
+    hand.station.join(other)
+    assert hand.send("card.flag", who=other, flag=1920, on=True)["error"]["needs"] == "service"
+    stale = hand.send("card.flag", old_s=0.6, flag=1920, on=True)
+    assert stale["error"]["code"] == "stale"
+    assert not card.read_bit(1920)
+
+
+def test_a_client_watches_256_parameters_at_most(hand: HandStation) -> None:
+    hand.do("watch.begin", topic="watch", parameters=list(range(256)))
+    text = hand.refused("watch.begin", topic="watch", parameters=list(range(257)))["text"]
+    assert text == "257 parameters: 256 at most can be watched at once"
+
+
 def test_queries_only_read(hand: HandStation) -> None:
     lines = hand.do("card.query", line="DIM")["lines"]
     assert any("PROG0" in line for line in lines)
@@ -47,7 +89,7 @@ def test_queries_only_read(hand: HandStation) -> None:
 
 
 def test_the_scope_samples_in_the_time_of_the_card(hand: HandStation) -> None:
-    taken: list[tuple[int, list[list[float]], float]] = []
+    taken: list[Samples] = []
     hand.station.sampled = taken.append
     assert hand.installation.controller is not None
     begin_s = hand.installation.controller.time_s
@@ -55,25 +97,26 @@ def test_the_scope_samples_in_the_time_of_the_card(hand: HandStation) -> None:
     hand.do("jog.increment", axis="X", direction=1, distance=1.0, tick=hand.tick)
     hand.run(0.5)
     hand.do("scope.stop")
-    count = sum(len(channels[0]) for _first, channels, _period in taken)
-    passed_ms = 1000.0 * (hand.installation.controller.time_s - begin_s)
-    assert passed_ms - 50.0 <= count <= passed_ms + 1.0  # those since the last look are not sent
-    firsts = [first for first, _channels, _period in taken]
-    sizes = [len(channels[0]) for _first, channels, _period in taken]
+    hand.run(0.1)
+    count = sum(block.shape[1] for _first, block, _period in taken)
+    passed_ms = 1000.0 * (hand.installation.controller.time_s - begin_s) - 100.0
+    assert passed_ms - 2.0 <= count <= passed_ms + 1.0  # all of them are sent
+    firsts = [first for first, _block, _period in taken]
+    sizes = [block.shape[1] for _first, block, _period in taken]
     assert firsts == [sum(sizes[:k]) for k in range(len(sizes))]
-    assert {len(channels) for _first, channels, _period in taken} == {2}
-    values = [value for _first, channels, _period in taken for value in channels[0]]
-    assert values[0] == 0.0
+    assert {(len(block), period) for _first, block, period in taken} == {(2, 0.001)}
+    assert taken[0][1][0, 0] == 0.0
     assert not hand.events("scope")[-1]["running"]
 
 
 def test_a_single_capture_ends_after_its_trigger(hand: HandStation) -> None:
     trigger = {"channel": 0, "level": 400.0, "slope": 1, "mode": "single", "before": 0.1}
     hand.do("scope.arm", channels=[12290], period_ms=1.0, samples=100, trigger=trigger)
+    tick = hand.station.times.history.lived_tk + 1
     hand.run(0.3)
     assert hand.events("scope")[-1] == {
-        "event": "scope", "running": True, "parameters": [12290], "period_s": 0.001,
-        "samples": 100, "trigger": None,
+        "event": "scope", "running": True, "channels": ["P12290"], "period_s": 0.001,
+        "first": 0, "samples": 100, "trigger": None, "tick": tick,
     }  # fmt: skip
     hand.do("jog.increment", axis="X", direction=1, distance=1.0, tick=hand.tick)
     hand.run(1.0)
@@ -82,12 +125,24 @@ def test_a_single_capture_ends_after_its_trigger(hand: HandStation) -> None:
     assert last["trigger"] > 300
 
 
-def test_the_scope_has_four_channels(hand: HandStation) -> None:
-    assert "1 to 4" in hand.refused("scope.arm", channels=[1, 2, 3, 4, 5])["text"]
-    assert (
-        "trigger channel 2"
-        in hand.refused("scope.arm", channels=[12288], trigger={"channel": 2})["text"]
-    )
+def test_the_scope_has_eight_channels(hand: HandStation) -> None:
+    nine = hand.refused("scope.arm", channels=[*range(9)])["text"]
+    assert nine == "9 channels: the scope has 1 to 8"
+    assert hand.refused("scope.arm", channels=[])["text"] == "0 channels: the scope has 1 to 8"
+    error = hand.refused("scope.arm", channels=[12288, 1], trigger={"channel": 2})
+    assert error["text"] == "trigger channel 2: there are 2"
+    names = [5, "P12290", "BIT516", "axis0.actual position", "516", 1, 2, "bit0"]
+    asked = hand.do("scope.arm", channels=names, period_ms=0)
+    shown = ["P5", "P12290", "BIT516", "P12290", "P516", "P1", "P2", "BIT0"]
+    assert (asked["channels"], asked["period_s"]) == (shown, 0.0005)  # of every servo period
+    assert hand.do("scope.arm", channels=[1], period_ms=0.7)["period_s"] == 0.0005
+    assert "P99999" in hand.refused("scope.arm", channels=["P99999"])["text"]
+    long = hand.do("scope.arm", channels=[1], period_ms=0, sweep_ms=100)
+    assert (long["samples"], long["trigger"]) == (200, None)
+    for sweep_ms, samples in ((4.5, 9), (50000.5, 100001)):
+        error = hand.refused("scope.arm", channels=[1], period_ms=0, sweep_ms=sweep_ms)
+        assert f"has {samples} samples of 0.5 ms: 10 to 100000 are possible" in error["text"]
+    hand.do("scope.stop")
 
 
 def test_a_gain_acts_on_the_card_and_is_stored(hand: HandStation) -> None:
@@ -167,5 +222,10 @@ def test_a_program_runs_while_it_arrives_over_a_serial_line(hand: HandStation) -
     hand.until(lambda: not hand.is_busy)
     hand.run(0.1)
     assert hand.station.snapshot.work[0] == 20.0
+    hand.do("program.drip", port=os.ttyname(slave))  # the port is free for another program
+    os.write(master, b"G21 G90\nG0 X3\nM2\n\x1a")
+    hand.until(lambda: not hand.is_busy)
+    hand.run(0.1)
+    assert hand.station.snapshot.work[0] == 3.0
     os.close(master)
     os.close(slave)

@@ -43,8 +43,8 @@ def test_a_page_names_every_module_of_its_start_once_and_none_that_is_imported_l
     assert page.startswith(f"<head>{SCRIPT}\n")
     assert page.endswith("</head>")
     assert LINK.findall(page) == [
-        "js/core/a.js", "js/frame/b.js", "js/frame/c.js", "js/core/d.js", "js/e.js",
-        "js/frame/f.js",
+        "js/core/a.js", "js/core/d.js", "js/e.js",  # the script does not begin without these
+        "js/frame/b.js", "js/frame/f.js", "js/frame/c.js",
     ]  # fmt: skip
 
 
@@ -57,7 +57,7 @@ def test_the_workspace_names_modules_that_are_there_and_no_library(web: httpx.Cl
     assert {"js/core/link.js", "js/frame/status.js", "js/blocks/positions.js"} <= set(found)
     assert len(found) == len(set(found))
     assert all((WEB / path).is_file() for path in found)
-    assert [path for path in found if path.startswith("vendor/")] == []
+    assert [path for path in found if path.startswith("vendor/") or "bench" in path] == []
     assert LINK.findall(web.get("/login").text) == []  # its script imports nothing
 
 
@@ -107,3 +107,13 @@ def test_the_body_of_an_answer_does_not_wait_for_the_acknowledgement_of_its_head
 ) -> None:
     listening = quiet_panel._server.socket
     assert listening.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY) != 0
+
+
+def test_the_workspace_of_the_engineer_names_its_modules_and_none_of_a_pane(
+    web: httpx.Client,
+) -> None:
+    found = LINK.findall(web.get("/bench").text)
+    assert {"js/bench/workspace.js", "js/bench/bar.js", "js/frame/stop.js"} <= set(found)
+    assert all((WEB / path).is_file() for path in found)
+    assert [path for path in found if path.startswith("vendor/")] == ["vendor/dockview.js"]
+    assert [path for path in found if "screens/" in path or "panes/" in path] == []

@@ -11,18 +11,24 @@ KEY = r"[a-z][A-Za-z0-9. ]*\.[A-Za-z0-9. ]+"
 MADE = (
     "alarm.", "block.", "board.", "graphics.", "home.state.", "load.", "override.", "pad.",
     "role.", "scope.", "state.", "card.", "programs.state.",
+    "watch.format.", "panels.", "time.kind.", "time.step.", "world.fault.", "world.input.",
 )  # fmt: skip
 
 
 def catalogue(language: str) -> dict[str, str]:
-    text = (JS / "catalog" / f"{language}.js").read_text(encoding="utf-8")
-    return dict(re.findall(rf'"({KEY})": "((?:[^"\\]|\\.)*)"', text))
+    files = [JS / "catalog" / folder / f"{language}.js" for folder in ("", "bench")]
+    texts = [each.read_text(encoding="utf-8") for each in files]
+    found = [
+        pair for text in texts for pair in re.findall(rf'"({KEY})": "((?:[^"\\]|\\.)*)"', text)
+    ]
+    assert len(found) == len(dict(found))  # one text for each key
+    return dict(found)
 
 
 def used() -> set[str]:
     keys: set[str] = set()
     for path in JS.rglob("*.js"):
-        if path.parent.name != "catalog":
+        if JS / "catalog" not in path.parents:
             text = path.read_text(encoding="utf-8")
             keys.update(re.findall(rf'"({KEY})"', text))
     return keys

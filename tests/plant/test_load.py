@@ -34,7 +34,7 @@ FAULTS = {
     "[[axis]]\nnumber = 0\n":
         "machine.toml:1:3: [axis] lacks the key 'drive' (known keys: number, drive, name, units, "
         "encoder_lines, counts_per_rev, encoder_direction, units_per_rev, initial, marker, travel, "
-        "dac, motor, load, positive_limit, negative_limit, home)",
+        "dac, motor, load, positive_limit, negative_limit, home, body)",
     X.replace("number = 0", "number = 16"):
         "machine.toml:2:1: axis[0].number is 16; it must be a whole number from 0 to 15",
     X.replace("number = 0", "number = true"):
@@ -71,6 +71,41 @@ FAULTS = {
         "machine.toml:7:1: two axes have the number 0 (the other is axis[0])",
     X + Y.replace("'Y'", "'x'"):
         "machine.toml:8:1: two axes have the name x (the other is axis[0])",
+    X + "[axis.body]\ncolor = '#00ff00'\n":
+        "machine.toml:7:1: unknown key 'color' in [axis.body] (did you mean 'colour'?)",
+    X + "[axis.body]\nsize = [10, 0, 10]\n":
+        "machine.toml:7:1: axis[0].body.size[1] is 0; it must be a number above 0 to 1e+06",
+    X + "[axis.body]\ndirection = [0, 1.5, 0]\n":
+        "machine.toml:7:1: axis[0].body.direction[1] is 1.5; it must be a number from -1 to 1",
+    X + "[axis.body]\ndirection = [0, 0, 0]\n":
+        "machine.toml:7:1: axis X: the direction is 0, 0, 0"
+        " (X is [1, 0, 0]; other lengths mean the same)",
+    X + "[axis.body]\ncolour = '00ff00'\n":
+        "machine.toml:7:1: axis X: the colour is '00ff00'"
+        ' (red, green and blue from 00 to ff: "#3b82f6")',
+    X + "[axis.body]\nfile = 'slide.step'\n":
+        "machine.toml:7:1: axis X: 'slide.step' is no file with a body"
+        " (its name ends in .stl or .glb)",
+    X + "[axis.body]\nfile = '../slide.stl'\n":
+        "machine.toml:7:1: axis X: '../slide.stl' is outside the folder of the machine"
+        " (give a name in the folder of machine.toml)",
+    X + "[axis.body]\nfile = '/slide.stl'\n":
+        "machine.toml:7:1: axis X: '/slide.stl' is outside the folder of the machine"
+        " (give a name in the folder of machine.toml)",
+    X + "[axis.body]\nfile = 'slide.stl'\nsize = [1, 1, 1]\n":
+        "machine.toml:8:1: axis X: the body has both a file and the size of a box"
+        " (give one of them)",
+    X + "[axis.body]\nparent = 'Q'\n":
+        "machine.toml:7:1: there is no axis 'Q' (axes: X; \"\": the ground)",
+    X + "[axis.body]\nparent = 'x'\n":
+        "machine.toml:7:1: axis X carries itself: X on X (the ground is parent = \"\")",
+    X + "[axis.body]\nparent = 'Y'\n" + Y:
+        "machine.toml:7:1: axis X carries itself: X on Y on X (the ground is parent = \"\")\n"
+        "machine.toml:8:3: axis Y carries itself: Y on X on Y (the ground is parent = \"\")",
+    X + "[axis.body]\nparent = 'X'\n" + Y + "[axis.body]\nparent = 'X'\n":
+        "machine.toml:7:1: axis X carries itself: X on X (the ground is parent = \"\")",
+    X + "[[device]]\nkind = 'gripper'\nsign = { at = [0, 0, 0], parent = 'Z' }\n":
+        "machine.toml:8:26: there is no axis 'Z' (axes: X; \"\": the ground)",
     X + "counts_per_rev = 4000\n":
         "machine.toml:1:3: axis X has both of encoder_lines and counts_per_rev (give one of them; "
         "an encoder has four counts per line)",
@@ -85,6 +120,14 @@ FAULTS = {
     HEAD + MOTOR + TORQUE.replace(" }", ", supply_v = 80 }"):
         "machine.toml:6:66: axis X: supply_v limits nothing without resistance_ohm of the motor "
         "(add resistance_ohm to [axis.motor])",
+    X + "load = { inertia_kgm2 = 1, resonance_hz = 50 }\n":
+        'machine.toml:6:28: axis X: only torque makes a load swing (leave it away, or set mode = '
+        '"torque")',
+    HEAD + MOTOR + TORQUE + "load = { resonance_hz = 50 }\n":
+        "machine.toml:7:10: axis X: resonance_hz swings nothing without inertia_kgm2 of the load"
+        " (add inertia_kgm2 to [axis.load])",
+    X + "load = { damping_ratio = 1 }\n":
+        "machine.toml:6:10: axis[0].load.damping_ratio is 1; it must be a number from 0 to 0.9",
     X + "load = { coulomb_nm = 2, static_nm = 1 }\n":
         "machine.toml:6:26: axis X: static_nm 1 is below coulomb_nm 2 (static friction is never "
         "less than the friction of motion)",

@@ -32,6 +32,7 @@ from openacr.plant.step_cy import plant_step
 
 positive = st.floats(1e-6, 1e6)
 friction = st.one_of(st.just(0.0), st.floats(1e-9, 1e6))
+resonances = st.one_of(st.none(), st.floats(1e-3, 1e4))
 volts = st.one_of(
     st.sampled_from([0.0, 10.0, -10.0, math.nan, math.inf]), st.floats(-11, 11, width=32)
 )
@@ -84,7 +85,14 @@ def worlds(draw: st.DrawFn) -> World:
         name="X",
         drive=drive,
         motor=None if isinstance(drive, LOADLESS) else motor,
-        load=Load(viscous_nms=draw(friction), coulomb_nm=coulomb, static_nm=coulomb * 1.25),
+        load=Load(
+            inertia_kgm2=draw(positive),
+            viscous_nms=draw(friction),
+            coulomb_nm=coulomb,
+            static_nm=coulomb * 1.25,
+            resonance_hz=draw(resonances) if isinstance(drive, TorqueDrive) else None,
+            damping_ratio=draw(st.floats(0.0, 0.9)),
+        ),
         counts_per_rev=draw(st.integers(4, 100_000)),
         travel=draw(st.sampled_from([None, (-3.0, 5.0)])),
         marker=0.5,

@@ -9,6 +9,7 @@ from tests.plc.rack import Rack, numbered
 
 from openacr import compiled
 from openacr.errors import CardError
+from openacr.plc import scan_cy as scan
 from openacr.plc.compile import compile_plc
 from openacr.plc.scan_cy import plc_step
 
@@ -55,6 +56,7 @@ class Model:
     flags: dict[object, bool] = field(default_factory=dict)
     timers: dict[int, list[float]] = field(default_factory=lambda: {0: [0, 0], 1: [0, 0]})
     counters: dict[int, list[int]] = field(default_factory=lambda: {0: [0, 0, 0], 1: [0, 0, 0]})
+    seen: dict[tuple[int, str], set[bool]] = field(default_factory=dict)
 
     def get(self, name: object) -> bool:
         return self.flags.get(name, False)
@@ -89,10 +91,18 @@ class Model:
             elif self.get(("set", n)):
                 self.flags[f"KR{n}"] = True
 
+    def note(self, place: int, which: str, state: bool) -> None:
+        self.seen.setdefault((place, which), set()).add(state)
+
     def scan(self, program: list[Instruction]) -> None:
         r, stack, rung = False, list[bool](), True
-        for name, operand in program:
+        for place, (name, operand) in enumerate(program):
             value = self.get(operand) != name.endswith("NOT")
+            self.note(
+                place, "last", value if name.split()[0] in CONTACTS and operand is not None else r
+            )
+            if name in ("CNT", "KR"):
+                self.note(place, "first", stack[-1])
             match name.removesuffix(" NOT"):
                 case "LD":
                     stack = [] if rung else [*stack, r]
@@ -123,15 +133,23 @@ class Model:
             rung = name.split()[0] in ("OUT", "SET", "CLR", "TIM", "CNT", "KR")
 
 
+CONTACTS = ("LD", "AND", "OR")
+SEEN = {
+    ("last", True): scan.SEEN_ON,
+    ("last", False): scan.SEEN_OFF,
+    ("first", True): scan.FIRST_SEEN_ON,
+    ("first", False): scan.FIRST_SEEN_OFF,
+}
 NUMBERS = {"TIM0": 1552, "CNT0": 1556, "KR0": 1564, "TIM1": 1584}
 
 
 @settings(max_examples=200, deadline=None)
-@given(programs.filter(is_sound), inputs)
-def test_every_sound_plc_does_what_the_book_says(
-    program: list[Instruction], journal: list[int]
+@given(programs.filter(is_sound), inputs, st.booleans())
+def test_every_sound_plc_does_what_the_book_says_and_notes_what_it_has_seen(
+    program: list[Instruction], journal: list[int], noted: bool
 ) -> None:
     rack, model = Rack().program(*texts(program)), Model()
+    rack.plcs.note(0, noted)
     model.load(program)
     for states in journal:
         for bit in range(3):
@@ -142,6 +160,10 @@ def test_every_sound_plc_does_what_the_book_says(
         model.scan(program)
         for name in FLAGS:
             assert rack.on(NUMBERS.get(str(name), name)) == model.get(name), name  # type: ignore[arg-type]
+    expected = [0] * len(program)
+    for (place, which), states_seen in model.seen.items():
+        expected[place] |= noted * sum(SEEN[which, state] for state in states_seen)
+    assert rack.plcs.seen(0) == expected
 
 
 @pytest.mark.skipif(not compiled.is_compiled, reason="needs the compiled core")
@@ -154,6 +176,7 @@ def test_interpreted_and_compiled_scans_give_the_same_bits(
     for rack in racks:
         for number, program in enumerate(plcs):
             rack.program(*texts(program), plc=3 * number)
+        rack.plcs.note(3, True)
         for states in journal:
             for bit in range(3):
                 rack.put(bool(states >> bit & 1), bit)

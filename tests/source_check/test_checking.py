@@ -9,6 +9,7 @@ from openacr.controller.loading import LoadError
 from openacr.errors import SourceError, UserError
 from openacr.project import Place, find_project
 from openacr.source_check import check, check_text, listed, listing, meant, read
+from openacr.source_check.hints import NO_ALIASES
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -110,6 +111,16 @@ def test_unsaved_files_of_a_project_replace_those_on_the_disk_and_add_to_them(
     assert [(each.line, each.column) for each in alone] == [(3, 1)]
 
 
+def test_a_folder_may_be_in_an_editor_alone(tmp_path: Path) -> None:
+    folder = tmp_path / "nowhere"
+    unsaved = {folder / "setup.8k": b"DIM PROG3(500)\n", folder / "prog3.8k": b"10 NOWORD\n"}
+    assert [(fault.path, fault.line) for fault in check(folder, unsaved=unsaved)] == [
+        (str(folder / "prog3.8k"), 1)
+    ]
+    with pytest.raises(UserError, match="no such file or folder"):
+        check(tmp_path / "elsewhere", unsaved=unsaved)
+
+
 @pytest.mark.parametrize(
     ("line", "column"),
     [
@@ -156,3 +167,133 @@ def test_a_listing_knows_the_lines_it_is_made_of(tmp_path: Path) -> None:
         (7, "ENDP"),
     ]
     assert list(listing(reader)) == [text for _, text in found]
+
+
+@pytest.mark.parametrize(
+    ("code", "expected"),
+    [
+        ("class Press:\n    pass\n", []),
+        ("raise SystemExit\nclass Press:\n    pass\n", []),  # it is not executed
+        ("x = 1\nclass Press\n", [(2, 12, "expected ':'")]),
+        ("class Other:\n    pass\n", [(1, 1, "there is no class Press")]),
+        ("class Press:\n    return 1\n", [(2, 5, "'return' outside function")]),
+        (None, [(1, 1, "cannot be read: no such file or directory")]),
+    ],
+)
+def test_python_files_of_devices_are_checked_and_not_executed(
+    tmp_path: Path, code: str | None, expected: list[tuple[int, int, str]]
+) -> None:
+    (tmp_path / "machine.toml").write_text('[[device]]\nkind = "press.py:Press"\n')
+    (tmp_path / "setup.8k").write_text("SYS\n")
+    if code is not None:
+        (tmp_path / "press.py").write_text(code)
+    found = check(tmp_path)
+    assert [(each.line, each.column, each.message) for each in found] == expected
+    assert {each.path for each in found} <= {str(tmp_path / "press.py")}
+
+
+def test_devices_of_a_machine_file_with_errors_are_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "machine.toml").write_text('[[device]]\nkind = "press.py:Press"\nrain = 1\n')
+    (tmp_path / "setup.8k").write_text("SYS\n")
+    assert [Path(each.path).name for each in check(tmp_path)] == ["machine.toml"]
+
+
+@pytest.mark.parametrize(
+    ("setup", "lines"),
+    [
+        ("SYS\n#DEFINE a BIT1\nPROG0\n#DEFINE b BIT2\n", [2, 4]),
+        ("SYS\nDIM DEF(1)\n#DEFINE a BIT1\n#DEFINE b BIT2\n#DEFINE a BIT3\n", [4]),
+        ("SYS\nDIM DEF(2)\n#DEFINE a BIT1\n#DEFINE b BIT2\n#DEFINE a\n", []),
+        ("SYS\n#DEFINE a BIT1\nDIM DEF(1)\n#DEFINE b BIT1\n", [2]),
+        ("SYS\nDIM DEF(1)\n#DEFINE a BIT1\nDEF CLEAR\n#DEFINE b BIT1\n", []),
+        ("SYS\nDIM DEF(2)\nCLEAR\n#DEFINE a BIT1\n", [4]),
+        ("SYS\nDIM DEF(1)\n#DEFINE a BIT1\nCLEAR\nDIM DEF(1)\n#DEFINE b BIT1\n", []),
+        ("SYS\nDIM DEF(1)\nPROG0\n#DEFINE a BIT1\nCLEAR\n#DEFINE b BIT1\n", [6]),
+        ("SYS\nP0=4\nDIM DEF(P0)\n#DEFINE a BIT1\n", []),  # a size that is computed
+    ],
+)
+def test_an_alias_beyond_dim_def_is_refused_as_by_the_card(
+    tmp_path: Path, setup: str, lines: list[int]
+) -> None:
+    (tmp_path / "setup.8k").write_text(setup)
+    found = [each for each in check(tmp_path) if each.message != "Undefined variable"]
+    assert [(each.line, each.message) for each in found] == [
+        (line, "Out of define space") for line in lines
+    ]
+    assert {each.hint for each in found} <= {NO_ALIASES}
+    if "P0=" not in setup:
+        card = Controller()
+        typed = [card.send(f"{line}\r") for line in setup.splitlines()]
+        refused = [n for n, answer in enumerate(typed, 1) if "Out of define space" in answer]
+        assert refused == lines
+
+
+@pytest.mark.parametrize(
+    ("setup", "refused"),
+    [
+        # a size that is computed leaves nothing to count with
+        ("SYS\nDIM P(5)\nP0=100\nDIM PROG0(P0)\nPROG0\nDIM LV(6)\n", []),
+        # CLEAR of a PLC is not that of the program with its number
+        ("SYS\nDIM PROG0(100)\nDIM PLC0(100)\nPROG0\nDIM LV(6)\nPLC0\nCLEAR\nPROG0\nDIM LV(6)\n",
+         [(9, "Re-dimensioned block")]),
+        # neither a condition nor a move takes anything
+        ("SYS\nDIM DEF(1)\nPROG0\nIF (BIT5) THEN SET 34\nSYS\n#DEFINE a BIT1\n#DEFINE b BIT1\n",
+         [(7, "Out of define space")]),
+        ('SYS\nDIM PROG0(100)\nPROG0\nATTACH MASTER0\nATTACH SLAVE0 AXIS0 "X"\nX10\nDIM LV(60)\n',
+         [(7, "Out of memory")]),
+        ("SYS\nDIM PROG0(100)\nPROG0\nIF (BIT5) THEN X10\nDIM LV(60)\n", [(5, "Out of memory")]),
+        ("SYS\nDIM DEF(1)\n#DEFINE a BIT1\nPROG0\nIF (BIT5) THEN SAMP CLEAR\n#DEFINE b BIT1\n",
+         [(6, "Out of define space")]),
+        # what may have given memory back leaves nothing to count with
+        ("SYS\nDIM PROG0(100)\nPROG0\nDIM LV(6)\nIF (NOT BIT5) THEN CLEAR\nDIM LV(6)\n", []),
+        ("SYS\nDIM DEF(1)\n#DEFINE a BIT1\nIF (NOT BIT5) THEN DEF CLEAR\n#DEFINE b BIT1\n", []),
+        ("SYS\nDIM PROG0(100)\nPROG0\nPROGRAM\nSET 34\nSET 35\nSET 36\nENDP\n"
+         "IF (NOT BIT5) THEN NEW\nDIM LV(15)\n", []),
+    ],
+)  # fmt: skip
+def test_memory_is_counted_as_by_the_card(
+    tmp_path: Path, setup: str, refused: list[tuple[int, str]]
+) -> None:
+    (tmp_path / "setup.8k").write_text(setup)
+    messages = {"Out of memory", "Out of define space", "Re-dimensioned block"}
+    found = [(each.line, each.message) for each in check(tmp_path) if each.message in messages]
+    card = Controller()
+    typed = [(n, card.send(f"{line}\r")) for n, line in enumerate(setup.splitlines(), 1)]
+    by_card = [(n, text) for n, answer in typed for text in messages if text in answer]
+    assert found == by_card == refused
+
+
+def test_a_program_file_is_checked_that_takes_the_place_of_a_text_of_the_set_up(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "setup.8k").write_text("PROG0\nPROGRAM\nGOTO there\nENDP\n")
+    (tmp_path / "prog0.8k").write_text("PROGRAM\nDWL 1\nGOTO here\nENDP\n")
+    assert [(Path(each.path).name, each.line) for each in check(tmp_path)] == [
+        ("setup.8k", 3),
+        ("prog0.8k", 3),
+    ]
+
+
+def test_an_alias_without_space_is_known_to_the_lines_after_it(tmp_path: Path) -> None:
+    text = "PROG0\n#DEFINE lamp BIT34\nPROGRAM\nSET lamp\nENDP\n"
+    (tmp_path / "setup.8k").write_text(text)
+    assert [(each.line, each.message) for each in check(tmp_path)] == [(2, "Out of define space")]
+
+
+def test_aliases_of_one_file_are_counted_where_it_has_dimensioned_them(tmp_path: Path) -> None:
+    file = tmp_path / "set.8k"
+    file.write_text("SYS\n#DEFINE lamp BIT34\n")
+    assert check(file) == []
+    file.write_text("SYS\nDIM DEF(1)\n#DEFINE lamp BIT34\n#DEFINE pump BIT35\n")
+    assert [each.line for each in check(file)] == [4]
+
+
+def test_a_text_entered_anew_is_checked_without_the_lost_lines_of_the_one_before(
+    tmp_path: Path,
+) -> None:
+    """Levels are left alone where a line with their words cannot be read, and only there."""
+    lost, whole = "PROGRAM\nIF (P0=\nENDP\n", "PROGRAM\nIF (P0=0)\nENDP\n"
+    at = tmp_path / "prog0.8k"
+    alone = [(line + 3, column, text) for _, line, column, text in places(at, whole)]
+    assert len(alone) == 1
+    assert [place[1:] for place in places(at, lost + whole)][1:] == alone

@@ -153,6 +153,31 @@ def test_several_places_of_the_machine_may_have_the_same_value(tmp_path: Path) -
     assert axis.encoder_lines == 500
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        '[design]\nkind = "random"\nsamples = 3\n',
+        '[design]\nkind = "random"\nsamples = 10000000\n',
+        '[design]\nkind = "sobol"\nsamples = 2\n',
+        '[design]\nkind = "sobol"\nsamples = 2097152\n',
+        '[design]\nkind = "list"\n[vary.b]\nparameter = 1\nvalues = [2]\n',
+        "[vary.b]\nparameter = 1\nrange = [0, 1]\nsteps = 10000\n"
+        "[vary.c]\nparameter = 2\nrange = [0, 1]\nsteps = 1000\n",
+    ],
+)
+def test_designs_at_the_ends_of_what_is_allowed_are_taken(tmp_path: Path, text: str) -> None:
+    formula_project(tmp_path / "p")
+    study = load_sweep(sweep_file(tmp_path, text + GOOD))
+    assert "a" in study.quantities
+
+
+def test_sobol_counts_the_runs_that_its_samples_make(tmp_path: Path) -> None:
+    formula_project(tmp_path / "p")
+    text = '[design]\nkind = "sobol"\nsamples = 4194304\n'
+    (found,) = refused(sweep_file(tmp_path, text + GOOD))
+    assert found == "4:1: 12582912 runs; at most 10000000"
+
+
 def test_lists_of_a_list_design_are_equally_long(tmp_path: Path) -> None:
     formula_project(tmp_path / "p")
     text = '[design]\nkind = "list"\n[vary.b]\nparameter = 1\nvalues = [1, 2]\n'

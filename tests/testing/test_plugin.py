@@ -167,7 +167,7 @@ def test_lines_and_branches_that_were_executed_are_counted(shop: pytest.Pytester
     assert row.split()[1:] == ["8", "2", "4", "2", "67%", "4,", "12"]
     assert lcov.read_text() == (
         f"SF:{file}\nDA:2,1\nDA:3,1\nBRDA:3,0,0,1\nBRDA:3,0,1,0\nDA:4,0\nDA:6,1\nDA:8,1\n"
-        "BRDA:8,0,0,1\nBRDA:8,0,1,0\nDA:9,1\nDA:10,1\nDA:12,0\nBRF:4\nBRH:2\nLF:8\nLH:6\n"
+        "BRDA:8,0,0,0\nBRDA:8,0,1,1\nDA:9,1\nDA:10,1\nDA:12,0\nBRF:4\nBRH:2\nLF:8\nLH:6\n"
         "end_of_record\n"
     )
     page = next(pages.glob("*_prog0.html")).read_text()

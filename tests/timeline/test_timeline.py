@@ -12,7 +12,8 @@ from openacr.controller.recorder import Recorder
 from openacr.controller.replay import Replay
 from openacr.engine.watches import Watch, parameter_place
 from openacr.errors import UserError
-from openacr.timeline import Moment, Timeline
+from openacr.timeline import Bookmark, Bookmarks, Kind, Moment, Timeline
+from openacr.timeline.bookmarks import MOST
 
 MOVES = ("10 X10 Y5", "20 P0=P0+1", "30 X0 Y0", "40 GOTO 10")
 
@@ -166,7 +167,7 @@ def test_a_moment_outside_of_the_branch_is_refused(timeline: Timeline) -> None:
         ):
             timeline.seek(tick)
     assert timeline.card.digest() == digest
-    with pytest.raises(UserError, match="branch 1: there are 0 to 0"):
+    with pytest.raises(UserError, match="there is no branch 1; known: 0"):
         timeline.switch(1)
     with pytest.raises(UserError, match="branch -1"):
         timeline.switch(-1)
@@ -395,3 +396,60 @@ def test_a_branch_is_saved_as_a_journal_that_replays_to_equal_states(
     assert again.card.digest() == timeline.card.digest()
     assert parts == sorted(parts)
     assert parts[-1] == 1.0
+
+
+def test_a_course_gives_the_samples_and_values_that_the_card_had(timeline: Timeline) -> None:
+    first, parameters = timeline.now.tick, [0, 12288]
+    lived: list[list[float]] = []
+    for _ in range(20):
+        lived.append([float(timeline.card.p[each]) for each in parameters])
+        timeline.card.set_input(3, len(lived) % 2 == 0)
+        timeline.advance(50)
+    course = timeline.course(0, first, first + 19 * 50)
+    assert course.last == Moment(first + 19 * 50)
+    channels = course.samples(parameters, first, 50, 20)
+    assert [list(each) for each in zip(*channels, strict=True)] == lived
+    assert timeline.course(0, first + 501).first_tk <= first + 501
+    assert course.values([*parameters, 999_999], first + 100) == [*lived[2], None]
+    with pytest.raises(UserError, match=f"tick {first - 1} is not known"):
+        course.samples([0], first - 1, 1, 1)
+    with pytest.raises(UserError, match=f"tick {first - 1} is not on branch 0"):
+        timeline.course(0, first - 1)
+
+
+def test_a_dropped_branch_is_gone_and_its_number_is_not_given_again(timeline: Timeline) -> None:
+    begun: list[tuple[int, int]] = []
+    timeline.on_fork = lambda before, branch: begun.append((before.number, branch.number))
+    timeline.advance(500)
+    for _ in range(2):
+        timeline.seek(timeline.branch.first)
+        timeline.fork()
+        timeline.advance(100)
+    with pytest.raises(UserError, match="branch 2 is the present one: change to another one first"):
+        timeline.drop(2)
+    timeline.drop(1)
+    timeline.seek(timeline.branch.first)
+    timeline.card.p[0] = 1
+    assert [each.number for each in timeline.branches] == [0, 2, 3]
+    assert begun == [(0, 1), (1, 2), (2, 3)]
+    with pytest.raises(UserError, match="there is no branch 1; known: 0, 2, 3"):
+        timeline.switch(1)
+    timeline.switch(2)
+    assert timeline.branch.number == 2
+
+
+def test_of_too_many_bookmarks_the_oldest_that_no_hand_has_set_goes_first() -> None:
+    bookmarks = Bookmarks()
+    assert bookmarks.add(0, Bookmark(1, Kind.HAND, "mine"))
+    for tick in range(2, MOST + 3):
+        assert bookmarks.add(0, Bookmark(tick, Kind.END, "PROG0 has ended"))
+    assert not bookmarks.add(0, Bookmark(MOST, Kind.END, "PROG0 has ended"))
+    ticks = [each.tick for each in bookmarks.of(0)]
+    assert ticks == [1, *range(4, MOST + 3)]
+    bookmarks.fork(0, 1, 5)
+    assert [each.tick for each in bookmarks.of(1)] == [1, 4, 5]
+    bookmarks.remove(1, 4)
+    assert [each.tick for each in bookmarks.of(1)] == [1, 5]
+    bookmarks.forget(0)
+    assert bookmarks.of(0) == []
+    assert [each.tick for each in bookmarks.of(1)] == [1, 5]

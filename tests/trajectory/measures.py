@@ -11,6 +11,7 @@ from openacr.trajectory.segments import Piece
 from openacr.trajectory.setpoints import Reals
 
 PERIOD_S = 0.003
+CHORD_U, TURN = 0.02, 0.05  # of arcs, and by their radii: at most 0.0003 of the radius off
 
 
 def limits(jerk: float | None = 20_000.0, axes: int = 3) -> Limits:
@@ -67,20 +68,34 @@ def sampled(control: Reals, period_s: float, sample_s: float, phases: int = 4) -
 
 
 def off(at: Reals, starts: Reals, ends: Reals) -> float:
-    """The largest distance of points from the nearest of some lines."""
+    """The largest distance of points from the nearest of some lines.
+
+    The nearest is found by the middles of lines, among those of a like length at a time: of the
+    short chords of a small arc there can be any number nearer than the middle of a long line.
+    """
     counts = np.maximum(1, np.ceil(np.linalg.norm(ends - starts, axis=1) / 0.2)).astype(int)
     cut = [a + (b - a) * np.arange(n + 1)[:, None] / n
            for a, b, n in zip(starts, ends, counts, strict=True)]  # fmt: skip
     first = np.concatenate([each[:-1] for each in cut])
     last = np.concatenate([each[1:] for each in cut])
-    _, near = cKDTree(0.5 * (first + last)).query(at, k=min(32, len(first)))
+    sizes = np.ceil(np.log2(np.maximum(np.linalg.norm(last - first, axis=1), 1e-9)))
+    best = np.full(len(at), np.inf)
+    for size in np.unique(sizes):
+        alike = sizes == size
+        np.minimum(best, _apart(at, first[alike], last[alike]), out=best)
+    return float(best.max())
+
+
+def _apart(at: Reals, starts: Reals, ends: Reals) -> Reals:
+    """The distances of points from the nearest of some lines of a like length."""
+    _, near = cKDTree(0.5 * (starts + ends)).query(at, k=min(32, len(starts)))
     best = np.full(len(at), np.inf)
     for column in np.reshape(near, (len(at), -1)).T:
-        a, d = first[column], last[column] - first[column]
+        a, d = starts[column], ends[column] - starts[column]
         share = ((at - a) * d).sum(1) / np.maximum((d * d).sum(1), 1e-30)
         apart = np.linalg.norm(at - a - d * np.clip(share, 0, 1)[:, None], axis=1)
         best = np.minimum(best, apart)
-    return float(best.max())
+    return best
 
 
 def deviations(
@@ -92,7 +107,8 @@ def deviations(
     for segment in segments:
         piece = Piece(path[-1], segment)
         if piece.length_u > 0.0:
-            path += piece.chords(0.02)
+            path += piece.chords(CHORD_U if piece.is_line else min(CHORD_U, TURN * piece.radius_u))
             vertices.append(segment.end)
     lines = np.array(path)
-    return off(at, lines[:-1], lines[1:]), off(np.array(vertices), at[:-1], at[1:])
+    close = evaluate(control, np.arange(0, len(control) - 1, 0.0625))[0]
+    return off(at, lines[:-1], lines[1:]), off(np.array(vertices), close[:-1], close[1:])

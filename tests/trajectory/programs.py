@@ -94,3 +94,29 @@ KINDS: dict[str, Callable[[float], Segments]] = {
     "circles": circles,
     "surface": surface,
 }
+
+
+def wave(tolerance: float, count: int = 24, seed: int = 1) -> Segments:
+    """A wave in chords of 0.28 to 0.5 mm, in the plane X Y."""
+    x = np.cumsum(np.random.default_rng(seed).uniform(0.28, 0.5, count))
+    return [line(n, at, 1.6 * math.sin(at / 3.5), 0, tolerance) for n, at in enumerate(x)]
+
+
+def turned(tolerance: float, radius: float, angle: float, leg: float) -> Segments:
+    """A line along X, an arc that begins along X or across it, and a line along X or Y."""
+    is_whole = angle >= 2.0 * math.pi
+    x, y = (leg - radius, 0.0) if is_whole else (leg, radius)
+    end = (leg, 0.0) if is_whole else (leg + radius, radius)
+    last = (2.0 * leg, 0.0) if is_whole else (end[0], end[1] + leg)
+    arc = Segment(2, (*end, 0.0), FEED, tolerance, arc=Arc(0, 1, (x, y), angle))
+    return [line(1, leg, 0, 0, tolerance), arc, line(3, *last, 0, tolerance)]
+
+
+PARTS: dict[str, Callable[[float], Segments]] = {
+    "square": lambda e: [line(1, 8, 0, 0, e), line(2, 8, 8, 0, e)],
+    "corners": lambda e: corners(e, 4),
+    "pocket": lambda e: turned(e, 4.0, 0.5 * math.pi, 6.0),
+    "circles": lambda e: turned(e, 1.0, 2.0 * math.pi, 5.0),
+    "surface": wave,
+}
+"""Small parts of programs of every kind, from the origin in the plane X Y."""

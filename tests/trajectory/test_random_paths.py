@@ -1,6 +1,7 @@
 """Random paths of lines, arcs and helices with turns, feeds and lengths of every size."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from tests.trajectory.measures import PERIOD_S, deviations, limits, planned, poi
 from tests.trajectory.programs import Segments
 from tests.trajectory.random_programs import program
 
-from openacr.trajectory import Arc, Segment
+from openacr.trajectory import Arc, Limits, Segment
 
 ALLOWED = 1.0 + 1e-6
 LENGTHS = {"short": 0.4, "middle": 2.0, "long": 8.0}
@@ -76,13 +77,23 @@ def require_all(seed: int, jerk: float | None = 20_000.0, allowed: float = 1.0) 
     assert control[-1].tolist() == list(segments[-1].end), seed
 
 
-@pytest.mark.parametrize("seed", [*range(8), 201, 1106])
+@pytest.mark.parametrize("seed", [*range(8), 201, 695, 1106])
 def test_no_sample_of_a_random_program_is_above_a_limit(seed: int) -> None:
     require_all(seed)
 
 
-# Legs of hundredths of a millimetre that leave 0.003 mm by this factor; see docs/not-there-yet.md.
-STRAYING = {355: 1.07, 695: 1.13}
+@pytest.mark.parametrize("seed", [6, 22])
+def test_an_axis_with_far_lower_limits_does_not_end_the_plan(seed: int) -> None:
+    segments, axes, _ = program(seed)
+    resting = [replace(segment, end=(*segment.end, 0.0)) for segment in segments]
+    slow = Limits((100.0,) * (axes + 1), (1000.0,) * axes + (30.0,), (20_000.0,) * (axes + 1))
+    control = points(planned(resting, (0.0,) * (axes + 1), slow))
+    assert control[-1].tolist() == list(resting[-1].end)
+    assert np.abs(np.diff(control, 2, axis=0)).max() / PERIOD_S**2 <= 1000.0 * ALLOWED
+
+
+# One vertex of 5 nm more than 0.003 mm; see docs/not-there-yet.md.
+STRAYING = {355: 1.002}
 
 
 @pytest.mark.soak

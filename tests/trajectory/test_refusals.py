@@ -28,7 +28,7 @@ class Strict(Limits):
 
 def strict(share: float) -> Strict:
     whole = limits()
-    return Strict(whole.velocity_ups, whole.acceleration_ups2, whole.jerk_ups3, share)
+    return Strict(whole.velocity_ups, whole.acceleration_ups2, whole.jerk_ups3, share=share)
 
 
 def wave(width: float = 40.0) -> tuple[Segments, tuple[float, ...]]:

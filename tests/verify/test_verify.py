@@ -12,7 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
-from openacr.cnc.state.cells import RADII
+from openacr.cnc.state.cells import LAST_RADIUS, RADII
 from openacr.verify import checking
 from openacr.verify.checking import Status, Task, check, check_all
 from openacr.verify.programs import programs
@@ -183,14 +183,14 @@ def test_a_program_that_does_not_end_is_stopped_at_its_limit_of_machine_time(sho
 def test_a_program_that_does_not_move_and_not_end_is_an_error_of_its_jump(shop: Path) -> None:
     (shop / "silent.nc").write_text(SILENT)
     (note,) = check(Task(shop / "silent.nc")).notes
-    assert (note.code, note.line) == ("A62", 1)
+    assert (note.code, note.line) == ("A62", 2)
 
 
 def test_a_rapid_through_the_stock_is_an_error_only_with_stock(shop: Path) -> None:
     (shop / "stock.nc").write_text(STOCK)
     verdict = check(Task(shop / "stock.nc", has_stock=True))
-    assert [(note.line, note.text) for note in verdict.errors] == [
-        (6, "a rapid goes through material")
+    assert list(map(str, verdict.errors)) == [
+        f"{shop / 'stock.nc'}:6:1: a rapid goes through material"
     ]
     assert verdict.removed is not None and verdict.removed > 0.0
     assert verdict.status is Status.ERRORS
@@ -257,3 +257,12 @@ def test_the_page_is_one_file_that_names_no_other(shop: Path) -> None:
     assert "<title>Part programs of " in text
     assert "http" not in text.replace("http://www.w3.org", "")
     assert "value expected after letter" in text
+
+
+def test_the_last_tool_with_a_radius_in_the_store_is_not_marked(shop: Path) -> None:
+    (shop / "tools.nc").write_text(
+        f"F10\nT{LAST_RADIUS} M6\nG1 X1\nT{LAST_RADIUS + 1} M6\nX2\nM2\n"
+    )
+    cell = RADII + LAST_RADIUS
+    CliRunner().invoke(app, ["sysvar", "set", f"P{cell}=3"], catch_exceptions=False)
+    assert check(Task(shop / "tools.nc")).without_radius == (LAST_RADIUS + 1,)

@@ -2,15 +2,13 @@
 
 import multiprocessing
 import os
-import subprocess
 import sys
-import textwrap
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from tests.workers.calls import fatal, fatal_once, faulty, own_process, square
+from tests.workers.orphans import left_by
 
 from openacr.workers import Done, LocalPool, Lost
 
@@ -77,7 +75,7 @@ def test_an_error_of_a_task_is_a_result_without_value() -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="processes are looked up by signals")
 def test_processes_end_with_a_parent_that_is_killed() -> None:
-    code = textwrap.dedent(
+    children = left_by(
         """
         import time
         from openacr.workers import LocalPool
@@ -89,23 +87,4 @@ def test_processes_end_with_a_parent_that_is_killed() -> None:
                 time.sleep(60)
         """
     )
-    root = Path(__file__).parents[2]
-    with subprocess.Popen(
-        [sys.executable, "-c", code], cwd=root, stdout=subprocess.PIPE, text=True
-    ) as parent:
-        assert parent.stdout is not None
-        children = [int(word) for word in parent.stdout.readline().split()]
-        parent.kill()
     assert len(children) == 2
-    end_s = time.monotonic() + 60.0
-    while any(map(is_there, children)):
-        assert time.monotonic() < end_s
-        time.sleep(0.02)
-
-
-def is_there(process: int) -> bool:
-    """Whether a process is there and is not a zombie."""
-    try:
-        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False

@@ -1,3 +1,4 @@
+export * from "@codemirror/autocomplete";
 export * from "@codemirror/commands";
 export * from "@codemirror/language";
 export * from "@codemirror/lint";

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from openacr.errors import UserError
+from openacr.cli.signals import deaf, terminations_as_interrupts
 
 
 def debug(
@@ -20,10 +20,11 @@ def debug(
         ),
     ] = None,
 ) -> None:
-    """Debug the programs of a virtual card from an editor, forwards and backwards.
+    """Debug the programs of a card from an editor; those of a virtual card backwards, too.
 
     Speaks the Debug Adapter Protocol on standard input and output. A launch names a project
-    ("program") or a journal of `openacr run` or `openacr serve` ("journal").
+    ("program"), a journal of `openacr run` or `openacr serve` ("journal"), a part program
+    ("partProgram") or the address of a card ("host").
     """
     from openacr.debugger.server import serve
 
@@ -31,18 +32,18 @@ def debug(
         # Unbuffered: a thread that waits in a buffer would hold its lock at the end.
         raw = open(sys.stdin.fileno(), "rb", buffering=0, closefd=False)
         messages, sys.stdout = sys.stdout.buffer, sys.stderr  # only messages go there
-        serve(raw, messages)
+        with terminations_as_interrupts():
+            serve(raw, messages, ending=deaf)
         return
-    try:
-        listener = socket.create_server(("127.0.0.1", port))
-    except OSError as failure:
-        raise UserError(f"port {port} cannot be opened: {failure.strerror}") from None
-    with listener:
+    from openacr.io.listening import bound_socket
+
+    with bound_socket("127.0.0.1", port, socket.SOCK_STREAM, "--port") as listener:
         typer.echo(f"waiting for a debugger client at 127.0.0.1:{listener.getsockname()[1]}")
         connection, _ = listener.accept()
         with (
             connection,
             connection.makefile("rb") as incoming,
             connection.makefile("wb") as outgoing,
+            terminations_as_interrupts(),
         ):
-            serve(incoming, outgoing)
+            serve(incoming, outgoing, ending=deaf)

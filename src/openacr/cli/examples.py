@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from openacr.wording import as_typed
+
 
 def complete_example(incomplete: str) -> list[str]:
     """Names of examples with this beginning, for completion."""
@@ -55,4 +57,4 @@ def copy_to(
     for path in copied:
         typer.echo(str(path))
     if example.is_project:
-        typer.echo(f"run it: openacr run {target}", err=True)
+        typer.echo(f"run it: openacr run {as_typed(target)}", err=True)

@@ -38,17 +38,22 @@ def lsp(
         import pygls  # noqa: F401
     except ImportError:
         raise UserError(MISSING) from None
+    gc.disable()
+    from openacr.io.listening import listen_failure
     from openacr.language_server.features import serve
     from openacr.language_server.server import Server
 
-    gc.freeze()  # what is imported stays
     server = Server(store, dialect)
-    if tcp is not None:
-        typer.echo(f"listening lsp={HOST}:{tcp}", err=True)
+    gc.freeze()  # what is imported stays: no collection goes through it
+    gc.enable()
+    if tcp is None:
+        serve(server)
+        return
+    typer.echo(f"listening lsp={HOST}:{tcp}", err=True)
     try:
         serve(server, tcp, HOST)
     except OSError as error:
-        raise UserError(f"--tcp {tcp}: {reason(error)}") from None
+        raise listen_failure(HOST, tcp, error, "--tcp PORT", takes_zero=False) from None
 
 
 def _log_to(path: Path | None) -> None:

@@ -117,7 +117,11 @@ def _group(name: str, family: Family) -> Any:
     """The click group of a family."""
     members = type("Members", (LazyGroup,), {"table": family.entries, "default": family.default})
     single = typer.Typer(
-        cls=members, no_args_is_help=True, rich_markup_mode=None, context_settings=HELP
+        cls=members,
+        no_args_is_help=True,
+        add_completion=False,  # that of the whole command completes families, too
+        rich_markup_mode=None,
+        context_settings=HELP,
     )
     single.callback(help=family.summary)(_nothing)
     made = typer.main.get_command(single)

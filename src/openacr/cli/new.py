@@ -9,6 +9,7 @@ import typer
 
 from openacr.errors import UserError
 from openacr.starter.choices import KINDS, UNITS, Homing, Kind, Limits, Unit, choices
+from openacr.wording import as_typed
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -80,7 +81,7 @@ def new(
         return
     for path in written:
         typer.echo(str(path))
-    typer.echo(f"run it: openacr run {name}", err=True)
+    typer.echo(f"run it: openacr run {as_typed(name)}", err=True)
 
 
 def _is_terminal() -> bool:

@@ -9,11 +9,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from openacr.cli.bridge import begin
 from openacr.cli.signals import stop_on_signals
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
+    from openacr.bridge.process import BridgeProcess
     from openacr.panel.control.installation import Installation
+    from openacr.panel.server.panel import Panel
+    from openacr.panel.server.web import PanelServer
 
 log = logging.getLogger(__name__)
 PORT = 5080
@@ -47,6 +51,10 @@ def panel(
         list[str] | None,
         typer.Option("--name", metavar="HOST", help="A name by which browsers reach this server."),
     ] = None,
+    bridge: Annotated[
+        Path | None,
+        typer.Option("--bridge", metavar="FILE", help="Bridge file: values for other systems."),
+    ] = None,
     set_password: Annotated[
         str | None,
         typer.Option(
@@ -67,7 +75,9 @@ def panel(
         if set_password is not None:
             _set_password(installation, set_password)
             return
-        asyncio.run(_serve(installation, address, port, names or [], is_shown=not no_browser))
+        panel, server = _server(installation, address, port, names or [])
+        bridging = None if bridge is None else _bridge(panel, bridge)
+        asyncio.run(_serve(panel, server, bridging, is_shown=not no_browser))
     finally:
         installation.close()
 
@@ -84,9 +94,10 @@ def _installation(machine: str | None, store: Path | None, programs: Path | None
     import platformdirs
 
     from openacr.client.links import wire_to
-    from openacr.controller import Controller
     from openacr.panel.control.installation import Installation
     from openacr.panel.machine import embedded
+    from openacr.panel.machine.project import of_project
+    from openacr.starter.folders import ensure
     from openacr.sysvar.location import open_to_write
 
     data = platformdirs.user_data_path("openacr") / "panel"
@@ -96,24 +107,23 @@ def _installation(machine: str | None, store: Path | None, programs: Path | None
     if programs is not None and not programs.is_dir():
         raise UserError(f"--programs {programs}: there is no such folder")
     if not Path(machine).is_dir():
+        _require_link(machine)
         wire_to(machine)  # what is no address is refused before anything is opened
-        folder.mkdir(parents=True, exist_ok=True)
+        ensure(folder)
         return Installation.at(machine, open_to_write(store), folder)
-    project = Path(machine)
-    own = project / "programs"
-    folder = programs or (own if own.is_dir() else folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    kept = project / "sysvar.db"
-    cells = open_to_write(store or (kept if kept.is_file() else None))
-    try:
-        controller = Controller.from_project(project)
-    except BaseException:
-        cells.close()
-        raise
-    controller.is_journalled = False
-    return Installation.inside(
-        controller, cells, folder, kind="project", name=project.resolve().name
-    )
+    return of_project(Path(machine), store=store, programs=programs, otherwise=folder)
+
+
+def _require_link(machine: str) -> None:
+    """Refuse a mistyped path of a project; a port that is not plugged in yet is waited for."""
+    place = Path(machine)
+    if place.is_file():
+        raise UserError(
+            f"{machine} is a file: a project is a folder (--programs for part programs)"
+        )
+    is_port = place.exists() or machine.startswith("/dev/")
+    if "/" in machine and not is_port:
+        raise UserError(f"{machine}: there is no such folder, nor such a serial port")
 
 
 def _set_password(installation: "Installation", word: str) -> None:
@@ -135,9 +145,9 @@ def _set_password(installation: "Installation", word: str) -> None:
     typer.echo(f"the password of the role {role.word} was {'set' if secret else 'removed'}")
 
 
-async def _serve(
-    installation: "Installation", address: str, port: int, names: list[str], *, is_shown: bool
-) -> None:
+def _server(
+    installation: "Installation", address: str, port: int, names: list[str]
+) -> "tuple[Panel, PanelServer]":
     from openacr.cli.run.journals import ring_root
     from openacr.io.server import is_loopback
     from openacr.panel.server.panel import Panel, require_password
@@ -145,16 +155,46 @@ async def _serve(
 
     panel = Panel(installation, journals=ring_root())
     require_password(panel, address, is_loopback=is_loopback(address))
-    server = PanelServer(panel, address, port, names=[*names, address])
-    panel.station.on_link = lambda why: _report_link(installation.name, why)
+    return panel, PanelServer(panel, address, port, names=[*names, address])
+
+
+def _bridge(panel: "Panel", file: Path) -> "BridgeProcess":
+    from openacr.bridge.load import load_bridge
+    from openacr.bridge.process import BridgeProcess
+    from openacr.bridge.station_feed import StationFeed
+
+    def say(text: str) -> None:
+        panel.control.call(lambda station: station.say(text))
+
+    return BridgeProcess(load_bridge(file), file.parent, StationFeed(panel.control), say)
+
+
+async def _serve(
+    panel: "Panel", server: "PanelServer", bridging: "BridgeProcess | None", *, is_shown: bool
+) -> None:
+    panel.station.on_link = lambda why: _report_link(panel.installation.name, why)
+    failed: list[UserError] = []
 
     async def started() -> None:
         print(f"panel {server.url}", flush=True)
+        if bridging is not None:
+            try:
+                await asyncio.to_thread(begin, bridging)
+            except UserError as error:
+                failed.append(error)
+                server.stop()
+                return
         if is_shown and sys.stdout is not None:
             await asyncio.to_thread(webbrowser.open, server.url)
 
     stop_on_signals(server.stop)
-    await server.serve(started)
+    try:
+        await server.serve(started)
+    finally:
+        if bridging is not None:
+            await asyncio.to_thread(bridging.stop)
+    if failed:
+        raise failed[0]
 
 
 def _report_link(name: str, why: str) -> None:

@@ -1,27 +1,33 @@
-"""`openacr record`: a proxy that records a session of hosts with a card."""
+"""`openacr record`: a session of hosts with a card, recorded between them."""
 
 import asyncio
 import logging
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, BinaryIO, TypeAlias
 
 import typer
 
 from openacr.channels import ASCII_PORT, BINARY_PORT, StreamKind
 from openacr.cli.guests import Allow, Insecure, admitted
-from openacr.cli.signals import stop_on_signals
+from openacr.cli.signals import stop_on_signals, terminations_as_interrupts
 from openacr.errors import UserError, unwritable
 
 if TYPE_CHECKING:
-    from openacr.client.links import TcpLink
+    from openacr.client.links import SerialLink, TcpLink
     from openacr.io.proxy import Proxy
+    from openacr.io.server import Guests
 
 
 log = logging.getLogger(__name__)
+Records: TypeAlias = Callable[[BinaryIO], int]  # until it is ended; how many events
 
 
 def record(
-    target: Annotated[str, typer.Argument(metavar="HOST", help="Card: HOST or HOST:PORT.")],
+    target: Annotated[
+        str, typer.Argument(metavar="CARD", help="Card: HOST, HOST:PORT or a serial port.")
+    ],
     file: Annotated[Path, typer.Argument(metavar="FILE", help="Recording: a new file.")],
     address: Annotated[
         str, typer.Option("--listen", metavar="ADDRESS", help="Address to listen on.")
@@ -30,36 +36,85 @@ def record(
     allow: Allow = None,
     insecure: Insecure = False,
     is_forced: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
+    host_port: Annotated[
+        str | None,
+        typer.Option(metavar="SERIAL", help="Serial port to the host, if the card has one, too."),
+    ] = None,
+    baud: Annotated[int, typer.Option(min=1, help="Speed of both serial ports.")] = 38400,
 ) -> None:
     """Record what hosts and a card send each other, with times; hosts connect to this computer.
 
+    A serial line is recorded between two ports of this computer, CARD and --host-port.
     `openacr replay FILE` gives the recording to a virtual card and reports the first answer that
     differs. The file may hold passwords; it is readable by its owner alone. Ctrl-C ends it.
     """
-    from openacr.client.links import TcpLink, wire_to
-    from openacr.io.proxy import Proxy
-    from openacr.io.recording import Recorder
-    from openacr.store.private import open_to_write
+    from openacr.client.links import SerialLink, wire_to
 
-    link = wire_to(target)
-    if not isinstance(link, TcpLink):
-        raise UserError(f"{target}: a serial line cannot be recorded; give HOST or HOST:PORT")
-    guests = admitted(address, allow, is_open=insecure)
+    link = wire_to(target, baud)
     if file.exists() and not is_forced:
         raise UserError(f"{file} is there already (--force replaces it)")
-    _require_card(link)
-    kind = StreamKind.PACKETS if link.address[1] == BINARY_PORT else StreamKind.TERMINAL
+    if isinstance(link, SerialLink):
+        if host_port is None:
+            raise UserError(f"{target} is recorded between two serial ports: give --host-port")
+        recording = _line(link, host_port)
+    elif host_port is not None:
+        raise UserError(f"--host-port is for a card on a serial port, not for {target}")
+    else:
+        guests = admitted(address, allow, is_open=insecure)
+        recording = _network(link, guests, address, port)
+    with recording as records:
+        typer.echo(f"{file}: {_recorded(file, records)} events", err=True)
+
+
+def _recorded(file: Path, records: Records) -> int:
+    from openacr.store.private import open_to_write
+
     try:
         output = open_to_write(file)
     except OSError as failure:
         raise unwritable(file, failure) from None
     with output:
-        try:
-            proxy = Proxy(link.address, Recorder(output, link.name, kind), guests)
-        except OSError as failure:
-            raise unwritable(file, failure) from None
+        return records(output)
+
+
+@contextmanager
+def _network(link: "TcpLink", guests: "Guests", address: str, port: int) -> Iterator[Records]:
+    """A card that hosts reach through this computer; refused before a file is made."""
+    from openacr.io.proxy import Proxy
+    from openacr.io.recording import Recorder
+
+    def records(output: BinaryIO) -> int:
+        proxy = Proxy(link.address, Recorder(output, link.name, kind), guests)
         asyncio.run(_serve(proxy, link.name, address, port))
-    typer.echo(f"{file}: {proxy.events} events", err=True)
+        return proxy.events
+
+    kind = StreamKind.PACKETS if link.address[1] == BINARY_PORT else StreamKind.TERMINAL
+    _require_card(link)
+    yield records
+
+
+@contextmanager
+def _line(link: "SerialLink", host_port: str) -> Iterator[Records]:
+    """A serial line through this computer; its ports are open before a file is made."""
+    from openacr.io.recording import Recorder
+    from openacr.io.serial_port import LineSettings
+    from openacr.io.serial_tap import SerialTap
+
+    def records(output: BinaryIO) -> int:
+        with suppress(KeyboardInterrupt), terminations_as_interrupts():
+            tap.start(Recorder(output, link.name, StreamKind.SERIAL))
+            print(f"joined {host_port} card={link.name}", flush=True)
+            tap.wait()
+        tap.close()
+        if tap.has_failed:
+            raise UserError(f"the line between {host_port} and {link.name} has failed")
+        return tap.events
+
+    tap = SerialTap(host_port, link.name, LineSettings(baud=link.baud))
+    try:
+        yield records
+    finally:
+        tap.close()
 
 
 def _require_card(link: "TcpLink") -> None:

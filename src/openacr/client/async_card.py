@@ -139,6 +139,10 @@ class AsyncCard:
         """One master: `await card.master(0).is_in_motion`."""
         return Master(number, self.read, self.read_bit, self.write, self.write_bit)
 
+    async def array_length(self, program: int, array: str) -> int:
+        """Count of elements of an array of a program; 0 if it is not dimensioned."""
+        return await self._do(values.array_length(self._talk, program, array))
+
     async def read_array(self, program: int, array: str, part: range | None = None) -> list[Number]:
         """Read an array of a program."""
         return await self._do(values.read_array(self._talk, program, array, part))

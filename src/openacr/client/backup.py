@@ -127,11 +127,29 @@ def backup(talk: Talk, progress: Progress | None = None) -> Op[dict[str, str]]:
     return files
 
 
-def _read_system(reader: _Reader) -> Op[None]:
+def surroundings(talk: Talk, level: Level) -> Op[str]:
+    """The memory, aliases and axes that a program or PLC finds on the card, as set-up code."""
+    home = talk.level
+    reader = _Reader(talk, None)
+    sizes, aliases, attachments = yield from _memory_and_names(reader)
+    reader.lines += [str(SYS), *sizes, *aliases, *attachments]
+    if level.word == "PROG":
+        yield from _read_program(reader, level, [])
+    yield from talk.go(home)
+    return "".join(f"{line}\n" for line in reader.lines)
+
+
+def _memory_and_names(reader: _Reader) -> Op[tuple[list[str], list[str], list[str]]]:
+    """What SYS reports of memory, aliases and axes."""
     sizes = yield from reader.commands("DIM", "DIM")
-    sizes = [line for line in sizes if line not in Storage.factory_lines()]  # CLEAR sets these
     aliases = yield from reader.commands("DEF", "#DEFINE")
     attachments = yield from reader.commands("ATTACH", "ATTACH")
+    return sizes, aliases, attachments
+
+
+def _read_system(reader: _Reader) -> Op[None]:
+    sizes, aliases, attachments = yield from _memory_and_names(reader)
+    sizes = [line for line in sizes if line not in Storage.factory_lines()]  # CLEAR sets these
     axes = [int(found[1]) for found in map(_ATTACHED_AXIS.match, attachments) if found]
     if not axes:
         axes = yield from _axes_that_answer(reader)

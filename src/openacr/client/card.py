@@ -6,7 +6,7 @@ from pathlib import Path
 from threading import RLock
 from typing import Self, TypeVar
 
-from openacr.client import transfer, values
+from openacr.client import stored, transfer, values
 from openacr.client.drive import carry_out
 from openacr.client.effects import Op
 from openacr.client.errors import ConnectionLostError
@@ -16,6 +16,7 @@ from openacr.client.names import What
 from openacr.client.objects import Axis, Master
 from openacr.client.options import Options
 from openacr.client.requests import Follow, Level, Press
+from openacr.client.stored import ListedLine, Room
 from openacr.client.talk import Talk
 from openacr.client.transfer import Progress, Report
 from openacr.client.values import Number, next_due_s
@@ -80,6 +81,10 @@ class Card(Closing):
     def _do(self, op: Op[T]) -> T:
         with self._lock:
             return carry_out(op, self._link)
+
+    def perform(self, talks: Callable[[Talk], Op[T]]) -> T:
+        """Carry out an operation made of several exchanges, without another in between."""
+        return self._do(talks(self._talk))
 
     @property
     def name(self) -> str:
@@ -165,6 +170,10 @@ class Card(Closing):
         """One master: `card.master(0).is_in_motion`."""
         return Master(number, self.read, self.read_bit, self.write, self.write_bit)
 
+    def array_length(self, program: int, array: str) -> int:
+        """Count of elements of an array of a program; 0 if it is not dimensioned."""
+        return self._do(values.array_length(self._talk, program, array))
+
     def read_array(self, program: int, array: str, part: range | None = None) -> list[Number]:
         """Read an array of a program: `card.read_array(0, "LA0")`."""
         return self._do(values.read_array(self._talk, program, array, part))
@@ -239,6 +248,14 @@ class Card(Closing):
     def upload(self, level: Level) -> str:
         """Read the text of a program or PLC, as a file that can be downloaded again."""
         return self._do(transfer.upload(self._talk, level))
+
+    def listing(self, level: Level) -> list[ListedLine]:
+        """The lines of a program or PLC as LIST shows them, each with its number."""
+        return self._do(stored.listing(self._talk, level))
+
+    def rooms(self) -> dict[Level, Room]:
+        """The memory of every program and PLC that has some."""
+        return self._do(stored.rooms(self._talk))
 
     def backup(self, folder: str | Path, progress: Progress | None = None) -> list[str]:
         """Store everything a terminal can read in a folder; returns the file names."""

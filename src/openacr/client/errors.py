@@ -70,6 +70,10 @@ class DownloadError(ClientError, SourceError):
     """The card has refused a line of a file; nothing after that line was sent."""
 
 
+class ChangedError(ClientError):
+    """What a card holds is no longer what was read of it."""
+
+
 class VerificationError(ClientError, SourceError):
     """The listing of the card differs from what was sent."""
 

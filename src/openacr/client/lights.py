@@ -2,8 +2,6 @@
 
 from enum import StrEnum
 
-from openacr.map import numbers as at
-
 SUPPLIES = 0b1100011  # P7044: ISO, EXT, VEE, VDD
 FLASH_INVALID = 0b111 << 24  # flags 5656 to 5658: boot flash and both system flashes
 
@@ -38,11 +36,11 @@ def power_light(*, is_there: bool, diagnostics: int = 0, misc_control: int = 0) 
     return Light.RED if diagnostics & SUPPLIES else Light.GREEN
 
 
-def axis_light(drive_flags: int) -> Light:
+def axis_light(*, is_faulty: bool, is_enabled: bool) -> Light:
     """Axis light: red with a fault (or no cable: the fault input is on), green if enabled."""
-    if drive_flags & (at.AF4_DRIVE_FAULT_INPUT | at.AF4_DRIVE_FAULT):
+    if is_faulty:
         return Light.RED
-    return Light.GREEN if drive_flags & at.AF4_DRIVE_ENABLED else Light.OFF
+    return Light.GREEN if is_enabled else Light.OFF
 
 
 def bus_light(bus_state: int, *, is_installed: bool) -> Light:

@@ -1,10 +1,11 @@
 """Resolve a parameter or flag given by number, by name, or by object and name."""
 
+import re
 from collections.abc import Iterable
 from functools import cache
 from typing import TypeAlias
 
-from openacr.errors import UserError
+from openacr.errors import MapError, UserError
 from openacr.map import Flag, Parameter, find_flag, find_parameter, flags, parameters
 
 What: TypeAlias = int | str
@@ -24,12 +25,36 @@ def flag_number(what: What) -> int:
     return _flags().get(what.lower()) or _only(what, find_flag(what))
 
 
+def named(text: str) -> Parameter | Flag:
+    """The parameter of this name or number, else the flag; UserError where there is neither."""
+    try:
+        return parameters()[parameter_number(text)]
+    except MapError as error:
+        no_parameter = error
+    try:
+        return flags()[flag_number(text)]
+    except MapError as error:
+        number = re.fullmatch(r"(P|BIT)\d+", text, re.IGNORECASE)
+        if number is None:
+            raise UserError(f"no parameter and no flag is named {text!r}") from None
+        raise (no_parameter if number[1].upper() == "P" else error) from None
+
+
 def _only(text: str, found: Iterable[Parameter] | Iterable[Flag]) -> int:
     numbers = [record.number for record in found]
     if len(numbers) != 1:
         some = ", ".join(str(number) for number in numbers[:3])
         raise UserError(f"{text!r} has {len(numbers)} matches ({some}, ...): name the object too")
     return numbers[0]
+
+
+@cache
+def full_names() -> dict[str, Parameter | Flag]:
+    """Parameters, else flags, by full names such as `axis0.current position`."""
+    return {
+        **{name: flags()[number] for name, number in _flags().items()},
+        **{name: parameters()[number] for name, number in _parameters().items()},
+    }
 
 
 @cache

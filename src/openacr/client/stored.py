@@ -3,10 +3,16 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from hashlib import blake2b
 from typing import NamedTuple
 
 from openacr.client.effects import Op
-from openacr.client.errors import ClientError, DownloadError, VerificationError
+from openacr.client.errors import (
+    ChangedError,
+    ClientError,
+    DownloadError,
+    VerificationError,
+)
 from openacr.client.listing import HIDDEN_STEP, is_free_form, plain
 from openacr.client.requests import SYS, Level
 from openacr.client.talk import Talk
@@ -61,13 +67,22 @@ def numbered(listed: Sequence[str]) -> list[ListedLine]:
     return [ListedLine(int(match[1]), match[2].rstrip()) for match in found]
 
 
-def replace(talk: Talk, level: Level, text: str) -> Op[Report]:
+def version_of(lines: Sequence[ListedLine]) -> str:
+    """A mark of what a card lists: another one when any line or number is another."""
+    listed = "".join(f"{line.number} {line.text.rstrip()}\n" for line in lines)
+    return blake2b(listed.encode(), digest_size=8).hexdigest()
+
+
+def replace(talk: Talk, level: Level, text: str, version: str = "") -> Op[Report]:
     """Store another text; if the card refuses it, the one before is stored again.
 
     The text is the program alone, either from PROGRAM to ENDP or in numbered lines: a line that
     would be carried out instead of stored is a UserError. DownloadError says what was refused.
+    With the `version` of the listing that was edited: ChangedError if the card lists another text.
     """
     require_program(text)
+    if version and version_of((yield from listing(talk, level))) != version:
+        raise ChangedError(f"{level} was changed on the card since it was read")
     before = yield from upload(talk, level)
     try:
         if not is_free_form(text):

@@ -16,6 +16,7 @@ from openacr.errors import UserError
 from openacr.map import parameters
 from openacr.map.block import FLAG_WORD_BASE, Kind
 from openacr.protocol.data import DataRequest, locate
+from openacr.protocol.memory import Conversion, Peek, VariableAddress, VariableKind
 from openacr.protocol.packet import WORD_BYTES
 from openacr.protocol.packets import Packet
 from openacr.protocol.parameter import GetIeee, GetLong
@@ -24,7 +25,12 @@ Number: TypeAlias = int | float
 
 BITS_PER_WORD = 32
 TOGETHER = 16  # packets in transit at once: a small buffer holds them
+PEEKED_MOST = 255  # values of one packet
 ARRAY_WORDS = frozenset(("LA", "SA", "DA"))
+_PEEKED = {
+    "LA": (VariableKind.LA, Conversion.LONG),
+    "SA": (VariableKind.SA, Conversion.FP32),
+}
 _INTEGER = re.compile(r"-?\d+")
 _DIMENSION = re.compile(r"DIM (\w+?)\((\d+)\)")
 
@@ -180,14 +186,50 @@ def array_length(talk: Talk, program: int, array: str) -> Op[int]:
 
 
 def read_array(talk: Talk, program: int, array: str, part: range | None = None) -> Op[list[Number]]:
-    """Read the elements of an array of a program, all unless a range is given."""
+    """Read the elements of an array of a program, all unless a range is given.
+
+    LA and SA arrays are peeked where packets are used; a packet would round those of DA.
+    """
     name = _array_name(array)
     if part is None:
         part = range((yield from array_length(talk, program, name)))
+    if talk.uses_packets and name[:2] in _PEEKED:
+        peeked = yield from _peek_array(talk, program, name, part)
+        if peeked is not None:
+            return peeked
     values: list[Number] = []
     for index in part:
         values.append((yield from ask(talk, f"{name}({index})", at=Level.program(program))))
     return values
+
+
+def _peek_array(talk: Talk, program: int, name: str, part: range) -> Op[list[Number] | None]:
+    """Read elements with packets; None where the program has no such elements (1:L846)."""
+    kind, conversion = _PEEKED[name[:2]]
+    table = yield from _word(talk, VariableAddress(program, kind))
+    number = int(name[2:])
+    if table == 0 or number >= (yield from _word(talk, Peek(Conversion.LONG, 1, table))):
+        return None
+    array = yield from _word(talk, Peek(Conversion.LONG, 1, table + 1 + number))
+    length = (yield from _word(talk, Peek(Conversion.LONG, 1, array))) if array else 0
+    if not part or min(part) < 0 or max(part) >= length:
+        return None
+    low, high = min(part), max(part) + 1
+    packets = [
+        Peek(conversion, min(PEEKED_MOST, high - first), array + 1 + first)
+        for first in range(low, high, PEEKED_MOST)
+    ]
+    data = b""
+    for first in range(0, len(packets), TOGETHER):
+        data += (yield from talk.exchange(Ask(tuple(packets[first : first + TOGETHER])))).data
+    values = struct.unpack(f"<{high - low}{conversion.stored}", data)
+    return [values[index - low] for index in part]
+
+
+def _word(talk: Talk, packet: Packet) -> Op[int]:
+    """The word that a packet returns."""
+    answer = yield from talk.exchange(Ask((packet,)))
+    return int.from_bytes(answer.data, "little")
 
 
 def write_array(

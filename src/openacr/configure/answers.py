@@ -5,7 +5,7 @@ Positions are in user units of their axis, gains in the units of their commands.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Annotated
 
 from msgspec import Meta, Struct
@@ -13,6 +13,7 @@ from msgspec import Meta, Struct
 from openacr.models import DEFAULT_MODEL, MODELS, Model
 from openacr.plant.schema import ModelName
 
+EXCESS_ERROR_U = 1.0
 CARD_LIMITS_SINCE = (1, 18, 15)  # first firmware that monitors the limits itself
 
 AxisNumber = Annotated[int, Meta(ge=0, le=15)]
@@ -117,7 +118,7 @@ class AxisAnswers(_Table, frozen=True, kw_only=True):
     counts_per_rev: Counts
     encoder: Annotated[int, Meta(ge=0, le=15)] | None = None  # that of the same number
     dac: Annotated[int, Meta(ge=0, le=15)] | None = None
-    excess_error: Positive = 1.0
+    excess_error: Positive = EXCESS_ERROR_U
     gains: Gains = Gains()
     drive: Drive = Drive()
     limits: Limits = Limits()
@@ -143,7 +144,7 @@ class MasterAnswers(_Table, frozen=True, kw_only=True):
     """A master, the axes it moves together and the profile of its moves."""
 
     number: MasterNumber
-    axes: Annotated[Sequence[AxisName], Meta(min_length=1, max_length=16)]
+    axes: Annotated[tuple[AxisName, ...], Meta(min_length=1, max_length=16)]
     acc: NotNegative = 10
     dec: NotNegative = 10
     stp: NotNegative = 10

@@ -1,43 +1,48 @@
 """Read the answers; errors are reported with their line."""
 
 from collections.abc import Iterator
+from typing import Any, TypeAlias
 
 from openacr.configure.answers import Answers
-from openacr.errors import SourceError
 from openacr.motion.axis.attach import RESERVED_NAMES
 from openacr.plant import toml_file
 from openacr.plant.locate import Path as Steps
+
+Complaint: TypeAlias = tuple[Steps, str]
 
 
 def parse_answers(text: str, path: str = "configure.toml") -> Answers:
     """Read the answers in a text; SourceError with all errors found."""
     raw = toml_file.parse(text, path)
-    answers, messages = toml_file.convert_all(raw, Answers)
-    found = [
-        toml_file.wrong(text, path, steps, "numbers have to be finite")
-        for steps in toml_file.not_finite(raw)
-    ]
-    found += [_wrong(message, text, path) for message in messages]
-    if answers is not None and not found:
-        found += [toml_file.wrong(text, path, *each) for each in _contradictions(answers)]
-    toml_file.refuse(found)
+    answers, found = checked(raw)
+    toml_file.refuse(toml_file.wrong(text, path, *each) for each in found)
     if answers is None:
         raise toml_file.wrong(text, path, (), "it holds no answers")
     return answers
 
 
-def _wrong(message: str, text: str, path: str) -> SourceError:
+def checked(raw: dict[str, Any]) -> tuple[Answers | None, list[Complaint]]:
+    """Answers made of plain tables, and all that is wrong with them: where, and what."""
+    answers, messages = toml_file.convert_all(raw, Answers)
+    found = [(steps, "numbers have to be finite") for steps in toml_file.not_finite(raw)]
+    found += map(_complaint, messages)
+    if answers is not None and not found:
+        found += _contradictions(answers)
+    return answers, found
+
+
+def _complaint(message: str) -> Complaint:
     what, steps = toml_file.complaint_of(message)
     if unknown := toml_file.UNKNOWN.fullmatch(what):
-        return toml_file.wrong(text, path, (*steps, unknown[1]), f"unknown key {unknown[1]!r}")
+        return (*steps, unknown[1]), f"unknown key {unknown[1]!r}"
     if missing := toml_file.MISSING.fullmatch(what):
-        return toml_file.wrong(text, path, steps, f"{missing[1]!r} is missing")
+        return steps, f"{missing[1]!r} is missing"
     what = what[:1].lower() + what[1:].replace(" | null", "")
     name = next((step for step in reversed(steps) if isinstance(step, str)), "")
-    return toml_file.wrong(text, path, steps, f"{name}: {what}" if name else what)
+    return steps, f"{name}: {what}" if name else what
 
 
-def _contradictions(answers: Answers) -> Iterator[tuple[Steps, str]]:
+def _contradictions(answers: Answers) -> Iterator[Complaint]:
     """Report answers that contradict each other or exceed the card."""
     card = answers.card.hardware
     numbers: set[int] = set()
@@ -56,7 +61,7 @@ def _contradictions(answers: Answers) -> Iterator[tuple[Steps, str]]:
     yield from _wrong_masters(answers, names)
 
 
-def _wrong_masters(answers: Answers, names: set[str]) -> Iterator[tuple[Steps, str]]:
+def _wrong_masters(answers: Answers, names: set[str]) -> Iterator[Complaint]:
     taken: set[str] = set()
     programs: set[int] = set()
     for index, master in enumerate(answers.master):

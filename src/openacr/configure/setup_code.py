@@ -16,6 +16,24 @@ SOFT_POSITIVE, SOFT_NEGATIVE = 100, 116  # P100-P115, P116-P131: limits by axis
 DAC_GAIN = "3276.8"
 FLAGS_PER_AXIS = 32
 
+# Where the card keeps answers: parameters of the network, flags of axis 0, words of a master.
+CANOPEN_PARAMETERS = {
+    "master_id": 32768,
+    "bit_rate_kbps": 32769,
+    "cycle_ms": 32772,
+    "nodes": 32770,
+}
+DRIVE_FLAGS = {
+    "uses_signals": 8468,
+    "step_and_direction": 8464,
+    "disable_on_excess_error_only": 8470,
+    "disable_on_excess_error": 8469,
+    "is_fault_inverted": 8453,
+    "disable_on_kill": 8471,
+}
+CONTACT_FLAGS, SWITCH_FLAGS, SOFT_FLAGS = (16144, 16145), (16148, 16149), (16150, 16151)
+PROFILE_WORDS = ("acc", "dec", "stp", "vel", "jrk")
+
 
 def setup_code(answers: Answers, plcs: int) -> Iterator[str]:
     """All lines; `plcs` is how many PLCs watch the limits (older firmware)."""
@@ -51,13 +69,10 @@ def _memory(answers: Answers, plcs: int) -> Iterator[str]:
 
 
 def _hardware(answers: Answers) -> Iterator[str]:
-    canopen = answers.card.canopen
     yield "REM 16-bit analog inputs; CANopen master, bit rate, cycle and nodes"
     yield "ADC MODE 1"
-    yield f"P32768={canopen.master_id}"
-    yield f"P32769={canopen.bit_rate_kbps}"
-    yield f"P32772={canopen.cycle_ms}"
-    yield f"P32770={canopen.nodes}"
+    for key, number in CANOPEN_PARAMETERS.items():
+        yield f"P{number}={getattr(answers.card.canopen, key)}"
     yield ""
 
 
@@ -65,7 +80,7 @@ def _axis(axis: AxisAnswers) -> Iterator[str]:
     n, encoder, dac = axis.number, axis.feedback, axis.output
     yield f"REM Axis {n}: {axis.name}"
     yield f"ATTACH AXIS{n} ENC{encoder} DAC{dac} ENC{encoder}"
-    yield f"AXIS{n} PPU {pulses_per_unit(axis):.6f}"
+    yield f"AXIS{n} PPU {ppu_word(axis.units_per_rev, axis.counts_per_rev)}"
     yield f"AXIS{n} EXC ({plain(axis.excess_error)},{plain(-axis.excess_error)})"
     yield from _drive(axis)
     yield f"ENC{encoder} SRC 0"
@@ -79,31 +94,23 @@ def _axis(axis: AxisAnswers) -> Iterator[str]:
 
 
 def _drive(axis: AxisAnswers) -> Iterator[str]:
-    drive, shift = axis.drive, FLAGS_PER_AXIS * axis.number
-    yield _flag(8468 + shift, drive.uses_signals)
-    yield _flag(8464 + shift, drive.step_and_direction)
-    yield _flag(8470 + shift, drive.disable_on_excess_error_only)
-    yield _flag(8469 + shift, drive.disable_on_excess_error)
-    yield _flag(8453 + shift, drive.is_fault_inverted)
-    yield _flag(8471 + shift, drive.disable_on_kill)
+    for key, number in DRIVE_FLAGS.items():
+        yield _flag(number, axis, getattr(axis.drive, key))
 
 
 def _limits(axis: AxisAnswers) -> Iterator[str]:
-    limits, n, shift = axis.limits, axis.number, FLAGS_PER_AXIS * axis.number
+    limits, n = axis.limits, axis.number
     if axis.limit_input:
         yield f"AXIS{n} HLBIT {axis.limit_input}"
     yield f"AXIS{n} HLDEC {plain(limits.deceleration)}"
-    for flag in (16144, 16145):
-        yield _flag(flag + shift, limits.contacts_are_closed)
-    for flag in (16148, 16149):
-        yield _flag(flag + shift, limits.is_enabled)
+    yield from (_flag(number, axis, limits.contacts_are_closed) for number in CONTACT_FLAGS)
+    yield from (_flag(number, axis, limits.is_enabled) for number in SWITCH_FLAGS)
     if limits.soft is not None:
         yield f"AXIS{n} SLM ({plain(limits.soft[0])},{plain(limits.soft[1])})"
     deceleration = limits.soft_deceleration
     deceleration = limits.deceleration if deceleration is None else deceleration
     yield f"AXIS{n} SLDEC {plain(deceleration)}"
-    for flag in (16150, 16151):
-        yield _flag(flag + shift, limits.watches_soft)
+    yield from (_flag(number, axis, limits.watches_soft) for number in SOFT_FLAGS)
 
 
 def _soft_limits(answers: Answers) -> Iterator[str]:
@@ -123,19 +130,25 @@ def _master(answers: Answers, master: MasterAnswers) -> Iterator[str]:
     yield f"ATTACH MASTER{master.number}"
     for slave, name in enumerate(master.axes):
         yield f'ATTACH SLAVE{slave} AXIS{answers.named(name).number} "{name}"'
-    for word in ("acc", "dec", "stp", "vel", "jrk"):
+    for word in PROFILE_WORDS:
         yield f"{word.upper()} {plain(getattr(master, word))}"
     yield ""
 
 
-def _flag(number: int, on: bool) -> str:
-    return f"{'SET' if on else 'CLR'} BIT{number}"
+def _flag(first: int, axis: AxisAnswers, on: bool) -> str:
+    """Switch a flag of an axis, `first` being that of axis 0."""
+    return f"{'SET' if on else 'CLR'} BIT{first + FLAGS_PER_AXIS * axis.number}"
 
 
-def pulses_per_unit(axis: AxisAnswers) -> float:
-    """Counts per unit; the length of a turn is a single-precision number, as in the card."""
-    (turn,) = struct.unpack("f", struct.pack("f", axis.units_per_rev))
-    return float(axis.counts_per_rev / turn)
+def pulses_per_unit(units_per_rev: float, counts_per_rev: int) -> float:
+    """PPU; the length of a turn is a single-precision number, as in the card."""
+    (turn,) = struct.unpack("f", struct.pack("f", units_per_rev))
+    return float(counts_per_rev / turn)
+
+
+def ppu_word(units_per_rev: float, counts_per_rev: int) -> str:
+    """PPU as the code writes it; a card may round that to another number than the ratio."""
+    return f"{pulses_per_unit(units_per_rev, counts_per_rev):.6f}"
 
 
 def plain(value: float) -> str:

@@ -34,6 +34,7 @@ from openacr.map.numbers import (
 )
 from openacr.models import DEFAULT_MODEL, Model
 from openacr.plant import load, schema
+from openacr.plant.world_view import WorldView
 from openacr.project import Project, find_project
 from openacr.protocol.events import ControlKey
 from openacr.protocol.status import GROUPS, WORDS, FastStatus
@@ -63,6 +64,7 @@ class Controller:
         self._engine = EngineRun(parts)
         self._inputs.place = lambda: self._engine.within
         self._surroundings = Surroundings(self.card, self.world, self._inputs.note)
+        self.world_view = WorldView(self.memory, self.world, self.devices)
         self.owns_console = False  # STREAM1, when it is open, is of the calling process
         self._origins = Origins()
 
@@ -240,6 +242,10 @@ class Controller:
             raise UserError(f"record every {every_tk} ticks: the minimum is 1")
         self._engine.recording.start(every_tk, keep_peaks=keep_peaks, samples=samples)
 
+    def end_record(self) -> None:
+        """Record no more; what has been recorded is dropped."""
+        self._engine.recording.stop()
+
     def trace(self) -> Trace:
         """The samples recorded so far."""
         return self._engine.recording.trace()
@@ -383,8 +389,8 @@ class Controller:
     def fault(self, axis: int, kind: str, value: float = 0.0) -> None:
         """Cause a fault on an axis of the machine, by its number in machine.toml.
 
-        Kinds: encoder-lost, encoder-noise, drive, motor-cable, jam, obstacle (`value`: where, in
-        units of the axis), friction (`value`: torque in Nm). It lasts until `mend`.
+        Kinds are those of `MachineFault`; `value` is the quantity of the kind (docs/scenario.md), 0
+        where it has none. It lasts until `mend`.
         """
         self._surroundings.fault(axis, kind, value)
 

@@ -129,6 +129,8 @@ class CardParts:
             return False
         self._wants_reboot = False
         self.lived_before_tk += self.tick
+        for plc in range(PLC_COUNT):
+            self.system.listeners.plc_changes(plc)
         orders = take_orders(self.memory)
         outside = apply.take_state(self.memory)
         self.executor.threads.reset()

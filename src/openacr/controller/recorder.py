@@ -49,13 +49,16 @@ class Records:
         self._waiting_bytes = 0
         try:
             self._file = private.open_to_write(path)
+            self._write_mark()
         except OSError as failure:
             raise StoreError(f"{path} cannot be written: {reason(failure)}") from None
-        self.put(MAGIC)
-        self.flush()
-        if self.failure:
+
+    def _write_mark(self) -> None:
+        try:
+            self._write_all(MAGIC)
+        except OSError:
             self._file.close()
-            raise StoreError(f"{path} cannot be written: {self.failure}")
+            raise
 
     def put(self, record: bytes) -> None:
         """Append one record."""
@@ -79,14 +82,17 @@ class Records:
             self._write(ready)
 
     def _write(self, data: bytearray) -> None:
-        rest = memoryview(data)
         try:
-            while rest:
-                rest = rest[self._file.write(rest) :]
+            self._write_all(data)
         except OSError as failure:  # the card continues
             self.failure = reason(failure)
             log.warning("%s is not complete: %s", self.path, self.failure)
+
+    def _write_all(self, data: bytes | bytearray) -> None:
         self.size_bytes += len(data)
+        rest = memoryview(data)
+        while rest:
+            rest = rest[self._file.write(rest) :]
 
     def end(self) -> None:
         """Close the file as soon as everything is written, without waiting for it."""

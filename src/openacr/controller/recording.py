@@ -42,6 +42,11 @@ class Recording:
         self._set(ENGI_TRACE_WAIT, 1)
         self._begin_buffer()
 
+    def stop(self) -> None:
+        """Record no more; what has been recorded is dropped."""
+        self._full, self._present = [], None
+        self._set(ENGI_TRACE_EVERY, 0)
+
     def go_on(self) -> None:
         """Keep the full buffer and continue with a new one."""
         if self._present is not None:

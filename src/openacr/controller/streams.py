@@ -93,6 +93,11 @@ class Streams:
         """Whether a connection is open."""
         return number in self._open
 
+    @property
+    def numbers(self) -> list[int]:
+        """The streams that are open."""
+        return list(self._open)
+
     def open(self, kind: StreamKind, name: str | None = None) -> int:
         """Open a stream for a new connection; NoFreeStreamError if all are in use."""
         session = None

@@ -20,6 +20,7 @@ from openacr.motion.card import Card
 from openacr.motion.interlocks import scale_of
 from openacr.motion.row_index import axis_ints, axis_parameter
 from openacr.plant import analogs, apply, faults, inputs, terminals
+from openacr.plant.fault_kinds import MachineFault
 from openacr.plant.schema import World
 
 RAW_COUNTS = 4  # of an encoder per line, at MULT 4
@@ -38,11 +39,11 @@ def _needs_finite(what: str, value: float) -> None:
         raise UserError(f"{what}: {value} is not a finite number")
 
 
-def _fault_kind(word: str) -> faults.MachineFault:
+def _fault_kind(word: str) -> MachineFault:
     try:
-        return faults.MachineFault(word)
+        return MachineFault(word)
     except ValueError:
-        raise UserError(f"fault {word!r}: known are {', '.join(faults.MachineFault)}") from None
+        raise UserError(f"fault {word!r}: known are {', '.join(MachineFault)}") from None
 
 
 class Note(Protocol):

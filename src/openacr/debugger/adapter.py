@@ -1,22 +1,22 @@
-"""The Debug Adapter Protocol for a virtual card; `answers` has a function for each request.
+"""The Debug Adapter Protocol; `answers` has a function for each request.
 
-Threads are programs (1-16) and PLCs (17-24). Only programs step; a PLC steps servo interrupt by
-servo interrupt. https://microsoft.github.io/debug-adapter-protocol/specification
+Threads are the owners of lines of the target, counted from 1: programs (1-16) and PLCs (17-24) of
+a card, or the part program (1). https://microsoft.github.io/debug-adapter-protocol/specification
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import count
 from typing import Any
 
 import msgspec
 
-from openacr.debugger import questions, requests
+from openacr.client.program_variables import Value
+from openacr.debugger import requests
 from openacr.debugger.breakpoints import Fault, LineBreakpoint
-from openacr.debugger.calls import owners
-from openacr.debugger.session import DebugSession
 from openacr.debugger.stops import Reason, Stop
-from openacr.debugger.variables import Value
+from openacr.debugger.target import Target
 from openacr.errors import OpenacrError, UserError
 
 Json = dict[str, Any]
@@ -62,21 +62,27 @@ class Adapter:
     def __init__(self, send: Callable[[Json], None]) -> None:
         self._send = send
         self._sequence = 0
-        self._session: DebugSession | None = None
+        self._target: Target | None = None
         self.is_running = False
         self.is_ended = False
         self.speed = 1.0  # 0: as fast as it goes
         self.is_stopped_at_entry = False
         self._held: dict[int, tuple[int, tuple[Value, ...]]] = {}  # by variables reference
+        self._references = count(1)
         self.stop: Stop | None = None
         self._breakpoints: dict[str, list[LineBreakpoint]] = {}
 
     @property
-    def session(self) -> DebugSession:
-        """The debugged card; UserError before there is one."""
-        if self._session is None:
+    def is_watching(self) -> bool:
+        """Whether `advance` is to be called: something runs."""
+        return self.is_running or (self._target is not None and self._target.is_live)
+
+    @property
+    def target(self) -> Target:
+        """What is debugged; UserError before there is one."""
+        if self._target is None:
             raise UserError("no card is debugged yet: launch one")
-        return self._session
+        return self._target
 
     # messages
 
@@ -125,23 +131,37 @@ class Adapter:
 
     # running
 
-    def begin(self, session: DebugSession) -> None:
-        """Debug a card from now on."""
-        self._session = session
-        session.card.listen(lambda program, text: self.show(text, "stdout"))
+    def begin(self, target: Target) -> None:
+        """Debug this from now on."""
+        self._target = target
+        target.listen(lambda text: self.show(text, "stdout"))
+        if target.capabilities:
+            self.event("capabilities", capabilities=dict(target.capabilities))
 
-    def resume(self) -> None:
-        """Let the card run until `advance` finds a reason to stop."""
-        self._held.clear()
+    def close(self) -> None:
+        """End what is debugged, if there is anything."""
+        target, self._target = self._target, None
+        if target is not None:
+            target.close()
+
+    def resume(self, owner: int | None = None) -> None:
+        """Let it run until `advance` finds a reason to stop."""
+        self._forget(owner)
         self.is_running = True
 
+    def _forget(self, owner: int | None) -> None:
+        """Values of an earlier stop are void: of one program, where the others do not stop."""
+        if owner is None or not self.target.is_live:
+            self._held.clear()
+        self._held = {n: held for n, held in self._held.items() if held[0] != owner}
+
     def advance(self, ticks: int) -> None:
-        """Advance the running card; called again and again by the server."""
+        """Let time pass; called again and again by the server."""
         try:
-            stop = self.session.run(ticks)
+            stop = self.target.run(ticks)
         except OpenacrError as error:  # of a journal that does not fit
             stop = Stop(Reason.EXCEPTION, None, str(error))
-        text = questions.heard(self.session.card)
+        text = self.target.heard()
         if text:
             self.show(text)
         if stop is not None:
@@ -151,14 +171,13 @@ class Adapter:
         """Report that the card stands."""
         self.is_running = False
         self.stop = stop
-        self._held.clear()
-        known = [*owners(self.session.card), 0]
-        program = known[0] if stop.program is None else stop.program
+        self._forget(stop.program)
+        owner = self.target.owners()[0][0] if stop.program is None else stop.program
         self.event(
             "stopped",
             reason=stop.reason.value,
-            threadId=program + 1,
-            allThreadsStopped=True,
+            threadId=owner + 1,
+            allThreadsStopped=not self.target.is_live,
             **({"description": stop.text, "text": stop.text} if stop.text else {}),
         )
 
@@ -166,8 +185,9 @@ class Adapter:
         """A reference to values of a program until the card runs again; 0 for none."""
         if not elements:
             return 0
-        self._held[len(self._held) + 1] = owner, elements
-        return len(self._held)
+        reference = next(self._references)
+        self._held[reference] = owner, elements
+        return reference
 
     def held(self, reference: int) -> tuple[int, tuple[Value, ...]]:
         """The program and the values that a reference means."""
@@ -175,13 +195,13 @@ class Adapter:
             raise UserError("these values are of an earlier stop")
         return self._held[reference]
 
-    def standing(self) -> DebugSession:
-        """The debugged card, which must stand; UserError while it runs."""
-        if self.is_running:
+    def standing(self) -> Target:
+        """What is debugged, which must stand; UserError while it runs."""
+        if self.is_running and not self.target.is_live:
             raise UserError("the card runs: pause it first")
-        return self.session
+        return self.target
 
     def set_breakpoints_of(self, source: str, breakpoints: list[LineBreakpoint]) -> None:
         """Replace the breakpoints of a file or listing."""
         self._breakpoints[source] = breakpoints
-        self.session.set_lines([each for found in self._breakpoints.values() for each in found])
+        self.target.set_lines([each for found in self._breakpoints.values() for each in found])

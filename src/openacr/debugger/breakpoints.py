@@ -21,7 +21,7 @@ _NAME = re.compile(r"\s*(P|BIT)\s*(\d+)\s*", re.IGNORECASE)
 
 @dataclass(slots=True)
 class LineBreakpoint:
-    """Stops before a line of a program.
+    """Stops before a line of a program, or after a scan that changes a coil of a line of a PLC.
 
     `condition` is an expression of AcroBASIC that must not be 0; `hits` the count from which on
     it stops; with `log`, it prints that text and does not stop.

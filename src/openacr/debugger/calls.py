@@ -6,8 +6,9 @@ from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from openacr.basic.vm.flow_cy import FLOW_GOSUB
+from openacr.basic.vm.flow_cy import FLOW_FOR, FLOW_GOSUB, FLOW_IF, FLOW_WHILE
 from openacr.basic.vm.scheduler_cy import THREAD_HELD, THREAD_IDLE, THREAD_READY, THREAD_WAITING
+from openacr.client.program_states import held_by
 from openacr.controller.controller import Controller
 from openacr.map import numbers as at
 
@@ -20,13 +21,7 @@ _STATES = {
     THREAD_WAITING: "waiting",
     THREAD_HELD: "held before a line",
 }
-_WAITS = {
-    at.PF_PROGRAM_DWELLING: "dwells (DWL)",
-    at.PF_PROGRAM_INHIBITED: "inhibited (INH)",
-    at.PF_MOVE_PENDING: "waits for room in the move buffer",
-    at.PF_BLOCK_MODE_WAITING: "held in block mode (STEP)",
-    at.PF_PAUSE_MODE_WAITING: "held in pause mode (PAUSE)",
-}
+_LEVELS = {FLOW_IF: "IF", FLOW_FOR: "FOR", FLOW_WHILE: "WHILE", FLOW_GOSUB: "GOSUB"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,11 +41,33 @@ def is_running(card: Controller, program: int) -> bool:
 
 def state_of(card: Controller, program: int) -> str:
     """What a program does, in words."""
-    flags = card.memory.I[at.PF_WORD + program]
-    for flag, text in _WAITS.items():
-        if flags & flag:
-            return text
+    if held := held_by(card.memory.I[at.PF_WORD + program]):
+        return held
     return _STATES[card.executor.threads.row(program, at.THI_STATE)]
+
+
+@dataclass(frozen=True, slots=True)
+class OpenLevel:
+    """An IF, FOR, WHILE or GOSUB that has begun and has not ended, and its line."""
+
+    word: str
+    line: int
+
+    def __str__(self) -> str:
+        return f"{self.word} line {self.line}"
+
+
+def levels_of(card: Controller, program: int) -> list[OpenLevel]:
+    """The flow stack of a program, the outermost level first."""
+    threads = card.executor.threads
+    found = []
+    for level in range(threads.row(program, at.THI_DEPTH) if is_running(card, program) else 0):
+        kind = threads.row(program, at.THI_FLOW_KIND + level)
+        is_call = kind == FLOW_GOSUB
+        place = at.THI_FLOW_BACK if is_call else at.THI_FLOW_START
+        line = _line_at(card, program, threads.row(program, place + level))
+        found.append(OpenLevel(_LEVELS[kind], line))
+    return found
 
 
 def depth_of(card: Controller, program: int) -> int:
@@ -66,7 +83,7 @@ def frames_of(card: Controller, program: int) -> list[Frame]:
     if card.announced_program == program:
         present = card.executor.threads.next_line(program)
     callers = [_line_at(card, program, place) for place in _returns(card, program)]
-    return [_frame(card, program, line) for line in (present, *reversed(callers))]
+    return [frame_of(card, program, line) for line in (present, *reversed(callers))]
 
 
 def _returns(card: Controller, program: int) -> Iterator[int]:
@@ -84,7 +101,8 @@ def _line_at(card: Controller, program: int, place: int) -> int:
     return starts[bisect_right(starts, (place - 1, 1 << 31)) - 1][1]
 
 
-def _frame(card: Controller, owner: int, line: int) -> Frame:
+def frame_of(card: Controller, owner: int, line: int) -> Frame:
+    """A stored line, with its place in the project."""
     path, file_line = card.origin(owner, line) or ("", 0)
     return Frame(owner, line, path, file_line)
 

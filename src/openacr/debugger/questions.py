@@ -17,15 +17,6 @@ def answer(card: Controller, owner: int, expression: str) -> str:
     return text
 
 
-def is_true(card: Controller, program: int, condition: str) -> bool:
-    """Whether a condition is not 0; UserError if it has no number."""
-    text = answer(card, program, condition)
-    try:
-        return float(text) != 0.0
-    except ValueError:
-        raise UserError(f"{condition}: {text} is not a number") from None
-
-
 def assign(card: Controller, owner: int, target: str, value: str) -> None:
     """Type an assignment at the prompt of a program; UserError with the card's message."""
     _type(card, owner, f"{target}={value}")

@@ -31,13 +31,22 @@ class Initialize(Arguments):
 
 
 class Launch(Arguments):
-    """`launch`: a project folder or controller file, or a journal that a card has written.
+    """`launch`: a project folder or controller file, a journal, a part program, or a card (`host`).
 
-    `run` names programs that are started; `speed` is the ratio to real time, 0 as fast as it goes.
+    `devices` is the folder of Python files with devices of a journal; `store` and `dialect` are of
+    a part program, `listen` (programs that are followed; those of `run`) of a card over a link.
+    `run` names programs that are started; `speed` is the ratio to real time, 0 as
+    fast as it goes.
     """
 
     program: Text = ""
     journal: Text = ""
+    devices: Text = ""
+    part_program: Text = ""
+    store: Text = ""
+    dialect: Text = ""
+    host: Text = ""
+    listen: list[Program] = []
     run: list[Program] = []
     speed: Annotated[float, Meta(ge=0, le=1e6)] = 1.0
     stop_on_entry: bool = False

@@ -5,6 +5,8 @@ from __future__ import annotations
 import logging
 import threading
 import time
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from queue import Empty, Queue
 from typing import IO, Any
 
@@ -21,9 +23,14 @@ IDLE_S = 0.005
 Message = dict[str, Any] | BrokenStreamError | None  # None: the connection has ended
 
 
-def serve(incoming: IO[bytes], outgoing: IO[bytes]) -> None:
+def serve(
+    incoming: IO[bytes],
+    outgoing: IO[bytes],
+    ending: Callable[[], AbstractContextManager[None]] = nullcontext,
+) -> None:
     """Answer requests until the client ends the session or its connection is lost.
 
+    What is debugged is ended within the context of `ending`, which may keep interrupts from it.
     BrokenStreamError if what comes in cannot be separated into messages any more.
     """
     messages: Queue[Message] = Queue(1000)
@@ -33,6 +40,9 @@ def serve(incoming: IO[bytes], outgoing: IO[bytes]) -> None:
         _answer(adapter, messages)
     except (BrokenPipeError, ConnectionError) as failure:
         log.info("the client is gone: %s", failure)
+    finally:
+        with ending():
+            adapter.close()
 
 
 def _read(incoming: IO[bytes], messages: Queue[Message]) -> None:
@@ -50,7 +60,7 @@ def _answer(adapter: Adapter, messages: Queue[Message]) -> None:
     pacer: Pacer | None = None
     while not adapter.is_ended:
         try:
-            message = messages.get(block=not adapter.is_running)
+            message = messages.get(block=not adapter.is_watching)
             if message is None:
                 return
             if isinstance(message, BrokenStreamError):
@@ -63,7 +73,7 @@ def _answer(adapter: Adapter, messages: Queue[Message]) -> None:
 
 def _advance(adapter: Adapter, pacer: Pacer | None) -> Pacer | None:
     """Let the card run for a moment, in its pace."""
-    period_s = adapter.session.card.period_s
+    period_s = adapter.target.period_s
     if adapter.speed == 0.0:
         adapter.advance(max(1, round(SLICE_S / period_s)))
         return None

@@ -6,13 +6,12 @@ present moment then may be before a line, within a tick.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
 from openacr.controller.controller import Controller
-from openacr.debugger import questions
+from openacr.debugger import questions, rungs
 from openacr.debugger.breakpoints import (
     MASTERS,
     DataBreakpoint,
@@ -21,14 +20,16 @@ from openacr.debugger.breakpoints import (
     Watching,
     kill_watch,
     running_watch,
+    watches_of,
 )
 from openacr.debugger.calls import PROGRAMS, depth_of, is_running, name_of
+from openacr.debugger.conditions import Conditions
 from openacr.debugger.stops import Reason, Stop
+from openacr.engine.watches import WATCHES
 from openacr.errors import UserError
 from openacr.timeline import Moment, Timeline
 
 ALL_PROGRAMS = (1 << PROGRAMS) - 1
-_EMBEDDED = re.compile(r"\{([^{}]*)\}")  # an expression in a text to be printed
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,33 +43,60 @@ class Step:
 class DebugSession:
     """The card of a debugger."""
 
-    def __init__(self, card: Controller, show: Callable[[str], None] = lambda text: None) -> None:
-        """`show` gets the texts of breakpoints that print, and conditions that fail."""
+    def __init__(
+        self,
+        card: Controller,
+        show: Callable[[str], None] = lambda text: None,
+        timeline: Timeline | None = None,
+    ) -> None:
+        """`show` gets the texts of breakpoints that print, and conditions that fail.
+
+        Without a timeline the history of the card begins now.
+        """
         self.card = card
-        self.timeline = Timeline(card)
-        self._show = show
+        self.timeline = timeline or Timeline(card)
+        self._conditions = Conditions(partial(questions.answer, card), show)
         self._lines: dict[tuple[int, int], LineBreakpoint] = {}
+        self._rungs: list[LineBreakpoint] = []  # of PLCs
         self._data: list[DataBreakpoint] = []
         self._faults: frozenset[Fault] = frozenset()
         self._step: Step | None = None
         self._stop: Stop | None = None
         self._watching = Watching()
+        self._driven: tuple[int, int, int] | None = None  # tick, PLC, line of the last such stop
 
     # what stops it
 
     def set_lines(self, breakpoints: list[LineBreakpoint]) -> None:
-        """Stop before these lines, and no others."""
-        self._lines = {(each.program, each.line): each for each in breakpoints}
+        """Stop before these lines, after scans that change coils of lines of PLCs; at no others."""
+        of_plcs = [each for each in breakpoints if each.program >= PROGRAMS]
+        self._require_watches(self._data, of_plcs)
+        self._rungs = of_plcs
+        self._lines = {
+            (each.program, each.line): each for each in breakpoints if each.program < PROGRAMS
+        }
 
     def set_data(self, breakpoints: list[DataBreakpoint]) -> None:
         """Stop at these changes, and no others; UserError for a value that does not exist."""
-        for each in breakpoints:
-            each.watches(self.card)
+        self._require_watches(breakpoints, self._rungs)
         self._data = list(breakpoints)
+
+    def _require_watches(self, data: list[DataBreakpoint], of_plcs: list[LineBreakpoint]) -> None:
+        """Refuse more than the engine can watch beside all faults and a step."""
+        wanted = sum(len(each.watches(self.card)) for each in data)
+        wanted += sum(len(rungs.coils(self.card, each.program, each.line)) for each in of_plcs)
+        most = WATCHES - PROGRAMS - MASTERS - 1
+        if wanted > most:
+            raise UserError(f"{wanted} values and coils to be watched: there is room for {most}")
 
     def set_faults(self, faults: frozenset[Fault]) -> None:
         """Stop at these faults, and no others."""
         self._faults = faults
+
+    @property
+    def is_live(self) -> bool:
+        """False: time stands with the debugger."""
+        return False
 
     def entry(self) -> Stop:
         """The stop at the first moment."""
@@ -78,6 +106,9 @@ class DebugSession:
         """The stop of a pause."""
         self._step = None
         return Stop(Reason.PAUSE, program)
+
+    def resume(self, program: int) -> None:
+        """Do nothing: all go on by `run`."""
 
     # forward
 
@@ -183,6 +214,10 @@ class DebugSession:
     def _watch(self) -> None:
         for each in self._data:
             self._watching.add(each.watches(self.card), partial(self._changed, each))
+        for rung in self._rungs:
+            driven = rungs.coils(self.card, rung.program, rung.line)
+            watches = [watch for coil in driven for watch in watches_of(self.card, f"BIT{coil}")]
+            self._watching.add(watches, partial(self._coil_changed, rung, driven))
         if Fault.PROGRAM in self._faults:
             for program in range(PROGRAMS):
                 self._watching.add([running_watch(program)], partial(self._ended, program))
@@ -202,42 +237,10 @@ class DebugSession:
                 self._stop = Stop(Reason.STEP, program)
                 return True
         found = self._lines.get((program, line))
-        if found is not None and self._meets(found):
+        if found is not None and self._conditions.are_met(found, program):
             self._stop = Stop(Reason.BREAKPOINT, program)
             return True
         return False
-
-    def _meets(self, breakpoint: LineBreakpoint) -> bool:
-        if not self._holds(breakpoint.program, breakpoint.condition):
-            return False
-        breakpoint.met += 1
-        if breakpoint.met < breakpoint.hits:
-            return False
-        if breakpoint.log:
-            self._show(self._filled(breakpoint.program, breakpoint.log) + "\n")
-            return False
-        return True
-
-    def _holds(self, program: int, condition: str) -> bool:
-        """Whether a condition is met; one that the card cannot compute stops, with a note."""
-        if not condition:
-            return True
-        try:
-            return questions.is_true(self.card, program, condition)
-        except UserError as error:
-            self._show(f"{error}\n")
-            return True
-
-    def _filled(self, program: int, text: str) -> str:
-        """A text with its expressions in braces replaced by their values."""
-
-        def value(found: re.Match[str]) -> str:
-            try:
-                return questions.answer(self.card, program, found[1])
-            except UserError as error:
-                return f"<{error}>"
-
-        return _EMBEDDED.sub(value, text)
 
     def _stopped(self) -> Stop | None:
         """Why `advance` has ended, or None if that is no reason to stop."""
@@ -245,16 +248,28 @@ class DebugSession:
         fired = self.card.take_fired()
         if self.card.within:
             return stop
-        for place in fired:
-            stop = self._watching.meanings[place]()
+        for meaning in dict.fromkeys(self._watching.meanings[place] for place in fired):
+            stop = meaning()
             if stop is not None:
                 return stop
         return None
 
     def _changed(self, breakpoint: DataBreakpoint) -> Stop | None:
-        if not self._holds(0, breakpoint.condition):
+        if not self._conditions.holds(0, breakpoint.condition):
             return None
         return Stop(Reason.DATA, None, f"{breakpoint.name} has changed")
+
+    def _coil_changed(self, rung: LineBreakpoint, driven: list[int]) -> Stop | None:
+        if not self._conditions.are_met(rung, rung.program):
+            return None
+        self._driven = self.card.lived_tk, rung.program, rung.line
+        return Stop(Reason.BREAKPOINT, rung.program, rungs.states(self.card, driven))
+
+    def rung_at(self, plc: int) -> int | None:
+        """The line of a PLC (16-23) at which the card stands; None if it stands elsewhere."""
+        if self._driven is None or self._driven[:2] != (self.card.lived_tk, plc):
+            return None
+        return self._driven[2]
 
     def _killed(self, master: int) -> Stop | None:
         watch = kill_watch(master)

@@ -14,6 +14,7 @@ class Reason(StrEnum):
     PAUSE = "pause"
     EXCEPTION = "exception"
     GOTO = "goto"
+    END = "end"
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,23 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from struct import iter_unpack
 
 from openacr.basic.memory.heap import ARRAYS, SCALARS
+from openacr.client.program_variables import Value
 from openacr.controller.controller import Controller
-from openacr.debugger.calls import state_of
+from openacr.debugger.calls import levels_of, state_of
 
 _FORMATS = {"LV": "i", "SV": "f", "DV": "d", "LA": "i", "SA": "f", "DA": "d"}
-
-
-@dataclass(frozen=True, slots=True)
-class Value:
-    """A value by name; `elements` are those of an array."""
-
-    name: str
-    text: str
-    elements: tuple[Value, ...] = ()
 
 
 def locals_of(card: Controller, program: int) -> Iterator[Value]:
@@ -55,6 +46,9 @@ def _array(name: str, texts: list[str]) -> Value:
 def program_state(card: Controller, program: int) -> Iterator[Value]:
     """What a program does, and since when the card runs."""
     yield Value("state", state_of(card, program))
+    levels = levels_of(card, program)
+    if levels:
+        yield Value("levels", ", ".join(map(str, levels)))
     failure = card.executor.threads.failures.get(program)
     if failure is not None:
         yield Value("error", failure)

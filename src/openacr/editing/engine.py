@@ -8,20 +8,17 @@ A file that is not open has no answers; places outside of a text are the nearest
 """
 
 from collections.abc import Iterable, Iterator
+from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
 from openacr.editing import marks as marking
 from openacr.editing.completions import Completion, Signature
-from openacr.editing.controller.checking import fixes
-from openacr.editing.controller.language import ControllerLanguage
 from openacr.editing.document import Document, Edit, Place, Span
 from openacr.editing.files import OpenFiles
 from openacr.editing.languages import Language, is_controller
 from openacr.editing.marks import Kind, Mark, Symbol
 from openacr.editing.outlines import Entry, Fold
-from openacr.editing.part_programs.language import PartProgramLanguage
-from openacr.editing.part_programs.store import StoreOfMachine
 from openacr.editing.symbols import Finding, Fix, Location
 from openacr.editing.texts import markdown
 from openacr.errors import UserError
@@ -43,13 +40,23 @@ class Shown(NamedTuple):
 
 
 class Engine:
-    """The open files, and the answers about them."""
+    """The open files, and the answers about them; a language is imported for its first file."""
 
     def __init__(self, store: Path | None = None, dialect: str | None = None) -> None:
         self.files = OpenFiles()
-        self._store = StoreOfMachine(store, dialect)
-        self._controller = ControllerLanguage(self.files)
-        self._part_program = PartProgramLanguage(self.files, self._store)
+        self._machine = store, dialect
+
+    @cached_property
+    def _controller(self) -> Language:
+        from openacr.editing.controller.language import ControllerLanguage
+
+        return ControllerLanguage(self.files)
+
+    @cached_property
+    def _part_program(self) -> Language:
+        from openacr.editing.part_programs.language import PartProgramLanguage
+
+        return PartProgramLanguage(self.files, *self._machine)
 
     @staticmethod
     def warm_up() -> None:
@@ -73,8 +80,10 @@ class Engine:
 
     def close(self, path: Path) -> None:
         """Close a file."""
+        document = self.files.unsaved.get(path)
+        if document is not None:
+            self.language(document).forget(path)
         self.files.remove(path)
-        self._store.forget(path)
 
     def document(self, path: Path) -> Document:
         """An open file; UserError if it is not open."""
@@ -253,6 +262,8 @@ class Engine:
     @staticmethod
     def fixes(found: Iterable[Finding], span: Span) -> list[tuple[Finding, Fix]]:
         """The changes that the findings within a span propose."""
+        from openacr.editing.controller.checking import fixes
+
         return fixes(found, span)
 
 

@@ -83,6 +83,9 @@ class Language(Protocol):
     ) -> dict[Path, list[Finding]]:
         """What is wrong with a subject, by file."""
 
+    def forget(self, path: Path) -> None:
+        """Forget what is kept of a file, which is closed."""
+
 
 def is_controller(document: Document) -> bool:
     """Whether a document is a controller file; otherwise it is a part program."""

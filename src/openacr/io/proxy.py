@@ -14,9 +14,10 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 from openacr.errors import reason
+from openacr.io.listening import bound_socket
 from openacr.io.peers import READ_BYTES, UNKNOWN_HOST, set_options
 from openacr.io.recording import Event, Recorder, What
-from openacr.io.server import Address, Guests, bound_socket
+from openacr.io.server import Address, Guests
 from openacr.protocol.web import Opening
 
 log = logging.getLogger(__name__)

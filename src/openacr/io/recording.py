@@ -17,7 +17,7 @@ from openacr.errors import SourceError, read_bytes
 
 FORMAT = "openacr recording"
 VERSION = 1
-PACKETS = StreamKind.PACKETS.value
+KINDS = {kind.value: kind for kind in StreamKind}
 LONGEST_S = 1e7
 
 
@@ -94,7 +94,7 @@ def read_recording(path: Path) -> Recording:
             hint="`openacr record` writes them",
         )  # fmt: skip
     events = tuple(_in_order(_events(lines[1:], str(path)), str(path)))
-    kind = StreamKind.PACKETS if header.get("kind") == PACKETS else StreamKind.TERMINAL
+    kind = KINDS.get(str(header.get("kind")), StreamKind.TERMINAL)
     return Recording(str(header.get("card", "")), kind, events, not last)
 
 

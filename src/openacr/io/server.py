@@ -6,7 +6,6 @@ advanced on, at most AHEAD_S before the clock, until the answer is there.
 """
 
 import asyncio
-import errno
 import ipaddress
 import logging
 import socket
@@ -14,10 +13,11 @@ import time
 from dataclasses import dataclass
 
 from openacr.channels import StreamKind
-from openacr.errors import NoFreeStreamError, UserError, reason
+from openacr.errors import NoFreeStreamError, UserError
 from openacr.io import peers
 from openacr.io.bounded_log import bounded
 from openacr.io.host import CardHost
+from openacr.io.listening import bound_socket
 from openacr.io.pacing import Pacer, PacingReport
 from openacr.io.peers import Peer, TcpPeer
 from openacr.io.serial_port import LineSettings, SerialPeer
@@ -25,8 +25,7 @@ from openacr.io.status_port import StatusPort, open_status_port
 from openacr.protocol import terminal
 
 STEP_S = 0.001
-CONNECTIONS = 16
-
+CONNECTIONS = 16  # hosts at a time
 
 log = logging.getLogger(__name__)
 # Loggers a host can make write as often as it connects.
@@ -215,35 +214,3 @@ class CardServer:
         """Free the stream of a peer that has disconnected."""
         self._peers.remove(peer)
         self._card.close_stream(peer.stream)
-
-
-def bound_socket(host: str, port: int, kind: socket.SocketKind, option: str) -> socket.socket:
-    """A socket bound to the first address of `host`; one of TCP listens."""
-    if not 0 <= port <= 0xFFFF:
-        raise UserError(f"port {port} is not in 0..65535")
-    try:
-        found = socket.getaddrinfo(host, port, type=kind, flags=socket.AI_PASSIVE)
-        family, *_, address = found[0]
-        if kind is socket.SOCK_STREAM:
-            return socket.create_server((str(address[0]), port), family=family, backlog=CONNECTIONS)
-        sock = socket.socket(family, kind)
-        try:
-            sock.bind(address)
-        except OSError:
-            sock.close()
-            raise
-        return sock
-    except OSError as failure:
-        raise UserError(_listen_failure(host, port, failure, option)) from None
-
-
-def _listen_failure(host: str, port: int, failure: OSError, option: str) -> str:
-    """The reason why listening failed, with a hint."""
-    if failure.errno == errno.EADDRINUSE:
-        return (
-            f"port {port} on {host} is in use (is another card running?); choose another"
-            f" one with {option}, 0 picks a free one"
-        )
-    if failure.errno == errno.EACCES:
-        return f"port {port} needs special rights; choose one above 1023"
-    return f"cannot listen on {host}:{port}: {reason(failure)}"

@@ -12,9 +12,11 @@ from openacr.channels import StreamKind
 from openacr.errors import NoFreeStreamError, UserError
 from openacr.io.host import CardHost
 from openacr.io.recording import Event, Recording, What
+from openacr.protocol.terminal import XOFF, XON
 
 PATIENCE_S = 1.0  # card time for an answer after the last event of a connection
 STEP_S = 0.001
+FLOW = bytes((XON, XOFF))
 OUTPUT_S = 0.05  # the output of the card is read at least this often, as by a host
 
 
@@ -90,7 +92,7 @@ class SessionReplay:
         else:
             stream = self._streams[event.connection]
             if event.what is What.CARD:
-                stream.recorded += event.data
+                stream.recorded += self._compared(event.data)
             else:
                 stream.requests.append((len(stream.recorded), event.time_s, event.data))
                 self._wait(lambda: self._card.accepts_input(stream.number))
@@ -134,4 +136,8 @@ class SessionReplay:
     def _collect(self) -> None:
         for stream in self._streams.values():
             while data := self._card.take_output(stream.number):
-                stream.replayed += data
+                stream.replayed += self._compared(data)
+
+    def _compared(self, data: bytes) -> bytes:
+        """Bytes of a card without those whose place depends on timing: XON and XOFF."""
+        return data.translate(None, FLOW) if self._kind is StreamKind.SERIAL else data

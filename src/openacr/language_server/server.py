@@ -77,9 +77,9 @@ class Server(LanguageServer):
         self._uris[path], self._versions[path] = found.uri, found.version
         self.engine.open(path, found.text, found.language_id)
         self.checks.ask(self.engine.subject(path), 0.0)
-        self._warm_up()
 
     def _warm_up(self) -> None:
+        """Load the tables of proposals after the first findings, which need a few rows of them."""
         if not self._is_warm:
             self._is_warm = True
             self.thread_pool.submit(self.engine.warm_up)
@@ -133,3 +133,4 @@ class Server(LanguageServer):
                 version=self._versions.get(path) if is_present else None,
             )
         )
+        self._warm_up()

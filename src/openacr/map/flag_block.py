@@ -146,9 +146,11 @@ class FlagBlock:
 
     def flag(self, bit: int) -> FlagRow:
         """The declared flag, or the row that stands for all undeclared ones."""
+        declared = self.rows.get(bit)
+        if declared is not None:
+            return declared
         access = Access.UNKNOWN if self.rest == UNDOCUMENTED else Access.RESERVED
-        rest = FlagRow(bit, self.rest, self.rest, access, Speed.UNKNOWN, "", "", "", None)
-        return self.rows.get(bit, rest)
+        return FlagRow(bit, self.rest, self.rest, access, Speed.UNKNOWN, "", "", "", None)
 
     def object_of(self, bit: int) -> str:
         """Kind of object a flag belongs to."""

@@ -4,7 +4,7 @@ The tables load at the first question, so that importing the map stays cheap.
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from typing import TypeVar
@@ -68,54 +68,49 @@ class Flag:
         return 1 << self.bit if self.bit < BITS_PER_WORD - 1 else -(1 << self.bit)
 
 
-_T = TypeVar("_T", Parameter, Flag)
+_T = TypeVar("_T")
+_Record = TypeVar("_Record", Parameter, Flag)
 
 
 @cache
 def parameters() -> dict[int, Parameter]:
     """All parameters by number."""
-    from openacr.map.tables import BLOCKS, FLAG_BLOCKS
-
-    found: dict[int, Parameter] = {}
-    for block in BLOCKS:
-        _collect(found, _block_parameters(block))
-    for flag_block in FLAG_BLOCKS:
-        _collect(found, _word_parameters(flag_block))
-    return dict(sorted(found.items()))
+    return {number: parameter(number) for number in sorted({*_rows(), *_flag_words()})}
 
 
 @cache
 def flags() -> dict[int, Flag]:
     """All flags by number."""
-    from openacr.map.tables import FLAG_BLOCKS
-
-    found: dict[int, Flag] = {}
-    for block in FLAG_BLOCKS:
-        _collect(found, _block_flags(block))
-    return dict(sorted(found.items()))
+    return {found.number: found for word in sorted(_flag_words()) for found in flags_of(word)}
 
 
+@cache
 def parameter(number: int) -> Parameter:
     """The parameter with this number; MapError if there is none."""
+    if number in _flag_words():
+        return _word_parameter(number)
     try:
-        return parameters()[number]
+        block, row, index = _rows()[number]
     except KeyError:
         raise MapError(f"there is no parameter P{number}") from None
+    return _parameter(block, row, index, number)
 
 
+@cache
 def flag(number: int) -> Flag:
     """The flag with this number; MapError if there is none."""
-    try:
-        return flags()[number]
-    except KeyError:
-        raise MapError(f"there is no flag BIT{number}") from None
+    word, bit = divmod(number, BITS_PER_WORD)
+    if FLAG_WORD_BASE + word not in _flag_words():
+        raise MapError(f"there is no flag BIT{number}")
+    return _flag(FLAG_WORD_BASE + word, bit)
 
 
 def flags_of(number: int) -> list[Flag]:
     """The 32 flags of a flag word; nothing for any other parameter."""
+    if number not in _flag_words():
+        return []
     first = (number - FLAG_WORD_BASE) * BITS_PER_WORD
-    found = flags()
-    return [found[n] for n in range(first, first + BITS_PER_WORD) if n in found]
+    return [flag(n) for n in range(first, first + BITS_PER_WORD)]
 
 
 @cache
@@ -146,19 +141,35 @@ def find_flag(text: str) -> list[Flag]:
     return _by_name(text, flags(), "flag")
 
 
-def _collect(found: dict[int, _T], new: Iterator[_T]) -> None:
-    for record in new:
-        if record.number in found:
-            raise ValueError(
-                f"{record.number} is both {found[record.number].name} and {record.name}"
-            )
-        found[record.number] = record
+@cache
+def _rows() -> dict[int, tuple[Block, Row, int]]:
+    """By number: the block and the row that declare a parameter, and which of its objects it is."""
+    from openacr.map.tables import BLOCKS
+
+    found: dict[int, tuple[Block, Row, int]] = {}
+    for block in BLOCKS:
+        for index, base in enumerate(block.bases()):
+            for row in block.rows.values():
+                _enter(found, base + row.offset, (block, row, index))
+    return found
 
 
-def _block_parameters(block: Block) -> Iterator[Parameter]:
-    for index, base in enumerate(block.bases()):
-        for row in block.rows.values():
-            yield _parameter(block, row, index, base + row.offset)
+@cache
+def _flag_words() -> dict[int, tuple[FlagBlock, int, str]]:
+    """By number: the family of a flag word, its position in the family and its section."""
+    from openacr.map.tables import FLAG_BLOCKS
+
+    found: dict[int, tuple[FlagBlock, int, str]] = {}
+    for block in FLAG_BLOCKS:
+        for position, number, section in block.places():
+            _enter(found, number, (block, position, section))
+    return found
+
+
+def _enter(found: dict[int, _T], number: int, declared: _T) -> None:
+    if number in found:
+        raise ValueError(f"P{number} is declared twice")
+    found[number] = declared
 
 
 def _parameter(block: Block, row: Row, index: int, number: int) -> Parameter:
@@ -181,34 +192,29 @@ def _parameter(block: Block, row: Row, index: int, number: int) -> Parameter:
     )
 
 
-def _word_parameters(block: FlagBlock) -> Iterator[Parameter]:
-    for position, number, section in block.places():
-        first = (number - FLAG_WORD_BASE) * BITS_PER_WORD
-        holds = f"Holds BIT{first} to BIT{first + BITS_PER_WORD - 1}."
-        yield Parameter(
-            number=number,
-            name=block.word_title(position),
-            kind=Kind.LONG,
-            access=block.word_access,
-            object=block.object,
-            index=block.index_of(position),
-            section=section,
-            packet=block.packet(number) if block.packet else None,
-            description=f"{holds} {block.word_doc}".rstrip(),
-            unit="",
-            default=0,
-            ref=block.ref.value,
-            erratum=block.word_erratum if position >= block.word_erratum_from else "",
-        )
+def _word_parameter(number: int) -> Parameter:
+    block, position, section = _flag_words()[number]
+    first = (number - FLAG_WORD_BASE) * BITS_PER_WORD
+    holds = f"Holds BIT{first} to BIT{first + BITS_PER_WORD - 1}."
+    return Parameter(
+        number=number,
+        name=block.word_title(position),
+        kind=Kind.LONG,
+        access=block.word_access,
+        object=block.object,
+        index=block.index_of(position),
+        section=section,
+        packet=block.packet(number) if block.packet else None,
+        description=f"{holds} {block.word_doc}".rstrip(),
+        unit="",
+        default=0,
+        ref=block.ref.value,
+        erratum=block.word_erratum if position >= block.word_erratum_from else "",
+    )
 
 
-def _block_flags(block: FlagBlock) -> Iterator[Flag]:
-    for position, word, _ in block.places():
-        for bit in range(BITS_PER_WORD):
-            yield _flag(block, position, word, bit)
-
-
-def _flag(block: FlagBlock, position: int, word: int, bit: int) -> Flag:
+def _flag(word: int, bit: int) -> Flag:
+    block, position, _ = _flag_words()[word]
     row = block.flag(bit)
     unnamed = position >= block.named and row.name != UNDOCUMENTED
     index = block.index_of(position)
@@ -230,7 +236,7 @@ def _flag(block: FlagBlock, position: int, word: int, bit: int) -> Flag:
     )
 
 
-def _by_name(text: str, records: dict[int, _T], what: str) -> list[_T]:
+def _by_name(text: str, records: dict[int, _Record], what: str) -> list[_Record]:
     """Records whose name is `text`, else those that contain all its words."""
     wanted = _words(text)
     if not wanted:

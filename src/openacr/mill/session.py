@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import chain, islice, repeat
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from openacr.client import Card
 from openacr.client.links import Host
@@ -23,7 +23,7 @@ from openacr.cnc.interpreter.interpreter import Options as Reading
 from openacr.cnc.interpreter.mdi import Mdi
 from openacr.cnc.interpreter.replay import Replay, start_at
 from openacr.cnc.loading.load import load_blank
-from openacr.cnc.program.program import Program
+from openacr.cnc.program.program import Node, Program
 from openacr.cnc.state.hosts import Cells
 from openacr.cnc.state.shadow import Shadow
 from openacr.engine.watches import Watch, Watched
@@ -94,6 +94,19 @@ class Start:
     safe_z: float | None = None  # machine position of Z where the tool is free, for a start line
 
 
+class Reader(Protocol):
+    """Follows the reading of a program, block by block."""
+
+    def cells(self, cells: Cells) -> Cells:
+        """The cells that the program is given."""
+
+    def begin(self, run: Interpreter) -> None:
+        """The interpreter that will read it."""
+
+    def attend(self, node: Node) -> None:
+        """Called before a block acts, ahead of the machine."""
+
+
 class MillSession:
     """A card set up for the machine, with its runner."""
 
@@ -115,6 +128,7 @@ class MillSession:
         self.virtual_card: Controller | None = None
         self.program: Program | None = None
         self.typed: list[str] = []  # blocks run in MDI: the text of a program
+        self.reader: Reader | None = None  # follows programs that are started
         self.reading: Interpreter | None = None  # of the last program, or of MDI
         with cells.transaction():
             for number, value in AT_START.items():
@@ -126,7 +140,7 @@ class MillSession:
         axes = [axis.index for axis in settings.axes]
         self.machine = MachineDriver(card, axes, settings.master, rounds_corners=is_virtual)
         alarm_list = Alarms(None if is_virtual else _error_log(cells, folder))
-        self._motion = Watch(Watched.WORD, n.MF1_WORD + self.machine.master, MOTION)
+        self.motion = Watch(Watched.WORD, n.MF1_WORD + self.machine.master, MOTION)
         self.runner = Runner(
             self.machine, cells, depth, say, alarm_list, has_operator=not is_virtual,
             compensated=tables,
@@ -260,7 +274,7 @@ class MillSession:
         self.runner.run(lambda _host: self._watched(next(passes)()), options)
 
     def keep_drip(self, drip: Drip) -> None:
-        """Close this serial line with the session, not before the machine is at rest."""
+        """Close this serial line when the machine is at rest, at the latest with the session."""
         self._drip = drip
 
     def start_drip(self, drip: Drip, start: Start) -> None:
@@ -274,7 +288,12 @@ class MillSession:
         reading = Reading(is_dry=start.is_dry, has_block_ends=True)
         self.runner.stream.host.skips_always = start.is_skipping
         cells = Shadow(self.cells) if start.line > 1 else self.cells
-        return Interpreter(program, cells, self.runner.stream.host, start.dialect, reading)
+        if self.reader is not None:
+            cells, reading.attend = self.reader.cells(cells), self.reader.attend
+        run = Interpreter(program, cells, self.runner.stream.host, start.dialect, reading)
+        if self.reader is not None:
+            self.reader.begin(run)
+        return run
 
     def _watched(self, entries: Iterator[c.Entry]) -> Iterator[c.Entry]:
         """Pass the entries on; on the virtual machine endless waits for inputs are skipped."""
@@ -361,8 +380,15 @@ class MillSession:
             self._drip.poll()
         self._keep_ownership()
         self.runner.step()
+        self._free_port()
         with suppress(*LINK_ERRORS):  # the next poll reports it
             self.messages.poll(self.machine.now_s)
+
+    def _free_port(self) -> None:
+        """Close the line of a program that has ended: others may read it."""
+        if self._drip is not None and not self.runner.is_busy:
+            self._drip.close()
+            self._drip = None
 
     def _pass_time(self) -> None:
         """Wait until the next poll; on the virtual machine only until motion begins or ends."""
@@ -371,7 +397,7 @@ class MillSession:
         if card is None:
             self.machine.pause(step_s)
             return
-        card.watch([self._motion])
+        card.watch([self.motion])
         try:
             self.machine.pause(step_s)
         finally:

@@ -9,6 +9,7 @@ from openacr.errors import UserError
 KINDS = {".dxf": "dxf", ".bat": "batch", ".lst": "batch"}
 PROGRAMS = frozenset({".nc", ".txt", ".ngc", ".tap", ".cnc", ".gcode", ".g", ".mpf", ""})
 RESERVED = frozenset('<>:"|?*\\')
+REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 
 
 class Folder:
@@ -37,6 +38,8 @@ class Folder:
         if place.is_dir():
             raise UserError(f"{path}: it is a folder, not a part program")
         if not place.is_file():
+            if REPLACEMENT in path:
+                raise UserError(f"{path}: this name is not UTF-8: rename the file on the computer")
             raise UserError(f"{path}: no such file")
         return place
 
@@ -66,12 +69,17 @@ class Folder:
             size, changed_s = 0, 0.0
         changed = datetime.fromtimestamp(changed_s).astimezone()
         return {
-            "name": place.name,
-            "path": place.relative_to(self.root).as_posix(),
+            "name": _shown(place.name),
+            "path": _shown(place.relative_to(self.root).as_posix()),
             "kind": kind_of(place),
             "bytes": size,
             "changed": changed.isoformat(timespec="seconds"),
         }
+
+
+def _shown(name: str) -> str:
+    """A name as browsers can be given it: bytes that are not UTF-8 are replaced."""
+    return name.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
 
 
 def kind_of(place: Path) -> str:

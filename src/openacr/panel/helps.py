@@ -36,7 +36,8 @@ HELPS: dict[str, tuple[str, str]] = {
         "USER FILE: a program of the folder. LIBRARY PART: a part with sizes to choose. DXF FILE: a"
         " drawing that is converted to a program, cut at the Z that is asked for. BATCH FILE: a"
         " list of programs, run one after the other. RS232 DRIP FEED: a program that runs"
-        " while it arrives over a serial line.",
+        " while it arrives over a serial line. RS-232 (LINK): a program that arrives over a serial"
+        " line is kept as a file, then loaded like any other.",
     ),
     "feedrate": ("FEEDRATE", "The feed of programs before their first F; 0: Cut Speed."),
     "pparm": (
@@ -54,7 +55,8 @@ HELPS: dict[str, tuple[str, str]] = {
         "RUN starts the loaded program at a line. At a later line than 1 the lines before it are"
         " read without motion: what differs is shown and confirmed; then Z goes up, the axes go"
         " over the place and down at feed.\n\nSTOP holds the feed. START goes on after a stop of"
-        " the program. DRY RUN moves at Trial Speed, M codes have no effect. BLOCK stops after"
+        " the program, and where a tool is asked for once it is in the spindle. DRY RUN moves"
+        " at Trial Speed, M codes have no effect. BLOCK stops after"
         " every block.",
     ),
     "stop": (
@@ -77,8 +79,8 @@ HELPS: dict[str, tuple[str, str]] = {
     ),
     "mdi": (
         "MDI",
-        "Blocks run one by one; what they switch on stays on. The buffer keeps what was executed;"
-        " it can be edited and stored as a program.",
+        "Blocks run one by one; what they switch on stays on. While BUFFER is on, the text keeps"
+        " what was executed; it can be edited and stored as a program.",
     ),
     "handwheel": ("HANDWHEEL", "The wheel of each chosen axis moves it, by its ratio per click."),
     "gotozero": ("GOTO ZERO", "Rapids to the floating zero; Z first if that is up, else last."),

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory, flag_place
+from openacr.map.rows import compliant_loads
 from openacr.plant import analogs, apply_networks, apply_phases, apply_stepper, bus
 from openacr.plant.counts import count_of
 from openacr.plant.inputs import WORD_BITS, input_place, output_place, word_row
@@ -78,6 +79,7 @@ _REALS = (
     (at.PLF_BASE, at.PL_COUNT * at.PLF_STRIDE),
     (at.PLBF_BASE, at.PLB_COUNT * at.PLBF_STRIDE),
     (at.PLTF_BASE, at.PLT_COUNT * at.PLTF_STRIDE),
+    (at.PLRF_BASE, at.PLR_COUNT * at.PLRF_STRIDE),
     (at.PLAF_BASE, at.PLA_COUNT * at.PLAF_STRIDE),
     (at.PLWF_BASE, at.PLW_COUNT * at.PLWF_STRIDE),
     (at.PLGF_BASE, at.PLGF_STRIDE),
@@ -153,6 +155,8 @@ def _write_motor(memory: Memory, axis: Axis, world: World) -> None:
     base = at.PLF_BASE + axis.number * at.PLF_STRIDE
     for row, value in doubles.items():
         memory.F[base + row] = value
+    for places, value in _compliance(axis):
+        memory.F[places[axis.number]] = value
     base = at.PLI_BASE + axis.number * at.PLI_STRIDE
     for row, number in _int_rows(axis).items():
         memory.I[base + row] = number
@@ -227,6 +231,16 @@ def load_rows(axis: Axis) -> dict[int, float]:
         at.PLF_COULOMB_ACCEL: load.coulomb_nm * accel_per_nm(axis),
         at.PLF_STATIC_ACCEL: static_nm * accel_per_nm(axis),
     }
+
+
+def _compliance(axis: Axis) -> Iterator[tuple[tuple[int, ...], float]]:
+    """What a load on an elastic shaft has on top, by row."""
+    resonance_hz = axis.load.resonance_hz
+    if resonance_hz is not None:
+        resonance_rad_s = 2.0 * math.pi * resonance_hz
+        yield compliant_loads.resonance_rad_s, resonance_rad_s
+        yield compliant_loads.damping_per_s, axis.load.damping_ratio * resonance_rad_s
+        yield compliant_loads.inertia_ratio, axis.load.inertia_kgm2 / _motor(axis).inertia_kgm2
 
 
 def _motor(axis: Axis) -> Motor:

@@ -45,8 +45,7 @@ class Attached:
     def step(self, dt_s: float) -> None:
         """Let a period pass; UserError if the device fails."""
         try:
-            wired = {name: read() for name, read in self._wired.items()}
-            signals = dict(self.device.step(dt_s, {**self.by_hand, **wired}))
+            signals = dict(self.device.step(dt_s, self.commands))
         except Exception as error:
             text = f"has failed in its step: {type(error).__name__}: {error}"
             raise self._wrong(text) from error
@@ -54,6 +53,16 @@ class Attached:
             if self._given.get(name) != value:
                 self._put(name, value)
         self._given.update(signals)
+
+    @property
+    def commands(self) -> dict[str, Value]:
+        """The commands as they are now: from what is wired, or by hand."""
+        return {**self.by_hand, **{name: read() for name, read in self._wired.items()}}
+
+    @property
+    def signals(self) -> dict[str, Value]:
+        """The signals of the last step."""
+        return dict(self._given)
 
     def put_back(self, device: Device, by_hand: dict[str, Value]) -> None:
         """Return to a state; the terminals are those of the same moment."""
@@ -103,6 +112,10 @@ class AttachedDevices:
         self._memory = memory
         self._all = [Attached(memory, world, table, folder) for table in world.device]
 
+    def __iter__(self) -> Iterator[Attached]:
+        """The devices in the order of the machine file."""
+        return iter(self._all)
+
     def power_up(self) -> None:
         """Step all devices in the first tick."""
         self._memory.F[at.MDVF_BASE + at.MDVF_DUE_TK] = 1.0 if self._all else 0.0
@@ -125,7 +138,8 @@ class AttachedDevices:
         """
         labels = [each.table.label for each in self._all]
         if device not in labels:
-            raise UserError(f"device {device!r}: known are {', '.join(labels) or 'none'}")
+            known = f"known are {', '.join(labels)}" if labels else "the machine has no devices"
+            raise UserError(f"device {device!r}: {known}")
         number = labels.index(device)
         found = self._all[number]
         kind = found.device.COMMANDS.get(name)

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from difflib import get_close_matches
 
 from openacr.plant.check_analog import analog_faults
+from openacr.plant.check_bodies import body_faults
 from openacr.plant.check_devices import device_faults
 from openacr.plant.check_networks import (
     canopen_faults,
@@ -90,6 +91,13 @@ def _motor_faults(axis: Axis) -> Iterator[tuple[tuple[str, ...], str, str]]:
             "supply_v limits nothing without resistance_ohm of the motor",
             "add resistance_ohm to [axis.motor]",
         )
+    if load.resonance_hz is not None:
+        if not isinstance(drive, TorqueDrive):
+            text = "only torque makes a load swing"
+            yield ("load", "resonance_hz"), text, 'leave it away, or set mode = "torque"'
+        elif not load.inertia_kgm2:
+            text = "resonance_hz swings nothing without inertia_kgm2 of the load"
+            yield ("load", "resonance_hz"), text, "add inertia_kgm2 to [axis.load]"
     if load.static_nm is not None and load.static_nm < load.coulomb_nm:
         yield (
             ("load", "static_nm"),
@@ -220,7 +228,7 @@ def _inputs(world: World) -> Iterator[Complaint]:
     """Every input has at most one source."""
     taken: dict[int, str] = {}
     ranges = WIRED_RANGES + input_ranges(world)
-    for path, number, what in _sources(world):
+    for path, number, what in sources(world):
         if not within(number, ranges):
             text = f"{what} is wired to {number}, which is not an input"
             yield Complaint(path, text, _ranges("inputs", ranges))
@@ -229,7 +237,8 @@ def _inputs(world: World) -> Iterator[Complaint]:
         taken[number] = what
 
 
-def _sources(world: World) -> Iterator[tuple[Path, int, str]]:
+def sources(world: World) -> Iterator[tuple[Path, int, str]]:
+    """What drives inputs: its place in the file, the input, its name."""
     for index, axis in enumerate(world.axis):
         for switch in switches(axis):
             what = f"{switch.key} of axis {axis.label}"
@@ -260,7 +269,7 @@ def _size(world: World) -> Iterator[Complaint]:
     sides += sum(len(wire.region or "o") for wire in world.wire)
     if sides > BOX_SIDES:
         yield Complaint((), f"{sides} switches, ranges and wires are more than {BOX_SIDES}")
-    words = len({0, *(number // 32 for _, number, _ in _sources(world))})
+    words = len({0, *(number // 32 for _, number, _ in sources(world))})
     if words > INPUT_WORDS:
         yield Complaint((), f"wires lead to inputs of {words} words, more than {INPUT_WORDS}")
 
@@ -288,5 +297,6 @@ CHECKS: tuple[Callable[[World], Iterator[Complaint]], ...] = (
     analog_faults,
     device_faults,
     _device_outputs,
+    body_faults,
     _size,
 )

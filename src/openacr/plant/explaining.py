@@ -127,8 +127,10 @@ def _words(kind: inspect.Type) -> str:
         return f"a number {low} to {kind.le:g}"
     if isinstance(kind, inspect.EnumType):
         return "one of " + ", ".join(_toml(member.value) for member in kind.cls)
+    if isinstance(kind, inspect.Metadata):
+        return str((kind.extra_json_schema or {}).get("description") or _words(kind.type))
     if isinstance(kind, inspect.StrType):
-        return "a text in quotes"
+        return f"a text in quotes{_form(kind)}"
     if isinstance(kind, inspect.TupleType):
         return f"a list of {len(kind.item_types)} values, each {_words(kind.item_types[0])}"
     if isinstance(kind, inspect.VarTupleType):
@@ -141,3 +143,12 @@ def _words(kind: inspect.Type) -> str:
     if isinstance(kind, inspect.DictType):
         return f"a table of axes, each {_words(kind.value_type)}"
     return "a table"
+
+
+def _form(kind: inspect.StrType) -> str:
+    """What a text has to be, where not any text will do."""
+    if kind.pattern is not None:
+        return f" of the form {kind.pattern}"
+    if kind.max_length is not None:
+        return f" of {kind.min_length or 0} to {kind.max_length} characters"
+    return ""

@@ -4,39 +4,18 @@ All state is in the rows of the machine, so that snapshots, restarts of the card
 journals include it. When a fault ends, the changed rows are rewritten from the machine file.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from enum import StrEnum
 
 from openacr.errors import UserError
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.plant import apply, inputs
-from openacr.plant.counts import count_of
+from openacr.plant.counts import count_of, position_of
 from openacr.plant.drive_cy import FAULT_REPORTED, FAULT_TAKEN_BACK
+from openacr.plant.fault_kinds import PLACE, TORQUE, VOLTS, MachineFault, Quantity
 from openacr.plant.schema import LOADLESS, Axis, Contact, TorqueDrive, World
 from openacr.plant.step_cy import EDGES_LOST, SIGNALS_LOST
-
-
-class MachineFault(StrEnum):
-    """The kinds of faults of an axis of the machine."""
-
-    ENCODER_LOST = "encoder-lost"
-    ENCODER_NOISE = "encoder-noise"
-    DRIVE = "drive"
-    MOTOR_CABLE = "motor-cable"
-    JAM = "jam"
-    OBSTACLE = "obstacle"
-    FRICTION = "friction"
-    SUPPLY = "supply"
-
-
-# The meaning of a fault's value; the other faults have no value.
-QUANTITIES = {
-    MachineFault.OBSTACLE: "at",
-    MachineFault.FRICTION: "torque_nm",
-    MachineFault.SUPPLY: "volts",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +31,9 @@ class _Place:
     def position_cnt(self) -> float:
         return self.memory.F[self.reals + at.PLF_POSITION_CNT]
 
+    def get(self, row: int) -> float:
+        return self.memory.F[self.reals + row]
+
     def put(self, row: int, value_cnt: float) -> None:
         self.memory.F[self.reals + row] = value_cnt
 
@@ -60,19 +42,32 @@ class _Place:
 
 
 def inject(world: World, memory: Memory, axis: int, kind: MachineFault, value: float) -> None:
-    """Cause a fault on an axis; UserError if the axis cannot have it.
+    """Cause a fault on an axis; UserError if the axis cannot have it, or not with this value.
 
-    `value` is the position of an obstacle in units of the axis, the torque of friction in Nm at
-    the shaft of the motor, or the voltage to which the supply of the drive falls.
+    `value` is the quantity of the fault, in its unit (see FAULTS).
     """
-    _START[kind](_place(world, memory, axis), value)
+    place, fault = _place(world, memory, axis), FAULTS[kind]
+    if why := fault.bar(place.axis):
+        raise UserError(f"axis {place.axis.label}: {why}")
+    if fault.quantity is not None:
+        fault.quantity.check(place.axis, value, fault.highest(place.axis))
+    fault.start(place, value)
 
 
 def mend(world: World, memory: Memory, axis: int, kind: MachineFault | None = None) -> None:
     """Remove one kind of fault of an axis, or all."""
     place = _place(world, memory, axis)
     for one in MachineFault if kind is None else (kind,):
-        _END[one](place)
+        FAULTS[one].end(place)
+
+
+def active(world: World, memory: Memory) -> Iterator[tuple[int, MachineFault, float]]:
+    """The faults there are now: number of the axis, kind, value (0 where it has none)."""
+    for axis in world.axis:
+        place = _place(world, memory, axis.number)
+        for kind, fault in FAULTS.items():
+            if not fault.bar(axis) and (value := fault.value(place)) is not None:
+                yield axis.number, kind, value
 
 
 def _place(world: World, memory: Memory, number: int) -> _Place:
@@ -85,18 +80,24 @@ def _place(world: World, memory: Memory, number: int) -> _Place:
 
 
 def _lose_signals(place: _Place, _: float) -> None:
-    _needs_encoder(place)
     place.memory.I[place.ints + at.PLI_ENCODER_FAULT] |= SIGNALS_LOST
 
 
 def _disturb_signals(place: _Place, _: float) -> None:
-    _needs_encoder(place)
     place.memory.I[place.ints + at.PLI_ENCODER_FAULT] |= EDGES_LOST
 
 
-def _needs_encoder(place: _Place) -> None:
-    if not place.axis.has_encoder:
-        raise UserError(f"axis {place.axis.label}: it has no encoder")
+def _needs_encoder(axis: Axis) -> str:
+    return "" if axis.has_encoder else "it has no encoder"
+
+
+def _is_set(row: int, bits: int) -> Callable[[_Place], float | None]:
+    """Whether a fault is there that has bits of a row, or a row, for itself."""
+
+    def value(place: _Place) -> float | None:
+        return 0.0 if place.memory.I[place.ints + row] & bits else None
+
+    return value
 
 
 def _repair(bit: int) -> Callable[[_Place], None]:
@@ -151,12 +152,32 @@ def _free(place: _Place) -> None:
         place.put(row, stop)
 
 
+def _is_jammed(place: _Place) -> float | None:
+    low, high = place.get(at.PLF_LOW_STOP_CNT), place.get(at.PLF_HIGH_STOP_CNT)
+    return 0.0 if low == high else None
+
+
+def _obstacle(place: _Place) -> float | None:
+    """Where an obstacle is; None without one."""
+    if _is_jammed(place) is not None:
+        return None
+    stops = apply.stop_rows(place.axis)
+    return next(
+        (
+            _tidy(position_of(place.axis, place.get(row)))
+            for row, stop in stops.items()
+            if place.get(row) != stop
+        ),
+        None,
+    )
+
+
+def _needs_load(axis: Axis) -> str:
+    hint = "its drive moves whatever the load; give it another mode and a motor"
+    return f"friction has no effect ({hint})" if isinstance(axis.drive, LOADLESS) else ""
+
+
 def _rub(place: _Place, torque_nm: float) -> None:
-    if isinstance(place.axis.drive, LOADLESS):
-        hint = "its drive moves whatever the load; give it another mode and a motor"
-        raise UserError(f"axis {place.axis.label}: friction has no effect ({hint})")
-    if torque_nm < 0.0:
-        raise UserError(f"axis {place.axis.label}: friction of {torque_nm:g} Nm; it is 0 or more")
     _smooth(place)
     for row in (at.PLF_COULOMB_ACCEL, at.PLF_STATIC_ACCEL):
         own = place.memory.F[place.reals + row]
@@ -168,23 +189,35 @@ def _smooth(place: _Place) -> None:
         place.put(row, accel)
 
 
-def _dip(place: _Place, volts: float) -> None:
-    full_v = _supply_v(place.axis)
-    if full_v is None:
-        hint = "its drive needs supply_v, its motor resistance_ohm"
-        raise UserError(f"axis {place.axis.label}: a supply that falls has no effect ({hint})")
-    if not 0.0 < volts <= full_v:
-        hint = "without any voltage the fault is `motor-cable`"
-        raise UserError(
-            f"axis {place.axis.label}: a supply of {volts:g} V; above 0 to {full_v:g} V ({hint})"
-        )
-    _supply(place, volts)
+def _friction(place: _Place) -> float | None:
+    """The additional friction [Nm]; None without any."""
+    own = apply.load_rows(place.axis)[at.PLF_COULOMB_ACCEL]
+    more = place.get(at.PLF_COULOMB_ACCEL) - own
+    return _tidy(more / apply.accel_per_nm(place.axis)) if more else None
+
+
+def _needs_supply(axis: Axis) -> str:
+    hint = "its drive needs supply_v, its motor resistance_ohm"
+    return "" if _supply_v(axis) else f"a supply that falls has no effect ({hint})"
 
 
 def _recover(place: _Place) -> None:
     full_v = _supply_v(place.axis)
     if full_v is not None:
         _supply(place, full_v)
+
+
+def _left_v(place: _Place) -> float | None:
+    """The voltage to which the supply has fallen; None while it is full."""
+    full_v = _supply_v(place.axis) or 0.0
+    (row, full) = next(iter(apply.supply_rows(place.axis, full_v).items()))
+    now = place.get(row)
+    return None if now == full else _tidy(now / full * full_v)
+
+
+def _tidy(value: float) -> float:
+    """A value without the last digits, which the conversion to a row and back changes."""
+    return float(f"{value:.9g}")
 
 
 def _supply(place: _Place, volts: float) -> None:
@@ -198,23 +231,42 @@ def _supply_v(axis: Axis) -> float | None:
     return axis.drive.supply_v if isinstance(axis.drive, TorqueDrive) and has_resistance else None
 
 
-_START: dict[MachineFault, Callable[[_Place, float], None]] = {
-    MachineFault.ENCODER_LOST: _lose_signals,
-    MachineFault.ENCODER_NOISE: _disturb_signals,
-    MachineFault.DRIVE: _report_drive,
-    MachineFault.MOTOR_CABLE: _cut_cable,
-    MachineFault.JAM: _jam,
-    MachineFault.OBSTACLE: _block,
-    MachineFault.FRICTION: _rub,
-    MachineFault.SUPPLY: _dip,
+def _no_bar(_axis: Axis) -> str:
+    return ""
+
+
+def _no_limit(_axis: Axis) -> float | None:
+    return None
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """One kind of fault: what begins and ends it, where it is possible, its quantity."""
+
+    start: Callable[[_Place, float], None]
+    end: Callable[[_Place], None]
+    value: Callable[[_Place], float | None]  # None: it is not there
+    bar: Callable[[Axis], str] = _no_bar  # why an axis cannot have it; "" where it can
+    quantity: Quantity | None = None
+    highest: Callable[[Axis], float | None] = _no_limit  # of the quantity
+
+
+_LOST = _is_set(at.PLI_ENCODER_FAULT, SIGNALS_LOST)
+_NOISE = _is_set(at.PLI_ENCODER_FAULT, EDGES_LOST)
+_REPORTED = _is_set(at.PLI_FAULT_REPORT, FAULT_REPORTED)
+_CUT = _is_set(at.PLI_CABLE_CUT, 1)
+# Every kind of fault; scenarios, callers and screens have theirs from here.
+FAULTS: Mapping[MachineFault, Fault] = {
+    MachineFault.ENCODER_LOST: Fault(_lose_signals, _repair(SIGNALS_LOST), _LOST, _needs_encoder),
+    MachineFault.ENCODER_NOISE: Fault(
+        _disturb_signals, _repair(EDGES_LOST), _NOISE, _needs_encoder
+    ),
+    MachineFault.DRIVE: Fault(_report_drive, _end_drive, _REPORTED),
+    MachineFault.MOTOR_CABLE: Fault(_cut_cable, _join_cable, _CUT),
+    MachineFault.JAM: Fault(_jam, _free, _is_jammed),
+    MachineFault.OBSTACLE: Fault(_block, _free, _obstacle, quantity=PLACE),
+    MachineFault.FRICTION: Fault(_rub, _smooth, _friction, _needs_load, TORQUE),
+    MachineFault.SUPPLY: Fault(_supply, _recover, _left_v, _needs_supply, VOLTS, _supply_v),
 }
-_END: dict[MachineFault, Callable[[_Place], None]] = {
-    MachineFault.ENCODER_LOST: _repair(SIGNALS_LOST),
-    MachineFault.ENCODER_NOISE: _repair(EDGES_LOST),
-    MachineFault.DRIVE: _end_drive,
-    MachineFault.MOTOR_CABLE: _join_cable,
-    MachineFault.JAM: _free,
-    MachineFault.OBSTACLE: _free,
-    MachineFault.FRICTION: _smooth,
-    MachineFault.SUPPLY: _recover,
-}
+# The key of a fault's quantity; the other faults have none.
+QUANTITIES = {kind: each.quantity.key for kind, each in FAULTS.items() if each.quantity}

@@ -6,6 +6,8 @@ forced to it, as by a stuck contact or a cut wire, until `release`; the machine 
 drive the signal underneath.
 """
 
+from dataclasses import dataclass
+
 from openacr.map import numbers as at
 from openacr.map.memory import Memory, flag_place
 from openacr.plant import terminals
@@ -89,6 +91,23 @@ def drive(memory: Memory, flag: int, on: bool) -> None:
     _put(memory, row + at.PLNI_LEVEL, mask, on)
     if not memory.I[row + at.PLNI_STUCK] & mask:
         _put(memory, word, mask, on)
+
+
+@dataclass(frozen=True, slots=True)
+class InputState:
+    """An input: its level, and whether it is forced to it."""
+
+    flag: int
+    is_on: bool
+    is_forced: bool
+
+
+def state(memory: Memory, flag: int) -> InputState:
+    """The state of an input of the card, an expansion board or a node."""
+    word, mask = input_place(flag)
+    slot = _driven(memory, word, mask)
+    is_forced = slot is not None and memory.I[word_row(slot) + at.PLNI_STUCK] & mask != 0
+    return InputState(flag, memory.I[word] & mask != 0, is_forced)
 
 
 def is_driven(memory: Memory, flag: int) -> bool:

@@ -1,10 +1,12 @@
 """Read a `machine.toml`; errors give the line, the value and the permitted values."""
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 from openacr.plant import locate, toml_file
 from openacr.plant.check import contradictions
+from openacr.plant.check_bodies import file_faults
 from openacr.plant.complaint import Complaint
 from openacr.plant.explaining import explain, not_finite
 from openacr.plant.schema import World
@@ -13,7 +15,10 @@ from openacr.plant.schema import World
 def load_world(path: Path | str) -> World:
     """Read the machine described by the file at `path`."""
     place = Path(path)
-    return parse_world(toml_file.read_text(place), str(place))
+    text = toml_file.read_text(place)
+    world = parse_world(text, str(place))
+    _refuse(text, str(place), file_faults(world, place.parent))
+    return world
 
 
 def parse_world(text: str, path: str = "machine.toml") -> World:
@@ -22,9 +27,7 @@ def parse_world(text: str, path: str = "machine.toml") -> World:
     Contradictions between values are checked only once every single value is valid.
     """
     world, complaints = build_world(toml_file.parse(text, path))
-    toml_file.refuse(
-        toml_file.wrong(text, path, each.path, each.text, each.hint) for each in complaints
-    )
+    _refuse(text, path, complaints)
     if world is None:
         raise toml_file.wrong(text, path, (), "it describes no machine")
     return world
@@ -40,6 +43,10 @@ def build_world(raw: dict[str, Any]) -> tuple[World | None, list[Complaint]]:
     if world is not None and not complaints:
         complaints = list(contradictions(world))
     return world, complaints
+
+
+def _refuse(text: str, path: str, found: Iterable[Complaint]) -> None:
+    toml_file.refuse(toml_file.wrong(text, path, each.path, each.text, each.hint) for each in found)
 
 
 def _holds(path: locate.Path, inner: locate.Path) -> bool:

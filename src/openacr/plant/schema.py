@@ -12,6 +12,7 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from openacr.models import DEFAULT_MODEL, MODELS, Model
+from openacr.plant.body_schema import Body, Sign
 from openacr.plant.network_schema import Canopen, TalkingDrive
 
 AXES = 16
@@ -43,6 +44,8 @@ FullSteps = Annotated[int, Meta(ge=4, le=100_000)]
 Speed = Annotated[float, Meta(ge=0, le=1e6)]
 Torque = Annotated[float, Meta(ge=0, le=1e6)]
 Damping = Annotated[float, Meta(ge=0, le=2)]
+Resonance = Annotated[float, Meta(gt=0, le=10_000)]
+DampingRatio = Annotated[float, Meta(ge=0, le=0.9)]
 DevicePeriod = Annotated[float, Meta(ge=0.0001, le=1)]
 Degrees = Annotated[float, Meta(ge=-360, le=360)]
 
@@ -103,12 +106,14 @@ class Motor(_Table, frozen=True):
 
 
 class Load(_Table, frozen=True):
-    """The load of the motor, as seen at its shaft."""
+    """The load of the motor, as seen at its shaft, which is rigid without a resonance."""
 
     inertia_kgm2: LoadInertia = 0.0
     viscous_nms: Friction = 0.0
     coulomb_nm: Friction = 0.0
     static_nm: Friction | None = None
+    resonance_hz: Resonance | None = None
+    damping_ratio: DampingRatio = 0.01
 
 
 class _Drive(_Table, frozen=True):
@@ -206,6 +211,7 @@ class Axis(_Table, frozen=True):
     positive_limit: LimitSwitch | None = None
     negative_limit: LimitSwitch | None = None
     home: HomeSwitch | None = None
+    body: Body = Body()
 
     @property
     def counts(self) -> int:
@@ -271,6 +277,7 @@ class DeviceTable(_Table, frozen=True):
     analogs: dict[str, Channel] = {}
     settings: dict[str, bool | int | float | str] = {}
     period_s: DevicePeriod = 0.001
+    sign: Sign | None = None
 
     @property
     def label(self) -> str:

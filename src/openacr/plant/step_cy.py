@@ -37,6 +37,7 @@ from openacr.map.numbers import (
     PLI_STRIDE,
 )
 from openacr.plant.analog_cy import analogs_follow
+from openacr.plant.compliance_cy import flex, flexion, is_compliant
 from openacr.plant.drive_cy import (
     cache_motion_factors,
     clamp_accel,
@@ -121,6 +122,8 @@ def _motor_tick(F: F64, I: I32, S: F32, n: int, dt: float) -> int:
     kind: int = I[i + PLI_KIND]
     if kind == STEPPER_DRIVE:
         stepper_motor(F, I, n, ready, dt)
+    elif is_compliant(F, n):
+        _compliant_motor(F, I, S, n, ready, dt)
     else:
         _analog_motor(F, I, S, n, ready, dt)
     _hard_stops(F, f)
@@ -158,6 +161,16 @@ def _analog_motor(F: F64, I: I32, S: F32, n: int, ready: int, dt: float) -> None
         velocity_drive(F, f, F[f + PLF_VOLTS], F[f + PLF_PEAK_ACCEL], dt)
     else:
         torque_drive(F, f, 0, dt)
+
+
+def _compliant_motor(F: F64, I: I32, S: F32, n: int, ready: int, dt: float) -> None:
+    """Advance the centre of motor and load, and the motor about it."""
+    f: int = PLF_BASE + n * PLF_STRIDE
+    velocity: float = F[f + PLF_VELOCITY_CPS]
+    F[f + PLF_POSITION_CNT] -= flexion(F, n)
+    _analog_motor(F, I, S, n, ready, dt)
+    flex(F, n, ready, velocity, dt)
+    F[f + PLF_POSITION_CNT] += flexion(F, n)
 
 
 def _hard_stops(F: F64, f: int) -> None:

@@ -21,6 +21,7 @@ Kind = TypeVar("Kind")
 # Messages of the converter: a sentence and a path; some sentences are replaced elsewhere.
 UNKNOWN = re.compile(r"Object contains unknown field `(.*)`")
 MISSING = re.compile(r"Object missing required field `(.*)`")
+LENGTH = re.compile(r"Expected `array` of (at least )?length \d+.*")
 _WHERE = re.compile(r"(.*?)(?: - at `\$(.*)`)?", re.DOTALL)
 _STEP = re.compile(r"\.([^.\[\]]+)|\[(\d+)\]")
 _SYNTAX = re.compile(r"(.*?)(?: \(at line (\d+), column (\d+)\)| \(at end of document\))?")
@@ -95,7 +96,8 @@ def convert_all(raw: dict[str, Any], kind: type[Kind]) -> tuple[Kind | None, lis
             place = _original(steps, removed)
             unknown, missing = UNKNOWN.fullmatch(what), MISSING.fullmatch(what)
             key = (missing or unknown or [None, None])[1]
-            if not (missing and (*place, key) in removed):
+            is_shortened = LENGTH.fullmatch(what) and removed.get(place)
+            if not (is_shortened or (missing and (*place, key) in removed)):
                 messages.append(f"{what} - at `{_path(place)}`")
             wrong_steps = (*steps, key) if unknown and key else steps
             if not _leave_out(rest, wrong_steps, removed):

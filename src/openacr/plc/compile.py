@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from openacr.errors import CardError
@@ -45,14 +45,21 @@ class Compiled:
         return [operation | operand << scan.OPERAND_SHIFT for operation, operand in self.code]
 
 
-def compile_plc(lines: Iterable[tuple[int, PlcLine]]) -> Compiled:
-    """Check the lines (with their numbers) and compile them up to END."""
-    compiler = _Compiler()
+def scanned(lines: Iterable[tuple[int, PlcLine]]) -> Iterator[tuple[int, Step, int]]:
+    """The line number, text and operation of each instruction of a scan: all up to END."""
     for number, line in lines:
         for step in line.steps:
             if step.instruction in (END, ENDP):
-                return compiler.result
-            compiler.add(number, step)
+                return
+            if step.instruction.operation is not None:
+                yield number, step, step.instruction.operation
+
+
+def compile_plc(lines: Iterable[tuple[int, PlcLine]]) -> Compiled:
+    """Check the lines (with their numbers) and compile them up to END."""
+    compiler = _Compiler()
+    for number, step, operation in scanned(lines):
+        compiler.add(number, step, operation)
     return compiler.result
 
 
@@ -64,11 +71,8 @@ class _Compiler:
         self.depth: int | None = None  # None: no rung has begun
         self.begins_rung = True
 
-    def add(self, line: int, step: Step) -> None:
+    def add(self, line: int, step: Step, operation: int) -> None:
         row = step.instruction
-        if row.operation is None:
-            return
-        operation = row.operation
         if operation & ~scan.NEGATED == scan.OP_LOAD:
             operation = self._load(line, operation)
         else:

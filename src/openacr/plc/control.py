@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.plc import scan_cy as scan
 from openacr.plc.compile import Compiled, Preload, compile_plc
 from openacr.plc.instructions import Operand
 from openacr.plc.reader import PlcLine
@@ -46,6 +47,26 @@ class Plcs:
     def halt(self, plc: int) -> None:
         """Stop a PLC (HALT); outputs stay as they are."""
         self._memory.I[at.PLF_WORD + plc] &= ~_FIRST
+
+    def note(self, plc: int, on: bool) -> None:
+        """Have the scans of a PLC note in its code what they see, or no longer."""
+        rows = at.PCI_BASE + plc * at.PCI_STRIDE
+        self._memory.I[rows + at.PCI_NOTED] = on
+        for k in self._places(plc):
+            self._memory.I[k] &= ~scan.SEEN
+
+    def seen(self, plc: int) -> list[int]:
+        """What each instruction has seen while scans were noted: bits of `scan_cy.SEEN`."""
+        return [int(self._memory.I[k]) & scan.SEEN for k in self._places(plc)]
+
+    def code(self, plc: int) -> list[int]:
+        """The instructions that are scanned, as `Compiled.words`."""
+        return [int(self._memory.I[k]) & ~scan.SEEN for k in self._places(plc)]
+
+    def _places(self, plc: int) -> range:
+        rows = at.PCI_BASE + plc * at.PCI_STRIDE
+        first = rows + at.PCI_CODE
+        return range(first, first + self._memory.I[rows + at.PCI_LENGTH])
 
     def _write_code(self, plc: int, compiled: Compiled) -> None:
         rows = at.PCI_BASE + plc * at.PCI_STRIDE

@@ -16,6 +16,9 @@ new rung empties it by writing 0. All operands are flags 0 to 8191.
 
 The objects are evaluated before the scans: an input written by a scan acts in the next
 interrupt, and a timer of n ms is seen by the scan exactly n ms after the one that set it.
+
+For coverage a scan notes in the words of its instructions what they have seen: contacts that
+were on and off, outputs that had power and had none.
 """
 
 from openacr.map.flags_cy import flag_bit, put_flag
@@ -31,6 +34,7 @@ from openacr.map.numbers import (
     PCI_CLOCK_OLD,
     PCI_CODE,
     PCI_LENGTH,
+    PCI_NOTED,
     PCI_STRIDE,
     PLC_BASE,
     PLC_COUNT,
@@ -60,7 +64,8 @@ from openacr.views import F64, I32
 __all__ = ["plc_scan", "plc_step"]
 
 # An instruction is one word: its operation, NEGATED where the operand (or the result) is
-# inverted first, and above them the operand. The first four load or combine a flag.
+# inverted first, four bits for what noted scans have seen, and above them the operand. The
+# first four load or combine a flag.
 OP_START = 1  # LD at the start of a rung
 OP_LOAD = 2
 OP_AND = 3
@@ -76,7 +81,12 @@ OP_COUNTER = 12
 OP_LATCH = 13
 OPERATION = 15
 NEGATED = 16
-OPERAND_SHIFT = 5
+SEEN_OFF = 32  # a contact; an output without power; SEEN_ON: the other state
+SEEN_ON = 64
+FIRST_SEEN_OFF = 128  # the first of the two inputs of a counter or latch
+FIRST_SEEN_ON = 256
+SEEN = SEEN_OFF | SEEN_ON | FIRST_SEEN_OFF | FIRST_SEEN_ON
+OPERAND_SHIFT = 9
 
 INPUTS = (
     PLF_TIMER_INPUT
@@ -97,9 +107,34 @@ def plc_put_inputs(I: I32, n: int, inputs: int, on: int) -> None:
 def plc_scan(I: I32, n: int) -> None:
     """One scan of PLC n, from its first instruction to its last."""
     rows: int = PCI_BASE + n * PCI_STRIDE
-    r: int = 0
-    saved: int = 0
-    for k in range(rows + PCI_CODE, rows + PCI_CODE + I[rows + PCI_LENGTH]):
+    first: int = rows + PCI_CODE
+    end: int = first + I[rows + PCI_LENGTH]
+    if not I[rows + PCI_NOTED]:
+        plc_execute(I, first, end, 0)
+        return
+    results: int = 0
+    for k in range(first, end):
+        plc_note(I, k, results)
+        results = plc_execute(I, k, k + 1, results)
+
+
+def plc_note(I: I32, k: int, results: int) -> None:
+    """Note the state of the contact, or the power of the output, that is executed next."""
+    word: int = I[k]
+    op: int = word & OPERATION
+    on: int = results & 1
+    if op <= OP_OR:
+        on = flag_bit(I, word >> OPERAND_SHIFT) ^ (1 if word & NEGATED else 0)
+    elif op == OP_COUNTER or op == OP_LATCH:
+        word |= FIRST_SEEN_ON if results & 2 else FIRST_SEEN_OFF
+    I[k] = word | (SEEN_ON if on else SEEN_OFF)
+
+
+def plc_execute(I: I32, first: int, end: int, results: int) -> int:
+    """Execute instructions with R in the lowest bit and the saved results above it."""
+    r: int = results & 1
+    saved: int = results >> 1
+    for k in range(first, end):
         word: int = I[k]
         op: int = word & OPERATION
         operand: int = word >> OPERAND_SHIFT
@@ -127,6 +162,7 @@ def plc_scan(I: I32, n: int) -> None:
             plc_drive(I, op, operand, saved & 1, r)
             if op == OP_COUNTER or op == OP_LATCH:
                 saved >>= 1
+    return (saved << 1) | r
 
 
 def plc_drive(I: I32, op: int, operand: int, first: int, r: int) -> None:

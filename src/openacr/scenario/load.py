@@ -5,7 +5,7 @@ from pathlib import Path
 
 from openacr.errors import SourceError
 from openacr.plant import toml_file
-from openacr.plant.faults import MachineFault
+from openacr.plant.fault_kinds import MachineFault
 from openacr.scenario.rules import STRUCT_OF_KEY, allowed_keys, problems
 from openacr.scenario.schema import Key, Scenario, State
 

@@ -49,9 +49,9 @@ _CONDITIONS = ("bit", "parameter", "axis", "printed", "program")
 _MOMENTS = ("time_s", "when", "after")
 # Of each of these sets an entry has at least one key; of those below it has exactly one.
 AT_LEAST_ONE: dict[type[Struct], tuple[tuple[str, ...], ...]] = {Action: (_MOMENTS, _DEEDS)}
-EXACTLY_ONE: dict[type[Struct], tuple[str, ...]] = {
-    Condition: _CONDITIONS,
-    Expectation: _SUBJECTS,
+EXACTLY_ONE: dict[type[Struct], tuple[tuple[str, ...], ...]] = {
+    Condition: (_CONDITIONS,),
+    Expectation: (_SUBJECTS,),
 }
 _COMPANIONS = {
     "parameter": {"is", "above", "below", "tolerance"},

@@ -11,7 +11,8 @@ from typing import Annotated
 
 from msgspec import UNSET, Meta, Struct, UnsetType
 
-from openacr.plant.faults import QUANTITIES, MachineFault
+from openacr.plant.fault_kinds import TORQUE, VOLTS, MachineFault
+from openacr.plant.faults import QUANTITIES
 
 Seconds = Annotated[float, Meta(ge=0.0)]
 Bit = Annotated[int, Meta(ge=0, le=32767)]
@@ -75,8 +76,8 @@ class Fault(Struct, frozen=True, forbid_unknown_fields=True):
     axis: Sixteenth
     kind: MachineFault
     at: float | None = None
-    torque_nm: Annotated[float, Meta(ge=0.0)] | None = None
-    volts: Annotated[float, Meta(gt=0.0)] | None = None
+    torque_nm: Annotated[float, Meta(ge=TORQUE.low)] | None = None
+    volts: Annotated[float, Meta(gt=VOLTS.low)] | None = None
 
     @property
     def value(self) -> float:

@@ -9,9 +9,18 @@ from openacr.map.memory import Memory
 from openacr.models import MODELS
 from openacr.plant.load import load_world
 from openacr.plant.schema import Card
-from openacr.project import Place, Project, SourceFile, find_project, place_of, read_source
+from openacr.project import (
+    Place,
+    Project,
+    SourceFile,
+    find_project,
+    is_folder,
+    place_of,
+    read_source,
+)
 from openacr.scenario import load_scenario
 from openacr.source_check.cutoffs import Cutoffs
+from openacr.source_check.devices import device_faults
 from openacr.source_check.faults import Fault
 from openacr.source_check.room import Room
 from openacr.source_check.source import Reader
@@ -29,7 +38,8 @@ def check(
     editor holds them. SourceError or UserError where the input cannot be read at all.
     """
     project = find_project(path, unsaved)
-    return [*table_faults(project), *read(path, project, at, unsaved).faults]
+    tables = [*table_faults(project), *device_faults(project)]
+    return [*tables, *read(path, project, at, unsaved).faults]
 
 
 def check_text(text: str, path: Path, at: Level | None = None) -> list[Fault]:
@@ -57,11 +67,12 @@ def read(
     `at` is the level of a file whose name does not say it.
     """
     place, number = place_of(file) if at is None else at
-    is_whole = file.is_dir() or place is Place.SETUP
+    is_all = is_folder(file, unsaved)
+    is_whole = is_all or place is Place.SETUP
     home = project if is_whole else _home(file.parent, unsaved, is_needed=at is None)
     reader = _reader(home)
     if is_whole:
-        reader.sizes.is_complete = reader.room.is_complete = file.is_dir()
+        reader.sizes.is_complete = reader.room.is_complete = is_all
         for source in project.sources:
             reader.read(source)
         return reader

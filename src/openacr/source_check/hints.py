@@ -11,6 +11,7 @@ from openacr.errors import CardError
 from openacr.lang.lexer import Token, TokenKind, plain, tokens
 from openacr.lang.source import Span
 from openacr.messages import (
+    OUT_OF_DEFINE_SPACE,
     SYNTAX_ERROR,
     TYPE_MISMATCH,
     UNDEFINED_SYMBOL,
@@ -21,6 +22,7 @@ from openacr.messages import (
 
 MOST_NAMES = 5
 AFTER_A_TARGET = "after a target come other axes, a command or `:`"
+NO_ALIASES = "DIM DEF(n) at SYS, before it, makes space for n aliases; a new card has none"
 TEXT_AND_NUMBER = "STR$ makes text of a number, VAL a number of text"
 _MEANT = "did you mean {}?"
 _IS_MEANT = re.compile(re.escape(_MEANT).replace(r"\{\}", "(.+)"))
@@ -39,6 +41,8 @@ def hint_for(
         return _MEANT.format(close)
     if message in (UNKNOWN_COMMAND, UNDEFINED_SYMBOL) and level is Level.PROG:
         return "no command, alias or axis of this program has this name"
+    if message is OUT_OF_DEFINE_SPACE:
+        return NO_ALIASES
     if message is TYPE_MISMATCH:
         return _called(text, span) or TEXT_AND_NUMBER
     return _usage(text, span, names) if message is SYNTAX_ERROR and span else ""

@@ -20,9 +20,11 @@ from openacr.basic.memory.program_store import OWNERS
 from openacr.basic.memory.storage import Storage
 from openacr.errors import CardError
 from openacr.map.memory import Memory
-from openacr.messages import OUT_OF_MEMORY
+from openacr.messages import OUT_OF_DEFINE_SPACE, OUT_OF_MEMORY
+from openacr.source_check.cutoffs import statements
 from openacr.source_check.texts import Finding, Text, TextLine
 
+RESIZING = frozenset((("DIM",), ("CLEAR",), ("DEF", "CLEAR"), ("NEW",)))
 MOST_BYTES_PER_CHARACTER = 8  # of an instruction of a PLC; fewer of other lines
 
 
@@ -30,13 +32,14 @@ MOST_BYTES_PER_CHARACTER = 8  # of an instruction of a PLC; fewer of other lines
 class Room:
     """The memory of a card that was new before, as it is after the lines read so far.
 
-    It is known as long as all sizes are: one that is computed, or a DIM that depends on
-    something, ends that.
+    It is known as long as all sizes are: one that is computed, or a DIM, CLEAR or NEW that
+    depends on something, ends that.
     """
 
     storage: Storage = field(default_factory=lambda: Storage(Memory()))
     is_known: bool = True
     is_complete: bool = False  # what gives programs their memory has been read
+    _names: set[str] = field(default_factory=set)  # of aliases
 
     def note(self, level: Level, number: int, blocks: Iterable[Block]) -> CardError | None:
         """Execute the DIM, CLEAR and NEW commands of a line; what the card says against one."""
@@ -57,12 +60,15 @@ class Room:
             self.storage.clear_stream(channel_name(arguments[0]))
         elif words == ("CLEAR",) and level is Level.SYS:
             self.storage.clear_system()
+            self._names.clear()
+        elif words == ("DEF", "CLEAR"):
+            self._names.clear()
         elif words == ("CLEAR",) and level is Level.PROG:
             self.storage.locals.clear(number)
         elif words == ("NEW",):
             for owner in _owners(level, number, arguments[0]):
                 self.storage.set_code_bytes(owner, 0)
-        elif any(_dimensions(getattr(argument, "blocks", ())) for argument in arguments):
+        elif any(_resizes(getattr(argument, "blocks", ())) for argument in arguments):
             self.is_known = False
 
     def _dimension(self, level: Level, number: int, what: Dimension) -> None:
@@ -76,6 +82,14 @@ class Room:
                 dimension_local(self.storage, number, what.word, index, tuple(known), repeat=False)
         elif level is Level.SYS:
             dimension_system(self.storage, what.word, index, tuple(known))
+
+    def define(self, name: str) -> None:
+        """Account for an alias; CardError if the card has no space for one more."""
+        count = self.storage.define_count
+        self._names.add(name)
+        if self.is_known and (self.is_complete or count) and len(self._names) > count:
+            self._names.discard(name)
+            raise CardError(OUT_OF_DEFINE_SPACE)
 
     def store(self, level: Level, number: int, text: Text) -> Iterator[Finding]:
         """Account for a text; the first line that finds no room, if there is one."""
@@ -121,13 +135,9 @@ def _most_bytes(line: TextLine) -> int:
     return MOST_BYTES_PER_CHARACTER * (len(line.place.text) + 1)
 
 
-def _dimensions(blocks: Iterable[Block]) -> bool:
-    """Whether there is a DIM among what may be executed."""
-    return any(
-        isinstance(statement, Statement) and statement.command.words == ("DIM",)
-        for block in blocks
-        for statement in block
-    )
+def _resizes(blocks: Iterable[Block]) -> bool:
+    """Whether there is a command among what may be executed that takes or gives memory."""
+    return any(each.command.words in RESIZING for each in statements(blocks))
 
 
 def _integer(size: Expr) -> int | None:

@@ -22,7 +22,7 @@ from openacr.basic.language.scope import Scope, join_names
 from openacr.basic.memory.program_store import line_number, opens_capture
 from openacr.basic.vm.outline import Outline, outline
 from openacr.errors import CardError
-from openacr.lang.lexer import Token, TokenKind, column_in, tokens
+from openacr.lang.lexer import Token, TokenKind, tokens
 from openacr.lang.source import Span
 from openacr.messages import NOT_SUPPORTED, UNKNOWN_COMMAND
 from openacr.models import ACR8020, Model
@@ -31,7 +31,7 @@ from openacr.plc.reader import read_line
 from openacr.project import PROGRAM_COUNT, Place, SourceFile
 from openacr.source_check import numbers
 from openacr.source_check.cutoffs import Cutoffs, statements
-from openacr.source_check.faults import Fault
+from openacr.source_check.faults import Fault, place_of
 from openacr.source_check.hints import hint_for
 from openacr.source_check.room import Room
 from openacr.source_check.sizes import Sizes, undimensioned, variable
@@ -39,6 +39,7 @@ from openacr.source_check.structure import Structure
 from openacr.source_check.texts import Finding, Text, TextLine, label_of
 
 EXTENSION_WARNING = "an extension of openacr: real cards refuse it"
+TOLERANCE_HINT = "it limits corners between straight moves, not the turn of arcs"
 _LEVEL_WORDS = {"SYS": Level.SYS, "PROG": Level.PROG, "PLC": Level.PLC}
 
 
@@ -69,6 +70,7 @@ class Reader:
     _path: str = ""
     _originals: list[str] = field(default_factory=list)
     _captured: Text = field(default_factory=Text)
+    _begun: dict[tuple[Level, int], None] = field(default_factory=dict)  # texts, in this file
     _known: dict[str, Outline] = field(default_factory=dict)  # by shape, what may be captured
     _stored_scope: Scope = field(default_factory=Scope)
     _kinds: dict[str, str] = field(default_factory=dict)  # of the variables that have aliases
@@ -81,13 +83,13 @@ class Reader:
         self.level, self.number = levels[source.place], source.number
         self.is_capturing = False
         self._scope_changed()
-        read_before, known_faults = set(self.texts), len(self.faults)
+        self._begun, known_faults = {}, len(self.faults)
         with long_lived_objects():
             for line in file_lines(source.text):
                 known = self._known.get(line.shape)
                 if known is None or not self._put_known(line, known):
                     self._take(line)
-            for key in [key for key in self.texts if key not in read_before]:
+            for key in self._begun:
                 self._check(*key)
         for finding in self.cutoffs.findings():
             self._report(finding)
@@ -138,6 +140,7 @@ class Reader:
         """PROGRAM: everything up to ENDP is stored."""
         self._captured = self._text()
         self._captured.clear()
+        self._begun[self.level, self.number] = None
         self.is_capturing = True
         self._store(line, tokens("PROGRAM", 1))
         if rest.startswith("_"):
@@ -149,7 +152,7 @@ class Reader:
             raise CardError(UNKNOWN_COMMAND)
         key = (self.level, self.number)
         if key not in self.texts:
-            self.texts[key] = Text()
+            self.texts[key], self._begun[key] = Text(), None
             self.parts.append(self.texts[key])
         return self.texts[key]
 
@@ -191,11 +194,13 @@ class Reader:
         refused = self.room.note(self.level, self.number, tree.blocks)
         if refused is not None:
             self._fault(line, refused)
-        for block in tree.blocks:
-            for statement in block:
-                if not isinstance(statement, Move):
-                    self._note(statement)
-        self._scope_changed()
+        try:
+            for block in tree.blocks:
+                for statement in block:
+                    if not isinstance(statement, Move):
+                        self._note(statement)
+        finally:
+            self._scope_changed()
         if rest:
             self._immediate(line, rest)
 
@@ -211,6 +216,7 @@ class Reader:
             if isinstance(item, Definition) and item.target is not None:
                 check_name(item.name, has_digits=self.model.has_digits_in_names)
                 self.aliases = self.aliases | {item.name: item.target}
+                self.room.define(item.name)
 
     def _check(self, level: Level, number: int) -> None:
         """Tie the lines of a program or PLC together."""
@@ -258,13 +264,14 @@ class Reader:
                 warning = CONFIG_NOTICE
             if warning:
                 span = Span(1, statement.column, len(command.name))
-                self._report(Finding(line, None, span, warning))
+                hint = TOLERANCE_HINT if command.words == ("LOOK", "TOL") else ""
+                self._report(Finding(line, None, span, warning, hint))
 
     def _report(self, finding: Finding) -> None:
         if finding.error is not None:
             self._fault(finding.line, finding.error, finding.hint)
         else:
-            place = self._place(finding.line, finding.span)
+            place = place_of(finding.line, finding.span, self._originals)
             self._add(place, finding.warning, finding.hint, "warning")
 
     def _fault(self, line: FileLine, error: CardError, hint: str = "") -> None:
@@ -273,24 +280,11 @@ class Reader:
         if error.message is NOT_SUPPORTED and not hint:
             hint = f"the {self.model.name} has {self.model.lacks}"
         hint = hint or hint_for(error.message, line.text, span, self.level, names)
-        self._add(self._place(line, span), error.text, hint, "error")
+        self._add(place_of(line, span, self._originals), error.text, hint, "error")
 
     def _add(self, place: tuple[int, int, int], text: str, hint: str, severity: str) -> None:
         original = self._originals[place[0] - 1].rstrip()
         self.faults.append(Fault(self._path, *place, text, hint, original, severity))
-
-    def _place(self, line: FileLine, span: Span | None) -> tuple[int, int, int]:
-        """Line, column and length in the file as it is."""
-        number, column = line.place(column_in(line.text, span.column)) if span else (line.number, 1)
-        original = self._originals[number - 1].rstrip()
-        begin = len(original) - len(original.lstrip()) + 1
-        if number != line.number:
-            shift = begin - 1  # it was joined to another line without its indentation
-        else:  # a prompt in front of the line was taken away before it was read
-            first = line.text[: line.rests[0][1] - 2] if line.rests else line.text
-            shift = len(original) - len(first) if original.endswith(first) else 0
-        column = max(begin, column + shift) if span else begin
-        return number, min(column, len(original) + 1), span.length if span else len(original)
 
 
 def _words(text: str) -> set[str]:

@@ -76,6 +76,7 @@ class Text:
     def clear(self) -> None:
         """Forget all lines."""
         self.lines.clear()
+        self.lost.clear()
         self.last = 0
 
     def in_order(self) -> list[TextLine]:

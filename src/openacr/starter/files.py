@@ -1,13 +1,13 @@
 """The files of a first project, from the templates of this package."""
 
 import re
-import shutil
 from pathlib import Path
 
 from openacr.configure import code_files, parse_answers
 from openacr.errors import UserError, unreadable, unwritable
 from openacr.starter.choices import Choices
 from openacr.starter.facts import facts_of
+from openacr.starter.folders import make_whole
 from openacr.starter.render import render
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -67,25 +67,14 @@ def write_project(folder: Path, chosen: Choices) -> list[Path]:
     """
     require_free(folder)
     files = project_files(folder.resolve().name, chosen)
-    try:
-        if folder.exists():
+    if not folder.exists():
+        make_whole(folder, lambda partial: _fill(partial, files))
+    else:
+        try:
             _fill(folder, files)
-        else:
-            _create(folder, files)
-    except OSError as failure:
-        raise unwritable(folder, failure) from None
+        except OSError as failure:
+            raise unwritable(folder, failure) from None
     return [folder / each for each in sorted(files)]
-
-
-def _create(folder: Path, files: dict[str, str]) -> None:
-    partial = folder.with_name(f".{folder.name}.partial")
-    partial.mkdir()
-    try:
-        _fill(partial, files)
-        partial.rename(folder)
-    except BaseException:
-        shutil.rmtree(partial, ignore_errors=True)
-        raise
 
 
 def _fill(folder: Path, files: dict[str, str]) -> None:

@@ -9,7 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from openacr.errors import UserError, unreadable, unwritable
+from openacr.errors import UserError, unreadable
+from openacr.starter.folders import make_whole
 
 PACKAGE = Path(__file__).parents[1]
 INSTALLED = PACKAGE / "example_projects"
@@ -61,18 +62,12 @@ def copy_example(example: Example, folder: Path) -> list[Path]:
         raise UserError(f"{folder} is there already; nothing is replaced")
     if not folder.parent.is_dir():
         raise UserError(f"{folder}: there is no folder {folder.parent}")
-    partial = folder.with_name(f".{folder.name}.partial")
-    try:
-        partial.mkdir()
-        try:
-            for name in example.files:
-                shutil.copyfile(example.folder / name, partial / name)
-            partial.rename(folder)
-        except BaseException:
-            shutil.rmtree(partial, ignore_errors=True)
-            raise
-    except OSError as failure:
-        raise unwritable(folder, failure) from None
+
+    def fill(partial: Path) -> None:
+        for name in example.files:
+            shutil.copyfile(example.folder / name, partial / name)
+
+    make_whole(folder, fill)
     return [folder / name for name in example.files]
 
 

@@ -11,13 +11,21 @@ from openacr.errors import UserError
 from openacr.plant.complaint import Complaint
 from openacr.sweep.expressions import FUNCTIONS, Measure, Needs
 from openacr.sweep.results import FIXED
-from openacr.sweep.schema import Design, Head, Kind, Quantity, Scale, Tables
+from openacr.sweep.schema import (
+    NAME,
+    TARGETS,
+    VALUES,
+    Design,
+    Head,
+    Kind,
+    Quantity,
+    Scale,
+    Tables,
+)
 
 MOST_RUNS = 10_000_000
-_NAME = re.compile(r"[a-z][a-z0-9_]{0,39}")
+_NAME = re.compile(NAME)
 _TAKEN = frozenset((*FUNCTIONS, *FIXED, "time", "end_time", "run"))
-_TARGETS = ("machine", "parameter", "define", "line")
-_VALUES = ("values", "range", "normal")
 
 
 def problems(found: Head, tables: Tables) -> Iterator[Complaint]:
@@ -60,8 +68,8 @@ def _one_of(name: str, quantity: Quantity, keys: tuple[str, ...]) -> Iterator[Co
 
 def _quantity(name: str, quantity: Quantity) -> Iterator[Complaint]:
     place = ("vary", name)
-    yield from _one_of(name, quantity, _TARGETS)
-    yield from _one_of(name, quantity, _VALUES)
+    yield from _one_of(name, quantity, TARGETS)
+    yield from _one_of(name, quantity, VALUES)
     if quantity.line is not None and "{}" not in quantity.line:
         yield Complaint(
             (*place, "line"), f'{name}: the line has no {{}} for the value: "AXIS0 PGAIN {{}}"'

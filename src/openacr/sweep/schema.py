@@ -9,6 +9,7 @@ Seconds = Annotated[float, Meta(gt=0, le=1e7)]
 Count = Annotated[int, Meta(ge=1, le=10_000_000)]
 Steps = Annotated[int, Meta(ge=2, le=1_000_000)]
 Seed = Annotated[int, Meta(ge=0, le=2**32 - 1)]
+NAME = r"[a-z][a-z0-9_]{0,39}"
 
 
 class Kind(StrEnum):
@@ -45,6 +46,10 @@ class Quantity(_Table, frozen=True):
     normal: tuple[float, float] | None = None
 
 
+TARGETS = ("machine", "parameter", "define", "line")
+VALUES = ("values", "range", "normal")
+
+
 class Design(_Table, frozen=True):
     """Which combinations of values are run."""
 
@@ -60,6 +65,13 @@ class Optimise(_Table, frozen=True):
     maximise: str | None = None
     trials: Count = 100
     seed: Seed = 1
+
+
+# Of each of these sets an entry has exactly one key.
+EXACTLY_ONE: dict[type[Struct], tuple[tuple[str, ...], ...]] = {
+    Quantity: (TARGETS, VALUES),
+    Optimise: (("minimise", "maximise"),),
+}
 
 
 class Head(_Table, frozen=True, kw_only=True):
@@ -81,11 +93,23 @@ class Tables(Struct, frozen=True):
     measures: dict[str, str]
 
 
+_NAMED: dict[str, type] = {"vary": Quantity, "measures": str}
+
+
+def kind_for_editors() -> Any:
+    """The type of any sweep file, with the rule for names, as its JSON schema is made of it."""
+    name = Annotated[str, Meta(pattern=f"^{NAME}$")]
+    fields = [
+        (table, Annotated[dict[name, kind], Meta(min_length=1)])  # type: ignore[valid-type]
+        for table, kind in _NAMED.items()
+    ]
+    return defstruct("SweepFile", fields, bases=(Head,), frozen=True, kw_only=True)
+
+
 def kind_for(raw: dict[str, Any]) -> type[Head]:
     """The type of a sweep file with these names, so that every mistake has its whole path."""
-    tables = {"vary": Quantity, "measures": str}
     fields: list[tuple[str, type]] = []
-    for table, kind in tables.items():
+    for table, kind in _NAMED.items():
         given = raw.get(table)
         names = list(given) if isinstance(given, dict) else []
         places = {f"at{k}": name for k, name in enumerate(names)}

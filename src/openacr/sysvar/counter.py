@@ -73,8 +73,8 @@ def is_settled(stamp: bytes) -> bool:
 
 
 def _mapped(path: Path) -> mmap.mmap:
-    with path.open("a+b") as file:
-        file.seek(0, 2)
-        if file.tell() < SIZE:
-            file.truncate(SIZE)
+    with path.open("a+b", buffering=0) as file:
+        if (size := file.seek(0, 2)) < SIZE:
+            # Written, not extended: a hole that a full disk cannot fill kills who writes into it.
+            file.write(bytes(SIZE - size))
         return mmap.mmap(file.fileno(), SIZE)

@@ -199,6 +199,9 @@ _WORDS = {
 }
 
 
+_NO_INDEX = "cannot be read or written: the disk is full (the index of its log needs 32 KiB)"
+
+
 def _code(failure: sqlite3.Error) -> int:
     return getattr(failure, "sqlite_errorcode", 0) & 0xFF
 
@@ -211,4 +214,6 @@ def _explained(path: Path | None, failure: sqlite3.Error) -> StoreError:
     code = _code(failure)
     if code in (sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_CORRUPT):
         return _damaged(path)
+    if getattr(failure, "sqlite_errorcode", 0) == sqlite3.SQLITE_IOERR_SHMSIZE:
+        return StoreError(f"{path} {_NO_INDEX}")
     return StoreError(f"{path} {_WORDS.get(code) or f'cannot be read or written: {failure}'}")

@@ -12,9 +12,10 @@ Keys are numbers or unique names; lengths are in the unit of the file unless the
 import json
 import tomllib
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
-from openacr.errors import MapError, UserError
+from openacr.errors import MapError, UserError, read_bytes
 from openacr.sysvar import lookup, password, rules, values
 from openacr.sysvar.held import UNITS
 from openacr.sysvar.schema import CellKind, Parameter
@@ -99,6 +100,28 @@ def imported(store: Store, text: str, place: str = "the file") -> int:
             return _apply(store, list(_entries(document)), is_metric)
     except (MapError, SettingError) as error:
         raise UserError(f"{place}: {error}") from None
+
+
+def text_of(path: Path) -> str:
+    """The text of a file of settings; UserError if it cannot be read."""
+    try:
+        return read_bytes(path).decode()
+    except UnicodeDecodeError:
+        raise UserError(f"{path}: not UTF-8 text") from None
+
+
+def begun(path: Path, settings: Path) -> Store:
+    """Open the store of a machine; a new one gets the settings of a file, or is not created."""
+    is_new = not path.exists()
+    store = Store(path)
+    if is_new:
+        try:
+            imported(store, text_of(settings), str(settings))
+        except BaseException:
+            store.close()
+            path.unlink(missing_ok=True)
+            raise
+    return store
 
 
 def _checked_head(document: dict[str, Any], place: str) -> bool:

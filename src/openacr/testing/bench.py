@@ -27,6 +27,8 @@ class Bench:
             card = Controller() if project is None else Controller.from_project(project)
             self._loaded[project] = card, card.snapshot()
         card, snapshot = self._loaded[project]
+        if self.coverage is not None:
+            self.coverage.prepare(card)
         card.take_over(snapshot)
         machine = Machine(card, project)
         machine.begin()

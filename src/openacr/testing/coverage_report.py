@@ -1,4 +1,4 @@
-"""Coverage of AcroBASIC as a table, as pages and as an LCOV file."""
+"""Coverage of AcroBASIC and PLCs as a table, as pages and as an LCOV file."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from html import escape
 from pathlib import Path
 
 from openacr.project import decode
-from openacr.testing.coverage import BRANCHES, Coverage, Line
+from openacr.testing.coverage import Coverage
+from openacr.testing.covered_lines import BRANCHES, Line
 
 _STYLE = """
 body { font-family: sans-serif; } pre { margin: 0; } td { padding: 0 .6em; }
@@ -16,24 +17,27 @@ body { font-family: sans-serif; } pre { margin: 0; } td { padding: 0 .6em; }
 
 
 def table(coverage: Coverage) -> Iterator[str]:
-    """A line for each file: lines, missing ones, branches, share."""
+    """A line for each file: lines, missing ones, branches, share; then what PLCs never did."""
     files = coverage.files()
     width = max(map(len, files), default=4)
     yield f"{'file':<{width}}  lines  missed  branches  missed  cover  missing"
     for file, lines in files.items():
         missed = [number for number, line in lines.items() if not line.count]
-        branches = sum(BRANCHES for line in lines.values() if line.has_branches)
+        branches = sum(len(line.branches) for line in lines.values())
         taken = sum(line.taken for line in lines.values())
         yield (
             f"{file:<{width}}  {len(lines):>5}  {len(missed):>6}  {branches:>8}"
             f"  {branches - taken:>6}  {share(lines.values()):>4.0f}%  {_ranges(missed)}"
         ).rstrip()
+    for (file, number), line in sorted(coverage.lines.items()):
+        for remark in line.remarks:
+            yield f"{file}:{number}: {remark}"
 
 
 def share(lines: Iterable[Line]) -> float:
     """Executed lines and taken branches, per cent of all."""
     found = list(lines)
-    there = len(found) + sum(BRANCHES for line in found if line.has_branches)
+    there = len(found) + sum(len(line.branches) for line in found)
     done = sum(line.count > 0 for line in found) + sum(line.taken for line in found)
     return 100.0 * done / there if there else 100.0
 
@@ -52,11 +56,10 @@ def _record(file: str, lines: dict[int, Line]) -> str:
     branches = 0
     for number, line in lines.items():
         text.append(f"DA:{number},{line.count}")
-        if line.has_branches:
-            branches += BRANCHES
-            for place in range(BRANCHES):
-                is_taken = "-" if not line.count else str(int(place < line.taken))
-                text.append(f"BRDA:{number},0,{place},{is_taken}")
+        branches += len(line.branches)
+        for place, times in enumerate(line.branches):
+            block, branch = divmod(place, BRANCHES)
+            text.append(f"BRDA:{number},{block},{branch},{'-' if times is None else times}")
     taken = sum(line.taken for line in lines.values())
     text += [f"BRF:{branches}", f"BRH:{taken}"]
     text += [f"LF:{len(lines)}", f"LH:{sum(line.count > 0 for line in lines.values())}"]
@@ -81,9 +84,11 @@ def _page(file: str, lines: dict[int, Line]) -> str:
     for number, text in enumerate(decode(Path(file).read_bytes()).splitlines(), start=1):
         line = lines.get(number)
         count = "" if line is None else str(line.count)
-        taken = f"{line.taken}/{BRANCHES}" if line is not None and line.has_branches else ""
+        taken = f"{line.taken}/{len(line.branches)}" if line is not None and line.branches else ""
+        remarks = "" if line is None else "; ".join(line.remarks)
         cells = (
             f"<td>{number}</td><td>{count}</td><td>{taken}</td><td><pre>{escape(text)}</pre></td>"
+            f"<td>{escape(remarks)}</td>"
         )
         rows.append(f"<tr class='{_class(line)}'>{cells}</tr>")
     return _document(file, f"<table>{''.join(rows)}</table>")
@@ -94,7 +99,7 @@ def _class(line: Line | None) -> str:
         return ""
     if not line.count:
         return "miss"
-    return "part" if line.has_branches and line.taken < BRANCHES else "hit"
+    return "part" if line.taken < len(line.branches) else "hit"
 
 
 def _document(title: str, body: str) -> str:

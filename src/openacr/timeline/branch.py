@@ -6,6 +6,7 @@ from bisect import bisect_right
 from dataclasses import dataclass, field
 
 from openacr.controller.journal import JournalEntry
+from openacr.errors import UserError
 from openacr.timeline.keyframe import Keyframe
 from openacr.timeline.moment import Moment
 
@@ -86,3 +87,40 @@ class Branch:
         del self.entries[:dropped]
         self.forgotten += dropped
         return True
+
+
+class Branches(list[Branch]):
+    """All branches of a history; numbers are not given again."""
+
+    _made = 1
+
+    def named(self, number: int) -> Branch:
+        """A branch by its number; UserError for one that does not exist."""
+        for branch in self:
+            if branch.number == number:
+                return branch
+        known = ", ".join(str(each.number) for each in self)
+        raise UserError(f"there is no branch {number}; known: {known}")
+
+    def fork(self, parent: Branch, at: Moment, entered: int) -> Branch:
+        """Add a branch that leaves its parent at a moment, before which `entered` inputs came."""
+        branch = parent.forked(self._made, at, entered)
+        self._made += 1
+        self.append(branch)
+        return branch
+
+    @property
+    def size_bytes(self) -> int:
+        """What keyframes and inputs take in memory, roughly; what is shared counts once."""
+        kept = {id(each): each for branch in self for each in branch.keyframes}
+        frames = sum(each.size_bytes for each in kept.values())
+        return frames + sum(branch.inputs_bytes for branch in self)
+
+    def shorten(self, most_bytes: int) -> None:
+        """Thin the keyframes, then forget the beginning, until no more bytes are taken."""
+        while self.size_bytes > most_bytes:
+            shorter = [branch.thin() for branch in self]
+            if not any(shorter):
+                shorter = [branch.forget_first() for branch in self]
+            if not any(shorter):
+                break

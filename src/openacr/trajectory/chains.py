@@ -7,25 +7,34 @@ rest to rest.
 
 import math
 from collections import deque
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from openacr.trajectory.segments import Direction, Piece, turn_rad
+from openacr.trajectory.course import Soft
+from openacr.trajectory.segments import Piece, turn_rad
 
 SHARP_DEG = 32.0
 STRAIGHT_RAD = 1e-7  # turns below are rounding of the coordinates
-
-
 MOST_NEAR = 64
+
+
+@dataclass(frozen=True, slots=True)
+class Corner:
+    """The end of one chain and the start of the next one (corners.py)."""
+
+    end: Soft
+    start: Soft
+    longest_s: float  # overlap that may keep the tolerance
+    near_u: float  # distance from the vertex within which they overlap
 
 
 @dataclass(slots=True)
 class Chain:
     """Successive pieces that are passed without a stop."""
 
-    pieces: list[Piece] = field(default_factory=list)  # not taken by a course yet
+    pieces: deque[Piece] = field(default_factory=deque)  # not taken by a course yet
     head: list[Piece] = field(default_factory=list)  # the first ones
     tail: deque[Piece] = field(default_factory=lambda: deque(maxlen=MOST_NEAR))  # the last ones
+    corner: Corner | None = None  # with the chain before
     length_u: float = 0.0
     is_closed: bool = False  # no piece follows
     stops: bool = True  # comes to rest at its end; else overlaps the next chain
@@ -36,7 +45,9 @@ class Chain:
         if self.tail:
             last, new = self.tail[-1].segment, piece.segment
             self.is_straight &= (
-                turn_after(self, piece) <= STRAIGHT_RAD and last.feed_ups == new.feed_ups
+                turn_after(self, piece) <= STRAIGHT_RAD
+                and last.feed_ups == new.feed_ups
+                and last.tool_ups == new.tool_ups
             )
         self.is_straight &= piece.is_line
         self.pieces.append(piece)
@@ -44,6 +55,16 @@ class Chain:
         if len(self.head) < MOST_NEAR:
             self.head.append(piece)
         self.length_u += piece.length_u
+
+    def pieces_within(self, length_u: float) -> list[Piece]:
+        """The first of the pieces not taken yet, until they are `length_u` long."""
+        found, gone_u = [], 0.0
+        for piece in self.pieces:
+            found.append(piece)
+            gone_u += piece.length_u
+            if gone_u >= length_u:
+                break
+        return found
 
     @property
     def is_rapid(self) -> bool:
@@ -63,11 +84,3 @@ def turn_after(chain: Chain, piece: Piece) -> float:
     """The turn from the end of a chain into a piece, rad."""
     last = chain.tail[-1]
     return turn_rad(last.tangent(last.length_u), piece.tangent(0.0))
-
-
-def corner_jerk(jerks: Sequence[float], before: Direction, after: Direction) -> float:
-    """The jerk Je that two overlapping ends may have in both directions together."""
-    return min(
-        limit / max(abs(a + b), abs(a), abs(b), 1e-12)
-        for limit, a, b in zip(jerks, before, after, strict=True)
-    )

@@ -1,13 +1,14 @@
 """Courses: a chain with its path and time law, ready to be evaluated (course_cy.py)."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from openacr.compiled import pick
 from openacr.trajectory import course_cy, scurve_cy
-from openacr.trajectory.arrays import flat, room
+from openacr.trajectory.arrays import flat, numbers, room
+from openacr.trajectory.end_law import rest_u, turn_s
 from openacr.trajectory.limits import Along
 from openacr.trajectory.segments import Point
 from openacr.trajectory.setpoints import Reals
@@ -18,10 +19,23 @@ _rest_to_rest = pick(scurve_cy.rest_to_rest)
 
 @dataclass(frozen=True, slots=True)
 class Soft:
-    """The start or end of a chain that overlaps another: its jerk for the first seconds."""
+    """The start or end of a chain that overlaps another: its jerk for the first seconds.
+
+    It swings out by `swing_u` first (end_law.py).
+    """
 
     jerk: float
     time_s: float
+    swing_u: float = 0.0
+    share: float = 1.0  # of the jerk that its axes allow along the path
+
+    def reach_u(self) -> float:
+        """The distance from rest up to which the jerk rules."""
+        return rest_u(self.time_s, self.swing_u, self.jerk)
+
+    def at_most(self, jerk: float) -> "Soft":
+        """The same with no more than a jerk."""
+        return self if self.jerk <= jerk else replace(self, jerk=jerk)
 
 
 class Course:
@@ -80,12 +94,12 @@ def straight_course(
     step = other - one
     course.set_path(np.stack([one - step, one, other, other + step]), length_u, 0.0)
     rows = room(4 * scurve_cy.MOST_ROWS)
-    first, last = softs
-    count = _rest_to_rest(
-        length_u, along.speed, along.acceleration, along.jerk,
-        min(first.jerk, along.jerk), first.time_s, min(last.jerk, along.jerk), last.time_s,
-        room(2 * scurve_cy.R_SIZE), rows,
-    )  # fmt: skip
+    ends: list[float] = []
+    for soft in softs:
+        slow = soft.at_most(along.jerk)
+        ends += [slow.jerk, slow.time_s, turn_s(slow.swing_u, slow.jerk)]
+    count = _rest_to_rest(length_u, along.speed, along.acceleration, along.jerk,
+                          numbers(ends), room(2 * scurve_cy.R_SIZE), rows)  # fmt: skip
     course.set_law(rows, count)
     course.committed_s = course.duration_s
     course.is_complete = True

@@ -21,17 +21,25 @@ __all__ = ["course_add", "course_fill"]
 
 
 def course_point(H: F64, C: F64, Z: F64, t: float, Q: F64, at: int) -> None:
-    """Write where the course is at time t; at its ends exactly the first or last point."""
+    """Write where the course is at time t; at rest exactly the first or last point."""
     axes: int = int(H[H_AXES])
     s: float = law_distance(Z, int(H[H_ROWS]), t)
-    if s <= 0.0:
+    if t <= Z[T_ROW] and s <= 0.0:
         for k in range(axes):
             Q[at + k] = H[H_START + k]
-    elif s >= H[H_LENGTH]:
+    elif s >= H[H_LENGTH] and t >= course_end_s(H, Z):
         for k in range(axes):
             Q[at + k] = H[H_START + axes + k]
     else:
         spline_point(C, int(H[H_POINTS]), axes, H[H_STEP], s - H[H_ORIGIN], Q, at)
+
+
+def course_gone_u(H: F64, Z: F64, t: float) -> float:
+    """The distance at time t, without swings before the start and after the end."""
+    s: float = law_distance(Z, int(H[H_ROWS]), t)
+    if s < 0.0:
+        return 0.0
+    return H[H_LENGTH] if s > H[H_LENGTH] else s
 
 
 def course_end_s(H: F64, Z: F64) -> float:
@@ -46,7 +54,7 @@ def course_fill(
     axes: int = int(H[H_AXES])
     for i in range(count):
         now: float = t + float(i) * period_s
-        U[i] = law_distance(Z, int(H[H_ROWS]), now)
+        U[i] = course_gone_u(H, Z, now)
         course_point(H, C, Z, now, X, i * axes)
 
 
@@ -57,7 +65,7 @@ def course_add(
     axes: int = int(H[H_AXES])
     for i in range(count):
         now: float = t + float(i) * period_s
-        U[i] = U[i] + law_distance(Z, int(H[H_ROWS]), now)
+        U[i] = U[i] + course_gone_u(H, Z, now)
         course_point(H, C, Z, now, Q, 0)
         for k in range(axes):
             X[i * axes + k] = X[i * axes + k] + (Q[k] - H[H_START + k])

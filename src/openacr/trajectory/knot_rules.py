@@ -13,6 +13,7 @@ JERK_SHARE, ACCELERATION_SHARE = 0.99, 0.99  # of the limits, for what happens b
 TAIL_SHARE = 0.95  # where a law is planned again
 REST_SHARE = 0.938  # of the jerk near rest, where knots are sparse
 FEED_SHARE = 0.9997  # for what happens between knots
+TURNED_SHARE = 0.9994  # the same for some of the axes: the path turns by TURN_RAD between knots
 LEAST_ROOM = 0.01  # of the tolerance, for the B-spline in time
 LONG = 0.7  # periods: what takes longer is seen by a single difference of setpoints
 
@@ -31,8 +32,8 @@ class KnotRules:
     ) -> None:  # fmt: skip
         """`rest_u`: how far from rest knots are sparse; `first`: the start overlaps a chain."""
         self._limits, self._period_s = limits, period_s
-        jerks = limits.jerks(period_s)
-        self._ruling = np.array([*limits.velocity_ups, *limits.acceleration_ups2, *jerks])
+        self._ruling = np.array(limits.planned(period_s))
+        self._ruling[: limits.axes] *= TURNED_SHARE
         self._sections, self._tube, self._rest_u = sections, tube, rest_u
         self._first = first
         self._last: Soft | None = None
@@ -60,7 +61,7 @@ class KnotRules:
     def fresh(self, knots: Reals) -> Rules:
         """The rules at knots (with two more on each side) that no window has used."""
         inner = knots[2:-2]
-        feed, tolerance = self._sections.least(knots[1:-3], knots[3:-1])
+        feed, tool, tolerance = self._sections.least(knots[1:-3], knots[3:-1])
         zone = self._zone(inner, self._first)
         soft = np.where(inner < self._rest_u, REST_SHARE, JERK_SHARE)
         if self._last is not None:
@@ -70,8 +71,8 @@ class KnotRules:
         room = self._tube.left_u(knots[1:-3], knots[3:-1]) + (WHOLE - self._tube.share) * tolerance
         normal = 6.0 / self._period_s**2 * np.maximum(room, LEAST_ROOM * tolerance)
         push = np.full(len(inner), ACCELERATION_SHARE)
-        return Rules(FEED_SHARE * feed, push, soft * zone * self.ease, zone, normal,
-                     self._ruling, LONG * self._period_s)  # fmt: skip
+        return Rules(FEED_SHARE * feed, TURNED_SHARE * tool, push, soft * zone * self.ease, zone,
+                     normal, self._ruling, LONG * self._period_s)  # fmt: skip
 
     def next(self, knots: Reals, kept: int, tail_u: float) -> Rules:
         """The rules of the next window; its first `kept` knots keep their shares.
@@ -92,6 +93,5 @@ class KnotRules:
         """The share of the jerk limits at distances from an end that overlaps."""
         share = np.ones(len(s))
         if soft is not None and soft.time_s > 0.0:
-            most = min(self._limits.jerks(self._period_s))
-            share[s < soft.jerk * soft.time_s**3 / 6.0] = min(1.0, soft.jerk / most)
+            share[s < soft.reach_u()] = soft.share
         return share

@@ -1,19 +1,29 @@
 """Knots of the speed curve, and how it begins and ends at rest.
 
 At rest h = (ds/dt)^2 falls to 0 like s^(4/3), which no spline follows. So the first knot lies
-where the constant jerk J gets in `FIRST` steps of time; up to there s = J t^3/6, and from there
-on knots lie one step of time apart until they are one length apart. Further on their distances
-are those of spacing.py.
+where the constant jerk J gets in `FIRST` steps of time; up to there the law is that of
+end_law.py. From there on knots lie one step of time apart until they are one length apart. Further
+on their distances are those of spacing.py.
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from openacr.trajectory.end_law import rest_shape, rest_u, turn_s
 from openacr.trajectory.setpoints import Reals
 
 FIRST = 4.0
+FIRST_TURNS = 5.0  # times t1 of a swing: soon after it has come back
 ACROSS = 0.04  # of the jerk
+
+
+@dataclass(frozen=True, slots=True)
+class Rest:
+    """Where a chain starts from rest or ends at it, and how far it swings out."""
+
+    at_u: float
+    swing_u: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +33,7 @@ class Grid:
     length_u: float
     time_s: float
     jerk: float  # of a start from rest
+    swing_u: float = 0.0  # of a start from rest
 
     def on(self, bend: float) -> "Grid":
         """The grid for an end with a curvature, where the exact start has to be shorter.
@@ -36,18 +47,17 @@ class Grid:
     def graded(self, most_u: float) -> list[float]:
         """Distances from rest of the knots near it, `most_u` at most; the last gap is a length."""
         time = min(self.time_s, 0.05 * (most_u / self.jerk) ** (1 / 3))
+        begin = max(FIRST * time, FIRST_TURNS * turn_s(self.swing_u, self.jerk))
         distances: list[float] = []
-        n = FIRST
         while True:
-            s = self.jerk * (n * time) ** 3 / 6.0
+            s = rest_u(begin + len(distances) * time, self.swing_u, self.jerk)
             if s > most_u:
                 break
             if distances and s - distances[-1] >= self.length_u:
                 break
             distances.append(s)
-            n += 1.0
         if not distances:
-            distances.append(self.jerk * (FIRST * time) ** 3 / 6.0)
+            distances.append(rest_u(begin, self.swing_u, self.jerk))
         while len(distances) > 1 and distances[-1] + 0.5 * self.length_u > most_u:
             distances.pop()
         return distances
@@ -70,13 +80,13 @@ def closed_knots(knots: Reals, last: list[float], length_u: float) -> Reals:
     return found
 
 
-def rest_weights(weights: Reals, s: float, side: int) -> Reals:
+def rest_weights(weights: Reals, s: float, swing_u: float, side: int) -> Reals:
     """The three coefficients at a knot at the distance s from rest, relative to the free one.
 
-    With h = C s^(4/3): h' = 4h/(3s) and h'' = 4h/(9s^2); `side` is 1 after a start, -1 before an
-    end.
+    `side` is 1 after a start, -1 before an end.
     """
-    wanted: Reals = np.array([1.0, side * 4.0 / (3.0 * s), 4.0 / (9.0 * s * s)])
+    slope, bend, _ = rest_shape(s, swing_u)
+    wanted: Reals = np.array([1.0, side * slope, bend])
     a, b, c = (weights[n : n + 3] for n in (0, 3, 6))
     inverse = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=1)
     found: Reals = inverse @ wanted
@@ -102,9 +112,3 @@ def tie_end(weights: Reals, ratios: Reals) -> None:
     rows[1, :, 0] = free
     rows[0, :, 1] += rows[0, :, 2] * ratios[1]
     rows[0, :, 2] = 0.0
-
-
-def rest_h(s: Reals, jerk: float) -> Reals:
-    """H at distances from rest after a start with a jerk."""
-    found: Reals = (6.0 * np.maximum(s, 0.0)) ** (4 / 3) * jerk ** (2 / 3) / 4.0
-    return found

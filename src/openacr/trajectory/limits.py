@@ -1,7 +1,9 @@
 """Limits of the axes, and what they leave along a direction."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import compress
 
 from openacr.errors import OpenacrError
 
@@ -26,11 +28,13 @@ class Limits:
     """Highest velocity, acceleration and jerk of every axis, in units and seconds.
 
     Without jerk limits the acceleration may step; on the grid of setpoints a step takes one period.
+    `carries_tool`: the axes whose common speed is limited by `Segment.tool_ups`; empty for none.
     """
 
     velocity_ups: tuple[float, ...]
     acceleration_ups2: tuple[float, ...]
     jerk_ups3: tuple[float, ...] | None = None
+    carries_tool: tuple[bool, ...] = ()
 
     def __post_init__(self) -> None:
         for name, unit, values in (
@@ -62,14 +66,33 @@ class Limits:
         return tuple(0.5 * a / period_s for a in self.acceleration_ups2)
 
     def checked(self) -> tuple[float, ...]:
-        """All limits as one row, velocities first; without jerk limits very large ones."""
-        jerk = self.jerk_ups3 or (UNLIMITED,) * self.axes
-        return (*self.velocity_ups, *self.acceleration_ups2, *jerk)
+        """All limits as one row (`_row`); without jerk limits very large ones."""
+        return self._row(self.jerk_ups3 or (UNLIMITED,) * self.axes)
 
-    def along(self, direction: Sequence[float], feed_ups: float, period_s: float) -> Along:
-        """The limits along a direction (a unit vector) at a feed."""
+    def planned(self, period_s: float) -> tuple[float, ...]:
+        """All limits as one row (`_row`); without jerk limits those planned with."""
+        return self._row(self.jerks(period_s))
+
+    def _row(self, jerks: tuple[float, ...]) -> tuple[float, ...]:
+        """Velocities, accelerations, jerks, and 1 for each axis that carries the tool, else 0."""
+        tool = map(float, self.carries_tool or (False,) * self.axes)
+        return (*self.velocity_ups, *self.acceleration_ups2, *jerks, *tool)
+
+    def along(
+        self,
+        direction: Sequence[float],
+        feed_ups: float,
+        period_s: float,
+        tool_ups: float = math.inf,
+    ) -> Along:
+        """The limits along a direction (a unit vector) at a feed, and at one of the tool."""
+        tool = math.hypot(*compress(direction, self.carries_tool))
         return Along(
-            min(feed_ups, _least(self.velocity_ups, direction)),
+            min(
+                feed_ups,
+                tool_ups / tool if tool else math.inf,
+                _least(self.velocity_ups, direction),
+            ),
             _least(self.acceleration_ups2, direction),
             _least(self.jerks(period_s), direction),
         )

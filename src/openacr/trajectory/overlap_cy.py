@@ -11,8 +11,9 @@ so that the jerk is Je (u1 + u2) and the tool passes the corner at the distance
     d = |u2 - u1| Je tau^3 / 48
 
 Setpoints are control points of a B-spline in time with the knots D apart (setpoints.py), which adds
-D^2/6 of the acceleration. The longest tau that keeps the tolerance and every limit is found by
-trying, with the sums of both courses on the grid on which they are sent.
+D^2/6 of the acceleration. Ends may swing out first (end_law.py). The longest tau that keeps the
+tolerance and every limit is found by trying, with the sums of both courses on the grid on which
+they are sent.
 """
 
 from openacr.cmath import fabs, floor, sqrt
@@ -24,24 +25,28 @@ P_PERIOD = 0  # D
 P_BEGIN = 1  # time of the stream at which the first course begins
 P_TOLERANCE = 2
 P_SPEED = 3  # highest speed along the path
-P_LONGEST = 4  # longest overlap to be tried
-P_AXES = 5  # limits of velocity, acceleration and jerk, one group of one per axis each
+P_TOOL = 4  # highest speed of the axes that carry the tool
+P_LONGEST = 5  # longest overlap to be tried
+P_AXES = 6  # velocities, accelerations, jerks, and 1 where the tool is carried: one per axis each
 AROUND = 4  # points before and after the overlap that are examined
 NEARLY = 1.0 + 1e-9
-TRIES = 12
+SCANS = 24  # from above: ends that swing out fit at long overlaps, and hardly at shorter ones
+TRIES = 8
 
 __all__ = ["overlap_time"]
 
 
-def points_keep_limits(X: F64, count: int, axes: int, speed: float, P: F64) -> int:
-    """Whether `count` control points keep the speed and the limits of every axis."""
+def points_keep_limits(X: F64, count: int, axes: int, P: F64) -> int:
+    """Whether `count` control points keep the speeds and the limits of every axis."""
     D: float = P[P_PERIOD]
     for i in range(count - 1):
         along2: float = 0.0
+        tool2: float = 0.0
         for k in range(axes):
             o: int = i * axes + k
             d0: float = X[o + axes] - X[o]
             along2 += d0 * d0
+            tool2 += P[P_AXES + 3 * axes + k] * d0 * d0
             if fabs(d0) > P[P_AXES + k] * D * NEARLY:
                 return 0
             if i + 2 < count:
@@ -53,7 +58,7 @@ def points_keep_limits(X: F64, count: int, axes: int, speed: float, P: F64) -> i
                     bend: float = fabs(d2 - 2.0 * d1 + d0)
                     if bend > P[P_AXES + 2 * axes + k] * D * D * D * NEARLY + 1e-12:
                         return 0
-        if sqrt(along2) > speed * D * NEARLY:
+        if sqrt(along2) > P[P_SPEED] * D * NEARLY or sqrt(tool2) > P[P_TOOL] * D * NEARLY:
             return 0
     return 1
 
@@ -116,7 +121,7 @@ def overlap_fits(
         course_point(HN, CN, ZN, t - (end - tau), Q, axes)
         for k in range(axes):
             X[i * axes + k] = Q[k] + (Q[axes + k] - HN[H_START + k])
-    if not points_keep_limits(X, count, axes, P[P_SPEED], P):
+    if not points_keep_limits(X, count, axes, P):
         return 0
     return points_are_near(X, count, axes, HN, N, lines, P[P_TOLERANCE], Q)
 
@@ -128,10 +133,18 @@ def overlap_time(
 
     X has room for the points of the longest overlap and 12 more, Q for four.
     """
-    high: float = P[P_LONGEST]
-    if overlap_fits(H, C, Z, HN, CN, ZN, N, lines, P, high, X, Q):
-        return high
-    low: float = 0.0
+    longest: float = P[P_LONGEST]
+    high: float = longest
+    low: float = longest
+    for n in range(1, SCANS):
+        if overlap_fits(H, C, Z, HN, CN, ZN, N, lines, P, low, X, Q):
+            break
+        high = low
+        low = longest * (1.0 - float(n) / float(SCANS))
+    else:
+        low = 0.0
+    if low == longest:
+        return low
     for _ in range(TRIES):
         tau: float = 0.5 * (low + high)
         if overlap_fits(H, C, Z, HN, CN, ZN, N, lines, P, tau, X, Q):

@@ -9,24 +9,26 @@ window. Nothing is given out that could not be brought to rest by what is known.
 
 import math
 from collections import deque
-from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import accumulate
 
 from openacr.compiled import pick
 from openacr.trajectory import overlap_cy
 from openacr.trajectory.arrays import numbers, room
-from openacr.trajectory.chains import Chain, corner_jerk
+from openacr.trajectory.chains import Chain, Corner
+from openacr.trajectory.corners import corner_between, near_corner
 from openacr.trajectory.course import Course, Soft, straight_course
-from openacr.trajectory.limits import Limits, TrajectoryError, most
+from openacr.trajectory.grain import look_ahead
+from openacr.trajectory.limits import Limits, TrajectoryError
 from openacr.trajectory.segments import Piece, Point, Segment
 from openacr.trajectory.setpoints import Setpoints
-from openacr.trajectory.smooth_course import SmoothCourse, look_ahead
+from openacr.trajectory.smooth_course import SmoothCourse
 from openacr.trajectory.stream import Member, Stream
 
 PERIOD_S = 0.003
 NEARLY = 0.999  # of the jerk on straight lines: what rounding may take
 MOST_POINTS = 1024  # of one take
+FIRST = 3.0  # look-ahead distances of a smooth chain that are known when it begins
 APART = 4.0  # periods between the first and the last of three courses: no difference has both
 NEAR = 30.0  # tolerances around a corner within which the deviation of an overlap is examined
 _overlap_time = pick(overlap_cy.overlap_time)
@@ -46,15 +48,16 @@ class TrajectoryPlanner:
         self._last: Chain | None = None  # that of the last complete course
         self._growing: SmoothCourse | None = None
         self._is_new = False  # not in the stream yet
+        self._fault: TrajectoryError | None = None  # why nothing more is planned
 
     # --- input -------------------------------------------------------------------
 
-    def add(self, segment: Segment) -> None:
-        """Append a segment; one without length is passed over."""
+    def add(self, segment: Segment) -> float:
+        """Append a segment; one without length is passed over. Returns its length."""
         piece = Piece(self._at, segment)
         self._at = segment.end
         if piece.length_u <= 0.0:
-            return
+            return 0.0
         chain = self._chains[-1] if self._chains else None
         if chain is None or chain.is_closed or not chain.takes(piece):
             if chain is not None and not chain.is_closed:
@@ -63,6 +66,7 @@ class TrajectoryPlanner:
             chain = Chain()
             self._chains.append(chain)
         chain.add(piece)
+        return piece.length_u
 
     def stop(self) -> None:
         """The path known so far ends at rest."""
@@ -72,9 +76,17 @@ class TrajectoryPlanner:
     # --- output ------------------------------------------------------------------
 
     def take(self) -> Setpoints | None:
-        """Plan, and return the next setpoints; None where nothing is ready."""
-        while self._stream.ready() < MOST_POINTS and self._plan_more():
-            pass
+        """Plan, and return the next setpoints; None where nothing is ready.
+
+        TrajectoryError where the path cannot be planned, after all that was planned before.
+        """
+        try:
+            while self._fault is None and self._stream.ready() < MOST_POINTS and self._plan_more():
+                pass
+        except TrajectoryError as error:
+            self._fault = error
+        if self._fault is not None and not self._stream.ready():
+            raise self._fault
         return self._stream.take(MOST_POINTS)
 
     def _plan_more(self) -> bool:
@@ -92,26 +104,33 @@ class TrajectoryPlanner:
                 self._begin(chain, self._straight(chain, after))
                 self._finish(chain, after)
                 return True
-            if not chain.is_closed and chain.length_u < self._look_u(chain.pieces[0]):
+            first_u = FIRST * self._look_u(chain.pieces[0])
+            if not chain.is_closed and chain.length_u < first_u:
                 return False
             before = self._before()
-            soft = None if before is None else self._soft(before, chain)
-            self._growing = SmoothCourse(self.limits, self.period_s, chain.pieces, soft)
+            soft = None if before is None else self._corner(before, chain).start
+            known = chain.pieces_within(first_u)
+            self._growing = SmoothCourse(self.limits, self.period_s, known, soft)
             self._is_new = True
         return self._grow(chain, after, self._growing)
 
     def _grow(self, chain: Chain, after: Chain | None, course: SmoothCourse) -> bool:
-        """Plan the next window of a smooth chain."""
+        """Plan the next window of a smooth chain, of as much of the path as it needs.
+
+        What is known beyond that makes no difference, so that the plan of a program is one and the
+        same however its moves arrive.
+        """
         if not self._is_new:
             course.drop(self._stream.next_s - course.begin_s - 8.0 * self.period_s)
-        for piece in chain.pieces:
-            course.add(piece)
-        chain.pieces.clear()
-        if chain.is_closed and not course.is_closed:
-            course.close(chain.tail[-1], None if chain.stops or after is None
-                         else self._soft(chain, after))  # fmt: skip
-        if not course.is_closed and chain.length_u < course.wants_u:
-            return False
+        wants_u = course.wants_u
+        while chain.pieces and course.known_u < wants_u:
+            course.add(chain.pieces.popleft())
+        if not chain.pieces:
+            if not chain.is_closed:  # whether this is its end makes a difference
+                return False
+            if not course.is_closed:
+                course.close(chain.tail[-1], None if chain.stops or after is None
+                             else self._corner(chain, after).end)  # fmt: skip
         course.plan()
         if self._is_new:
             self._begin(chain, course)
@@ -122,7 +141,7 @@ class TrajectoryPlanner:
         return True
 
     def _look_u(self, piece: Piece) -> float:
-        """The length of path that is to be known when a smooth chain begins."""
+        """The look-ahead distance at the feed of a piece."""
         feed = piece.segment.feed_ups
         return look_ahead(self.limits.along(piece.tangent(0.0), feed, self.period_s))
 
@@ -159,74 +178,46 @@ class TrajectoryPlanner:
         if member is not None:
             course = member.course
             member.held_s = 0.0
+            member.rests = chain.stops
             if not chain.stops and after is not None:
-                member.held_s = min(course.duration_s - course.lead_s, self._longest(chain, after))
+                member.held_s = min(course.duration_s - course.lead_s,
+                                    self._corner(chain, after).longest_s)  # fmt: skip
 
     def _straight(self, chain: Chain, after: Chain | None) -> Course:
         """The course of a closed chain that is one straight line."""
         first, last = chain.pieces[0], chain.pieces[-1]
-        feed = math.inf if chain.is_rapid else first.segment.feed_ups
-        along = self.limits.along(first.tangent(0.0), feed, self.period_s)
+        u, rules = first.tangent(0.0), first.segment
+        along = self.limits.along(u, rules.feed_ups, self.period_s, rules.tool_ups)
         along = replace(along, jerk=NEARLY * along.jerk)
         before = self._before()
         softs = (
-            Soft(along.jerk, 0.0) if before is None else self._soft(before, chain),
-            Soft(along.jerk, 0.0) if chain.stops or after is None else self._soft(chain, after),
+            Soft(along.jerk, 0.0) if before is None else self._corner(before, chain).start,
+            Soft(along.jerk, 0.0)
+            if chain.stops or after is None
+            else self._corner(chain, after).end,
         )
         return straight_course(first.start, last.segment.end, chain.length_u, along, softs)
 
-    def _soft(self, before: Chain, after: Chain) -> Soft:
-        """The jerk of two overlapping ends, and for how long it rules."""
-        end, start = before.tail[-1], after.head[0]
-        u1, u2 = end.tangent(end.length_u), start.tangent(0.0)
-        jerk = NEARLY * corner_jerk(self.limits.jerks(self.period_s), u1, u2)
-        tolerance = min(end.segment.tolerance_u, start.segment.tolerance_u)
-        return Soft(jerk, (48.0 * tolerance / (jerk * math.dist(u1, u2))) ** (1 / 3))
-
-    def _longest(self, before: Chain, after: Chain) -> float:
-        """The longest overlap of two chains that can keep the tolerance, about."""
-        end, start = before.tail[-1], after.head[0]
-        tolerance = min(end.segment.tolerance_u, start.segment.tolerance_u)
-        u1, u2 = end.tangent(end.length_u), start.tangent(0.0)
-        change = math.dist(u1, u2)
-        slow = most(self.limits.acceleration_ups2, [q - p for p, q in zip(u1, u2, strict=True)])
-        by_acceleration = math.sqrt(8.0 * tolerance / (slow * change * change))
-        return 1.1 * (self._soft(before, after).time_s + by_acceleration)
+    def _corner(self, before: Chain, after: Chain) -> Corner:
+        """The corner between two chains."""
+        if after.corner is None:
+            after.corner = corner_between(self.limits, self.period_s, before, after)
+        return after.corner
 
     def _overlap(self, before: Chain, a: Course, after: Chain, b: Course) -> float:
         """The time by which course b may begin before course a has ended."""
-        end, start = before.tail[-1], after.head[0]
+        end, start, corner = before.tail[-1], after.head[0], self._corner(before, after)
         tolerance = min(end.segment.tolerance_u, start.segment.tolerance_u)
         alone_s = a.duration_s - a.lead_s - APART * self.period_s
-        longest = max(0.0, min(alone_s, 0.5 * b.duration_s, b.committed_s,
-                               self._longest(before, after)))  # fmt: skip
+        longest = max(0.0, min(alone_s, 0.5 * b.duration_s, b.committed_s, corner.longest_s))
         speed = max(end.segment.feed_ups, start.segment.feed_ups)
-        rules = numbers([self.period_s, a.begin_s, 0.999 * tolerance, speed, longest,
+        tool = max(end.segment.tool_ups, start.segment.tool_ups)
+        rules = numbers([self.period_s, a.begin_s, 0.999 * tolerance, speed, tool, longest,
                                        *self.limits.checked()])  # fmt: skip
-        near = near_corner(before, after, NEAR * tolerance)
+        near = near_corner(before, after, corner.near_u)
         axes = self.limits.axes
         count = int(longest / self.period_s) + 3 * overlap_cy.AROUND
         return _overlap_time(
             a.H, a.C, a.Z, b.H, b.C, b.Z, numbers(near), len(near) // axes - 1,
             rules, room(count * axes), room(4 * axes),
         )  # fmt: skip
-
-
-def near_corner(before: Chain, after: Chain, reach: float) -> list[float]:
-    """The programmed path around a corner as a polyline, point after point."""
-    vertex = after.head[0].start
-    points = [*_walked(reversed(before.tail), vertex, reach, -1)][::-1]
-    points += [vertex, *_walked(after.head, vertex, reach, 1)]
-    return [part for point in points for part in point]
-
-
-def _walked(pieces: Iterable[Piece], start: Point, reach: float, side: int) -> Iterator[Point]:
-    """Points of the path from a vertex on, along pieces (`side` 1) or against them (-1)."""
-    gone, last = 0.0, start
-    for piece in pieces:
-        for point in piece.chords(reach / 40.0, side):
-            yield point
-            gone += math.dist(last, point)
-            last = point
-            if gone > reach:
-                return

@@ -1,4 +1,4 @@
-"""What rules along a chain: the feed, the tolerance and the source line of every section."""
+"""What rules along a chain: feeds, the tolerance and the source line of every section."""
 
 import numpy as np
 
@@ -9,12 +9,13 @@ from openacr.trajectory.setpoints import Reals
 class Sections:
     """Sections of a growing chain by the distance at which each of them ends."""
 
-    __slots__ = ("_feeds", "_tolerances", "ends", "lines")
+    __slots__ = ("_feeds", "_tolerances", "_tools", "ends", "lines")
 
     def __init__(self) -> None:
         self.ends: list[float] = []
         self.lines: list[int] = []
         self._feeds: list[float] = []
+        self._tools: list[float] = []  # feeds of the tool
         self._tolerances: list[float] = []
 
     def add(self, piece: Piece, end_u: float) -> None:
@@ -22,6 +23,7 @@ class Sections:
         self.ends.append(end_u)
         self.lines.append(piece.segment.line)
         self._feeds.append(piece.segment.feed_ups)
+        self._tools.append(piece.segment.tool_ups)
         self._tolerances.append(piece.segment.tolerance_u)
 
     def feeds(self, s: Reals) -> Reals:
@@ -29,22 +31,20 @@ class Sections:
         found: Reals = np.array(self._feeds)[self._places(s)]
         return found
 
-    def least(self, starts: Reals, stops: Reals) -> tuple[Reals, Reals]:
-        """The lowest feed and the smallest tolerance between distances, interval by interval."""
+    def least(self, starts: Reals, stops: Reals) -> tuple[Reals, Reals, Reals]:
+        """The lowest feed, that of the tool, and the smallest tolerance between distances."""
         left, right = self._places(starts), self._places(stops)
-        feeds, tolerances = np.array(self._feeds), np.array(self._tolerances)
-        feed = np.minimum(feeds[left], feeds[right])
-        tolerance = np.minimum(tolerances[left], tolerances[right])
+        values = np.array([self._feeds, self._tools, self._tolerances])
+        found = np.minimum(values[:, left], values[:, right])
         for i in np.flatnonzero(right > left + 1):
-            feed[i] = feeds[left[i] : right[i] + 1].min()
-            tolerance[i] = tolerances[left[i] : right[i] + 1].min()
-        return feed, tolerance
+            found[:, i] = values[:, left[i] : right[i] + 1].min(axis=1)
+        return found[0], found[1], found[2]
 
     def drop(self, before_u: float) -> None:
         """Forget the sections that end before a distance."""
         gone = int(np.searchsorted(self.ends, before_u)) - 1
         if gone > 0:
-            for each in (self.ends, self.lines, self._feeds, self._tolerances):
+            for each in (self.ends, self.lines, self._feeds, self._tools, self._tolerances):
                 del each[:gone]
 
     def _places(self, s: Reals) -> np.ndarray[tuple[int], np.dtype[np.int64]]:

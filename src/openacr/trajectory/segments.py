@@ -25,7 +25,10 @@ class Arc:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """One programmed move: where it ends, how fast, and how far the path may be left."""
+    """One programmed move: where it ends, how fast, and how far the path may be left.
+
+    `feed_ups` counts along all axes, `tool_ups` along those that carry the tool (`Limits`).
+    """
 
     line: int
     end: Point
@@ -33,6 +36,7 @@ class Segment:
     tolerance_u: float
     is_rapid: bool = False
     arc: Arc | None = None
+    tool_ups: float = math.inf
 
 
 class Piece:

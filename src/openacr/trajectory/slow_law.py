@@ -5,7 +5,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from openacr.trajectory.knots import rest_h
+from openacr.trajectory.course import Soft
+from openacr.trajectory.end_law import rest_h
 from openacr.trajectory.setpoints import Reals
 from openacr.trajectory.window import Curve, Rules, Window
 
@@ -43,14 +44,14 @@ def places(knots: Reals) -> Reals:
     return found
 
 
-def to_rest(inverse: Reals, distance: Reals, acceleration: float, jerk: float) -> None:
+def to_rest(inverse: Reals, distance: Reals, acceleration: float, soft: Soft, ease: float) -> None:
     """Slow a law, given as h^-2, down towards rest, with a share of acceleration and jerk."""
-    inverse += rest_h(distance, 0.4 * jerk) ** -2.0
-    inverse += (BRAKE * acceleration * distance) ** -2.0
+    inverse += rest_h(distance, soft.swing_u, 0.4 * ease * soft.jerk) ** -2.0
+    inverse += (BRAKE * ease * acceleration * (distance + soft.swing_u)) ** -2.0
 
 
-def eased(before: float, after: float, distance: Reals, length_u: float) -> Reals:
-    """From one level to another over a length, without a jump of the slope."""
+def eased(before: float, after: Reals, distance: Reals, length_u: float) -> Reals:
+    """From a level to others over a length, without a jump of the slope."""
     share = np.clip(distance / length_u, 0.0, 1.0)
     found: Reals = before + (after - before) * share * share * (3.0 - 2.0 * share)
     return found

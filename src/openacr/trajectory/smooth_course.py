@@ -15,11 +15,14 @@ from openacr.compiled import pick
 from openacr.trajectory import course_cy, speed_rows_cy
 from openacr.trajectory.arrays import flat
 from openacr.trajectory.course import Course, Soft
+from openacr.trajectory.end_law import rest_shape, turn_row
+from openacr.trajectory.grain import grain_of, look_ahead
 from openacr.trajectory.knot_rules import REST_SHARE, KnotRules
-from openacr.trajectory.knots import Grid, closed_knots, first_knots
-from openacr.trajectory.limits import Along, Limits, TrajectoryError
+from openacr.trajectory.knots import Grid, Rest, closed_knots, first_knots
+from openacr.trajectory.limits import Limits, TrajectoryError
 from openacr.trajectory.sections import Sections
 from openacr.trajectory.segments import Piece
+from openacr.trajectory.setpoint_check import setpoints_keep_limits
 from openacr.trajectory.setpoints import Reals
 from openacr.trajectory.slow_law import (
     SLOW_JERK,
@@ -30,17 +33,13 @@ from openacr.trajectory.slow_law import (
     stop_speed,
     to_rest,
 )
-from openacr.trajectory.spacing import continued, widest
-from openacr.trajectory.tube import AHEAD, STEP, Tube, tube_share
+from openacr.trajectory.spacing import continued, sharpest, widest
+from openacr.trajectory.tube import AHEAD, Tube, tube_share
 from openacr.trajectory.window import Curve, Window
 
-_fill = pick(course_cy.course_fill)
 _law = pick(speed_rows_cy.law_from_speed)
 PARTS = speed_rows_cy.PARTS
 
-PER_RADIUS = 10.0  # samples on the radius of an arc, at least
-LEAST_STEPS = 32  # samples of the shortest chain
-KNOT = 2.0  # samples between two knots where the path bends
 SLOW_STEPS = 2.0  # of time between two knots where the feed is low
 END_ROWS = 8  # control points that shape an end
 MOST_AGAIN, AGAIN_SHARE = 3, 0.96
@@ -49,24 +48,17 @@ SLOWDOWN, MOST_SLOWDOWNS = 1.05, 40
 SCALES = np.array(
     [SLOWDOWN, 1.0, 1.0 / SLOWDOWN, 1.0 / SLOWDOWN**2]
 )  # of time, distance ... in a law
-PHASES = 4
+BACKWARDS = np.array([-1.0, -1.0, 1.0, -1.0])  # a row of a start as one of an end
 LEAST_KNOTS = 32  # ahead of what is committed
 RAMP = 12  # dense knots from one slow speed to the next
 MOST_TRIES = 40
-LOOK = 2.5  # braking distances ahead of what is committed
 BATCH = 0.5  # of that, committed at once
-
-
-def look_ahead(along: Along) -> float:
-    """The length of path to be planned after what is committed: some braking distances."""
-    brake = along.speed**2 / (2.0 * along.acceleration)
-    return LOOK * (brake + along.speed * along.acceleration / (2.0 * along.jerk))
 
 
 class SmoothCourse(Course):
     """A course that grows with its chain."""
 
-    __slots__ = ("_begun_s", "_grid", "_kept", "_knots", "_last", "_level", "_limits",
+    __slots__ = ("_begun_s", "_grid", "_kept", "_knots", "_last", "_limits",
                  "_period_s", "_rules", "_slow_h", "_tube", "_x",
                  "look_u", "sections", "steps")  # fmt: skip
 
@@ -76,28 +68,13 @@ class SmoothCourse(Course):
         first = known[0]
         super().__init__(first.start, first.start, course_cy.OPEN)
         self._limits, self._period_s = limits, period_s
-        tolerance = min(piece.segment.tolerance_u for piece in known)
-        feed = max(piece.segment.feed_ups for piece in known)
-        along = limits.along(first.tangent(0.0), feed, period_s)
-        corner_s = max(0.1 * (48.0 * tolerance / along.jerk) ** (1 / 3), 0.5 * period_s)
-        time_s = min(corner_s, max(along.acceleration / along.jerk / 16.0, 0.5 * period_s))
-        radius = min((p.radius_u for p in known if not p.is_line), default=math.inf)
-        length = sum(piece.length_u for piece in known)
-        step = min(
-            STEP * tolerance,
-            0.2 * corner_s * along.speed,
-            radius / PER_RADIUS,
-            length / LEAST_STEPS,
-        )
-        dense_u = KNOT * step
-        across = max(limits.acceleration_ups2)
-        if not math.isfinite(radius):  # corners are passed at J/2 (48 e/J)^(1/3)
-            jerk = max(limits.jerks(period_s))
-            across = min(across, 0.5 * jerk * (48.0 * tolerance / jerk) ** (1 / 3))
-        self._tube = Tube(limits.axes, step, tube_share(across, period_s, tolerance))
+        grain = grain_of(limits, period_s, known)
+        along, dense_u, time_s = grain.along, grain.dense_u, grain.time_s
+        share = tube_share(grain.across_ups2, period_s, grain.tolerance_u)
+        self._tube = Tube(limits.axes, grain.step_u, share)
         self._last = Soft(along.jerk, 0.0)
-        start_jerk = along.jerk if soft is None else min(soft.jerk, along.jerk)
-        self._grid = Grid(dense_u, time_s, REST_SHARE * start_jerk)
+        start = self._last if soft is None else soft.at_most(along.jerk)
+        self._grid = Grid(dense_u, time_s, REST_SHARE * start.jerk, start.swing_u)
         self.sections = Sections()
         rest_u = 40.0 * self._grid.jerk * time_s**3
         self._rules = KnotRules(limits, period_s, self.sections, self._tube, rest_u, soft)
@@ -108,7 +85,6 @@ class SmoothCourse(Course):
         self._slow_h: float = min(
             stop_speed(4.0 * dense_u, along.jerk) ** 2, 0.25 * along.acceleration * RAMP * dense_u
         )
-        self._level = self._slow_h
         self.look_u = look_ahead(along)
         self.steps = 0  # of the solver, all windows together
 
@@ -140,6 +116,11 @@ class SmoothCourse(Course):
         return math.isfinite(self._tube.length_u)
 
     @property
+    def known_u(self) -> float:
+        """The length of path that is known."""
+        return self._tube.known_u
+
+    @property
     def wants_u(self) -> float:
         """The length of path that has to be known before the next window."""
         begun = float(self._knots[2]) if len(self._knots) else 0.0
@@ -160,10 +141,10 @@ class SmoothCourse(Course):
         is_first = not len(self._knots)
         law = self.Z, self.H[course_cy.H_ROWS], self.committed_s, self.is_complete
         self.set_path(points, self._tube.step, origin)
-        before = self._knots, self._x, self._kept, self._level
+        before = self._knots, self._x, self._kept
         shares = self._rules.shares()
         for share in (*(1.0,) * (MOST_AGAIN + 1), *SLOWER):
-            self._knots, self._x, self._kept, self._level = before
+            self._knots, self._x, self._kept = before
             self._rules.set_shares(shares)
             self._plan_window(points, origin, share)
             if self._samples_keep_limits(is_first=is_first):
@@ -183,35 +164,14 @@ class SmoothCourse(Course):
             self._kept = self._kept * SCALES
             self.committed_s *= SLOWDOWN
             self._x = self._x / SLOWDOWN**2
-            self._level /= SLOWDOWN**2
             if self._samples_keep_limits(is_first=True):
                 return True
         return False
 
     def _samples_keep_limits(self, *, is_first: bool) -> bool:
-        """Whether setpoints of the law are within the limits of acceleration and jerk.
-
-        Where the course begins in the stream is not known before its first window is planned; then
-        several phases of the grid are examined.
-        """
-        period = self._period_s
-        begin = max(self._begun_s - 4.0 * period, 0.0)
-        grid = math.ceil((self.begin_s + begin) / period) * period - self.begin_s
-        starts = [grid - 4.0 * period * (grid < 4.0 * period)]
-        if is_first:
-            starts = [period * (phase / PHASES - 4.0) for phase in range(PHASES)]
-        return all(self._setpoints_keep_limits(start) for start in starts)
-
-    def _setpoints_keep_limits(self, begin_s: float) -> bool:
-        """Whether setpoints from one time of the course on are within the limits."""
-        period, axes = self._period_s, self._limits.axes
-        count = int((self.duration_s - begin_s) / period) + 4
-        points, gone = np.empty((count, axes)), np.empty(count)
-        _fill(self.H, self.C, self.Z, begin_s, period, count, flat(points), flat(gone))
-        push = np.abs(np.diff(points, n=2, axis=0)).max(axis=0) / period**2
-        jerk = np.abs(np.diff(points, n=3, axis=0)).max(axis=0) / period**3
-        most = np.array(self._limits.checked())
-        return bool((push <= most[axes : 2 * axes]).all() and (jerk <= most[2 * axes :]).all())
+        """Whether setpoints of the present window are within the limits."""
+        since_s = None if is_first else self._begun_s
+        return setpoints_keep_limits(self, self._limits, self._period_s, since_s)
 
     def _plan_window(self, points: Reals, origin: float, share: float) -> None:
         """Plan the window; `share` 0 is a slow law that keeps the limits, 1 the fastest."""
@@ -221,7 +181,8 @@ class SmoothCourse(Course):
         tail_u = math.inf if self.is_closed else float(self._knots[-3]) - self.look_u
         window = Window(
             curve, self._knots, self._rules.next(self._knots, max(before - 4, 0), tail_u),
-            0.0 if is_first else None, self._tube.length_u if self.is_closed else None,
+            Rest(0.0, self._grid.swing_u) if is_first else None,
+            Rest(self._tube.length_u, self._last.swing_u) if self.is_closed else None,
         )  # fmt: skip
         level = slow_h(
             curve, self._rules.fresh, float(self._knots[max(before - RAMP, 2)]),
@@ -241,7 +202,6 @@ class SmoothCourse(Course):
         fastest, steps = window.fit(start, slowness)
         self._x = window.tie(start + share * (fastest - start))
         self.steps += steps
-        self._level = level
         self._commit(window, is_first)
 
     def _new_knots(self, points: Reals, origin: float) -> int:
@@ -251,12 +211,12 @@ class SmoothCourse(Course):
         end_u = tube.valid_u - (RAMP + 4) * dense
         last: list[float] = []
         if self.is_closed:
-            ending = Grid(dense, grid.time_s, REST_SHARE * self._last.jerk)
-            ending = ending.on(self._bend(points[-END_ROWS:]))
+            ending = Grid(dense, grid.time_s, REST_SHARE * self._last.jerk, self._last.swing_u)
+            ending = ending.on(sharpest(points[-END_ROWS:], tube.step))
             last = [length - s for s in reversed(ending.graded(0.5 * length))]
             end_u = last[0]
         if not before:
-            grid = grid.on(self._bend(points[:END_ROWS]))
+            grid = grid.on(sharpest(points[:END_ROWS], tube.step))
             self._knots = np.array(first_knots(grid, 0.5 * min(end_u, length)))
         s: Reals = origin + tube.step * (np.arange(len(points) - 3, dtype=np.float64) + 0.5)
         feeds = self.sections.feeds(s)
@@ -270,11 +230,6 @@ class SmoothCourse(Course):
             self._knots = closed_knots(self._knots, last, length)
         return before
 
-    def _bend(self, points: Reals) -> float:
-        """The largest curvature between some control points of the path."""
-        bends = np.diff(points, n=2, axis=0) / self._tube.step**2
-        return float(np.sqrt((bends * bends).sum(axis=1)).max())
-
     def _guess(self, level: float, ease: float, is_first: bool) -> Reals:
         """Coefficients that keep all limits: those planned before, then a slow constant speed."""
         knots, old = self._knots, len(self._x)
@@ -282,18 +237,18 @@ class SmoothCourse(Course):
         x[:old] = self._x
         place = places(knots)
         new = place[old:]
-        wanted = np.full(len(new), level)
-        if old:
-            length = RAMP * self._grid.length_u
-            wanted = eased(self._level, level, new - place[old - 1], length)
-        inverse = wanted**-2.0
-        brake = ease * min(self._limits.acceleration_ups2)
+        inverse = np.full(len(new), level**-2.0)
+        brake = min(self._limits.acceleration_ups2)
         if is_first:
-            to_rest(inverse, np.maximum(new, knots[2]), brake, ease * self._grid.jerk)
+            begin = Soft(self._grid.jerk, 0.0, self._grid.swing_u)
+            to_rest(inverse, np.maximum(new, knots[2]), brake, begin, ease)
         if self.is_closed:
             to_end = self._tube.length_u - np.minimum(new, knots[-3])
-            to_rest(inverse, to_end, brake, ease * self._last.jerk)
+            to_rest(inverse, to_end, brake, self._last, ease)
         x[old:] = inverse**-0.5
+        if old:
+            length = RAMP * self._grid.length_u
+            x[old:] = eased(x[old - 1], x[old:], new - place[old - 1], length)
         return x
 
     def _commit(self, window: Window, is_first: bool) -> None:
@@ -303,19 +258,23 @@ class SmoothCourse(Course):
         z[:kept] = self._kept
         row = kept - 1
         if is_first:
-            row = kept
+            row = kept + 1
             w = plain[0].reshape(3, 3) @ self._x[:3]
-            v = math.sqrt(w[0])
-            z[row] = (3.0 * knots[2] / v, knots[2], v, 0.5 * w[1])
+            s, swing_u, v = float(knots[2]), self._grid.swing_u, math.sqrt(w[0])
+            z[row] = (rest_shape(s, swing_u)[2] / v, s, v, 0.5 * w[1])
+            z[kept] = turn_row(z[row, 0], s, swing_u)
         _law(flat(knots), flat(self._x), flat(plain), 0, count, flat(z), row)
         last = row + PARTS * (count - 1)
         self._begun_s = 0.0 if is_first else float(z[row, 0])
         if self.is_closed:
-            length = self._tube.length_u
-            z[last + 1] = (z[last, 0] + 3.0 * (length - knots[-3]) / z[last, 2], length, 0.0, 0.0)
+            length, swing_u = self._tube.length_u, self._last.swing_u
+            s = length - float(knots[-3])
+            time_s = rest_shape(s, swing_u)[2] / z[last, 2]
+            z[last + 2] = (z[last, 0] + time_s, length, 0.0, 0.0)
+            z[last + 1] = z[last + 2] + np.array(turn_row(time_s, s, swing_u)) * BACKWARDS
             self.is_complete = True
-            self.set_law(flat(z), last + 2)
-            self.committed_s = float(z[last + 1, 0])
+            self.set_law(flat(z), last + 3)
+            self.committed_s = float(z[last + 2, 0])
             return
         jerk = SLOW_JERK * min(self._limits.jerks(self._period_s))
         brake = 0.5 * min(self._limits.acceleration_ups2)

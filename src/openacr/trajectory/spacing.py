@@ -87,3 +87,9 @@ def _spaced(s: Reals, gaps: Reals, end_u: float, is_end: bool) -> Reals:
         numbers = np.arange(1.0, most) * (whole / most)
     found: Reals = np.interp(numbers, count, s)
     return found
+
+
+def sharpest(points: Reals, step: float) -> float:
+    """The largest curvature between some control points of a path, `step` apart."""
+    bends = np.diff(points, n=2, axis=0) / step**2
+    return float(np.sqrt((bends * bends).sum(axis=1)).max())

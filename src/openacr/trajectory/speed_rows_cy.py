@@ -25,6 +25,7 @@ def speed_rows(
     first: int,
     stop: int,
     feed: F64,
+    tool: F64,
     push: F64,
     soft: F64,
     normal: F64,
@@ -35,8 +36,9 @@ def speed_rows(
 ) -> None:
     """Write the rows of the knots first ... stop-1 (`at` has two knots before them) and their caps.
 
-    `limits` are velocities, accelerations and jerks; `push` and `soft` are the shares of the
-    limits of acceleration and jerk that count at a knot, `normal` is the largest acceleration
+    `limits` are velocities, accelerations and jerks, and 1 for axes that carry the tool, whose
+    common speed is `tool` at most; `feed` is that of all axes. `push` and `soft` are the shares of
+    the limits of acceleration and jerk that count at a knot, `normal` is the largest acceleration
     across the path.
     """
     for i in range(first, stop):
@@ -45,6 +47,7 @@ def speed_rows(
         high: int = spline_row(s + 0.5 * (at[i + 3] - at[i + 2]), step, points)
         spline_slopes(C, points, axes, step, s, Q, 0)
         along2: float = 0.0
+        tool2: float = 0.0
         bend2: float = 0.0
         best: float = 1e300
         for k in range(axes):
@@ -59,6 +62,7 @@ def speed_rows(
                 if q3 > greatest:
                     greatest = q3
             along2 += q1 * q1
+            tool2 += limits[3 * axes + k] * q1 * q1
             bend2 += q2 * q2
             d: int = AXIS_ROWS * (i * axes + k)
             most: float = limits[axes + k] * push[i]
@@ -74,6 +78,8 @@ def speed_rows(
         cap[i] = feed[i] * feed[i] / along2
         if best < cap[i]:
             cap[i] = best
+        if tool2 * cap[i] > tool[i] * tool[i]:
+            cap[i] = tool[i] * tool[i] / tool2
         if sqrt(bend2) * cap[i] > normal[i]:
             cap[i] = normal[i] / sqrt(bend2)
 

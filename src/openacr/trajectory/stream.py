@@ -25,13 +25,14 @@ SAME = 1e-12  # of a period: rounding of a grid time
 class Member:
     """A course in the stream: where its path begins, and which line its segments come from."""
 
-    __slots__ = ("base_u", "course", "held_s", "lines", "offsets")
+    __slots__ = ("base_u", "course", "held_s", "lines", "offsets", "rests")
 
     def __init__(
         self, course: Course, base_u: float, offsets: list[float], lines: list[int]
     ) -> None:
         self.course, self.base_u, self.offsets, self.lines = course, base_u, offsets, lines
         self.held_s = 0.0
+        self.rests = True  # at its end, before the next course begins
 
 
 class Stream:
@@ -75,7 +76,7 @@ class Stream:
         if not self._members:
             return 0
         last = self._members[-1]
-        if last.course.is_complete and not last.held_s:
+        if last.course.is_complete and last.rests:
             final = self._rest_knot(last.course.end_s) + 1
         else:
             final = math.floor(self.ready_s() / self.period_s) + 1

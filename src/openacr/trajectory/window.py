@@ -7,7 +7,8 @@ import numpy as np
 from openacr.compiled import pick
 from openacr.trajectory import cells_cy, speed_curve_cy, speed_cy, speed_rows_cy
 from openacr.trajectory.arrays import flat
-from openacr.trajectory.knots import rest_weights, tie_end, tie_start
+from openacr.trajectory.end_law import rest_shape
+from openacr.trajectory.knots import Rest, rest_weights, tie_end, tie_start
 from openacr.trajectory.setpoints import Reals
 from openacr.views import F64
 
@@ -41,15 +42,17 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """What rules at every knot: feed, shares of the limits, highest normal acceleration.
+    """What rules at every knot: feeds, shares of the limits, highest normal acceleration.
 
     `push` and `soft` are the shares of acceleration and jerk that the rows may use, `zone` the
     share of the
     jerk that a cell may use. A cell that takes longer than
-    `long_s` is no mean. `limits` are velocities, accelerations and jerks of the axes.
+    `long_s` is no mean. `tool` is the feed of the axes that carry the tool; `limits` are
+    velocities, accelerations and jerks of the axes, and which carry it (`Limits.planned`).
     """
 
     feed: Reals
+    tool: Reals
     push: Reals
     soft: Reals
     zone: Reals
@@ -62,9 +65,9 @@ class Window:
     """Knots (with two more on each side) and all that depends on them alone."""
 
     def __init__(
-        self, curve: Curve, knots: Reals, rules: Rules, start_u: float | None, end_u: float | None
+        self, curve: Curve, knots: Reals, rules: Rules, start: Rest | None, end: Rest | None
     ) -> None:
-        """`start_u`, `end_u`: where the path begins and ends at rest; None where it goes on."""
+        """`start`, `end`: how the path begins and ends at rest; None where it goes on."""
         self.curve, self.knots, self.rules = curve, knots, rules
         self.count = count = len(knots) - 4
         self.plain = np.empty((count, 9))
@@ -76,15 +79,17 @@ class Window:
         self._lengths[:-1] += 0.5 * gaps
         self._lengths[1:] += 0.5 * gaps
         self.first, self.head, self.stop, self.tail = 1, 3, count - 1, count - 1
-        if start_u is not None:
-            self._start = rest_weights(self.plain[0], knots[2] - start_u, 1)
+        if start is not None:
+            s = float(knots[2]) - start.at_u
+            self._start = rest_weights(self.plain[0], s, start.swing_u, 1)
             tie_start(self.weights, self._start)
-            self._lengths[0] += 3.0 * (knots[2] - start_u)
+            self._lengths[0] += rest_shape(s, start.swing_u)[2]
             self.first, self.head = 0, 2
-        if end_u is not None:
-            self._end = rest_weights(self.plain[-1], end_u - knots[-3], -1)
+        if end is not None:
+            s = end.at_u - float(knots[-3])
+            self._end = rest_weights(self.plain[-1], s, end.swing_u, -1)
             tie_end(self.weights, self._end)
-            self._lengths[-1] += 3.0 * (end_u - knots[-3])
+            self._lengths[-1] += rest_shape(s, end.swing_u)[2]
             self.stop = self.tail = count
         self._values = np.zeros((count, speed_curve_cy.VALUES))
         self.set_rows()
@@ -97,7 +102,7 @@ class Window:
             np.empty(self.count),
         )
         _rows(curve.points, curve.count, curve.axes, curve.step, curve.origin,
-              flat(self.knots), 0, self.count, flat(rules.feed),
+              flat(self.knots), 0, self.count, flat(rules.feed), flat(rules.tool),
               flat(rules.push), flat(rules.soft), flat(rules.normal),
               flat(rules.limits), flat(np.empty(4 * curve.axes)),
               flat(self.rows), flat(self.cap))  # fmt: skip

@@ -11,7 +11,7 @@ from typing import Any
 
 from openacr.cnc.interpreter.survey import Survey
 from openacr.cnc.program.program import Program
-from openacr.cnc.reading.findings import Finding
+from openacr.cnc.reading.findings import Finding, placed
 from openacr.cnc.state.cells import LAST_RADIUS, RADII
 from openacr.errors import OpenacrError, UserError
 from openacr.mill.plan.checking import TooLongError, checked, opened
@@ -55,9 +55,8 @@ class Note:
     hint: str = ""
 
     def __str__(self) -> str:
-        hint = f" ({self.hint})" if self.hint else ""
-        code = f"{self.code} " if self.code else ""
-        return f"{self.file}:{self.line}:{self.column}: {code}{self.text}{hint}"
+        text = f"{self.code} {self.text}" if self.code else self.text
+        return placed(self.file, self.line, self.column, text, self.hint)
 
 
 @dataclass(frozen=True, slots=True)

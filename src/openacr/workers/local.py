@@ -7,8 +7,6 @@ every time is lost.
 
 import multiprocessing
 import os
-import signal
-import threading
 from collections.abc import Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, ProcessPoolExecutor, wait
 from itertools import islice
@@ -16,6 +14,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from openacr.workers.calls import Call, Done, Lost, Result, Task
+from openacr.workers.parent import follow_parent
 
 AHEAD = 2  # tasks handed out for each process
 ALONE = 2  # attempts at a task during which a process died
@@ -94,7 +93,7 @@ class LocalPool:
         """The processes; new ones after a death. None is a copy of this one with its threads."""
         if self._pool is None:
             self._pool = ProcessPoolExecutor(
-                self._size, multiprocessing.get_context("spawn"), initializer=_begin
+                self._size, multiprocessing.get_context("spawn"), initializer=follow_parent
             )
         return self._pool
 
@@ -110,16 +109,3 @@ def _terminate(pool: ProcessPoolExecutor) -> None:
     processes: dict[int, Any] = getattr(pool, "_processes", None) or {}
     for process in list(processes.values()):
         process.terminate()
-
-
-def _begin() -> None:
-    """Leave Ctrl-C to the parent, and end with it however it ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)

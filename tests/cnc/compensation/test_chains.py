@@ -312,3 +312,27 @@ def test_elements_that_come_out_are_like_any_other() -> None:
     assert replace(made, pace=None).pace is None
     with pytest.raises(FrozenInstanceError):
         made.pace = None  # type: ignore[misc]
+
+
+def test_after_an_arc_that_is_left_out_outside_corners_are_rolled_about_again() -> None:
+    rules = Rules(epsilon=1e-6, sweep_epsilon=1e-4, root_epsilon=-12, gouge_stop=False)
+    path = Path(-1, 0).to(0, 0).to(2, 0).arc(2.1, 0.1, 2, 0.1, 1).to(2.1, 2).to(4, 2).to(4, 4)
+    trace = compensate(path.elements, 0.25, rules=rules)
+    (rolled,) = [each for each in trace.inserted if each.centre is not None]
+    assert rolled.source.line == 5
+    assert plane_point(rolled.plane, rolled.start) == (1.85, 2.0)
+    assert plane_point(rolled.plane, rolled.end) == (2.1, 2.25)
+
+
+def test_a_corner_before_a_rapid_is_rolled_about_at_the_feed_before_it() -> None:
+    path = Path(-1, 0).to(0, 0).to(1, 0).rapid(1, -1).to(3, -3)
+    (rolled,) = compensate(path.elements, 0.25, has_lead_out=True).inserted
+    assert rolled.pace == FEED
+    assert rolled.centre == (1.0, 0.0)
+    assert plane_point(rolled.plane, rolled.end) == (1.25, 0.0)
+
+
+def test_an_element_without_a_path_of_the_tool_still_moves_other_axes() -> None:
+    path = Path(-1, 0).to(0, 0).to(1, 0).to(1, 0.5, -1).to(0, 0.5).to(-1, 0)
+    moved = [each for each in compensate(path.elements, 0.25).elements if each.source.line == 3]
+    assert [each.end[:3] for each in moved] == [(0.75, 0.25, -1.0)]

@@ -144,14 +144,16 @@ def test_the_lead_in_begins_where_the_tool_is_after_a_chain_without_a_lead_out()
     compensator: Compensator[str] = Compensator(rules, lambda code, *_: found.append(code))
     source = Source("P", 1, "")
     compensator.switch(Side.LEFT, 0.25)
-    line = Element(source, Plane.XY, (0.0, 0.0), (1.0, 0.0), FEED)
+    rest = (0.0,) * 6
+    line = Element(source, Plane.XY, (0.0, 0.0, *rest), (1.0, 0.0, *rest), FEED)
     compensator.add(line)
     compensator.switch(None)  # the tool rests at (1, .25)
     compensator.switch(Side.LEFT, 0.25)
-    arc = Element(source, Plane.XY, (1.0, 0.0), (2.0, 1.0), FEED, (1.0, 1.0), math.pi / 2)
+    ends = (1.0, 0.0, *rest), (2.0, 1.0, *rest)
+    arc = Element(source, Plane.XY, *ends, FEED, (1.0, 1.0), math.pi / 2)
     (first,) = [*compensator.add(arc), *compensator.flush()]
     assert isinstance(first, Element)
-    assert first.start == pytest.approx((1.0, 0.25), abs=1e-12)
-    assert first.end == pytest.approx((1.75, 1.0), abs=1e-12)
+    assert first.start == pytest.approx((1.0, 0.25, *rest), abs=1e-12)
+    assert first.end == pytest.approx((1.75, 1.0, *rest), abs=1e-12)
     assert first.is_compensated
     assert not found

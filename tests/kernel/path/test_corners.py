@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from tests.kernel.rig import Reals, Rig, T, examples
 
@@ -43,15 +43,18 @@ def follow(
     points: Sequence[Point],
     meanwhile: Callable[[int], None] | None = None,
     issue: Callable[[Point], None] | None = None,
+    every: int = 0,
 ) -> Reals:
-    """Positions of all axes, tick by tick, along the points."""
+    """Positions of all axes, tick by tick, along the points, of which one comes `every` ticks."""
     issue = issue or (lambda point: made.move(*point))
     waiting, places, tick = list(points)[::-1], [], 0
     rows = [at.AXF_BASE + n * at.AXF_STRIDE + at.AXF_PSP_CNT for n in range(made.axes)]
     places.append([made.F[row] / PPU for row in rows])
     while waiting or made.bit(IN_MOTION):
-        while waiting and moves.has_room(made.card, 0):
+        while waiting and moves.has_room(made.card, 0) and not (every and tick % every):
             issue(waiting.pop())
+            if every:
+                break
         if meanwhile:
             meanwhile(tick)
         made.ticks()
@@ -332,13 +335,137 @@ def test_under_jerk_a_feedhold_near_a_corner_keeps_all_limits(tick: int) -> None
     assert jerks(places).max() <= 20_000 * (1 + 1e-3)
 
 
-@pytest.mark.parametrize("tick", range(61, 400, 12))
+@pytest.mark.parametrize("tick", range(61, 400, 24))
 @pytest.mark.parametrize("what", ["hold", "fov"])
-def test_under_jerk_and_look_events_near_a_corner_keep_all_limits(tick: int, what: str) -> None:
-    made = rig(0.5, jrk=20_000.0)
+@pytest.mark.parametrize("tolerance", [0.01, 0.5])
+def test_under_jerk_and_look_events_near_a_corner_keep_all_limits(
+    tick: int, what: str, tolerance: float
+) -> None:
+    made = rig(tolerance, jrk=20_000.0)
     events: list[Event] = [(tick, what, 0.2), (300, "go", 0.0), (1, "fov", 1.5)]
     places = follow(made, SQUARE, disturbed(made, events))
-    keeps_its_limits(places, SQUARE, 0.5)
+    keeps_its_limits(places, SQUARE, tolerance)
+    assert jerks(places).max() <= 20_000 * (1 + 1e-3)
+
+
+NEAR_STOPS = [(0.009, -0.056), (-0.222, -0.395), (-0.298, -0.246), (-0.289, -0.325)]
+
+
+@settings(max_examples=examples(150))
+@given(
+    st.one_of(polylines(), st.sampled_from([0.2, 0.4, 2.0]).map(lambda leg: wave(leg)[:40])),
+    st.floats(-3.0, 0.0).map(lambda e: 10.0**e),
+    EVENTS,
+)
+@example(NEAR_STOPS, 0.0013, [(87, "fov", 1.9), (114, "fov", 1.5), (112, "fov", 0.1)])
+@example([(-3.423, -0.79), (-0.494, -1.336)], 0.2642, [(166, "hold", 0.0), (58, "go", 0.0)])
+@example([(2.163, 0.217), (2.164, 0.353)], 0.1291, [(113, "go", 1.8), (10, "fov", 1.5)])
+def test_under_jerk_and_look_any_path_keeps_all_limits_whatever_happens(
+    points: list[Point], tolerance: float, events: list[Event]
+) -> None:
+    made = rig(tolerance, jrk=20_000.0)
+    places = follow(made, points, disturbed(made, events))
+    keeps_its_limits(places, points, tolerance)
+    assert jerks(places).max() <= 20_000 * (1 + 1e-3)
+
+
+@pytest.mark.parametrize("straight", [[(9.0, 0.0)], [(9.0, 0.0), (10.0, 0.0)]])
+@pytest.mark.parametrize("depth", [1, 2])
+@pytest.mark.parametrize("every", [0, 20])
+def test_under_jerk_a_corner_that_comes_late_is_entered_without_acceleration(
+    straight: list[Point], depth: int, every: int
+) -> None:
+    x = straight[-1][0]
+    points = [*straight, (x + math.cos(0.125), math.sin(0.125))]
+    made = rig(0.01, jrk=20_000.0)
+    made.depth(depth)
+    places = follow(made, points, every=every)
+    keeps_its_limits(places, points, 0.01)
+    assert jerks(places).max() <= 20_000 * (1 + 1e-3)
+
+
+def turning(leg: float, degrees: float, count: int = 20) -> list[Point]:
+    """Legs of one length, each turned against the one before it, to either side four at a time."""
+    x, y, heading = 0.0, 0.0, 17.0
+    points: list[Point] = []
+    for k in range(count):
+        x += leg * math.cos(math.radians(heading))
+        y += leg * math.sin(math.radians(heading))
+        points.append((x, y))
+        heading += degrees * (1 if (k // 4) % 2 else -1)
+    return points
+
+
+@pytest.mark.parametrize(
+    ("points", "tolerance", "seconds"),
+    [
+        (wave(0.4), 0.01, 3.368),
+        (wave(2.0), 0.01, 1.914),
+        (wave(2.0), 0.1, 1.786),
+        (turning(5.0, 20.0), 0.01, 3.869),
+        (turning(5.0, 20.0), 0.1, 2.321),
+        (turning(5.0, 45.0), 0.01, 4.0),
+    ],
+)
+def test_under_jerk_chains_of_corners_take_their_time_and_not_their_limits(
+    points: list[Point], tolerance: float, seconds: float
+) -> None:
+    places = follow(rig(tolerance, jrk=20_000.0), points)
+    assert len(places) * T == pytest.approx(seconds, rel=0.005)
+    keeps_its_limits(places, points, tolerance)
+    assert jerks(places).max() <= 20_000 * (1 + 1e-3)
+
+
+def test_under_jerk_a_corner_where_rounding_takes_longer_is_a_stop() -> None:
+    points = turning(5.0, 45.0)
+    places = follow(rig(0.01, jrk=20_000.0), points)
+    corners_at = [int(np.argmin(np.linalg.norm(places - each, axis=1))) for each in points[:-1]]
+    speeds = np.linalg.norm(np.diff(places, axis=0), axis=1) / T
+    assert max(speeds[tick] for tick in corners_at) < 0.01
+    assert min(math.dist(places[t], p) for t, p in zip(corners_at, points, strict=False)) < 1e-6
+
+
+def with_jerks(made: Rig, values: Sequence[float]) -> Callable[[Point], None]:
+    """Issues moves, each with a jerk of its own."""
+    left = list(values)[::-1]
+
+    def issue(point: Point) -> None:
+        made.master(jrk=left.pop())
+        made.move(*point)
+
+    return issue
+
+
+@pytest.mark.parametrize("values", [(20_000.0, 5_000.0), (5_000.0, 20_000.0)])
+def test_a_corner_keeps_the_lower_jerk_of_its_two_moves(values: tuple[float, float]) -> None:
+    made = rig(0.5)
+    points = [(20.0, 0.0), (38.0, 8.0)]
+    places = follow(made, points, issue=with_jerks(made, values))
+    at_corner = int(np.argmin(np.linalg.norm(places - points[0], axis=1)))
+    assert 0.01 < math.dist(places[at_corner], points[0]) <= 0.5
+    assert jerks(places)[at_corner - 20 : at_corner + 24].max() <= 5_000 * (1 + 1e-3)
+
+
+@pytest.mark.parametrize("values", [(20_000.0, 0.0), (0.0, 20_000.0)])
+def test_a_corner_between_moves_with_and_without_jerk_is_a_stop(
+    values: tuple[float, float],
+) -> None:
+    made = rig(0.5)
+    points = [(20.0, 0.0), (38.0, 8.0)]
+    places = follow(made, points, issue=with_jerks(made, values))
+    assert np.min(np.linalg.norm(places - points[0], axis=1)) == 0.0
+    assert accelerations(places).max() <= 1000 * (1 + 1e-6)
+
+
+@pytest.mark.parametrize("tick", range(240, 400, 32))
+def test_a_hold_before_a_stop_ends_at_rest_in_the_corner_at_the_latest(tick: int) -> None:
+    made = rig(0.01, jrk=20_000.0)
+    points = turning(5.0, 45.0, 4)
+    places = follow(made, points, disturbed(made, [(tick, "hold", 0.0)]))
+    held = places[tick + 185]
+    assert tuple(held) == tuple(places[tick + 200])
+    assert math.dist(held, (0.0, 0.0)) <= 5.0 * (1 + 1e-9)
+    keeps_its_limits(places, points, 0.01)
     assert jerks(places).max() <= 20_000 * (1 + 1e-3)
 
 

@@ -4,6 +4,7 @@ A virtual mill is homed and cuts the sample part for some seconds; the screen is
 docs/images/panel.png.
 """
 
+import argparse
 import sys
 import tempfile
 from pathlib import Path
@@ -34,6 +35,9 @@ def cuts(page: Page) -> None:
 
 def main() -> int:
     """Make the picture; 1 without a browser."""
+    argparse.ArgumentParser(
+        prog="python -m tests.panel.browser.picture", description=__doc__
+    ).parse_args()
     path = found()
     if path is None:
         print(MISSING, file=sys.stderr)

@@ -9,7 +9,15 @@ from tests.panel.bench import Served
 from tests.panel.browser.conftest import open_page
 from tests.proxy import Proxy
 
+from openacr.panel.server import hello
+
 LIMIT_S = 10.0
+
+
+@pytest.fixture(scope="module")
+def stale_ms() -> int:
+    """As on a machine."""
+    return hello.STALE_MS
 
 
 def until(holds: Callable[[], bool], page: Page) -> None:

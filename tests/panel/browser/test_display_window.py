@@ -5,9 +5,10 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import begin_run, give, load_file, to_main_menu, until_model
+from tests.panel.browser.test_files import path_lines
 
 from openacr.sysvar.tabs import CONTROL, IO
 
@@ -74,12 +75,20 @@ def test_a_part_is_drawn_when_it_is_loaded_unless_default_graphics_is_false(
 ) -> None:
     page, store = programs, served.panel.installation.store
     assert store.default(CONTROL.default_graphics) == store.read(CONTROL.default_graphics) == 1
+    tab(page, "graphics")
+    assert len(path_lines(page)) > 20  # of the sample
     tab(page, "alarms")
+    held: list[Route] = []
+    page.route("**/api/path", lambda route: held.append(route))
     load_file(page, "SQUARE.TXT")  # puts the graphics up
     expect(page.locator("#display-tab-graphics")).to_have_attribute("aria-selected", "true")
-    expect(page.locator(".picture-note").first).to_contain_text("SQUARE.TXT")
+    expect(page.locator(".picture-note").first).to_have_text(re.compile(r"^SQUARE\.TXT"))
+    assert page.evaluate(LINES) == []  # the path of the program before is gone
+    for route in held:
+        route.continue_()
+    page.unroute("**/api/path")
+    assert set(path_lines(page)) == {0, 2, 3, 4, 5}
     page.wait_for_function(f"() => ({DRAWN})() > 100")
-    assert set(page.evaluate(LINES)) == {0, 2, 3, 4, 5}
     draw = page.get_by_role("button", name="DRAW", exact=True)
     expect(draw).to_be_hidden()
 

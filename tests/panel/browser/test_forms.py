@@ -1,9 +1,30 @@
 """Forms and the editor keep what the operator has typed until it is saved or dropped."""
 
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 from tests.panel.bench import Served
 
-from openacr.sysvar.tabs import JOG
+from openacr.sysvar.tabs import JOG, SPEEDS
+
+# Type into another field between a save and its answer.
+TYPED_MEANWHILE = """([id, text]) => {
+  const fetched = window.fetch;
+  window.fetch = async (...asked) => {
+    const answer = await fetched(...asked);
+    if (asked[1]?.method === 'PUT') {
+      window.fetch = fetched;
+      const field = document.getElementById(id);
+      field.value = text;
+      field.dispatchEvent(new Event('input'));
+    }
+    return answer;
+  };
+}"""
+
+# Store a value as another operator would.
+CHANGED_ELSEWHERE = """async ([number, text]) => {
+  const { send } = await import('/js/core/api.js');
+  await send('PUT', 'forms/SPEEDS', { values: { [number]: text } });
+}"""
 
 
 def parameters(page: Page, tab: str) -> None:
@@ -41,6 +62,54 @@ def test_a_saved_value_is_in_the_store_and_on_the_screen(page: Page, served: Ser
     expect(page.locator(f"#cell-{number}")).to_have_value("1.5")
 
 
+def test_what_is_typed_while_a_save_is_under_way_stays_and_so_does_the_focus(
+    page: Page, served: Served
+) -> None:
+    parameters(page, "Speeds")
+    store = served.panel.installation.store
+    other = store.read(SPEEDS.cut_speed)
+    field = page.locator(f"#cell-{SPEEDS.trial_speed}")
+    later = page.locator(f"#cell-{SPEEDS.cut_speed}")
+    page.evaluate(TYPED_MEANWHILE, [f"cell-{SPEEDS.cut_speed}", "321"])
+    field.fill("432")
+    field.press("Enter")
+    expect(page.locator("#prompt")).to_have_text("Saved: 1")
+    expect(page.locator(".form-foot .hint")).to_have_text("Not saved: 1")
+    expect(later).to_have_value("321")
+    expect(field).to_have_value("432")
+    expect(field).to_be_focused()
+    assert (store.read(SPEEDS.trial_speed), store.read(SPEEDS.cut_speed)) == (432.0, other)
+    field.press("Enter")
+    expect(page.locator(".form-foot .hint")).to_have_text("")
+    assert store.read(SPEEDS.cut_speed) == 321.0
+
+
+def test_a_reason_stays_with_its_value_when_an_older_question_is_answered_after_it(
+    page: Page,
+) -> None:
+    parameters(page, "Speeds")
+    field = page.locator(f"#cell-{SPEEDS.cut_speed}")
+    expect(field).to_be_visible()
+    held: list[Route] = []
+    page.route(
+        "**/api/forms/**",
+        lambda route: held.append(route) if route.request.method == "GET" else route.continue_(),
+    )
+    with page.expect_request(lambda asked: asked.method == "GET" and "/forms/" in asked.url):
+        page.evaluate(CHANGED_ELSEWHERE, [str(SPEEDS.trial_speed), "234"])
+    field.fill("-1")
+    page.get_by_role("button", name="SAVE", exact=True).click()
+    reason = page.locator(f"#cell-{SPEEDS.cut_speed}-refusal")
+    expect(reason).to_contain_text("cannot be -1")
+    for route in held:
+        route.continue_()
+    expect(page.locator(f"#cell-{SPEEDS.trial_speed}")).to_have_value("234")
+    expect(reason).to_contain_text("cannot be -1")
+    expect(field).to_have_value("-1")
+    expect(field).to_have_attribute("aria-invalid", "true")
+    page.unroute("**/api/forms/**")
+
+
 def test_a_form_with_changes_asks_before_it_is_left(page: Page) -> None:
     parameters(page, "Servo")
     field = page.locator("#cell-150003")
@@ -65,9 +134,7 @@ def test_the_editor_marks_an_error_and_asks_before_changes_are_lost(page: Page) 
     text.click()
     page.keyboard.press("Control+Home")
     page.keyboard.type("G999 X1\n")
-    expect(page.locator(".findings .error")).to_have_text(
-        "⚠1:1E203 unknown G code: G999", timeout=20_000
-    )
+    expect(page.locator(".findings .error")).to_have_text("⚠1:1E203 unknown G code: G999")
     expect(page.locator(".cm-lint-marker-error")).to_have_count(1)
     expect(page.locator("#screen-title")).to_have_text("Edit: plate.nc *")
     page.keyboard.press("Escape")

@@ -8,18 +8,23 @@ from playwright.sync_api import Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import give, load_file, to_main_menu, until_model
 
+from openacr.mill.plan.blank import SIZES
+from openacr.panel.control.station import Station
 from openacr.sysvar.tabs import CONTROL, DISPLAY
 
 ANGLE = "G21 G91 F600\nG1 X20\nY10\nM2\n"
 GREEN, RED, BROWN = (0, 0x9E, 0x73), (0xB0, 0, 0x20), (0x8B, 0x5A, 0x2B)  # 10, 4 and 6
-# How many pixels of the path are opaque and of a colour, and how many of any other.
+BLUE, BLUE_ON_DARK = (0, 0x33, 0xCC), (0x5C, 0x8D, 0xFF)  # 1
+BLANK = (0x7A, 0x6A, 0x4F)
+# How many pixels of the path are of a colour, and how many of any other. A line between two rows of
+# pixels is half transparent in both, with the rounding of that.
 COUNTED = """([red, green, blue]) => {
   const canvas = document.querySelector('#display .picture [data-layer=strokes]');
   const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
   let [same, other] = [0, 0];
   for (let n = 0; n < data.length; n += 4) {
-    if (data[n + 3] < 250) continue;
-    if (data[n] === red && data[n + 1] === green && data[n + 2] === blue) same += 1;
+    if (data[n + 3] < 100) continue;
+    if ([red, green, blue].every((part, k) => Math.abs(data[n + k] - part) < 4)) same += 1;
     else other += 1;
   }
   return [same, other];
@@ -38,6 +43,18 @@ SEEN = """() => {
   const cursor = document.querySelector('#display .tool-cursor').getBoundingClientRect();
   return { box, cursor: [cursor.x + cursor.width / 2, cursor.y + cursor.height / 2] };
 }"""  # noqa: E501
+# The box of what has a colour on the ground: pixels of the picture; null where there is none.
+FRAMED = """([red, green, blue]) => {
+  const canvas = document.querySelector('#display .picture [data-layer=ground]');
+  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  const box = [Infinity, Infinity, -Infinity, -Infinity];
+  for (let n = 0; n < data.length; n += 4) {
+    if (data[n + 3] < 255 || data[n] !== red || data[n + 1] !== green || data[n + 2] !== blue) continue;
+    const [x, y] = [(n / 4) % canvas.width, Math.floor(n / 4 / canvas.width)];
+    box.splice(0, 4, Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y));
+  }
+  return box[0] < box[2] ? { box, width: canvas.width, height: canvas.height } : null;
+}"""  # noqa: E501
 CHOOSE = "(line) => import('/js/draw/path.js').then((path) => path.chosenLine.set(line))"
 STORE = """([form, values]) => fetch(`/api/forms/${form}`,
   { method: 'PUT', body: JSON.stringify({ values }) }).then((answer) => answer.ok)"""
@@ -47,10 +64,65 @@ STORE = """([form, values]) => fetch(`/api/forms/${form}`,
 def drawn(page: Page, served: Served) -> Page:
     """The workspace with the path of a right angle, as it is drawn by default."""
     (served.programs / "ANGLE.TXT").write_text(ANGLE)
+    served.call(forget_sizes)
     load_file(page, "ANGLE.TXT")
     to_main_menu(page)
     until_counted(page, GREEN)
     return page
+
+
+@pytest.mark.req("MILL-SYS-CTL-XSIZE", "MILL-SYS-CTL-YSIZE", "MILL-SYS-CTL-ZSIZE")
+def test_cutting_sizes_are_the_blank_of_the_picture_and_its_area(
+    drawn: Page, served: Served
+) -> None:
+    page, store = drawn, served.panel.installation.store
+    assert [store.default(cell) for cell in SIZES] == [609.6] * 3  # 24 inches
+    assert page.evaluate(FRAMED, BLANK) is None
+    page.keyboard.press("F8")
+    page.keyboard.press("F1")
+    page.get_by_role("tab", name="Control, page 1", exact=True).click()
+    for cell, letter, size in zip(SIZES, "XYZ", (60, 40, 8), strict=True):
+        field = page.get_by_label(f"{letter} Axis Cutting Size", exact=True)
+        field.fill("-1")
+        page.get_by_role("button", name="SAVE", exact=True).click()
+        expect(page.locator(f"#cell-{cell}-refusal")).to_contain_text("a number from 0 up [mm]")
+        field.fill(str(size))
+        page.get_by_role("button", name="SAVE", exact=True).click()
+        expect(page.locator(f"#cell-{cell}-refusal")).to_have_text("")
+    assert [store.read(cell) for cell in SIZES] == [60.0, 40.0, 8.0]
+    to_main_menu(page)
+    page.evaluate(CHOOSE, 2)  # X20, of which the blank has three times the length
+    for view, shape in (("TOP", (60, 40)), ("FRONT", (60, 8)), ("SIDE", (40, 8))):
+        page.get_by_role("button", name=view, exact=True).click()
+        seen = until_blank(page, shape)
+        assert min(seen["box"][:2]) > 0
+        assert seen["box"][2] < seen["width"] and seen["box"][3] < seen["height"]
+    page.get_by_role("button", name="TOP", exact=True).click()
+    left, _, right, _ = until_blank(page, (60, 40))["box"]
+    start, _, end, _ = page.evaluate(SEEN)["box"]
+    host = page.locator("#display .picture").bounding_box()
+    assert host is not None
+    assert (end - start - 4) == pytest.approx((right - left) / 3, abs=4)
+    assert (start + end) / 2 - host["x"] == pytest.approx((left + right) / 2, abs=3)
+    page.evaluate(CHOOSE, 0)
+
+
+def until_blank(page: Page, size: tuple[int, int]) -> dict[str, Any]:
+    """Wait until the outline of the blank has the shape of its sizes; where it is."""
+    for _ in range(400):
+        seen: dict[str, Any] | None = page.evaluate(FRAMED, BLANK)
+        if seen is not None:
+            left, top, right, bottom = seen["box"]
+            if abs((right - left) * size[1] / size[0] - (bottom - top)) < 3:
+                return seen
+        page.wait_for_timeout(20)
+    pytest.fail(f"{size}: {page.evaluate(FRAMED, BLANK)}")
+
+
+def forget_sizes(station: Station) -> None:
+    """Take the sizes of the blank out of the store."""
+    for cell in SIZES:
+        station.installation.store.reset(cell)
 
 
 def until_counted(page: Page, color: tuple[int, int, int]) -> None:
@@ -81,6 +153,48 @@ def test_the_path_has_the_colour_of_the_index_that_control_holds(
         assert store.read(CONTROL.path_color) == index
         to_main_menu(page)
         until_counted(page, color)
+
+
+def test_the_path_has_another_tone_of_its_colour_in_the_dark_theme(drawn: Page) -> None:
+    page = drawn
+    assert page.evaluate(STORE, ["CONTROL2", {str(CONTROL.path_color): "1"}])
+    until_counted(page, BLUE)
+    page.emulate_media(color_scheme="dark")
+    until_counted(page, BLUE_ON_DARK)
+    page.emulate_media(color_scheme="light")
+    until_counted(page, BLUE)
+    assert page.evaluate(STORE, ["CONTROL2", {str(CONTROL.path_color): "10"}])
+    until_counted(page, GREEN)
+
+
+def test_settings_that_leave_the_extents_leave_the_view_as_it_is(
+    drawn: Page, served: Served
+) -> None:
+    page = drawn
+    page.evaluate(CHOOSE, 2)
+    for _ in range(2):
+        page.locator("#display .view-keys").get_by_text("+", exact=True).click()
+    left, right = until_still(page)
+    assert page.evaluate(STORE, ["CONTROL2", {str(CONTROL.path_color): "4"}])
+    until_counted(page, RED)
+    assert until_still(page) == (left, right)
+    wide = right - left
+    assert page.evaluate(STORE, ["CONTROL", {str(SIZES[0]): "90"}])
+    page.wait_for_function(  # the extents are others: the picture is fitted
+        f"(wide) => {{ const {{ box }} = ({SEEN})(); return box[2] - box[0] < wide / 2; }}",
+        arg=wide,
+    )
+    assert page.evaluate(STORE, ["CONTROL2", {str(CONTROL.path_color): "10"}])
+    page.evaluate(CHOOSE, 0)
+
+
+def until_still(page: Page) -> tuple[float, float]:
+    """Where the mark of the chosen line begins and ends, once two paintings agree."""
+    before: list[float] = []
+    while (box := page.evaluate(SEEN)["box"]) != before or None in box:
+        before = box
+        page.wait_for_timeout(60)
+    return before[0], before[2]
 
 
 @pytest.mark.req("MILL-SYS-DISP-COMBINE")

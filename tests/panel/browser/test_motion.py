@@ -5,7 +5,7 @@ from collections.abc import Callable
 from functools import partial
 
 import pytest
-from playwright.sync_api import BrowserContext, CDPSession, Page
+from playwright.sync_api import BrowserContext, CDPSession, Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import open_page
 
@@ -45,7 +45,9 @@ def jog(page: Page, served: Served) -> Page:
 
 
 def centre(page: Page, name: str) -> dict[str, float]:
-    box = page.get_by_role("button", name=name).bounding_box()
+    key = page.get_by_role("button", name=name)
+    expect(key).to_be_visible()
+    box = key.bounding_box()
     assert box is not None
     return {"x": box["x"] + box["width"] / 2, "y": box["y"] + box["height"] / 2}
 

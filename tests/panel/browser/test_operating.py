@@ -126,6 +126,75 @@ def test_what_a_program_prints_and_asks_is_in_one_line_and_another_is_edited_mea
     reads(page, PLACE[0] + 3.0, PLACE[1], PLACE[2])
 
 
+def test_a_tool_that_is_asked_for_is_confirmed_by_its_key_or_by_start(
+    placed: Page, served: Served
+) -> None:
+    page = placed
+    (served.programs / "TOOLS.TXT").write_text("G21 G91 T1 M6\nG0 X3\nT2 M6\nG0 X-3\nM2\n")
+    load_file(page, "TOOLS.TXT")
+    begin_run(page)
+    changed = page.get_by_role("button", name="TOOL CHANGED")
+    expect(page.locator("#prompt")).to_contain_text("load tool 1")
+    changed.click()
+    reads(page, PLACE[0] + 3.0)
+    expect(page.locator("#prompt")).to_contain_text("load tool 2")
+    page.keyboard.press("F2")  # START
+    reads(page, PLACE[0])
+    expect(changed).to_be_hidden()
+    at_rest(page, served)
+
+
+def test_a_start_where_no_line_frees_the_tool_takes_a_safe_z(placed: Page, served: Served) -> None:
+    page = placed
+    (served.programs / "DEEP.TXT").write_text("G21 G90 G54\nG1 X3 F600\nX7\nM2\n")
+    load_file(page, "DEEP.TXT")
+    page.keyboard.press("F3")
+    dialog = page.get_by_role("dialog", name="RUN")
+    line = dialog.get_by_role("textbox", name="Start line")
+    level = dialog.get_by_role("textbox", name="Safe Z (machine)")
+    expect(level).to_be_hidden()
+    line.fill("3")
+    page.keyboard.press("Enter")
+    expect(page.locator("#prompt")).to_contain_text("its machine position has to be given (Safe Z")
+    page.keyboard.press("F3")
+    line.fill("3")
+    level.fill("high")
+    page.keyboard.press("Enter")
+    expect(dialog.locator(".refusal")).to_contain_text("Safe Z (machine)")
+    level.fill("0")
+    page.keyboard.press("Enter")
+    page.get_by_role("button", name="MOVE AND START").click()
+    reads(page, 7.0)
+    at_rest(page, served)
+
+
+def test_no_enter_meant_for_the_start_line_moves_the_machine(placed: Page, served: Served) -> None:
+    page = placed
+    (served.programs / "LATER.TXT").write_text("G21 G90 G54\nG0 Z20\nG0 X7\nM2\n")
+    load_file(page, "LATER.TXT")
+    page.keyboard.press("F3")
+    page.get_by_role("dialog", name="RUN").get_by_role("textbox", name="Start line").fill("3")
+    page.keyboard.down("Enter")
+    question = page.get_by_role("dialog", name="Start at line 3")
+    cancel = question.get_by_role("button", name="CANCEL")
+    expect(cancel).to_be_focused()
+    page.keyboard.down("Enter")  # held: the key repeats
+    expect(question).to_be_visible()
+    page.keyboard.up("Enter")
+    page.keyboard.press("Enter")  # a second press cancels
+    expect(question).to_be_hidden()
+    assert served.call(lambda station: station.machine.runner.is_busy) is False
+    reads(page, PLACE[0])
+    page.keyboard.press("F3")
+    page.get_by_role("textbox", name="Start line").fill("3")
+    page.keyboard.press("Enter")
+    expect(cancel).to_be_focused()
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")  # MOVE AND START
+    reads(page, 7.0)
+    at_rest(page, served)
+
+
 @pytest.mark.req("MILL-MDI-BUFEDIT")
 def test_the_buffer_of_mdi_is_edited_run_and_kept(placed: Page, served: Served) -> None:
     page = placed
@@ -159,6 +228,34 @@ def test_the_buffer_of_mdi_is_edited_run_and_kept(placed: Page, served: Served) 
     until_model(page, "model.mdi.value.buffer.length === 3")
     assert kept() == ["G91 G0 X-2", "G0 Y1", "G91 G0 Z0"]
     expect(buffer).to_have_value("G91 G0 X-2\nG0 Y1\nG91 G0 Z0")
+
+
+@pytest.mark.req("MILL-MDI-BUFFER")
+def test_the_buffer_of_mdi_is_switched_off_and_on(placed: Page, served: Served) -> None:
+    page = placed
+    page.keyboard.press("F7")
+    page.keyboard.press("F1")
+    block = page.get_by_role("textbox", name="Block", exact=True)
+    switch = page.get_by_role("checkbox", name="BUFFER")
+    expect(switch).to_be_checked()
+    first = served.call(lambda station: list(station.typed.text))
+    switch.uncheck()
+    until_model(page, "!model.mdi.value.on")
+    block.fill("G91 G0 X5")
+    block.press("Enter")
+    reads(page, PLACE[0] + 5.0)
+    at_rest(page, served)
+    assert served.call(lambda station: list(station.typed.text)) == first
+    expect(block).to_have_value("")
+    block.press("ArrowUp")  # it can be called back, though it is not kept
+    expect(block).to_have_value("G91 G0 X5")
+    switch.check()
+    until_model(page, "model.mdi.value.on")
+    block.fill("G91 G0 X-5")
+    block.press("Enter")
+    reads(page, PLACE[0])
+    at_rest(page, served)
+    assert served.call(lambda station: list(station.typed.text)) == [*first, "G91 G0 X-5"]
 
 
 @pytest.mark.req("MILL-JOG-SCREEN")

@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
+from tests.mill.sender import Sender
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import begin_run, give, load_file, to_main_menu, until_model
 
@@ -183,7 +184,12 @@ def test_the_code_chosen_for_every_modal_group_is_in_force_at_the_start(
     in_force(page, served, POWER_UP)
 
 
-SOURCES = ["USER FILE", "LIBRARY PART", "DXF FILE", "BATCH FILE", "DRIP FEED"]
+SOURCES = {  # the file that each offers, and its key
+    "USER FILE": ("PLAIN.TXT", "LOAD"), "LIBRARY PART": ("", "LOAD"),
+    "DXF FILE": ("BOX.DXF", "LOAD"),
+    "BATCH FILE": ("JOBS.TXT", "LOAD"), "DRIP FEED": ("", "START READING"),
+    "RS-232 (LINK)": ("", "RECEIVE"),
+}  # fmt: skip
 
 
 @pytest.mark.req("MILL-MENU-SETUP-LOAD", "MILL-DXF-01")
@@ -195,12 +201,11 @@ def test_load_prog_offers_every_source_and_drawings_are_found_from_there_and_fro
     (served.programs / "JOBS.TXT").write_text("PLAIN.TXT\n")
     setup(page, "F3", "Load program")
     sources = page.get_by_role("radiogroup", name="Source").get_by_role("radio")
-    assert sources.all_inner_texts() == SOURCES
-    for name, file in zip(SOURCES, ("PLAIN.TXT", "", "BOX.DXF", "JOBS.TXT", ""), strict=True):
+    assert sources.all_inner_texts() == list(SOURCES)
+    for name, (file, key) in SOURCES.items():
         page.get_by_role("radio", name=name).click()
         expect(page.get_by_role("radio", name=name)).to_have_attribute("aria-checked", "true")
-        start = page.get_by_role("button", name="START READING" if name == SOURCES[-1] else "LOAD")
-        expect(start.last).to_be_visible()
+        expect(page.get_by_role("button", name=key).last).to_be_visible()
         if file:
             expect(page.get_by_role("option", name=file)).to_be_visible()
 
@@ -247,3 +252,39 @@ def test_the_browser_has_nothing_to_complain_about(page: Page) -> None:
     complaints: list[str] = page.complaints  # type: ignore[attr-defined]
     known = ("422", "409", "Applying inline style")  # refused values, a file that is there; CSP
     assert [each for each in complaints if not any(n in each for n in known)] == []
+
+
+@pytest.mark.req("MILL-LOAD-LINK")
+def test_a_program_received_by_link_is_shown_as_it_arrives_and_loaded(
+    page: Page, served: Served
+) -> None:
+    sender = Sender()
+    file = served.programs / "LINKED.TXT"
+    file.write_text("OLD\n")
+    page.keyboard.press("F5")
+    page.keyboard.press("F3")
+    page.get_by_role("radio", name="RS-232 (LINK)").click()
+    screen = page.locator("#screen")
+    expect(screen.get_by_role("button", name="RECEIVE")).to_be_disabled()
+    screen.get_by_label("Port").fill(sender.port)
+    screen.get_by_label("Keep as").fill("LINKED.TXT")
+
+    def receive() -> None:
+        screen.get_by_role("button", name="RECEIVE").click()
+        page.get_by_role("dialog", name="RECEIVE").get_by_role("button", name="OVERWRITE").click()
+        expect(screen.get_by_role("status")).to_contain_text(f"LINKED.TXT from {sender.port}")
+        sender.send(b"%\nG0 X1\nM2\n")
+        expect(screen.get_by_role("status")).to_contain_text("3 lines")
+
+    receive()
+    screen.get_by_role("button", name="CANCEL").click()
+    expect(screen.get_by_role("status")).to_have_text("LINKED.TXT was cancelled: nothing was kept")
+    assert file.read_text() == "OLD\n"
+    receive()
+    sender.send(b"%")
+    expect(screen.get_by_role("status")).to_contain_text("LINKED.TXT is kept: 3 lines")
+    assert file.read_text() == "%\nG0 X1\nM2\n%\n"
+    screen.get_by_role("button", name="LOAD FILE").click()
+    expect(page.locator("#alarms")).to_have_text("LINKED.TXT")
+    expect(page.locator("#menu")).to_have_attribute("data-shown", "run")
+    sender.close()

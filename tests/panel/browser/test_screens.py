@@ -6,7 +6,8 @@ from typing import Any
 
 import pytest
 from playwright.sync_api import BrowserContext, Page
-from tests.panel.browser.conftest import to_main_menu
+from tests.panel.bench import Served
+from tests.panel.browser.conftest import left_over, open_page, to_main_menu
 
 AXE = Path(__file__).parent / "axe" / "axe.min.js"
 SIZES = {"800x600": (800, 600), "1024x768": (1024, 768), "1920x1080": (1920, 1080)}
@@ -86,7 +87,7 @@ def looks(page: Page, pictures: Path, name: str, theme: str) -> list[str]:
     found = []
     for size, (width, height) in SIZES.items():
         page.set_viewport_size({"width": width, "height": height})
-        found += [f"{size}: {each}" for each in page.evaluate(MISFITS)]
+        found += [f"{size}: {each}" for each in left_over(page, MISFITS)]
         page.screenshot(path=pictures / f"{name}-{size}-{theme}.png")
     page.set_viewport_size({"width": 1024, "height": 768})
     rules: list[str] = page.evaluate(AXE_RUN)
@@ -159,12 +160,47 @@ def test_every_text_is_shown_in_german_and_every_key_fits(
     found = {}
     for menu in page.evaluate(MENUS):
         page.evaluate(SHOW, menu)
-        found[menu] = page.evaluate(MISFITS)
+        found[menu] = left_over(page, MISFITS)
     assert {menu: each for menu, each in found.items() if each} == {}
     page.set_viewport_size({"width": 1024, "height": 768})
     page.evaluate("localStorage.clear()")
     page.reload()
     page.wait_for_selector("body:not(.is-stale)")
+
+
+# Where keys and values are while the values are taken for old, with every text of the banner.
+WITH_BANNER = """async () => {
+  const { model } = await import('/js/core/app.js');
+  const texts = (await Promise.all(['en', 'de'].map((name) => import(`/js/catalog/${name}.js`)))).flatMap(
+    (texts) => ['stale.old', 'stale.lost', 'stale.card'].map((name) => texts.default[name]));
+  const banner = document.querySelector('#banner');
+  const places = () => [...document.querySelectorAll('button, .position-row, #prompt, #work')]
+    .filter((each) => !each.closest('#alarms')).map((each) => {
+      const { x, y, width, height } = each.getBoundingClientRect();
+      return `${each.id} ${each.textContent.slice(0, 9)} ${[x, y, width, height].map(Math.round)}`;
+    }).join('; ');
+  const before = banner.hidden ? places() : 'a banner was shown before';
+  const found = [];
+  for (const text of texts) {
+    banner.hidden = false;
+    banner.textContent = text;
+    if (places() !== before) found.push(`${text}: ${before} / ${places()}`);
+    if (banner.scrollHeight > banner.clientHeight) found.push(`${text}: ${banner.scrollHeight} of ${banner.clientHeight}`);
+  }
+  banner.hidden = true;
+  return found;
+}"""  # noqa: E501
+
+
+@pytest.mark.parametrize("path", ["", "bench"])
+@pytest.mark.parametrize(("width", "height"), [(800, 600), (1920, 1080), (390, 844)])
+def test_no_key_moves_under_the_finger_when_the_values_are_taken_for_old(
+    context: BrowserContext, served: Served, width: int, height: int, path: str
+) -> None:
+    page = open_page(context, f"{served.url}/{path}")
+    page.set_viewport_size({"width": width, "height": height})
+    assert left_over(page, WITH_BANNER) == []
+    page.close()
 
 
 # What of read-out, STOP and jog keys a finger does not reach on a phone.
@@ -195,11 +231,7 @@ def test_a_phone_shows_the_read_out_and_stop_with_every_menu_and_while_jogging(
         else:
             page.evaluate(OPEN, place)
             page.wait_for_selector(f"#screen[data-screen={place}] button")
-        for _ in range(100):  # a busy machine shows its banner meanwhile
-            found[place] = page.evaluate(OUT_OF_REACH) + page.evaluate(MISFITS)
-            if not found[place]:
-                break
-            page.wait_for_timeout(50)
+        found[place] = left_over(page, OUT_OF_REACH, MISFITS)
     page.set_viewport_size({"width": 1024, "height": 768})
     assert {place: each for place, each in found.items() if each} == {}
 

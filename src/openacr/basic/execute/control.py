@@ -79,6 +79,7 @@ class ProgramControl:
         elif self._plcs is None:
             raise CardError(NOT_SUPPORTED)
         else:
+            self._system.listeners.plc_changes(owner - PROGRAMS)
             self._plcs.run(owner - PROGRAMS)
 
     def halt(self, owner: int) -> None:

@@ -20,7 +20,7 @@ from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.program_store import StoredLine
 from openacr.basic.vm import opcodes_cy as vm
 from openacr.basic.vm import scheduler_cy as scheduler
-from openacr.basic.vm.code import Chunk
+from openacr.basic.vm.code import BEGINS_LINE, Chunk
 from openacr.basic.vm.compiler import compile_line, compile_program
 from openacr.basic.vm.levels import CompileError
 from openacr.basic.vm.run import Run, Wait, WaitKind
@@ -67,7 +67,7 @@ class Executor:
         if not lines:
             return
         try:
-            chunk = _compiled(lines)
+            chunk = self._compiled(lines)
         except CompileError as error:
             row = at.PROG_BASE + program * at.PROG_STRIDE + at.PROG_LINE_NUMBER
             self.memory.I[row] = error.line
@@ -106,7 +106,7 @@ class Executor:
     def load_kinematics(self, master: int, program: int) -> None:
         """Compile the text of a program as the kinematics of a master."""
         lines = tuple(self.system.programs.lines(program))
-        chunk = _compiled(lines)
+        chunk = self._compiled(lines)
         thread = KINEMATICS + master
         self.threads.start(thread, chunk, self._kinematics_run(master), 0)
         self.threads.set_row(thread, at.THI_LOCALS, program)
@@ -190,12 +190,16 @@ class Executor:
             self._wait(thread, wait, at_trap=wait.retry)
 
     def _hold(self, thread: int) -> None:
-        """Stop before a line in pause or block mode; show its number in trace mode."""
+        """Stop before a line in pause or block mode; show its number in trace mode.
+
+        Within a line, where followers of a program want to hear of it, nothing stops.
+        """
         word = at.PF_WORD + thread
         flags = self.memory.I[word]
+        marks = self.threads.next_marks(thread)
         if flags & at.PF_TRACE_MODE_ENABLE:
-            self.system.listeners.trace(thread, self.threads.next_line(thread))
-        if not flags & _HOLDS:
+            self.system.listeners.trace(thread, self.threads.next_line(thread), marks)
+        if not (flags & _HOLDS and marks & BEGINS_LINE):
             self.threads.set_row(thread, at.THI_PASSED, 1)
             return
         if flags & at.PF_PAUSE_MODE:
@@ -234,10 +238,10 @@ class Executor:
                 self.threads.put_back(thread, (), Chunk(), None)
             elif thread < PROGRAMS:
                 run = self._program_run(thread)
-                self.threads.put_back(thread, lines, _compiled(lines), run)
+                self.threads.put_back(thread, lines, self._compiled(lines), run)
             elif thread >= KINEMATICS:
                 run = self._kinematics_run(thread - KINEMATICS)
-                self.threads.put_back(thread, lines, _compiled(lines), run)
+                self.threads.put_back(thread, lines, self._compiled(lines), run)
             else:
                 run = self._session_run(self._session(thread))
                 self.threads.put_back(thread, lines, compile_line(lines[0].tree), run)
@@ -250,6 +254,8 @@ class Executor:
             raise LookupError(f"thread {thread} serves no channel")
         return found[0]
 
-
-def _compiled(lines: tuple[StoredLine, ...]) -> Chunk:
-    return compile_program([(line.number, line.tree) for line in lines])
+    def _compiled(self, lines: tuple[StoredLine, ...]) -> Chunk:
+        return compile_program(
+            [(line.number, line.tree) for line in lines],
+            is_followed=self.system.listeners.follower is not None,
+        )

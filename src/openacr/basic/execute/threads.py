@@ -77,6 +77,11 @@ class Threads:
         line: int = self.space.chunks[thread].code[self.row(thread, at.THI_PC) + 1]
         return line
 
+    def next_marks(self, thread: int) -> int:
+        """What `basic.vm.code` says of the statement a thread executes next."""
+        marks: int = self.space.chunks[thread].code[self.row(thread, at.THI_PC) + 2]
+        return marks
+
     def run_of(self, thread: int) -> Run:
         """The context of what a thread executes."""
         run = self._runs[thread]

@@ -18,6 +18,13 @@ from openacr.map.numbers import (
 )
 from openacr.views import F64, I32
 
+# What DO_STATEMENT says of its statement, for followers and for stops before lines. Above these
+# bits is the count of conditions that stand before it on its line.
+BEGINS_LINE = 1
+IS_CONDITION = 2  # an IF with THEN, of programs that are followed
+IS_AFTER_THEN = 4  # the first statement after a THEN, of programs that are followed
+CONDITIONS_SHIFT = 3
+
 SMALLEST_CODE = 512
 SMALLEST_NUMS = 128
 

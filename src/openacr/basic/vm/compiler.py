@@ -19,7 +19,13 @@ from openacr.basic.language.nodes import (
 )
 from openacr.basic.vm import opcodes_cy as vm
 from openacr.basic.vm.assembly import CodePlace
-from openacr.basic.vm.code import Chunk
+from openacr.basic.vm.code import (
+    BEGINS_LINE,
+    CONDITIONS_SHIFT,
+    IS_AFTER_THEN,
+    IS_CONDITION,
+    Chunk,
+)
 from openacr.basic.vm.expression_code import ExpressionEmitter
 from openacr.basic.vm.levels import Level, Levels, unclosed
 from openacr.messages import (
@@ -40,9 +46,12 @@ class CodeLevel(Level):
     data: Expr | None = None  # the variable of a FOR
 
 
-def compile_program(lines: Iterable[tuple[int, LineTree]]) -> Chunk:
-    """The code of a whole program; CompileError if its structure is wrong."""
-    emitter = Emitter()
+def compile_program(lines: Iterable[tuple[int, LineTree]], *, is_followed: bool = False) -> Chunk:
+    """The code of a whole program; CompileError if its structure is wrong.
+
+    Followed or not, every operation is at the same place: one can go on where the other was.
+    """
+    emitter = Emitter(is_followed=is_followed)
     for number, line in lines:
         emitter.line(number, line)
     return emitter.finish()
@@ -58,19 +67,20 @@ def compile_line(line: LineTree) -> Chunk:
 class Emitter(ExpressionEmitter):
     """Writes byte code; commands with `emit=` in their row use it."""
 
-    def __init__(self, chunk: Chunk | None = None) -> None:
+    def __init__(self, chunk: Chunk | None = None, *, is_followed: bool = False) -> None:
         super().__init__(chunk)
+        self._is_followed = is_followed
         self.levels = Levels[CodeLevel]()
         self._labels: dict[str, CodePlace] = {}
         self._lines: dict[int, CodePlace] = {}
-        self._is_first = True
+        self._marks = BEGINS_LINE  # of the next statement
 
     # lines and statements
 
     def line(self, number: int, line: LineTree) -> None:
         """One stored line."""
         self.line_number = number
-        self._is_first = True
+        self._marks = BEGINS_LINE
         self.put(self._lines.setdefault(number, CodePlace()))
         self.chunk.starts[number] = len(self.chunk.code)
         if line.label is not None:
@@ -96,8 +106,15 @@ class Emitter(ExpressionEmitter):
 
     def begin_statement(self) -> None:
         """Mark the beginning of a statement: slices, pauses and steps stop there."""
-        self.op(vm.DO_STATEMENT, self.line_number, int(self._is_first))
-        self._is_first = False
+        self.op(vm.DO_STATEMENT, self.line_number, self._marks)
+        self._marks &= -1 << CONDITIONS_SHIFT
+
+    def mark_condition(self) -> None:
+        """The statement that has just begun is an IF with THEN: mark it and what follows."""
+        if self._is_followed:
+            self.chunk.code[-1] |= IS_CONDITION
+            self._marks += 1 << CONDITIONS_SHIFT
+            self._marks |= IS_AFTER_THEN
 
     def trap(self, statement: Statement | Move) -> None:
         """Leave a statement to Python."""

@@ -17,6 +17,8 @@ def emit_if(e: Emitter, statement: Statement) -> None:
     """IF: with THEN a conditional rest of the line, else the beginning of a level."""
     condition, then = statement.arguments
     if isinstance(then, Conditional):
+        if any(then.blocks):
+            e.mark_condition()
         after_line = e.place()
         _condition(e, condition, after_line)
         e.blocks(then.blocks)

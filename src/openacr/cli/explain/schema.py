@@ -18,18 +18,23 @@ class Kind(StrEnum):
     MACHINE = "machine"
     SCENARIO = "scenario"
     CONFIGURE = "configure"
+    BRIDGE = "bridge"
+    SWEEP = "sweep"
 
 
 def show_schema(
     kind: Annotated[
         Kind,
-        typer.Argument(metavar="machine|scenario|configure", help="The file without its suffix."),
+        typer.Argument(
+            metavar="machine|scenario|configure|bridge|sweep",
+            help="The kind of file.",
+        ),
     ],
 ) -> None:
-    """Print the JSON schema of machine.toml, scenario.toml or configure.toml.
+    """Print the JSON schema of machine, scenario, configure, bridge or sweep files.
 
     Editors complete and check a file by it. It has every key, type, range and choice; how the
-    values of a file fit together is checked by `openacr check`.
+    values of a file fit together is checked by `openacr check`, of a sweep by `openacr sweep`.
     """
     typer.echo(json.dumps(schema_of(kind), indent=2))
 
@@ -38,35 +43,43 @@ def schema_of(kind: Kind) -> dict[str, Any]:
     """The schema, made of the types that the loader of the file converts to."""
     import msgspec
 
-    from openacr.scenario.rules import AT_LEAST_ONE, EXACTLY_ONE
+    from openacr.bridge.settings import EXACTLY_ONE as OF_BRIDGES
+    from openacr.scenario.rules import AT_LEAST_ONE
+    from openacr.scenario.rules import EXACTLY_ONE as OF_SCENARIOS
+    from openacr.sweep.schema import EXACTLY_ONE as OF_SWEEPS
 
     body = msgspec.json.schema(_type_of(kind))
     parts = body["$defs"]
     for struct, sets in AT_LEAST_ONE.items():
-        _require(parts, struct, "allOf", [{"anyOf": _each(keys)} for keys in sets])
-    for struct, keys in EXACTLY_ONE.items():
-        _require(parts, struct, "oneOf", _each(keys))
+        _require(parts, struct, "anyOf", sets)
+    for struct, sets in (OF_SCENARIOS | OF_BRIDGES | OF_SWEEPS).items():
+        _require(parts, struct, "oneOf", sets)
     return {"$schema": DRAFT, "title": f"{kind}.toml of openacr", **_without_null(body)}
 
 
 def _type_of(kind: Kind) -> Any:
+    from openacr.bridge.settings import BridgeFile
     from openacr.configure.answers import Answers
     from openacr.plant.schema import World
     from openacr.scenario.schema import Scenario
+    from openacr.sweep.schema import kind_for_editors
 
-    return {Kind.MACHINE: World, Kind.SCENARIO: Scenario, Kind.CONFIGURE: Answers}[kind]
+    return {
+        Kind.MACHINE: World,
+        Kind.SCENARIO: Scenario,
+        Kind.CONFIGURE: Answers,
+        Kind.BRIDGE: BridgeFile,
+        Kind.SWEEP: kind_for_editors(),
+    }[kind]
 
 
 def _require(
-    parts: dict[str, Any], struct: "type[Struct]", word: str, rules: list[dict[str, Any]]
+    parts: dict[str, Any], struct: "type[Struct]", word: str, sets: tuple[tuple[str, ...], ...]
 ) -> None:
+    """Of each set of keys an entry has one (`oneOf`) or at least one (`anyOf`)."""
     part = parts.get(struct.__name__)
     if part is not None:
-        part[word] = rules
-
-
-def _each(keys: tuple[str, ...]) -> list[dict[str, Any]]:
-    return [{"required": [key]} for key in keys]
+        part["allOf"] = [{word: [{"required": [key]} for key in keys]} for keys in sets]
 
 
 def _without_null(value: Any) -> Any:

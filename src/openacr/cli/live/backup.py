@@ -7,15 +7,24 @@ from typing import Annotated
 
 import typer
 
-from openacr.cli.live.online import FAILED, Baud, Silence, Target, connected, progress_bar
+from openacr.cli.live.online import (
+    BAUD,
+    FAILED,
+    PATIENCE_S,
+    Baud,
+    Silence,
+    Target,
+    connected,
+    progress_bar,
+)
 from openacr.errors import UserError
 
 
 def backup(
     target: Target,
     folder: Annotated[Path, typer.Argument(help="New or empty folder.")],
-    baud: Baud = 38400,
-    silence: Silence = 10.0,
+    baud: Baud = BAUD,
+    silence: Silence = PATIENCE_S,
 ) -> None:
     """Store settings, attachments, variables and programs of a card in a folder.
 
@@ -31,8 +40,8 @@ def restore(
     target: Target,
     folder: Annotated[Path, typer.Argument(help="Folder of a backup.")],
     is_sure: Annotated[bool, typer.Option("--yes", help="Do not ask.")] = False,
-    baud: Baud = 38400,
-    silence: Silence = 10.0,
+    baud: Baud = BAUD,
+    silence: Silence = PATIENCE_S,
 ) -> None:
     """Stop a card, clear it and restore a backup.
 

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.cli.live.online import (
+    BAUD,
+    PATIENCE_S,
     Baud,
     Plc,
     Program,
@@ -31,8 +33,8 @@ def download(
         bool,
         typer.Option("--no-verify", help="Do not compare with the listing of the card afterwards."),
     ] = False,
-    baud: Baud = 38400,
-    silence: Silence = 10.0,
+    baud: Baud = BAUD,
+    silence: Silence = PATIENCE_S,
 ) -> None:
     """Send a controller file, or all files of a project, to a card.
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.cli.live.monitor import AXES, axes_on
-from openacr.cli.live.online import Baud, Silence, Target, connected
+from openacr.cli.live.online import BAUD, SILENCE_S, Baud, Silence, Target, connected
 from openacr.cli.live.silence import why_silent
 from openacr.map import numbers as at
 
@@ -64,8 +64,8 @@ def loop(
     target: Target,
     axis: Annotated[list[int] | None, typer.Option(min=0, max=AXES - 1, help="An axis.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
-    baud: Baud = 38400,
-    silence: Silence = 5.0,
+    baud: Baud = BAUD,
+    silence: Silence = SILENCE_S,
 ) -> None:
     """Show offsets, setpoints, gains and outputs of the servo loops of a card.
 

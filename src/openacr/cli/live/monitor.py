@@ -1,15 +1,14 @@
 """`openacr monitor`: parameters, flags and axes of a card, live."""
 
 import json
-import re
 import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from openacr.cli.live.online import Baud, Silence, Target, connected
-from openacr.errors import MapError, UserError
+from openacr.cli.live.online import BAUD, SILENCE_S, Baud, Silence, Target, connected
+from openacr.errors import UserError
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -18,9 +17,7 @@ if TYPE_CHECKING:
     from openacr.client.values import Number
 
 AXES = 16
-_AXIS_PARAMETERS = ("current position", "actual position", "following error", "ppu")
-_AXIS_FLAGS = ("drive enabled", "kill all motion request", "jog active")
-_NAMES = ("position", "actual", "following_error", "enabled", "killed", "jogging")
+_SCALE = "ppu"
 
 
 def monitor(
@@ -35,8 +32,8 @@ def monitor(
         float | None, typer.Option("--for", metavar="SECONDS", help="End after this time [s].")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object per sample.")] = False,
-    baud: Baud = 38400,
-    silence: Silence = 5.0,
+    baud: Baud = BAUD,
+    silence: Silence = SILENCE_S,
 ) -> None:
     """Show parameters, flags and axes of a card, live.
 
@@ -61,7 +58,7 @@ class Sampler:
     """Reads the chosen things, all parameters and all flags together."""
 
     def __init__(self, card: "Card", items: list[str], axes: list[int]) -> None:
-        from openacr.client.names import flag_number, parameter_number
+        from openacr.client.panels import AXES
 
         self.card = card
         self.axes = axes
@@ -70,27 +67,17 @@ class Sampler:
         for item in items:
             self._add(item)
         for axis in axes:
-            for name in _AXIS_PARAMETERS:
-                self.parameters[f"axis{axis}.{name}"] = parameter_number(f"axis{axis}.{name}")
-            for name in _AXIS_FLAGS:
-                self.flags[f"axis{axis}.{name}"] = flag_number(f"axis{axis}.{name}")
+            for name in (*(row.name for row in AXES.columns), _SCALE):
+                self._add(f"axis{axis}.{name}")
 
     def _add(self, item: str) -> None:
         """A parameter if there is one of this name, else a flag."""
-        from openacr.client.names import flag_number, parameter_number
+        from openacr.client.names import named
+        from openacr.map import Flag
 
-        try:
-            self.parameters[item] = parameter_number(item)
-            return
-        except MapError as error:
-            no_parameter = error
-        try:
-            self.flags[item] = flag_number(item)
-        except MapError as error:
-            number = re.fullmatch(r"(P|BIT)\d+", item, re.IGNORECASE)
-            if number is None:
-                raise UserError(f"no parameter and no flag is named {item!r}") from None
-            raise (no_parameter if number[1].upper() == "P" else error) from None
+        found = named(item)
+        chosen = self.flags if isinstance(found, Flag) else self.parameters
+        chosen[item] = found.number
 
     def sample(self) -> dict[str, object]:
         """The present values by name; an axis is a table of its own."""
@@ -105,11 +92,14 @@ class Sampler:
 
     def _axis(self, axis: int, found: dict[str, object]) -> dict[str, object]:
         """Take the values of one axis out of all, positions in units."""
-        *positions, ppu = (found.pop(f"axis{axis}.{name}") for name in _AXIS_PARAMETERS)
-        scale = float(str(ppu)) or 1.0
-        flags = [found.pop(f"axis{axis}.{name}") for name in _AXIS_FLAGS]
-        in_units = [float(str(position)) / scale for position in positions]
-        return dict(zip(_NAMES, [*in_units, *flags], strict=True))
+        from openacr.client.panels import AXES
+
+        scale = float(str(found.pop(f"axis{axis}.{_SCALE}"))) or 1.0
+        values = {row.column: found.pop(f"axis{axis}.{row.name}") for row in AXES.columns}
+        return {
+            name: value if isinstance(value, bool) else float(str(value)) / scale
+            for name, value in values.items()
+        }
 
 
 def axes_on(card: "Card") -> list[int]:
@@ -155,13 +145,16 @@ def _table(sample: dict[str, object]) -> "Table":
     """Axes side by side with their values, other items below each other."""
     from rich.table import Table
 
+    from openacr.client.panels import AXES
+
+    columns = [row.column for row in AXES.columns]
     axes = {name: value for name, value in sample.items() if isinstance(value, dict)}
     table = Table(box=None)
     table.add_column(f"{sample['time_s']} s")
-    for name in (*_NAMES,) if axes else ("value",):
+    for name in columns if axes else ("value",):
         table.add_column(name.replace("_", " "), justify="right")
     for name, values in axes.items():
-        table.add_row(name, *(_text(values[column]) for column in _NAMES))
+        table.add_row(name, *(_text(values[column]) for column in columns))
     for name, value in sample.items():
         if name != "time_s" and name not in axes:
             table.add_row(name, _text(value))

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
 FAILED = 1
 PROGRAM_LAST, PLC_LAST = 15, 7
+BAUD = 38400
+SILENCE_S = 5.0
+PATIENCE_S = 10.0  # of transfers
 
 Target = Annotated[str, typer.Argument(metavar="HOST", help="HOST, HOST:PORT or a serial port.")]
 Baud = Annotated[int, typer.Option(min=1, help="Speed of a serial port.")]

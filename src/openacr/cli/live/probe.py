@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from openacr.cli.live.online import Baud, Silence, Target
+from openacr.cli.live.online import BAUD, SILENCE_S, Baud, Silence, Target
 from openacr.models import Feature
 
 if TYPE_CHECKING:
@@ -27,8 +27,8 @@ class Verdict:
 def probe(
     target: Target,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
-    baud: Baud = 38400,
-    silence: Silence = 5.0,
+    baud: Baud = BAUD,
+    silence: Silence = SILENCE_S,
 ) -> None:
     """Show model, firmware and options of a card, and what of this software works with it.
 

@@ -8,18 +8,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.cli.live.monitor import axes_on
-from openacr.cli.live.online import Baud, Silence, Target, connected
+from openacr.cli.live.online import BAUD, SILENCE_S, Baud, Silence, Target, connected
 from openacr.cli.live.silence import why_silent
 from openacr.map import numbers as at
-from openacr.map.block import FLAG_WORD_BASE
 
 if TYPE_CHECKING:
     from openacr.client import Card
 
 BUS_STATE = at.CAN_BASE + at.CAN_BUS_STATE
-INPUT_OPEN, INPUT_LATCHED, BUS_INSTALLED = 5646, 5645, 11268
-ENCODER_FLAGS = 32 * (at.EF_WORD - FLAG_WORD_BASE)
-FAULT, LOST = 0, 1
 SIDES = (("positive", 0), ("negative", 1))
 
 
@@ -62,8 +58,8 @@ class Status:
 def status(
     target: Target,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
-    baud: Baud = 38400,
-    silence: Silence = 5.0,
+    baud: Baud = BAUD,
+    silence: Silence = SILENCE_S,
 ) -> None:
     """Show lights, drives, encoders and limit switches of a card.
 
@@ -85,39 +81,55 @@ def read_status(card: "Card") -> Status:
 
     words = card.read_many([at.P_DIAGNOSTICS, at.W_MISC_CONTROL_1, BUS_STATE])
     diagnostics, control, bus = map(int, words)
-    is_open, is_latched, has_bus = card.read_bits([INPUT_OPEN, INPUT_LATCHED, BUS_INSTALLED])
+    enable = _flags(card, "card", "MISCCTL1")
+    is_open, is_latched = enable["Motion Enable Input Open"], enable["Motion Enable Input Latched"]
     return Status(
         power_light(is_there=True, diagnostics=diagnostics, misc_control=control),
-        bus_light(bus, is_installed=has_bus),
+        bus_light(bus, is_installed=_flags(card, "network", "CAN")["CANopen Controller Installed"]),
         "open" if is_open else "latched" if is_latched else "closed",
         tuple(_axis(card, axis) for axis in axes_on(card)),
     )
 
 
+def _flags(card: "Card", panel: str, thing: str) -> dict[str, bool]:
+    """The flags of an object, by the rows of its status panel."""
+    from openacr.client.panels import flags_of, panel_named
+
+    numbers = flags_of(panel_named(panel), thing)
+    return dict(zip(numbers, card.read_bits(list(numbers.values())), strict=True))
+
+
 def _axis(card: "Card", axis: int) -> AxisStatus:
     from openacr.client.lights import axis_light
 
-    drive, limits = map(int, card.read_many([at.AF4_WORD + axis, at.AF5_WORD + axis]))
+    flags = _flags(card, "axes", f"AXIS{axis}")
+    encoder = _flags(card, "encoders", f"ENC{_encoder(card, axis)}")
     first = int(card.command(f"AXIS{axis} HLBIT")[0])
-    encoder = 32 * _encoder(card, axis) + ENCODER_FLAGS
-    is_faulty, is_lost = card.read_bits([encoder + FAULT, encoder + LOST])
     inputs = card.read_bits([first, first + 1])
+    is_faulty = flags["Drive Fault Input"] or flags["Drive Fault"]
+    is_enabled = flags["Drive Enabled"]
     return AxisStatus(
         axis,
-        axis_light(drive),
-        bool(drive & at.AF4_DRIVE_ENABLED),
-        bool(drive & at.AF4_KILL_ALL_MOTION_REQUEST),
-        is_faulty,
-        is_lost,
-        tuple(_limit(limits, first, side, name, inputs[side]) for name, side in SIDES),
+        axis_light(is_faulty=is_faulty, is_enabled=is_enabled),
+        is_enabled,
+        flags["Kill All Motion Request"],
+        encoder["Encoder Signal Fault"],
+        encoder["Encoder Signal Lost"],
+        tuple(_limit(flags, first, side, name, inputs[side]) for name, side in SIDES),
         why_silent(card, axis),
     )
 
 
-def _limit(word: int, first: int, side: int, name: str, is_on: bool) -> Limit:
-    """Quinary flags: 0 and 1 active, 4 and 5 latched, 20 and 21 enabled."""
-    active, latched, enabled = (bool(word >> bit + side & 1) for bit in (0, 4, 20))
-    return Limit(name, first + side, is_on, active, enabled, latched)
+def _limit(flags: dict[str, bool], first: int, side: int, name: str, is_on: bool) -> Limit:
+    limit = f"{name.capitalize()} Hardware Limit"
+    return Limit(
+        name,
+        first + side,
+        is_on,
+        flags[f"{name.capitalize()} Limit Input"],
+        flags[f"{limit} Enable"],
+        flags[f"{limit} Encountered"],
+    )
 
 
 def _encoder(card: "Card", axis: int) -> int:

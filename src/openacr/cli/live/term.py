@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from openacr.cli.live.online import FAILED, Baud, Target
+from openacr.cli.live.online import BAUD, FAILED, Baud, Target
 from openacr.lang.characters import Screen
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ KEY_BYTES = 1024
 
 def term(
     target: Target,
-    baud: Baud = 38400,
+    baud: Baud = BAUD,
     wait: Annotated[
         float, typer.Option(min=0.0, help="Longest wait [s] for the prompt of a piped line.")
     ] = 60.0,

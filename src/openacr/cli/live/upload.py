@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.cli.live.online import (
+    BAUD,
     FAILED,
+    PATIENCE_S,
     PLC_LAST,
     PROGRAM_LAST,
     Baud,
@@ -34,8 +36,8 @@ def upload(
     ] = None,
     program: Program = None,
     plc: Plc = None,
-    baud: Baud = 38400,
-    silence: Silence = 10.0,
+    baud: Baud = BAUD,
+    silence: Silence = PATIENCE_S,
 ) -> None:
     """Read a program or PLC of a card, or all of them into a folder.
 

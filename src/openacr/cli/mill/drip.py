@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from openacr.mill.session import MillSession
 
 STARVED_S = 0.02
-FIRST_BYTE_S = 30.0
 
 FromPort = Annotated[
     str, typer.Option("--port", metavar="SERIAL", help="Serial port; default: that of the store.")
@@ -68,11 +67,18 @@ def receive_program(
     replaces: Annotated[bool, typer.Option("--force", help="Replace a file.")] = False,
 ) -> None:
     """Receive a part program over a serial line and store it as a file (LINK)."""
-    from openacr.mill.config.communications import Line, receive
+    from openacr.cli.run.output import write_whole
+    from openacr.mill.config.communications import Line
+    from openacr.mill.run.receiving import Patience, Reception
 
     if file.exists() and not replaces:
         raise UserError(f"{file} exists; --force replaces it")
     with opened_store(store) as cells:
         line = Line.of(cells, port)
-    with line.open(wait_s=FIRST_BYTE_S) as opened:
-        typer.echo(f"{file}: {receive(opened, file)} bytes")
+    program = Reception(line, Patience()).run() or b""  # never cancelled: Ctrl-C ends the command
+    write_whole(file, lambda partial: _write(partial, program))
+    typer.echo(f"{file}: {len(program)} bytes")
+
+
+def _write(file: Path, program: bytes) -> None:
+    file.write_bytes(program)

@@ -53,7 +53,7 @@ def plot_program(
     ] = None,
 ) -> None:
     """Draw the tool path of a part program: PNG, SVG or interactive HTML."""
-    from openacr.cli.plots.formats import require
+    from openacr.cli.plots.formats import IMAGES, require
     from openacr.cli.plots.toolpath_formats import draw_path
     from openacr.cli.run.output import require_different, require_writable, write_whole
 
@@ -64,9 +64,7 @@ def plot_program(
         )
     only = "--stock" if is_stock else "--colour" if colour else ""
     target = picture or file.with_suffix(".png" if only else ".html")
-    if only and target.suffix.lower() == ".html":
-        raise UserError(f"{target}: pictures with {only} end in .png or .svg")
-    require(target)
+    require(target, *((f"with {only}", IMAGES) if only else ()))
     require_different((file, target))
     require_writable(target)
     if is_stock:

@@ -6,18 +6,20 @@ from pathlib import Path
 from openacr.cli.plots.curves import Curves
 from openacr.errors import UserError
 
-FORMATS = (".png", ".svg", ".html")
+IMAGES = (".png", ".svg")
+FORMATS = (*IMAGES, ".html")
 
 
-def require(path: Path) -> None:
-    """Refuse a picture that could not be drawn, before anything runs."""
+def require(path: Path, of: str = "", formats: tuple[str, ...] = FORMATS) -> None:
+    """Refuse a picture (`of` what, in messages) that could not be drawn, before anything runs."""
     suffix = path.suffix.lower()
-    if suffix not in FORMATS:
-        raise UserError(f"{path}: pictures end in {', '.join(FORMATS[:-1])} or {FORMATS[-1]}")
-    if suffix != ".html" and find_spec("matplotlib") is None:
+    if suffix not in formats:
+        what = f"pictures {of}".rstrip()
+        raise UserError(f"{path}: {what} end in {', '.join(formats[:-1])} or {formats[-1]}")
+    if suffix in IMAGES and find_spec("matplotlib") is None:
+        other = "; an .html picture needs nothing" if ".html" in formats else ""
         raise UserError(
-            f"{path}: {suffix} pictures need matplotlib: pip install 'openacr[plot]'; "
-            "an .html picture needs nothing"
+            f"{path}: {suffix} pictures need matplotlib: pip install 'openacr[plot]'{other}"
         )
 
 

@@ -81,11 +81,9 @@ def _check_outputs(
     output.require_different((target, plot))
     output.require_writable(target)
     if plot is not None:
-        from openacr.cli.plots import require
+        from openacr.cli.plots import IMAGES, require
 
-        if plot.suffix.lower() == ".html":
-            raise UserError(f"{plot}: pictures of sweeps end in .png or .svg")
-        require(plot)
+        require(plot, "of sweeps", IMAGES)
         output.require_writable(plot)
 
 

@@ -79,11 +79,11 @@ def import_values(
     password: Password = None,
 ) -> None:
     """Read settings from TOML: all, or none if one is refused."""
-    from openacr.sysvar.exchange import imported
+    from openacr.sysvar.exchange import imported, text_of
     from openacr.sysvar.location import open_to_write
     from openacr.sysvar.schema import FIRST_SYSTEM
 
-    text = _read(file)
+    text = text_of(file)
     with open_to_write(store) as cells:
         require_service(cells, [FIRST_SYSTEM], password)
         count = imported(cells, text, str(file))
@@ -161,12 +161,3 @@ def require_service(cells: "Store", numbers: Iterable[int], password: str | None
 
 def _write(path: Path, text: str) -> None:
     path.write_text(text, encoding="utf-8")
-
-
-def _read(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise UserError(f"{path}: cannot be read: {(error.strerror or '').lower()}") from None
-    except UnicodeDecodeError:
-        raise UserError(f"{path}: not UTF-8 text") from None

@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from openacr.views import F64, I32
 
 RAPID, LINE, ARC = 0, 1, 2  # kinds of moves
-ROW, POINT, CURVE = 7, 8, 5  # numbers of a move in `rows`, `ends` and `arcs`
+INSERTED, COMPENSATED = 1, 2  # flags of moves
+ROW, POINT, CURVE = 8, 8, 5  # numbers of a move in `rows`, `ends` and `arcs`
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,12 +28,12 @@ class Origin:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Moves:
-    """Rapids, lines and arcs in their order, none inserted or compensated.
+    """Rapids, lines and arcs in their order.
 
     Each has in `rows` its kind, line, pace (index in `paces`), plane (17 to 19), where its line
-    begins and ends, and in which text (index in `origins`); in `ends` its end point; in `arcs`, for
-    arcs, the centre on the first and second axis of the plane, the sweep in radians, and the
-    radii at start and end.
+    begins and ends, in which text (index in `origins`), and its flags; in `ends` its end point; in
+    `arcs`, for arcs, the centre on the first and second axis of the plane, the sweep in radians,
+    and the radii at start and end.
     """
 
     origins: tuple[Origin, ...]
@@ -51,7 +52,7 @@ class Moves:
 
     def source_of(self, k: int) -> Source:
         """Where a move comes from."""
-        _, line, _, _, begin, end, origin = self.rows[ROW * k : ROW * (k + 1)]
+        _, line, _, _, begin, end, origin, _ = self.rows[ROW * k : ROW * (k + 1)]
         found = self.origins[origin]
         return Source(found.file, line, found.text_of(begin, end))
 
@@ -61,14 +62,18 @@ class Moves:
 
     def entry(self, k: int) -> Rapid | Line | Arc:
         """One move by itself."""
-        kind, _, pace, plane, *_ = self.rows[ROW * k : ROW * (k + 1)]
-        end = self.end_of(k)
+        kind, _, pace, plane, _, _, _, flags = self.rows[ROW * k : ROW * (k + 1)]
+        source, end = self.source_of(k), self.end_of(k)
+        is_inserted, is_compensated = flags & INSERTED != 0, flags & COMPENSATED != 0
         if kind == RAPID:
-            return Rapid(self.source_of(k), end)
+            return Rapid(source, end, is_inserted)
         if kind == LINE:
-            return Line(self.source_of(k), end, self.paces[pace])
+            return Line(source, end, self.paces[pace], is_inserted, is_compensated)
         x, y, sweep, r0, r1 = self.arcs[CURVE * k : CURVE * (k + 1)]
-        return Arc(self.source_of(k), end, PLANES[plane], (x, y), sweep, r0, r1, self.paces[pace])
+        return Arc(
+            source, end, PLANES[plane], (x, y), sweep, r0, r1, self.paces[pace], is_inserted,
+            is_compensated,
+        )  # fmt: skip
 
     def entries(self) -> Iterator[Rapid | Line | Arc]:
         """The moves one by one."""

@@ -1,7 +1,7 @@
 """The fast form of a code: what it comes down to where many blocks are executed at once.
 
-Blocks are executed at once (`cnc.interpreter.lines_cy`) while no compensation, scaling, rotation,
-cycle, modal macro or inverse time is on. Under these conditions the handler of a code with a
+Blocks are executed at once (`cnc.interpreter.lines_cy`) while no scaling, rotation, modal macro or
+inverse time is on. Under these conditions the handler of a code with a
 fast form does exactly what the form says; a block with any other code is left to the handlers.
 """
 
@@ -23,6 +23,7 @@ class Does(Enum):
     # The handler neither reads nor changes what the core executes, and only hands out entries: it
     # is called in its place between the moves, when these become entries.
     SHOWS = auto()
+    TURNS = auto()  # the same for the spindle: a cycle after it is left, it knows how that turned
     RESTS = auto()  # an entry that waits: what follows is no longer idle
 
 
@@ -31,7 +32,7 @@ class Sets:
     """A field of the modal state gets a value, without `value` the number of the code.
 
     With `is_alone` the moves before and after differ in more than their ends. With `is_barred` no
-    cycle is active.
+    cycle is active and no compensation is on. `compensation` is not changed: it has that value.
     """
 
     field: str

@@ -181,6 +181,9 @@ class Run(Protocol):
     def tell(self, entry: Entry) -> None:
         """Add an entry without motion, in its place between two moves."""
 
+    def end_block(self, source: Source) -> None:
+        """Add an entry that marks the end of a block."""
+
     def flush(self) -> Iterator[Entry]:
         """Hand out the entries so far."""
 

@@ -47,7 +47,7 @@ def feed(run: Run, b: BlockContext) -> None:
     run.path.change_pace()
 
 
-@letter("S", step=Step.SPEED, limits=(Limit("S", 0, 1e6, "E222"),))
+@letter("S", step=Step.SPEED, limits=(Limit("S", 0, 1e6, "E222"),), fast=Does.SHOWS)
 def speed(run: Run, b: BlockContext) -> None:
     """Spindle speed in turns per minute; acts at once while the spindle turns."""
     run.modal.speed = b.words["S"]
@@ -55,7 +55,7 @@ def speed(run: Run, b: BlockContext) -> None:
         run.tell(Spindle(b.source, run.modal.spin, run.modal.speed, is_awaited=False))
 
 
-@letter("T", step=Step.TOOL, limits=(Limit("T", 0, 999, "E222", is_whole=True),))
+@letter("T", step=Step.TOOL, limits=(Limit("T", 0, 999, "E222", is_whole=True),), fast=Does.SHOWS)
 def tool(run: Run, b: BlockContext) -> None:
     """Tool for the next M6."""
     run.modal.tool = b.whole("T")

@@ -1,8 +1,14 @@
-"""The elements between lead-in and lead-out, and the tool path beside them."""
+"""The elements between lead-in and lead-out, and the tool path beside them.
 
-from typing import Generic, TypeVar
+The loop is `chain_follow`; here is what is to be done where it ends: findings, gouges, entries
+that wait, the begin and the end of a chain.
+"""
 
-from openacr.cnc.canonical import Plane
+from array import array
+from collections.abc import Iterator
+
+from openacr.cnc.canonical import AXES, Moves, Point
+from openacr.cnc.compensation import chain_cy as core
 from openacr.cnc.compensation.curve_cy import (
     AWAY,
     AX,
@@ -10,7 +16,6 @@ from openacr.cnc.compensation.curve_cy import (
     BX,
     BY,
     GOUGES,
-    NOTHING,
     SMALL,
     T1X,
     T1Y,
@@ -23,60 +28,49 @@ from openacr.cnc.compensation.join_cy import (
     APART,
     BRIDGE,
     CROSSING,
-    FIT_STEP,
     FORCED,
     GAP,
     JOINED,
     ROUND,
 )
 from openacr.cnc.compensation.lead import begin_lead_in, end_lead_in
-from openacr.cnc.compensation.moves import at_place, inserted, tool_move
-from openacr.cnc.compensation.rows import Piece, Table, fit, lay, meet, place
+from openacr.cnc.compensation.many import Many
+from openacr.cnc.compensation.moves import at_place
+from openacr.cnc.compensation.pieces import Held, Pieces
+from openacr.cnc.compensation.rows import Piece, Table, fit, place
 from openacr.cnc.compensation.rules import Report, Rules, Watch
 from openacr.cnc.geometry.elements import Element
-
-Held = TypeVar("Held")
+from openacr.compiled import pick
 
 HELD_CNT = 100  # most entries that wait for the end of an element
 LEFT_OUT_CNT = 5  # most consecutive elements that may be left out
+_follow, _connect, _push = (
+    pick(core.chain_follow), pick(core.chain_connect), pick(core.chain_push),
+)  # fmt: skip
+_meet, _drop = pick(core.chain_meet), pick(core.chain_drop)
+_move, _between = pick(core.chain_move), pick(core.chain_between)
 
 
-class Chain(Generic[Held]):
+class Chain(Pieces[Held]):
     """The pieces that are not issued yet, the last one without an end."""
 
     def __init__(self, rules: Rules, report: Report, watch: Watch | None) -> None:
-        self.away = 0.0  # signed distance for the elements to come
-        self.news: list[tuple[str, str]] = []  # findings to report with the next element
-        self.ready: list[Held | Element] = []
+        super().__init__(Table(rules, 1 if rules.gouge_stop else 1 + LEFT_OUT_CNT), watch)
+        self._rules = rules
+        self._tolerances = (rules.epsilon, rules.sweep_epsilon)
+        self._report = report
         self.at: tuple[float, float] | None = (
             None  # where the tool is, if not at the programmed point
         )
-        self._rules = rules
-        self._tolerances = (rules.epsilon, rules.sweep_epsilon)
-        self._root = rules.root
-        self._waiting_cnt = 1 if rules.gouge_stop else 1 + LEFT_OUT_CNT
-        self._report = report
-        self._watch = watch
-        self._table = Table()
-        self._plane = Plane.XY
-        self._axes = (0, 1)
-        self._chain: list[Piece[Held]] = []
-        self._last: Piece[Held] | None = None  # issued last
-        self._is_inside = False  # an element before the next one was left out
-
-    def drain(self) -> list[Held | Element]:
-        """Return what was issued since the last call."""
-        ready = self.ready
-        self.ready = []
-        return ready
 
     def forget(self) -> None:
         """Clear the chain at its end."""
         if self._watch:
+            self._collect()
             self._watch.end()
-        self._last = None
+        self._S[core.S_LAST] = -1
         self.at = None
-        self._is_inside = False
+        self._S[core.S_IS_INSIDE] = 0
         self.news.clear()
 
     def report_pending(self, element: Element) -> None:
@@ -88,103 +82,134 @@ class Chain(Generic[Held]):
     def rest(self, thing: Held | Element) -> None:
         """Issue an entry where the tool is."""
         if self.at is None or not isinstance(thing, Element):
-            self.ready.append(thing)
+            self.put(thing)
         elif (element := at_place(thing, self.at)) is not None:
-            self.ready.append(element)
+            self.put(element)
+
+    # --- elements -----------------------------------------------------------------------
 
     def begin(self, element: Element) -> None:
         """Begin with a lead-in: a line from the tool to beside the start of the next element."""
-        self._laid_out(element)
-        lead = Piece[Held](element, self._table.keep(), is_lead_in=True)
-        begin_lead_in(self._table.F, lead)
-        self._chain = [lead]
+        lead = self._laid_out(element)
+        lead.is_lead_in = True
+        begin_lead_in(self._F, lead)
+        _push(*self._state)
 
     def begin_with_arc(self, contour: Element) -> None:
         """Begin with a lead-in along an arc: the tool is beside its start."""
         self._laid_out(contour)
         if self._watch:
             self._watch.contour(contour)
-        self._chain = [Piece[Held](contour, self._table.keep())]
-
-    def _laid_out(self, element: Element) -> int:
-        """Fill the next row with an element."""
-        start, end, plane = element.start, element.end, element.plane
-        if plane is not self._plane:
-            self._plane = plane
-            self._axes = (plane.first, plane.second)
-        first, second = self._axes
-        cx, cy = element.centre or (0.0, 0.0)
-        return lay(
-            self._table.F,
-            self._table.row,
-            start[first],
-            start[second],
-            end[first],
-            end[second],
-            cx,
-            cy,
-            element.sweep_rad,
-            self.away,
-            *self._tolerances,
-        )
+        _push(*self._state)
 
     def follow(self, element: Element) -> None:
         """Add the next element."""
-        found = self._laid_out(element)
-        if found == NOTHING:
-            self.hold(element, False)
+        self._take(element)
+        status = _follow(self._F, self._S, self._row, self._end, self._arc, 0, 1, *self._table.out)
+        if self._watch and status != core.STILL:
+            self._watch.contour(element)
+        if status != core.DONE:
+            self._attend(status)
+
+    def follow_many(
+        self, contour: Moves, start: Point, shift: Point
+    ) -> Iterator[list[Held | Element]]:
+        """Add elements from a point of the machine on; `shift` leads from program to machine.
+
+        Yields what is issued, before each finding.
+        """
+        F, S = self._F, self._S
+        many = self._many = Many(contour, start, self._known())
+        F[core.T_AT : core.T_AT + AXES] = array("d", start)
+        F[core.T_SHIFT : core.T_SHIFT + AXES] = array("d", shift)
+        F[core.T_AWAY], S[core.S_TAG] = self.away, 0
+        k, count = 0, len(contour)
+        while k < count:
+            S[core.S_HAS_NEWS] = bool(self.news)
+            status = _follow(
+                F, S, contour.rows, contour.ends, contour.arcs, k, count, *self._table.out
+            )
+            yield self.drain()
+            if status == core.DONE:
+                break
+            k = S[core.S_AT]
+            if status == core.FULL:
+                continue
+            if status == core.STILL:
+                many.still.add(k)
+            self._attend(status)
+            k += 1
+        yield self.drain()
+        if self._watch:
+            self._watch.elements(many)
+        for piece in self._known():
+            piece.number(0, piece.slot, 0)
+        F[core.T_SHIFT : core.T_SHIFT + AXES] = array("d", (0.0,) * AXES)
+        self._many = None
+
+    def _attend(self, status: int) -> None:
+        """Do what the element in work needs before the loop can go on."""
+        if status == core.HOLDS:
+            self._release()
             return
+        piece = self._piece(self._S[core.S_NEXT])
+        if status == core.STILL:
+            self.hold(piece.element, False)
+            return
+        if status == core.FOUND:
+            status = self._found(piece)
+        if status in (core.BROKEN, core.LEADS, core.GOUGED):
+            self._join(status, piece)
+            status = _push(*self._state)
+        if status == core.HOLDS:
+            self._release()
+
+    def _found(self, piece: Piece[Held]) -> int:
+        """Report what is wrong with an element, and connect it if the tool fits into it."""
+        found, element = self._S[core.S_FOUND], piece.element
         if self.news:
             self.report_pending(element)
-        if self._watch:
-            self._watch.contour(element)
         if found & UNEQUAL:
             limit = self._rules.epsilon
             self._report("E315", f"start and end radius differ by more than {limit:g}", element)
         if found & SMALL:
-            report_small(self._report, Piece(element, self._table.row), self._table, self._rules)
-            self._is_inside = True
-        else:
-            self._connect(Piece(element, self._table.keep()))
+            report_small(self._report, piece, self._table, self._rules)
+            self._S[core.S_IS_INSIDE] = 1
+            return core.DONE
+        return _connect(*self._state)
 
-    def _connect(self, piece: Piece[Held]) -> None:
-        chain = self._chain
-        if chain:
-            last = chain[-1]
-            self._meet(last, piece, self._is_inside)
-            if last.fits == GOUGES or last.meets == APART:
-                self._gouge(piece)
-        else:
+    def _join(self, status: int, piece: Piece[Held]) -> None:
+        """Join a piece to the one before where that is not ordinary."""
+        if status == core.BROKEN:
             self._restart(piece)
-        self._is_inside = False
-        chain.append(piece)
-        while len(chain) > self._waiting_cnt:
-            self._issue(chain.pop(0), chain[0])
+        elif status == core.LEADS:
+            end_lead_in(self._F, self._chain[-1], piece, self._report, self._rules.epsilon)
+        else:
+            self._gouge(piece)
 
     def _meet(self, last: Piece[Held], piece: Piece[Held], is_inside: bool) -> None:
         """Set the end of one piece and the start of the next."""
-        F, i, j = self._table.F, last.row, piece.row
         if last.is_lead_in:
-            end_lead_in(F, last, piece, self._report, self._rules.epsilon)
-            return
-        found = meet(F, i, j, *self._tolerances, self._root, is_inside)
-        last.fits, last.meets = divmod(found, FIT_STEP)
+            end_lead_in(self._F, last, piece, self._report, self._rules.epsilon)
+        else:
+            _meet(self._F, self._S, last.slot, piece.slot, is_inside)
 
     def _restart(self, piece: Piece[Held]) -> None:
         """Continue after a broken chain: from where the tool rests to the new start."""
         last = self._last
         if last is None or self.at is None:
             return
-        F, j = self._table.F, piece.row
-        meets = meet(F, last.row, j, *self._tolerances, self._root, False) % FIT_STEP
-        if meets == JOINED and (F[j + AX], F[j + AY]) == self.at:
+        F, j, fits = self._F, piece.row, last.fits
+        _meet(F, self._S, last.slot, piece.slot, False)
+        last.fits = fits
+        if last.meets == JOINED and (F[j + AX], F[j + AY]) == self.at:
             return
-        if meets not in (ROUND, BRIDGE):
+        if last.meets not in (ROUND, BRIDGE):
             self._report("W324", "the chain is broken by a waiting block", piece.element)
-            meets = BRIDGE
+            last.meets = BRIDGE
             place(F, j, F[j + AWAY])
         F[last.row + BX], F[last.row + BY] = self.at
-        self._insert(last, piece, meets)
+        self._insert(last, piece)
 
     # --- gouges -------------------------------------------------------------------------
 
@@ -210,9 +235,11 @@ class Chain(Generic[Held]):
 
     def _take_out(self, before: Piece[Held], bad: Piece[Held]) -> None:
         """Remove a piece; what waited for its end now waits for that of the one before it."""
+        self._S[core.S_COUNT] -= 1
         before.left_out_cnt += 1 + bad.left_out_cnt
         waiting = [*(before.held or ()), *(bad.held or ()), *(bad.held_after or ())]
         before.held = waiting or None
+        before.note_held()
 
     def _refuse(self, bad: Piece[Held], piece: Piece[Held] | None) -> None:
         if bad.meets == APART and piece is not None:
@@ -221,17 +248,19 @@ class Chain(Generic[Held]):
             self._report("E322", self._gouge_text(bad, piece), bad.element)
 
     def _gouge_text(self, bad: Piece[Held], piece: Piece[Held] | None) -> str:
-        before = self._chain[-2] if len(self._chain) > 1 else self._last
+        chain = self._chain
+        before = chain[-2] if len(chain) > 1 else self._last
         return gouge_text(self._table, before, bad, piece, self._rules)
 
     # --- issuing ------------------------------------------------------------------------
 
     def hold(self, thing: Held | Element, is_after: bool) -> None:
         """Hold an entry until the end of the last element."""
-        if not self._chain:
+        chain = self._table.chain
+        if not chain:
             self.rest(thing)
             return
-        last = self._chain[-1]
+        last = self._piece(chain[-1])
         held, after = last.held or [], last.held_after or []
         if len(held) + len(after) >= HELD_CNT:
             self.finish()
@@ -239,10 +268,11 @@ class Chain(Generic[Held]):
             return
         (after if is_after else held).append(thing)
         last.held, last.held_after = held, after
+        last.note_held()
 
     def _end_beside(self, piece: Piece[Held]) -> None:
         """Let a piece end beside the end of its element."""
-        F, row = self._table.F, piece.row
+        F, row = self._F, piece.row
         F[row + BX] = F[row + X1] - F[row + AWAY] * F[row + T1Y]
         F[row + BY] = F[row + Y1] + F[row + AWAY] * F[row + T1X]
         piece.meets = JOINED
@@ -257,39 +287,41 @@ class Chain(Generic[Held]):
         self._end_beside(chain[-1])
         if chain[-1].fits == GOUGES:
             self._gouge(None)
-        while chain:
+        self._release(0)
+
+    def _release(self, waiting_cnt: int | None = None) -> None:
+        """Issue pieces until only those wait that have to; `waiting_cnt`: or this count."""
+        most = self._S[core.S_WAITING] if waiting_cnt is None else waiting_cnt
+        chain = self._chain
+        while len(chain) > most:
             piece = chain.pop(0)
+            _drop(self._S)
             self._issue(piece, chain[0] if chain else None)
 
     def _issue(self, piece: Piece[Held], following: Piece[Held] | None) -> None:
-        move = tool_move(self._table.F, piece)
-        if move is not None:
-            self.issue_tool_move(move, self._table.F[piece.row + AWAY])
-        self._last = piece
+        _move(self._F, self._S, piece.slot, *self._table.out)
         if piece.held or following is None:
             self._rest_at(piece.row + BX, piece.held)
         if following is not None and piece.meets > CROSSING:
-            self._insert(piece, following, piece.meets)
+            self._insert(piece, following)
         if piece.held_after:
             self._rest_at((following or piece).row + (AX if following else BX), piece.held_after)
 
     def _rest_at(self, place: int, things: list[Held | Element] | None) -> None:
         """Issue things where the tool rests; its coordinates are in the table."""
-        self.at = (self._table.F[place], self._table.F[place + 1])
+        self.at = (self._F[place], self._F[place + 1])
         for thing in things or ():
             self.rest(thing)
 
-    def _insert(self, piece: Piece[Held], following: Piece[Held], meets: int) -> None:
-        F = self._table.F
-        if meets == GAP or meets == FORCED:
+    def _insert(self, piece: Piece[Held], following: Piece[Held]) -> None:
+        if piece.meets == GAP or piece.meets == FORCED:
             lines = f"lines {piece.element.source.line} and {following.element.source.line}"
             text = f"geometry adjusted: the paths beside {lines} do not cross"
             self._report("W320", text, following.element)
-        for element in inserted(F, piece, following, meets):
-            self.issue_tool_move(element, F[following.row + AWAY])
+        _between(self._F, self._S, piece.slot, following.slot, *self._table.out)
 
-    def issue_tool_move(self, element: Element, away: float) -> None:
-        """Issue a move of the tool."""
-        self.ready.append(element)
+    def lead_out(self, element: Element) -> None:
+        """Issue the move after the end of the contour."""
+        self.put(element)
         if self._watch:
-            self._watch.centre_path(element, abs(away))
+            self._watch.centre_path(element, abs(self.away))

@@ -1,11 +1,14 @@
 """G40, G41 and G42: the phases of a compensated contour."""
 
+from collections.abc import Iterator
 from enum import Enum, auto
 from typing import Generic
 
-from openacr.cnc.compensation.chain import Chain, Held
+from openacr.cnc.canonical import Moves, Point
+from openacr.cnc.compensation.chain import Chain
 from openacr.cnc.compensation.entry import entry_arc
 from openacr.cnc.compensation.moves import is_motion, moved
+from openacr.cnc.compensation.pieces import Held
 from openacr.cnc.compensation.rules import Report, Rules, Side, Watch
 from openacr.cnc.geometry.elements import Element
 
@@ -37,6 +40,11 @@ class Compensator(Generic[Held]):
     def is_on(self) -> bool:
         """Whether G41 or G42 is in force."""
         return self._phase in (Phase.LEADING_IN, Phase.ON)
+
+    @property
+    def is_following(self) -> bool:
+        """Whether every move is an element of the contour."""
+        return self._phase is Phase.ON
 
     @property
     def place(self) -> tuple[float, float] | None:
@@ -84,6 +92,15 @@ class Compensator(Generic[Held]):
             self._lead_out(element)
         return chain.drain()
 
+    def add_many(
+        self, contour: Moves, start: Point, shift: Point
+    ) -> Iterator[list[Held | Element]]:
+        """Add the next elements, while `is_following`: the first begins at the point `start`.
+
+        `shift` leads from program to machine coordinates. Yields what can be issued by then.
+        """
+        return self._chain.follow_many(contour, start, shift)
+
     def hold(self, thing: Held, *, is_after: bool = False) -> list[Held | Element]:
         """Hold an entry between two elements: it is issued where the first one ends.
 
@@ -112,7 +129,7 @@ class Compensator(Generic[Held]):
         elif (contour := self._entry_arc(element)) is not None:
             chain.begin_with_arc(contour)
         else:
-            chain.ready.append(element)
+            chain.put(element)
             return
         self._phase = Phase.ON
 
@@ -132,7 +149,7 @@ class Compensator(Generic[Held]):
     def _lead_out(self, element: Element) -> None:
         if element.centre is not None:
             self._report("E313", "compensation cannot end with an arc", element)
-        self._chain.issue_tool_move(self._from_here(element), self._chain.away)
+        self._chain.lead_out(self._from_here(element))
         self._phase = Phase.OFF
         self._chain.forget()
 

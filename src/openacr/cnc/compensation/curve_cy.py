@@ -35,7 +35,9 @@ BX = 16  # and end of its move,
 BY = 17
 TOOL_SWEEP = 18  # the sweep of its arc
 ROLL = 19  # the sweep about the corner after it
-COLUMNS = 20
+START = 20  # the element: where it starts,
+END = 28  # and where it ends, 8 axes
+COLUMNS = 36
 
 PI = 3.141592653589793
 SHORTEST = 1.0e-6  # what moves less in the plane is no element

@@ -1,32 +1,17 @@
 """Elements from the rows of a chain: the moves of a piece, and those between pieces."""
 
-from collections.abc import Iterator, Sequence
-from itertools import pairwise
-from math import ceil, cos, pi, sin
+from collections.abc import Sequence
+from typing import TypeVar
 
-from openacr.cnc.canonical import Pace, Plane, Point
-from openacr.cnc.compensation.curve_cy import (
-    AX,
-    AY,
-    BX,
-    BY,
-    CX,
-    CY,
-    FITS,
-    ROLL,
-    SHORTEST,
-    X1,
-    Y1,
-)
+from openacr.cnc.canonical import PLANES, Moves, Plane, Point
+from openacr.cnc.canonical.batches import ARC, CURVE, INSERTED, POINT, ROW
+from openacr.cnc.compensation.chain_cy import EXTRA
+from openacr.cnc.compensation.curve_cy import SHORTEST
 from openacr.cnc.compensation.drafts import tool_element
-from openacr.cnc.compensation.join_cy import CROSSING, FORCED, JOINED, ROUND
-from openacr.cnc.compensation.rows import Piece
+from openacr.cnc.compensation.rows import Piece, Table
 from openacr.cnc.geometry.elements import Element
-from openacr.views import F64
 
-Place = tuple[float, float]
-
-RAPID_STEP_RAD = pi / 3.0  # of a corner that is rounded at rapid speed
+Held = TypeVar("Held")
 
 
 def moved(point: Point, plane: Plane, x: float, y: float) -> Point:
@@ -39,67 +24,35 @@ def moved(point: Point, plane: Plane, x: float, y: float) -> Point:
     return tuple(values)
 
 
-def tool_move(F: F64, piece: Piece[object]) -> Element | None:
-    """The move of the tool beside an element; None if nothing is left of it."""
-    element, row = piece.element, piece.row
-    plane = element.plane
-    ax, ay, bx, by, sweep = F[row + AX : row + ROLL].tolist()
-    if plane is Plane.XY:
-        start, end = (ax, ay, *element.start[2:]), (bx, by, *element.end[2:])
-    else:
-        start, end = moved(element.start, plane, ax, ay), moved(element.end, plane, bx, by)
-    pace, source = element.pace, element.source
-    if sweep != 0.0 and piece.fits == FITS:
-        centre = (F[row + CX], F[row + CY])
-        return tool_element(source, plane, start, end, pace, centre, sweep)
-    if piece.fits != FITS or piece.is_lead_in:
-        is_short = abs(bx - ax) < SHORTEST and abs(by - ay) < SHORTEST
-        if is_short and start == moved(end, plane, ax, ay):
-            return None
-    return tool_element(source, plane, start, end, pace)
+def element_of(table: Table, k: int, pieces: Sequence[Piece[Held] | None]) -> Element:
+    """A move of the tool from the rows that were issued, one piece for each slot."""
+    row = table.rows[ROW * k : ROW * (k + 1)]
+    piece, paced = pieces[row[4]], pieces[row[2]]
+    if piece is None or paced is None:
+        raise LookupError(k)
+    element, pace = piece.element, paced.element.pace
+    is_inserted = row[7] & INSERTED != 0
+    end = tuple(table.ends[POINT * k : POINT * (k + 1)].tolist())
+    ax, ay, _, cx, cy = table.extra[EXTRA * k : EXTRA * (k + 1)].tolist()
+    start = moved(end if is_inserted else element.start, element.plane, ax, ay)
+    if row[0] != ARC:
+        return tool_element(element.source, element.plane, start, end, pace, None, 0.0, is_inserted)
+    sweep = table.arcs[CURVE * k + 2]
+    return tool_element(
+        element.source, element.plane, start, end, pace, (cx, cy), sweep, is_inserted
+    )
 
 
-def inserted(
-    F: F64, piece: Piece[object], following: Piece[object], meets: int
-) -> Sequence[Element]:
-    """The moves between the end of a piece and the start of the next one."""
-    if meets in (JOINED, CROSSING, FORCED):
-        return ()
-    i, j = piece.row, following.row
-    start, end = (F[i + BX], F[i + BY]), (F[j + AX], F[j + AY])
-    pace = following.element.pace or piece.element.pace
-    if meets != ROUND:
-        return (_between(following.element, pace, start, end),)
-    corner, sweep = (F[i + X1], F[i + Y1]), F[i + ROLL]
-    if pace is None:
-        places = [*_around(start, corner, sweep), end]
-        return [_between(following.element, None, a, b) for a, b in pairwise([start, *places])]
-    return (_between(following.element, pace, start, end, corner, sweep),)
-
-
-def _between(
-    element: Element,
-    pace: Pace | None,
-    start: Place,
-    end: Place,
-    centre: Place | None = None,
-    sweep: float = 0.0,
-) -> Element:
-    """An inserted move; axes outside the plane stay where the next element starts."""
-    plane, point = element.plane, element.start
-    first, last = moved(point, plane, *start), moved(point, plane, *end)
-    return tool_element(element.source, plane, first, last, pace, centre, sweep, True)
-
-
-def _around(start: Place, corner: Place, sweep: float) -> Iterator[Place]:
-    """Corners of tangents around an arc, for rapid moves: they never come nearer."""
-    steps = max(1, ceil(abs(sweep) / RAPID_STEP_RAD))
-    step = sweep / steps
-    x, y = start[0] - corner[0], start[1] - corner[1]
-    factor = 1.0 / cos(0.5 * step)
-    for k in range(steps):
-        c, s = cos((k + 0.5) * step) * factor, sin((k + 0.5) * step) * factor
-        yield corner[0] + c * x - s * y, corner[1] + s * x + c * y
+def tool_element_at(moves: Moves, k: int, extra: Sequence[float]) -> Element:
+    """A move of the tool by itself; axes outside the plane are where it ends."""
+    kind, plane = moves.rows[ROW * k], PLANES[moves.rows[ROW * k + 3]]
+    x, y, _, cx, cy = extra[EXTRA * k : EXTRA * (k + 1)]
+    end = moves.end_of(k)
+    start = moved(end, plane, x, y)
+    if kind != ARC:
+        return tool_element(moves.source_of(k), plane, start, end, None)
+    sweep = moves.arcs[CURVE * k + 2]
+    return tool_element(moves.source_of(k), plane, start, end, None, (cx, cy), sweep)
 
 
 def at_place(element: Element, place: tuple[float, float]) -> Element | None:

@@ -9,8 +9,14 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from openacr.cnc.compensation.chain_cy import EXTRA
+from openacr.cnc.compensation.moves import tool_element_at
+
 if TYPE_CHECKING:
-    from openacr.cnc.canonical import Point
+    from collections.abc import Sequence
+
+    from openacr.cnc.canonical import Moves, Point
+    from openacr.cnc.compensation.many import Many
     from openacr.cnc.compensation.nearness import Curves
     from openacr.cnc.compensation.rules import Report
     from openacr.cnc.geometry.elements import Element
@@ -42,6 +48,16 @@ class ChainCheck:
         """A move of the tool."""
         self._tool_moves.append(element)
         self._radii.append(radius)
+
+    def elements(self, many: Many) -> None:
+        """Elements of the programmed contour."""
+        self._contour += many.elements()
+
+    def tool_moves(self, moves: Moves, extra: Sequence[float]) -> None:
+        """Moves of the tool."""
+        for k in range(len(moves)):
+            self._tool_moves.append(tool_element_at(moves, k, extra))
+            self._radii.append(extra[EXTRA * k + 2])
 
     def end(self) -> None:
         """Report what is too near, once for each pair of lines, its nearest point."""

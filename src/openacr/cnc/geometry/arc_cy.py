@@ -34,6 +34,8 @@ ARC_SMALL = 3  # the centre is on the start or on the end
 ARC_NEAREST = 1.0e-6  # units: points closer than this are equal
 ARC_NO_TURN = 1.0e-12  # radians
 ARC_TURN = 6.283185307179586
+ZX = 18  # planes; 17 is XY
+YZ = 19
 NEAR_SHARE = 0.001  # of the larger radius: radii are equal within it
 
 
@@ -86,3 +88,17 @@ def arc_is_near(one: float, other: float, near_u: float) -> bool:
     larger: float = one if one > other else other
     share: float = NEAR_SHARE * larger
     return fabs(one - other) <= (near_u if near_u > share else share)
+
+
+def plane_first(plane: int) -> int:
+    """The first axis of a plane."""
+    if plane == ZX:
+        return 2
+    return 1 if plane == YZ else 0
+
+
+def plane_second(plane: int) -> int:
+    """The second axis of a plane."""
+    if plane == ZX:
+        return 0
+    return 2 if plane == YZ else 1

@@ -24,6 +24,7 @@ from openacr.cnc.canonical import (
     Rapid,
     Source,
 )
+from openacr.cnc.geometry.arc_cy import arc_distance
 from openacr.cnc.geometry.arcs import TURN, ArcGeometry
 from openacr.cnc.geometry.coordinates import ORIGIN, Coordinates
 from openacr.cnc.geometry.elements import Element
@@ -193,7 +194,9 @@ class Path:
     def jump(self, program: Point, target: Point) -> None:
         """Take over the end of many lines, without scaling and rotation."""
         self.program = self.placed = program
-        self.target = self.issued = target
+        self.target = target
+        if self.elements is None:
+            self.issued = target
 
     def _straight(self, b: BlockContext, end: Point, placed: Point, pace: Pace | None) -> None:
         b.has_moved = True
@@ -296,7 +299,7 @@ class Path:
         arc = ArcGeometry(
             (element.centre[0] - shift[first], element.centre[1] - shift[second]),
             element.sweep_rad,
-            math.dist((element.start[first], element.start[second]), element.centre),
-            math.dist((element.end[first], element.end[second]), element.centre),
+            arc_distance(element.start[first], element.start[second], *element.centre),
+            arc_distance(element.end[first], element.end[second], *element.centre),
         )
         self._issue_arc(element.source, element.end, arc, element.pace, *flags)

@@ -25,6 +25,8 @@ from openacr.cnc.geometry.arc_cy import (
     arc_about,
     arc_centre,
     arc_is_near,
+    plane_first,
+    plane_second,
 )
 from openacr.cnc.interpreter.run_rows_cy import (
     A_END,
@@ -43,9 +45,11 @@ from openacr.cnc.interpreter.run_rows_cy import (
     LETTER_R,
     M_AT,
     M_CENTRES,
+    M_COMPENSATION,
     M_CYCLE,
     M_DISTANCE,
     M_HAS_FEED,
+    M_HAS_TURNED,
     M_IDLE,
     M_IS_PLAIN,
     M_IS_SHIFTED,
@@ -57,8 +61,10 @@ from openacr.cnc.interpreter.run_rows_cy import (
     M_ROWS,
     NO_CYCLE,
     NOTE,
+    OFF,
     P_AXES,
     P_WORDS,
+    R_FLAGS,
     R_KIND,
     R_LINE,
     R_PACE,
@@ -68,7 +74,9 @@ from openacr.cnc.interpreter.run_rows_cy import (
     R_TEXT,
     ROW,
     STEP_BAR,
+    STEP_KEEP,
     STEP_NOTE,
+    STEP_TURN,
     STEP_UNIT,
     TAKEN,
     W_EPSILON,
@@ -82,8 +90,6 @@ from openacr.cnc.interpreter.run_rows_cy import (
     W_TARGET,
     W_TIMES,
     W_UNITS,
-    YZ,
-    ZX,
 )
 from openacr.cnc.reading.scan_cy import AXES, K_ROTARY, W_WORDS
 from openacr.views import F64, I32
@@ -124,6 +130,7 @@ def block_row(M: I32, R: I32, kind: int) -> int:
     R[at + R_START] = M[M_AT + 1]
     R[at + R_STOP] = M[M_AT + 2]
     R[at + R_TEXT] = M[M_AT + 3]
+    R[at + R_FLAGS] = 0
     M[M_ROWS] = row + 1
     return row
 
@@ -137,6 +144,8 @@ def block_note(W: F64, P: I32, plan: int, at: int, M: I32, R: I32, ends: F64) ->
         ends[row * AXES + k] = W[W_WORDS + P[letters + 1 + k]]
     if P[at] == STEP_NOTE:
         M[M_IDLE] = 0
+    if P[at] == STEP_TURN:
+        M[M_HAS_TURNED] = 1
     return TAKEN
 
 
@@ -151,8 +160,11 @@ def block_limit(W: F64, letter: int, limit: int) -> int:
 
 def block_set(W: F64, M: I32, step: int, row: int, value: int) -> int:
     """Set a row of the modal state."""
-    if step == STEP_BAR and M[M_CYCLE] != NO_CYCLE and M[row] != value:
-        return LEFT
+    if M[row] != value:
+        if step == STEP_KEEP or (step == STEP_BAR and M[M_CYCLE] != NO_CYCLE):
+            return LEFT
+        if step == STEP_BAR and M[M_COMPENSATION] != OFF:
+            return LEFT
     M[row] = value
     if step == STEP_UNIT:
         units: int = W_UNITS if value == INCH else W_UNITS + 2
@@ -215,24 +227,10 @@ def block_go(W: F64, M: I32, A: F64, ends: F64, R: I32, kind: int) -> int:
 
 def block_straight(W: F64, M: I32, A: F64, ends: F64, R: I32, kind: int) -> None:
     """Go straight to the program point in A; a row is written where the machine moves."""
-    if block_target(W, M, A):
+    if block_target(W, M, A) or M[M_COMPENSATION] != OFF:
         block_go(W, M, A, ends, R, kind)
     for axis in range(AXES):
         W[W_POSITION + axis] = A[A_END + axis]
-
-
-def block_first(plane: int) -> int:
-    """The first axis of a plane."""
-    if plane == ZX:
-        return 2
-    return 1 if plane == YZ else 0
-
-
-def block_second(plane: int) -> int:
-    """The second axis of a plane."""
-    if plane == ZX:
-        return 0
-    return 2 if plane == YZ else 1
 
 
 def block_centre(W: F64, M: I32, axis: int, words: int) -> float:
@@ -248,8 +246,8 @@ def block_centre(W: F64, M: I32, axis: int, words: int) -> float:
 
 def block_arc(W: F64, M: I32, A: F64, arcs: F64, row: int, words: int) -> int:
     """Find the arc to the end of a block; LEFT if it is wrong or doubtful."""
-    first: int = block_first(M[M_PLANE])
-    second: int = block_second(M[M_PLANE])
+    first: int = plane_first(M[M_PLANE])
+    second: int = plane_second(M[M_PLANE])
     direction: int = -1 if M[M_MOTION] == 2 else 1
     A[A_X0] = W[W_POSITION + first]
     A[A_Y0] = W[W_POSITION + second]

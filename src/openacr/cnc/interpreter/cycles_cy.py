@@ -5,14 +5,13 @@ number, and where it begins and ends. What a hole needs to know stands in the ce
 the text finds them. A block is left where one of its holes cannot be executed so.
 """
 
+from openacr.cnc.geometry.arc_cy import plane_first, plane_second
 from openacr.cnc.interpreter.blocks_cy import (
     block_end,
     block_feed,
-    block_first,
     block_length,
     block_limit,
     block_note,
-    block_second,
     block_set,
     block_straight,
 )
@@ -41,8 +40,10 @@ from openacr.cnc.interpreter.run_rows_cy import (
     LETTERS,
     M_AT,
     M_BOTTOM,
+    M_COMPENSATION,
     M_CYCLE,
     M_DISTANCE,
+    M_HAS_TURNED,
     M_IDLE,
     M_IS_DRILLING,
     M_LEVEL,
@@ -57,6 +58,7 @@ from openacr.cnc.interpreter.run_rows_cy import (
     MOST_ROWS,
     MOST_STROKE,
     NO_CYCLE,
+    OFF,
     P_AXES,
     P_FIRST,
     P_STEPS,
@@ -120,7 +122,7 @@ def cycle_restore(W: F64) -> int:
 
 def cycle_drill_axis(plane: int) -> int:
     """The axis across a plane."""
-    return 3 - block_first(plane) - block_second(plane)
+    return 3 - plane_first(plane) - plane_second(plane)
 
 
 def cycle_begin(W: F64, M: I32, code: int) -> None:
@@ -201,9 +203,9 @@ def cycle_value(W: F64, M: I32, n: int, left: int) -> float:
     if n == 249:
         return float(M[M_CYCLE])
     if n == 250:
-        return cycle_shown(W, W[W_POSITION + block_first(M[M_PLANE])])
+        return cycle_shown(W, W[W_POSITION + plane_first(M[M_PLANE])])
     if n == 251:
-        return cycle_shown(W, W[W_POSITION + block_second(M[M_PLANE])])
+        return cycle_shown(W, W[W_POSITION + plane_second(M[M_PLANE])])
     if n == 252:
         return cycle_shown(W, cycle_bottom(W, M, level))
     if n == 253:
@@ -253,7 +255,7 @@ def cycle_move(W: F64, M: I32, A: F64, ends: F64, R: I32, letters: int) -> int:
         if letters & (1 << k):
             place: int = cycle_drill_axis(M[M_PLANE])
             if k < 2:
-                place = block_second(M[M_PLANE]) if k else block_first(M[M_PLANE])
+                place = plane_second(M[M_PLANE]) if k else plane_first(M[M_PLANE])
             A[A_END + place] = block_length(W, W[W_WORDS + LETTER_X + k])
     block_straight(W, M, A, ends, R, M[M_MOTION])
     return TAKEN
@@ -381,6 +383,8 @@ def cycle_run(
     N: F64, X: F64, V: F64, U: F64, C: F64, Z: I32, B: I32
 ) -> int:  # fmt: skip
     """The holes of a block, with the code of a cycle or 0; a block that is left changes nothing."""
+    if M[M_COMPENSATION] != OFF or M[M_HAS_TURNED]:
+        return LEFT
     cycle_keep(W)
     if code:
         cycle_begin(W, M, code)

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from openacr.cnc.canonical import BlockEnd, Entry, Say, Source
+from openacr.cnc.canonical import Entry, Say, Source
 from openacr.cnc.codes.table import Code
 from openacr.cnc.interpreter.ready import Quick, Ready, ready, values_of
 from openacr.cnc.interpreter.scanning import Scanner
@@ -19,7 +19,7 @@ from openacr.cnc.program.block_context import BlockContext
 from openacr.cnc.program.flow import Frame, Level
 from openacr.cnc.program.program import Node
 from openacr.cnc.reading.blocks import Message
-from openacr.cnc.reading.findings import CodeError
+from openacr.cnc.reading.findings import BlockError, CodeError
 from openacr.cnc.state.parameters import NotAtRestError
 
 if TYPE_CHECKING:
@@ -54,10 +54,16 @@ class Execution:
         run, out = self._run, self._run.out
         has_block_ends = run.options.has_block_ends and not (frame and frame.level is Level.CYCLE)
         is_quick = not (run.options.has_block_ends or self.until)
+        attend = run.options.attend if has_block_ends else None
         while not run.is_ended and (frame is None or not frame.is_done):
-            while self._scan():
+            try:
+                while attend is None and self._scan():
+                    yield from out
+                    out.clear()
+            except BlockError:  # of compensation
                 yield from out
                 out.clear()
+                raise
             if is_quick and not self._race(frame):
                 continue
             node = self._fetch()
@@ -67,6 +73,8 @@ class Execution:
             if block is None:  # the end of the text
                 yield from run.flush()
                 return
+            if attend is not None:
+                attend(node)
             if block.quick is not None:
                 if not self._is_done(node, block.quick):
                     yield from run.sync(node.source)
@@ -78,7 +86,7 @@ class Execution:
             else:
                 yield from self.execute(node, block)
             if has_block_ends:
-                run.tell(BlockEnd(node.source))
+                run.end_block(node.source)
             if out:
                 yield from out
                 out.clear()
@@ -180,6 +188,7 @@ class Execution:
                 continue
             self.idle_cnt += 1
             if self.idle_cnt > MOST_IDLE:
+                self.node = node if run.loops is None else run.loops.jump_around(node)
                 raise CodeError("A62", 1)
             return node
 

@@ -22,10 +22,16 @@ if TYPE_CHECKING:
     from openacr.cnc.codes.block_plan import Plan
     from openacr.cnc.codes.table import Code, Limit
 
-FIELDS = ("motion", "plane", "distance", "centres", "unit", "return_level", "path", "cycle")
+FIELDS = ("motion", "plane", "distance", "centres", "unit", "return_level", "path", "cycle",
+          "compensation")  # fmt: skip
 MOTION_WORDS = "IJKRQPL"  # of arcs and cycles
 STRAIGHT = 1
-_SET_STEPS = {"unit": core.STEP_UNIT}
+_SET_STEPS = {"unit": core.STEP_UNIT, "compensation": core.STEP_KEEP}
+_NOTE_STEPS = {
+    Does.RESTS: core.STEP_NOTE,
+    Does.SHOWS: core.STEP_SHOW,
+    Does.TURNS: core.STEP_TURN,
+}
 _LOOPS = core.JUMP_COUNTS
 # O-words that may jump, as far as the line alone says where to.
 _BRANCHES = {"ENDWHILE": _LOOPS, "WHILE": 0, "IF": 0, "ELSE": 0}
@@ -170,12 +176,11 @@ def _act(form: Fast | None, code: Code, plan: Plan, body: Steps, notes: Notes) -
             body.add(core.STEP_DRILL, int(code.number))
         case Does.ENDS_CYCLE:
             body.add(core.STEP_END_CYCLE)
-        case Does.RESTS | Does.SHOWS if len(plan.words) <= AXES:
+        case Does.RESTS | Does.SHOWS | Does.TURNS if len(plan.words) <= AXES:
             letters = [_letter(letter) for letter in plan.words]
-            step = core.STEP_NOTE if form is Does.RESTS else core.STEP_SHOW
-            body.add(step, notes.add(plan, code), [len(letters), *letters])
-        case Sets(name, value, is_barred=is_barred) if name in FIELDS:
-            kind = core.STEP_BAR if is_barred else _SET_STEPS.get(name, core.STEP_SET)
+            body.add(_NOTE_STEPS[form], notes.add(plan, code), [len(letters), *letters])
+        case Sets(name, value) if name in FIELDS:
+            kind = core.STEP_BAR if form.is_barred else _SET_STEPS.get(name, core.STEP_SET)
             body.add(kind, FIELDS.index(name), int(code.number) if value is None else value)
         case _:
             raise NoCodeError

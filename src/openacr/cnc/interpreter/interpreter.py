@@ -8,11 +8,12 @@ rest.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from openacr.cnc.canonical import (
     AXES,
+    BlockEnd,
     Dwell,
     End,
     Entry,
@@ -74,6 +75,8 @@ class Options:
     is_library_part: bool = False  # I, J, K by the setting for library parts
     has_batches: bool = False  # moves of many blocks come as `Moves`; the reader takes them
     collects_errors: bool = False  # continue after errors of the geometry, to find them all
+    # Called before a block acts; blocks are then read one by one.
+    attend: Callable[[Node], None] | None = None
     watch: Watch | None = None  # sees compensated contours; else, collecting, they are checked
 
 
@@ -113,6 +116,7 @@ class Interpreter:
         self.motions: Motions = MOTIONS
         self.is_rested = True
         self.is_ended = False
+        self.ended_cnt = 0  # block ends since the start of the program
         self.loops = Loops(self) if self.options.collects_errors else None
         if self.loops is not None:
             self.flow.jumped = self.loops.jumped
@@ -210,6 +214,11 @@ class Interpreter:
         if isinstance(entry, _WAITS):
             self.execution.idle_cnt = 0
 
+    def end_block(self, source: Source) -> None:
+        """An entry that marks the end of a block."""
+        self.ended_cnt += 1
+        self.tell(BlockEnd(source))
+
     def flush(self) -> Iterator[Entry]:
         """Hand out the collected entries."""
         yield from self.out
@@ -261,6 +270,7 @@ class Interpreter:
             self.modal.centres = int(self.cells.read(LIBRARY_CENTRES))
         self.is_ended = False
         self.is_rested = False
+        self.ended_cnt = 0
         self.execution.idle_cnt = 0
         self.out.clear()
         self.offset_path.begin()

@@ -47,6 +47,7 @@ from openacr.cnc.interpreter.run_rows_cy import (
     STEP_MOVE,
     STEP_NOTE,
     STEP_SHOW,
+    STEP_TURN,
     TAKEN,
     W_TARGET,
 )
@@ -132,7 +133,7 @@ def block_run(
             )  # fmt: skip
         elif step == STEP_LIMIT:
             done = block_limit(W, P[at + 1], P[at + 2])
-        elif step == STEP_NOTE or step == STEP_SHOW:
+        elif step == STEP_NOTE or step == STEP_SHOW or step == STEP_TURN:
             done = block_note(W, P, plan, at, M, R, ends)
         elif step == STEP_END_CYCLE:
             cycle_end(M)

@@ -29,6 +29,7 @@ class Loops:
     def __init__(self, run: Interpreter) -> None:
         self._run = run
         self._cnts: dict[tuple[int, int], int] = {}
+        self._last: Node | None = None  # the line that jumped last
         self._hole: Frame | None = None  # passes of a cycle are counted hole by hole
         self._earlier: dict[tuple[int, int], tuple[Point, tuple[object, ...]]] = {}
 
@@ -38,6 +39,7 @@ class Loops:
         node = run.execution.node
         if node is None:
             return
+        self._last = node
         key = id(node.part), node.line
         if node.part.is_cycles and run.flow.frames[-1] is not self._hole:
             self._hole = run.flow.frames[-1]
@@ -57,6 +59,13 @@ class Loops:
         key = id(node.part), node.line
         earlier = self._earlier.get(key)
         return self._cnts.get(key, 0), earlier[0] if earlier else None
+
+    def jump_around(self, node: Node) -> Node:
+        """The line whose jump closes the loop around a line; without one, the line itself."""
+        last = self._last
+        if last is None or last.part is not node.part or last.line < node.line:
+            return node
+        return last if self.passes(last)[0] > 1 else node
 
     def count(self, part: Part, line: int, passes: int) -> None:
         """Note how often a line has jumped."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from openacr.cnc.canonical import BlockEnd, Entry
+from openacr.cnc.canonical import BlockEnd, Entry, Moves, Point
 from openacr.cnc.compensation import ChainCheck, Compensator, Rules, Side
 from openacr.cnc.geometry.elements import Element
 from openacr.cnc.program.block_context import BlockContext
@@ -99,6 +99,17 @@ class OffsetPath:
         self._hand_on(self._compensator.add(element))
         self._look_whether_off()
 
+    @property
+    def is_following(self) -> bool:
+        """Whether every move is an element of a contour."""
+        return self._compensator.is_following
+
+    def add_many(self, contour: Moves, start: Point) -> None:
+        """Add moves from a machine point on, while `is_following`."""
+        shift = self._run.path.coordinates.shift
+        for things in self._compensator.add_many(contour, start, shift):
+            self._hand_on(things)
+
     def _look_whether_off(self) -> None:
         compensator = self._compensator
         if not compensator.is_on and compensator.place is None:
@@ -129,8 +140,12 @@ class OffsetPath:
             run.path.stand(tuple(target))
 
     def _hand_on(self, things: list[Entry | Element]) -> None:
+        run = self._run
         for thing in things:
             if isinstance(thing, Element):
-                self._run.path.issue(thing)
-            else:
-                self._run.out.append(thing)
+                run.path.issue(thing)
+                continue
+            run.out.append(thing)
+            if isinstance(thing, Moves):
+                run.path.issued = thing.end_of(len(thing) - 1)
+                run.is_rested = False

@@ -174,7 +174,7 @@ class Replay:
         if moves_over and not free and TOOL_AXIS in self.run.planner.axes.values():
             raise StartError(
                 f"line {self.line}: no line before it brings Z at rapid to a level where the tool"
-                " is free: --safe-z names its machine position"
+                " is free: its machine position has to be given (Safe Z, --safe-z)"
             )
         return max(self.present[TOOL_AXIS], wanted[TOOL_AXIS], *free)
 

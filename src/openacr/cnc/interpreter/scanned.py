@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
-from openacr.cnc.canonical import Moves, Pace, Polyline, Source
+from openacr.cnc.canonical import Moves, Pace, Point, Polyline, Source
 from openacr.cnc.canonical.batches import CURVE, POINT, ROW, Origin
 from openacr.cnc.interpreter import run_rows_cy as core
 from openacr.cnc.program.block_context import BlockContext
@@ -32,8 +32,8 @@ class Scanned:
         self.ends, self.arcs = doubles(room * POINT), doubles(room * CURVE)
         self.rows, self.paces = integers(room * ROW), doubles(room + 1)
 
-    def moves(self, count: int, paces: int, part: Part, data: memoryview) -> None:
-        """Hand out moves of `paces` paces, with the entries of codes between them."""
+    def moves(self, count: int, paces: int, part: Part, data: memoryview, begin: Point) -> None:
+        """Hand out moves of `paces` paces from a machine point on, with entries between them."""
         run, rows = self._run, integers(count * ROW)
         rows[:] = self.rows[: count * ROW]
         ends, arcs = doubles(count * POINT), doubles(count * CURVE)
@@ -45,11 +45,16 @@ class Scanned:
         notes = [k for k, kind in enumerate(kinds) if kind == core.NOTE]
         for k in (*notes, count):
             if k > first:
-                run.out.append(Moves(
+                moves = Moves(
                     origins, rows[first * ROW : k * ROW], ends[first * POINT : k * POINT],
                     arcs[first * CURVE : k * CURVE], known,
-                ))  # fmt: skip
-                run.is_rested = False
+                )  # fmt: skip
+                if run.path.elements is None:
+                    run.out.append(moves)
+                    run.is_rested = False
+                else:
+                    run.offset_path.add_many(moves, begin)
+                begin = moves.end_of(k - first - 1)
             if k < count:
                 self._note(k, rows, ends, part, data)
             first = k + 1

@@ -1,7 +1,7 @@
 """Runs of lines executed from the text, many at a time.
 
-While nothing but a line and the values of its formulas decide what it does - no compensation,
-scaling, rotation, modal macro - the compiled executor reads the bytes (`lines_cy`). For
+While nothing but a line and the values of its formulas decide what it does - no scaling, rotation,
+modal macro - the compiled executor reads the bytes (`lines_cy`). For
 readers of whole programs the moves of many blocks come out as `Moves`; where a machine runs the
 program, runs of straight feed moves of one pace come out as a `Polyline`. The result is that of
 the lines one by one.
@@ -22,6 +22,7 @@ from openacr.cnc.interpreter import run_rows_cy as core
 from openacr.cnc.interpreter.drill_state import hand_back_drilling, take_drilling
 from openacr.cnc.interpreter.fast_plans import FIELDS, Notes, fast_plan, jump, rich_plan
 from openacr.cnc.interpreter.formula_code import FormulaWriter
+from openacr.cnc.interpreter.offset_path import OFF
 from openacr.cnc.interpreter.program_values import Jumps, ProgramValues
 from openacr.cnc.interpreter.ready import acting
 from openacr.cnc.interpreter.scanned import Scanned
@@ -47,7 +48,7 @@ if TYPE_CHECKING:
 MOST_SLOW = 20_000  # places of lines that are known to be left to the parser
 LEAST_ROWS = 16  # a Polyline has more
 MOST_PLANNED = 32768  # numbers of all plans
-OFF, NO_CYCLE = 40, 80
+NO_CYCLE = 80
 FAST_MOTIONS = frozenset({0, 1, 2, 3, NO_MOTION})
 _run_lines = pick(lines_cy.run_lines)
 
@@ -82,15 +83,27 @@ class Scanner:
         modal, path = run.modal, run.path
         return (
             modal.motion in FAST_MOTIONS
-            and modal.compensation == OFF
             and modal.feed_mode == PER_MINUTE
             and run.macro is None
-            and path.elements is None
+            and self._is_following
             and path.shape is None
             and path.coordinates.is_plain
             and run.motions is MOTIONS
             and not run.is_replaying
             and (run.options.has_batches or (modal.motion == 1 and modal.cycle == NO_CYCLE))
+        )
+
+    @property
+    def _is_following(self) -> bool:
+        """Whether compensation is off, or takes every move as an element of a contour."""
+        run = self._run
+        if run.path.elements is None:
+            return run.modal.compensation == OFF
+        return (
+            run.offset_path.is_following
+            and run.options.has_batches
+            and run.modal.cycle == NO_CYCLE
+            and run.modal.compensation != OFF
         )
 
     def read(self, start: Place) -> Place:
@@ -110,11 +123,12 @@ class Scanner:
             self._bar = Place(start.part, after.offset, start.line)
             self._note_slow(start)
             return start
+        begin = self._run.path.target
         self._hand_back()
         if is_plain:
             self._scanned.polyline(rows, start.part, data)
         else:
-            self._scanned.moves(rows, self._modal[core.M_PACE] + 1, start.part, data)
+            self._scanned.moves(rows, self._modal[core.M_PACE] + 1, start.part, data, begin)
         self._run.execution.idle_cnt = self._modal[core.M_IDLE]
         self.last = self._last
         return after
@@ -226,6 +240,7 @@ class Scanner:
         for row, field in enumerate(FIELDS):
             M[row] = int(getattr(modal, field))
         M[core.M_PACE], M[core.M_HAS_FEED] = 0, modal.has_feed
+        M[core.M_HAS_TURNED] = 0
         M[core.M_IDLE] = run.execution.idle_cnt
         M[core.M_HAS_VALUES] = self._values.are_here and not is_plain
         M[core.M_MOST_PASSES] = loops.MOST_PASSES if run.loops is not None else 0

@@ -10,6 +10,7 @@ An axis has extents from its first move on; its place before belongs to them if 
 """
 
 from openacr.cmath import atan2, ceil, cos, fabs, floor, sin, sqrt
+from openacr.cnc.geometry.arc_cy import plane_first, plane_second
 from openacr.views import F64, I32
 
 __all__ = ["survey_moves"]
@@ -32,10 +33,8 @@ N_SIZE = 6
 
 RAPID = 0
 ARC = 2
-ROW = 7
+ROW = 8
 CURVE = 5
-ZX = 18
-YZ = 19
 QUARTER = 1.5707963267948966
 
 
@@ -101,8 +100,8 @@ def survey_quarters(
 
 def survey_arc(V: F64, N: I32, plane: int, ends: F64, at: int, arcs: F64, a: int) -> None:
     """Add an arc; its end is reached later."""
-    first: int = 2 if plane == ZX else (1 if plane == YZ else 0)
-    second: int = 0 if plane == ZX else (2 if plane == YZ else 1)
+    first: int = plane_first(plane)
+    second: int = plane_second(plane)
     length: float = 0.5 * (arcs[a + 3] + arcs[a + 4]) * fabs(arcs[a + 2])
     rise: float = 0.0
     for axis in range(AXES):

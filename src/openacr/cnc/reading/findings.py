@@ -112,8 +112,13 @@ class Finding:
         return not self.code.startswith("W")
 
     def __str__(self) -> str:
-        place = f"{self.file}:{self.line}:{self.column}: {self.code} {self.text}"
-        return f"{place} ({self.hint})" if self.hint else place
+        return placed(self.file, self.line, self.column, f"{self.code} {self.text}", self.hint)
+
+
+def placed(file: str, line: int, column: int, text: str, hint: str) -> str:
+    """What was found, as it is printed: its place, its text, the hint if there is one."""
+    place = f"{file}:{line}:{column}: {text}"
+    return f"{place} ({hint})" if hint else place
 
 
 class CodeError(Exception):

@@ -25,6 +25,8 @@ MODES = {
 }
 INVERSE_TIME, PER_MINUTE = 93, 94
 INCH, METRIC = 20, 21
+NO_CYCLE = 80
+SYSTEMS = ("G53", "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")  # by number
 POWER_UP_DISTANCE = CONTROL.power_up_incremental_or_absolute
 START_CHOSEN = GENERAL.start_set_chosen
 COMPATIBILITY = tabs.COMPATIBILITY.compatibility
@@ -76,6 +78,28 @@ class Modal:
     def plane_axes(self) -> Plane:
         """The plane as axes."""
         return PLANES[self.plane]
+
+    @property
+    def work_code(self) -> str:
+        """The work system as a code."""
+        return SYSTEMS[self.work] if self.work < len(SYSTEMS) else SYSTEMS[1]
+
+    @property
+    def codes(self) -> list[str]:
+        """The codes in force, one for each group: motion or cycle first, then the plane."""
+        motion = self.cycle if self.cycle != NO_CYCLE else self.motion
+        return [
+            f"G{motion:g}",
+            f"G{self.plane}",
+            f"G{self.unit}",
+            f"G{self.distance}",
+            f"G{self.feed_mode}",
+            f"G{self.compensation}",
+            f"G{self.length}",
+            self.work_code,
+            f"G{self.path}",
+            f"G{self.return_level}",
+        ]
 
     def mode(self, *, is_compatible: bool) -> PathMode:
         """How moves join; with Compatibility G64 acts as G62."""

@@ -4,27 +4,24 @@ from __future__ import annotations
 
 from openacr.debugger import requests
 from openacr.debugger.adapter import Adapter, Json, request
-from openacr.debugger.breakpoints import DataBreakpoint, LineBreakpoint, watches_of
-from openacr.debugger.calls import PROGRAMS
-from openacr.debugger.session import DebugSession
-from openacr.debugger.sources import Sources
+from openacr.debugger.breakpoints import DataBreakpoint, LineBreakpoint
 from openacr.errors import OpenacrError, UserError
 
 
 @request(requests.SetBreakpoints)
 def set_breakpoints(adapter: Adapter, arguments: requests.SetBreakpoints) -> Json:
     """Stop before lines of a file, or of the listing of a program."""
-    session = adapter.session
-    source = arguments.source
-    lines = _lines(session, source)
+    target, source = adapter.target, arguments.source
+    wanted = frozenset(each.line for each in arguments.breakpoints)
+    lines = target.places_of(source.path, source.source_reference, wanted)
     kept, answers = [], []
     for each in arguments.breakpoints:
         found = lines.get(each.line)
         answer: Json = {"verified": False, "line": each.line}
         if found is None:
-            answer["message"] = "no line of a program on the card comes from here"
-        elif found[0] >= PROGRAMS:
-            answer["message"] = "a PLC has no lines to stop at: watch one of its flags"
+            answer["message"] = "nothing is executed here"
+        elif reason := target.why_no_stop(found):
+            answer["message"] = reason
         else:
             hits = _hits(each.hit_condition)
             kept.append(LineBreakpoint(*found, each.condition, hits, each.log_message))
@@ -32,13 +29,6 @@ def set_breakpoints(adapter: Adapter, arguments: requests.SetBreakpoints) -> Jso
         answers.append(answer)
     adapter.set_breakpoints_of(source.path or str(source.source_reference), kept)
     return {"breakpoints": answers}
-
-
-def _lines(session: DebugSession, source: requests.Source) -> dict[int, tuple[int, int]]:
-    sources = Sources(session.card)
-    if source.source_reference:
-        return sources.lines_listed(source.source_reference - 1)
-    return sources.lines_of(source.path)
 
 
 def _hits(text: str) -> int:
@@ -53,9 +43,10 @@ def _hits(text: str) -> int:
 @request(requests.BreakpointLocations)
 def breakpoint_locations(adapter: Adapter, arguments: requests.BreakpointLocations) -> Json:
     """The lines of a range at which programs can stop."""
-    last = arguments.end_line or arguments.line
-    found = _lines(adapter.session, arguments.source)
-    lines = [n for n in range(arguments.line, last + 1) if n in found and found[n][0] < PROGRAMS]
+    target, source = adapter.target, arguments.source
+    wanted = range(arguments.line, (arguments.end_line or arguments.line) + 1)
+    found = target.places_of(source.path, source.source_reference, wanted)
+    lines = sorted(line for line, place in found.items() if not target.why_no_stop(place))
     return {"breakpoints": [{"line": line} for line in lines]}
 
 
@@ -64,7 +55,7 @@ def data_breakpoint_info(adapter: Adapter, arguments: requests.DataBreakpointInf
     """Whether changes of a value can be watched."""
     name = arguments.name.strip().upper()
     try:
-        list(watches_of(adapter.session.card, name))
+        adapter.target.require_watchable(name)
     except OpenacrError as error:
         return {"dataId": None, "description": str(error)}
     return {"dataId": name, "description": f"{name} changes", "accessTypes": ["write"]}
@@ -74,7 +65,7 @@ def data_breakpoint_info(adapter: Adapter, arguments: requests.DataBreakpointInf
 def set_data_breakpoints(adapter: Adapter, arguments: requests.SetDataBreakpoints) -> Json:
     """Stop after the tick in which values change."""
     wanted = [DataBreakpoint(each.data_id, each.condition) for each in arguments.breakpoints]
-    adapter.session.set_data(wanted)
+    adapter.target.set_data(wanted)
     return {"breakpoints": [{"verified": True}] * len(wanted)}
 
 
@@ -83,4 +74,4 @@ def set_exception_breakpoints(
     adapter: Adapter, arguments: requests.SetExceptionBreakpoints
 ) -> None:
     """Stop at faults."""
-    adapter.session.set_faults(frozenset(arguments.filters))
+    adapter.target.set_faults(frozenset(arguments.filters))

@@ -10,22 +10,22 @@ from openacr.timeline import Moment
 @request(requests.Seek)
 def openacr_seek(adapter: Adapter, arguments: requests.Seek) -> Json:
     """Go to a tick of the present branch, or of another one."""
-    session = adapter.standing()
+    target = adapter.standing()
     if arguments.branch is not None:
-        session.timeline.switch(arguments.branch)
-    adapter.stopped(session.seek(Moment(arguments.tick, arguments.within)))
+        target.history.switch(arguments.branch)
+    adapter.stopped(target.seek(Moment(arguments.tick, arguments.within)))
     return {}
 
 
 @request(requests.Nothing)
 def openacr_timeline(adapter: Adapter, arguments: requests.Nothing) -> Json:
     """The branches of the history, and the present moment."""
-    timeline = adapter.session.timeline
+    timeline = adapter.target.history
     return {
         "branch": timeline.branch.number,
         "tick": timeline.now.tick,
         "within": timeline.now.within,
-        "period_s": adapter.session.card.period_s,
+        "period_s": adapter.target.period_s,
         "bytes": timeline.size_bytes,
         "branches": [
             {

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from openacr.debugger import questions, requests
+from openacr.debugger import requests
 from openacr.debugger.adapter import CAPABILITIES, Adapter, Json, request
 from openacr.debugger.opening import opened
-from openacr.debugger.session import DebugSession
+from openacr.errors import UserError
 
 
 @request(requests.Initialize)
@@ -16,26 +16,33 @@ def initialize(adapter: Adapter, arguments: requests.Initialize) -> Json:
 
 @request(requests.Launch)
 def launch(adapter: Adapter, arguments: requests.Launch) -> None:
-    """Load a project, or the card of a journal."""
-    card, journal = opened(arguments)
-    session = DebugSession(card, adapter.show)
-    if journal is not None:
-        last_tk = max([journal.header.tick, *(entry.tick for entry in journal.entries)])
-        session.timeline.foresee(journal.entries, last_tk)
-    adapter.speed = arguments.speed
-    adapter.is_stopped_at_entry = arguments.stop_on_entry
-    adapter.begin(session)
-    for program in arguments.run:
-        questions.run_program(card, program)
+    """Load a project, the card of a journal, a part program, or connect to a card."""
+    _begin(adapter, arguments)
+
+
+@request(requests.Launch)
+def attach(adapter: Adapter, arguments: requests.Launch) -> None:
+    """Debug the programs of a card over a link, as a launch with `host` does."""
+    if not arguments.host:
+        raise UserError("attach: give `host`, the address of a card; a launch makes virtual ones")
+    _begin(adapter, arguments)
+
+
+def _begin(adapter: Adapter, arguments: requests.Launch) -> None:
+    adapter.close()
+    target = opened(arguments, adapter.show)
+    adapter.speed = 1.0 if target.is_live else arguments.speed
+    adapter.is_stopped_at_entry = arguments.stop_on_entry and not target.is_live
+    adapter.begin(target)
 
 
 @request(requests.Nothing)
 def configuration_done(adapter: Adapter, arguments: requests.Nothing) -> None:
     """Begin to run, or stand at the beginning."""
+    entry = adapter.target.entry()
     if adapter.is_stopped_at_entry:
-        adapter.stopped(adapter.session.entry())
+        adapter.stopped(entry)
     else:
-        adapter.session.entry()
         adapter.resume()
 
 

@@ -4,27 +4,31 @@ from __future__ import annotations
 
 from openacr.debugger import requests
 from openacr.debugger.adapter import Adapter, Json, request
-from openacr.debugger.calls import PROGRAMS
+from openacr.debugger.target import Target
 
 
 @request(requests.OfThread)
 def continue_(adapter: Adapter, arguments: requests.OfThread) -> Json:
     """Run until something stops the card."""
-    adapter.standing()
-    adapter.resume()
-    return {"allThreadsContinued": True}
+    owner, target = arguments.thread_id - 1, adapter.standing()
+    target.resume(owner)
+    adapter.resume(owner)
+    return {"allThreadsContinued": not target.is_live}
 
 
 def _step(
     adapter: Adapter, arguments: requests.Step, *, into: bool = False, out: bool = False
 ) -> None:
-    program = arguments.thread_id - 1
-    session = adapter.standing()
-    if arguments.granularity == "instruction" or program >= PROGRAMS:
-        adapter.stopped(session.tick())
+    owner, target = arguments.thread_id - 1, adapter.standing()
+    if _is_by_tick(target, arguments):
+        adapter.stopped(target.tick())
         return
-    session.begin_step(program, into=into, out=out)
-    adapter.resume()
+    target.begin_step(owner, into=into, out=out)
+    adapter.resume(owner)
+
+
+def _is_by_tick(target: Target, arguments: requests.Step) -> bool:
+    return arguments.granularity == "instruction" or not target.steps_lines(arguments.thread_id - 1)
 
 
 @request(requests.Step)
@@ -48,12 +52,9 @@ def step_out(adapter: Adapter, arguments: requests.Step) -> None:
 @request(requests.Step)
 def step_back(adapter: Adapter, arguments: requests.Step) -> None:
     """Go back to the line that the program has executed before."""
-    session = adapter.standing()
-    program = arguments.thread_id - 1
-    if arguments.granularity == "instruction" or program >= PROGRAMS:
-        adapter.stopped(session.tick_back())
-    else:
-        adapter.stopped(session.step_back(program))
+    target = adapter.standing()
+    is_by_tick = _is_by_tick(target, arguments)
+    adapter.stopped(target.tick_back() if is_by_tick else target.step_back(arguments.thread_id - 1))
 
 
 @request(requests.OfThread)
@@ -65,5 +66,7 @@ def reverse_continue(adapter: Adapter, arguments: requests.OfThread) -> None:
 @request(requests.OfThread)
 def pause(adapter: Adapter, arguments: requests.OfThread) -> None:
     """Stop where the card is."""
-    if adapter.is_running:
-        adapter.stopped(adapter.session.paused(arguments.thread_id - 1))
+    if adapter.is_watching:
+        stop = adapter.target.paused(arguments.thread_id - 1)
+        if stop is not None:
+            adapter.stopped(stop)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from pathlib import Path
 
-from openacr.debugger import questions, requests
+from openacr.debugger import requests
 from openacr.debugger.adapter import Adapter, Json, request
-from openacr.debugger.calls import PROGRAMS, Frame, frames_of, listing, name_of, owners
-from openacr.debugger.sources import Sources
-from openacr.debugger.variables import Value, axis_states, locals_of, program_state, time_state
+from openacr.debugger.target import Frame
 from openacr.errors import UserError
 
 FRAMES = 100  # frame ids: thread times this, plus the depth
@@ -16,57 +14,44 @@ FRAMES = 100  # frame ids: thread times this, plus the depth
 
 @request(requests.Nothing)
 def threads(adapter: Adapter, arguments: requests.Nothing) -> Json:
-    """The programs and PLCs that have a text."""
-    found = owners(adapter.session.card) or [0]
-    return {"threads": [{"id": owner + 1, "name": name_of(owner)} for owner in found]}
+    """The owners of lines: the programs and PLCs that have a text, or the part program."""
+    return {"threads": [{"id": n + 1, "name": name} for n, name in adapter.target.owners()]}
 
 
 @request(requests.StackTrace)
 def stack_trace(adapter: Adapter, arguments: requests.StackTrace) -> Json:
     """The present line of a program and the lines that called its routine."""
-    card = adapter.session.card
-    owner = arguments.thread_id - 1
-    frames = frames_of(card, owner) if 0 <= owner < PROGRAMS else []
-    shown = [_frame(adapter, depth, frame) for depth, frame in enumerate(frames)]
+    first = arguments.thread_id * FRAMES
+    frames = adapter.target.frames(arguments.thread_id - 1)
+    shown = [_frame(first + depth, frame) for depth, frame in enumerate(frames)]
     end = arguments.start_frame + arguments.levels if arguments.levels else None
     return {"stackFrames": shown[arguments.start_frame : end], "totalFrames": len(shown)}
 
 
-def _frame(adapter: Adapter, depth: int, frame: Frame) -> Json:
-    thread = frame.owner + 1
-    source: Json = {"name": f"{name_of(frame.owner)} (listing)", "sourceReference": thread}
-    line = Sources(adapter.session.card).listed_place(frame.owner, frame.line)
-    if frame.path:
-        source, line = {"path": frame.path, "name": frame.path.rpartition("/")[2]}, frame.file_line
+def _frame(number: int, frame: Frame) -> Json:
+    source: Json = {"path": frame.path, "name": Path(frame.path).name}
+    if frame.listing:
+        source = {"name": frame.path, "sourceReference": frame.listing}
     return {
-        "id": thread * FRAMES + depth, "name": f"{name_of(frame.owner)} line {frame.line}",
-        "line": line, "column": 1, "source": source,
+        "id": number, "name": frame.name, "line": frame.line, "column": 1, "source": source
     }  # fmt: skip
 
 
 @request(requests.SourceRequest)
 def source(adapter: Adapter, arguments: requests.SourceRequest) -> Json:
     """The listing of a program."""
-    owner = arguments.source_reference - 1
-    if owner not in owners(adapter.session.card):
-        raise UserError(f"there is no listing {arguments.source_reference}")
-    return {"content": "\n".join(listing(adapter.session.card, owner)) + "\n"}
+    return {"content": adapter.target.listing(arguments.source_reference)}
 
 
 @request(requests.Scopes)
 def scopes(adapter: Adapter, arguments: requests.Scopes) -> Json:
-    """The groups of values of a program."""
-    card = adapter.standing().card
-    owner = arguments.frame_id // FRAMES - 1
-    if not 0 <= owner < PROGRAMS:
+    """The groups of values at a frame."""
+    target = adapter.standing()
+    thread, depth = divmod(arguments.frame_id, FRAMES)
+    if thread < 1:
         raise UserError(f"there is no frame {arguments.frame_id}")
-    groups: Iterable[tuple[str, Iterable[Value]]] = (
-        ("Variables", locals_of(card, owner)),
-        ("Axes", axis_states(card, owner)),
-        ("Program", program_state(card, owner)),
-        ("Time", time_state(card)),
-    )
-    shown = [(name, adapter.keep(owner, tuple(values))) for name, values in groups]
+    groups = target.scopes(thread - 1, depth)
+    shown = [(name, adapter.keep(thread - 1, tuple(values))) for name, values in groups]
     return {
         "scopes": [
             {"name": name, "variablesReference": reference, "expensive": False}
@@ -103,13 +88,9 @@ def evaluate(adapter: Adapter, arguments: requests.Evaluate) -> Json:
     """The value of an expression; in the console, what the card answers to a typed line."""
     owner = _owner(arguments.frame_id)
     if arguments.context == "repl":
-        card = adapter.session.card
-        return {
-            "result": questions.typed(card, owner, arguments.expression),
-            "variablesReference": 0,
-        }
-    card = adapter.standing().card
-    result = questions.answer(card, owner, arguments.expression)
+        result = adapter.target.typed(owner, arguments.expression)
+    else:
+        result = adapter.standing().answer(owner, arguments.expression)
     return {"result": result, "variablesReference": 0}
 
 
@@ -129,9 +110,9 @@ def set_expression(adapter: Adapter, arguments: requests.SetExpression) -> Json:
 
 
 def _assigned(adapter: Adapter, owner: int, target: str, value: str) -> Json:
-    card = adapter.standing().card
-    questions.assign(card, owner, target, value)
-    return {"value": questions.answer(card, owner, target)}
+    debugged = adapter.standing()
+    debugged.assign(owner, target, value)
+    return {"value": debugged.answer(owner, target)}
 
 
 @request(requests.OfThread)

@@ -18,9 +18,9 @@ from openacr.editing.completions import (
     by_number,
 )
 from openacr.editing.controller.marks import names_flags, tokens_before, words_of
+from openacr.editing.controller.texts import written
 from openacr.editing.document import Place, Span
 from openacr.editing.marks import Kind, Mark
-from openacr.editing.texts import written
 from openacr.lang.lexer import Token, TokenKind
 from openacr.map import flags, parameters
 from openacr.plc.instructions import BY_WORDS

@@ -244,3 +244,6 @@ class ControllerLanguage:
     ) -> dict[Path, list[Finding]]:
         """What `openacr check` finds."""
         return checking.findings(subject, documents)
+
+    def forget(self, path: Path) -> None:
+        """Do nothing: what is known of a text belongs to the text."""

@@ -11,7 +11,7 @@ from openacr.basic.language.aliases import numbered_names
 from openacr.basic.language.registry import INDEX, Command
 from openacr.basic.language.scope import join_names
 from openacr.editing.marks import Kind, Mark
-from openacr.lang.lexer import LexError, Token, TokenKind, column_in, tokens
+from openacr.lang.lexer import LexError, Token, TokenKind, column_in, plain, tokens
 from openacr.map.numbers import USER_COUNT
 from openacr.plc.instructions import BY_WORDS, LONGEST, OBJECT_WORDS, Instruction, Operand
 
@@ -32,10 +32,12 @@ def marks_of(
     join_names(found, numbered_names(aliases))
     reader = _PlcMarks if is_plc else _BasicMarks
     marks = tuple(reader(found, aliases, axes).marks())
-    comment = found[-1].column if found else 1
+    if not text.isascii():
+        marks = tuple(_in_characters(text, mark) for mark in marks)
+    comment = column_in(text, found[-1].column if found else 1)
     if comment <= len(text):
         marks += (Mark(comment - 1, len(text), Kind.REMARK),)
-    return marks if text.isascii() else tuple(_in_characters(text, mark) for mark in marks)
+    return marks
 
 
 def tokens_before(text: str, column: int) -> list[Token]:
@@ -52,7 +54,7 @@ def _tokens(text: str) -> list[Token]:
         begin = text[: column_in(text, error.span.column) - 1]
         found = _tokens(begin) if begin and len(begin) < len(text) else []
         if found:
-            found[-1] = found[-1]._replace(column=len(text) + 1)
+            found[-1] = found[-1]._replace(column=len(plain(text)) + 1)
         return found
 
 

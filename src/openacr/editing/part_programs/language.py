@@ -19,8 +19,9 @@ from openacr.editing.part_programs.checking import findings
 from openacr.editing.part_programs.facts import facts_of
 from openacr.editing.part_programs.marks import marks_of
 from openacr.editing.part_programs.store import StoreOfMachine
+from openacr.editing.part_programs.texts import cell
 from openacr.editing.symbols import Finding
-from openacr.editing.texts import cell, markdown, parameter
+from openacr.editing.texts import markdown, parameter
 from openacr.sysvar.schema import CARD_PARAMETERS
 
 _WORD = re.compile(r"(?:#\s*<[^<>]*|[$A-Za-z]+\d*\.?\d*)$")
@@ -34,8 +35,8 @@ FIRST_OF_MACHINE = 100
 class PartProgramLanguage:
     """RS-274 in the dialect of each file."""
 
-    def __init__(self, files: Files, store: StoreOfMachine) -> None:
-        self._files, self._store = files, store
+    def __init__(self, files: Files, store: Path | None = None, dialect: str | None = None) -> None:
+        self._files, self._store = files, StoreOfMachine(store, dialect)
 
     def dialect(self, document: Document) -> str:
         """The dialect of a program, as `openacr mill check` chooses it."""
@@ -253,6 +254,10 @@ class PartProgramLanguage:
     ) -> dict[Path, list[Finding]]:
         """What `openacr mill check` finds."""
         return findings(documents[subject], self._store)
+
+    def forget(self, path: Path) -> None:
+        """Choose the dialect of a file anew when it is opened again."""
+        self._store.forget(path)
 
 
 def _completion(place: Place, typed: str, items: list[Item]) -> Completion:

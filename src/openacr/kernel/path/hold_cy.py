@@ -13,7 +13,7 @@ from openacr.kernel.path.path_cy import (
     move_record,
 )
 from openacr.kernel.path.plan_cy import master_plan
-from openacr.kernel.path.round_cy import round_hold_rate, round_holds
+from openacr.kernel.path.round_hold_cy import round_hold_rate, round_holds
 from openacr.kernel.path.seek_cy import SEEK_NONE, SEEK_STOPPING
 from openacr.kernel.path.timed_stop_cy import GOES_ON, PLAIN, stop_seek
 from openacr.kernel.profile.profile_cy import profile_plan, profile_reset, profile_stop
@@ -172,7 +172,7 @@ def path_unfold(F: F64, I: I32, m: int) -> None:
 def ends_early(I: I32, m: int) -> bool:
     """Whether the present move ends where it comes to rest: it has found what it looked for."""
     passing: bool = I[masters.hsint_phase[m]] == HSINT_PASSING
-    return I[masters.seek_phase[m]] == SEEK_STOPPING or passing or I[masters.cut[m]] != 0
+    return I[masters.seek_phase[m]] == SEEK_STOPPING or passing or I[masters.cut[m]] == 1
 
 
 def master_stopping(I: I32, m: int) -> bool:

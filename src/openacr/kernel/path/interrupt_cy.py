@@ -2,13 +2,17 @@
 
 from openacr.kernel.path.path_cy import SLAVE_COUNT, move_record, move_stop_rate
 from openacr.kernel.profile.profile_cy import profile_stop
-from openacr.kernel.profile.ramps_cy import STOPPING
+from openacr.kernel.profile.ramps_cy import STOPPING, ramp_distance
 from openacr.map.numbers import FLAG_LAST, FLAG_WORD_BASE
 from openacr.map.rows import axes, masters, moves, profiles
 from openacr.map.words import af1, mf1
 from openacr.views import F32, F64, I32
 
-__all__ = ["master_cut"]
+__all__ = ["cut_left", "master_cut"]
+
+# Row cut: what is still to be gone of a path that TRJ has cut.
+CUT = 1  # the path slows to rest; what is beyond goes with the move
+CUT_DUE = 2  # not yet, for one move more: a rounded corner is passed first; 3: for two, and so on
 
 
 def flag_state(I: I32, wanted: int) -> bool:
@@ -26,6 +30,41 @@ def response_period(I: I32, m: int) -> int:
     if period < 0:
         return -1
     return max(period, 1)
+
+
+def cut_left(I: I32, m: int) -> int:
+    """How many moves at the head of the buffer are those of a path that is cut or to be cut."""
+    if I[masters.cut[m]] >= CUT_DUE:
+        return I[masters.cut[m]] - CUT
+    return I[masters.section_cnt[m]] if I[masters.cut[m]] else 0
+
+
+def stop_distance(F: F64, m: int, rate_ups2: float, jerk_ups3: float) -> float:
+    """How far the path goes until it has come to rest."""
+    velocity_ups: float = F[profiles.velocity[m]]
+    if rate_ups2 <= 0.0:
+        return 0.0
+    if jerk_ups3 <= 0.0:
+        return velocity_ups * velocity_ups / (2.0 * rate_ups2)
+    return ramp_distance(velocity_ups, F[profiles.accel[m]], 0.0, rate_ups2, jerk_ups3)
+
+
+def cut_due(F: F64, I: I32, S: F32, m: int) -> None:
+    """Cut the path on the line it is on, if it comes to rest before the next rounded corner."""
+    left: int = cut_left(I, m)
+    record: int = move_record(I, m)
+    gone_u: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
+    if gone_u < F[masters.corner_in_u[m]] or F[masters.corner_out_u[m]] > 0.0:
+        return
+    rate_ups2: float = move_stop_rate(F, record)
+    jerk_ups3: float = F[moves.jrk_ups3[record]]
+    room_u: float = F[masters.section_u[m]] - F[profiles.distance[m]]
+    if stop_distance(F, m, rate_ups2, jerk_ups3) >= room_u:
+        return
+    I[masters.piece[m]] = 0
+    profile_stop(F, I, m, F[masters.section_u[m]], rate_ups2, jerk_ups3, STOPPING)
+    I[masters.section_cnt[m]] = left
+    I[masters.cut[m]] = CUT
 
 
 def master_cut(F: F64, I: I32, S: F32, m: int) -> None:
@@ -67,7 +106,7 @@ def cut_end(F: F64, I: I32, m: int) -> None:
 
 def interrupt_step(F: F64, I: I32, S: F32, m: int) -> None:
     """INT: look at the flag of the present move every response period."""
-    if I[masters.cut[m]] or I[masters.response[m]] < 0:
+    if I[masters.cut[m]] == CUT or I[masters.response[m]] < 0:
         return
     I[masters.response[m]] -= 1
     if I[masters.response[m]] > 0:

@@ -6,6 +6,8 @@ At a junction with turn angle q the speed is bounded by the law
     q >= a2          Look Ahead Min Vel
     between          linear from the one to the other
 
+Corners with a tolerance are rounded (round_law_cy) or, where that takes longer, stops.
+
 A plan runs through a *section*: the present move and those after it up to the first
 junction that slows the path down, a change of speed or ramps, or the end of the buffer.
 Inside a section a ramp takes no notice of junctions, so that short moves lose nothing, with
@@ -41,6 +43,11 @@ FREE = 1.0 - 1e-6  # of the speed: what rounding makes of a straight junction
 SLIGHT = 0.8  # of the speed: with jerk, slow-downs down to here do not end a section
 BISECTIONS = 50
 ENDLESS_UPS = 1e30
+# What is decided about the junction after a move (row ahead), for good: see round_between_cy.
+AS_LOOK = 0  # nothing: LOOK rules as it is when the path comes there
+JOINED = 1  # the path goes on, through a rounded corner or straight
+STOPS = 2  # a corner with a tolerance that is better passed by a stop
+APART = 3  # the move ends as moves do without LOOK
 
 
 def look_active(I: I32, m: int) -> bool:
@@ -50,8 +57,9 @@ def look_active(I: I32, m: int) -> bool:
 
 
 def look_beyond(I: I32, m: int, record: int) -> bool:
-    """Whether plans may run beyond a move: of its master, or because it brings a tolerance."""
-    return look_active(I, m) or I[moves.ahead[record]] != 0
+    """Whether plans may run beyond a move: as LOOK says, or as its junction was decided."""
+    decided: int = I[moves.ahead[record]]
+    return look_active(I, m) if decided == AS_LOOK else decided != APART
 
 
 def look_through(F: F64, I: I32, m: int, record: int) -> bool:
@@ -94,14 +102,15 @@ def look_corner(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
     if not (look_plain(F, I, a) and look_plain(F, I, b)):
         return 0.0
     velocity_ups: float = min(look_speed(F, I, S, m, a), look_speed(F, I, S, m, b))
-    rounded: bool = F[moves.corner_u[a]] > 0.0
-    if rounded and look_beyond(I, m, a):  # see round_law_cy
+    if F[moves.corner_u[a]] > 0.0:  # see round_law_cy
         return min(velocity_ups, F[moves.corner_ups[a]])
     if same_curve(I, a, b) or is_timed(I, a):
         return velocity_ups
     if is_timed(I, b):
         return 0.0
-    if not look_active(I, m):  # beside a curve moves merge as they do without look-ahead
+    if I[moves.ahead[a]] == STOPS:
+        return 0.0
+    if not look_beyond(I, m, a):  # beside a curve moves merge as they do without look-ahead
         return min(velocity_ups, look_final(F, I, S, m, a))
     turn_deg: float = F[moves.turn_deg[a]]
     from_deg: float = F[masters.look_from_deg[m]]
@@ -118,14 +127,19 @@ def look_corner(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
 
 def look_merges(F: F64, I: I32, S: F32, m: int, a: int, b: int, corner_ups: float) -> bool:
     """Whether one plan may run through the junction of two moves."""
+    if F[moves.corner_u[a]] > 0.0 or F[moves.corner_u[b]] > 0.0:
+        return False
+    return look_alike(F, I, S, m, a, b, corner_ups)
+
+
+def look_alike(F: F64, I: I32, S: F32, m: int, a: int, b: int, corner_ups: float) -> bool:
+    """Whether two moves with `corner_ups` between them have one speed and the same ramps."""
     velocity_ups: float = look_speed(F, I, S, m, a)
     if velocity_ups != look_speed(F, I, S, m, b) or not velocity_ups > 0.0:
         return False
     if F[moves.acc_ups2[a]] != F[moves.acc_ups2[b]] or F[moves.dec_ups2[a]] != F[moves.dec_ups2[b]]:
         return False
     if F[moves.jrk_ups3[a]] != F[moves.jrk_ups3[b]]:
-        return False
-    if F[moves.corner_u[a]] > 0.0 or F[moves.corner_u[b]] > 0.0:
         return False
     rapid: int = I[moves.rapid[a]]
     if rapid != I[moves.rapid[b]]:

@@ -43,7 +43,15 @@ from openacr.kernel.path.hold_cy import (
     move_over,
 )
 from openacr.kernel.path.hsint_cy import HSINT_NONE, hsint_begin, hsint_end, hsint_step
-from openacr.kernel.path.interrupt_cy import cut_end, interrupt_step, move_barred, response_period
+from openacr.kernel.path.interrupt_cy import (
+    CUT,
+    CUT_DUE,
+    cut_due,
+    cut_end,
+    interrupt_step,
+    move_barred,
+    response_period,
+)
 from openacr.kernel.path.path_cy import (
     MARK_BLOCK_SKIP,
     MARK_COUNT_DOWN,
@@ -104,7 +112,8 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity_ups: float, accel_ups2: 
     I[masters.moving[m]] = 1
     I[masters.sync_go[m]] = 0
     I[masters.step_go[m]] = 0
-    I[masters.cut[m]] = 0
+    if I[masters.cut[m]] < CUT_DUE:
+        I[masters.cut[m]] = 0
     I[masters.response[m]] = response_period(I, m)
     I[masters.hsint_phase[m]] = HSINT_NONE
     if I[moves.hsint_axis[record]]:
@@ -200,6 +209,8 @@ def move_pop(I: I32, m: int) -> None:
     head: int = I[masters.head[m]] + 1
     I[masters.head[m]] = 0 if head >= I[masters.size[m]] else head
     I[masters.queued[m]] -= 1
+    if I[masters.cut[m]] >= CUT_DUE:
+        I[masters.cut[m]] = I[masters.cut[m]] - 1 if I[masters.cut[m]] > CUT_DUE else 0
     I[masters.moving[m]] = 0
 
 
@@ -225,6 +236,7 @@ def moves_pass(F: F64, I: I32, S: F32, m: int) -> None:
         I[masters.moving[m]] = 1
         I[masters.section_cnt[m]] -= 1
         F[masters.origin_u[m]] += length_u
+        F[masters.corner_in_u[m]] = 0.0  # lies before the move that has been passed
         record = move_record(I, m)
         move_flags(I, S, m, record)
         length_u = F[moves.length_u[record]]
@@ -390,7 +402,7 @@ def plan_over(F: F64, I: I32, S: F32, m: int) -> bool:
         return True
     if I[masters.hsint_phase[m]] != HSINT_NONE and hsint_end(F, I, S, m):
         return True
-    if I[masters.cut[m]]:
+    if I[masters.cut[m]] == CUT:
         cut_end(F, I, m)
         while I[masters.section_cnt[m]] > 1:  # what the path was planned through goes with it
             move_end(F, I, S, m)
@@ -431,8 +443,10 @@ def master_follow(F: F64, I: I32, S: F32, m: int) -> None:
         interrupt_step(F, I, S, m)
     word: int = mf1.word[m]
     dirty: bool = I[masters.look_dirty[m]] != 0
-    if dirty and not I[masters.cut[m]]:
+    if dirty and I[masters.cut[m]] != CUT:
         look_refresh(F, I, S, m)
+    if I[masters.cut[m]] >= CUT_DUE:
+        cut_due(F, I, S, m)
     if not ends_early(I, m) and (
         master_limit(F, I, S, m) != F[profiles.target_velocity[m]]
         or I[masters.final_zero[m]] != I[word] & mf1.FVEL_ZERO_ACTIVE

@@ -7,7 +7,8 @@ from openacr.kernel.path.lookahead_cy import (
     look_through,
 )
 from openacr.kernel.path.path_cy import master_limit, move_final_ups, move_record
-from openacr.kernel.path.round_cy import round_decelerate, round_plan, round_through
+from openacr.kernel.path.round_corner_cy import round_decelerate
+from openacr.kernel.path.round_cy import round_plan, round_through
 from openacr.kernel.profile.profile_cy import profile_plan
 from openacr.map.rows import masters, moves, profiles
 from openacr.map.words import mf1, mf4

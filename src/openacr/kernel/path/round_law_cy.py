@@ -1,4 +1,4 @@
-"""Which corners of a path are rounded, and what a rounded corner allows.
+"""What a rounded corner allows, and where rounding takes less time than a stop.
 
 In a corner the path already accelerates sideways, by q = v^2 |p''|; what is left of the
 limit A may change the speed. With h = |u2 - u1| / 2, the sine of half the turn, the two may
@@ -8,19 +8,19 @@ lie as unfavourably as this:
 
 A constant a over half a corner from w = v^2 to w' = w + 2 a T is a quadratic equation in the
 larger of the two: the step of the backward pass (round_pass_cy) and of the forward plan
-(round_cy) through a corner. With a jerk limit the speed in corners is constant.
+(round_cy) through a corner. With a jerk limit the speed in corners is constant; corners where
+that takes longer than a stop are stops.
 """
 
 from openacr.cmath import exp, fabs, log, sqrt
 from openacr.kernel.axis.axis_cy import axis_scale
 from openacr.kernel.path.bezier_cy import is_bezier
-from openacr.kernel.path.lookahead_cy import look_plain, look_rate, ramp_start
-from openacr.kernel.path.path_cy import MARK_ROUNDS, SLAVE_COUNT
-from openacr.kernel.profile.ramps_cy import ramp_distance, rest_speed
-from openacr.map.rows import masters, moves, profiles
+from openacr.kernel.path.lookahead_cy import look_plain, ramp_start
+from openacr.kernel.path.path_cy import SLAVE_COUNT
+from openacr.map.rows import masters, moves
 from openacr.views import F32, F64, I32
 
-__all__ = ["round_between", "round_brake", "round_cap", "round_limit", "round_ramp2"]
+__all__ = ["round_brake", "round_cap", "round_limit", "round_ramp2"]
 
 SHARE = 0.98  # of the acceleration limit may be sideways: some is left to brake with
 STRAIGHT = 1e-7  # smaller changes of direction are ignored
@@ -66,39 +66,6 @@ def round_turn(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
     return max(sqrt(square), largest if square <= 0.0 else 0.0)
 
 
-def round_between(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> None:
-    """Find how the corner between a move and the one just appended to it is rounded."""
-    F[moves.corner_u[a]] = 0.0
-    F[moves.corner_turn[a]] = 0.0
-    ahead: int = moves.ahead[a]
-    I[ahead] = 0
-    tolerance_u: float = F[moves.tolerance_u[a]]
-    if not tolerance_u > 0.0 or not round_straight(F, I, a) or not round_straight(F, I, b):
-        return
-    own: int = 1 if I[moves.marks[a]] & MARK_ROUNDS else 0
-    turn: float = round_turn(F, I, S, m, a, b)
-    if turn <= STRAIGHT:
-        I[ahead] = own
-        return
-    F[moves.corner_turn[a]] = turn
-    jerk_ups3: float = F[moves.jrk_ups3[a]]
-    reach_u: float = (6.0 if jerk_ups3 > 0.0 else 4.0) * tolerance_u / turn
-    reach_u = min(reach_u, 0.5 * min(F[moves.length_u[a]], F[moves.length_u[b]]))
-    limit_ups2: float = round_accel(F, a)
-    other_ups2: float = round_accel(F, b)
-    if limit_ups2 <= 0.0 or 0.0 < other_ups2 < limit_ups2:
-        limit_ups2 = other_ups2
-    F[moves.corner_ups[a]] = round_cap(turn, reach_u, limit_ups2, jerk_ups3)
-    if jerk_ups3 > 0.0 and not round_pays(F, a, b, reach_u, limit_ups2, jerk_ups3):
-        F[moves.corner_turn[a]] = 0.0
-        return
-    if I[masters.queued[m]] == 1 and I[masters.moving[m]]:
-        if not round_in_time(F, m, a, reach_u, F[moves.corner_ups[a]]):
-            return
-    F[moves.corner_u[a]] = reach_u
-    I[ahead] = own
-
-
 def round_cap(turn: float, reach_u: float, limit_ups2: float, jerk_ups3: float) -> float:
     """The highest constant speed in a corner, by acceleration and jerk."""
     cap_ups: float = ENDLESS
@@ -128,8 +95,8 @@ def round_pays(F: F64, a: int, b: int, reach_u: float, limit_ups2: float, jerk_u
     """Whether going round a corner at constant speed is quicker than what jerk does without.
 
     Compared is the time lost on each side against the feed: by the ramp to the speed in the
-    corner and the distance at that speed, or by the ramp to rest. Lines too short to speed up on
-    are left to the merging of LOOK.
+    corner and the distance at that speed, or by the ramp to rest. On lines too short to come
+    above the speed in the corner nothing is lost.
     """
     feed_ups: float = min(F[moves.vel_ups[a]], F[moves.vel_ups[b]])
     cap_ups: float = F[moves.corner_ups[a]]
@@ -138,7 +105,7 @@ def round_pays(F: F64, a: int, b: int, reach_u: float, limit_ups2: float, jerk_u
         return False
     feed_ups = min(feed_ups, ramp_start(room_u, 0.0, limit_ups2, jerk_ups3))
     if cap_ups >= feed_ups:
-        return False
+        return True
     slow_s: float = reach_u / cap_ups - reach_u / feed_ups
     return ramp_loss(cap_ups, feed_ups, limit_ups2, jerk_ups3) + slow_s < ramp_loss(
         0.0, feed_ups, limit_ups2, jerk_ups3
@@ -152,29 +119,6 @@ def ramp_loss(low_ups: float, high_ups: float, rate_ups2: float, jerk_ups3: floa
     if rise_ups * jerk_ups3 < rate_ups2 * rate_ups2:
         time_s = 2.0 * sqrt(rise_ups / jerk_ups3)
     return time_s - 0.5 * (low_ups + high_ups) * time_s / high_ups
-
-
-def round_in_time(F: F64, m: int, record: int, reach_u: float, cap_ups: float) -> bool:
-    """Whether the present move can still slow down in front of its corner."""
-    gone_u: float = F[profiles.distance[m]] - F[masters.origin_u[m]]
-    left_u: float = F[moves.length_u[record]] - reach_u - gone_u
-    if left_u <= 0.0:
-        return False
-    velocity_ups: float = F[profiles.velocity[m]]
-    jerk_ups3: float = F[moves.jrk_ups3[record]]
-    if jerk_ups3 > 0.0:
-        accel_ups2: float = F[profiles.accel[m]]
-        slow: bool = rest_speed(velocity_ups, accel_ups2, jerk_ups3) <= cap_ups
-        rate_ups2: float = look_rate(F, record)
-        return (
-            slow
-            or ramp_distance(velocity_ups, accel_ups2, cap_ups, rate_ups2, jerk_ups3)
-            <= left_u * SHARE
-        )
-    return (
-        velocity_ups * velocity_ups
-        <= cap_ups * cap_ups + 2.0 * look_rate(F, record) * left_u * SHARE
-    )
 
 
 def round_ramp2(

@@ -104,7 +104,7 @@ MOVE = HiddenBlock(
         "hsint_mode",
         "hsint_abort",  # flag + 1 that ends it
         "tang_slave",  # slave + 1 that is kept tangential along a curve
-        "ahead",  # planned through the corner at its end though LOOK is off
+        "ahead",  # what is decided about the corner at its end: see lookahead_cy
         "marks",  # of a binary move: override lock, counter, interrupt, block skip; of a curve
     ),
     ranges={
@@ -199,7 +199,7 @@ MASTER = HiddenBlock(
         "hold",  # 0 none, 1 feedholding, 2 in feedhold
         "drop_at_rest",  # HALT: drop all moves once the path has stopped
         "seek_phase",  # of MSEEK, see kernel/path/seek_cy.py
-        "cut",  # the present move ends where it comes to rest
+        "cut",  # the present move ends where it comes to rest, or is to: see interrupt_cy
         "response",  # ticks until INT polls its flag again
         "hsint_phase",  # see kernel/path/hsint_cy.py
         "section_cnt",  # moves the present plan runs through, the present one included

@@ -113,6 +113,26 @@ STEPPER = HiddenBlock(
     ints=("points",),
 )
 
+# What a load on an elastic shaft has on top, see plant/compliance_cy.py.
+COMPLIANCE = HiddenBlock(
+    prefix="PLR",
+    family="compliant_loads",
+    count=16,
+    doubles=(
+        "flex_cnt",  # of the motor, from where it would be on a rigid shaft
+        "flex_cps",
+        "resonance_rad_s",  # of motor and load against each other; 0: the shaft is rigid
+        "damping_per_s",
+        "inertia_ratio",  # of the load to the motor
+        # factors of one step, valid for one length of the tick
+        "cached_dt_s",
+        "keep_place",
+        "place_of_speed_s",
+        "keep_speed",
+    ),
+    usual=FINITE,
+)
+
 # The terminals of the analog inputs of the card and what is wired to them.
 ANALOG = HiddenBlock(
     prefix="PLA",

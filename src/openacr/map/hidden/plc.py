@@ -12,10 +12,12 @@ PLC = HiddenBlock(
     ints=(
         "length",  # instructions to scan
         "clock_old",  # counter clock of the tick before
-        ("code", INSTRUCTIONS),  # operation and operand in one word, see plc/scan_cy.py
+        "noted",  # the scans note in the code what they see
+        ("code", INSTRUCTIONS),  # one word each, see plc/scan_cy.py
     ),
     ranges={
         "length": (0, INSTRUCTIONS),
+        "noted": (0, 1),
         "timer_ms": (0, 1000),
     },
 )

@@ -17,5 +17,5 @@ speed_cps = tuple(range(187073, 187425, 22))
 ACCEL_SIZE = 8
 accel = tuple(range(187081, 187433, 22))
 INTS_SIZE = 1
-ints = tuple(range(440526, 440542))
-points = tuple(range(440526, 440542))
+ints = tuple(range(440814, 440830))
+points = tuple(range(440814, 440830))

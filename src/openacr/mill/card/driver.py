@@ -11,7 +11,7 @@ from functools import cached_property
 
 from openacr.client import Card, ConnectionLostError
 from openacr.client.errors import GarbledError, NoReplyError
-from openacr.client.values import Number
+from openacr.client.values import Number, number_text
 from openacr.cnc.occupied import LEAST_MOVES, RAN_SHORT, TRIPPED
 from openacr.errors import UserError
 from openacr.map import numbers as n
@@ -247,6 +247,10 @@ class MachineDriver:
         if self._has_lost or self.card.connections != self._connections:
             raise ConnectionLostError(f"{self.card.name}: connected again since the last poll")
         self._transmit(*moves)
+
+    def limit_jerk(self, jerk_ups3: float) -> None:
+        """Limit the jerk of the moves to come (JRK), 0 = not at all."""
+        self.type([f"JRK {number_text(jerk_ups3)}"])
 
     def write(self, parameter: int, value: float) -> None:
         """Set a parameter of the card."""

@@ -4,12 +4,14 @@ Axis order, axis index and slave index are the same, so that X, Y and Z are slav
 arc packets know only those. Drives are left as they are.
 """
 
+from bisect import bisect_left
 from collections.abc import Iterator, Mapping
 
 from openacr.client import Card
 from openacr.client.errors import RefusedError
 from openacr.client.values import number_text
 from openacr.cnc.occupied import LEAST_MOVES, RAN_SHORT
+from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.mill.card import soft_limits
 from openacr.mill.card.ballscrew import Table, install
@@ -18,6 +20,7 @@ from openacr.mill.config.settings import Settings
 from openacr.mill.config.tabs import AxisSettings
 from openacr.models import Feature
 from openacr.sysvar.schema import AXES
+from openacr.wording import counted
 
 GAIN_WORDS = (
     "PGAIN",
@@ -64,12 +67,26 @@ def prepare(
 
 
 def user_variables(card: Card) -> None:
-    """Dimension P0 to P99 of the card if it has fewer."""
+    """Dimension P0 to P99 of the card if it has no variables; UserError if it has fewer."""
+    if _has_variable(card, USER_VARIABLES - 1):
+        return
+    card.command("SYS")
     try:
-        card.ask(f"P{USER_VARIABLES - 1}")
-    except RefusedError:
-        card.command("SYS")
         card.command(f"DIM P({USER_VARIABLES})")
+    except RefusedError as error:
+        count = bisect_left(range(USER_VARIABLES), True, key=lambda n: not _has_variable(card, n))
+        raise UserError(
+            f"the front end needs P0 to P{USER_VARIABLES - 1}, the card has"
+            f" {counted(count, 'variable')}: write DIM P({USER_VARIABLES}) in its set-up ({error})"
+        ) from None
+
+
+def _has_variable(card: Card, number: int) -> bool:
+    try:
+        card.ask(f"P{number}")
+    except RefusedError:
+        return False
+    return True
 
 
 def _buffer(card: Card, program: int) -> int:

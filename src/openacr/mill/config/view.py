@@ -6,15 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
+from openacr.mill.config.colors import COLORS, LIGHT_GREEN
 from openacr.mill.config.settings import Store
 from openacr.sysvar.tabs import CONTROL, DISPLAY, TOOL
-
-# The 16 colours of the guide's screens, darkened where they would not show on white.
-COLORS = (
-    "#000000", "#0033CC", "#007A33", "#00808A", "#B00020", "#8E24AA", "#8B5A2B", "#9E9E9E",
-    "#555555", "#3B82F6", "#009E73", "#17A2B8", "#E4572E", "#E573C7", "#D9A400", "#C8BFB0",
-)  # fmt: skip
-LIGHT_GREEN = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,9 +35,9 @@ class View:
         )
 
     def color(self, tool: int) -> str:
-        """The colour of a path cut with a tool."""
+        """The colour of a path cut with a tool, on a white ground."""
         number = self.tool_colors.get(tool, tool) if self.has_tool_colors else self.path_color
-        return COLORS[number % len(COLORS)]
+        return COLORS[number % len(COLORS)].on_light
 
     @property
     def matrix(self) -> npt.NDArray[np.float64]:

@@ -1,7 +1,10 @@
-"""Limits of planned paths: how much of the limits of a machine a plan uses."""
+"""Limits of planned paths: those of every axis, and how much of them a plan uses.
+
+Rotary axes have theirs in degrees: the ramps and the jerk of the machine are numbers of the unit
+of each axis, as they are of a move of rotary axes alone.
+"""
 
 from openacr.mill.config.settings import Settings
-from openacr.trajectory import Limits
 
 # What is left of the limits of the machine for the changes of an override and a feed hold.
 ACCELERATION_SHARE, JERK_SHARE = 0.99, 0.96
@@ -10,18 +13,18 @@ UNLIMITED = 1e6  # units/s
 
 def accelerations(settings: Settings) -> list[float]:
     """The acceleration limit of each configured axis [units/s2]."""
-    speeds = settings.speeds
-    path = [each for each in (speeds.feed_acc_ups2, speeds.rapid_acc_ups2) if each > 0.0]
+    ramps = settings.speeds.feed_acc_ups2, settings.speeds.rapid_acc_ups2
+    path = [each for each in ramps if each > 0.0]
     return [
         min([*path, *([own] if (own := axis.max_acceleration_ups2) > 0.0 else [])])
         for axis in settings.axes
     ]
 
 
-def limits_of(settings: Settings) -> Limits:
-    """What the planner may use of the limits of the machine."""
-    return Limits(
-        tuple(axis.max_speed_ups or UNLIMITED for axis in settings.axes),
-        tuple(ACCELERATION_SHARE * each for each in accelerations(settings)),
-        (JERK_SHARE * settings.speeds.jerk_ups3,) * len(settings.axes),
-    )
+def speeds(settings: Settings) -> list[float]:
+    """The speed limit of each configured axis [units/s]."""
+    rotary = settings.speeds.rotary_max
+    return [
+        min(axis.max_speed_ups or UNLIMITED, UNLIMITED if axis.is_linear else rotary or UNLIMITED)
+        for axis in settings.axes
+    ]

@@ -7,7 +7,7 @@ float cannot hold 0.00001 inch over 200 inches.
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from openacr.cnc.canonical import (
     Arc,
@@ -23,6 +23,7 @@ from openacr.cnc.canonical import (
 )
 from openacr.mill.config.curves import can_plan
 from openacr.mill.config.settings import S_PER_MIN, Settings
+from openacr.mill.plan.arcs import chords
 from openacr.mill.plan.geometry import Geometry, MoveShape
 from openacr.mill.plan.planning import PlannedMove
 from openacr.protocol.move import Move
@@ -51,6 +52,7 @@ class Job(PlannedMove):
     finish: Point
     begin_cnt: Pulses
     finish_cnt: Pulses
+    jerk_ups3: float = 0.0  # along its path, as a move of its own
     path_tolerance_u: float = 0.0  # of a path planned with a jerk limit, 0: a move of its own
     is_in_curve: bool = False  # its path is part of a planned curve
     feed_scale: float = 1.0  # the override its path is planned with
@@ -74,6 +76,7 @@ class Encoder:
         self._is_dry = is_dry
         self._rounds = rounds and settings.speeds.jerk_ups3 <= 0.0
         self._plans = can_plan(settings)
+        self.jerk_ups3 = settings.speeds.jerk_ups3  # of moves that no axis limits further
 
     # --- planning ---------------------------------------------------------------------
 
@@ -95,7 +98,7 @@ class Encoder:
     def _chord_jobs(self, arc: Arc, begin: Point) -> Iterator[Job]:
         """The chords of an arc, no faster than the arc itself where they are moves of their own."""
         whole = self.job(arc, begin)
-        for chord in self._chords(arc, begin):
+        for chord in chords(arc, begin, self._speeds.chord_u):
             job = self.job(chord, begin)
             if not job.tolerance_u and not job.path_tolerance_u:
                 job.feed_ups = min(job.feed_ups, whole.feed_ups)
@@ -113,16 +116,17 @@ class Encoder:
         begin_cnt: Pulses = self.pulses(begin)
         rows = zip(
             lines(entry), found.length_u.tolist(), found.feed_ups.tolist(),
-            found.ramp_ups2.tolist(), found.direction.tolist(), found.tolerance_u.tolist(),
-            found.pulses[1:].tolist(), found.is_linear.tolist(), strict=True,
+            found.ramp_ups2.tolist(), found.jerk_ups3.tolist(), found.direction.tolist(),
+            found.turns.tolist(), found.tolerance_u.tolist(),
+            found.pulses[1:].tolist(), strict=True,
         )  # fmt: skip
-        for line, length, feed, ramp, direction, tolerance_u, finish_cnt, is_linear in rows:
+        for line, length, feed, ramp, jerk, direction, turns, tolerance_u, finish_cnt in rows:
             heading = direction if any(direction) else None
             yield Job(
                 length_u=length, feed_ups=feed, ramp_ups2=ramp, start=heading, end=heading,
-                mode=mode, tolerance_u=tolerance_u, entry=line, begin=begin, finish=line.end,
-                begin_cnt=begin_cnt, finish_cnt=finish_cnt,
-                path_tolerance_u=planned_u if is_linear else 0.0,
+                turns=turns, mode=mode, tolerance_u=tolerance_u, entry=line, begin=begin,
+                finish=line.end, begin_cnt=begin_cnt, finish_cnt=finish_cnt,
+                jerk_ups3=jerk, path_tolerance_u=planned_u,
             )  # fmt: skip
             begin, begin_cnt = line.end, finish_cnt
 
@@ -132,7 +136,7 @@ class Encoder:
         is_rapid = isinstance(entry, Rapid)
         ramp = self._speeds.rapid_acc_ups2 if is_rapid else self._speeds.feed_acc_ups2
         tolerance = planned_u = 0.0
-        if isinstance(entry, Line | Arc) and self._geometry.is_linear(shape):
+        if isinstance(entry, Line | Arc):
             planned_u = self._planned_tolerance(entry.pace)
         if isinstance(entry, Line) and self._geometry.is_linear(shape):
             tolerance = self.tolerance(entry.pace)
@@ -148,6 +152,7 @@ class Encoder:
             tolerance_u=tolerance,
             start=shape.start,
             end=shape.end,
+            turns=shape.turns,
             mode=PathMode.EXACT if isinstance(entry, Rapid) else _mode(entry),
             is_rapid=is_rapid,
             entry=entry,
@@ -155,6 +160,7 @@ class Encoder:
             finish=entry.end,
             begin_cnt=begin_cnt,
             finish_cnt=finish_cnt,
+            jerk_ups3=self._geometry.jerk_limit(shape),
             path_tolerance_u=planned_u,
         )
 
@@ -259,29 +265,6 @@ class Encoder:
         first, second = plane.first, plane.second
         is_supported = first in CARD_PLANE_AXES and second in CARD_PLANE_AXES
         return is_supported and self._scale[first] == self._scale[second]
-
-    def _chords(self, arc: Arc, begin: Point) -> Iterator[Line]:
-        """Straight pieces whose height over the arc stays within the chord tolerance."""
-        radius = max(arc.start_radius, arc.end_radius)
-        height = min(self._speeds.chord_u, radius)
-        pace = replace(arc.pace, tolerance_u=max(arc.pace.tolerance_u - height, 0.0))
-        half = math.acos(max(1.0 - height / radius, -1.0))
-        count = max(1, math.ceil(abs(arc.sweep_rad) / (2.0 * half)))
-        for number in range(1, count + 1):
-            end = arc.end if number == count else along(arc, begin, number / count)
-            yield Line(arc.source, end, pace, arc.is_inserted, arc.is_compensated)
-
-
-def along(arc: Arc, begin: Point, share: float) -> Point:
-    """The point of an arc at a share 0..1 of its sweep."""
-    first, second = arc.plane.first, arc.plane.second
-    start = math.atan2(begin[second] - arc.centre[1], begin[first] - arc.centre[0])
-    angle = start + share * arc.sweep_rad
-    radius = arc.start_radius + share * (arc.end_radius - arc.start_radius)
-    point = [a + share * (b - a) for a, b in zip(begin, arc.end, strict=True)]
-    point[first] = arc.centre[0] + radius * math.cos(angle)
-    point[second] = arc.centre[1] + radius * math.sin(angle)
-    return tuple(point)
 
 
 def _mode(entry: Line | Arc | Probe) -> PathMode:

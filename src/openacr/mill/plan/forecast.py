@@ -15,6 +15,7 @@ from openacr.compiled import pick
 from openacr.mill.config.settings import S_PER_MIN
 from openacr.mill.plan import forecast_cy as core
 from openacr.mill.plan import move_rows_cy as row
+from openacr.mill.plan.geometry import per_degree
 from openacr.mill.plan.predicting import Prediction, Timing
 
 if TYPE_CHECKING:
@@ -72,6 +73,7 @@ class Forecast(Timing):
         X[row.X_RAPID], X[row.X_RAPID_RAMP] = rapid_ups, speeds.rapid_acc_ups2
         X[row.X_FEED_RAMP], X[row.X_ARC_RAMP] = speeds.feed_acc_ups2, speeds.arc_acc_ups2
         X[row.X_MAX], X[row.X_ROTARY] = speeds.max_ups, speeds.rotary_max
+        X[row.X_DEGREE] = per_degree(settings)
         X[core.X_ANGLE1], X[core.X_ANGLE2] = speeds.angle1_deg, speeds.angle2_deg
         X[core.X_SLOWEST], X[core.X_STEP] = speeds.corner_ups, speeds.corner_step_ups
         self._J[row.J_AXES], self._J[core.J_LEAST] = len(settings.axes), settings.forward_threshold
@@ -164,6 +166,8 @@ class Forecast(Timing):
             Q[q + row.Q_START + k] = part
         for k, part in enumerate(job.end or ()):
             Q[q + row.Q_END + k] = part
+        for k, part in enumerate(job.turns):
+            Q[q + row.Q_ROTATION + k] = part
         Q[q + row.Q_WANTED] = _wanted(entry)
         Q[q + row.Q_LINE], Q[q + row.Q_FILE] = entry.source.line, self._file(entry.source.file)
         _add(self._J, self._X, Q, self._B)

@@ -32,6 +32,7 @@ from openacr.mill.plan.move_rows_cy import (
     Q_MODE,
     Q_RAMP,
     Q_REACH,
+    Q_ROTATION,
     Q_SIZE,
     Q_START,
     Q_TOLERANCE,
@@ -76,8 +77,9 @@ J_LEAST = 5  # moves kept at least
 J_MOVES = 6  # moves released
 J_CHAIN_CNT = 7
 J_SLOW_CNT = 8  # moves of chains that do not reach their feed
-J_FILES = 9  # of the two texts that moves come from
-J_SIZE = 11
+J_FILES = 9  # of the texts that moves come from, and of elements that waited
+MOST_FILES = 16
+J_SIZE = J_FILES + MOST_FILES
 
 EXACT = 1.0  # modes; others pass corners at their feed
 CORNER = 2.0
@@ -88,8 +90,9 @@ REACH = 4.0  # of a rounded corner, per tolerance and change of direction
 REACHED = 0.999999  # of the feed; speeds of the plan are results of square roots
 DEGREES = 57.29577951308232
 LINEAR = 5
+ROTARY = 3
 PACE = 4  # numbers of a pace: speed, mode, tolerance, F in units/s
-ROW = 7  # of a move in `rows`
+ROW = 8  # of a move in `rows`
 CURVE = 5
 ENDLESS = 1.0e300
 
@@ -130,6 +133,9 @@ def forecast_corner(X: F64, Q: F64, i: int, j: int) -> float:
     for k in range(LINEAR):
         each: float = fabs(Q[i + Q_END + k] - Q[j + Q_START + k])
         jump = each if each > jump else jump
+    for k in range(ROTARY):
+        turned: float = fabs(Q[i + Q_ROTATION + k] - Q[j + Q_ROTATION + k])
+        jump = turned if turned > jump else jump
     if jump > 0.0 and X[X_STEP] / jump < feed:
         feed = X[X_STEP] / jump
     return feed

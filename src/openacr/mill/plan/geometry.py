@@ -8,13 +8,17 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from openacr.cnc.canonical import AXES
 from openacr.compiled import pick
+from openacr.mill.config.curves import can_plan
 from openacr.mill.config.settings import Settings
 from openacr.mill.config.tabs import AxisSettings
 from openacr.mill.plan import arc_law_cy
 from openacr.mill.plan.rounding import Direction
 
 Point = Sequence[float]  # machine position, one value per axis 0..7
+RADIUS_MM = 60.0  # a degree counts as much as it turns a point at about this radius
+MM_PER_INCH = 25.4
 _bend = pick(arc_law_cy.arc_bend)
 _widening = pick(arc_law_cy.arc_widening)
 _skew = pick(arc_law_cy.arc_skew)
@@ -40,12 +44,29 @@ class MoveShape:
     start: Direction | None
     end: Direction | None
     share: tuple[float, ...]
+    turns: Direction = ()  # of the rotary axes by path length, as lengths (`per_degree`)
     bend: Bend | None = None  # of an arc
 
 
 def linear_axes(settings: Settings) -> list[int]:
     """The axes along which the feed counts; tangents have a component for each."""
     return [one.index for one in settings.axes if one.is_linear]
+
+
+def per_degree(settings: Settings) -> float:
+    """The length that a degree counts as [units of the machine]: 1 mm or 1/32 inch.
+
+    A power of two, so that scaling and scaling back are exact.
+    """
+    radius_u = RADIUS_MM if settings.is_metric else RADIUS_MM / MM_PER_INCH
+    return 2.0 ** math.floor(math.log2(math.radians(radius_u)))
+
+
+def weights(settings: Settings) -> tuple[float, ...]:
+    """What a unit or degree of each axis 0..7 counts as, where all axes make up one distance."""
+    turns = {one.index for one in settings.axes if not one.is_linear}
+    degree_u = per_degree(settings)
+    return tuple(degree_u if axis in turns else 1.0 for axis in range(AXES))
 
 
 class Geometry:
@@ -56,6 +77,8 @@ class Geometry:
         self._speeds = settings.speeds
         self._linear = linear_axes(settings)
         self._rotary = [one.index for one in settings.axes if not one.is_linear]
+        self._degree_u = per_degree(settings)
+        self._plans = can_plan(settings)
 
     def line(self, start: Point, end: Point) -> MoveShape:
         """The shape of a straight move; its length is 0 when no axis moves."""
@@ -67,7 +90,7 @@ class Geometry:
         else:
             length = max((abs(delta[axis]) for axis in self._rotary), default=0.0)
         share = tuple(abs(d) / length for d in delta) if length > 0.0 else (0.0,) * len(delta)
-        return MoveShape(length, direction, direction, share)
+        return MoveShape(length, direction, direction, share, self._turns(delta, length))
 
     def arc(
         self,
@@ -90,7 +113,8 @@ class Geometry:
         length = math.sqrt(arc_u * arc_u + sum(d * d for d in rise.values()))
         if length == 0.0:
             return MoveShape(0.0, None, None, (0.0,) * len(start))
-        share = [abs(b - a) / length for a, b in zip(start, end, strict=True)]
+        delta = [b - a for a, b in zip(start, end, strict=True)]
+        share = [abs(part) / length for part in delta]
         share[first] = share[second] = arc_u / length
         turn = math.copysign(1.0, sweep_rad) * arc_u / length
         tangents = [
@@ -100,7 +124,13 @@ class Geometry:
         if arc_u > 0.0:
             radii = begin_u, end_u, sweep_rad
             bend = Bend(plane, _bend(*radii, arc_u / length), _widening(*radii), _skew(*radii))
-        return MoveShape(length, tangents[0], tangents[1], tuple(share), bend)
+        turns = self._turns(delta, length)
+        return MoveShape(length, tangents[0], tangents[1], tuple(share), turns, bend)
+
+    def _turns(self, delta: Sequence[float], length: float) -> Direction:
+        """The part of the rotary axes in a path that has a length, as in `MoveShape`."""
+        per = length or 1.0
+        return tuple(self._degree_u * delta[axis] / per for axis in self._rotary)
 
     def _tangent(
         self,
@@ -145,15 +175,26 @@ class Geometry:
         """The highest vector acceleration at up to a speed within all axis limits, units/s2.
 
         In a rounded corner it can have any direction, so it is within the limit of every axis.
+        Of a machine that plans paths the ramp is one of each rotary axis, as in `curve_limits`.
         """
         if rounds:
             own = [one.max_acceleration_ups2 for one in self._axes if shape.share[one.index] > 0.0]
             return min([ramp_ups2, *(limit for limit in own if limit > 0.0)])
         own = _per_axis(((one, one.max_acceleration_ups2) for one in self._axes), shape)
+        if self._plans:
+            own.append(ramp_ups2 / self._fastest_turn(shape))
         if (bend := shape.bend) is not None:
             limit = self._arc_limit(bend)
             own.append(_ramp(limit, bend.per_u, bend.widening, bend.skew, speed_ups))
         return min([ramp_ups2, *own])
+
+    def jerk_limit(self, shape: MoveShape) -> float:
+        """The vector jerk that keeps the one of the machine on every axis, units/s3; 0 = any."""
+        return self._speeds.jerk_ups3 / self._fastest_turn(shape)
+
+    def _fastest_turn(self, shape: MoveShape) -> float:
+        """The largest share of a rotary axis where it is above that of the path, else 1."""
+        return max((1.0, *(shape.share[axis] for axis in self._rotary)))
 
     def _arc_limit(self, bend: Bend) -> float:
         """The acceleration of an arc in any direction of its plane [units/s2]."""

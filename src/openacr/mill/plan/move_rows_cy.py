@@ -38,7 +38,8 @@ Q_IS_ROUND = 22  # its end is a rounded corner: turn, reach, highest speed
 Q_TURN = 23
 Q_REACH = 24
 Q_CAP = 25
-Q_SIZE = 26
+Q_ROTATION = 26  # of rotary axes by length, a degree as a length
+Q_SIZE = 29
 
 # An axis of the machine.
 Y_INDEX = 0
@@ -58,7 +59,8 @@ X_FEED_RAMP = 2
 X_ARC_RAMP = 3
 X_MAX = 4
 X_ROTARY = 5
-X_MOVES = 6  # numbers before these
+X_DEGREE = 6  # the length that a degree counts as
+X_MOVES = 7  # numbers before these
 
 J_AXES = 0  # count
 J_UNHOMED = 1  # mask of axes whose first move is to be flagged
@@ -164,6 +166,17 @@ def move_arc(
                 end = x1 / n1 * turn
             Q[q + Q_START + place] = start
             Q[q + Q_END + place] = end
+            place += 1
+
+
+def move_rotation(J: I32, X: F64, Y: F64, U: F64, Q: F64, q: int) -> None:
+    """What the rotary axes turn by the length of the move."""
+    place: int = 0
+    for k in range(J[J_AXES]):
+        y: int = k * Y_SIZE
+        if Y[y + Y_IS_LINEAR] <= 0.0:
+            turned: float = X[X_DEGREE] * U[U_DELTA + int(Y[y + Y_INDEX])]
+            Q[q + Q_ROTATION + place] = turned / Q[q + Q_LENGTH] if Q[q + Q_LENGTH] > 0.0 else 0.0
             place += 1
 
 
@@ -280,6 +293,7 @@ def move_row(
             if move_is_linear(J, Y, U):
                 Q[q + Q_TOLERANCE] = tolerance
                 move_as_sent(J, Y, U, Q, q, begin, ends, at)
+    move_rotation(J, X, Y, U, Q, q)
     move_limits(J, X, Y, U, Q, q, Q[q + Q_TOLERANCE] > 0.0)
     if U[U_BEND] > 0.0:
         move_turns(J, X, Y, U, Q, q, first, second)

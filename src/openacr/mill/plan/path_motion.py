@@ -21,7 +21,8 @@ from openacr.cnc.canonical import Arc, Point
 from openacr.kernel.path.corner_cy import corner_lift
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import S_PER_MIN, Settings
-from openacr.mill.plan.encoding import Job, along
+from openacr.mill.plan.arcs import along
+from openacr.mill.plan.encoding import Job
 from openacr.mill.plan.geometry import linear_axes
 from openacr.mill.plan.predicting import Phases, seconds_of
 from openacr.mill.plan.quantities import Quantity

@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 from openacr.cnc.canonical import Arc
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.curve_limits import limits_of
 from openacr.mill.plan.encoding import Job
+from openacr.mill.plan.plan_metric import PlanMetric
 from openacr.trajectory import Arc as PlanArc
 from openacr.trajectory import Segment, Setpoints, TrajectoryError, TrajectoryPlanner
 
 Rows = NDArray[np.float64]
 AHEAD_U = 1e-9
-PASSED_S = 1.5  # of motion at the programmed feeds that the planner knows, at least
+PASSED_S = 0.4  # of motion at the programmed feeds that the planner knows, at least
 
 
 class PlannedPath:
@@ -34,6 +34,7 @@ class PlannedPath:
         self._jobs: deque[tuple[float, Job]] = deque()  # with the path before each of them
         self._waiting: deque[Job] = deque()  # not passed to the planner
         self._planner: TrajectoryPlanner | None = None
+        self._metric = PlanMetric(settings)
         self._path_u = 0.0
         self.planned_u = 0.0  # the path of the moves that the planner has
         self.feed = 1.0  # factor of the feeds of moves that follow: an override above 100 %
@@ -49,9 +50,12 @@ class PlannedPath:
     def add(self, job: Job) -> None:
         """Append a move."""
         if self._planner is None:
-            places = self._whole(job.begin_cnt)
-            self.start = np.array(places)
-            self._planner = TrajectoryPlanner(places, limits_of(self._settings), PERIOD_S)
+            start = self._whole(job.begin_cnt)
+            self.start = np.array(start)
+            self._metric = PlanMetric(self._settings)
+            self._planner = TrajectoryPlanner(
+                self._metric.place(start), self._metric.limits(), PERIOD_S
+            )
         self._is_stopped = self.is_at_end = False
         job.is_in_curve = True
         self._jobs.append((self._path_u, job))
@@ -66,6 +70,7 @@ class PlannedPath:
         job = self._waiting.popleft()
         ends = not self._waiting
         end = self._whole(job.finish_cnt) if ends else self._place(job.finish)
+        ratio = self._metric.length_ratio(job)
         entry = job.entry
         arc = None
         if isinstance(entry, Arc):
@@ -74,19 +79,24 @@ class PlannedPath:
         self.planned_u += job.length_u
         job.feed_scale = 1.0 if job.is_rapid else self.feed
         self._passed_s += job.length_u / job.feed_ups
-        planner.add(
+        feed_ups = self._feed_of(job)
+        planned_u = planner.add(
             Segment(
-                line=entry.source.line, end=end, feed_ups=self._feed_of(job),
-                tolerance_u=job.path_tolerance_u, arc=arc,
+                line=entry.source.line, end=self._metric.place(end), feed_ups=feed_ups * ratio,
+                tolerance_u=job.path_tolerance_u, is_rapid=job.is_rapid, arc=arc,
+                tool_ups=feed_ups,
             )
         )  # fmt: skip
+        self._metric.note(planned_u, job.length_u)
         if ends:
             planner.stop()
         return True
 
     def _feed_of(self, job: Job) -> float:
-        most_ups = max(self._settings.speeds.max_ups, job.feed_ups)
-        return min(job.feed_ups * job.feed_scale, most_ups)
+        feed_ups = job.feed_ups * job.feed_scale
+        if job.start is None:  # of rotary axes alone: the planner has their limits
+            return feed_ups
+        return min(feed_ups, max(self._settings.speeds.max_ups, job.feed_ups))
 
     def _whole(self, counts: Sequence[int]) -> tuple[float, ...]:
         return tuple(count / scale for count, scale in zip(counts, self._scales, strict=True))
@@ -153,7 +163,7 @@ class PlannedPath:
             if found is None and not self._pass_on(planner):
                 break
         self.is_at_end = found is None and self._is_stopped
-        return found
+        return None if found is None else self._metric.of_machine(found)
 
     def end_at(self, point: Rows) -> None:
         """Note that the curve has ended at rest: another one begins there."""

@@ -59,6 +59,7 @@ class PlannedMove:
     ramp_ups2: float
     start: Direction | None
     end: Direction | None
+    turns: Direction = ()  # what rotary axes turn by length, a degree as a length
     mode: PathMode = PathMode.FREE
     is_rapid: bool = False
     tolerance_u: float = 0.0  # of the corner at its end, towards another move with one
@@ -92,8 +93,6 @@ def _by_angle(turn: float, feed_ups: float, rules: CornerRules) -> float:
 
 def _by_step(before: Direction, after: Direction, rules: CornerRules) -> float:
     """The speed at which the velocity step of every axis is within Corner Step."""
-    if rules.step_ups <= 0.0:
-        return math.inf
     jump = max(abs(a - b) for a, b in zip(before, after, strict=True))
     return rules.step_ups / jump if jump > 0.0 else math.inf
 
@@ -107,7 +106,11 @@ def corner_speed(before: PlannedMove, after: PlannedMove, rules: CornerRules) ->
     feed_ups = min(before.feed_ups, after.feed_ups)
     if before.mode is PathMode.CORNER:
         feed_ups = _by_angle(turn_deg(before.end, after.start), feed_ups, rules)
-    return min(feed_ups, _by_step(before.end, after.start, rules))
+    if rules.step_ups <= 0.0:
+        return feed_ups
+    return min(
+        feed_ups, _by_step((*before.end, *before.turns), (*after.start, *after.turns), rules)
+    )
 
 
 def join(before: PlannedMove, after: PlannedMove, rules: CornerRules) -> None:

@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from openacr.cnc.canonical import Line, Polyline, Source
+from openacr.mill.config.curves import can_plan
 from openacr.mill.config.settings import Settings
 from openacr.mill.config.tabs import AxisSettings
-from openacr.mill.plan.geometry import Point
+from openacr.mill.plan.geometry import Point, per_degree
 
 Column = NDArray[np.float64]
 MOST_PULSES = float(1 << 62)  # beyond any card; keeps the conversion to integers defined
@@ -26,10 +27,11 @@ class Columns:
     length_u: Column
     feed_ups: Column
     ramp_ups2: Column
+    jerk_ups3: Column
     direction: NDArray[np.float64]  # n x linear axes; unit vectors, 0 without linear motion
+    turns: NDArray[np.float64]  # n x rotary axes, see `MoveShape`
     tolerance_u: Column  # of the corners at their ends
     pulses: NDArray[np.int64]  # (n + 1) x axes of the machine, start first
-    is_linear: NDArray[np.bool_]  # no rotary axis moves
 
 
 def columns(
@@ -52,7 +54,8 @@ def columns(
     per = np.where(length > 0.0, length, 1.0)[:, None]
     share = np.abs(delta) / per
     feed = np.where(is_linear, min(wanted_ups, speeds.max_ups), wanted_ups)
-    ramp = np.full(len(length), speeds.feed_acc_ups2)
+    fastest_turn = np.maximum(share[:, rotary].max(axis=1, initial=0.0), 1.0)
+    ramp = speeds.feed_acc_ups2 / (fastest_turn if can_plan(settings) else np.ones(len(length)))
     only_linear = is_linear & (turned == 0.0)
     tolerance = np.where(only_linear, tolerance_u, 0.0)
     rounds = tolerance > 0.0
@@ -69,7 +72,9 @@ def columns(
     if tolerance_u > 0.0:
         sent, goes_far = _as_sent(np.diff(pulses, axis=0) / scale, axes)
         direction[rounds & goes_far] = sent[rounds & goes_far]
-    return Columns(length, feed, ramp, direction, tolerance, pulses, only_linear)
+    jerk = speeds.jerk_ups3 / fastest_turn
+    turns = per_degree(settings) * delta[:, rotary] / per
+    return Columns(length, feed, ramp, jerk, direction, turns, tolerance, pulses)
 
 
 def _as_sent(

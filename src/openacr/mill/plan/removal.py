@@ -10,18 +10,19 @@ from openacr.cnc.interpreter.interpreter import Interpreter, Options
 from openacr.cnc.loading.load import axes_of
 from openacr.cnc.program.program import Program
 from openacr.cnc.reading.findings import BlockError
-from openacr.cnc.state.cells import CMP_RAD, LAST_RADIUS, RADII, RADIUS, RADIUS_WEAR, RADIUS_WEARS
+from openacr.cnc.state.cells import CMP_RAD, RADIUS, RADIUS_WEAR
 from openacr.cnc.state.hosts import VirtualMachine
 from openacr.cnc.state.shadow import Shadow
 from openacr.errors import UserError
-from openacr.mill.plan.stock import Array, Blank, Bytes, Cutter, Mark, Stock, Sweep, Tip
+from openacr.mill.config.tools import Tip, radius_u
+from openacr.mill.plan.blank import blank_of, heights_of_zero
+from openacr.mill.plan.stock import Array, Bytes, Cutter, Mark, Stock, Sweep
 from openacr.mill.plan.tool_path import Drawing, Kind, ToolPath
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import CONTROL, SPEEDS, TOOL
 
 LETTERS = "XYZ"
 CELLS = 500  # across the longer side of the blank: the most memory is some megabytes
-LEAST = 1e-6  # thickness of a blank
 Report = Callable[[float], None]
 
 
@@ -54,9 +55,10 @@ def removal(
     """
     if program.errors:
         raise UserError(f"the program has errors: {program.errors[0]}")
-    drawing, sections, zero = _read(program, cells, dialect)
+    drawing, sections = _read(program, cells, dialect)
     parts = _parts(drawing, sections)
-    blank = _blank(cells, parts, zero)
+    zero, _ = heights_of_zero(program, cells, dialect)
+    blank = blank_of(cells, *_cut_box(parts), zero)
     width, depth = (blank.high[k] - blank.low[k] for k in (0, 1))
     stock = Stock(blank, max(width, depth) / CELLS, cells.read(SPEEDS.chord_tolerance))
     marks = np.zeros(len(drawing.kinds), np.uint8)
@@ -84,8 +86,8 @@ def _lines(drawing: Drawing, marks: Bytes, mark: Mark) -> tuple[int, ...]:
 # --- reading --------------------------------------------------------------------------
 
 
-def _read(program: Program, cells: Store, dialect: str) -> tuple[Drawing, list[Section], float]:
-    """The path, its sections, and the height of program Z0 at the start."""
+def _read(program: Program, cells: Store, dialect: str) -> tuple[Drawing, list[Section]]:
+    """The path and its sections."""
     letters = axes_of(cells)
     if any(letter not in letters for letter in LETTERS):
         raise UserError("stock removal needs the axes X, Y and Z")
@@ -94,8 +96,6 @@ def _read(program: Program, cells: Store, dialect: str) -> tuple[Drawing, list[S
     )
     options = Options(collects_errors=True, has_batches=True)
     run = Interpreter(program, Shadow(cells), VirtualMachine(is_probed=True), dialect, options)
-    run.path.refresh()
-    zero = run.path.coordinates.to_machine((0.0,) * 8)[letters["Z"]]
     sections: list[Section] = []
     with suppress(BlockError):  # what comes before an error is shown
         for entry in run.entries():
@@ -105,7 +105,7 @@ def _read(program: Program, cells: Store, dialect: str) -> tuple[Drawing, list[S
                 section = _section(run, cells, before, letters["Z"])
                 if not sections or _differs(sections[-1], section):
                     sections.append(section)
-    return path.finished(), sections, zero
+    return path.finished(), sections
 
 
 def _differs(one: Section, other: Section) -> bool:
@@ -120,8 +120,7 @@ def _section(run: Interpreter, cells: Store, first: int, z: int) -> Section:
     elif read(CMP_RAD) > 0.0:
         radius = read(CMP_RAD)
     else:
-        number = tool if tool <= LAST_RADIUS else 0
-        radius = read(RADII + number) + read(RADIUS_WEARS + number) if number else 0.0
+        radius = radius_u(read, tool)
     tip = Tip(int(cells.read(TOOL.tip[tool])))
     length = run.path.coordinates.offsets(run.modal)[z]
     return Section(first, tool, Cutter(radius, tip), length)
@@ -166,27 +165,6 @@ def _sweeps(drawing: Drawing) -> Bytes:
     is_placed = np.all(has_moved, axis=1)[:-1]
     crosses = np.where(is_placed, Sweep.CROSSES, Sweep.PASSES)
     return np.where(drawing.kinds == Kind.RAPID, crosses, Sweep.CUTS).astype(np.uint8)
-
-
-def _blank(cells: Store, parts: list[_Part], zero: float) -> Blank:
-    """The blank: as large as its sizes in the store, else as what is cut.
-
-    Along X and Y its middle is that of what is cut. Its top is program Z0, or Z0 is its bottom if
-    all cuts are above.
-    """
-    low, high = _cut_box(parts)
-    sizes = (CONTROL.x_axis_cutting_size, CONTROL.y_axis_cutting_size, CONTROL.z_axis_cutting_size)
-    given = [cells.read(cell) if cells.is_set(cell) else 0.0 for cell in sizes]
-    for k in (0, 1):
-        half = 0.5 * (given[k] or max(high[k] - low[k], LEAST))
-        middle = 0.5 * (low[k] + high[k])
-        low[k], high[k] = middle - half, middle + half
-    if low[2] < zero:
-        low[2], high[2] = (zero - given[2] if given[2] else low[2]), zero
-    else:
-        high[2] = zero + given[2] if given[2] else max(high[2], zero + LEAST)
-        low[2] = zero
-    return Blank((low[0], low[1], low[2]), (high[0], high[1], high[2]))
 
 
 def _cut_box(parts: list[_Part]) -> tuple[list[float], list[float]]:

@@ -44,7 +44,7 @@ class Route:
         """Append a move to the last section, or begin another one with it."""
         if self._can_plan and not job.is_rapid:
             self._is_planned = job.path_tolerance_u > 0.0
-        is_planned = self._can_plan and self._is_planned and self._may_plan(job)
+        is_planned = self._can_plan and self._is_planned
         last = self._sections[-1]
         if isinstance(last, Planner) is is_planned:
             if not len(last) and len(self._sections) == 1 and not self._is_open(last):
@@ -52,13 +52,6 @@ class Route:
             last = self._planned() if is_planned else self._moves()
             self._sections.append(last)
         last.add(job)
-
-    def _may_plan(self, job: Job) -> bool:
-        """Whether a move can be in a curve: rotary axes cannot."""
-        return not job.is_rapid or all(
-            axis.is_linear or job.begin[axis.index] == job.finish[axis.index]
-            for axis in self._settings.axes
-        )
 
     @staticmethod
     def _is_open(section: Planner[Job] | PlannedPath) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from openacr.compiled import pick
+from openacr.mill.config.tools import Tip
 from openacr.mill.plan import removal_cy as core
 
 Array = npt.NDArray[np.float64]
@@ -18,13 +19,6 @@ Place = tuple[float, float, float]
 
 TOGETHER = 4096  # moves between two reports of progress
 _moves = pick(core.removal_moves)
-
-
-class Tip(IntEnum):
-    """The end of a cutter."""
-
-    FLAT = 0
-    BALL = 1
 
 
 class Sweep(IntEnum):

@@ -5,8 +5,10 @@ closely. Three axes are drawn, X, Y and Z where they are configured; others are 
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +26,9 @@ from openacr.cnc.canonical import (
     Tool,
 )
 from openacr.cnc.geometry.elements import Element
+
+if TYPE_CHECKING:
+    from openacr.cnc.compensation.many import Many
 
 Array = npt.NDArray[np.float64]
 Index = npt.NDArray[np.intp]
@@ -152,6 +157,14 @@ class ToolPath:
 
     def centre_path(self, element: Element, radius: float) -> None:
         """Ignored: the path of the tool is taken from the canonical entries."""
+
+    def elements(self, many: "Many") -> None:
+        """Add elements of a programmed contour."""
+        for element in many.elements():
+            self.contour(element)
+
+    def tool_moves(self, moves: Moves, extra: Sequence[float]) -> None:
+        """Ignored, as one move."""
 
     def end(self) -> None:
         """Ignored: a contour that does not continue the last one starts a new one."""

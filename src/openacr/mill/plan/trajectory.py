@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from openacr.cnc.canonical import AXES, Arc, Point
 from openacr.kernel.path.corner_cy import corner_lift
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.encoding import Job, along
+from openacr.mill.plan.arcs import along
+from openacr.mill.plan.encoding import Job
 from openacr.mill.plan.geometry import linear_axes
 from openacr.mill.plan.predicting import Phases, seconds_of
 from openacr.mill.plan.rounding import Corner

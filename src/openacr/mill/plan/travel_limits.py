@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from openacr.cnc.canonical import Arc, Point
 from openacr.mill.config.settings import Settings
 from openacr.mill.config.tabs import AxisSettings
-from openacr.mill.plan.encoding import Job, Motion, along
+from openacr.mill.plan.arcs import along
+from openacr.mill.plan.encoding import Job, Motion
 
 QUARTER = 0.5 * math.pi
 

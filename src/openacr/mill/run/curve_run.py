@@ -25,8 +25,9 @@ from openacr.mill.run.tracking import Tracker
 from openacr.protocol.move import Move
 from openacr.trajectory.timescale import Progress
 
-AHEAD_S = 1.0  # of the plan known ahead of the points that are sent
-SHORT_S = 0.5  # of it left at which a program that does not arrive is brought to rest
+AHEAD_S = 0.4  # of the plan known ahead of the points that are sent, on the virtual machine
+AHEAD_LINK_S = 1.0  # over a link, where the host may be late
+SHORT = 0.6  # of that left at which a program that does not arrive is brought to rest
 BUFFERED_S = 0.04  # of the curve on the virtual machine
 SPARE = 2  # places of the move buffer that stay free
 Rows = NDArray[np.float64]
@@ -43,6 +44,7 @@ class CurveRun:
         self._tracker = tracker
         self._packets = CurvePackets(settings)
         self._reserve = None if machine.rounds_corners else Reserve(settings, most - SPARE)
+        self._wanted_s = AHEAD_S if self._reserve is None else AHEAD_LINK_S
         self._guarded = 0  # pieces below which the watchdog holds
         self.jobs = 0  # moves begun
         self._path: PlannedPath | None = None
@@ -103,9 +105,9 @@ class CurveRun:
         if self._holds or (self._window is not None and self._window.scale.is_complete):
             return  # what has arrived meanwhile begins another curve
         path.feed = max(self._factors[0], 1.0)
-        if is_complete or (is_starved and self._ahead_s < SHORT_S):
+        if is_complete or (is_starved and self._ahead_s < SHORT * self._wanted_s):
             path.stop()
-        while self._ahead_s < AHEAD_S and (found := path.take()) is not None:
+        while self._ahead_s < self._wanted_s and (found := path.take()) is not None:
             if self._window is None:
                 self._path, self._window = path, CurveWindow(path.start, self._settings)
                 self._before_u = 0.0, 0.0

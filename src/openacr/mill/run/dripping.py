@@ -9,8 +9,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TypeAlias
 
-import serial
-
 from openacr.cnc import canonical as c
 from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.cnc.interpreter.interpreter import Options as Reading
@@ -21,11 +19,12 @@ from openacr.cnc.program.flow import Level
 from openacr.cnc.program.program import Program
 from openacr.cnc.reading.findings import BlockError, found
 from openacr.cnc.state.hosts import Cells
-from openacr.mill.config.communications import XON_XOFF, Line
+from openacr.errors import UserError
+from openacr.mill.config.communications import Line
 from openacr.mill.run.feeding import Starved
+from openacr.mill.run.handshake import SerialInput
 from openacr.mill.run.run_host import RunHost
 
-XON, XOFF = b"\x11", b"\x13"
 FULL, LOW = 16_384, 4_096  # unread bytes at which the sender is held back, and released
 NAME = "DRIP"
 
@@ -44,48 +43,45 @@ class Drip:
         is_dry: bool = False,
         folders: Folders | None = None,
     ) -> None:
-        self._port = line.open()
-        self._sends_xoff = line.handshake == XON_XOFF
-        self.is_held_back = False
+        self._input = SerialInput(line)
         self._store, self._dialect, self._is_dry = store, dialect, is_dry
         self.program: Program = load_blank(store, dialect, folders, name=NAME)
         self.text = ArrivingText(NAME, self.program.main.labels)
         self.program.main.text = self.text
         self.text.of_part(self.program.main)
-        if self._sends_xoff:
-            self._send(XON)
+        self._guarded(self._input.release)
+
+    @property
+    def is_held_back(self) -> bool:
+        """Whether the sender was asked to pause."""
+        return self._input.is_held_back
 
     def close(self) -> None:
         """Close the port."""
-        self._port.close()
+        self._input.close()
 
     def poll(self) -> None:
         """Read what has arrived, up to `FULL` unread bytes."""
-        try:
-            while not self.text.is_complete and self.text.unread < FULL:
-                data = self._port.read(min(self._port.in_waiting, FULL))
-                if not data:
-                    break
-                self.text.add(data)
-        except (serial.SerialException, OSError):
-            self.text.complete()  # the line has failed: nothing more arrives
-            return
-        self._hold_back()
+        self._guarded(self._take)
 
-    def _hold_back(self) -> None:
-        if not self._sends_xoff or self.text.is_complete:
+    def _take(self) -> None:
+        while not self.text.is_complete and self.text.unread < FULL:
+            data = self._input.read(FULL)
+            if not data:
+                break
+            self.text.add(data)
+        if self.text.is_complete:
             return
-        if not self.is_held_back and self.text.unread >= FULL:
-            self.is_held_back = True
-            self._send(XOFF)
-        elif self.is_held_back and self.text.unread <= LOW:
-            self.is_held_back = False
-            self._send(XON)
+        if self.text.unread >= FULL:
+            self._input.hold_back()
+        elif self.text.unread <= LOW:
+            self._input.release()
 
-    def _send(self, character: bytes) -> None:
+    def _guarded(self, work: Callable[[], None]) -> None:
+        """Use the port; when it fails, nothing more arrives."""
         try:
-            self._port.write(character)
-        except (serial.SerialException, OSError):
+            work()
+        except UserError:
             self.text.complete()
 
     # --- entries ----------------------------------------------------------------------

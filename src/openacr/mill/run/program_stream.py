@@ -14,6 +14,7 @@ from openacr.mill.card.driver import CLEAR_S, CardState
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.manual.probing import Probing
 from openacr.mill.plan.encoding import Encoder, Job, Motion
+from openacr.mill.plan.geometry import weights
 from openacr.mill.plan.travel_limits import first_excess
 from openacr.mill.run.curve_run import CurveRun
 from openacr.mill.run.entry_actions import EntryActions
@@ -29,6 +30,7 @@ from openacr.mill.run.rejoin import (
     straight_back,
 )
 from openacr.mill.run.run_host import RunHost
+from openacr.mill.run.sending import send
 from openacr.mill.run.tracking import Tracker, time_s
 
 SHORT_S = 0.3  # motion left on the card at which a starved program is brought to rest
@@ -52,8 +54,10 @@ class ProgramStream:
         self._depth = depth
         self._probing = Probing(io, self._send, self.host.position, entry_actions.say)
         self._encoder = Encoder(io.settings)
+        self._weights = weights(io.settings)
         self._curve = CurveRun(io.machine, io.settings, self.tracker, depth)
         self._feed: Feed | None = None
+        self._halt_block = 0  # the blocks before the last halt that was reached
         self._excused: Job | None = None  # a last move whose end the machine left on purpose
         self._begin: c.Point = (0.0,) * c.AXES  # where the program was started
         self._rapid_level: float | None = None  # highest tool level of its rapids
@@ -63,6 +67,7 @@ class ProgramStream:
         self._machine.reset_counter()
         self.tracker.reset()
         self._curve.drop()
+        self._halt_block = 0
         self.tracker.trail.restart([])
         rounds = self._machine.rounds_corners
         self._encoder = Encoder(self.settings, is_dry=is_dry, rounds=rounds)
@@ -118,11 +123,17 @@ class ProgramStream:
         if curve is not None and curve.fault and is_at_rest:
             return Fault(alarms.PROGRAM_ERROR, curve.fault)
         halt = feed.halt if feed.is_empty and is_at_rest else None
+        if halt is not None:
+            self._halt_block = feed.block
         if halt is not None and (moved := self._moved_by_others()):
             return Fault(alarms.NOT_IN_PLACE, moved)
         if isinstance(halt, c.Tool):
             self.tracker.trail.bar(self.tracker.current)
         return halt
+
+    def block_at(self, counter: int) -> int:
+        """The count of blocks that were over when the card had started `counter` packets."""
+        return max(self._halt_block, self.tracker.block_at(counter))
 
     def poll(self, sample: CardState) -> None:
         """Send more of the present curve, in every state of the run: it ends at rest."""
@@ -179,18 +190,12 @@ class ProgramStream:
             self._feed.go_on()
 
     def _send(self, jobs: Iterable[Job]) -> None:
-        packets = []
+        jobs = list(jobs)
         for job in jobs:
-            packet = self._encoder.packet(job)
-            self.tracker.add(job, has_packet=packet is not None)
-            if packet is not None:
-                packets.append(packet)
             if isinstance(job.entry, c.Rapid):
                 before, level = self._rapid_level, job.finish[c.TOOL_AXIS]
                 self._rapid_level = level if before is None else max(before, level)
-        if packets:
-            self._machine.send(packets)
-            self.moves += len(packets)
+        self.moves += send(self._machine, self._encoder, self.tracker, jobs)
 
     def probe(self, entry: c.Probe) -> Steps:
         """Make a probing move (G31), from rest to rest."""
@@ -374,7 +379,10 @@ class ProgramStream:
         """
         if job.count > self.tracker.started + 1:
             return False
-        return apart_u(job.entry, job.begin, here) < apart_u(before.entry, before.begin, here)
+        to_job, to_before = (
+            apart_u(one.entry, one.begin, here, self._weights) for one in (job, before)
+        )
+        return to_job < to_before
 
     def pieces_of(self, whole: Job, entry: Motion, begin: c.Point) -> list[Job]:
         """A part of a move as a separate move; empty if it has no length."""

@@ -13,7 +13,7 @@ Otherwise it goes down at P itself: no other place is known to be free.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -67,15 +67,15 @@ def _turned(arc: Arc, begin: Point, here: Point) -> float:
     return turn * turned
 
 
-def apart_u(entry: Motion, begin: Point, here: Point) -> float:
-    """The distance of a point from a move."""
+def apart_u(entry: Motion, begin: Point, here: Point, weights: Sequence[float]) -> float:
+    """The distance of a point from a move; `weights` are lengths of a unit of each axis."""
     end = entry.end
     if isinstance(entry, Arc):
         share = _turned(entry, begin, here) / abs(entry.sweep_rad)
     else:
-        along = [b - a for a, b in zip(begin, end, strict=True)]
+        along = _vector(begin, end, weights)
         square = sum(part * part for part in along)
-        gone = sum((h - a) * part for h, a, part in zip(here, begin, along, strict=True))
+        gone = sum(h * part for h, part in zip(_vector(begin, here, weights), along, strict=True))
         share = min(max(gone / square, 0.0), 1.0) if square > 0.0 else 0.0
     nearest = [a + (b - a) * share for a, b in zip(begin, end, strict=True)]
     if isinstance(entry, Arc):
@@ -85,7 +85,12 @@ def apart_u(entry: Motion, begin: Point, here: Point) -> float:
         angle = start + entry.sweep_rad * share
         nearest[first] = entry.centre[0] + radius * math.cos(angle)
         nearest[second] = entry.centre[1] + radius * math.sin(angle)
-    return math.dist(nearest, here)
+    return math.hypot(*_vector(nearest, here, weights))
+
+
+def _vector(begin: Sequence[float], end: Sequence[float], weights: Sequence[float]) -> list[float]:
+    """The vector from one point to another, as lengths."""
+    return [(b - a) * weight for a, b, weight in zip(begin, end, weights, strict=True)]
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,6 @@ after it. The move in which a trace stops is split at that point.
 """
 
 from collections import deque
-from collections.abc import Iterable
 from dataclasses import replace
 
 from openacr.cnc.canonical import Arc, Line, Pace, PathMode, Point, Probe, Rapid, Source
@@ -24,6 +23,7 @@ from openacr.mill.plan.encoding import Encoder, Job
 from openacr.mill.plan.planning import CornerRules, Planner
 from openacr.mill.run.program_stream import ProgramStream
 from openacr.mill.run.rejoin import Place, first_of, place, rest_of
+from openacr.mill.run.sending import send
 from openacr.mill.run.tracking import Tracker
 
 
@@ -144,17 +144,11 @@ class Retrace:
             while queue and planner.ready() < room:
                 planner.add(queue.popleft())
             jobs = planner.release(room, is_complete=not queue)
-            self._send(tracker.bounded(jobs, self._settings.buffered_s))
+            bounded = tracker.bounded(jobs, self._settings.buffered_s)
+            send(self._machine, self._encoder, tracker, bounded)
             return not queue and not planner and tracker.is_at_end(sample)
 
         return Until(reason, is_over)
-
-    def _send(self, jobs: Iterable[Job]) -> None:
-        for job in jobs:
-            packet = self._encoder.packet(job)
-            self._tracker.add(job, has_packet=packet is not None)
-            if packet is not None:
-                self._machine.send([packet])
 
     def _finished(self, path: list[Job]) -> tuple[int, Job | None]:
         """The count of finished moves of a path, and the move in which a stop came to rest."""

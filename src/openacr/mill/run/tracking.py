@@ -122,6 +122,15 @@ class Tracker:
             return False  # not sent yet
         return self.started > job.last or (is_at_rest and self.started == job.last)
 
+    def block_at(self, counter: int) -> int:
+        """The count of blocks that were over when the card had started `counter` packets."""
+        found = 0
+        for job in self._jobs:
+            if job.count > counter:
+                break
+            found = job.block
+        return found
+
     def withdraw(self) -> list[Job]:
         """Remove and return the executing move and all after it, to be planned again."""
         left = [job for job in self._jobs if job.last >= self.started]

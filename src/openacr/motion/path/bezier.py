@@ -76,6 +76,12 @@ def hermite(start: Vector, end: Vector, leave: Vector, arrive: Vector, time: flo
     return Bezier((tuple(start), tuple(second), tuple(next_to_last), tuple(end)), (1.0,) * 4)
 
 
+def step(start: Vector, end: Vector) -> tuple[Bezier, ...]:
+    """From rest to rest: the spans of a uniform cubic B-spline whose control points step once."""
+    points, knots = [start] * 3 + [end] * 3, [float(knot) for knot in range(7)]
+    return tuple(span(points[n : n + 4], (1.0,) * 4, knots) for n in range(3))
+
+
 def line(start: Vector, end: Vector) -> Bezier:
     """A straight line as a curve."""
     return Bezier((tuple(start), tuple(end)), (1.0, 1.0))

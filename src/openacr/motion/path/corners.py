@@ -1,8 +1,8 @@
 """Path tolerance: how far a path may stay off its corners; 0, as on the card, not at all.
 
 LOOK TOL sets it. It acts between straight moves while LOOK is on. The kernel rounds the
-corners and keeps the acceleration (with JRK the jerk, too) of the rounded path within the
-limits of the moves.
+corners, or stops in them, and keeps the acceleration (with JRK the jerk, too) of the rounded path
+within the limits of the moves.
 """
 
 from openacr.errors import CardError

@@ -7,6 +7,7 @@ the highest speed of the piece, so that no axis brakes harder in a feedhold than
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import cbrt, sqrt
 
 from openacr.compiled import pick
 from openacr.kernel.path import bezier_cy
@@ -16,13 +17,14 @@ from openacr.map.rows import axes as axis_rows
 from openacr.map.rows import masters, moves
 from openacr.motion.card import Card
 from openacr.motion.interlocks import scale_of
-from openacr.motion.path import tangent
+from openacr.motion.path import bezier, tangent
 from openacr.motion.path.bezier import Bezier
 from openacr.motion.path.move_request import Piece, Target
 from openacr.motion.path.records import SlaveMove
 
 MOST = 12  # records that one statement can make, the move to the first one included
 NEAR_CNT = 0.01
+BESIDE_CNT = 1.0  # from a position to the whole pulse that a host reads
 SAMPLES = 16
 
 _bezier_speed = pick(bezier_cy.bezier_speed)
@@ -60,9 +62,21 @@ def hand_over(
     span: float,
     pace: Pace,
 ) -> None:
-    """Append a piece; one that begins elsewhere is led up to in a straight line."""
+    """Append a piece; one that begins elsewhere is led up to.
+
+    A curve in time that begins within a pulse of its axes, as after a feed hold between pulses,
+    is led up to by pieces of its own. Any other is led up to in a straight line.
+    """
     axes = {s: card.memory.I[masters.slave_axis[master] + s] for s in slaves}
-    if _lead_up(card, program, master, axes, curve.poles[0]):
+    here, start = tuple(_end(card, master, s, axis) for s, axis in axes.items()), curve.poles[0]
+    apart_cnt = max(abs(a - b) for a, b in zip(here, start, strict=True))
+    step_s = _step_s(card, master, axes, here, start)
+    if pace.rate and step_s and NEAR_CNT < apart_cnt <= BESIDE_CNT:
+        for part in bezier.step(here, start):
+            hand_over(card, program, master, slaves, part, step_s * pace.rate, pace)
+            pace = replace(pace, begins=False)
+    elif apart_cnt > NEAR_CNT:
+        _lead_up(card, program, master, _slave_moves(axes, here, start))
         pace = replace(pace, begins=True)
     time_s = span if pace.rate else 0.0
     piece = Piece(tuple(axes), tuple(axes.values()), curve.poles, curve.weights, time_s)
@@ -85,17 +99,29 @@ def _slave_moves(
     ]
 
 
-def _lead_up(
-    card: Card, program: int, master: int, axes: dict[int, int], start: tuple[float, ...]
-) -> bool:
-    """Go straight to the beginning of a piece; False if the path is there already."""
-    here = [_end(card, master, s, axis) for s, axis in axes.items()]
-    if all(abs(a - b) <= NEAR_CNT for a, b in zip(here, start, strict=True)):
-        return False
-    slave_moves = _slave_moves(axes, here, start)
+def _lead_up(card: Card, program: int, master: int, slave_moves: list[SlaveMove]) -> None:
+    """Go straight to the beginning of a piece."""
     targets = [Target(one.axis, one.target_cnt / scale_of(card, one.axis)) for one in slave_moves]
     tangent.add(card, program, master, slave_moves, targets)
-    return True
+
+
+def _step_s(
+    card: Card, master: int, axes: dict[int, int], here: Sequence[float], start: Sequence[float]
+) -> float:
+    """Period of a step of control points that keeps DEC and JRK on every axis; 0 without JRK.
+
+    Of a step d its second differences are d, the third ones 2 d: d/T^2 <= DEC, 2 d/T^3 <= JRK.
+    """
+    dec_ups2 = card.memory.F[masters.dec_ups2[master]]
+    jrk_ups3 = card.memory.F[masters.jrk_ups3[master]]
+    if jrk_ups3 <= 0.0:
+        return 0.0
+    apart_u = max(
+        abs((a - b) / scale_of(card, axis))
+        for axis, a, b in zip(axes.values(), here, start, strict=True)
+    )
+    by_dec_s = sqrt(apart_u / dec_ups2) if dec_ups2 > 0.0 else 0.0
+    return max(cbrt(2.0 * apart_u / jrk_ups3), by_dec_s)
 
 
 def _end(card: Card, master: int, slave: int, axis: int) -> float:

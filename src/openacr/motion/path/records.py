@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel.path import path_cy, round_law_cy
+from openacr.kernel.path import path_cy, round_between_cy
 from openacr.map.rows import axes, masters, moves
 from openacr.map.words import mf1, mf2
 from openacr.messages import INVALID_ARC
@@ -35,7 +35,7 @@ _CLEARED = (
 _move_shape = pick(path_cy.move_shape)
 _move_directions = pick(path_cy.move_directions)
 _path_turn_deg = pick(path_cy.path_turn_deg)
-_round_between = pick(round_law_cy.round_between)
+_round_between = pick(round_between_cy.round_between)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,12 +7,15 @@ from openacr.panel.commands import (
     programs,
     running,
     service,
+    timeline,
+    tuning,
     typing,
     watching,
+    world,
 )  # fmt: skip
 from openacr.panel.commands.registry import COMMANDS, carry_out
 
 __all__ = [
     "COMMANDS", "carry_out", "memory", "motion", "people", "programs", "running", "service",
-    "typing", "watching",
+    "timeline", "tuning", "typing", "watching", "world",
 ]  # fmt: skip

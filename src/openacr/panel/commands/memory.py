@@ -34,7 +34,7 @@ def _names(station: Station) -> list[str]:
 
 
 def _require_rest(station: Station) -> None:
-    if station.machine.runner.is_busy:
+    if station.is_moved:
         raise UserError("the machine moves: the memory is shown and changed at rest only")
 
 

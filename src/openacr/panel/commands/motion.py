@@ -194,6 +194,7 @@ def hold(station: Station, order: Order, args: NoArgs) -> None:
         lambda: _hold(station),
         station.typed.drop,
         lambda: station.on_card.programs.stop(station.session, "PAUSE"),
+        lambda: station.tuning.stop(station.session),
     )
 
 
@@ -215,6 +216,7 @@ def stop_all(station: Station, order: Order, args: NoArgs) -> None:
         lambda: station.hand_motion.presses.end_all(End.STOP),
         station.typed.drop,
         lambda: station.on_card.programs.stop(station.session, "HALT"),
+        lambda: station.tuning.stop(station.session),
     )
 
 
@@ -226,6 +228,7 @@ def estop(station: Station, order: Order, args: NoArgs) -> None:
         lambda: station.hand_motion.presses.end_all(End.STOP),
         station.typed.drop,
         lambda: station.on_card.programs.stop(station.session, "HALT"),
+        lambda: station.tuning.stop(station.session),
     )
 
 

@@ -5,10 +5,15 @@ from typing import Annotated
 from msgspec import Meta
 
 from openacr.client import Level
+from openacr.client.effects import Op
+from openacr.client.program_states import HALTED, PLCS, PROGRAMS
+from openacr.client.program_variables import answer, assign
 from openacr.client.stored import clear, replace, require_program
+from openacr.client.talk import Talk
+from openacr.client.transfer import download
 from openacr.errors import UserError
 from openacr.panel.commands.registry import Args, command
-from openacr.panel.control.card_programs import HALTED, PLCS, PROGRAMS, read_states
+from openacr.panel.control.card_programs import read_states
 from openacr.panel.control.later import LATER, Later, answer_with
 from openacr.panel.control.orders import Order
 from openacr.panel.control.station import Station
@@ -16,7 +21,15 @@ from openacr.panel.roles import Role
 
 Program = Annotated[int, Meta(ge=0, lt=len(PROGRAMS))]
 Plc = Annotated[int, Meta(ge=0, lt=len(PLCS))]
+Parked = Annotated[str, Meta(max_length=40)]
 MOST_TEXT = 60_000  # characters; a message of the socket has at most 64 KiB
+
+
+def level_of(program: int | None, plc: int | None) -> Level:
+    """A program or a PLC by its number; UserError unless exactly one is named."""
+    if (program is None) == (plc is None):
+        raise UserError("name a program or a PLC")
+    return Level.program(program) if program is not None else Level.plc(plc or 0)
 
 
 class OfProgram(Args, frozen=True):
@@ -28,11 +41,7 @@ class OfProgram(Args, frozen=True):
     @property
     def level(self) -> Level:
         """What is named; UserError unless it is exactly one."""
-        if (self.program is None) == (self.plc is None):
-            raise UserError("name a program or a PLC")
-        if self.program is not None:
-            return Level.program(self.program)
-        return Level.plc(self.plc or 0)
+        return level_of(self.program, self.plc)
 
 
 class OfBlock(OfProgram, frozen=True):
@@ -42,9 +51,28 @@ class OfBlock(OfProgram, frozen=True):
 
 
 class OfText(OfProgram, frozen=True):
-    """The text that a program or PLC gets."""
+    """The text that a program or PLC gets, itself or as it was parked.
+
+    `version` is that of the listing it was made of; empty: whatever is there is replaced.
+    """
 
     text: Annotated[str, Meta(max_length=MOST_TEXT)] = ""
+    parked: Parked = ""
+    version: Annotated[str, Meta(max_length=40)] = ""
+
+
+class OfFile(Args, frozen=True):
+    """A controller file that was parked."""
+
+    parked: Parked
+
+
+class Assigned(Args, frozen=True):
+    """A variable of a program, and the expression it gets."""
+
+    program: Program
+    name: Annotated[str, Meta(pattern=r"^((LV|SV|DV|\$V)\d+|(LA|SA|DA|\$A)\d+\(\d+\))$")]
+    value: Annotated[str, Meta(min_length=1, max_length=80, pattern=r"^[ -~]*$")]
 
 
 class OfListened(Args, frozen=True):
@@ -72,7 +100,7 @@ def required(station: Station, args: OfProgram) -> Level:
 def _require_rest(station: Station, level: Level, what: str) -> None:
     """Refuse while this machine moves; a program also while an alarm bars every start."""
     runner = station.machine.runner
-    if runner.is_busy:
+    if station.is_moved:
         raise UserError(f"the machine moves: {what}")
     if level.word == "PROG":
         runner.alarms.require_none()
@@ -85,7 +113,8 @@ def _begin(station: Station, word: str, level: Level) -> None:
 
 def _require_halted(station: Station, level: Level) -> None:
     _require_rest(station, Level.plc(0), "no program of the card is changed")
-    states = {state["name"]: state["state"] for state in read_states(station.machine)}
+    read = station.machine.machine.read_rows
+    states = {state["name"]: state["state"] for state in read_states(read)}
     if states[str(level)] != HALTED:
         raise UserError(f"{level} runs: halt it first")
 
@@ -148,6 +177,21 @@ def unlisten(station: Station, order: Order, args: OfListened) -> None:
     station.on_card.listening.forget(order.person.client)
 
 
+@command("card.assign", Role.SERVICE, is_motion=True)
+def assign_variable(station: Station, order: Order, args: Assigned) -> Later:
+    """Change a variable of a program, as its prompt would."""
+    level = Level.program(args.program)
+    if owner := owner_of(station, level):
+        raise UserError(owner)
+
+    def talks(talk: Talk) -> Op[str]:
+        yield from assign(talk, args.program, args.name, args.value)
+        return (yield from answer(talk, args.program, args.name))
+
+    answer_with(order, station.on_card.aside.begin(talks), lambda text: {"value": text})
+    return LATER
+
+
 # --- texts ----------------------------------------------------------------------------
 
 
@@ -158,10 +202,35 @@ def send(station: Station, order: Order, args: OfText) -> Later:
     Between PROGRAM and ENDP, or in numbered lines. Nothing is run, and nothing saved by ESAVE.
     """
     level = required(station, args)
-    require_program(args.text)
+    text = station.on_card.parked.text(args.parked) if args.parked else args.text
+    require_program(text)
     _require_halted(station, level)
-    future = station.on_card.aside.begin(lambda talk: replace(talk, level, args.text))
+    future = station.on_card.aside.begin(lambda talk: replace(talk, level, text, args.version))
     answer_with(order, future, lambda report: {"name": str(level), "sent": report.sent})
+    return LATER
+
+
+@command("card.download", Role.SERVICE, is_motion=True)
+def download_file(station: Station, order: Order, args: OfFile) -> Later:
+    """Send a controller file to the card line by line, and compare what it stores.
+
+    Lines outside of programs are carried out. The error of a line that is refused names it.
+    """
+    text = station.on_card.parked.text(args.parked)
+    _require_rest(station, Level.program(0), "no file is sent to the card")
+    running = [
+        each["name"]
+        for each in read_states(station.read)
+        if each["state"] != HALTED and not owner_of(station, Level.of_line(each["name"]) or Level())
+    ]
+    if running:
+        raise UserError(f"{', '.join(running)} run: halt them first")
+    future = station.on_card.aside.begin(lambda talk: download(talk, text))
+    answer_with(
+        order,
+        future,
+        lambda report: {"sent": report.sent, "remarks": [[r.line, r.text] for r in report.remarks]},
+    )
     return LATER
 
 

@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from msgspec import Meta
 
 from openacr.client import Level
+from openacr.client.names import named
 from openacr.client.values import number_text
 from openacr.errors import UserError
 from openacr.mill.card.setup import GAIN_WORDS
@@ -14,9 +15,9 @@ from openacr.panel.commands.registry import Args, NoArgs, command
 from openacr.panel.control.later import LATER, Later, answer_with
 from openacr.panel.control.orders import Order
 from openacr.panel.control.presses import End
-from openacr.panel.control.scope import Trigger
+from openacr.panel.control.scope import CHANNELS, LEAST_SAMPLES, MOST_SAMPLES, Capture, Trigger
 from openacr.panel.control.station import Station
-from openacr.panel.control.watches import watched
+from openacr.panel.control.terminal import TERMINALS
 from openacr.panel.roles import Role
 from openacr.sysvar.lookup import known
 from openacr.sysvar.tabs import CELLS
@@ -30,13 +31,19 @@ QUERIES = frozenset(
 OF_ANY_LEVEL = frozenset({"CPU"})  # nothing changes for a program that runs
 
 
-class OfLine(Args, frozen=True):
-    """A line for the card, at a program where it is named."""
+class OfTerminal(Args, frozen=True):
+    """A terminal of the card; each is a stream of its own."""
+
+    terminal: Annotated[int, Meta(ge=0, lt=TERMINALS)] = 0
+
+
+class OfLine(OfTerminal, frozen=True, kw_only=True):
+    """A line for the card."""
 
     text: Annotated[str, Meta(max_length=255)]
 
 
-class OfKey(Args, frozen=True):
+class OfKey(OfTerminal, frozen=True, kw_only=True):
     """A control key."""
 
     key: Literal["esc", "ctrl-c", "ctrl-x", "ctrl-y", "ctrl-z"]
@@ -53,19 +60,25 @@ class Query(Args, frozen=True):
 class OfTrigger(Args, frozen=True):
     """When a capture begins."""
 
-    channel: Annotated[int, Meta(ge=0, le=3)] = 0
+    channel: Annotated[int, Meta(ge=0, lt=CHANNELS)] = 0
     level: Finite = 0.0
-    slope: Literal[-1, 1] = 1
+    slope: Literal[-1, 0, 1] = 1
     mode: Literal["auto", "normal", "single"] = "auto"
     before: Annotated[float, Meta(ge=0.0, le=0.9)] = 0.1
 
 
 class Arm(Args, frozen=True):
-    """What the scope samples: parameters by number or name."""
+    """What the scope samples: parameters and flags by name, P12290, BIT516 or number.
+
+    A sweep has the time of `sweep_ms` where that is above 0, else `samples`. A card at the end
+    of a link records into LA0 to LA7 and SA0 to SA7 of `program` (SAMP); else it is polled.
+    """
 
     channels: tuple[int | str, ...]
-    period_ms: Annotated[float, Meta(ge=0.1, le=1000.0)] = 1.0
-    samples: Annotated[int, Meta(ge=10, le=100_000)] = 5000
+    period_ms: Annotated[float, Meta(ge=0.0, le=1000.0)] = 1.0
+    samples: Annotated[int, Meta(ge=LEAST_SAMPLES, le=MOST_SAMPLES)] = 5000
+    sweep_ms: Annotated[float, Meta(ge=0.0, le=1e7)] = 0.0
+    program: Annotated[int, Meta(ge=0, le=15)] | None = None
     trigger: OfTrigger | None = None
 
 
@@ -74,8 +87,10 @@ class OfIndex(Args, frozen=True):
 
     profile: Annotated[str, Meta(max_length=2000)]
     channels: tuple[int | str, ...]
-    period_ms: Annotated[float, Meta(ge=0.1, le=1000.0)] = 5.0
-    samples: Annotated[int, Meta(ge=10, le=100_000)] = 5000
+    period_ms: Annotated[float, Meta(ge=0.0, le=1000.0)] = 5.0
+    samples: Annotated[int, Meta(ge=LEAST_SAMPLES, le=MOST_SAMPLES)] = 5000
+    sweep_ms: Annotated[float, Meta(ge=0.0, le=1e7)] = 0.0
+    program: Annotated[int, Meta(ge=0, le=15)] | None = None
 
 
 class OfGain(Args, frozen=True):
@@ -92,6 +107,13 @@ class Written(Args, frozen=True):
 
     parameter: int
     value: Finite
+
+
+class Switched(Args, frozen=True):
+    """A flag of the card and its state."""
+
+    flag: Annotated[int, Meta(ge=0)]
+    on: bool
 
 
 class OfButton(Args, frozen=True):
@@ -111,28 +133,30 @@ class OfLength(Args, frozen=True):
 
 
 @command("term.open", Role.SERVICE)
-def term_open(station: Station, order: Order, args: NoArgs) -> Later:
-    """Open the terminal of the card; what it prints comes as events `term`."""
-    answer_with(order, station.terminal.open(order.person.client), lambda _opened: None)
+def term_open(station: Station, order: Order, args: OfTerminal) -> Later:
+    """Open a terminal of the card; what it prints comes as events `term`."""
+    opening = station.terminals[args.terminal].open(order.person.client)
+    answer_with(order, opening, lambda _opened: None)
     return LATER
 
 
 @command("term.line", Role.SERVICE)
 def term_line(station: Station, order: Order, args: OfLine) -> None:
     """Type a line; while the machine moves only those that begin with ?."""
-    station.terminal.line(args.text, is_busy=station.machine.runner.is_busy)
+    terminal = station.terminals[args.terminal]
+    terminal.line(args.text, is_busy=station.is_moved)
 
 
 @command("term.key", Role.SERVICE)
 def term_key(station: Station, order: Order, args: OfKey) -> None:
-    """Press a control key at the terminal."""
-    station.terminal.key(args.key)
+    """Press a control key at a terminal."""
+    station.terminals[args.terminal].key(args.key)
 
 
 @command("term.close", Role.SERVICE, needs_control=False)
-def term_close(station: Station, order: Order, args: NoArgs) -> None:
-    """Close the terminal."""
-    station.terminal.close(order.person.client)
+def term_close(station: Station, order: Order, args: OfTerminal) -> None:
+    """Close a terminal."""
+    station.terminals[args.terminal].close(order.person.client)
 
 
 @command("card.query", Role.SETUP, needs_control=False)
@@ -144,7 +168,7 @@ def query(station: Station, order: Order, args: Query) -> dict[str, list[str]]:
     session = station.machine
     if line in OF_ANY_LEVEL:
         return {"lines": session.card.command(line)}
-    if session.runner.is_busy and not line.startswith("?"):
+    if station.is_moved and not line.startswith("?"):
         raise UserError("the machine moves: only lines that begin with ? are sent")
     if args.plc is not None:
         session.card.go(Level.plc(args.plc))
@@ -159,16 +183,30 @@ def query(station: Station, order: Order, args: Query) -> dict[str, list[str]]:
 
 @command("scope.arm", Role.SERVICE, needs_control=False)
 def scope_arm(station: Station, order: Order, args: Arm) -> dict[str, object]:
-    """Begin to sample up to four parameters; the samples are the topic `scope`."""
+    """Begin to sample up to eight parameters and flags; the samples are the topic `scope`."""
     trigger = args.trigger
     chosen = None
     if trigger is not None:
         chosen = Trigger(
             trigger.channel, trigger.level, trigger.slope, trigger.mode, trigger.before
         )
-    station.scope.arm(watched(args.channels), args.period_ms / 1000.0, args.samples, chosen)
-    capture = station.scope.capture
-    return capture.data() if capture is not None else {}
+    return _armed(station, args, chosen).data()
+
+
+def _armed(station: Station, args: "Arm | OfIndex", trigger: Trigger | None) -> Capture:
+    """Begin the capture that a command asks for; UserError for a sweep too short or too long."""
+    channels = [named(str(each)) for each in args.channels]
+    sampling = station.captures.source(args.program)
+    period_s = sampling.period_s(args.period_ms / 1000.0)
+    samples = args.samples
+    if args.sweep_ms > 0.0:
+        samples = round(args.sweep_ms / 1000.0 / period_s)
+        if not LEAST_SAMPLES <= samples <= MOST_SAMPLES:
+            raise UserError(
+                f"a sweep of {args.sweep_ms:g} ms has {samples} samples of {1000 * period_s:g} ms:"
+                f" {LEAST_SAMPLES} to {MOST_SAMPLES} are possible"
+            )
+    return station.captures.arm(sampling, channels, period_s, samples, trigger)
 
 
 @command("scope.index", Role.SERVICE, is_motion=True)
@@ -176,21 +214,20 @@ def scope_index(station: Station, order: Order, args: OfIndex) -> dict[str, obje
     """Run an index profile (ACC, DEC, STP, JRK, F, RES, a move) and sample it from its start."""
     runner = station.machine.runner
     found = parse(args.profile, list(runner.settings.names()))
-    parameters = watched(args.channels)
     station.hand_motion.presses.end_all(End.MODE, "an index profile was started")
-    station.scope.arm(parameters, args.period_ms / 1000.0, args.samples, None)
+    capture = _armed(station, args, None)
     try:
         runner.jog(lambda jogging: jogging.index(found))
     except BaseException:
-        station.scope.stop()
+        station.captures.stop()
         raise
-    return {"time_s": found.time_s}
+    return {"time_s": found.time_s, **capture.data()}
 
 
 @command("scope.stop", Role.SERVICE, needs_control=False)
 def scope_stop(station: Station, order: Order, args: NoArgs) -> None:
     """End the capture."""
-    station.scope.stop()
+    station.captures.stop()
 
 
 @command("gain.set", Role.SERVICE)
@@ -212,10 +249,24 @@ def gain(station: Station, order: Order, args: OfGain) -> dict[str, float | bool
 
 @command("card.write", Role.SERVICE)
 def card_write(station: Station, order: Order, args: Written) -> dict[str, float]:
-    """Set a parameter of the card."""
+    """Set a parameter of the card; at a moment of its history, this begins another branch."""
+    if station.times.is_away:
+        station.times.write(args.parameter, args.value, is_flag=False)
+        return {"value": station.read([args.parameter])[0]}
     session = station.machine
     session.machine.write(args.parameter, args.value)
     return {"value": session.machine.read(args.parameter)}
+
+
+@command("card.flag", Role.SERVICE, is_motion=True)
+def card_flag(station: Station, order: Order, args: Switched) -> dict[str, bool]:
+    """Set or clear a flag of the card; at a moment of its history, this begins another branch."""
+    if station.times.is_away:
+        station.times.write(args.flag, args.on, is_flag=True)
+        return {"on": args.on}
+    card = station.machine.card
+    card.write_bit(args.flag, args.on)
+    return {"on": card.read_bit(args.flag)}
 
 
 # --- buttons, lengths -----------------------------------------------------------------
@@ -233,7 +284,7 @@ def teach_length(station: Station, order: Order, args: OfLength) -> dict[str, fl
     """Make the machine position of Z the length of a tool."""
     session = station.machine
     session.runner.alarms.require_none()
-    if session.runner.is_busy:
+    if station.is_moved:
         raise UserError("the machine is moving: a length can be taught only at rest")
     axis = session.runner.settings.named("Z").index
     value = session.runner.stream.host.position()[axis]

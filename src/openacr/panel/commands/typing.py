@@ -25,9 +25,10 @@ class Typed(Args, frozen=True):
 
 
 class Buffer(Args, frozen=True):
-    """The text of MDI; without lines it is read."""
+    """The text of MDI, without lines as it is; `on`: what is executed becomes part of it."""
 
     lines: Lines | None = None
+    on: bool | None = None
 
 
 class Taught(Args, frozen=True):
@@ -47,11 +48,13 @@ def execute(station: Station, order: Order, args: Typed) -> None:
 
 
 @command("mdi.buffer", needs_control=False)
-def buffer(station: Station, order: Order, args: Buffer) -> dict[str, list[str]]:
-    """Read the text of MDI, or replace it."""
+def buffer(station: Station, order: Order, args: Buffer) -> dict[str, object]:
+    """Read the text of MDI, or replace it, or switch its buffer."""
     if args.lines is not None:
         station.typed.text = list(args.lines)
-    return {"lines": list(station.typed.text)}
+    if args.on is not None:
+        station.typed.is_buffer_on = args.on
+    return {"lines": list(station.typed.text), "on": station.typed.is_buffer_on}
 
 
 @command("teach.work", Role.SETUP)
@@ -59,7 +62,7 @@ def teach_work(station: Station, order: Order, args: Taught) -> None:
     """TEACH: where the machine is becomes the zero of a work system."""
     session = station.machine
     session.runner.alarms.require_none()
-    if session.runner.is_busy:
+    if station.is_moved:
         raise UserError("the machine is moving: a work system can be taught only at rest")
     here = session.runner.stream.host.position()
     teach(session.cells, session.runner.settings, args.system, here, indices(station, args.axes))

@@ -24,9 +24,9 @@ class Keep(Args, frozen=True):
 
 
 class Watched(Args, frozen=True):
-    """What is watched: parameters by number or name, flag words, or the programs of the card."""
+    """What is watched: parameters, flag words, the programs of the card, or the world."""
 
-    topic: Literal["flags", "watch", "programs"]
+    topic: Literal["flags", "watch", "programs", "world"]
     hz: Annotated[float, Meta(ge=0.1, le=60.0)] = 10.0
     parameters: tuple[int | str, ...] = ()
     words: tuple[int, ...] = ()
@@ -36,7 +36,7 @@ class Watched(Args, frozen=True):
 class Unwatched(Args, frozen=True):
     """A topic that is watched no more."""
 
-    topic: Literal["flags", "watch", "programs"]
+    topic: Literal["flags", "watch", "programs", "world"]
 
 
 @command("jog.keep", needs_control=False)
@@ -47,10 +47,13 @@ def keep(station: Station, order: Order, args: Keep) -> None:
 
 @command("watch.begin", Role.VIEW, needs_control=False)
 def begin(station: Station, order: Order, args: Watched) -> dict[str, object]:
-    """Watch parameters or flag words (binary frames), or the programs (events `programs`)."""
+    """Watch parameters, flag words, the world (frames) or the programs (events `programs`)."""
     if args.topic == "programs":
         station.on_card.programs.watch(order.person.client, min(args.hz, MOST_STATES_HZ))
         return {"topic": args.topic, "hz": min(args.hz, MOST_STATES_HZ)}
+    if args.topic == "world":
+        station.world.watch(order.person.client, args.hz)
+        return {"topic": args.topic, "hz": args.hz}
     if args.topic == "flags":
         chosen = [*args.words, *(INPUTS if args.inputs else ())]
         for word in chosen:
@@ -69,5 +72,8 @@ def end(station: Station, order: Order, args: Unwatched) -> None:
     """Watch a topic no more."""
     if args.topic == "programs":
         station.on_card.programs.forget(order.person.client)
+        return
+    if args.topic == "world":
+        station.world.forget(order.person.client)
         return
     station.watches.end(Wish(order.person.client, args.topic))

@@ -17,6 +17,7 @@ from openacr.client.effects import Effect, Op, Open, Pause, Receive
 from openacr.client.links import Link, SerialLink, link_to
 from openacr.client.talk import Talk
 from openacr.errors import OpenacrError, UserError
+from openacr.panel.control.history import STILL
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.opening import close, opened
 
@@ -59,6 +60,9 @@ class Aside:
         """Queue a conversation; its result or error is set in the control thread. UserError."""
         if self._is_serial:
             raise UserError(NO_SECOND)
+        history = self._installation.history
+        if history is not None and history.is_still:
+            raise UserError(STILL)
         if len(self._waiting) >= MOST_WAITING:
             raise UserError("too many listings are asked for: try again")
         future = future or Future()

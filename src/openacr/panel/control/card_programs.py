@@ -5,45 +5,27 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from openacr.client import Level
+from openacr.client.program_states import HALTED, ROWS, ProgramState, program_states
 from openacr.errors import UserError
-from openacr.map.rows import programs as program_rows
-from openacr.map.words import pf, plf
+from openacr.map.words import pf
 from openacr.mill.session import MillSession
+from openacr.panel.control.rows import Rows
 
-PROGRAMS = range(program_rows.COUNT)
-PLCS = range(len(plf.word))
-# The first that holds is what a running program does.
-DOES = (
-    (pf.PAUSE_MODE, "paused"),
-    (pf.BLOCK_MODE_WAITING, "waits for STEP"),
-    (pf.PROGRAM_DWELLING, "dwells"),
-    (pf.PROGRAM_INHIBITED, "inhibited"),
-)
-RUNS, HALTED = "running", "halted"
 State = dict[str, Any]
-_ROWS = [*pf.word, *program_rows.line_number, *plf.word]
 
 
-def read_states(session: MillSession) -> list[State]:
+def read_states(read: Rows) -> list[State]:
     """What every program and PLC of the card does, read with one request."""
-    values = list(map(int, session.machine.read_rows(_ROWS)))
-    flags, values = values[: len(PROGRAMS)], values[len(PROGRAMS) :]
-    lines, plc_flags = values[: len(PROGRAMS)], values[len(PROGRAMS) :]
-    programs = [_program(*each) for each in zip(PROGRAMS, flags, lines, strict=True)]
-    return programs + [
-        {"name": str(Level.plc(n)), "state": RUNS if word & plf.PLC_RUNNING else HALTED}
-        for n, word in zip(PLCS, plc_flags, strict=True)
-    ]
+    return list(map(_shown, program_states(read(list(ROWS)))))
 
 
-def _program(number: int, flags: int, line: int) -> State:
-    is_running = bool(flags & pf.PROGRAM_RUNNING)
-    state = next((does for mask, does in DOES if flags & mask), RUNS) if is_running else HALTED
-    return {
-        "name": str(Level.program(number)),
-        "state": state,
-        "line": line if is_running else 0,
-        "block": bool(flags & pf.BLOCK_CONTROL),
+def _shown(state: ProgramState) -> State:
+    shown: State = {"name": str(state.level), "state": state.does}
+    if state.level.word == "PLC":
+        return shown
+    return shown | {
+        "line": state.line if state.is_running else 0,
+        "block": bool(state.flags & pf.BLOCK_CONTROL),
     }
 
 
@@ -72,12 +54,12 @@ class CardPrograms:
         """Tell a client no more; without any the card is not asked."""
         self._watchers.pop(client, None)
 
-    def look(self, session: MillSession, now_s: float) -> None:
+    def look(self, read: Rows, now_s: float) -> None:
         """Read the states for those whose time has come, and tell what has changed."""
         due = {c: each for c, each in self._watchers.items() if now_s >= each.due_s - 0.005}
         if not due:
             return
-        states = read_states(session)
+        states = read_states(read)
         for client, each in due.items():
             each.due_s = max(each.due_s + each.every_s, now_s)
             if each.reported != states:
@@ -99,7 +81,8 @@ class CardPrograms:
         """PAUSE or HALT what the screens have started, if it still runs: part of every stop."""
         if session is None or not self._started:
             return
-        running = {state["name"] for state in read_states(session) if state["state"] != HALTED}
+        states = read_states(session.machine.read_rows)
+        running = {state["name"] for state in states if state["state"] != HALTED}
         self._started = {level for level in self._started if str(level) in running}
         for level in sorted(self._started, key=str):
             if level.word == "PROG":  # a PLC is the logic of the machine: it goes on

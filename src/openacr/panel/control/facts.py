@@ -1,6 +1,6 @@
 """Facts in words for browsers: each is sent when it has changed."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from datetime import datetime
 from typing import Any
 
@@ -10,9 +10,11 @@ from openacr.mill.config.settings import NONE
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
 from openacr.panel.control.about import machine_data
+from openacr.panel.control.history_facts import moment_data, timeline_data
 from openacr.panel.control.modals import modals
 from openacr.panel.control.part import Part
 from openacr.panel.control.shared import Shared
+from openacr.panel.control.times import NOT_HERE, Times
 from openacr.panel.control.typed import Typed
 from openacr.sysvar.tabs import CELLS
 
@@ -23,8 +25,8 @@ ALARMS_KEPT = 100
 class Facts:
     """The facts of one station, as they were sent last."""
 
-    def __init__(self, station: Shared, part: Part, typed: Typed) -> None:
-        self._station, self._part, self._typed = station, part, typed
+    def __init__(self, station: Shared, part: Part, typed: Typed, times: Times) -> None:
+        self._station, self._part, self._typed, self._times = station, part, typed, times
         self._reported: dict[str, Data] = {}
         self._noted: dict[int, str] = {}  # time of day of each alarm, by its place
 
@@ -40,6 +42,11 @@ class Facts:
         """All facts, for a browser that has just connected."""
         self.tell()
         return [{"event": name, **data} for name, data in self._reported.items()]
+
+    @property
+    def reported(self) -> Mapping[str, Data]:
+        """The facts by name, as they were reported last; each is replaced as a whole."""
+        return self._reported
 
     # --- facts ------------------------------------------------------------------------
 
@@ -58,7 +65,7 @@ class Facts:
                 "tool_wanted": False,
                 "mode": station.mode,
                 "estop": {"wired": False, "on": False, "alarm": False},
-                "link": "lost",
+                "link": "ok" if self._times.is_away else "lost",
                 "passes": 0,
                 "parts": 0,
                 "homed": [],
@@ -179,7 +186,7 @@ class Facts:
                 {
                     "name": axis.name,
                     "homed": settings.is_homed(axis.index),
-                    "state": self._homing(station, axis.index),
+                    "state": self._homing(station.session, axis.index),
                     "priority": settings.home(axis.index).priority,
                     "switch": settings.home(axis.index).switch_input,
                 }
@@ -187,12 +194,24 @@ class Facts:
             ]
         }
 
-    def _homing(self, station: Shared, axis: int) -> str:
+    def _homing(self, session: MillSession, axis: int) -> str:
         """What an axis waits for while it is homed; done or failed after it."""
-        runner = station.machine.runner
+        runner = session.runner
         state = runner.homing.get(axis, "")
         is_over = runner.state is not State.HOMING
         return "failed" if is_over and state not in ("", "done") else state
+
+    def timeline(self, station: Shared) -> Data:
+        """The branches and bookmarks of the history."""
+        history = station.installation.history
+        if history is None:
+            return {"why": NOT_HERE}
+        return {"why": "", **timeline_data(history, self._times.speed)}
+
+    def moment(self, station: Shared) -> Data:
+        """Where the card is in its history."""
+        history = station.installation.history
+        return {} if history is None else moment_data(history)
 
     def machine(self, station: Shared) -> Data:
         """What the machine is: card, unit, axes."""
@@ -218,9 +237,7 @@ def _alarm(alarm: Alarm, when: str) -> Data:
 def _scope(_facts: Facts, station: Shared) -> Data:
     """The capture of the scope; its samples are frames."""
     capture = station.scope.capture
-    if capture is None:
-        return {"running": False}
-    return {k: v for k, v in capture.data().items() if k != "taken"}
+    return {"running": False} if capture is None else capture.data()
 
 
 MAKERS: dict[str, Callable[[Facts, Shared], Data]] = {
@@ -235,4 +252,6 @@ MAKERS: dict[str, Callable[[Facts, Shared], Data]] = {
     "mdi": Facts.mdi,
     "home": Facts.home,
     "scope": _scope,
+    "timeline": Facts.timeline,
+    "moment": Facts.moment,
 }

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from openacr.client.links import Host
 from openacr.mill.session import MillSession
+from openacr.panel.control.history import History
 from openacr.panel.control.pace import OwnTime, Pace, Paced
 from openacr.sysvar import Store
 
@@ -27,7 +28,7 @@ class Installation:
     store: Store
     programs: Path
     pace: Pace
-    controller: "Controller | None" = None  # of a card in this process
+    history: History | None = None  # of a card in this process
     sample: str = ""  # program that is loaded at the start
 
     @classmethod
@@ -48,12 +49,18 @@ class Installation:
         sample: str = "",
     ) -> "Installation":
         """A card in this process, which the control thread advances."""
-        return cls(kind, name, controller, store, programs, Paced(controller), controller, sample)
+        history = History(controller)
+        return cls(kind, name, history, store, programs, Paced(history), history, sample)
+
+    @property
+    def controller(self) -> "Controller | None":
+        """The card, if it is in this process."""
+        return None if self.history is None else self.history.card
 
     @property
     def is_virtual(self) -> bool:
         """Whether the card is in this process."""
-        return self.controller is not None
+        return self.history is not None
 
     def open(self, say: Say) -> MillSession:
         """Open the session of the machine."""

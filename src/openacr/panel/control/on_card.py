@@ -3,11 +3,12 @@
 from collections.abc import Callable
 from typing import Any
 
-from openacr.mill.session import MillSession
 from openacr.panel.control.aside import Aside
 from openacr.panel.control.card_programs import CardPrograms
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.listening import Listening
+from openacr.panel.control.parked import ParkedTexts
+from openacr.panel.control.rows import Rows
 
 
 class OnCard:
@@ -16,6 +17,7 @@ class OnCard:
     def __init__(self, installation: Installation, tell: Callable[[dict[str, Any]], None]) -> None:
         self.aside = Aside(installation)
         self.programs = CardPrograms(tell)
+        self.parked = ParkedTexts()
         self.listening = Listening(installation, tell)
 
     def step(self, now_s: float) -> None:
@@ -23,9 +25,9 @@ class OnCard:
         self.aside.step(now_s)
         self.listening.step(now_s)
 
-    def look(self, session: MillSession, now_s: float) -> None:
+    def look(self, read: Rows, now_s: float) -> None:
         """Read the states for those who watch them."""
-        self.programs.look(session, now_s)
+        self.programs.look(read, now_s)
 
     def forget(self, client: int) -> None:
         """A browser has gone."""

@@ -5,7 +5,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from openacr.client import ConnectionLostError
-from openacr.errors import OpenacrError
+from openacr.client.errors import ChangedError
+from openacr.errors import OpenacrError, SourceError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.panel.control.people import ControlError, Person
 from openacr.panel.roles import Role
@@ -48,6 +49,10 @@ def failure(error: BaseException) -> dict[str, Any]:
         return {"code": "control", "text": str(error), "holder": error.holder.data()}
     if isinstance(error, (*LINK_ERRORS, ConnectionLostError)):
         return {"code": "lost", "text": f"the card does not answer: {error}"}
+    if isinstance(error, ChangedError):
+        return {"code": "conflict", "text": str(error)}
+    if isinstance(error, SourceError):
+        return {"code": "refused", "text": str(error), "line": error.line}
     if isinstance(error, OpenacrError):
         return {"code": "refused", "text": str(error)}
     return {"code": "internal", "text": f"the server has failed: {type(error).__name__}"}

@@ -52,6 +52,11 @@ class Part:
             raise UserError("no program is loaded")
         return self.loaded
 
+    @property
+    def name(self) -> str:
+        """The name of the loaded program; that of a program over a serial line is not known."""
+        return self.loaded.name if self.loaded is not None else "the part program"
+
     # --- loading ----------------------------------------------------------------------
 
     def require_free(self) -> None:

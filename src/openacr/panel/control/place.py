@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from openacr.map import numbers as n
-from openacr.mill.config.settings import S_PER_MIN
-from openacr.mill.session import MillSession
+from openacr.mill.config.settings import S_PER_MIN, Settings
+from openacr.panel.control.rows import Rows
 
 ROWS = (n.AX_CURRENT_POSITION, n.AX_JOG_OFFSET, n.AX_ACTUAL_POSITION, n.AX_FOLLOWING_ERROR)
 Axes = tuple[float, ...]
@@ -24,14 +24,14 @@ class Place:
     master: int  # flag word
 
 
-def read_place(session: MillSession) -> Place:
+def read_place(settings: Settings, read: Rows) -> Place:
     """Read where the machine is; a link error where the card does not answer."""
-    axes, master = session.runner.settings.axes, session.machine.master
+    axes, master = settings.axes, settings.master
     rows = [n.AX_BASE + a.index * n.AX_STRIDE + row for row in ROWS for a in axes]
     words = [n.AF1_WORD + axis.index for axis in axes]
     base = n.MA_BASE + master * n.MA_STRIDE
     more = [n.MF1_WORD + master, base + n.MA_VECTOR_VELOCITY]
-    values = session.machine.read_rows([*rows, *words, *more])
+    values = read([*rows, *words, *more])
     count = len(axes)
     columns = [
         tuple(v / axis.pulses_per_unit for v, axis in zip(part, axes, strict=True))

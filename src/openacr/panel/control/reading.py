@@ -8,6 +8,7 @@ from openacr.mill.config.overrides import Override
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
 from openacr.panel.control.place import Place, read_place
+from openacr.panel.control.rows import Rows
 from openacr.panel.control.snapshot import Axes, Light, Snapshot
 from openacr.panel.control.work import WorkSystem
 from openacr.sysvar.tabs import CELLS
@@ -17,10 +18,10 @@ PERCENT = 100.0
 
 
 class Reading:
-    """Reads one machine; `work` is the coordinate system positions are shown in."""
+    """Reads one machine by `read`; `work` is the coordinate system positions are shown in."""
 
-    def __init__(self, session: MillSession) -> None:
-        self._session = session
+    def __init__(self, session: MillSession, read: Rows) -> None:
+        self._session, self._read = session, read
         self.work = WorkSystem(session)
 
     def snapshot(
@@ -31,7 +32,7 @@ class Reading:
         `left_s` is the predicted time to the end of the program, `line` the one it executes.
         """
         session, runner = self._session, self._session.runner
-        place = read_place(session)
+        place = read_place(runner.settings, self._read)
         to_go, following_end = self._ahead(place)
         cells = session.cells
         return Snapshot(

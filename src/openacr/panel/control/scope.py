@@ -1,19 +1,26 @@
-"""The scope: up to four parameters of the card, sampled in its time.
+"""The scope: up to eight parameters and flags of the card, sampled in its time.
 
-A card in this process is stopped at every sample; an exchange with the host lasts a few ticks,
-and the sample after it is late by them. Of another card every look of the control thread is a
-sample.
+Samples are numbered through all captures, so that those of an earlier one are known as such.
+They come as blocks of any length; a trigger is found at the same sample however they are cut.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
 
 from openacr.errors import UserError
+from openacr.map import Flag, Parameter
 
-CHANNELS = 4
+CHANNELS = 8
+LEAST_SAMPLES = 10  # of a sweep
 MOST_SAMPLES = 100_000
-Samples = tuple[int, list[list[float]], float]  # number of the first, channels, period
+EITHER = 0  # slope of a trigger; else 1 rising, -1 falling
+
+Block: TypeAlias = NDArray[np.float64]  # samples of all channels, shape (channels, samples)
+Samples: TypeAlias = tuple[int, Block, float]  # number of the first, block, period
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,32 +33,55 @@ class Trigger:
     mode: str  # auto, normal or single
     before: float
 
+    def crossings(self, values: Block) -> NDArray[np.intp]:
+        """The places of values at or past the level whose predecessor has not reached it."""
+        crossed = np.zeros(max(0, len(values) - 1), bool)
+        for slope in (1, -1):
+            if self.slope in (slope, EITHER):
+                over = (values - self.level) * slope
+                crossed |= (over[:-1] < 0.0) & (over[1:] >= 0.0)
+        return np.flatnonzero(crossed) + 1
+
 
 @dataclass(slots=True)
 class Capture:
     """A capture under way."""
 
-    parameters: list[int]
+    channels: list[Parameter | Flag]
     period_s: float
     samples: int
     trigger: Trigger | None
-    count: int = 0  # samples taken
-    triggered_at: int | None = None
+    first: int = 0  # number of the first sample
+    next: int = 0  # number of the sample that follows
+    since: int = 0  # number of the first sample after the last gap
+    triggered_at: int | None = None  # the latest trigger
+    is_waiting: bool = True  # for a trigger
     is_over: bool = False
-    fresh: list[list[float]] = field(default_factory=list)  # by channel, not sent yet
-    first: int = 0  # number of the first of them
-    last: list[float] | None = None
+    fresh: list[tuple[int, Block]] = field(default_factory=list)  # not sent yet
+    last: float | None = None  # of the channel of the trigger
+    tick: int | None = None  # of the card at the first sample, where every one has its tick
+
+    @property
+    def before(self) -> int:
+        """Samples of a sweep before its trigger."""
+        return 0 if self.trigger is None else round(self.trigger.before * self.samples)
 
     def data(self) -> dict[str, Any]:
         """The state of the capture."""
         return {
             "running": not self.is_over,
-            "parameters": self.parameters,
+            "channels": [name_of(each) for each in self.channels],
             "period_s": self.period_s,
+            "first": self.first,
             "samples": self.samples,
-            "taken": self.count,
             "trigger": self.triggered_at,
+            "tick": self.tick,
         }
+
+
+def name_of(channel: Parameter | Flag) -> str:
+    """The short name of a parameter or flag: P12290, BIT516."""
+    return f"{'BIT' if isinstance(channel, Flag) else 'P'}{channel.number}"
 
 
 def joined(earlier: Samples, later: Samples) -> Samples:
@@ -59,12 +89,12 @@ def joined(earlier: Samples, later: Samples) -> Samples:
 
     Samples of another capture, and those after a gap, take the place of the earlier ones.
     """
-    first, channels, period_s = earlier
-    if later[0] != first + len(channels[0]) or len(channels) != len(later[1]):
+    first, block, period_s = earlier
+    if later[0] != first + block.shape[1] or len(block) != len(later[1]):
         return later
-    both = [[*a, *b] for a, b in zip(channels, later[1], strict=True)]
-    over = max(0, len(both[0]) - MOST_SAMPLES)
-    return first + over, [channel[over:] for channel in both], period_s
+    both = np.concatenate((block, later[1]), axis=1)
+    over = max(0, both.shape[1] - MOST_SAMPLES)
+    return first + over, both[:, over:], period_s
 
 
 class Scope:
@@ -72,82 +102,89 @@ class Scope:
 
     def __init__(self) -> None:
         self.capture: Capture | None = None
-        self.changed: Callable[[], None] = lambda: None
 
     @property
-    def every_s(self) -> float:
-        """Time between two samples; 0 while nothing is captured."""
+    def running(self) -> Capture | None:
+        """The capture that takes samples."""
         capture = self.capture
-        return 0.0 if capture is None or capture.is_over else capture.period_s
+        return None if capture is None or capture.is_over else capture
 
     def arm(
         self,
-        parameters: Sequence[int],
+        channels: Sequence[Parameter | Flag],
         period_s: float,
         samples: int,
         trigger: Trigger | None,
-    ) -> None:
+    ) -> Capture:
         """Begin a capture."""
-        if not 1 <= len(parameters) <= CHANNELS:
-            raise UserError(f"{len(parameters)} channels: the scope has 1 to {CHANNELS}")
-        if trigger is not None and not 0 <= trigger.channel < len(parameters):
-            raise UserError(f"trigger channel {trigger.channel}: there are {len(parameters)}")
-        self.capture = Capture(list(parameters), period_s, min(samples, MOST_SAMPLES), trigger)
-        self.capture.fresh = [[] for _ in parameters]
-        self.changed()
+        if not 1 <= len(channels) <= CHANNELS:
+            raise UserError(f"{len(channels)} channels: the scope has 1 to {CHANNELS}")
+        if trigger is not None and not 0 <= trigger.channel < len(channels):
+            raise UserError(f"trigger channel {trigger.channel}: there are {len(channels)}")
+        first = 0 if self.capture is None else self.capture.next + 1
+        self.capture = Capture(list(channels), period_s, samples, trigger, first, first, first)
+        return self.capture
 
     def stop(self) -> None:
         """End the capture."""
-        if self.capture is not None and not self.capture.is_over:
-            self.capture.is_over = True
-            self.changed()
+        if self.running is not None:
+            self.running.is_over = True
 
-    def add(self, values: Sequence[float]) -> None:
-        """Add one sample of every channel."""
-        capture = self.capture
-        if capture is None or capture.is_over:
+    def add(self, block: Block) -> None:
+        """Add the samples that follow; those after the end of a single capture are dropped."""
+        capture = self.running
+        if capture is None or not block.shape[1]:
             return
-        for channel, value in zip(capture.fresh, values, strict=True):
-            channel.append(value)
-        self._watch(capture, values)
-        capture.count += 1
-        capture.last = list(values)
-        self._end(capture)
+        if capture.trigger is not None:
+            block = block[:, : self._follow(capture, capture.trigger, block)]
+        capture.fresh.append((capture.next, block))
+        capture.next += block.shape[1]
 
-    def _watch(self, capture: Capture, values: Sequence[float]) -> None:
-        trigger, last = capture.trigger, capture.last
-        if trigger is None or last is None or capture.triggered_at is not None:
-            return
-        if capture.count < trigger.before * capture.samples:
-            return
-        before = (last[trigger.channel] - trigger.level) * trigger.slope
-        now = (values[trigger.channel] - trigger.level) * trigger.slope
-        if before < 0.0 <= now:
-            capture.triggered_at = capture.count
-            self.changed()
+    def _follow(self, capture: Capture, trigger: Trigger, block: Block) -> int:
+        """Find triggers and ends of sweeps in a block; returns how many samples belong to it."""
+        values, first = block[trigger.channel], capture.next
+        if capture.last is not None:
+            values, first = np.concatenate(([capture.last], values)), first - 1
+        capture.last = float(values[-1])
+        crossings = first + trigger.crossings(values)
+        size = int(block.shape[1])
+        known, earliest = capture.next + size, capture.since + capture.before
+        while True:
+            if capture.is_waiting:
+                found = crossings[crossings >= earliest]
+                if not len(found):
+                    return size
+                capture.triggered_at, capture.is_waiting = int(found[0]), False
+            end = (capture.triggered_at or 0) - capture.before + capture.samples
+            if end > known:
+                return size
+            if trigger.mode == "single":
+                self.stop()
+                return end - capture.next
+            capture.is_waiting, earliest = True, end
 
-    def _end(self, capture: Capture) -> None:
-        """A single capture ends when it is full; the others begin again."""
-        trigger = capture.trigger
-        if trigger is None:
-            return
-        at = capture.triggered_at
-        if at is None:
-            return
-        if capture.count - at < (1.0 - trigger.before) * capture.samples:
-            return
-        if trigger.mode == "single":
-            capture.is_over = True
-        else:
-            capture.triggered_at = None
-        self.changed()
+    def break_off(self) -> None:
+        """Leave a gap: what follows belongs to no sweep that has begun."""
+        capture = self.running
+        if capture is not None:
+            capture.next += 1
+            capture.since = capture.next
+            capture.last, capture.is_waiting = None, True
+
+    def follow(self, value: float) -> None:
+        """The channel of the trigger had this value before the next sample, after a gap, too."""
+        if self.running is not None:
+            self.running.last = value
 
     def take(self) -> Samples | None:
-        """The samples that were not taken yet: the number of the first, channels, period."""
+        """The samples that were not taken yet, up to a gap: number of the first, block, period."""
         capture = self.capture
-        if capture is None or not capture.fresh or not capture.fresh[0]:
+        if capture is None or not capture.fresh:
             return None
-        fresh, first = capture.fresh, capture.first
-        capture.fresh = [[] for _ in fresh]
-        capture.first = first + len(fresh[0])
-        return first, fresh, capture.period_s
+        first, block = capture.fresh.pop(0)
+        blocks, next_ = [block], first + block.shape[1]
+        while capture.fresh and capture.fresh[0][0] == next_:
+            block = capture.fresh.pop(0)[1]
+            blocks.append(block)
+            next_ += block.shape[1]
+        return first, np.concatenate(blocks, axis=1), capture.period_s

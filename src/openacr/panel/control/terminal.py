@@ -1,5 +1,6 @@
-"""The terminal of the card on a screen: a stream of its own, beside that of the session."""
+"""Terminals of the card on screens: each a stream of its own, beside that of the session."""
 
+from collections.abc import Iterator
 from concurrent.futures import Future
 
 from openacr.client import ConnectionLostError
@@ -17,6 +18,7 @@ KEYS = {
     "ctrl-z": bytes((ControlKey.CTRL_Z,)),
 }
 QUERY = "?"  # lines that only read
+TERMINALS = 4  # of one panel, however many streams the card has
 
 
 LOST = "\r\n(the connection is lost: open the terminal again)\r\n"
@@ -90,3 +92,30 @@ class Terminal:
         if self._link is None or not self._is_open:
             raise UserError("the terminal is not open")
         return self._link
+
+
+class Terminals:
+    """The terminals of one card by number; every client may have each of them open."""
+
+    def __init__(self, installation: Installation) -> None:
+        self._all = [Terminal(installation) for _ in range(TERMINALS)]
+
+    def __getitem__(self, number: int) -> Terminal:
+        return self._all[number]
+
+    def printed(self) -> Iterator[tuple[int, int, str]]:
+        """What the card has printed since: terminal, client, text."""
+        for number, terminal in enumerate(self._all):
+            if terminal.clients and (text := terminal.poll()):
+                for client in terminal.clients:
+                    yield number, client, text
+
+    def leave(self, client: int) -> None:
+        """A client has gone: what only it had open ends."""
+        for terminal in self._all:
+            terminal.close(client)
+
+    def end(self) -> None:
+        """End all connections."""
+        for terminal in self._all:
+            terminal.end()

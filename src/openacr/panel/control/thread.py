@@ -136,6 +136,7 @@ class ControlThread:
         station = self.station
         session = station.session
         try:
+            station.times.wake(self._clock())
             if session is not None:
                 _to_rest(session)
         except (OpenacrError, *LINK_ERRORS) as error:

@@ -19,6 +19,7 @@ class Typed:
         self._queue: deque[str] = deque()
         self._is_shown = True
         self.text: list[str] = []  # what was executed, as the operator may edit it
+        self.is_buffer_on = True  # whether what is executed becomes part of the text
 
     def forget(self) -> None:
         """Forget the modal state and what waits: the session is another one."""
@@ -29,7 +30,7 @@ class Typed:
         """Run blocks one after the other; all are checked, then the first one is started at once.
 
         A block that cannot be read is refused with its line and column (BlockError).
-        `is_shown`: they are part of the text of MDI.
+        `is_shown`: they become part of the text of MDI, if its buffer is on.
         """
         session = self._station.machine
         if self._mdi is None or self._is_other_program():
@@ -52,7 +53,7 @@ class Typed:
         if self._mdi is None:
             return
         session.start_block(self._mdi, block)
-        if self._is_shown:
+        if self._is_shown and self.is_buffer_on:
             self.text.append(block)
 
     def poll(self) -> None:
@@ -79,4 +80,9 @@ class Typed:
         is_running = (
             session is not None and session.runner.options.is_mdi and session.runner.is_busy
         )
-        return {"buffer": list(self.text), "running": is_running, "queue": list(self._queue)}
+        return {
+            "buffer": list(self.text),
+            "on": self.is_buffer_on,
+            "running": is_running,
+            "queue": list(self._queue),
+        }

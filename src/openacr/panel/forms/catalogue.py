@@ -63,11 +63,6 @@ def _references(store: Store, _axis: int | None) -> list[Group]:
     return list(by_axis(*rows)(store, None))
 
 
-def _ballscrew(store: Store, _axis: int | None) -> list[Group]:
-    rows = (("Table on", OFFSETS.ballscrew_on), ("File", OFFSETS.ballscrew_file))
-    return list(by_axis(*rows)(store, None))
-
-
 def _messages(_store: Store, _axis: int | None) -> list[Group]:
     columns = (
         MESSAGES.defined, MESSAGES.text, MESSAGES.bit, MESSAGES.level, MESSAGES.text_colour,
@@ -161,7 +156,6 @@ FORMS: dict[str, Form] = {
             "H-WEAR", "H offsets (wear)", OFFSET, Role.OPERATE,
             listed("", CELLS.h_wear[1:]), is_paged=True,
         ),
-        Form("BALLSCREW", "Ballscrew", OFFSET, Role.SERVICE, _ballscrew),
         Form(
             "BACKLASH", "Backlash", OFFSET, Role.SERVICE, by_axis(("Backlash", OFFSETS.backlash))
         ),

@@ -16,13 +16,12 @@ from pathlib import Path
 
 from openacr.errors import UserError
 from openacr.panel.roles import Role
+from openacr.panel.server.delays import Delays
 from openacr.sysvar import Store, password
 
 log = logging.getLogger(__name__)
 LASTS_S = 12 * 3600.0
 MOST_SESSIONS = 1000
-FIRST_DELAY_S, LONGEST_DELAY_S = 0.5, 30.0
-FREE_TRIES = 2
 SHORTEST = 8
 _COST = {"n": 1 << 14, "r": 8, "p": 1}
 
@@ -43,7 +42,7 @@ class Accounts:
         self._store = store
         self._hashes = _read(file)
         self._sessions: dict[str, Session] = {}
-        self._failed: dict[str, tuple[int, float]] = {}  # by address: how often, until when
+        self.delays = Delays()
 
     @property
     def are_asked(self) -> bool:
@@ -71,10 +70,6 @@ class Accounts:
 
     # --- log-in -----------------------------------------------------------------------
 
-    def delay_s(self, address: str, now_s: float) -> float:
-        """How long an address has to wait before the next try."""
-        return max(0.0, self._failed.get(address, (0, 0.0))[1] - now_s)
-
     def is_right(self, role: Role, secret: str) -> bool:
         """Whether this is the password of a role; it takes about 50 ms."""
         kept = self._hashes.get(role.word)
@@ -87,17 +82,12 @@ class Accounts:
 
     def note_failure(self, role: Role, address: str, now_s: float) -> None:
         """Note a wrong password: the next try of this address has to wait."""
-        tries = self._failed.get(address, (0, 0.0))[0] + 1
-        over = max(0, tries - FREE_TRIES)
-        wait_s = min(FIRST_DELAY_S * 2.0**over, LONGEST_DELAY_S) if over else 0.0
-        if len(self._failed) >= MOST_SESSIONS:
-            self._failed.clear()
-        self._failed[address] = (tries, now_s + wait_s)
+        tries = self.delays.note_failure(address, now_s)
         log.warning("wrong password for role %s from %s (%d)", role.word, address, tries)
 
     def begin(self, role: Role, address: str, now_s: float) -> str:
         """Begin a session; returns its token."""
-        self._failed.pop(address, None)
+        self.delays.forget(address)
         self._sessions = {k: s for k, s in self._sessions.items() if s.until_s > now_s}
         while len(self._sessions) >= MOST_SESSIONS:
             del self._sessions[next(iter(self._sessions))]

@@ -28,16 +28,21 @@ def with_modules(page: str, read: Read) -> str:
 
 
 def _needed(entry: str, read: Read) -> Iterator[str]:
-    """The modules of the start in the order in which they are found, without the script itself."""
+    """The modules of the start, without the script itself.
+
+    Those without which the script does not begin come first: it opens the link. The others come in
+    the order of its later imports, each with all it needs.
+    """
     found = {entry}
-    waiting = list(_imports(entry, read, ANY))
-    while waiting:
-        path = waiting.pop(0)
-        if path in found:
-            continue
-        found.add(path)
-        yield path
-        waiting += _imports(path, read, STATIC)
+    for pattern in (STATIC, ANY):
+        waiting = list(_imports(entry, read, pattern))
+        while waiting:
+            path = waiting.pop(0)
+            if path in found:
+                continue
+            found.add(path)
+            yield path
+            waiting = [*_imports(path, read, STATIC), *waiting]
 
 
 def _imports(path: str, read: Read, pattern: re.Pattern[str]) -> Iterator[str]:

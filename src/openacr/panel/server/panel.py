@@ -18,6 +18,7 @@ from openacr.panel.roles import Role
 from openacr.panel.server.accounts import Accounts, file_of
 from openacr.panel.server.hello import hello
 from openacr.panel.server.paths import Paths
+from openacr.panel.server.receptions import Receptions
 from openacr.panel.server.stocks import Stocks
 from openacr.panel.wire.hub import Hub
 from openacr.panel.work.pool import Pool
@@ -50,9 +51,11 @@ class Panel:
         self.control = control(self.station)
         self.hub = Hub(self.station, self.control.now_s)
         self.accounts = Accounts(file_of(installation.store.path), installation.store)
-        self.checks = Pool()
+        self.checks, self.histories = Pool(), Pool()
+        self.texts = Pool(nicer=0)  # short answers while a text is typed
         self.paths = Paths(installation, self.control)
         self.stocks = Stocks(installation)
+        self.receptions = Receptions()
         self.connections: set[Connected] = set()
         self.cookie = "openacr"
         self._tasks: set[asyncio.Future[None]] = set()
@@ -80,13 +83,19 @@ class Panel:
                 await beat
             if self._unsubscribe is not None:
                 self._unsubscribe()
+            await self.receptions.close()
             await run_in_threadpool(self.control.stop)
             for task in self._tasks:
                 task.cancel()
-            self.paths.close()
-            self.stocks.close()
-            self.checks.close()
+            self._end_work()
             self.installation.close()
+
+    def _end_work(self) -> None:
+        """End what is computed for browsers: calls that wait for it are refused."""
+        self.paths.close()
+        self.stocks.close()
+        for pool in (self.checks, self.texts, self.histories):
+            pool.end()
 
     def _soon(self, loop: asyncio.AbstractEventLoop) -> None:
         """Another program is loaded: its path is computed."""
@@ -103,7 +112,8 @@ class Panel:
         self.station.note_stored(cells)
 
     async def end(self) -> None:
-        """Say goodbye to all browsers."""
+        """Say goodbye to all browsers, and end what is computed for them."""
+        self._end_work()
         self.hub.broadcast({"event": "bye", "text": "the server ends"})
         await asyncio.sleep(0.05)
         for connection in list(self.connections):

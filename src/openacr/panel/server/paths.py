@@ -8,19 +8,20 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from openacr.errors import UserError
+from openacr.mill.plan.blank import SIZES
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.loaded import version_of
 from openacr.panel.control.thread import ControlThread
 from openacr.panel.forms.catalogue import STARTS
-from openacr.panel.work.paths import Found, read_file
-from openacr.panel.work.pool import Pool
+from openacr.panel.work.paths import MARK, Found, read_file
+from openacr.panel.work.pool import Pool, result_of
 from openacr.sysvar import Store
 from openacr.sysvar.schema import CARD_VARIABLES
 from openacr.sysvar.tabs import CELLS, COMPATIBILITY, CONTROL, DISPLAY, GENERAL, SPEEDS
 
 KEPT = 6
 # Cells a path depends on: P parameters, zeros, offsets, radii, the codes that programs begin
-# with, and how arcs and colours are drawn.
+# with, how arcs and colours are drawn, and the sizes of the blank.
 CELLS_READ = (
     *range(CARD_VARIABLES.stop, CELLS.user_variables[0]),
     *range(CELLS.floating_zero_active, CELLS.work_system_in_use),
@@ -38,6 +39,7 @@ CELLS_READ = (
     CONTROL.ij_inversion,
     CONTROL.power_up_incremental_or_absolute,
     CONTROL.path_color,
+    *SIZES,
     COMPATIBILITY.compatibility,
     DISPLAY.control_mode,
     DISPLAY.color_via_d_codes,
@@ -60,7 +62,7 @@ class Paths:
     async def of(self, file: Path, dialect: str = "") -> tuple[str, Found | None]:
         """The tag of a file's path, and the path; None while it is being computed."""
         version = await asyncio.to_thread(version_of, file)
-        tag = f"{version}-{stamp(self._installation.store)}-{dialect}"
+        tag = f"{MARK.decode()}-{version}-{stamp(self._installation.store)}-{dialect}"
         kept = self._kept.get(tag)
         if kept is None:
             kept = self._kept[tag] = _Path(asyncio.create_task(self._computed(file, dialect)))
@@ -73,7 +75,7 @@ class Paths:
         if not kept.task.done():
             return tag, None
         try:
-            return tag, kept.task.result()
+            return tag, result_of(kept.task)
         except Exception:
             self._kept.pop(tag, None)
             raise
@@ -105,12 +107,13 @@ class Paths:
         """End the process."""
         for kept in self._kept.values():
             kept.task.cancel()
-        self._pool.close()
+        self._pool.end()
 
 
 def stamp(store: Store, more: tuple[int, ...] = ()) -> str:
     """A mark that changes with everything in the store that a path depends on, and `more` cells."""
     read = store.read
     values = [read(cell) for cell in (*CELLS_READ, *more)]
+    values += [store.is_set(cell) for cell in SIZES]  # a blank has those that are stored
     packed = struct.pack(f"<{len(values)}d", *values)
     return hashlib.blake2b(packed, digest_size=8).hexdigest()

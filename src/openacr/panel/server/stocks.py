@@ -8,17 +8,9 @@ from openacr.errors import UserError
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.loaded import version_of
 from openacr.panel.server.paths import stamp
-from openacr.panel.work.pool import Pool
+from openacr.panel.work.pool import Pool, result_of
 from openacr.panel.work.stock import stock_of
-from openacr.sysvar.tabs import CONTROL, TOOL
-
-# Cells that stock depends on beside those of the path.
-CELLS_READ = (
-    CONTROL.x_axis_cutting_size,
-    CONTROL.y_axis_cutting_size,
-    CONTROL.z_axis_cutting_size,
-    *TOOL.tip,
-)
+from openacr.sysvar.tabs import TOOL
 
 
 @dataclass(slots=True)
@@ -43,7 +35,7 @@ class Stocks:
         Another program, or other settings, end the computation of the one before.
         """
         version = await asyncio.to_thread(version_of, file)
-        tag = f"{version}-{stamp(self._installation.store, CELLS_READ)}-{dialect}"
+        tag = f"{version}-{stamp(self._installation.store, tuple(TOOL.tip))}-{dialect}"
         if tag != self._tag or self._task is None:
             self.stop()
             self._tag, self._task = tag, asyncio.create_task(self._computed(file, dialect))
@@ -52,7 +44,7 @@ class Stocks:
         if not task.done():
             return tag, Share(self._pool.share)
         try:
-            return tag, task.result()
+            return tag, result_of(task)
         except BaseException:
             self._task = None
             raise
@@ -73,4 +65,4 @@ class Stocks:
     def close(self) -> None:
         """End the process."""
         self.stop()
-        self._pool.close()
+        self._pool.end()

@@ -1,9 +1,8 @@
 """The web server of a panel: its pages, its calls, its socket, and the port they are on."""
 
 import asyncio
-import socket
-from collections.abc import AsyncIterator, Awaitable, Callable, Collection, Iterator
-from contextlib import asynccontextmanager, contextmanager
+from collections.abc import AsyncIterator, Awaitable, Callable, Collection
+from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING
 
 import uvicorn
@@ -14,11 +13,11 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 
-from openacr.errors import UserError
 from openacr.panel.server import calls as _calls  # noqa: F401 - fills the table
 from openacr.panel.server.api import routes
 from openacr.panel.server.guard import Guard
 from openacr.panel.server.panel import Panel
+from openacr.panel.server.port import QuietServer, bound
 from openacr.panel.server.socket import serve_socket
 from openacr.panel.server.static import static_file
 
@@ -60,15 +59,6 @@ async def _page(panel: Panel, request: Request) -> Response:
     return static_file(request)
 
 
-class _Server(uvicorn.Server):
-    """A web server that leaves signals to the caller."""
-
-    @contextmanager
-    def capture_signals(self) -> Iterator[None]:
-        """Handle no signals: uvicorn would raise them again after its end."""
-        yield
-
-
 class PanelServer:
     """A panel on a port."""
 
@@ -81,7 +71,7 @@ class PanelServer:
         names: Collection[str] = (),
     ) -> None:
         self.panel = panel
-        self.socket = _bound(address, port)
+        self.socket = bound(address, port, "--port")
         self.address, self.port = self.socket.getsockname()[:2]
         panel.cookie = f"openacr_{self.port}"
         config = uvicorn.Config(
@@ -96,7 +86,7 @@ class PanelServer:
             server_header=False,
             timeout_graceful_shutdown=GRACE_S,
         )
-        self.server: Server = _Server(config)
+        self.server: Server = QuietServer(config)
         panel.station.on_end = self._end_soon
         self._loop: asyncio.AbstractEventLoop | None = None
 
@@ -125,21 +115,3 @@ class PanelServer:
         """End the server; call it in its loop."""
         task = asyncio.ensure_future(self.panel.end())
         task.add_done_callback(lambda _task: setattr(self.server, "should_exit", True))
-
-
-def _bound(address: str, port: int) -> socket.socket:
-    if not 0 <= port <= 0xFFFF:
-        raise UserError(f"port {port} is not in 0..65535")
-    try:
-        found = socket.getaddrinfo(address, port, type=socket.SOCK_STREAM)
-        family, *_, place = found[0]
-        bound = socket.create_server((str(place[0]), port), family=family)
-    except OSError as error:
-        hint = "; --port 0 takes a free one" if error.errno == 98 else ""
-        raise UserError(
-            f"cannot listen on {address}:{port}: {(error.strerror or str(error)).lower()}{hint}"
-        ) from None
-    # Connections inherit it. Head and body of an answer are two writes: without it the second
-    # one waits for the acknowledgement of the first, up to 40 ms.
-    bound.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-    return bound

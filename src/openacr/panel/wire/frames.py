@@ -10,10 +10,15 @@
 | 16 | f64 | age of the values when the frame was sent, ms |
 """
 
+import json
 from collections.abc import Sequence
 from enum import IntEnum
 from struct import Struct
+from typing import Any
 
+import numpy as np
+
+from openacr.panel.control.scope import Block
 from openacr.panel.control.snapshot import STATES, Snapshot
 
 VERSION = 1
@@ -30,6 +35,7 @@ class Topic(IntEnum):
     FLAGS = 2
     WATCH = 3
     SCOPE = 4
+    WORLD = 5
 
 
 def head(topic: Topic, count: int, seq: int, tick_ms: float, age_ms: float) -> bytes:
@@ -102,10 +108,16 @@ def scope(
     *,
     first: int,
     period_s: float,
-    channels: Sequence[Sequence[float]],
+    block: Block,
 ) -> bytes:
     """A frame of scope samples, channel by channel, from sample `first` on."""
-    count = len(channels[0]) if channels else 0
-    body = Struct("<IId").pack(first % WRAP, count, period_s)
-    data = b"".join(_doubles(channel) for channel in channels)
-    return head(Topic.SCOPE, len(channels), seq, tick_ms, age_ms) + body + data
+    channels, count = block.shape
+    body = Struct("<dQd").pack(first, count, period_s)
+    data = np.ascontiguousarray(block, "<f8").tobytes()
+    return head(Topic.SCOPE, channels, seq, tick_ms, age_ms) + body + data
+
+
+def world(seq: int, tick_ms: float, age_ms: float, state: dict[str, Any]) -> bytes:
+    """A frame of the world around the card: its state as JSON."""
+    text = json.dumps(state, separators=(",", ":")).encode()
+    return head(Topic.WORLD, 1, seq, tick_ms, age_ms) + text

@@ -46,6 +46,7 @@ class Hub:
         station.on_snapshot = self._looked
         station.watches.report = self._report
         station.sampled = self._sampled
+        station.world.report = self._report_world
 
     def attach(self) -> None:
         """Take over the running loop: from now on events reach the browsers."""
@@ -77,6 +78,9 @@ class Hub:
 
     def _report(self, wish: Wish, parameters: list[int], changed: Changed) -> None:
         self._soon(self._show_values, wish, parameters, changed)
+
+    def _report_world(self, client: int, state: dict[str, Any]) -> None:
+        self._soon(self._show_world, client, state)
 
     def _soon(self, do: Callable[..., None], *args: object) -> None:
         loop = self._loop
@@ -112,7 +116,7 @@ class Hub:
         if not wanted:
             return
         seq = self.next(Topic.STATUS)
-        is_lost = self._station.session is None
+        is_lost = self._station.session is None and not self._station.times.is_away
         frame = frames.status(self._station.snapshot, seq, now_s, is_lost=is_lost)
         for browser in wanted:
             browser.outbox.offer(Topic.STATUS, seq, frame, now_s)
@@ -122,10 +126,10 @@ class Hub:
         snapshot = self._station.snapshot
 
         def build(samples: Samples) -> tuple[int, bytes]:
-            first, channels, period_s = samples
+            first, block, period_s = samples
             seq, age_ms = self.next(Topic.SCOPE), 1000.0 * (self._clock() - snapshot.read_s)
             return seq, frames.scope(
-                seq, snapshot.tick_ms, age_ms, first=first, period_s=period_s, channels=channels
+                seq, snapshot.tick_ms, age_ms, first=first, period_s=period_s, block=block
             )
 
         for browser in self._browsers.values():
@@ -147,6 +151,19 @@ class Hub:
             return seq, frames.flags(seq, snapshot.tick_ms, age_ms, words)
 
         browser.outbox.put(topic, dict(changed), or_, build)
+
+    def _show_world(self, client: int, state: dict[str, Any]) -> None:
+        """Send the state of the world to a browser that watches it: the newest one."""
+        browser = self._browsers.get(client)
+        if browser is None:
+            return
+
+        def build(state: dict[str, Any]) -> tuple[int, bytes]:
+            seq, snapshot = self.next(Topic.WORLD), self._station.snapshot
+            age_ms = 1000.0 * (self._clock() - snapshot.read_s)
+            return seq, frames.world(seq, snapshot.tick_ms, age_ms, state)
+
+        browser.outbox.put(Topic.WORLD, state, lambda _old, new: new, build)
 
     def next(self, topic: Topic) -> int:
         """The number of the next frame of a topic."""

@@ -11,7 +11,7 @@ from typing import Any
 
 from openacr.panel.wire.frames import Topic
 
-CREDITS = {Topic.STATUS: 3, Topic.SCOPE: 1, Topic.FLAGS: 2, Topic.WATCH: 2}
+CREDITS = {Topic.STATUS: 3, Topic.SCOPE: 1, Topic.FLAGS: 2, Topic.WATCH: 2, Topic.WORLD: 2}
 MOST_WORDS = 2000  # texts that wait; a browser that reads nothing is closed
 
 Join = Callable[[Any, Any], Any]  # what waits and what follows it: both as one

@@ -2,15 +2,16 @@
 
 | offset | type | what |
 |---|---|---|
-| 0 | char[4] | `OAP1` |
+| 0 | char[4] | `OAP2` |
 | 4 | u32 | points N |
 | 8 | u32 | polylines M |
 | 12 | u32 | flags: 1 = millimetres, 2 = cut off at the most points |
 | 16 | f32[6] | lowest and highest X Y Z |
 | 40 | f64 | predicted seconds, NaN: unknown |
 | 48 | f32[3] | program 0 of the first work system |
-| 60 | u32 | 0 |
-| 64 | f32[3N] | points, machine coordinates |
+| 60 | f32[6] | lowest and highest X Y Z of the blank, NaN: its sizes are not stored |
+| 84 | u32 | 0 |
+| 88 | f32[3N] | points, machine coordinates |
 | .. | u32[N] | line of the program that draws to each point |
 | .. | u32[M] | first point of each polyline; its last one is the first of the next |
 | .. | u8[M] | kind: 0 rapid, 1 feed, 2 compensated, 3 inserted |
@@ -35,13 +36,14 @@ from openacr.cnc.state.hosts import VirtualMachine
 from openacr.cnc.state.shadow import Shadow
 from openacr.mill.config.dialects import choose
 from openacr.mill.config.folders import folders_of
+from openacr.mill.plan.blank import blank_of, has_sizes, heights_of_zero
 from openacr.mill.plan.checking import checked
 from openacr.mill.plan.tool_path import Drawing, Kind, ToolPath
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import CONTROL, DISPLAY, SPEEDS, TOOL
 
-MARK = b"OAP1"
-HEAD = struct.Struct("<4sIII6fd3fI")
+MARK = b"OAP2"
+HEAD = struct.Struct("<4sIII6fd9fI")
 DRAWN = "XYZ"
 PACKED = 1  # level of gzip: the path of 200,000 points in some tens of ms
 MOST_FINDINGS = 500
@@ -112,8 +114,13 @@ def _read(program: Program, cells: Store, dialect: str, *, has_path: bool) -> Fo
         [finding_data(each) for each in found.findings[:MOST_FINDINGS]],
     )
     if has_path:
+        path.has_tools = bool(cells.read(DISPLAY.color_via_d_codes))
+        drawing = path.finished()
         zero = _zero(program, cells, dialect, axes)
-        data.packed = gzip.compress(_blob(path, cells, seconds, zero), PACKED)
+        blank = _blank(program, cells, dialect, drawing)
+        flags = int(bool(cells.read(CONTROL.default_units))) | (2 if path.is_full else 0)
+        packed = _blob(drawing, cells, flags, seconds, [*zero, *blank])
+        data.packed = gzip.compress(packed, PACKED)
     return data
 
 
@@ -134,18 +141,27 @@ def _zero(program: Program, cells: Store, dialect: str, axes: tuple[int, ...]) -
     return [*(place[axis] for axis in axes), 0.0, 0.0, 0.0][:3]
 
 
-def _blob(path: ToolPath, cells: Store, seconds: float | None, zero: list[float]) -> bytes:
-    is_cut = path.is_full
-    path.has_tools = bool(cells.read(DISPLAY.color_via_d_codes))
-    drawing = path.finished()
+def _blank(program: Program, cells: Store, dialect: str, drawing: Drawing) -> list[float]:
+    """The lowest and highest places of the blank; NaN where no size is stored or nothing is cut."""
+    cuts = np.flatnonzero(drawing.kinds != Kind.RAPID)
+    if not len(cuts) or not has_sizes(cells) or any(n not in axes_of(cells) for n in DRAWN):
+        return [math.nan] * 6
+    places = np.vstack([drawing.points[cuts], drawing.points[cuts + 1]])
+    _tip, spindle = heights_of_zero(program, cells, dialect)
+    blank = blank_of(cells, places.min(axis=0).tolist(), places.max(axis=0).tolist(), spindle)
+    return [*blank.low, *blank.high]
+
+
+def _blob(
+    drawing: Drawing, cells: Store, flags: int, seconds: float | None, zero_and_blank: list[float]
+) -> bytes:
     points = drawing.points.astype("<f4")
     firsts, kinds, tools = _polylines(drawing)
     colors = np.array([_color(cells, Kind(k), t) for k, t in zip(kinds, tools, strict=True)], "u1")
     lines = np.concatenate([[0], drawing.lines]).astype("<u4")
-    flags = int(bool(cells.read(CONTROL.default_units))) | (2 if is_cut else 0)
     box = [*points.min(axis=0).tolist(), *points.max(axis=0).tolist()]
     time_s = math.nan if seconds is None else seconds
-    head = HEAD.pack(MARK, len(points), len(firsts), flags, *box, time_s, *zero, 0)
+    head = HEAD.pack(MARK, len(points), len(firsts), flags, *box, time_s, *zero_and_blank, 0)
     parts = (points, lines, firsts.astype("<u4"), kinds.astype("u1"), colors)
     return head + b"".join(part.tobytes() for part in parts)
 

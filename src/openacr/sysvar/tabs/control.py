@@ -111,13 +111,31 @@ class CONTROL:
         doc="True: return to the start after a dry run.",
     )
     x_axis_cutting_size = tab.real(
-        7, "X Axis Cutting Size", "u", 24, typical="24", low=0, doc="Size of the blank."
+        7,
+        "X Axis Cutting Size",
+        "u",
+        24,
+        typical="24",
+        low=0,
+        doc="Size of the blank along X, drawn in GRAPHICS.",
     )
     y_axis_cutting_size = tab.real(
-        8, "Y Axis Cutting Size", "u", 24, typical="24", low=0, doc="Size of the blank."
+        8,
+        "Y Axis Cutting Size",
+        "u",
+        24,
+        typical="24",
+        low=0,
+        doc="Size of the blank along Y, drawn in GRAPHICS.",
     )
     z_axis_cutting_size = tab.real(
-        9, "Z Axis Cutting Size", "u", 24, typical="24", low=0, doc="Size of the blank."
+        9,
+        "Z Axis Cutting Size",
+        "u",
+        24,
+        typical="24",
+        low=0,
+        doc="Size of the blank along Z, drawn in GRAPHICS.",
     )
     acute_angle1_threshold = tab.real(
         10,

@@ -355,7 +355,8 @@ class SPEEDS:
         "u/s",
         low=0,
         high=1e6,
-        doc="Largest speed step of an axis at a corner, 0: unlimited.",
+        doc="Largest speed step of an axis at a corner, 0: unlimited."
+        " A degree counts as 1 mm or 1/32 inch.",
     )
     arc_acceleration = tab.real(
         13,

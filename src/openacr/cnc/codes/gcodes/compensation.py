@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from openacr.cnc.codes.fast import Does
+from openacr.cnc.codes.fast import Sets
 from openacr.cnc.codes.table import Group, Step
 from openacr.cnc.codes.tables import ACROMILL
 from openacr.cnc.codes.words import select_length
@@ -17,7 +17,9 @@ gcode = ACROMILL.gcode
 FIRST_FIXTURE = 100
 
 
-@gcode(40, 41, 42, step=Step.COMPENSATION, group=Group.COMPENSATION, fast={40: Does.NOTHING})
+@gcode(
+    40, 41, 42, step=Step.COMPENSATION, group=Group.COMPENSATION, fast={40: Sets("compensation")}
+)
 def compensation(run: Run, b: BlockContext) -> None:
     """Cutter radius compensation off, left or right of the path."""
     run.offset_path.switch(b, int(b.number))

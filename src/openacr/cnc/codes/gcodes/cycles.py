@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from openacr.cnc.canonical import BlockEnd, Entry, Plane, Point, Spin, Spindle
+from openacr.cnc.canonical import Entry, Plane, Point, Spin, Spindle
 from openacr.cnc.codes.active import Drilling
 from openacr.cnc.codes.fast import Does
 from openacr.cnc.codes.table import Axes, Group, Limit, Step
@@ -145,7 +145,7 @@ def _one(run: Run, b: BlockContext, drilling: Drilling, left: int) -> Iterator[E
         modal.cycle, modal.motion, modal.distance, modal.path, _ = kept
         run.path.change_pace()
         if run.options.has_block_ends and left > 1:
-            run.tell(BlockEnd(b.source))
+            run.end_block(b.source)
 
 
 def label_of(run: Run, code: int) -> int:

@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 mcode = ACROMILL.mcode
 
 
-@mcode(3, 4, step=Step.SPINDLE, acts_dry=False)
+@mcode(3, 4, step=Step.SPINDLE, acts_dry=False, fast=Does.TURNS)
 def spindle_on(run: Run, b: BlockContext) -> None:
     """Spindle clockwise (M3) or counter-clockwise (M4) at speed S."""
     run.modal.spin = Spin(int(b.number))
     run.tell(Spindle(b.source, run.modal.spin, run.modal.speed))
 
 
-@mcode(5, step=Step.SPINDLE_OFF, acts_dry=False)
+@mcode(5, step=Step.SPINDLE_OFF, acts_dry=False, fast=Does.TURNS)
 def spindle_off(run: Run, b: BlockContext) -> None:
     """Spindle off, after the motion of the block."""
     run.modal.spin = Spin.OFF

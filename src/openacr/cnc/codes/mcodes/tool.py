@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Spin, Spindle, Tool
+from openacr.cnc.codes.fast import Does
 from openacr.cnc.codes.table import Step
 from openacr.cnc.codes.tables import ACROMILL
 
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
     from openacr.cnc.program.block_context import BlockContext
 
 
-@ACROMILL.mcode(6, step=Step.TOOL_CHANGE)
+@ACROMILL.mcode(6, step=Step.TOOL_CHANGE, fast=Does.TURNS)
 def change_tool(run: Run, b: BlockContext) -> None:
     """Change to tool T; nothing happens when it is in the spindle already."""
     modal = run.modal

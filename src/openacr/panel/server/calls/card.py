@@ -1,12 +1,15 @@
 """The card: its parameters and flags with their names, operator variables."""
 
 import asyncio
-from typing import Annotated
+from collections.abc import Iterable, Sequence
+from typing import Annotated, TypeVar
 
 from msgspec import Meta
 from starlette.concurrency import run_in_threadpool
 
-from openacr.map import flags, parameters
+from openacr.client.names import named
+from openacr.client.panels import PANELS, Row, panel_named, record_of
+from openacr.map import Flag, Parameter, flags, parameters
 from openacr.map.block import Access
 from openacr.mill.config.pparm import LAST, OperatorParameters
 from openacr.panel.control.orders import PanelError
@@ -15,11 +18,13 @@ from openacr.panel.roles import Role
 from openacr.panel.server.api import Body, Call, Query, endpoint
 from openacr.sysvar.schema import CARD_VARIABLES
 
+T = TypeVar("T")
 MOST = 500
+NO_OBJECT = "none"
 
 
 class Browse(Query, frozen=True):
-    """Words of a name, an object (AXIS, MASTER ...) and its number."""
+    """Words of a name, an object (AXIS, MASTER ...; `none`: without one) and its number."""
 
     text: str = ""
     object: str = ""
@@ -28,20 +33,48 @@ class Browse(Query, frozen=True):
     count: Annotated[int, Meta(ge=1, le=MOST)] = 100
 
 
+class Named(Query, frozen=True):
+    """Names or numbers of parameters and flags, with semicolons between them."""
+
+    names: Annotated[str, Meta(max_length=8000)]
+
+
 class Variables(Body, frozen=True):
     """Operator variables by number: {"5": 1.5}."""
 
     values: dict[str, float]
 
 
-def _fits(query: Browse, name: str, number: int, thing: str, index: int | None) -> bool:
-    if query.object and thing.lower() != query.object.lower():
+def _fits(query: Browse, each: Parameter | Flag) -> bool:
+    if query.object and (each.object or NO_OBJECT).lower() != query.object.lower():
         return False
-    if query.index is not None and index != query.index:
+    if query.index is not None and each.index != query.index:
         return False
-    words = query.text.lower().lstrip("p").split() if query.text else []
-    full = f"{thing}{'' if index is None else index} {name} {number}".lower()
+    words = query.text.lower().split()
+    index = "" if each.index is None else each.index
+    full = f"{each.object}{index} {each.name} {_id(each)}".lower()
     return all(word in full for word in words)
+
+
+def _id(each: Parameter | Flag) -> str:
+    return f"{'BIT' if isinstance(each, Flag) else 'P'}{each.number}"
+
+
+def data_of(each: Parameter | Flag) -> dict[str, object]:
+    """A parameter or flag as the screens show it."""
+    common: dict[str, object] = {
+        "id": _id(each),
+        "number": each.number,
+        "name": each.name,
+        "object": each.object,
+        "index": each.index,
+        "section": each.section,
+        "doc": each.description,
+        "writable": each.access is not Access.READ,
+    }
+    if isinstance(each, Flag):
+        return {**common, "parameter": each.parameter, "bit": each.bit}
+    return {**common, "unit": each.unit, "kind": each.kind.name}
 
 
 @endpoint("GET", "/card/parameters", query=Browse)
@@ -50,28 +83,11 @@ async def card_parameters(call: Call) -> object:
     query: Browse = call.query
 
     def find() -> object:
-        found = [
-            each
-            for each in parameters().values()
-            if _fits(query, each.name, each.number, each.object, each.index)
-        ]
+        found = [each for each in parameters().values() if _fits(query, each)]
         return {
             "total": len(found),
             "objects": sorted({each.object for each in parameters().values()}),
-            "parameters": [
-                {
-                    "number": each.number,
-                    "name": each.name,
-                    "object": each.object,
-                    "index": each.index,
-                    "section": each.section,
-                    "unit": each.unit,
-                    "kind": each.kind.name,
-                    "doc": each.description,
-                    "writable": each.access is not Access.READ,
-                }
-                for each in found[query.first : query.first + query.count]
-            ],
+            "parameters": [data_of(each) for each in _page(query, found)],
         }
 
     return await run_in_threadpool(find)
@@ -83,29 +99,82 @@ async def card_flags(call: Call) -> object:
     query: Browse = call.query
 
     def find() -> object:
-        found = [
-            each
-            for each in flags().values()
-            if _fits(query, each.name, each.number, each.object, each.index)
-        ]
+        found = [each for each in flags().values() if _fits(query, each)]
+        return {"total": len(found), "flags": [data_of(each) for each in _page(query, found)]}
+
+    return await run_in_threadpool(find)
+
+
+def _page(query: Browse, found: Sequence[T]) -> Sequence[T]:
+    return found[query.first : query.first + query.count]
+
+
+@endpoint("GET", "/card/groups", query=Browse)
+async def card_groups(call: Call) -> object:
+    """The objects of the card with the counts of the parameters and flags that are found."""
+    query: Browse = call.query
+
+    def find() -> object:
+        counts: dict[tuple[str, int | None], list[int]] = {}
+        tables: tuple[Iterable[Parameter | Flag], ...] = (parameters().values(), flags().values())
+        for place, records in enumerate(tables):
+            for each in records:
+                if _fits(query, each):
+                    group = (each.object or NO_OBJECT, each.index)
+                    counts.setdefault(group, [0, 0])[place] += 1
         return {
-            "total": len(found),
-            "flags": [
-                {
-                    "number": each.number,
-                    "name": each.name,
-                    "object": each.object,
-                    "index": each.index,
-                    "parameter": each.parameter,
-                    "bit": each.bit,
-                    "doc": each.description,
-                    "writable": each.access is not Access.READ,
-                }
-                for each in found[query.first : query.first + query.count]
-            ],
+            "groups": [
+                {"object": thing, "index": index, "parameters": some, "flags": others}
+                for (thing, index), (some, others) in counts.items()
+            ]
         }
 
     return await run_in_threadpool(find)
+
+
+@endpoint("GET", "/card/named", query=Named)
+async def card_named(call: Call) -> object:
+    """Parameters and flags by name or number (`P12288;BIT516;axis0.actual position`), in order."""
+    names = [name.strip() for name in call.query.names.split(";")]
+    return await run_in_threadpool(
+        lambda: {"items": [data_of(named(name)) for name in names if name]}
+    )
+
+
+# --- panels of status -----------------------------------------------------------------
+
+
+class OfPanel(Query, frozen=True):
+    """A panel by its name."""
+
+    name: str
+
+
+@endpoint("GET", "/card/panels")
+async def card_panels(call: Call) -> object:
+    """The panels of status: axes, masters, programs ..."""
+    return {"panels": [{"name": each.name, "title": each.title} for each in PANELS]}
+
+
+@endpoint("GET", "/card/panel", query=OfPanel)
+async def card_panel(call: Call) -> object:
+    """The rows of a panel with what each of them is of each object; null where it has none."""
+    panel = panel_named(call.query.name)
+
+    def row(row: Row) -> dict[str, object]:
+        found = [record_of(row, thing) for thing in panel.objects]
+        name = row.name.format(object="").strip()
+        return {"name": name, "items": [each and data_of(each) for each in found]}
+
+    return await run_in_threadpool(
+        lambda: {
+            "objects": panel.objects,
+            "groups": [
+                {"title": group.title, "rows": [row(each) for each in group.rows]}
+                for group in panel.groups
+            ],
+        }
+    )
 
 
 # --- P PARM ---------------------------------------------------------------------------

@@ -9,12 +9,14 @@ from typing import Annotated, TypeVar
 from msgspec import Meta
 
 from openacr.client import Level
-from openacr.client.stored import ListedLine, Room, listing, rooms
-from openacr.errors import CardError, UserError
+from openacr.client.backup import surroundings
+from openacr.client.program_states import PLCS, PROGRAMS
+from openacr.client.stored import ListedLine, Room, listing, rooms, version_of
+from openacr.errors import CardError
 from openacr.lang.lexer import tokens
-from openacr.panel.commands.programs import owner_of
+from openacr.panel.commands.programs import level_of, owner_of
 from openacr.panel.control.aside import Talks
-from openacr.panel.control.card_programs import PLCS, PROGRAMS, State, read_states
+from openacr.panel.control.card_programs import State, read_states
 from openacr.panel.control.station import Station
 from openacr.panel.server.api import Call, Query, endpoint
 from openacr.plc.diagram import pictures
@@ -35,6 +37,11 @@ class OfProgram(Query, frozen=True):
     program: Annotated[int, Meta(ge=0, lt=len(PROGRAMS))] | None = None
     plc: Annotated[int, Meta(ge=0, lt=len(PLCS))] | None = None
 
+    @property
+    def level(self) -> Level:
+        """What is named; UserError unless it is exactly one."""
+        return level_of(self.program, self.plc)
+
 
 class _NoAliases:
     """A card does not list its aliases: what is written with one is not known here."""
@@ -46,7 +53,7 @@ class _NoAliases:
         return False
 
 
-async def _talked(call: Call, talks: Talks[T]) -> T:
+async def talked(call: Call, talks: Talks[T]) -> T:
     """The result of a conversation beside the session."""
     future: Future[T] = Future()
     begun = call.panel.control.call(lambda station: station.on_card.aside.begin(talks, future))
@@ -58,17 +65,17 @@ async def _talked(call: Call, talks: Talks[T]) -> T:
 async def card_programs(call: Call) -> object:
     """The programs and PLCs of the card: state, line, memory, and which belong to the machine.
 
-    States: running, halted, paused, waits for STEP, dwells, inhibited. Changes of state are the
-    topic `programs` of the WebSocket.
+    States: running, halted, paused, waits for STEP, waits for room (in the move buffer), dwells,
+    inhibited. Changes of state are the topic `programs` of the WebSocket.
     """
 
     def read(station: Station) -> tuple[list[State], dict[str, str]]:
-        states = read_states(station.machine)
+        states = read_states(station.read)
         levels = [*map(Level.program, PROGRAMS), *map(Level.plc, PLCS)]
         return states, {str(level): owner_of(station, level) for level in levels}
 
     states, owners = await asyncio.wrap_future(call.panel.control.call(read))
-    memory = {str(level): room for level, room in (await _talked(call, rooms)).items()}
+    memory = {str(level): room for level, room in (await talked(call, rooms)).items()}
     return {
         "programs": [
             {**state, **_memory(memory.get(state["name"])), "owner": owners[state["name"]]}
@@ -86,12 +93,16 @@ def _memory(room: Room | None) -> dict[str, int]:
 @endpoint("GET", "/card/listing", query=OfProgram)
 async def card_listing(call: Call) -> object:
     """The text of a program or PLC as the card lists it, each line with its number."""
-    query: OfProgram = call.query
-    if (query.program is None) == (query.plc is None):
-        raise UserError("name a program or a PLC")
-    level = Level.plc(query.plc) if query.plc is not None else Level.program(query.program or 0)
-    lines = await _talked(call, lambda talk: listing(talk, level))
-    return {"name": str(level), **_listed(lines)}
+    level = call.query.level
+    lines = await talked(call, lambda talk: listing(talk, level))
+    return {"name": str(level), "version": version_of(lines), **_listed(lines)}
+
+
+@endpoint("GET", "/card/surroundings", query=OfProgram)
+async def card_surroundings(call: Call) -> object:
+    """The memory, aliases and axes that a program or PLC finds on the card, as set-up code."""
+    level = call.query.level
+    return {"setup": await talked(call, lambda talk: surroundings(talk, level))}
 
 
 def _listed(lines: Sequence[ListedLine]) -> dict[str, object]:
@@ -107,7 +118,7 @@ async def card_ladder(call: Call) -> object:
     """
     query: OfPlc = call.query
     level = Level.plc(query.plc)
-    lines = await _talked(call, lambda talk: listing(talk, level))
+    lines = await talked(call, lambda talk: listing(talk, level))
     rungs, why = ladder(lines)
     return {"name": str(level), **_listed(lines), "rungs": rungs, "why": why}
 

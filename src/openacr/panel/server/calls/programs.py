@@ -2,12 +2,12 @@
 
 import os
 import tempfile
+from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Annotated, Literal
 
 from msgspec import Meta
 from starlette.concurrency import run_in_threadpool
-from starlette.requests import Request
 from starlette.responses import Response
 
 from openacr.errors import UserError
@@ -148,22 +148,33 @@ async def readfile_of(call: Call) -> Response:
 @endpoint("PUT", "/programs/file", Role.OPERATE, query=OfFile, takes="text/plain")
 async def writefile_of(call: Call) -> object:
     """Save a file: `If-Match` with its version, `*` to replace whatever is there, none: new."""
-    return await _store(call, call.request.headers.get("if-match", "").strip('"'))
+    return await _store_body(call)
 
 
 @endpoint("POST", "/programs/upload", Role.OPERATE, query=OfFile, takes="application/octet-stream")
 async def upload(call: Call) -> object:
     """Upload a new file of at most 256 MiB; with `If-Match: *` it may replace one."""
-    return await _store(call, call.request.headers.get("if-match", "").strip('"'))
+    return await _store_body(call)
 
 
-async def _store(call: Call, expected: str) -> object:
-    path = call.query.path
+async def _store_body(call: Call) -> object:
+    expected = call.request.headers.get("if-match", "").strip('"')
+    return await store(call, call.query.path, call.request.stream(), expected)
+
+
+def place_for(call: Call, path: str) -> Path:
+    """The place of a file that is to be stored; PanelError for a folder or a program that runs."""
     _require_unlocked(call, path)
     place = folder_of(call).at(path)
     if place == call.panel.installation.programs or place.is_dir():
         raise PanelError("bad", f"{path}: it is a folder")
-    partial = await _received(call.request, place)
+    return place
+
+
+async def store(call: Call, path: str, parts: AsyncIterator[bytes], expected: str) -> object:
+    """Store a file whole or not at all; `expected` is the version it replaces, or `*`."""
+    place = place_for(call, path)
+    partial = await _received(parts, place)
     try:
         result = await run_in_threadpool(_replace, place, partial, path, expected)
     finally:
@@ -172,8 +183,8 @@ async def _store(call: Call, expected: str) -> object:
     return result
 
 
-async def _received(request: Request, place: Path) -> Path:
-    """The body in a file beside the place it is for."""
+async def _received(parts: AsyncIterator[bytes], place: Path) -> Path:
+    """What comes in, in a file beside the place it is for."""
     try:
         place.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(prefix=".upload-", dir=place.parent)
@@ -182,7 +193,7 @@ async def _received(request: Request, place: Path) -> Path:
     partial, size = Path(name), 0
     try:
         with os.fdopen(handle, "wb") as file:
-            async for part in request.stream():
+            async for part in parts:
                 size += len(part)
                 if size > MOST_UPLOAD:
                     raise PanelError("too_big", f"more than {MOST_UPLOAD} bytes are not taken")

@@ -29,7 +29,7 @@ class LogIn(Body, frozen=True):
 async def log_in(call: Call, role: Role, password: str) -> str:
     """Check a password; the token of the session, PanelError where it is wrong."""
     accounts, now_s = call.panel.accounts, time.monotonic()
-    if (wait_s := accounts.delay_s(call.address, now_s)) > 0.0:
+    if (wait_s := accounts.delays.wait_s(call.address, now_s)) > 0.0:
         raise PanelError("slow", f"too many wrong passwords: wait {ceil(wait_s)} s")
     async with _one_at_a_time:
         is_right = await run_in_threadpool(accounts.is_right, role, password)

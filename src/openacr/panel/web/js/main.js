@@ -15,12 +15,12 @@ async function start() {
     import("./frame/clock.js"), import("./frame/status.js"), import("./frame/menu_bar.js"), import("./frame/top.js"),
     import("./frame/prompt.js"), import("./frame/stop.js"), import("./motion/hold.js"), import("./frame/screen_host.js"),
   ]);
-  top.startTop();
+  top.startTop(async (tab) => (await import("./frame/display.js")).showTab(tab));
   status.startStatus();
   prompt.startPrompt();
   screens.startScreens();
   menuBar.startMenuBar();
-  stop.startStop();
+  stop.startStop(menuBar.openMenu);
   held.startHeldKeys();
   clock.startClock();
   const [display, splitter] = await Promise.all([import("./frame/display.js"), import("./frame/splitter.js")]);

@@ -1,7 +1,9 @@
 // Sums in the number pad: + - * / and parentheses, decimal point or comma.
+import { ExpressionError, parse } from "./expression.js";
 import { t } from "./texts.js";
 
-const TOKEN = /\s*(?:(\d+(?:\.\d*)?|\.\d+)|([-+*/()]))/y;
+/** @type {Record<string, (...args: number[]) => number>} */
+const OPERATORS = { "+": (a, b) => a + b, "-": (a, b) => a - b, "*": (a, b) => a * b, "/": (a, b) => a / b, neg: (a) => -a };
 
 /**
  * The value of an expression such as "25.4*3/8"; null if it is none.
@@ -9,45 +11,23 @@ const TOKEN = /\s*(?:(\d+(?:\.\d*)?|\.\d+)|([-+*/()]))/y;
  * @returns {number | null}
  */
 export function evaluate(text) {
-  const tokens = split(text.replace(/,/g, ".").replace(/[\u2212\u2013]/g, "-").replace(/\u00d7/g, "*").replace(/\u00f7/g, "/"));
-  if (!tokens || tokens.length === 0) return null;
-  let at = 0;
-  /** @returns {number} */
-  const sum = () => {
-    let value = product();
-    while (tokens[at] === "+" || tokens[at] === "-") value = tokens[at++] === "+" ? value + product() : value - product();
-    return value;
-  };
-  const product = () => {
-    let value = factor();
-    while (tokens[at] === "*" || tokens[at] === "/") value = tokens[at++] === "*" ? value * factor() : value / factor();
-    return value;
-  };
-  /** @returns {number} */
-  const factor = () => {
-    const token = tokens[at++];
-    if (token === "-") return -factor();
-    if (token === "+") return factor();
-    if (token === "(") {
-      const value = sum();
-      return tokens[at++] === ")" ? value : Number.NaN;
-    }
-    return token === undefined || token === ")" || token === "*" || token === "/" ? Number.NaN : Number(token);
-  };
-  const value = sum();
-  return at === tokens.length && Number.isFinite(value) ? Number(tidy(value)) : null;
+  const plain = text.replace(/,/g, ".").replace(/[\u2212\u2013]/g, "-").replace(/\u00d7/g, "*").replace(/\u00f7/g, "/");
+  try {
+    const value = compute(parse(plain));
+    return Number.isFinite(value) ? Number(tidy(value)) : null;
+  } catch (error) {
+    if (error instanceof ExpressionError) return null;
+    throw error;
+  }
 }
 
-/** @param {string} text */
-function split(text) {
-  const tokens = [];
-  TOKEN.lastIndex = 0;
-  while (TOKEN.lastIndex < text.trimEnd().length) {
-    const found = TOKEN.exec(text);
-    if (!found) return null;
-    tokens.push(found[1] ?? found[2]);
-  }
-  return tokens;
+/**
+ * @param {import("./expression.js").Node} node
+ * @returns {number}
+ */
+function compute(node) {
+  if (node.kind === "number") return node.value;
+  return node.kind === "call" ? OPERATORS[node.name](...node.args.map(compute)) : Number.NaN;
 }
 
 /**

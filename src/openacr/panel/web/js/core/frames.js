@@ -1,6 +1,6 @@
 // Binary frames of the server: typed views of what arrived, without a copy.
 
-export const TOPICS = Object.freeze({ 1: "status", 2: "flags", 3: "watch", 4: "scope" });
+export const TOPICS = Object.freeze({ 1: "status", 2: "flags", 3: "watch", 4: "scope", 5: "world" });
 export const STATES = Object.freeze(["IDLE", "RUN", "WAIT", "HOMING", "PAUSED", "HOLD", "ALARM"]);
 export const BITS = Object.freeze({
   busy: 1, moving: 2, dry: 4, single: 8, alarm: 16, estop: 32, linkLost: 64, skip: 128, optional: 256,
@@ -12,6 +12,9 @@ const PLACES = 112;
 /**
  * @typedef {{ topic: string, count: number, seq: number, tick: number, age: number }} Head
  * @typedef {ReturnType<typeof readStatus>} Status
+ * @typedef {{ commands: Record<string, boolean | number>, signals: Record<string, boolean | number> }} DeviceState
+ * @typedef {{ axis: number, kind: string, value: number }} Fault
+ * @typedef {{ positions: number[], on: number[], forced: number[], faults: Fault[], devices: DeviceState[] }} World
  */
 
 /**
@@ -76,10 +79,19 @@ export function readWatch(data, head) {
  */
 export function readScope(data, head) {
   const view = new DataView(data);
-  const samples = view.getUint32(HEAD + 4, true);
-  const channel = (/** @type {number} */ n) => new Float64Array(data, HEAD + 16 + 8 * n * samples, samples);
+  const samples = view.getUint32(HEAD + 8, true);
+  const channel = (/** @type {number} */ n) => new Float64Array(data, HEAD + 24 + 8 * n * samples, samples);
   return {
-    first: view.getUint32(HEAD, true), period: view.getFloat64(HEAD + 8, true),
+    first: view.getFloat64(HEAD, true), period: view.getFloat64(HEAD + 16, true),
     channels: Array.from({ length: head.count }, (_each, n) => channel(n)),
   };
+}
+
+/**
+ * The state of the world around the card.
+ * @param {ArrayBuffer} data
+ * @returns {World}
+ */
+export function readWorld(data) {
+  return JSON.parse(new TextDecoder().decode(new Uint8Array(data, HEAD)));
 }

@@ -1,5 +1,5 @@
 // What the browser knows of the machine: the last events and the last status frame.
-import { BITS, readFlags, readScope, readStatus, readWatch } from "./frames.js";
+import { BITS, readFlags, readScope, readStatus, readWatch, readWorld } from "./frames.js";
 import { Signal } from "./signal.js";
 
 /**
@@ -7,6 +7,12 @@ import { Signal } from "./signal.js";
  * @typedef {{ kind: string, name: string, card: string, unit: string, shown: string, is_small: boolean, is_virtual: boolean, axes: Axis[] }} Machine
  * @typedef {{ name: string, path: string, kind: string, lines: number, errors: number, warnings: number, seconds: number | null,
  *   extents: Record<string, [number, number]> | null, tools: number[], id: string, drawn: boolean }} Loaded
+ */
+
+/**
+ * @typedef {{ number: number, name: string, parent: number | null, fork: number | null, first: number, last: number | null }} TimeBranch
+ * @typedef {{ why: string, period_s: number, still: boolean, away: boolean, speed: number | null, branch: number, most_bytes: number, branches: TimeBranch[],
+ *   bookmarks: { tick: number, kind: string, text: string }[] }} Times
  */
 
 const PRINTED = 200;
@@ -31,18 +37,22 @@ export class Model {
     this.control = new Signal(/** @type {any} */ ({ holder: null, you: false, asking: [], clients: [] }));
     this.overrides = new Signal(/** @type {any} */ ({}));
     this.home = new Signal(/** @type {{ axes: any[] }} */ ({ axes: [] }));
-    this.mdi = new Signal(/** @type {{ buffer: string[], running: boolean, queue: string[] }} */ ({ buffer: [], running: false, queue: [] }));
+    this.mdi = new Signal(/** @type {{ buffer: string[], on: boolean, running: boolean, queue: string[] }} */ ({ buffer: [], on: true, running: false, queue: [] }));
+    this.timeline = new Signal(/** @type {Times} */ ({ why: "", period_s: 0, still: false, away: false, speed: 1, branch: 0, most_bytes: 0, branches: [], bookmarks: [] }));
+    this.moment = new Signal(/** @type {{ tick: number, within: number, last: number, bytes: number }} */ ({ tick: 0, within: 0, last: 0, bytes: 0 }));
     this.says = new Signal(/** @type {{ text: string, at_s: number }[]} */ ([]));
     this.changed = new Signal(/** @type {{ what: string, cells: number[] }} */ ({ what: "", cells: [] }));
     this.jogEnded = new Signal(/** @type {{ press: number, ended: string, text: string } | null} */ (null));
-    this.term = new Signal("");
+    this.term = new Signal(/** @type {{ terminal: number, text: string } | null} */ (null));
     this.programs = new Signal(/** @type {{ programs: any[] }} */ ({ programs: [] }));
     this.listened = new Signal(/** @type {{ program: number, text: string } | null} */ (null));
+    this.tuned = new Signal(/** @type {{ done: number, count: number } | null} */ (null));
     this.status = new Signal(/** @type {import("./frames.js").Status | null} */ (null));
     this.flags = new Signal(/** @type {Map<number, number>} */ (new Map()));
     this.watched = new Signal(/** @type {[number, number][]} */ ([]));
     this.capture = new Signal(/** @type {{ running: boolean, trigger?: number | null }} */ ({ running: false }));
     this.scope = new Signal(/** @type {ReturnType<typeof readScope> | null} */ (null));
+    this.world = new Signal(/** @type {import("./frames.js").World | null} */ (null));
     this.isStale = new Signal(true);
     /** Card time of the last status drawn on the screen, ms; motion is asked for with it. */
     this.drawnTick = Number.NaN;
@@ -71,8 +81,9 @@ export class Model {
     else if (event === "says") this.says.set(rest.lines);
     else if (event === "scope") this.capture.set(rest);
     else if (event === "jog") this.jogEnded.set(rest);
-    else if (event === "term") this.term.set(rest.text);
+    else if (event === "term") this.term.set(rest);
     else if (event === "listen") this.listened.set(rest);
+    else if (event === "tune") this.tuned.set(rest);
     else if (event === "hello") this.hello.set({ ...this.hello.value, ...rest });
     else if (event === "machine") this.hello.set({ ...this.hello.value, machine: rest });
     else if (event in EVENTS) /** @type {Signal<any>} */ (Reflect.get(this, event)).set(rest);
@@ -91,9 +102,10 @@ export class Model {
       this.flags.set(this.flags.value);
     } else if (head.topic === "watch") this.watched.set(readWatch(data, head));
     else if (head.topic === "scope") this.scope.set(readScope(data, head));
+    else if (head.topic === "world") this.world.set(readWorld(data));
   }
 }
 
 const EVENTS = Object.freeze({
-  state: 1, program: 1, modals: 1, alarms: 1, messages: 1, control: 1, overrides: 1, home: 1, mdi: 1, changed: 1, programs: 1,
+  state: 1, program: 1, modals: 1, alarms: 1, messages: 1, control: 1, overrides: 1, home: 1, mdi: 1, changed: 1, programs: 1, timeline: 1, moment: 1,
 });

@@ -1,7 +1,7 @@
 // One catalogue of texts per language; a key that a language lacks is shown in English.
 import en from "../catalog/en.js";
 
-/** @typedef {keyof typeof en} TextKey */
+/** @typedef {keyof typeof en | keyof typeof import("../catalog/bench/en.js").default} TextKey */
 
 export const LANGUAGES = Object.freeze({ en: "English", de: "Deutsch" });
 /** @type {Record<string, string>} */
@@ -17,12 +17,20 @@ export async function useLanguage(language) {
 }
 
 /**
+ * Add the texts of another workspace, in the chosen language.
+ * @param {Record<string, string>} texts
+ */
+export function addTexts(texts) {
+  chosen = { ...chosen, ...texts };
+}
+
+/**
  * The text of a key with its values filled in: `t("zero.done", { axes: "X Y" })`.
  * @param {TextKey} key
  * @param {Record<string, string | number>} [values]
  */
 export function t(key, values = {}) {
-  const text = chosen[key] ?? en[key] ?? key;
+  const text = chosen[key] ?? /** @type {Record<string, string>} */ (en)[key] ?? key;
   return text.replace(/\{(\w+)\}/g, (_whole, name) => String(values[name] ?? ""));
 }
 

@@ -2,7 +2,7 @@
 import { link, model } from "./app.js";
 
 const HZ = 5;
-const MOST = 64; // of one subscription: the screen opened last comes first
+const MOST = 256; // of one subscription: the screen opened last comes first
 
 /**
  * @typedef {(values: Map<number, number>) => void} Show

@@ -3,8 +3,8 @@ import { address } from "../core/api.js";
 import { Signal } from "../core/signal.js";
 
 const AGAIN_MS = 300;
-const MARK = "OAP1";
-const HEAD = 64;
+const MARK = "OAP2";
+const HEAD = 88;
 export const KIND = Object.freeze({ rapid: 0, feed: 1, compensated: 2, inserted: 3, probe: 4 });
 
 /**
@@ -17,6 +17,7 @@ export const KIND = Object.freeze({ rapid: 0, feed: 1, compensated: 2, inserted:
  * @property {number[]} box min x y z, max x y z
  * @property {number} seconds predicted
  * @property {number[]} zero origin of the work coordinates at the start
+ * @property {number[] | null} blank min x y z, max x y z; null where its sizes are not stored
  */
 
 /** Path of the loaded program; null for none. */
@@ -34,10 +35,12 @@ export function readPath(data) {
   if (mark !== MARK) throw new Error(`a tool path begins with ${MARK}, not with ${mark}`);
   const [n, m] = [view.getUint32(4, true), view.getUint32(8, true)];
   const after = HEAD + 16 * n;
+  const blank = [...new Float32Array(data, 60, 6)];
   return {
     points: new Float32Array(data, HEAD, 3 * n), lines: new Uint32Array(data, HEAD + 12 * n, n), starts: new Uint32Array(data, after, m),
     kinds: new Uint8Array(data, after + 4 * m, m), colors: new Uint8Array(data, after + 5 * m, m),
     box: [...new Float32Array(data, 16, 6)], seconds: view.getFloat64(40, true), zero: [...new Float32Array(data, 48, 3)],
+    blank: blank.some(Number.isNaN) ? null : blank,
   };
 }
 
@@ -59,7 +62,7 @@ export async function fetchPath(place, query, options) {
  * The box of what is cut, without rapids: min x y z, max x y z; the whole path where nothing is.
  * @param {ToolPath} drawn
  */
-export function cutBox(drawn) {
+function cutBox(drawn) {
   const box = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
   drawn.starts.forEach((first, part) => {
     if (drawn.kinds[part] === KIND.rapid) return;
@@ -70,6 +73,18 @@ export function cutBox(drawn) {
     }
   });
   return box[0] <= box[3] ? box : [...drawn.box];
+}
+
+/**
+ * The box of what is worth seeing: what is cut, and the blank; null for a path that leads nowhere,
+ * as that of a program that asks first.
+ * @param {ToolPath} drawn
+ */
+export function areaOf(drawn) {
+  const box = drawn.lines.length ? cutBox(drawn) : [0, 0, 0, 0, 0, 0];
+  const { blank } = drawn;
+  if (blank) return box.map((value, n) => (n < 3 ? Math.min(value, blank[n]) : Math.max(value, blank[n])));
+  return [0, 1, 2].some((n) => box[n + 3] > box[n]) ? box : null;
 }
 
 /**

@@ -2,20 +2,21 @@
 import { h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { Camera } from "./camera.js";
-import { BLACK, COLORS } from "./colors.js";
+import { PENS } from "./colors.js";
 import { listenToGestures } from "./gestures.js";
-import { KIND, cutBox, strokesOf } from "./path.js";
+import { KIND, areaOf, strokesOf } from "./path.js";
 import { painterFor } from "./renderer.js";
 import { stockBox, stockPainter } from "./stock.js";
 import { lineAt, paintChosen, paintGround } from "./underlay.js";
 
-const NAMES = ["rapid", "cut", "grid", "limit", "stock", "dip", "below", "text"];
+const NAMES = ["rapid", "cut", "grid", "limit", "blank", "stock", "dip", "below", "text"];
 const NOWHERE = [0, 0, 0];
+const EMPTY = [0, 0, 0, 100, 100, 10];
 const CROSS = "M0 -14V14M-14 0H14M-6 0A6 6 0 1 0 6 0A6 6 0 1 0 -6 0";
 
 /**
  * @typedef {object} Picture
- * @property {(path: import("./path.js").ToolPath | null) => void} setPath shown from the next painting on, fitted
+ * @property {(path: import("./path.js").ToolPath | null) => void} setPath shown from the next painting on; fitted, if its extents are others
  * @property {(n: number) => void} cutTo up to this point the path is cut
  * @property {(x: number, y: number, z: number) => void} setTool
  * @property {(limits: number[] | null) => void} setLimits
@@ -49,9 +50,9 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
   let stock = null;
   let [view, cut, painted, chosen, asked, hasMoved] = ["top", 0, 0, 0, false, false];
   let place = [0, 0, 0];
-  let colors = readColors(area);
+  let { colors, pens } = readColors(area);
 
-  const pens = () => [ground, over].map((each) => {
+  const contexts = () => [ground, over].map((each) => {
     const pen = /** @type {CanvasRenderingContext2D} */ (each.getContext("2d"));
     const ratio = each.width / Math.max(1, camera.width);
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -59,13 +60,13 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
   });
   /** @type {import("./path.js").Style[]} */
   let styles = [];
-  const looks = () => styles.map(({ kind, color }) => lookOf(kind, color === BLACK ? colors.text : COLORS[color], colors.rapid));
+  const looks = () => styles.map(({ kind, color }) => lookOf(kind, pens[color], colors.rapid));
 
   function paint(isMoving = false) {
     asked = false;
-    if (!isMoving) colors = readColors(area); // of the theme at this painting
-    const [under, top] = pens();
-    paintGround(under, camera, colors, limits, path?.zero ?? NOWHERE);
+    if (!isMoving) ({ colors, pens } = readColors(area)); // of the theme at this painting
+    const [under, top] = contexts();
+    paintGround(under, camera, colors, { limits, blank: path?.blank ?? null, zero: path?.zero ?? NOWHERE });
     if (stock) solid.paint(camera, colors, isMoving);
     else painter.paint(camera, looks(), isMoving);
     painted = 0;
@@ -92,14 +93,11 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
     requestAnimationFrame(() => paint(hasMoved));
   };
 
-  /** The box of the path; null for one that leads nowhere, as that of a program that asks first. */
-  function pathBox() {
-    const box = path && path.lines.length ? cutBox(path) : null;
-    return box && [0, 1, 2].some((n) => box[n + 3] > box[n]) ? box : null;
-  }
+  /** What FIT shows: the stock, the path with its blank, else the limits of the machine. */
+  const extents = () => (path && areaOf(path)) ?? (limits ? [...limits] : EMPTY);
 
   function fit() {
-    camera.fit(stock ? stockBox(stock) : pathBox() ?? (limits ? [...limits] : [0, 0, 0, 100, 100, 10]));
+    camera.fit(stock ? stockBox(stock) : extents());
     repaint();
   }
 
@@ -139,12 +137,14 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
 
   return {
     setPath(next) {
+      const before = extents();
       path = next;
       [cut, painted] = [0, 0];
       const found = next ? strokesOf(next) : null;
       styles = found?.styles ?? [];
       painter.setDrawing(found?.drawing ?? null);
-      fit();
+      if (String(extents()) === String(before)) repaint();
+      else fit();
     },
     cutTo(n) {
       if (n < cut) repaint(); // the program has begun anew
@@ -171,6 +171,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
       repaint();
     },
     setFlip(flip) {
+      if (JSON.stringify(flip) === JSON.stringify(camera.flip)) return;
       camera.flip = flip;
       look(view);
     },
@@ -200,18 +201,18 @@ function toolCursor() {
 }
 
 /**
- * The colours of the theme as a canvas needs them.
+ * The colours of the theme as a canvas needs them: those with names, and the pens by their index.
  * @param {HTMLElement} area
  */
 function readColors(area) {
   const probe = h("span", {});
   area.append(probe);
-  /** @type {Record<string, string>} */
-  const colors = {};
-  for (const name of NAMES) {
-    probe.style.color = name === "text" ? "var(--quiet)" : `var(--draw-${name})`;
-    colors[name] = getComputedStyle(probe).color;
-  }
+  const resolved = (/** @type {string} */ color) => {
+    probe.style.color = color;
+    return getComputedStyle(probe).color;
+  };
+  const named = NAMES.map((name) => [name, resolved(name === "text" ? "var(--quiet)" : `var(--draw-${name})`)]);
+  const pens = PENS.map(resolved);
   probe.remove();
-  return colors;
+  return { colors: Object.fromEntries(named), pens };
 }

@@ -1,11 +1,9 @@
 // Strokes by WebGL: the points stay on the graphics card, only the camera changes.
 import {
-  BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, OrthographicCamera, Scene, WebGLRenderer,
+  BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Scene, WebGLRenderer,
 } from "../../vendor/three.js";
-import { cross } from "./camera.js";
 import { thinning } from "./flat.js";
-
-const FAR = 1e5;
+import { follow, newView } from "./view.js";
 
 /**
  * @param {HTMLCanvasElement} canvas
@@ -15,8 +13,7 @@ export function solidPainter(canvas) {
   const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
   renderer.autoClear = false;
   renderer.setPixelRatio(1); // the canvas has the pixels of the screen
-  const [scene, view] = [new Scene(), new OrthographicCamera()];
-  view.matrixAutoUpdate = false;
+  const [scene, view] = [new Scene(), newView()];
   /** @type {{ whole: LineSegments, thin: LineSegments, ends: Uint32Array }[]} */
   let strokes = [];
   /** @type {LineSegments | null} */
@@ -59,13 +56,7 @@ export function solidPainter(canvas) {
     },
     paint(camera, looks, isMoving, last = Infinity) {
       renderer.setSize(canvas.width, canvas.height, false); // no other call: each sets the canvas, too
-      const [half, tall] = [camera.width / 2 / camera.scale, camera.height / 2 / camera.scale];
-      Object.assign(view, { left: -half, right: half, top: tall, bottom: -tall, near: -FAR, far: FAR });
-      view.updateProjectionMatrix();
-      const [r, u] = [camera.right, camera.up];
-      const out = cross(r, u);
-      view.matrix.set(r[0], u[0], out[0], camera.middle[0], r[1], u[1], out[1], camera.middle[1], r[2], u[2], out[2], camera.middle[2], 0, 0, 0, 1);
-      view.matrixWorldNeedsUpdate = true;
+      follow(view, camera);
       for (const each of all()) each.visible = false;
       strokes.forEach(({ whole, thin, ends }, n) => {
         const line = isMoving && last === Infinity ? thin : whole;

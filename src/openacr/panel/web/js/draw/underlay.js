@@ -1,4 +1,4 @@
-// What lies under and over the path: grid, origin, limits of the machine, the chosen line.
+// What lies under and over the path: grid, origin, limits of the machine, blank, the chosen line.
 import { endOf } from "./path.js";
 
 const WISHED_PX = 56; // between lines of the grid
@@ -7,14 +7,15 @@ const WISHED_PX = 56; // between lines of the grid
  * @param {CanvasRenderingContext2D} pen in CSS pixels
  * @param {import("./camera.js").Camera} camera
  * @param {Record<string, string>} colors
- * @param {number[] | null} limits of the machine, min x y z, max x y z
- * @param {number[]} zero of the work coordinates
+ * @param {{ limits: number[] | null, blank: number[] | null, zero: number[] }} places boxes (min x y z, max x y z) of the
+ *   machine and of the material, and the zero of the work coordinates
  */
-export function paintGround(pen, camera, colors, limits, zero) {
+export function paintGround(pen, camera, colors, { limits, blank, zero }) {
   pen.clearRect(0, 0, camera.width, camera.height);
   if (camera.isFlat) paintGrid(pen, camera, colors, zero);
   paintOrigin(pen, camera, colors, zero);
-  if (limits) paintBox(pen, camera, colors.limit, limits);
+  if (limits) paintBox(pen, camera, limits, { color: colors.limit, width: 1.2, dashes: [6, 5] });
+  if (blank) paintBox(pen, camera, blank, { color: colors.blank, width: 2, dashes: [] });
 }
 
 /**
@@ -64,13 +65,13 @@ function paintOrigin(pen, camera, colors, zero) {
 /**
  * @param {CanvasRenderingContext2D} pen
  * @param {import("./camera.js").Camera} camera
- * @param {string} color
  * @param {number[]} box
+ * @param {import("./flat.js").Look} look
  */
-function paintBox(pen, camera, color, box) {
+function paintBox(pen, camera, box, { color, width, dashes }) {
   pen.strokeStyle = color;
-  pen.setLineDash([6, 5]);
-  pen.lineWidth = 1.2;
+  pen.setLineDash(dashes);
+  pen.lineWidth = width;
   pen.beginPath();
   for (let corner = 0; corner < 8; corner++) {
     for (const bit of [1, 2, 4]) {

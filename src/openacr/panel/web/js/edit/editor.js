@@ -6,6 +6,7 @@ import {
   keymap, lineNumbers, lintGutter, linter, search, searchKeymap, syntaxHighlighting, tags,
 } from "../../vendor/codemirror.js";
 import { gcode } from "./gcode.js";
+import { LOOKS } from "./looks.js";
 
 const CHECK_MS = 400;
 const MOST_CHECKED = 1 << 20; // characters
@@ -22,17 +23,6 @@ const COLORS = HighlightStyle.define([
   { tag: tags.variableName, color: "var(--good)" },
   { tag: tags.string, color: "var(--good)" },
 ]);
-
-const LOOKS = EditorView.theme({
-  "&": { height: "100%", backgroundColor: "var(--sunk)", color: "var(--text)", fontSize: "1rem" },
-  ".cm-scroller": { fontFamily: "var(--mono)", lineHeight: "1.5" },
-  ".cm-gutters": { backgroundColor: "var(--raised)", color: "var(--quiet)", borderRight: "1px solid var(--edge)" },
-  ".cm-activeLine, .cm-activeLineGutter": { backgroundColor: "color-mix(in srgb, var(--accent) 12%, transparent)" },
-  ".cm-cursor": { borderLeftColor: "var(--text)", borderLeftWidth: "2px" },
-  "&.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground, .cm-selectionBackground": { backgroundColor: "color-mix(in srgb, var(--accent) 35%, transparent)" },
-  ".cm-panels": { backgroundColor: "var(--raised)", color: "var(--text)" },
-  ".cm-tooltip": { backgroundColor: "var(--pane)", color: "var(--text)", border: "1px solid var(--edge-strong)" },
-});
 
 /**
  * @typedef {{ line: number, column: number, severity: "error" | "warning", code: string, text: string }} Finding

@@ -7,7 +7,7 @@ import { t } from "../core/texts.js";
  * @typedef {{ text: string, value: any, kind?: "main" | "danger" | "bad", isSubmit?: boolean }} Choice
  */
 
-const APART = ["header.top", "#work", "#prompt", "#menu", "#banner"];
+const APART = ["header.top", "#work", "#prompt", "#menu"];
 /** @type {HTMLDialogElement[]} */
 const open = [];
 let lastId = 0;
@@ -21,6 +21,12 @@ window.addEventListener("keydown", (event) => {
   last.dispatchEvent(new Event("cancel"));
 }, { capture: true });
 
+// A key that is held down chooses once: not what a dialog asks that comes meanwhile.
+window.addEventListener("keydown", (event) => {
+  const isKey = event.target instanceof HTMLButtonElement || event.key === "Enter";
+  if (open.length && event.repeat && isKey && (event.key === "Enter" || event.key === " ")) event.preventDefault();
+}, { capture: true });
+
 /** Only the last opened dialog takes input. */
 function part() {
   for (const place of APART) document.querySelector(place)?.toggleAttribute("inert", open.length > 0);
@@ -32,10 +38,12 @@ function part() {
  * Show a dialog; resolves with the value of the chosen key, null when it is cancelled.
  *
  * A choice whose value is a function is called; it keeps the dialog open by returning undefined.
- * @param {{ title: string, body: (Node | string)[], choices: Choice[], first?: HTMLElement, className?: string }} options
+ * A dialog that `comes` by itself begins at its first choice: an Enter meant for what was there before
+ * does no harm.
+ * @param {{ title: string, body: (Node | string)[], choices: Choice[], first?: HTMLElement, className?: string, comes?: boolean }} options
  * @returns {Promise<any>}
  */
-export function ask({ title, body, choices, first, className = "" }) {
+export function ask({ title, body, choices, first, className = "", comes = false }) {
   return new Promise((resolve) => {
     const id = `dialog-${++lastId}`;
     const before = document.activeElement;
@@ -63,7 +71,7 @@ export function ask({ title, body, choices, first, className = "" }) {
     dialog.show();
     open.push(dialog);
     part();
-    const safest = keys[choices.at(-1)?.kind === "bad" ? 0 : keys.length - 1]; // Enter ends nothing unread
+    const safest = keys[comes || choices.at(-1)?.kind === "bad" ? 0 : keys.length - 1]; // Enter ends nothing unread
     (first ?? safest)?.focus();
     if (first instanceof HTMLInputElement) first.select(); // the first digit replaces the value
   });

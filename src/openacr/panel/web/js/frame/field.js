@@ -26,7 +26,9 @@ import { askNumber } from "./number_pad.js";
  * @property {HTMLElement} element
  * @property {() => boolean} isChanged
  * @property {() => string} text
+ * @property {(text: string) => void} type as the operator would
  * @property {(reason: string) => void} refuse
+ * @property {() => string} refusal the reason of the last one, empty without
  * @property {() => void} focus
  */
 
@@ -67,7 +69,12 @@ export function fieldFor(row, changed, isPerAxis = false) {
   } }, "\u2328") : "";
   return {
     element: h("div.form-row", {}, h("label", { htmlFor: id }, row.axis_name && !isPerAxis ? `${row.axis_name}  ${row.name}` : row.name), h("div.row.form-input", {}, input, row.unit ? h("span.unit", {}, row.unit) : "", pad), hint, refusal),
-    isChanged, text: read, refuse, focus: () => input.focus(),
+    isChanged, text: read, refuse, refusal: () => refusal.textContent ?? "", focus: () => input.focus(),
+    type(text) {
+      if (input instanceof HTMLInputElement && input.type === "checkbox") input.checked = text === "1";
+      else input.value = text;
+      edited();
+    },
   };
 }
 

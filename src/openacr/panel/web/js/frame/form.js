@@ -54,14 +54,33 @@ export function showForm(host, name, endings, setTitle = () => {}) {
     setText(note, count ? t("form.changed", { count }) : form?.locked ? t("form.locked", { reason: form.locked }) : "");
   }
 
-  /** @param {boolean} [keepsTyped] what is typed until the answer comes stays */
-  async function load(keepsTyped = false) {
-    const query = { axis: form?.per_axis === false ? undefined : axis, first, count: PAGE };
-    const now = /** @type {Form} */ (await get(`forms/${name}`, query));
-    if (keepsTyped && changed().length) return;
-    form = now;
+  /** @returns {Promise<Form>} */
+  const stored = () => get(`forms/${name}`, { axis: form?.per_axis === false ? undefined : axis, first, count: PAGE });
+
+  /** Draw what is stored. What was typed is dropped. */
+  async function load() {
+    form = await stored();
     if (form.per_axis && form.axis !== undefined) axis = form.axis;
     draw(form);
+  }
+
+  /**
+   * Draw what is stored. What was typed until the answers came stays, with its refusals and the focus.
+   * @param {Record<string, string>} [sent] texts that are stored by now
+   */
+  async function renew(sent = {}) {
+    const shown = fields;
+    const now = await stored();
+    if (fields !== shown) return; // another axis or page is shown by now
+    const typed = changed().filter(([number, field]) => field.text() !== sent[number]).map(([number, field]) => ({ number, text: field.text(), refusal: field.refusal() }));
+    const focused = rows.contains(document.activeElement) ? document.activeElement?.id : "";
+    form = now;
+    draw(now);
+    for (const { number, text, refusal } of typed) {
+      fields.get(number)?.type(text);
+      fields.get(number)?.refuse(refusal);
+    }
+    if (focused) document.getElementById(focused)?.focus();
   }
 
   /** The first row has the focus of a form that was just opened: its value is typed at once. */
@@ -131,7 +150,7 @@ export function showForm(host, name, endings, setTitle = () => {}) {
     try {
       await send("PUT", `forms/${name}`, { values });
       report(t("form.saved", { count: Object.keys(values).length }));
-      await load();
+      await renew(values);
       return true;
     } catch (error) {
       if (!(error instanceof ApiError)) throw error;
@@ -149,7 +168,7 @@ export function showForm(host, name, endings, setTitle = () => {}) {
   endings.add(model.changed.watch((what) => {
     if (what.what !== "forms" || !form || !what.cells?.some((cell) => fields.has(String(cell)))) return;
     if (changed().length) setText(note, t("form.elsewhere"));
-    else void load(true);
+    else void renew();
   }));
   host.addEventListener("keydown", (event) => {
     const isField = event.target instanceof HTMLInputElement && event.target.type !== "checkbox";

@@ -5,13 +5,21 @@ import { Endings } from "../core/signal.js";
 import { showForm } from "./form.js";
 
 /**
+ * @typedef {object} Page a tab that is no form
+ * @property {string} name
+ * @property {string} title
+ * @property {string} before name of the form it comes before
+ * @property {(host: HTMLElement, endings: Endings) => () => boolean | Promise<boolean>} show
+ */
+
+/**
  * @param {import("./screen_host.js").Place} place
  * @param {(form: { name: string, title: string, section: string, role: string }) => boolean} isMeant
- * @param {Record<string, (host: HTMLElement, endings: Endings) => () => boolean | Promise<boolean>>} [others] forms with a page of their own
+ * @param {Page[]} [pages]
  */
-export async function showFormTabs({ body, endings, beforeClose }, isMeant, others = {}) {
+export async function showFormTabs({ body, endings, beforeClose }, isMeant, pages = []) {
   const { forms } = await get("forms");
-  const mine = forms.filter(isMeant);
+  const mine = forms.filter(isMeant).flatMap((/** @type {any} */ form) => [...pages.filter((page) => page.before === form.name), form]);
   const list = h("div.form-tabs.scroll", { role: "tablist", attr: { "aria-orientation": "vertical" } });
   const host = h("div.form-host", { role: "tabpanel", tabIndex: -1 });
   body.classList.add("is-tabbed");
@@ -33,7 +41,8 @@ export async function showFormTabs({ body, endings, beforeClose }, isMeant, othe
       key.ariaSelected = String(isChosen);
       key.tabIndex = isChosen ? 0 : -1;
     }
-    mayLeave = others[name]?.(host, own) ?? showForm(host, name, own);
+    const page = pages.find((each) => each.name === name);
+    mayLeave = page ? page.show(host, own) : showForm(host, name, own);
   }
   list.append(...mine.map((/** @type {any} */ form) =>
     h("button.key.item", { type: "button", role: "tab", data: { form: form.name }, onclick: () => choose(form.name) }, form.title)));

@@ -100,11 +100,6 @@ async function press(entry) {
 
 /** @param {KeyboardEvent} event */
 function pressed(event) {
-  if (event.key === "Pause" && !event.repeat) {
-    void ACTIONS.stop({ openMenu });
-    event.preventDefault();
-    return;
-  }
   const found = /^F([1-9]|10)$/.exec(event.key);
   if (!found || event.ctrlKey || event.altKey || event.metaKey || event.shiftKey) return;
   event.preventDefault();

@@ -98,6 +98,7 @@ function follow(loaded) {
 async function begin(id) {
   pathOf = id;
   cut = 0;
+  path.set(null); // that of another program is not shown under this name
   await read(id);
 }
 

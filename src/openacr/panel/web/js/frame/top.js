@@ -3,7 +3,7 @@ import { give, model } from "../core/app.js";
 import { byId, fill, h } from "../core/dom.js";
 import { applyTheme, keepSetting, setting } from "../core/settings.js";
 import { LANGUAGES, t, textOr } from "../core/texts.js";
-import { COLORS } from "../draw/colors.js";
+import { PLAIN } from "../draw/colors.js";
 import { ask } from "./dialog.js";
 
 /** @type {Record<string, string>} */
@@ -12,7 +12,12 @@ const SIGNS = { IDLE: "\u25cb", RUN: "\u25b6", WAIT: "\u25d4", HOMING: "\u2302",
 const MOST_MESSAGES = 3; // at once in the line; a key shows all of them
 const MOST_BESIDE_ALARM = 1;
 
-export function startTop() {
+/** @type {(name: string) => void} */
+let show = () => {};
+
+/** @param {(name: string) => void} showTab shows what a key of the top leads to: "alarms" */
+export function startTop(showTab) {
+  show = showTab;
   model.state.watch(drawState);
   model.alarms.watch(drawAlarms);
   model.messages.watch(drawAlarms);
@@ -50,14 +55,14 @@ function alarmParts([first, ...others]) {
   return [h("span", { ariaHidden: "true" }, "\u26a0"), h("span.text", { title: first.text }, `${first.code} ${first.text}`),
     others.length ? h("span", {}, t("alarm.more", { count: others.length })) : "",
     h("button.key.bad", { type: "button", onclick: () => give("alarm.acknowledge") }, t("alarm.acknowledge")),
-    h("button.key", { type: "button", onclick: async () => (await import("./display.js")).showTab("alarms") }, t("alarm.show"))];
+    h("button.key", { type: "button", onclick: () => show("alarms") }, t("alarm.show"))];
 }
 
 /** @param {any} message */
 function messageOf(message) {
   const text = h("span.user", { title: message.text }, message.text);
-  text.style.background = COLORS[message.back] ?? "";
-  text.style.color = COLORS[message.color] ?? "";
+  text.style.background = PLAIN[message.back] ?? "";
+  text.style.color = PLAIN[message.color] ?? "";
   return text;
 }
 
@@ -96,8 +101,9 @@ async function askSettings() {
   const language = choiceOf(t("settings.language"), LANGUAGES, setting("language", "en"));
   const { version, role, machine } = model.hello.value;
   const facts = h("p.hint", {}, `${machine.name || machine.kind} \u00b7 ${machine.card} \u00b7 openacr ${version} \u00b7 ${t(/** @type {any} */ (`role.${role}`))}`);
+  const other = document.getElementById("status") ? h("a", { href: "/bench" }, t("settings.bench")) : h("a", { href: "/" }, t("settings.operator"));
   const choices = [{ text: t("key.cancel"), value: null }, { text: t("key.ok"), value: true, kind: "main", isSubmit: true }];
-  if (!(await ask({ title: t("settings.title"), body: [theme, language, facts], choices: /** @type {any} */ (choices) }))) return;
+  if (!(await ask({ title: t("settings.title"), body: [theme, language, other, facts], choices: /** @type {any} */ (choices) }))) return;
   const [newTheme, newLanguage] = [theme, language].map((each) => each.querySelector("select")?.value ?? "");
   keepSetting("theme", newTheme);
   applyTheme();

@@ -62,7 +62,7 @@ export function fileList({ kinds, chosen, opened = () => {} }) {
       for (const each of rows.children) each.setAttribute("aria-selected", String(each === row));
       chosen(entry);
     }, ondblclick: () => entry.kind === "folder" || opened(entry) },
-    h("span", { ariaHidden: "true" }, entry.kind === "folder" ? "\u25b8" : "\u2002"), h("span.name", {}, entry.name), entry.locked ? h("span.quiet", {}, t("load.locked")) : "",
+    h("span", { ariaHidden: "true" }, entry.kind === "folder" ? "\u25b8" : "\u2002"), h("span.name", { title: entry.name }, entry.name), entry.locked ? h("span.quiet", {}, t("load.locked")) : "",
     entry.kind === "folder" ? "" : h("span.quiet.number", {}, size(entry.bytes)), h("span.quiet.number.file-date", {}, entry.changed.slice(0, 16).replace("T", " ")));
     return row;
   }

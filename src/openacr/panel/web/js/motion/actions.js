@@ -27,10 +27,10 @@ export const ACTIONS = {
   },
   async start() {
     if (!mayMove()) return;
-    const { state, reason } = model.state.value;
+    const { state, reason, tool_wanted: toolWanted } = model.state.value;
     if (state === "IDLE") return beginRun({ dry: false });
     const isSure = isReadOutVisible() || (await confirm(t("start.title"), t("start.covered", { state, reason }), t("menu.start")));
-    if (isSure) await give("run.start");
+    if (isSure) await give(toolWanted && state === "WAIT" ? "run.confirm" : "run.start");
   },
   runLine: () => mayMove() && beginRun({ dry: false }),
   dryRun: () => mayMove() && beginRun({ dry: true }),

@@ -1,11 +1,13 @@
 // BOARD PARAMETERS: every parameter of the card, page by page or by a search, with live values.
 import { get } from "../core/api.js";
-import { give, link, model, refuse, report } from "../core/app.js";
+import { model, refuse } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
+import { needValues } from "../core/values.js";
+import { changeValue, shownValue } from "../frame/card_value.js";
 import { askNumber } from "../frame/number_pad.js";
 
-const PAGE = 60; // a browser watches 64 parameters at most
+const PAGE = 60;
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
@@ -29,7 +31,7 @@ export const screen = {
         values = shown.map(() => h("strong.live", {}, "\u2013"));
         fill(rows, ...shown.map((/** @type {any} */ each, /** @type {number} */ n) => rowOf(each, values[n])));
         unsubscribe();
-        unsubscribe = link.subscribe({ topic: "watch", hz: 5, parameters: shown.map((/** @type {any} */ each) => each.number) });
+        unsubscribe = needValues(shown.map((/** @type {any} */ each) => each.number), (known) => shown.forEach((/** @type {any} */ each, /** @type {number} */ n) => setText(values[n], shownValue(each, known))));
       } catch (error) {
         refuse(error);
       }
@@ -56,24 +58,16 @@ export const screen = {
       first = 0;
       timer = setTimeout(search, 250);
     });
-    endings.add(() => unsubscribe(), () => clearTimeout(timer), model.watched.watch((pairs) => {
-      for (const [n, value] of pairs) if (values[n]) setText(values[n], String(Number(value.toPrecision(9))));
-    }));
+    endings.add(() => unsubscribe(), () => clearTimeout(timer));
     await search();
   },
 };
 
 /**
- * @param {{ number: number, name: string, unit: string, doc: string, writable: boolean }} parameter
+ * @param {import("../frame/card_value.js").Item} item
  * @param {HTMLElement} value
  */
-function rowOf(parameter, value) {
-  const write = async () => {
-    const number = await askNumber({ title: `P${parameter.number} ${parameter.name}`, value: Number(value.textContent) || 0, unit: parameter.unit });
-    if (number === null) return;
-    const answer = await give("card.write", { parameter: parameter.number, value: number });
-    if (answer) report(t("board.written", { number: parameter.number, value: answer.value }));
-  };
-  const cell = parameter.writable && model.may("service") ? h("button.key", { type: "button", onclick: write }, value) : value;
-  return h("tr", {}, h("td.number", {}, `P${parameter.number}`), h("td", {}, parameter.name), h("td.number", {}, cell, parameter.unit ? ` ${parameter.unit}` : ""), h("td.quiet", {}, parameter.doc));
+function rowOf(item, value) {
+  const cell = item.writable && model.may("service") ? h("button.key", { type: "button", onclick: () => changeValue(item, value.textContent ?? "") }, value) : value;
+  return h("tr", {}, h("td.number", {}, item.id), h("td", {}, item.name), h("td.number", {}, cell, item.unit ? ` ${item.unit}` : ""), h("td.quiet", {}, item.doc));
 }

@@ -1,4 +1,4 @@
-// LOAD PROG: user file, library part, DXF, batch or drip feed; afterwards the menu RUN PROG.
+// LOAD PROG: user file, library part, DXF, batch, drip feed or LINK; afterwards the menu RUN PROG.
 import { h } from "../core/dom.js";
 import { Endings } from "../core/signal.js";
 import { give } from "../core/app.js";
@@ -7,9 +7,10 @@ import { showTab } from "../frame/display.js";
 import { openMenu } from "../frame/menu_bar.js";
 import { batchSource, dripSource, fileSource } from "../load/files.js";
 import { dxfSource } from "../load/dxf.js";
+import { linkSource } from "../load/link.js";
 import { partSource } from "../load/parts.js";
 
-const SOURCES = { file: fileSource, part: partSource, dxf: dxfSource, batch: batchSource, drip: dripSource };
+const SOURCES = { file: fileSource, part: partSource, dxf: dxfSource, batch: batchSource, drip: dripSource, link: linkSource };
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {

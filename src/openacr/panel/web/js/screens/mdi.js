@@ -14,8 +14,11 @@ export const screen = {
     const buffer = h("textarea.field.mono.grow", { ariaLabel: t("mdi.buffer"), spellcheck: false, wrap: "off" });
     const line = h("input.field.mono.grow", { ariaLabel: t("mdi.line"), placeholder: "G0 X10 Y5", autocomplete: "off", spellcheck: false, autocapitalize: "characters", autofocus: true });
     const state = h("span.hint", { role: "status" });
+    const isOn = h("input", { type: "checkbox", onchange: () => give("mdi.buffer", { on: isOn.checked }) });
     /** @type {string[]} */
     let history = [];
+    /** @type {string[]} executed while the buffer was off */
+    let unkept = [];
     let place = 0;
     let isEdited = false;
     const execute = async () => {
@@ -24,6 +27,10 @@ export const screen = {
       if (await give("mdi.execute", { line: text })) {
         line.value = "";
         place = 0;
+        if (!model.mdi.value.on) {
+          unkept.push(text);
+          history.push(text);
+        }
       }
       line.focus();
     };
@@ -52,13 +59,15 @@ export const screen = {
     const clear = h("button.key", { type: "button", onclick: async () => {
       if (await give("mdi.buffer", { lines: [] })) buffer.value = "";
     } }, t("mdi.clear"));
-    body.append(buffer, h("div.row.wrap", {}, state, h("span.grow", {}), keep, runAll, save, clear),
+    body.append(buffer, h("div.row.wrap", {}, h("label.check.row", {}, isOn, t("mdi.on")), state, h("span.grow", {}), keep, runAll, save, clear),
       h("form.row", { onsubmit: (/** @type {Event} */ event) => {
         event.preventDefault();
         void execute();
       } }, line, h("button.key.main.big", { type: "submit" }, t("mdi.execute"))));
     endings.add(model.mdi.watch((mdi) => {
-      history = mdi.buffer;
+      isOn.checked = mdi.on;
+      if (mdi.on) unkept = [];
+      history = [...mdi.buffer, ...unkept];
       if (!isEdited) buffer.value = mdi.buffer.join("\n");
       buffer.scrollTop = buffer.scrollHeight;
       setText(state, mdi.running ? t("mdi.running") : t("mdi.count", { count: mdi.buffer.length }));

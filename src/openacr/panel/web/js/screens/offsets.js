@@ -1,4 +1,5 @@
 // OFFSETS: radii and lengths, ballscrew, backlash and reference points.
+import { t } from "../core/texts.js";
 import { showBallscrew } from "../frame/ballscrew.js";
 import { showFormTabs } from "../frame/form_tabs.js";
 
@@ -6,5 +7,6 @@ import { showFormTabs } from "../frame/form_tabs.js";
 export const screen = {
   title: "offsets.title",
   area: "full",
-  show: (place) => showFormTabs(place, (form) => form.section === "OFFSETS" && form.name !== "WORK", { BALLSCREW: showBallscrew }),
+  show: (place) => showFormTabs(place, (form) => form.section === "OFFSETS" && form.name !== "WORK",
+    [{ name: "BALLSCREW", title: t("ballscrew.title"), before: "BACKLASH", show: showBallscrew }]),
 };

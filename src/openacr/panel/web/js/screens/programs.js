@@ -2,6 +2,7 @@
 import { get } from "../core/api.js";
 import { give, link, model, refuse, report } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
+import { needPrograms } from "../core/programs.js";
 import { t, textOr } from "../core/texts.js";
 import { confirm } from "../frame/dialog.js";
 import { createListing } from "../frame/listing.js";
@@ -166,7 +167,7 @@ export const screen = {
     }
 
     endings.add(
-      link.subscribe({ topic: "programs", hz: 5 }),
+      needPrograms(),
       model.programs.watch((event) => {
         states = new Map(event.programs.map((/** @type {State} */ each) => [each.name, each]));
         drawStates();
@@ -187,7 +188,7 @@ export const screen = {
 };
 
 /** @param {State} state */
-function stateText(state) {
+export function stateText(state) {
   return textOr(`programs.state.${state.state}`, state.state);
 }
 
@@ -195,7 +196,7 @@ function stateText(state) {
  * The text as it is edited: numbered lines with their numbers, free-form text without.
  * @param {{ number: number, text: string }[]} lines
  */
-function textOf(lines) {
+export function textOf(lines) {
   const isFree = /^\s*PROGRAM\b/i.test(lines[0]?.text ?? "");
   return lines.map((each) => (isFree ? each.text : `${each.number} ${each.text}`)).join("\n");
 }

@@ -7,11 +7,9 @@ import { t } from "../core/texts.js";
 import { confirm } from "../frame/dialog.js";
 import { mayMove } from "../motion/actions.js";
 import { Recording } from "../scope/recording.js";
-import { createScreen } from "../scope/screen.js";
+import { COLORS, createScreen, DIVISIONS, fitting } from "../scope/screen.js";
 
 const CHANNELS = 4;
-const DIVISIONS = 10;
-const MOST = 100000; // samples of one sweep
 const PROFILE = "ACC 500\nDEC 500\nSTP 500\nJRK 0\nF500\nRES X\nX15";
 const SOURCES = ["P12291", "P12290", "P12295", ""];
 
@@ -44,7 +42,10 @@ export const screen = {
       h("label.stack", {}, t("scope.profile"), profile)), h("div.stack.grow", {}, chart, state));
     body.classList.add("is-scope");
     const screenOf = createScreen(chart, endings);
-    const draw = () => screenOf.draw(recording, channels.map(({ scale, offset }) => ({ scale: numberOf(scale) || 1, offset: numberOf(offset) })), numberOf(sweep));
+    const draw = () => {
+      const { channels: records, period: every } = recording.window();
+      screenOf.draw(records.map((values, n) => ({ label: String(n + 1), color: COLORS[n], values, scale: numberOf(channels[n].scale) || 1, offset: numberOf(channels[n].offset) })), every, numberOf(sweep));
+    };
     for (const { scale, offset } of channels) for (const field of [scale, offset]) field.addEventListener("input", draw);
     endings.add(
       model.scope.watch((piece) => {
@@ -63,14 +64,12 @@ export const screen = {
     /** Values of the fields, or null where one is wrong. */
     function settings() {
       for (const field of body.querySelectorAll("input[data-setting]")) keepSetting(/** @type {any} */ (field).dataset.setting, /** @type {any} */ (field).value);
-      const asked = channels.map(({ source }) => source.value.trim()).filter(Boolean);
       const [sweepMs, periodMs] = [numberOf(sweep), numberOf(period)];
-      const samples = Math.round((DIVISIONS * sweepMs) / periodMs);
-      if (!(sweepMs > 0) || !(periodMs > 0) || samples < 10 || samples > MOST) {
-        refuse(t("scope.range", { most: MOST }));
+      if (!(sweepMs > 0) || !(periodMs > 0)) {
+        refuse(t("scope.range"));
         return null;
       }
-      return { channels: asked.map((text) => (/^P?\d+$/i.test(text) ? Number(text.replace(/^P/i, "")) : text)), period_ms: periodMs, samples };
+      return { channels: channels.map(({ source }) => source.value.trim()).filter(Boolean), period_ms: periodMs, sweep_ms: DIVISIONS * sweepMs };
     }
 
     /** @param {string | null} text a profile that is run and recorded, or null */
@@ -80,10 +79,10 @@ export const screen = {
       run.end();
       const free = text !== null || mode.value === "free";
       const trigger = free ? null : { channel: 0, level: numberOf(level), slope: slope.value === "rising" ? 1 : -1, mode: mode.value, before: 0.1 };
-      recording.begin(chosen.channels.length, chosen.samples, trigger, text !== null);
       run.add(link.subscribe({ topic: "scope", hz: 10 }));
-      const done = text === null ? await give("scope.arm", { ...chosen, trigger }) : await give("scope.index", { ...chosen, profile: text });
-      setText(state, done ? t("scope.armed") : "");
+      const armed = text === null ? await give("scope.arm", { ...chosen, trigger }) : await give("scope.index", { ...chosen, profile: text });
+      if (armed) recording.begin(armed.channels.length, armed, trigger, text === null ? "sweep" : "once");
+      setText(state, armed ? t("scope.armed") : "");
       draw();
     }
 
@@ -102,14 +101,10 @@ export const screen = {
     /** Scales of 1, 2 or 5 that show each channel whole, with its middle in the middle. */
     function autoscale() {
       recording.window().channels.forEach((values, n) => {
-        const seen = values.filter((value) => value !== null);
-        if (!seen.length) return;
-        const [low, high] = seen.reduce(([least, most], value) => [Math.min(least, value), Math.max(most, value)], [Infinity, -Infinity]);
-        const wanted = Math.max((high - low) / (DIVISIONS - 2), 1e-9);
-        const decade = 10 ** Math.floor(Math.log10(wanted));
-        const step = decade * ([1, 2, 5].find((each) => each * decade >= wanted) ?? 10);
-        channels[n].scale.value = String(Number(step.toPrecision(3)));
-        channels[n].offset.value = String(Number((Math.round((low + high) / 2 / step) * step).toPrecision(9)));
+        const fit = fitting(values);
+        if (!fit) return;
+        channels[n].scale.value = String(fit.scale);
+        channels[n].offset.value = String(fit.offset);
       });
       draw();
     }

@@ -1,0 +1,24 @@
+"""Lines of libraries that are left out of the log: nothing is wrong, or it is reported already."""
+
+import logging
+
+
+class LeftOut(logging.Filter):
+    """Leaves out lines about one kind of failure, also where it is the cause of another one."""
+
+    def __init__(self, failure: type[Exception]) -> None:
+        super().__init__()
+        self._failure = failure
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Whether a line is logged."""
+        raised = record.exc_info[1] if record.exc_info else None
+        cause = None if raised is None else raised.__cause__
+        return not isinstance(raised, self._failure) and not isinstance(cause, self._failure)
+
+
+def leave_out(logger: str, failure: type[Exception]) -> None:
+    """Leave lines about a failure out of the log of a library, from now on."""
+    found = logging.getLogger(logger)
+    if not any(isinstance(each, LeftOut) for each in found.filters):
+        found.addFilter(LeftOut(failure))

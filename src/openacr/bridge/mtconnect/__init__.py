@@ -1,0 +1,1 @@
+"""An MTConnect agent: probe, current, sample and assets over HTTP."""

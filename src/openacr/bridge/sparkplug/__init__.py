@@ -1,0 +1,1 @@
+"""An edge node of Sparkplug B over MQTT."""

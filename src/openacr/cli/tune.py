@@ -1,0 +1,231 @@
+"""`openacr tune`: measure an axis and propose gains for it."""
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from openacr.cli.live.online import (
+    BAUD,
+    FAILED,
+    SILENCE_S,
+    Baud,
+    Silence,
+    connected,
+    progress_bar,
+)
+from openacr.cli.tune_options import (
+    AMPLITUDE_CNT,
+    AXES,
+    BAND_HZ,
+    BY_AMPLITUDE,
+    PHASE_DEG,
+    SWEEP_S,
+    Amplitude,
+    AsJson,
+    AxisNumber,
+    Band,
+    Bandwidth,
+    Duration,
+    IsSure,
+    MostError,
+    MostTravel,
+    MoveOption,
+    NoIntegral,
+    Phase,
+    Picture,
+    Program,
+    Where,
+)
+from openacr.errors import UserError
+
+if TYPE_CHECKING:
+    from openacr.client import Card
+    from openacr.tuning.advice import Advice, Move
+    from openacr.tuning.excitation import Excitation
+    from openacr.tuning.measure import Measurement
+    from openacr.tuning.propose import Wish
+
+
+def measure_axis(
+    target: Where,
+    axis: AxisNumber,
+    amplitude: Amplitude = AMPLITUDE_CNT,
+    band: Band = BAND_HZ,
+    duration: Duration = SWEEP_S,
+    max_error: MostError = BY_AMPLITUDE,
+    max_travel: MostTravel = BY_AMPLITUDE,
+    program: Program = None,
+    plot: Picture = None,
+    as_json: AsJson = False,
+    is_sure: IsSure = False,
+    baud: Baud = BAUD,
+    silence: Silence = SILENCE_S,
+) -> None:
+    """Move an axis by a sine sweep, identify its motor and judge its present gains.
+
+    The axis has to be enabled and at rest. The card does it by itself, in an empty program that is
+    erased afterwards, and ends it where a bound is exceeded.
+    """
+    excitation = excitation_of(amplitude, band, duration, max_error, max_travel)
+    require_picture(plot)
+    with card_of(target, baud, silence) as card:
+        ask_to_move(is_sure, target, axis, excitation)
+        advice = advised(card, axis, excitation, program, None, None)
+    report(advice, plot, as_json=as_json, with_proposal=False)
+
+
+def propose_gains(
+    target: Where,
+    axis: AxisNumber,
+    bandwidth: Bandwidth = None,
+    phase: Phase = PHASE_DEG,
+    no_integral: NoIntegral = False,
+    move: MoveOption = None,
+    amplitude: Amplitude = AMPLITUDE_CNT,
+    band: Band = BAND_HZ,
+    duration: Duration = SWEEP_S,
+    max_error: MostError = BY_AMPLITUDE,
+    max_travel: MostTravel = BY_AMPLITUDE,
+    program: Program = None,
+    plot: Picture = None,
+    as_json: AsJson = False,
+    is_sure: IsSure = False,
+    baud: Baud = BAUD,
+    silence: Silence = SILENCE_S,
+) -> None:
+    """Measure an axis and propose gains, beside what they would do; nothing is set."""
+    excitation = excitation_of(amplitude, band, duration, max_error, max_travel)
+    wish = wish_of(bandwidth, phase, no_integral)
+    require_picture(plot)
+    with card_of(target, baud, silence) as card:
+        ask_to_move(is_sure, target, axis, excitation)
+        wanted = _move(card, axis, move)
+        advice = advised(card, axis, excitation, program, wish, wanted)
+    report(advice, plot, as_json=as_json, with_proposal=True)
+
+
+def require_picture(plot: Path | None) -> None:
+    """Refuse a picture that could not be drawn, before the axis moves."""
+    from openacr.cli.plots import IMAGES, require
+
+    if plot is not None:
+        require(plot, "of tuning", IMAGES)
+
+
+# --- parts of these ---------------------------------------------------------------------
+
+
+def excitation_of(
+    amplitude: float, band: tuple[float, float], duration: float, error: float, travel: float
+) -> "Excitation":
+    """A sweep with the bounds that end it; UserError for one that is refused."""
+    from openacr.tuning.excitation import Excitation
+
+    return Excitation("sine", amplitude, *band, duration, error, travel).checked()
+
+
+def wish_of(bandwidth: float | None, phase: float, no_integral: bool) -> "Wish":
+    """What the gains are to keep."""
+    from openacr.tuning.propose import Wish
+
+    return Wish(bandwidth, phase, not no_integral)
+
+
+def _move(card: "Card", axis: int, move: tuple[float, float, float] | None) -> "Move | None":
+    """A move in pulses."""
+    from openacr.tuning.advice import Move
+
+    if not move:
+        return None
+    scale = abs(float(card.axis(axis).ppu)) or 1.0
+    return Move(*(value * scale for value in move))
+
+
+@contextmanager
+def card_of(target: str, baud: int, silence_s: float) -> "Iterator[Card]":
+    """The card at a host, or a virtual one with a project, its drives enabled."""
+    if not Path(target).exists() or target.startswith(("/dev/", "//")):
+        with connected(target, baud, silence_s) as card:
+            yield card
+        return
+    from openacr.client import Card, RefusedError
+    from openacr.controller import Controller
+
+    host = Controller.from_project(target)
+    try:
+        with Card.open(host) as card:
+            for number in range(AXES):
+                try:
+                    card.command(f"AXIS{number} DRIVE ON")
+                except RefusedError:
+                    break
+            card.pause(0.5)
+            yield card
+    finally:
+        host.close()
+
+
+def ask_to_move(is_sure: bool, target: str, axis: int, excitation: "Excitation") -> None:
+    """Ask before an axis of a real or served card moves."""
+    import sys
+
+    if is_sure or Path(target).exists():
+        return
+    sweep = f" to both sides, {excitation.low_hz:g} to {excitation.high_hz:g} Hz,"
+    text = (
+        f"axis {axis} of {target} will move by {excitation.height_cnt:g} pulses"
+        f"{sweep if excitation.kind == 'sine' else ' and back,'} for {excitation.duration_s:g} s"
+    )
+    if not sys.stdin.isatty():
+        raise UserError(f"{text}: say --yes")
+    typer.confirm(f"{text[0].upper()}{text[1:]}. Is it free to move?", abort=True)
+
+
+def advised(
+    card: "Card",
+    axis: int,
+    excitation: "Excitation",
+    program: int | None,
+    wish: "Wish | None",
+    move: "Move | None",
+) -> "Advice":
+    """An axis measured, with what can be said of its gains."""
+    from openacr.tuning.advice import advise
+
+    return advise(recorded(card, axis, excitation, program), wish, move)
+
+
+def recorded(
+    card: "Card", axis: int, excitation: "Excitation", program: int | None
+) -> "Measurement":
+    """The response of an axis, with its progress in the terminal."""
+    from openacr.tuning.measure import measure
+
+    with progress_bar("recording") as progress:
+        return card.perform(
+            lambda talk: measure(talk, axis, excitation, program=program, progress=progress)
+        )
+
+
+def report(advice: "Advice", plot: Path | None, *, as_json: bool, with_proposal: bool) -> None:
+    """Print the advice, and draw it."""
+    from openacr.tuning.advice import advice_data
+
+    if plot is not None:
+        from openacr.cli.plots.tune_image import write_tuning
+
+        write_tuning(advice, plot)
+    if as_json:
+        typer.echo(json.dumps(advice_data(advice)))
+    else:
+        from openacr.cli.tune_report import lines
+
+        for line in lines(advice, with_proposal=with_proposal):
+            typer.echo(line)
+    if with_proposal and advice.proposal is None:
+        typer.echo(f"error: no gains are proposed: {advice.refusal}", err=True)
+        raise typer.Exit(FAILED)

@@ -1,0 +1,122 @@
+"""`openacr tune apply` and `undo`: set the proposed gains of an axis, or the former ones again."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from openacr.cli.live.online import BAUD, FAILED, SILENCE_S, Baud, Silence
+from openacr.cli.tune import advised, ask_to_move, card_of, excitation_of, report, wish_of
+from openacr.cli.tune_options import (
+    AMPLITUDE_CNT,
+    BAND_HZ,
+    BY_AMPLITUDE,
+    PHASE_DEG,
+    STEP_S,
+    SWEEP_S,
+    Amplitude,
+    AxisNumber,
+    Band,
+    Bandwidth,
+    Duration,
+    IsSure,
+    MostError,
+    MostTravel,
+    NoIntegral,
+    Phase,
+    Program,
+    Where,
+)
+from openacr.errors import UserError
+
+
+def apply_gains(
+    target: Where,
+    axis: AxisNumber,
+    keep: Annotated[Path, typer.Option(help="New file for the former gains.")] = Path("gains.json"),
+    bandwidth: Bandwidth = None,
+    phase: Phase = PHASE_DEG,
+    no_integral: NoIntegral = False,
+    amplitude: Amplitude = AMPLITUDE_CNT,
+    band: Band = BAND_HZ,
+    duration: Duration = SWEEP_S,
+    max_error: MostError = BY_AMPLITUDE,
+    max_travel: MostTravel = BY_AMPLITUDE,
+    program: Program = None,
+    is_sure: IsSure = False,
+    baud: Baud = BAUD,
+    silence: Silence = SILENCE_S,
+) -> None:
+    """Measure an axis, propose gains, show what they would do, and set them when confirmed.
+
+    The card tries them with a step and sets the former ones again where a bound is exceeded or
+    the axis does not come to rest. The former gains are kept in a file, for `openacr tune undo`.
+    Set-up files and what ESAVE keeps are not changed.
+    """
+    from openacr.tuning.excitation import Excitation
+    from openacr.tuning.measure import measure
+
+    if Path(target).exists():
+        raise UserError(
+            f"{target} is a project: put the lines that `propose` prints into its files"
+        )
+    if keep.exists():
+        raise UserError(f"{keep} exists: choose another file for the former gains (--keep)")
+    excitation = excitation_of(amplitude, band, duration, max_error, max_travel)
+    with card_of(target, baud, silence) as card:
+        ask_to_move(is_sure, target, axis, excitation)
+        wish = wish_of(bandwidth, phase, no_integral)
+        advice = advised(card, axis, excitation, program, wish, None)
+        report(advice, None, as_json=False, with_proposal=True)
+        if advice.proposal is None:
+            raise typer.Exit(FAILED)
+        if not is_sure:
+            typer.confirm(f"Set these gains of axis {axis} and try them with a step?", abort=True)
+        former = {"axis": axis, "gains": advice.measurement.settings.gains}
+        _write(keep, json.dumps(former, indent=1) + "\n")
+        trial = Excitation(
+            "step",
+            excitation.height_cnt,
+            duration_s=STEP_S,
+            error_cnt=excitation.error_cnt,
+            travel_cnt=excitation.travel_cnt,
+        )
+        gains = advice.proposal.gains
+        try:
+            card.perform(lambda talk: measure(talk, axis, trial, gains=gains, program=program))
+        except UserError:  # the card has the former gains
+            keep.unlink()
+            raise
+    typer.echo(f"set; the former gains are in {keep}: openacr tune undo {target} {keep}")
+
+
+def undo_gains(
+    target: Where,
+    kept: Annotated[Path, typer.Argument(metavar="FILE", help="The file of `apply`.")],
+    baud: Baud = BAUD,
+    silence: Silence = SILENCE_S,
+) -> None:
+    """Set the gains again that an axis had before `openacr tune apply`."""
+    from openacr.tuning.measure import require_rest, write_gains
+    from openacr.tuning.settings import GAINS
+
+    try:
+        found = json.loads(kept.read_text("utf-8"))
+        axis = int(found["axis"])
+        gains = {word: float(found["gains"][word]) for word in GAINS}
+    except OSError as failed:
+        raise UserError(f"{kept}: {failed.strerror}") from None
+    except (ValueError, KeyError, TypeError):
+        raise UserError(f"{kept}: not a file of `openacr tune apply`") from None
+    with card_of(target, baud, silence) as card:
+        card.perform(lambda talk: require_rest(talk, axis))
+        card.perform(lambda talk: write_gains(talk, axis, gains))
+    typer.echo(f"axis {axis}: " + " ".join(f"{word} {value:.7G}" for word, value in gains.items()))
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        path.write_text(text, "utf-8")
+    except OSError as failed:
+        raise UserError(f"{path}: {failed.strerror}") from None

@@ -1,0 +1,121 @@
+"""A virtual card as the target of the debugger: its programs and PLCs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Iterable, Mapping
+
+from openacr.client.program_variables import Value
+from openacr.debugger import questions, rungs
+from openacr.debugger.breakpoints import watches_of
+from openacr.debugger.calls import PROGRAMS, frame_of, frames_of, listing, name_of, owners
+from openacr.debugger.session import DebugSession
+from openacr.debugger.sources import Sources
+from openacr.debugger.target import Frame, Place
+from openacr.debugger.variables import axis_states, locals_of, program_state, time_state
+from openacr.errors import UserError
+from openacr.timeline import Timeline
+
+
+class CardTarget(DebugSession):
+    """A debugged card, with what is seen of it."""
+
+    @property
+    def capabilities(self) -> Mapping[str, object]:
+        """None: what a virtual card can do is the rule."""
+        return {}
+
+    @property
+    def period_s(self) -> float:
+        """The servo period [s]."""
+        return self.card.period_s
+
+    @property
+    def history(self) -> Timeline:
+        """The history of the card."""
+        return self.timeline
+
+    def listen(self, show: Callable[[str], None]) -> None:
+        """Show what programs print."""
+        self.card.listen(lambda program, text: show(text))
+
+    def close(self) -> None:
+        """Do nothing: the card ends with its process."""
+
+    def owners(self) -> list[tuple[int, str]]:
+        """The programs and PLCs that have a text; PROG0 if there is none."""
+        return [(owner, name_of(owner)) for owner in owners(self.card) or [0]]
+
+    def frames(self, owner: int) -> list[Frame]:
+        """The line that a program executes next or waits in, then those that called it.
+
+        Of a PLC it is the line whose coil has changed, where that has stopped the card.
+        """
+        if owner < PROGRAMS:
+            present = frames_of(self.card, owner) if owner >= 0 else []
+        else:
+            rung = self.rung_at(owner)
+            present = [] if rung is None else [frame_of(self.card, owner, rung)]
+        found = []
+        for each in present:
+            name = f"{name_of(owner)} line {each.line}"
+            if each.path:
+                found.append(Frame(name, each.file_line, each.path))
+            else:
+                place = Sources(self.card).listed_place(owner, each.line)
+                found.append(Frame(name, place, f"{name_of(owner)} (listing)", owner + 1))
+        return found
+
+    def listing(self, number: int) -> str:
+        """The listing of a program; its number is that of the program plus 1."""
+        if number - 1 not in owners(self.card):
+            raise UserError(f"there is no listing {number}")
+        return "\n".join(listing(self.card, number - 1)) + "\n"
+
+    def scopes(self, owner: int, depth: int) -> Iterable[tuple[str, Iterable[Value]]]:
+        """The groups of values of a program."""
+        rung = self.rung_at(owner)
+        if rung is not None:
+            yield "Rung", rungs.operands(self.card, owner, rung)
+            yield "Time", time_state(self.card)
+            return
+        if not 0 <= owner < PROGRAMS:
+            raise UserError(f"there is no program {owner}")
+        yield "Variables", locals_of(self.card, owner)
+        yield "Axes", axis_states(self.card, owner)
+        yield "Program", program_state(self.card, owner)
+        yield "Time", time_state(self.card)
+
+    def answer(self, owner: int, expression: str) -> str:
+        """The value of an expression at the prompt of a program."""
+        return questions.answer(self.card, owner, expression)
+
+    def assign(self, owner: int, target: str, value: str) -> None:
+        """Change a value; in the past, this begins another branch."""
+        questions.assign(self.card, owner, target, value)
+
+    def typed(self, owner: int, line: str) -> str:
+        """What the card answers to a line that is typed at the prompt of a program."""
+        return questions.typed(self.card, owner, line)
+
+    def heard(self) -> str:
+        """What the card has answered since to the lines that were typed."""
+        return questions.heard(self.card)
+
+    def places_of(self, path: str, listing: int, lines: Container[int]) -> dict[int, Place]:
+        """The stored lines that come from these of a file or listing."""
+        sources = Sources(self.card)
+        found = sources.lines_listed(listing - 1) if listing else sources.lines_of(path)
+        return {line: place for line, place in found.items() if line in lines}
+
+    def why_no_stop(self, place: Place) -> str:
+        """Why the card cannot stop at a line: nothing of a PLC is seen but its coils."""
+        is_plc = place[0] >= PROGRAMS
+        return rungs.NO_COIL if is_plc and not rungs.coils(self.card, *place) else ""
+
+    def require_watchable(self, name: str) -> None:
+        """UserError unless it is a parameter or flag of the card."""
+        list(watches_of(self.card, name))
+
+    def steps_lines(self, owner: int) -> bool:
+        """Whether it steps line by line: a PLC steps by servo interrupts alone."""
+        return owner < PROGRAMS

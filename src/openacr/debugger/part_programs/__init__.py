@@ -1,0 +1,1 @@
+"""Part programs as the target of the debugger."""

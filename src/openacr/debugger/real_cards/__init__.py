@@ -1,0 +1,1 @@
+"""Debugging the programs of a card over its terminal."""

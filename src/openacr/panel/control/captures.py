@@ -1,0 +1,69 @@
+"""Captures of the scope on one machine: where their samples come from, how they begin and end."""
+
+from collections.abc import Callable, Iterator, Sequence
+
+from openacr.errors import OpenacrError
+from openacr.map import Flag, Parameter
+from openacr.mill.card.driver import LINK_ERRORS
+from openacr.mill.session import MillSession
+from openacr.panel.control.card_sampler import CardSampler
+from openacr.panel.control.sampling import Sampling, source_of
+from openacr.panel.control.scope import Capture, Samples, Trigger
+from openacr.panel.control.shared import Shared
+
+
+class Captures:
+    """The capture under way and its source."""
+
+    def __init__(self, station: Shared, say: Callable[[str], None]) -> None:
+        self._station, self._say = station, say
+        self.sampling = source_of(station.installation)
+
+    def source(self, program: int | None) -> Sampling:
+        """What will sample: the arrays of a program of a card over a link, if one is given."""
+        installation = self._station.installation
+        if program is None or installation.is_virtual:
+            return source_of(installation)
+        is_serial = installation.kind == "serial"
+        return CardSampler(self._station.machine, program, is_serial=is_serial)
+
+    def arm(
+        self,
+        sampling: Sampling,
+        channels: Sequence[Parameter | Flag],
+        period_s: float,
+        samples: int,
+        trigger: Trigger | None,
+    ) -> Capture:
+        """Begin a capture, in place of the one under way."""
+        self.stop()
+        self.sampling = sampling
+        capture = self._station.scope.arm(channels, period_s, samples, trigger)
+        try:
+            sampling.begin(self._station.scope)
+        except OpenacrError:
+            self.stop()
+            raise
+        return capture
+
+    def stop(self) -> None:
+        """End the capture; its last samples are sent with the next snapshot."""
+        self.sampling.collect(self._station.scope)
+        self._station.scope.stop()
+        self.sampling.end()
+
+    def step(self, session: MillSession, now_s: float) -> None:
+        """Read what is due; a refusal of the card ends the capture."""
+        try:
+            self.sampling.step(session, self._station.scope, now_s)
+        except LINK_ERRORS:
+            raise
+        except OpenacrError as error:
+            self.stop()
+            self._say(f"the scope has ended: {error}")
+
+    def samples(self) -> Iterator[Samples]:
+        """The samples that were not sent yet."""
+        self.sampling.collect(self._station.scope)
+        while (samples := self._station.scope.take()) is not None:
+            yield samples

@@ -1,0 +1,247 @@
+"""The time of the card as the screens command it: still, fast or slow, back, in branches.
+
+The panel is one of the hosts of its card, and what it knows of a run is no part of the card.
+Before a moment of the history is shown it leaves the card, as at its end; it comes back where the
+operator lets the machine be operated from there, and finds the card as after a power cut of a host.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from openacr.debugger.calls import is_running
+from openacr.errors import UserError
+from openacr.mill.config.settings import Settings
+from openacr.panel.control.history import AWAY, STILL, History
+from openacr.panel.control.pace import OwnTime, Paced
+from openacr.panel.control.place import read_place
+from openacr.panel.control.shared import Shared
+from openacr.panel.control.snapshot import Light, Snapshot
+from openacr.panel.control.stepping import step_back, step_line, step_move, step_tick
+from openacr.timeline import Kind
+
+SLOWEST, FASTEST = 0.01, 100.0
+NOT_HERE = "the time of this card is its own: only that of a virtual card in the panel can be moved"
+
+
+@dataclass(frozen=True, slots=True)
+class Around:
+    """What a station does around a change of the time of its card."""
+
+    release: Callable[[str], None]  # end held keys, with a sentence why
+    leave: Callable[[], None]  # close the session of the machine
+    enter: Callable[[], None]  # open it again
+    moved: Callable[[], None]  # the card is at another moment: all values are reported again
+
+
+class Times:
+    """What moves the time of one card."""
+
+    def __init__(self, station: Shared, around: Around) -> None:
+        self._station, self._around = station, around
+        self._settings: Settings | None = None
+        self.speed = 1.0
+
+    # --- what others ask --------------------------------------------------------------
+
+    @property
+    def history(self) -> History:
+        """The history; UserError for a card that is not in this process."""
+        history = self._station.installation.history
+        if history is None:
+            raise UserError(NOT_HERE)
+        return history
+
+    @property
+    def is_still(self) -> bool:
+        """Whether no time passes."""
+        history = self._station.installation.history
+        return history is not None and history.is_still
+
+    @property
+    def is_away(self) -> bool:
+        """Whether the panel has left the card to show moments of its history."""
+        history = self._station.installation.history
+        return history is not None and history.is_away
+
+    # --- running ----------------------------------------------------------------------
+
+    def pause(self) -> None:
+        """Let no more time pass; held keys end. UserError while an axis is measured."""
+        history = self.history
+        self._station.require_unmeasured()
+        if self._station.session is None and not history.is_away:
+            raise UserError(self._station.lost)
+        self._around.release(STILL)
+        history.is_still = True
+
+    def run(self, speed: float, now_s: float) -> None:
+        """Let time pass, `speed` times as fast as real; infinite: as fast as it goes. UserError."""
+        history = self.history
+        if not (SLOWEST <= speed <= FASTEST or speed == math.inf):
+            raise UserError(f"speed {speed:g}: {SLOWEST:g} to {FASTEST:g}, or as fast as it goes")
+        self.speed = speed
+        history.is_still = False
+        self._pace.let(speed, now_s)
+
+    def halt(self, now_s: float) -> bool:
+        """A stop was received: the machine comes to rest in real time; a moment becomes still.
+
+        True where nothing else has to be stopped.
+        """
+        history = self._station.installation.history
+        if history is None:
+            return False
+        if history.is_away or self._station.session is None:
+            history.is_still = history.is_away = True
+            self._station.lost = AWAY
+            return True
+        if history.is_still or self.speed != 1.0:
+            self.run(1.0, now_s)
+        return False
+
+    def wake(self, now_s: float) -> None:
+        """Let time pass in real time where the panel has to bring its machine to rest."""
+        if self.is_still and self._station.session is not None:
+            self.run(1.0, now_s)
+
+    @property
+    def _pace(self) -> Paced:
+        pace = self._station.installation.pace
+        if isinstance(pace, OwnTime):
+            raise UserError(NOT_HERE)
+        return pace
+
+    # --- moments ----------------------------------------------------------------------
+
+    def seek(self, tick: int) -> None:
+        """Go to a tick of the present branch; UserError for one that it does not have."""
+        history = self.history
+        first, last = history.timeline.branch.first.tick, history.last_tk
+        if not first <= tick <= last:
+            raise UserError(f"tick {tick} is not known: from {first} to {last} are")
+        self._go_away()
+        history.timeline.seek(tick)
+        self._around.moved()
+
+    def switch(self, number: int, tick: int | None = None) -> None:
+        """Change to another branch, to a tick of it or its end; UserError for an unknown one."""
+        timeline = self.history.timeline
+        branch = timeline.branches.named(number)
+        if tick is not None and not branch.first.tick <= tick <= branch.last.tick:
+            raise UserError(
+                f"tick {tick} is not known on branch {number}: from {branch.first.tick} to"
+                f" {branch.last.tick} are"
+            )
+        self._go_away()
+        timeline.switch(number)
+        if tick is not None:
+            timeline.seek(tick)
+        self._around.moved()
+
+    def branch(self) -> int:
+        """Begin another branch at the present moment; its number. UserError at the end of one."""
+        timeline = self.history.timeline
+        if not timeline.is_past:
+            raise UserError("nothing follows here: go back to a moment first")
+        timeline.fork()
+        return timeline.branch.number
+
+    def write(self, number: int, value: float, *, is_flag: bool) -> None:
+        """Set a parameter or flag at a moment of the history; it begins another branch there."""
+        card = self.history.card
+        if is_flag:
+            card.bit[number] = bool(value)
+        else:
+            card.p[number] = value
+
+    def step(self, what: str, number: int) -> None:
+        """Go on by one tick, one line of a program or one move of a master; or a tick back."""
+        history = self.history
+        if what == "tick" and not history.is_away:
+            self.pause()
+            step_tick(history)
+            return
+        self._go_away()
+        if what == "tick":
+            step_tick(history)
+        elif what == "back":
+            step_back(history)
+        elif what == "line":
+            step_line(history, number)
+        else:
+            step_move(history, number)
+        self._around.moved()
+
+    def operate(self, now_s: float) -> None:
+        """Operate the machine from the present moment on: what follows there is another branch."""
+        history = self.history
+        if not history.is_away:
+            return
+        history.timeline.advance()  # a tick that has begun is completed
+        history.is_still = history.is_away = False
+        self._end_watchdog()
+        for stream in history.card.streams.numbers:
+            history.card.close_stream(stream)
+        self.run(1.0, now_s)
+        self._around.enter()
+
+    def _end_watchdog(self) -> None:
+        """End the watchdog of the panel at rest: it would report a host that was lost."""
+        history = self.history
+        if self._settings is None or read_place(self._settings, history.read_rows).is_moving:
+            return
+        for program in history.unmarked:
+            if is_running(history.card, program):
+                history.card.send(f"SYS\rHALT PROG{program}\r")
+
+    def _go_away(self) -> None:
+        """Leave the card, and let its time be still; UserError while the panel moves it."""
+        history, session = self.history, self._station.session
+        if history.is_away:
+            history.is_still = True
+            return
+        self._station.require_unmoved()
+        if session is not None:
+            self.pause()
+        self._settings = None if session is None else session.runner.settings
+        try:
+            self._around.leave()
+        finally:
+            history.is_still = True
+        history.is_away = True
+        self._station.lost = AWAY
+
+    # --- what is shown ----------------------------------------------------------------
+
+    def snapshot(self, number: int, tick_ms: float, now_s: float) -> Snapshot:
+        """The machine at a moment of the history: its positions, nothing of a run."""
+        settings = self._settings or Settings(self._station.installation.store)
+        place = read_place(settings, self.history.read_rows)
+        none = (math.nan,) * len(place.commanded)
+        return Snapshot(
+            number=number,
+            tick_ms=tick_ms,
+            read_s=now_s,
+            lights=Light.BARRED | (Light.MOVING if place.is_moving else 0),
+            jogging=place.moving,
+            speed_upm=place.speed_upm,
+            work=place.commanded,
+            commanded=place.commanded,
+            actual=place.actual,
+            following=place.following,
+            to_go=none,
+            following_end=none,
+        )
+
+    def watch_own(self) -> None:
+        """The session is open: its own programs end without a bookmark."""
+        history, session = self._station.installation.history, self._station.session
+        if history is not None and session is not None:
+            history.unmarked = frozenset({session.runner.settings.watchdog_program})
+
+    def mark(self, kind: Kind, text: str) -> None:
+        """Set a bookmark at the present tick, where there is a history."""
+        history = self._station.installation.history
+        if history is not None:
+            history.mark(kind, text)

@@ -1,0 +1,51 @@
+// Texts on their way from the card and to it.
+import { get, send } from "../../core/api.js";
+import { link } from "../../core/app.js";
+import { textOf } from "../../screens/programs.js";
+
+const OF_CARD = /^(prog|plc)(\d+)\.8k$/i;
+
+/**
+ * @typedef {{ name: string, level: string, text: string, version: string, setup: string, isCards: boolean }} Opened
+ *   `level` is that of a program of the card, empty for a whole file; `version` that of the listing it replaces
+ */
+
+/** @param {string} level PROG3 or PLC0 */
+export function which(level) {
+  return level.startsWith("PLC") ? { plc: Number(level.slice(3)) } : { program: Number(level.slice(4)) };
+}
+
+/**
+ * A program as the card lists it.
+ * @param {string} level
+ * @returns {Promise<Opened>}
+ */
+export async function fromCard(level) {
+  const [listed, around] = await Promise.all([get("card/listing", which(level)), get("card/surroundings", which(level))]);
+  return { name: `${level.toLowerCase()}.8k`, level, text: textOf(listed.lines), version: listed.version, setup: around.setup, isCards: true };
+}
+
+/**
+ * A file of this computer: prog3.8k is the text of a program, other names are whole files.
+ * @param {File} file
+ * @returns {Promise<Opened>}
+ */
+export async function fromFile(file) {
+  const text = (await file.text()).replace(/\r\n?/g, "\n");
+  const name = /\.8k$/i.test(file.name) ? file.name : `${file.name.replace(/\.[^.]*$/, "")}.8k`;
+  const match = OF_CARD.exec(name);
+  if (!match) return { name, level: "", text, version: "", setup: "", isCards: false };
+  const there = await fromCard(`${match[1].toUpperCase()}${Number(match[2])}`);
+  return { ...there, text, isCards: false };
+}
+
+/**
+ * Send a text to the card; refused, the CommandError names the line.
+ * @param {Opened} opened
+ * @param {string} text
+ * @returns {Promise<{ sent: number, remarks?: [number, string][] }>}
+ */
+export async function toCard({ level, version }, text) {
+  const { parked } = await send("POST", "text/parked", { text });
+  return level ? link.command("card.send", { ...which(level), parked, version }) : link.command("card.download", { parked });
+}

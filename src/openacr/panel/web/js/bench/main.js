@@ -1,0 +1,28 @@
+// Start of the engineer's workspace: the frame of the operator's with panes in the place of its windows.
+import { link, model } from "../core/app.js";
+import { applyTheme, followSystemTheme, setting } from "../core/settings.js";
+import { addTexts, useLanguage } from "../core/texts.js";
+import english from "../catalog/bench/en.js";
+
+async function start() {
+  link.onEvent = (event) => model.takeEvent(event);
+  link.onFrame = (head, data) => model.takeFrame(head, data);
+  link.subscribe({ topic: "status", hz: 25 });
+  link.open();
+  applyTheme();
+  followSystemTheme();
+  const language = setting("language", "en");
+  await useLanguage(language);
+  addTexts(language === "de" ? (await import("../catalog/bench/de.js")).default : english);
+  const [clock, top, prompt, stop, workspace, bar] = await Promise.all([
+    import("../frame/clock.js"), import("../frame/top.js"), import("../frame/prompt.js"), import("../frame/stop.js"), import("./workspace.js"), import("./bar.js"),
+  ]);
+  top.startTop(() => workspace.openPane("alarms"));
+  prompt.startPrompt();
+  stop.startStop();
+  clock.startClock();
+  workspace.startWorkspace();
+  bar.startBar();
+}
+
+void start();

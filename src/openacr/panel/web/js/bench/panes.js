@@ -1,0 +1,36 @@
+// Every pane of the workspace, as data: its title, who may use it, its module, and how many there may be.
+import { modulePane, screenPane, tabPane } from "./adapters.js";
+
+/**
+ * @typedef {object} Place what a pane gets
+ * @property {HTMLElement} head for keys above the pane
+ * @property {number} number which of several panes of its kind, from 1
+ * @property {Record<string, any>} kept what the layout keeps of the pane
+ * @property {(values: Record<string, any>) => void} keep have the layout keep values
+ * @property {(ask: () => boolean | Promise<boolean>) => void} beforeClose asked before the pane is closed
+ *
+ * @typedef {(host: HTMLElement, place: Place) => (() => void) | Promise<() => void>} Mount
+ * @typedef {{ title: import("../core/texts.js").TextKey, role?: string, most?: number, load: () => Promise<Mount> }} Pane
+ */
+
+/** @type {Record<string, Pane>} */
+export const PANES = {
+  terminal: { title: "terminal.title", role: "service", most: 4, load: modulePane(() => import("../panes/terminal.js")) },
+  status: { title: "pane.status", most: 8, load: modulePane(() => import("./panes/status.js")) },
+  programs: { title: "pane.programs", load: screenPane(() => import("../screens/programs.js")) },
+  editor: { title: "pane.editor", most: 4, load: modulePane(() => import("./panes/editor.js")) },
+  variables: { title: "pane.variables", most: 4, load: modulePane(() => import("./panes/variables.js")) },
+  plc: { title: "pane.plc", load: tabPane(async () => (await import("../frame/tab_plc.js")).plcTab) },
+  servo: { title: "servo.title", load: screenPane(() => import("../screens/servo.js")) },
+  gain: { title: "pane.gain", role: "service", load: screenPane(() => import("../screens/gain.js")) },
+  tune: { title: "pane.tune", role: "service", load: modulePane(() => import("./panes/tune.js")) },
+  scope: { title: "scope.title", role: "service", load: modulePane(() => import("./panes/scope.js")) },
+  tree: { title: "pane.tree", load: modulePane(() => import("./panes/tree.js")) },
+  watch: { title: "pane.watch", load: modulePane(() => import("./panes/watch.js")) },
+  io: { title: "pane.io", load: tabPane(async () => (await import("../frame/tab_io.js")).ioTab) },
+  board: { title: "board.title", role: "service", load: screenPane(() => import("../screens/board.js")) },
+  world: { title: "pane.world", load: modulePane(() => import("./panes/world.js")) },
+  wizard: { title: "pane.wizard", role: "service", load: modulePane(() => import("./panes/wizard.js")) },
+  timeline: { title: "pane.timeline", role: "service", load: modulePane(() => import("./panes/timeline.js")) },
+  alarms: { title: "pane.alarms", load: tabPane(async () => (await import("../frame/tab_alarms.js")).alarmsTab) },
+};

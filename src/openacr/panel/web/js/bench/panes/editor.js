@@ -1,0 +1,281 @@
+// Editor: controller files and the programs of the card, checked while they are typed, sent, compared, their running lines marked.
+import { get } from "../../core/api.js";
+import { model, refuse, report } from "../../core/app.js";
+import { fill, h, setText } from "../../core/dom.js";
+import { CommandError } from "../../core/link.js";
+import { needPrograms } from "../../core/programs.js";
+import { Endings } from "../../core/signal.js";
+import { t } from "../../core/texts.js";
+import { createControllerEditor } from "../../edit/controller_editor.js";
+import { StoredLines } from "../../edit/line_marks.js";
+import { ask, confirm } from "../../frame/dialog.js";
+import { stateText } from "../../screens/programs.js";
+import { fromCard, fromFile, toCard } from "../editor/card_text.js";
+import { comparison } from "../editor/compare.js";
+import { nameActions } from "../editor/name_actions.js";
+
+const SIGNATURE_MS = 150;
+const HALTED = "halted";
+
+/** @typedef {import("../editor/card_text.js").Opened} Opened */
+
+/**
+ * @param {HTMLElement} host
+ * @param {import("../panes.js").Place} place
+ */
+export async function mount(host, { head, kept, keep, beforeClose }) {
+  const endings = new Endings();
+  /** @type {Opened} */
+  let opened = { name: "setup.8k", level: "", text: "", version: "", setup: "", isCards: false };
+  let saved = "";
+  let drawnMarks = "";
+  /** @type {StoredLines | null} */
+  let stored = null; // of what is on the card for sure
+  /** @type {import("../../edit/line_marks.js").LineMark | null} */
+  let refused = null;
+  /** @type {any[]} */
+  let states = [];
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let timer;
+  /** @type {ReturnType<typeof createControllerEditor>} */
+  let editor;
+
+  const actions = nameActions({ asked, editor: () => editor, list, showBeside });
+  const choice = h("select.field", { ariaLabel: t("texts.which"), onchange: () => void chooseLevel() });
+  const input = h("input", { type: "file", hidden: true, ariaLabel: t("texts.open"), accept: ".8k,.8K,.txt,.prg", onchange: () => void chooseFile() });
+  const sendKey = keyOf("texts.send", () => sendNow(), "main");
+  const compareKey = keyOf("texts.compare", () => compare());
+  head.append(choice, keyOf("texts.read", () => chooseLevel()), sendKey, compareKey, keyOf("texts.open", () => input.click()), input, keyOf("texts.save", () => save()),
+    keyOf("texts.rename", actions.rename), keyOf("texts.uses", actions.uses), keyOf("texts.format", actions.format), keyOf("texts.outline", actions.outline));
+  const code = h("div.editor-host.grow", {});
+  const beside = h("div.stack.scroll.text-beside", { hidden: true, tabIndex: 0, role: "region", ariaLabel: t("texts.beside") });
+  const problems = h("div.findings.scroll", { hidden: true, role: "region", ariaLabel: t("texts.findings") });
+  const signature = h("div.mono.text-signature", { ariaLive: "off" });
+  const status = h("span.hint.grow", { role: "status" });
+  host.classList.add("is-editor");
+  host.append(h("div.text-work.grow", {}, code, beside), problems, h("div.row.text-foot", {}, status, signature));
+
+  const isChanged = () => editor.text() !== saved;
+  const stateOf = (/** @type {string} */ level) => states.find((each) => each.name === level);
+
+  /** @param {Opened} now */
+  function show(now) {
+    opened = now;
+    saved = now.isCards ? now.text : "";
+    stored = null;
+    refused = null;
+    drawnMarks = "";
+    if (editor) editor.close();
+    editor = createControllerEditor(code, { ...now, found: showFindings, changed, moved, keys: actions.keys });
+    if (!now.isCards && !now.text) saved = now.text;
+    closeBeside();
+    choice.value = now.level;
+    keep({ level: now.level });
+    if (now.isCards) void knowStored([now.level]);
+    draw();
+  }
+
+  // --- what is shown ------------------------------------------------------------------
+
+  function draw() {
+    const state = stateOf(opened.level);
+    const isRunning = state !== undefined && state.state !== HALTED;
+    sendKey.disabled = !model.may("service") || isRunning;
+    sendKey.title = isRunning ? t("texts.runs", { name: opened.level }) : model.may("service") ? "" : t("role.needed", { role: t("role.service") });
+    const about = [opened.level || opened.name, state ? stateText(state) : "", t("edit.lines", { count: editor.doc().lines }), isChanged() ? t("texts.changed") : ""];
+    setText(status, about.filter(Boolean).join(" \u00b7 "));
+    drawMarks();
+  }
+
+  function drawMarks() {
+    /** @type {import("../../edit/line_marks.js").LineMark[]} */
+    const marks = refused ? [refused] : [];
+    for (const { name, line } of states) {
+      const at = line && stored ? stored.at(name, line) : null;
+      if (at !== null) marks.push({ at, kind: "running", text: name });
+    }
+    const drawn = JSON.stringify(marks);
+    if (drawn === drawnMarks) return;
+    drawnMarks = drawn;
+    editor.mark(marks);
+  }
+
+  /**
+   * The card holds these programs as the text has them now.
+   * @param {string[]} levels
+   */
+  async function knowStored(levels) {
+    const mine = editor;
+    const answered = await mine.synced.ask("stored");
+    if (!answered?.answer || mine !== editor || answered.doc !== mine.doc()) return;
+    stored = new StoredLines(Object.fromEntries(levels.filter((each) => each in answered.answer).map((each) => [each, answered.answer[each]])), answered.doc);
+    drawMarks();
+  }
+
+  /** @param {import("../../../vendor/codemirror.js").ChangeSet} changes */
+  function changed(changes) {
+    stored?.changed(changes);
+    refused = null;
+    drawnMarks = "";
+    queueMicrotask(draw); // the editor takes no other change within one
+  }
+
+  function moved() {
+    clearTimeout(timer);
+    timer = setTimeout(async () => {
+      const answered = await editor.synced.ask("signature", editor.about());
+      if (!answered || answered.doc !== editor.doc()) return;
+      const found = answered.answer;
+      fill(signature, ...(found ? [found.label, ...(found.active >= 0 ? [" \u00b7 ", h("strong", {}, found.parts[found.active])] : [])] : []));
+    }, SIGNATURE_MS);
+  }
+
+  /**
+   * @param {import("../../edit/language.js").Finding[]} findings
+   * @param {number} more
+   */
+  function showFindings(findings, more) {
+    list(findings.map(({ span, text, is_warning, fix }) => ({ span, text, kind: is_warning ? "warning" : "error", fix })));
+    if (more) problems.append(h("p.hint", {}, t("texts.more", { count: more })));
+  }
+
+  /** @param {import("../editor/name_actions.js").Item[]} items */
+  function list(items) {
+    problems.hidden = items.length === 0;
+    fill(problems, ...items.map(({ span, text, kind, fix }) => h("div.row", {}, h("button", { type: "button", className: `key item grow ${kind}`, onclick: () => { closeBeside(); editor.goTo(span); } },
+      h("span", {}, kind === "error" ? "\u26a0" : "\u2139"), h("span.number", {}, `${span[0] + 1}:${span[1] + 1}`), h("span.name", {}, text)),
+    ...(fix ? [h("button.key", { type: "button", onclick: () => editor.apply(fix.edits) }, fix.title)] : []))));
+  }
+
+  /** @param {...Node} content */
+  function showBeside(...content) {
+    fill(beside, h("div.row", {}, h("span.grow", {}), keyOf("texts.close", closeBeside)), ...content);
+    beside.hidden = false;
+  }
+
+  function closeBeside() {
+    beside.hidden = true;
+  }
+
+  /**
+   * Ask about the present text; what is refused goes to the prompt line.
+   * @param {string} question
+   * @param {object} [about]
+   */
+  async function asked(question, about = editor.about()) {
+    const answered = await editor.synced.ask(question, about);
+    if (!answered || answered.doc !== editor.doc()) return null;
+    if (answered.refusal) refuse(answered.refusal);
+    return answered.answer;
+  }
+
+  // --- files and the card -------------------------------------------------------------
+
+  async function mayDrop() {
+    if (!isChanged()) return true;
+    return confirm(t("edit.leave"), t("edit.leave.text", { name: opened.level || opened.name }), t("form.drop"));
+  }
+
+  async function chooseLevel() {
+    const level = choice.value;
+    if (!(await mayDrop())) choice.value = opened.level;
+    else if (!level) show({ name: "setup.8k", level: "", text: "", version: "", setup: "", isCards: false });
+    else await fromCard(level).then(show, refuse);
+  }
+
+  async function chooseFile() {
+    const [file] = input.files ?? [];
+    input.value = "";
+    if (file && (await mayDrop())) await fromFile(file).then(show, refuse);
+  }
+
+  function save() {
+    const link = h("a", { href: URL.createObjectURL(new Blob([editor.text()], { type: "text/plain" })), download: opened.name });
+    link.click();
+    URL.revokeObjectURL(link.href);
+    if (!opened.level) {
+      saved = editor.text();
+      draw();
+    }
+  }
+
+  async function sendNow() {
+    const text = editor.text();
+    if (!opened.level && !(await confirm(t("texts.download.title", { name: opened.name }), t("texts.download.text"), t("texts.send")))) return;
+    try {
+      const done = await toCard(opened, text);
+      report(t("texts.sent", { name: opened.level || opened.name, count: done.sent }));
+      list((done.remarks ?? []).map(([line, remark]) => ({ span: [line - 1, 0, line - 1, 0], text: remark, kind: "remark" })));
+      refused = null;
+      saved = text;
+      if (opened.level) opened = { ...opened, version: (await fromCard(opened.level)).version };
+      await knowStored(opened.level ? [opened.level] : states.map((each) => each.name));
+    } catch (error) {
+      if (!(error instanceof CommandError)) refuse(error);
+      else await notTaken(error);
+    }
+    draw();
+  }
+
+  /** @param {CommandError} error */
+  async function notTaken(error) {
+    if (error.code === "conflict") {
+      const isSure = await ask({ title: t("edit.conflict"), body: [h("p", {}, error.message)], choices: [
+        { text: t("key.cancel"), value: false }, { text: t("texts.compare"), value: "compare" }, { text: t("edit.overwrite"), kind: "danger", value: true }] });
+      if (isSure === "compare") await compare();
+      else if (isSure) {
+        opened = { ...opened, version: "" };
+        await sendNow();
+      }
+      return;
+    }
+    refuse(error.message);
+    const line = /** @type {any} */ (error.refusal).line;
+    if (!line || line > editor.doc().lines) return;
+    editor.goTo([line - 1, 0, line - 1, 0]);
+    refused = { at: editor.doc().line(line).from, kind: "refused", text: error.message };
+  }
+
+  async function compare() {
+    const entered = await asked("stored");
+    if (!entered) return;
+    const programs = opened.level ? [opened.level] : Object.keys(entered);
+    const found = await asked("compare", { programs });
+    if (!found) {
+      refuse(t("texts.notcompared"));
+      return;
+    }
+    showBeside(...found.map((/** @type {any} */ each) => comparison(each, (line) => editor.goTo([line - 1, 0, line - 1, 0]))),
+      ...(found.length ? [] : [h("p.hint", {}, t("texts.noprogram"))]));
+    await knowStored(found.filter((/** @type {any} */ each) => each.is_equal).map((/** @type {any} */ each) => each.name));
+  }
+
+  // --- begin and end ------------------------------------------------------------------
+
+  const leaving = (/** @type {BeforeUnloadEvent} */ event) => { if (isChanged()) event.preventDefault(); };
+  window.addEventListener("beforeunload", leaving);
+  beforeClose(mayDrop);
+  show(opened);
+  endings.add(
+    () => window.removeEventListener("beforeunload", leaving), () => clearTimeout(timer), () => editor.close(), needPrograms(),
+    model.programs.watch(({ programs }) => {
+      states = programs;
+      draw();
+    }),
+  );
+  const { programs } = await get("card/programs");
+  fill(choice, h("option", { value: "" }, t("texts.file")),
+    ...programs.filter((/** @type {any} */ each) => each.bytes).map((/** @type {any} */ each) => h("option", { value: each.name }, each.name)));
+  choice.value = [...choice.options].some((each) => each.value === kept.level) ? kept.level : "";
+  if (choice.value) await chooseLevel();
+  return () => endings.end();
+}
+
+/**
+ * @param {import("../../core/texts.js").TextKey} label
+ * @param {() => void | Promise<void>} onclick
+ * @param {string} [kind]
+ */
+function keyOf(label, onclick, kind = "") {
+  return h("button", { type: "button", className: `key ${kind}`, onclick: () => void onclick() }, t(label));
+}

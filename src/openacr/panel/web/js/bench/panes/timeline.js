@@ -1,0 +1,114 @@
+// The timeline of a virtual card: time that is still, fast or slow, back, in branches, and two of them compared.
+import { give, model } from "../../core/app.js";
+import { fill, h, setText } from "../../core/dom.js";
+import { plain } from "../../core/format.js";
+import { Endings } from "../../core/signal.js";
+import { t } from "../../core/texts.js";
+import { ask } from "../../frame/dialog.js";
+import { compare } from "../compared.js";
+
+const SPEEDS = [0.01, 0.1, 0.5, 1, 2, 5, 10, 100, 0]; // 0: as fast as it goes
+const STEPS = ["tick", "back", "line", "move"];
+const MEGA = 1e6;
+
+/**
+ * @param {HTMLElement} host
+ * @param {import("../panes.js").Place} place
+ */
+export async function mount(host, { head, kept, keep }) {
+  const endings = new Endings();
+  const key = (/** @type {string} */ text, /** @type {() => void} */ onclick, kind = "") => h(/** @type {"button"} */ (`button.key${kind}`), { type: "button", onclick }, t(/** @type {any} */ (text)));
+  const speed = h("select.field", { ariaLabel: t("time.speed"), onchange: () => void run() }, ...SPEEDS.map((each) => h("option", { value: String(each) }, each ? `${each}\u00d7` : t("time.most"))));
+  speed.value = "1";
+  const run = () => give("timeline.run", { speed: Number(speed.value) || null });
+  const pause = key("time.pause", () => void (model.timeline.value.still ? run() : give("timeline.pause")), ".main");
+  const what = h("select.field", { ariaLabel: t("time.step.what"), onchange: showNumber }, ...STEPS.map((each) => h("option", { value: each }, t(/** @type {any} */ (`time.step.${each}`)))));
+  const number = h("input.field.time-number", { type: "number", min: "0", max: "15", value: "0", ariaLabel: t("time.step.number") });
+  const step = () => give("timeline.step", { what: what.value, number: Number(number.value) || 0 });
+  const operate = key("time.operate", () => void give("timeline.operate"));
+  const branch = key("time.branch", () => void give("timeline.branch"));
+  head.append(pause, speed, key("time.step", () => void step()), what, number, branch, operate);
+  function showNumber() {
+    number.hidden = what.value === "tick" || what.value === "back";
+  }
+  showNumber();
+
+  const slider = h("input.grow.time-slider", { type: "range", step: "1", ariaLabel: t("time.moment"), oninput: () => void drag(), onchange: () => void drag() });
+  const shown = h("strong.live.time-now", {});
+  const used = h("span.hint", {});
+  const marks = h("div.time-marks.scroll", { role: "group", tabIndex: 0, ariaLabel: t("time.marks") });
+  const rows = h("tbody", {});
+  const notHere = h("div.notice", { hidden: true });
+  const parts = h("div.grow.scroll", { tabIndex: 0 });
+  const text = h("input.field.grow", { ariaLabel: t("time.mark.text"), placeholder: t("time.mark.text"), maxLength: 80 });
+  const marking = h("form.row", { onsubmit: (/** @type {Event} */ event) => {
+    event.preventDefault();
+    void give("timeline.mark", { text: text.value.trim() }).then((done) => { if (done) text.value = ""; });
+  } }, text, h("button.key", { type: "submit" }, t("time.mark")));
+  const comparing = compare({ kept, keep, seconds });
+  parts.append(h("div.row", {}, slider, shown), used, marking, marks, h("table.grid", {}, h("thead", {}, h("tr", {}, ...["time.branches", "time.from", "time.to", "time.do"].map((each) => h("th", {}, t(/** @type {any} */ (each)))))), rows), comparing.element);
+  host.append(notHere, parts);
+
+  let isAsking = false; // a moment is on its way
+  let wanted = Number.NaN;
+  async function drag() {
+    wanted = Number(slider.value);
+    showMoment(wanted);
+    if (isAsking) return;
+    isAsking = true;
+    for (let last = Number.NaN; last !== wanted;) {
+      last = wanted;
+      await give("timeline.seek", { tick: last });
+    }
+    isAsking = false;
+    draw();
+  }
+
+  /** @param {number} tick */
+  function seconds(tick) {
+    return plain(tick * model.timeline.value.period_s, 4);
+  }
+
+  /** @param {number} tick */
+  function showMoment(tick) {
+    setText(shown, `${seconds(tick)} s${model.moment.value.within ? ` + ${model.moment.value.within}` : ""}`);
+  }
+
+  function draw() {
+    const { still, away, branch: present, branches, most_bytes: most } = model.timeline.value;
+    const { tick, last, bytes } = model.moment.value;
+    const own = branches.find((each) => each.number === present);
+    setText(pause, t(still ? "time.run" : "time.pause"));
+    operate.disabled = !away;
+    branch.disabled = !away || tick >= last;
+    setText(used, t("time.memory", { used: plain(bytes / MEGA, 1), most: plain(most / MEGA, 0) }));
+    if (isAsking || !own) return;
+    [slider.min, slider.max] = [String(own.first), String(last)];
+    slider.value = String(tick);
+    showMoment(tick);
+  }
+
+  function list() {
+    const { why, branch: present, branches, bookmarks } = model.timeline.value;
+    notHere.hidden = !why;
+    parts.hidden = head.inert = Boolean(why);
+    setText(notHere, why);
+    if (why) return;
+    fill(marks, ...bookmarks.map((each) => h("button.key", { type: "button", data: { kind: each.kind }, onclick: () => void give("timeline.seek", { tick: each.tick }) }, `${seconds(each.tick)} s ${t(/** @type {any} */ (`time.kind.${each.kind}`))}: ${each.text}`)));
+    fill(rows, ...branches.map((each) => h("tr", { data: { branch: String(each.number) }, className: each.number === present ? "is-present" : "" },
+      h("td", {}, each.number === present ? h("strong", {}, each.name, " \u25c0") : each.name), h("td.number", {}, seconds(each.fork ?? each.first)), h("td.number", {}, each.last === null ? "\u2026" : seconds(each.last)),
+      h("td.row.wrap", {}, key("time.name", () => void rename(each)), ...(each.number === present ? [] : [key("time.switch", () => void give("timeline.switch", { number: each.number })), key("time.forget", () => void give("timeline.forget", { number: each.number }))])))));
+    comparing.offer(branches.filter((each) => each.number !== present));
+    draw();
+  }
+
+  /** @param {import("../../core/model.js").TimeBranch} branchOf */
+  async function rename(branchOf) {
+    const field = h("input.field", { value: branchOf.name, maxLength: 80, ariaLabel: t("time.name") });
+    const name = await ask({ title: t("time.name"), body: [field], first: field, choices: [{ text: t("time.name"), kind: "main", isSubmit: true, value: () => field.value.trim() || undefined }, { text: t("key.cancel"), value: null }] });
+    if (name) await give("timeline.name", { number: branchOf.number, name });
+  }
+
+  endings.add(model.timeline.watch(list), model.moment.watch(draw), () => comparing.end());
+  return () => endings.end();
+}

@@ -1,0 +1,191 @@
+// TUNING: an axis is measured, its motor and margins are shown, gains proposed, predicted, and set when confirmed.
+import { give, link, model, report } from "../../core/app.js";
+import { fill, h, setText } from "../../core/dom.js";
+import { Endings } from "../../core/signal.js";
+import { t } from "../../core/texts.js";
+import { confirm } from "../../frame/dialog.js";
+import { mayMove } from "../../motion/actions.js";
+import { chart, drawTuning } from "../tuning/charts.js";
+import { gainSliders } from "../tuning/sliders.js";
+
+const FIELDS = /** @type {const} */ ([
+  ["amplitude", "tune.amplitude", "100"], ["low_hz", "tune.lowest", "2"], ["high_hz", "tune.highest", "60"], ["time_s", "tune.time", "1.5"],
+  ["phase_deg", "tune.margin", "55"], ["bandwidth_hz", "tune.wanted", ""],
+]);
+const GAINS = ["PGAIN", "IGAIN", "ILIMIT", "DGAIN", "FFVEL", "FFACC"];
+
+/**
+ * @param {HTMLElement} host
+ * @param {import("../panes.js").Place} place
+ */
+export async function mount(host, { head, kept, keep }) {
+  const endings = new Endings();
+  const drawn = new Endings();
+  const tried = new Endings();
+  const axes = h("div.row.wrap", { role: "radiogroup", ariaLabel: t("form.axis") });
+  const fields = FIELDS.map(([name, text, value]) => h("input.field.number", { ariaLabel: t(text), value: kept[name] ?? value, inputMode: "decimal", autocomplete: "off", data: { field: name } }));
+  const integral = h("input", { type: "checkbox", checked: true });
+  const store = h("input", { type: "checkbox" });
+  const measure = h("button.key.danger", { type: "button", onclick: () => void onMeasure() }, t("tune.measure"));
+  const step = h("button.key.danger", { type: "button", onclick: () => void onStep() }, t("tune.step"));
+  const apply = h("button.key.danger", { type: "button", disabled: true, onclick: () => void onApply() }, t("tune.apply"));
+  const state = h("p.hint", { role: "status" });
+  const facts = h("div.stack", {});
+  const charts = h("div.tune-charts", {});
+  const sliders = h("div.stack.tune-sliders", {});
+  head.append(axes, measure, step, apply);
+  host.append(h("div.tune.grow", {},
+    h("div.stack.scroll.tune-side", { tabIndex: 0 },
+      ...FIELDS.map(([, text], n) => h("label.row", {}, h("span.grow", {}, t(text)), fields[n])),
+      h("label.check", {}, integral, t("tune.integral")), h("label.check", {}, store, t("gain.store")), state, facts, sliders),
+    h("div.scroll.tune-view", { tabIndex: 0 }, charts)));
+  /** @type {import("../../core/model.js").Axis} */
+  let axis = model.axes[0];
+  /** @type {any} */
+  let found = null;
+  /** @type {{ reload: () => Promise<void> } | null} */
+  let gains = null;
+  /** @type {any} */
+  let former = null; // step
+  let isMoving = false;
+
+  /** @param {import("../../core/model.js").Axis} chosen */
+  async function choose(chosen) {
+    if (isMoving) return;
+    axis = chosen;
+    fill(axes, ...model.axes.map((each) => h("button.key", { type: "button", role: "radio", ariaChecked: String(each === axis), onclick: () => void choose(each) }, each.name)));
+    show(null);
+    former = null;
+    gains = await gainSliders(sliders, chosen, () => store.checked);
+  }
+
+  /** @param {any} advice */
+  function show(advice) {
+    found = advice;
+    drawn.end();
+    tried.end();
+    fill(charts);
+    apply.disabled = !advice?.proposed;
+    fill(facts, ...(advice ? [table(advice)] : []));
+    if (advice) drawn.add(drawTuning(charts, advice));
+  }
+
+  /** The fields as arguments; an empty one is left out. */
+  function args() {
+    /** @type {Record<string, any>} */
+    const given = { axis: axis.name, integral: integral.checked };
+    for (const field of fields) {
+      const text = field.value.trim().replace(",", ".");
+      if (text) given[field.dataset.field ?? ""] = Number(text);
+    }
+    keep(Object.fromEntries(fields.map((field) => [field.dataset.field, field.value])));
+    return given;
+  }
+
+  /**
+   * Have the axis moved; null where it was refused.
+   * @param {string} command
+   * @param {Record<string, any>} given
+   */
+  async function moved(command, given) {
+    isMoving = true;
+    measure.disabled = step.disabled = apply.disabled = true;
+    setText(state, t("tune.moving", { axis: axis.name }));
+    const answer = await give(command, given);
+    isMoving = false;
+    measure.disabled = step.disabled = false;
+    apply.disabled = !found?.proposed;
+    setText(state, "");
+    return answer;
+  }
+
+  async function onMeasure() {
+    const given = args();
+    const text = t("tune.measure.text", { axis: axis.name, amplitude: given.amplitude ?? 100, time: given.time_s ?? 1.5 });
+    if (!mayMove() || !(await confirm(t("tune.measure"), text, t("tune.measure")))) return;
+    const advice = await moved("tune.measure", given);
+    if (!advice) return;
+    show(advice);
+    report(advice.refusal ? t("tune.nothing", { why: advice.refusal }) : t("tune.done", { axis: axis.name }));
+  }
+
+  async function onStep() {
+    const { amplitude = 100 } = args();
+    const text = t("tune.step.text", { axis: axis.name, amplitude });
+    if (!mayMove() || !(await confirm(t("tune.step"), text, t("tune.step")))) return;
+    const answer = await moved("tune.step", { axis: axis.name, amplitude });
+    if (!answer) return;
+    drawStep(answer);
+    const { overshoot_percent: overshoot, rise_s: rise, settling_s: settling } = answer.figures;
+    report(t("tune.stepped", { axis: axis.name, overshoot: shown(overshoot), rise: inMs(rise), settling: inMs(settling) }));
+  }
+
+  /**
+   * Draw a step that the axis has made, and the one before it.
+   * @param {any} answer
+   */
+  function drawStep({ measured, predicted }) {
+    tried.end();
+    const curves = [
+      { label: t("tune.setpoint"), ink: "setpoint", x: measured.time_s, y: measured.setpoint_cnt },
+      { label: t("tune.measured"), ink: "measured", x: measured.time_s, y: measured.actual_cnt },
+      predicted && { label: t("tune.predicted"), ink: "modelled", x: predicted.time_s, y: predicted.actual_cnt, dash: [4, 3] },
+      former && { label: t("tune.former"), ink: "present", x: former.time_s, y: former.actual_cnt, dash: [6, 3] },
+    ];
+    tried.add(chart(charts, t("tune.trial"), "s", curves.filter(Boolean)));
+    former = measured;
+  }
+
+  async function onApply() {
+    const { overshoot_percent: overshoot } = found.proposed.figures;
+    const text = t("tune.apply.text", { axis: axis.name, overshoot: shown(overshoot), gains: GAINS.map((word) => `${word} ${shown(found.proposed.gains[word])}`).join(", ") });
+    if (!mayMove() || !(await confirm(t("tune.apply"), text, t("tune.apply")))) return;
+    const answer = await moved("tune.apply", { axis: axis.name, store: store.checked });
+    await gains?.reload();
+    if (!answer) return;
+    drawStep(answer);
+    report(t("tune.applied", { axis: axis.name }));
+  }
+
+  endings.add(() => drawn.end(), () => tried.end(), () => {
+    if (isMoving && link.isOpen.value) void link.command("stop.hold").catch(() => {}); // the pane that watches it has gone
+  }, model.tuned.watch((progress) => {
+    if (progress && isMoving && progress.done > 0) setText(state, t("tune.reading", { done: progress.done, count: progress.count }));
+  }));
+  await choose(axis);
+  return () => endings.end();
+}
+
+/**
+ * Motor, certainty, gains and margins: present and proposed side by side.
+ * @param {any} advice
+ */
+function table(advice) {
+  const loops = [advice.present, advice.proposed].filter(Boolean);
+  const { motor } = advice;
+  const rows = [
+    ...GAINS.map((word) => [word, (/** @type {any} */ loop) => shown(loop.gains[word])]),
+    [t("tune.crossover"), (/** @type {any} */ loop) => shown(loop.margins.crossover_hz)],
+    [t("tune.margin"), (/** @type {any} */ loop) => shown(loop.margins.phase_deg)],
+    [t("tune.gain.margin"), (/** @type {any} */ loop) => shown(loop.margins.gain_db)],
+    [t("tune.bandwidth"), (/** @type {any} */ loop) => shown(loop.margins.bandwidth_hz)],
+    [t("tune.overshoot"), (/** @type {any} */ loop) => shown(loop.figures.overshoot_percent)],
+  ];
+  return h("div.stack", {},
+    h("p.tune-motor", {}, t("tune.facts", { accel: shown(motor.accel_per_volt), rate: shown(motor.rate_per_s), friction: shown(motor.coulomb_accel / motor.accel_per_volt), offset: shown(motor.offset_v), delay: shown(motor.delay_tk) })),
+    h("p", { className: advice.is_sure ? "hint" : "notice" }, t(advice.is_sure ? "tune.sure" : "tune.unsure", { error: shown(advice.error_percent), coherence: shown(advice.coherence) })),
+    advice.refusal || advice.limited_by ? h("p.hint", {}, advice.refusal || t("tune.limited", { why: advice.limited_by })) : null,
+    h("table.grid.tune-table", {},
+      h("thead", {}, h("tr", {}, h("th", {}), ...loops.map((_loop, n) => h("th.number", {}, t(n ? "tune.proposed" : "tune.present"))))),
+      h("tbody", {}, ...rows.map(([name, cell]) => h("tr", {}, h("th", { scope: "row" }, /** @type {string} */ (name)), ...loops.map((loop) => h("td.number", {}, /** @type {(loop: any) => string} */ (cell)(loop))))))));
+}
+
+/** @param {number | null} seconds */
+function inMs(seconds) {
+  return shown(seconds === null ? null : 1000 * seconds);
+}
+
+/** @param {number | null} value */
+function shown(value) {
+  return value === null ? "\u2013" : String(Number(value.toPrecision(4)));
+}

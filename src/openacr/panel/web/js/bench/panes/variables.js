@@ -1,0 +1,134 @@
+// Variables: those of a program, the parameters and flags in its text, its flow stack and what it waits for.
+import { get } from "../../core/api.js";
+import { give, model, refuse, report } from "../../core/app.js";
+import { fill, h, setText } from "../../core/dom.js";
+import { needWords, wordsOf } from "../../core/flags.js";
+import { needPrograms } from "../../core/programs.js";
+import { Endings } from "../../core/signal.js";
+import { t } from "../../core/texts.js";
+import { needValues } from "../../core/values.js";
+import { changeValue, fullName, isFlag, shownValue } from "../../frame/card_value.js";
+import { askText } from "../../frame/dialog.js";
+import { stateText } from "../../screens/programs.js";
+
+const EVERY_MS = 1000;
+const COUNT = 16;
+
+/**
+ * @typedef {import("../../frame/card_value.js").Item} Item
+ * @typedef {{ name: string, text: string, elements: Variable[] }} Variable
+ */
+
+/**
+ * @param {HTMLElement} host
+ * @param {import("../panes.js").Place} place
+ */
+export async function mount(host, { head, kept, keep }) {
+  const endings = new Endings();
+  const live = new Endings();
+  let program = Number(kept.program ?? 0);
+  let isEnded = false;
+  let drawn = "";
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let timer;
+  /** @type {{ item: Item, value: HTMLElement }[]} */
+  let used = [];
+  /** @type {Map<number, number>} */
+  let values = new Map();
+  const choice = h("select.field", { ariaLabel: t("vars.program"), onchange: () => void choose(Number(choice.value)) },
+    ...Array.from({ length: COUNT }, (_each, n) => h("option", { value: String(n) }, `PROG${n}`)));
+  const state = h("strong.grow", { role: "status" });
+  head.append(choice, state, h("button.key", { type: "button", onclick: () => void choose(program) }, t("programs.read")));
+  const levels = h("div.program-levels", { role: "region", ariaLabel: t("vars.levels") });
+  const own = h("tbody", { data: { part: "own" } });
+  const shared = h("tbody", { data: { part: "used" } });
+  host.append(levels, h("div.grow.scroll", { tabIndex: 0 }, h("table.grid.watch-table", {}, own, shared)));
+
+  /** @param {number} number */
+  async function choose(number) {
+    program = number;
+    choice.value = String(number);
+    keep({ program });
+    drawn = "";
+    await Promise.all([readUsed(), readOwn()]);
+  }
+
+  async function readOwn() {
+    clearTimeout(timer);
+    const asked = program;
+    if (host.offsetParent && !document.hidden) {
+      const found = await get("card/variables", { program: asked }).catch((error) => void (drawn || refuse(error)));
+      if (isEnded || asked !== program) return;
+      if (found) draw(found);
+    }
+    clearTimeout(timer);
+    if (!isEnded) timer = setTimeout(() => void readOwn(), EVERY_MS);
+  }
+
+  /** @param {{ variables: Variable[], state: string, levels: { word: string, line: number }[], why: string }} found */
+  function draw(found) {
+    const text = JSON.stringify(found);
+    if (text === drawn) return;
+    drawn = text;
+    fill(levels, ...(found.levels.length ? found.levels.map(({ word, line }) => h("span.level", {}, `${word} ${line}`)) : [h("span.hint", {}, found.why || t("vars.nolevels"))]));
+    const focused = own.contains(document.activeElement) ? /** @type {HTMLElement} */ (document.activeElement).ariaLabel : "";
+    fill(own, headOf("vars.own"), ...(found.variables.length ? found.variables.flatMap((each) => (each.elements.length ? [rowOf(each, true), ...each.elements.map((element) => rowOf(element))] : [rowOf(each)])) : [h("tr", {}, h("td.quiet", { colSpan: 2 }, t("vars.none")))]));
+    if (focused) [...own.querySelectorAll("button")].find((each) => each.ariaLabel === focused)?.focus();
+  }
+
+  /**
+   * @param {Variable} variable
+   * @param {boolean} [isArray]
+   */
+  function rowOf({ name, text }, isArray = false) {
+    return h("tr", { data: { variable: name } }, h("td", {}, name), h("td.number", {}, isArray ? text : h("button.key", { type: "button", ariaLabel: t("watch.change", { name }), onclick: () => change(name, text) }, h("strong.live", {}, text))));
+  }
+
+  /** @param {import("../../core/texts.js").TextKey} title */
+  function headOf(title) {
+    return h("tr", {}, h("th", { colSpan: 2, scope: "rowgroup" }, t(title)));
+  }
+
+  /**
+   * @param {string} name
+   * @param {string} text
+   */
+  async function change(name, text) {
+    const value = await askText(t("watch.change", { name }), t("vars.value"), name.startsWith("$") ? `"${text.slice(1, -1)}"` : text);
+    if (value === null) return;
+    const answer = await give("card.assign", { program, name, value });
+    if (answer) report(t("values.is", { name, value: answer.value }));
+    await readOwn();
+  }
+
+  async function readUsed() {
+    const asked = program;
+    const found = await get("card/used", { program: asked }).catch(() => null);
+    if (isEnded || asked !== program) return;
+    live.end();
+    used = (found?.items ?? []).map((/** @type {Item} */ item) => ({ item, value: h("strong.live", {}) }));
+    fill(shared, headOf("vars.used"), ...used.map(({ item, value }) => {
+      const cell = item.writable ? h("button.key", { type: "button", ariaLabel: t("watch.change", { name: item.id }), onclick: () => changeValue(item, shownValue(item, values)) }, value) : value;
+      return h("tr", { data: { item: item.id } }, h("td", { title: item.doc }, `${item.id} ${fullName(item)}`), h("td.number", {}, cell));
+    }));
+    const numbers = used.filter(({ item }) => !isFlag(item)).map(({ item }) => item.number);
+    const words = wordsOf(used.filter(({ item }) => isFlag(item)).map(({ item }) => item.number));
+    if (numbers.length) live.add(needValues(numbers, (known) => {
+      values = known;
+      update();
+    }));
+    if (words.length) live.add(needWords(words));
+    update();
+  }
+
+  function update() {
+    for (const { item, value } of used) setText(value, shownValue(item, values));
+  }
+
+  endings.add(() => { isEnded = true; clearTimeout(timer); live.end(); }, needPrograms(), model.flags.watch(update), model.programs.watch(({ programs }) => {
+    const now = programs.find((each) => each.name === `PROG${program}`);
+    setText(state, now ? [stateText(now), now.line ? t("programs.line", { line: now.line }) : ""].filter(Boolean).join(" \u00b7 ") : "");
+  }));
+  await choose(program);
+  return () => endings.end();
+}

@@ -1,0 +1,96 @@
+// The watch list: chosen parameters and flags with their values; the layout keeps it.
+import { get } from "../../core/api.js";
+import { model, refuse } from "../../core/app.js";
+import { fill, h, setText } from "../../core/dom.js";
+import { needWords, wordsOf } from "../../core/flags.js";
+import { Endings } from "../../core/signal.js";
+import { t } from "../../core/texts.js";
+import { needValues } from "../../core/values.js";
+import { FORMATS, changeValue, fullName, isFlag, shownValue } from "../../frame/card_value.js";
+import { wanted } from "../watch_list.js";
+
+/**
+ * @typedef {import("../../frame/card_value.js").Item} Item
+ * @typedef {{ id: string, format: string }} Kept
+ * @typedef {{ item: Item, format: string, value: HTMLElement }} Row
+ */
+
+/**
+ * @param {HTMLElement} host
+ * @param {import("../panes.js").Place} place
+ */
+export async function mount(host, { head, kept, keep }) {
+  const endings = new Endings();
+  const live = new Endings();
+  /** @type {Row[]} */
+  let rows = [];
+  /** @type {Map<number, number>} */
+  let values = new Map();
+  const field = h("input.field.grow", { ariaLabel: t("watch.name"), placeholder: t("watch.name"), autocomplete: "off", spellcheck: false });
+  const body = h("tbody", {});
+  head.append(h("form.row.grow", { onsubmit: (/** @type {Event} */ event) => {
+    event.preventDefault();
+    void add(field.value.split(";").filter((name) => name.trim())).then((isDone) => { if (isDone) field.value = ""; });
+  } }, field, h("button.key.main", { type: "submit" }, t("watch.add"))));
+  host.append(h("div.grow.scroll", { tabIndex: 0 }, h("table.grid.watch-table", {}, h("thead", {}, h("tr", {},
+    ...["board.number", "board.name", "board.value", "watch.format", "watch.remove"].map((key) => h("th", {}, t(/** @type {any} */ (key)))))), body)));
+
+  /**
+   * @param {string[]} names
+   * @param {string[]} [formats]
+   */
+  async function add(names, formats = []) {
+    if (!names.length) return false;
+    const found = await get("card/named", { names: names.join(";") }).catch((error) => void refuse(error));
+    if (!found) return false;
+    for (const [n, item] of /** @type {[number, Item][]} */ (found.items.entries())) {
+      if (!rows.some((row) => row.item.id === item.id)) rows.push({ item, format: formats[n] ?? FORMATS[0], value: h("strong.live", {}) });
+    }
+    draw();
+    return true;
+  }
+
+  function draw() {
+    keep({ rows: rows.map(({ item, format }) => ({ id: item.id, format })) });
+    fill(body, ...rows.map(rowOf));
+    live.end();
+    const numbers = rows.filter(({ item }) => !isFlag(item)).map(({ item }) => item.number);
+    const words = wordsOf(rows.filter(({ item }) => isFlag(item)).map(({ item }) => item.number));
+    if (numbers.length) live.add(needValues(numbers, (known) => {
+      values = known;
+      update();
+    }));
+    if (words.length) live.add(needWords(words));
+    update();
+  }
+
+  function update() {
+    for (const { item, format, value } of rows) setText(value, shownValue(item, values, format));
+  }
+
+  /** @param {Row} row */
+  function rowOf(row) {
+    const { item, value } = row;
+    const cell = item.writable ? h("button.key", { type: "button", ariaLabel: t("watch.change", { name: item.id }), onclick: () => changeValue(item, shownValue(item, values)) }, value) : value;
+    const format = h("select.field", { ariaLabel: t("watch.format.of", { name: item.id }), onchange: () => {
+      row.format = format.value;
+      draw();
+    } }, ...FORMATS.map((each) => h("option", { value: each, selected: each === row.format }, t(/** @type {any} */ (`watch.format.${each}`)))));
+    const remove = h("button.key", { type: "button", ariaLabel: t("bench.delete", { name: item.id }), onclick: () => {
+      rows = rows.filter((each) => each !== row);
+      draw();
+    } }, "\u00d7");
+    return h("tr", { data: { item: item.id } }, h("td.number", {}, item.id), h("td", { title: item.doc }, fullName(item)), h("td.number", {}, cell, item.unit ? ` ${item.unit}` : ""),
+      h("td", {}, isFlag(item) ? "" : format), h("td", {}, remove));
+  }
+
+  /** @type {Kept[]} */
+  const before = kept.rows ?? [];
+  await add(before.map(({ id }) => id), before.map(({ format }) => format));
+  endings.add(() => live.end(), model.flags.watch(update), wanted.watch((ids) => {
+    if (!ids.length) return;
+    wanted.value = [];
+    void add(ids);
+  }));
+  return () => endings.end();
+}

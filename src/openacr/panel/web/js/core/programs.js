@@ -1,0 +1,17 @@
+// What the programs of the card do: one subscription for all panes that show it.
+import { link } from "./app.js";
+
+const HZ = 5;
+let count = 0;
+let end = () => {};
+
+/** Have the states of the programs sent to `model.programs`; returns the function that ends it. */
+export function needPrograms() {
+  if (count++ === 0) end = link.subscribe({ topic: "programs", hz: HZ });
+  let isEnded = false;
+  return () => {
+    if (isEnded) return;
+    isEnded = true;
+    if (--count === 0) end();
+  };
+}

@@ -1,0 +1,74 @@
+// A parameter or flag of the card: how its value is shown, and how it is changed.
+import { give, model, report } from "../core/app.js";
+import { h } from "../core/dom.js";
+import { stateOf } from "../core/flags.js";
+import { t } from "../core/texts.js";
+import { ask } from "./dialog.js";
+import { logIn } from "./log_in.js";
+import { askNumber } from "./number_pad.js";
+
+/**
+ * @typedef {{ id: string, number: number, name: string, object: string, index: number | null, section: string, doc: string, writable: boolean, unit?: string, parameter?: number }} Item
+ */
+
+/** How numbers can be shown. */
+export const FORMATS = Object.freeze(["plain", "fixed", "hex", "binary"]);
+
+/** @param {Item} item */
+export function isFlag(item) {
+  return item.parameter !== undefined;
+}
+
+/** @param {Item} item */
+export function fullName(item) {
+  return `${item.object}${item.index ?? ""} ${item.name}`.trim();
+}
+
+/**
+ * The value of an item as a text; a dash while it is unknown.
+ * @param {Item} item
+ * @param {Map<number, number>} values of parameters
+ * @param {string} [format]
+ */
+export function shownValue(item, values, format = "plain") {
+  if (isFlag(item)) {
+    const isOn = stateOf(model.flags.value, item.number);
+    return isOn === undefined ? "\u2013" : t(isOn ? "io.on" : "io.off");
+  }
+  const value = values.get(item.number);
+  return value === undefined ? "\u2013" : numberText(value, format);
+}
+
+/**
+ * @param {number} value
+ * @param {string} format
+ */
+export function numberText(value, format) {
+  if (format === "fixed") return value.toFixed(3);
+  const whole = Math.trunc(value) >>> 0; // the 32 bits of the card
+  if (format === "hex") return `0x${whole.toString(16).toUpperCase().padStart(8, "0")}`;
+  if (format === "binary") return whole.toString(2).padStart(32, "0").replace(/(.{8})(?=.)/g, "$1 ");
+  return String(Number(value.toPrecision(9)));
+}
+
+/**
+ * Ask for another value and write it; the card's refusal is shown.
+ * @param {Item} item
+ * @param {string} shown its present value
+ */
+export async function changeValue(item, shown) {
+  if (!model.may("service") && !(await logIn("service"))) return;
+  const title = `${item.id} ${fullName(item)}`;
+  if (isFlag(item)) {
+    const choices = [{ text: t("key.cancel"), value: null }, { text: t("values.clear"), value: 0 }, { text: t("values.set"), value: 1 }];
+    const chosen = await ask({ title, body: [h("p", {}, item.doc), h("p", {}, t("values.now", { value: shown }))], choices });
+    if (chosen === null) return;
+    const answer = await give("card.flag", { flag: item.number, on: chosen === 1 });
+    if (answer) report(t("values.is", { name: title, value: t(answer.on ? "io.on" : "io.off") }));
+    return;
+  }
+  const number = await askNumber({ title, value: Number(shown) || 0, unit: item.unit, hint: item.doc });
+  if (number === null) return;
+  const answer = await give("card.write", { parameter: item.number, value: number });
+  if (answer) report(t("board.written", { number: item.number, value: answer.value }));
+}

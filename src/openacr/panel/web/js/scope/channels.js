@@ -1,0 +1,131 @@
+// The channels of the scope as rows of fields: source, colour, scale, offset, unit and format, and the maths channel.
+import { get } from "../core/api.js";
+import { refuse } from "../core/app.js";
+import { h } from "../core/dom.js";
+import { ExpressionError } from "../core/expression.js";
+import { t } from "../core/texts.js";
+import { FORMATS } from "../frame/card_value.js";
+import { numberField, numberOf, selectField, textField } from "./fields.js";
+import { computed } from "./maths.js";
+import { COLORS, fitting } from "./screen.js";
+
+export const CHANNELS = 8;
+const MATHS = CHANNELS; // place of the maths channel
+const FIRST = ["P12291", "P12290", "P12295"];
+const MATHS_COLOR = "#7f7f7f";
+
+/**
+ * @typedef {import("./screen.js").Trace & { unit: string, format: string }} Channel
+ * @typedef {{ source: string, color: string, scale: string, offset: string, unit: string, format: string }} Kept
+ * @typedef {Record<"source" | "color" | "scale" | "offset" | "unit", HTMLInputElement> & { format: HTMLSelectElement }} Fields
+ */
+
+export class Channels {
+  /**
+   * @param {Kept[]} kept
+   * @param {() => void} changed
+   */
+  constructor(kept, changed) {
+    /** @type {Fields[]} */
+    this.rows = Array.from({ length: CHANNELS + 1 }, (_each, n) => fieldsOf(n, kept[n] ?? { source: FIRST[n] ?? "" }, changed));
+    /** Places of the channels of the present capture. @type {number[]} */
+    this.asked = [];
+    this.maths = ""; // the expression that is wrong, whose error has been shown
+  }
+
+  /** @returns {Kept[]} */
+  kept() {
+    return this.rows.map((row) => /** @type {Kept} */ (Object.fromEntries(Object.entries(row).map(([name, field]) => [name, field.value]))));
+  }
+
+  /** The element of all rows. */
+  element() {
+    const heads = ["source", "color", "scale", "offset", "unit", "format"].map((each) => h("span.hint", {}, t(/** @type {any} */ (`scope.head.${each}`))));
+    return h("div.scope-rows", {}, h("span.hint", {}, ""), ...heads, ...this.rows.flatMap((row, n) => [h("strong", {}, nameOf(n)), row.source, row.color, row.scale, row.offset, row.unit, row.format]));
+  }
+
+  /** Sources to be sampled; the place of each is noted. */
+  sources() {
+    this.asked = this.rows.flatMap((row, n) => (n !== MATHS && row.source.value.trim() ? [n] : []));
+    return this.asked.map((n) => this.rows[n].source.value.trim());
+  }
+
+  /** Units of the sources, where none is given. */
+  async nameUnits() {
+    const names = this.sources();
+    if (!names.length) return;
+    const { items } = await get("card/named", { names: names.join(";") });
+    this.asked.forEach((place, n) => { this.rows[place].unit.placeholder = items[n]?.unit ?? ""; });
+  }
+
+  /**
+   * The channels with their samples, and the maths channel where it has an expression.
+   * @param {Float64Array[]} records in the order of `sources`
+   * @param {number} period s
+   * @returns {Channel[]}
+   */
+  traces(records, period) {
+    if (records.length !== this.asked.length) return [];
+    const found = this.asked.map((place, n) => this.trace(place, records[n]));
+    const text = this.rows[MATHS].source.value.trim();
+    if (!text || !found.length) return found;
+    const missing = new Float64Array(records[0].length).fill(Number.NaN);
+    const all = Array.from({ length: CHANNELS }, (_each, n) => records[this.asked.indexOf(n)] ?? missing);
+    try {
+      found.push(this.trace(MATHS, computed(text, all, period)));
+      this.maths = "";
+    } catch (error) {
+      if (!(error instanceof ExpressionError)) throw error;
+      if (this.maths !== text) refuse(error.what ? t("scope.maths.wrong", { what: error.what }) : t("scope.maths.end"));
+      this.maths = text;
+    }
+    return found;
+  }
+
+  /**
+   * @param {number} place
+   * @param {Float64Array} values
+   * @returns {Channel}
+   */
+  trace(place, values) {
+    const row = this.rows[place];
+    const unit = row.unit.value.trim() || row.unit.placeholder;
+    return { label: nameOf(place), color: row.color.value, values, scale: numberOf(row.scale) || 1, offset: numberOf(row.offset) || 0, unit, format: row.format.value };
+  }
+
+  /**
+   * Give each trace the scale and offset that show it whole.
+   * @param {Channel[]} traces
+   */
+  fit(traces) {
+    for (const { label, values } of traces) {
+      const row = this.rows[this.rows.findIndex((_each, n) => nameOf(n) === label)];
+      const fit = fitting(values);
+      if (fit) [row.scale.value, row.offset.value] = [String(fit.scale), String(fit.offset)];
+    }
+  }
+}
+
+/** @param {number} place */
+function nameOf(place) {
+  return place === MATHS ? "M" : `CH${place + 1}`;
+}
+
+/**
+ * @param {number} place
+ * @param {Partial<Kept>} kept
+ * @param {() => void} changed
+ * @returns {Fields}
+ */
+function fieldsOf(place, kept, changed) {
+  const name = nameOf(place);
+  const label = (/** @type {string} */ what) => `${name} ${t(/** @type {any} */ (`scope.head.${what}`))}`;
+  const source = textField(label("source"), kept.source ?? "", changed);
+  source.placeholder = place === MATHS ? "d(CH1) - CH2" : "P12290, BIT516";
+  const formats = FORMATS.map((each) => /** @type {[string, string]} */ ([each, t(/** @type {any} */ (`watch.format.${each}`))]));
+  return {
+    source, scale: numberField(label("scale"), kept.scale ?? "1", changed), offset: numberField(label("offset"), kept.offset ?? "0", changed),
+    color: h("input.field.scope-color", { type: "color", ariaLabel: label("color"), title: label("color"), value: kept.color ?? COLORS[place] ?? MATHS_COLOR, oninput: changed }),
+    unit: textField(label("unit"), kept.unit ?? "", changed), format: selectField(label("format"), formats, kept.format ?? FORMATS[0], changed),
+  };
+}

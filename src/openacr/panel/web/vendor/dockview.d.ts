@@ -1,0 +1,2 @@
+export { createDockview } from "dockview-core";
+export type { DockviewApi, DockviewPanelApi, GroupPanelPartInitParameters, IContentRenderer, IDockviewPanel, ITabRenderer, SerializedDockview, TabPartInitParameters } from "dockview-core";

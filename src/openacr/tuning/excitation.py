@@ -1,0 +1,163 @@
+"""What is done to an axis while it is recorded, as a program that the card executes by itself.
+
+The program adds a sine sweep or a step to the jog offset, lets the sampler record each servo
+interrupt, watches the axis, takes the offset back and prints the record. Gains that are tried are
+set by the same program, which sets the former ones where a bound is exceeded. A host that is lost
+changes nothing: the program ends by itself within its time, with the axis where it was.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from openacr.errors import UserError
+from openacr.map import numbers as at
+from openacr.tuning.settings import GAINS
+
+TITLE = "REM openacr tune"
+PER_LINE = 4  # samples in a printed line
+REST_MS = 300  # beside the excitation, still recorded
+BEFORE_STEP_S = 0.02  # of that rest: a record begins before its step
+ARMED = 104  # Sample Trigger Armed
+KILL_FLAG, DRIVE_FLAG, FLAGS_PER_AXIS = 8467, 8465, 32
+CLOCK = "P6916"  # ms
+BYTES_PER_SAMPLE = 12
+BYTES_BESIDE = 8192  # text and variables of the program
+LEAST_CNT, MOST_CNT = 5.0, 100_000.0
+LEAST_S, MOST_S = 0.2, 10.0
+ENDS = {
+    1: "the following error exceeded {error:g} pulses",
+    2: "the axis went further than {travel:g} pulses",
+    3: "its motion was killed (a limit, a fault, or an operator)",
+    4: "it was stopped",
+}
+
+
+def set_lines(axis: int, gains: Mapping[str, float]) -> list[str]:
+    """Lines that set gains of an axis; what damps comes before what stiffens."""
+    order = sorted(gains, key=lambda word: (word != "DGAIN", word == "IGAIN"))
+    return [f"AXIS{axis} {word} {gains[word]:.7G}" for word in order]
+
+
+@dataclass(frozen=True, slots=True)
+class Excitation:
+    """A sine sweep or a step, with the bounds that end it; counts, Hz and seconds."""
+
+    kind: Literal["sine", "step"] = "sine"
+    height_cnt: float = 100.0
+    low_hz: float = 2.0
+    high_hz: float = 60.0
+    duration_s: float = 1.5
+    error_cnt: float = 0.0  # 0: four times the height
+    travel_cnt: float = 0.0  # 0: four times the height
+
+    def checked(self) -> "Excitation":
+        """The same with its bounds; UserError where a value is out of range."""
+        for name, value, least, most in (
+            ("amplitude [pulses]", self.height_cnt, LEAST_CNT, MOST_CNT),
+            ("time [s]", self.duration_s, LEAST_S, MOST_S),
+            ("lowest frequency [Hz]", self.low_hz, 0.2, self.high_hz),
+            ("highest frequency [Hz]", self.high_hz, self.low_hz, 150.0),
+        ):
+            if not least <= value <= most:
+                raise UserError(f"{name} {value:g}: from {least:g} to {most:g}")
+        bound = 4.0 * self.height_cnt
+        error, travel = self.error_cnt or bound, self.travel_cnt or bound
+        if min(error, travel) < self.height_cnt:
+            raise UserError(
+                f"bounds below the amplitude of {self.height_cnt:g} pulses end it early"
+            )
+        return Excitation(
+            self.kind, self.height_cnt, self.low_hz, self.high_hz, self.duration_s, error, travel
+        )
+
+    def samples(self, period_s: float) -> int:
+        """Samples of the record, with the rest after the excitation."""
+        count = round((self.duration_s + REST_MS / 1000.0) / period_s)
+        return count - count % PER_LINE
+
+    def memory_bytes(self, period_s: float) -> int:
+        """What the program needs of the memory of the card."""
+        return BYTES_BESIDE + BYTES_PER_SAMPLE * self.samples(period_s)
+
+    def program(self, axis: int, period_s: float, gains: Mapping[str, float] | None = None) -> str:
+        """The program, from PROGRAM to ENDP; it prints its reason to end, then the record.
+
+        `gains` by their words are set before, and stay unless a bound is exceeded.
+        """
+        gains = gains or {}
+        former = {GAINS[word] + at.AX_BASE + axis * at.AX_STRIDE: k for k, word in enumerate(gains)}
+        first = at.AX_BASE + axis * at.AX_STRIDE
+        count = self.samples(period_s)
+        jog, actual = f"P{first + at.AX_JOG_OFFSET}", f"P{first + at.AX_ACTUAL_POSITION}"
+        lines = [
+            "PROGRAM",
+            TITLE,
+            *(
+                "DIM LV(8)",
+                f"DIM SV({len(GAINS)})",
+                "DIM DV(2)",
+                "DIM LA(2)",
+                f"DIM LA0({count})",
+                f"DIM LA1({count})",
+            ),
+            *("DIM SA(1)", f"DIM SA0({count})", "SAMP CLEAR"),
+            *(f"SAMP 0 SRC P{first + at.AX_SECONDARY_SETPOINT}", "SAMP 0 BASE LA0"),
+            *(f"SAMP 1 SRC {actual}", "SAMP 1 BASE LA1"),
+            *(f"SAMP 2 SRC P{first + at.AX_OUTPUT_SIGNAL}", "SAMP 2 BASE SA0"),
+            "SAMP PERIOD 0",
+            f"LV0 = {jog}",
+            f"LV1 = {actual}",
+            "LV3 = 0",
+            *(f"SV{k} = P{row}" for row, k in former.items()),
+            *set_lines(axis, gains),
+            f"SET {ARMED}",
+            *([f"DWL {BEFORE_STEP_S}"] if self.kind == "step" else []),
+            f"LV2 = {CLOCK}",
+            "_MOVE",
+            f"IF (BIT{ARMED} = 0) THEN LV3 = 4",
+            f"DV0 = ({CLOCK} - LV2) * 0.001",
+            *self._watch(axis, first, actual),
+            "IF (LV3 <> 0) THEN GOTO BACK",
+            f"{jog} = LV0 + {self._height()}",
+            f"IF (DV0 < {self.duration_s:g}) THEN GOTO MOVE",
+            "_BACK",
+            f"{jog} = LV0",
+            *self._watch(axis, first, actual),
+            *(f"IF (LV3 <> 0) THEN P{row} = SV{k}" for row, k in former.items()),
+            f"IF (BIT{ARMED}) THEN GOTO BACK",
+            "SAMP CLEAR",
+            "PRINT LV3",
+            "LV4 = 0",
+            "_SHOW",
+            "PRINT " + ",".join(self._sample(k) for k in range(PER_LINE)),
+            f"LV4 = LV4 + {PER_LINE}",
+            f"IF (LV4 < {count}) THEN GOTO SHOW",
+            "ENDP",
+        ]
+        return "\n".join(lines) + "\n"
+
+    def _height(self) -> str:
+        """The offset at the time DV0; a sweep from low to high frequency."""
+        if self.kind == "step":
+            return f"{self.height_cnt:.0f}"
+        bend = (self.high_hz - self.low_hz) / (2.0 * self.duration_s)
+        return f"{self.height_cnt:g} * SIN(360 * DV0 * ({self.low_hz:g} + {bend:.9g} * DV0))"
+
+    def _watch(self, axis: int, first: int, actual: str) -> list[str]:
+        error = f"P{first + at.AX_FOLLOWING_ERROR}"
+        return [
+            f"IF (ABS({error}) > {self.error_cnt:.0f}) THEN LV3 = 1",
+            f"IF (ABS({actual} - LV1) > {self.travel_cnt:.0f}) THEN LV3 = 2",
+            f"IF (BIT{KILL_FLAG + FLAGS_PER_AXIS * axis}) THEN LV3 = 3",
+        ]
+
+    @staticmethod
+    def _sample(place: int) -> str:
+        index = f"LV4 + {place}" if place else "LV4"
+        return f"LA0({index}),LA1({index}),SA0({index})"
+
+    def ending(self, code: int) -> str:
+        """What a reason to end means; empty for none."""
+        text = ENDS.get(code, "")
+        return text.format(error=self.error_cnt, travel=self.travel_cnt)

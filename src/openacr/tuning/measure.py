@@ -1,0 +1,218 @@
+"""Record the response of an axis of any card, virtual or real.
+
+Operations on a conversation with the card: `Card.perform` and the screens carry them out.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from openacr.client import Level, RefusedError, stored, values
+from openacr.client.effects import Op, Pause
+from openacr.client.requests import SYS, Follow
+from openacr.client.talk import Talk
+from openacr.client.transfer import Progress, download
+from openacr.errors import OpenacrError, UserError
+from openacr.map import numbers as at
+from openacr.tuning.excitation import (
+    ARMED,
+    DRIVE_FLAG,
+    FLAGS_PER_AXIS,
+    KILL_FLAG,
+    TITLE,
+    Excitation,
+    set_lines,
+)
+from openacr.tuning.settings import BIQUAD_FLAG, ROWS, LoopSettings
+from openacr.tuning.twin import Record
+
+PROGRAMS = 16
+REST_S = 0.1  # between two looks at an axis that has to be at rest
+REST_CNT = 5
+SWING_SHARE = 0.05  # of the height
+FOLLOWED_SHARE = 0.5  # of the height: what the setpoint has to show of the excitation
+HEAR_S = 0.1
+TAKE_BACK_S = 0.1  # many rounds of the program
+CHANNELS = 3
+TAKEN_BACK = "what was changed was taken back"
+_OPEN_LOOP, _DRIVE_IO = 785, 8468
+_FOLLOWING = {792: "jogs", 793: "is geared", 794: "follows a cam"}
+
+
+@dataclass(frozen=True, slots=True)
+class Measurement:
+    """A recorded response, and the settings it was recorded with."""
+
+    axis: int
+    excitation: Excitation
+    settings: LoopSettings
+    record: Record
+
+
+def settings_of(talk: Talk, axis: int) -> Op[LoopSettings]:
+    """The loop settings of an axis of a card."""
+    first = at.AX_BASE + axis * at.AX_STRIDE
+    found = yield from values.read_many(talk, [first + row for row in ROWS])
+    period = yield from talk.query("PERIOD")
+    is_filtering = yield from values.read_bit(talk, BIQUAD_FLAG + FLAGS_PER_AXIS * axis)
+    rows = dict(zip(ROWS, map(float, found), strict=True))
+    return LoopSettings(rows, is_filtering, float(period[-1]))
+
+
+def require_axis(talk: Talk, axis: int) -> Op[None]:
+    """Refuse an axis that the card does not have, or that is off; UserError."""
+    try:
+        state = yield from talk.query(f"AXIS{axis}")
+    except RefusedError:
+        raise UserError(f"axis {axis}: this card does not have it") from None
+    if state != ("ON",):
+        raise UserError(f"axis {axis} is off: ATTACH it, or AXIS{axis} ON")
+
+
+def require_rest(talk: Talk, axis: int, bound_cnt: float = math.inf) -> Op[None]:
+    """Refuse an axis that is off, killed, open, moving or far from its setpoint; UserError."""
+    yield from require_axis(talk, axis)
+    shift = FLAGS_PER_AXIS * axis
+    flags = [DRIVE_FLAG, _DRIVE_IO, KILL_FLAG, _OPEN_LOOP, *_FOLLOWING]
+    states = yield from values.read_bits(talk, [flag + shift for flag in flags])
+    enabled, has_drive_io, killed, is_open, *following = states
+    if has_drive_io and not enabled:
+        raise UserError(f"axis {axis} is not enabled: DRIVE ON")
+    if killed:
+        raise UserError(f"axis {axis}: its motion is killed: CLR {KILL_FLAG + shift}, or Ctrl-Y")
+    if is_open:
+        raise UserError(f"axis {axis}: its servo loop is open: CLR {_OPEN_LOOP + shift}")
+    for does, is_so in zip(_FOLLOWING.values(), following, strict=True):
+        if is_so:
+            raise UserError(f"axis {axis} {does}: it has to be at rest")
+    yield from _require_still(talk, axis, bound_cnt)
+
+
+def _require_still(talk: Talk, axis: int, bound_cnt: float) -> Op[None]:
+    first = at.AX_BASE + axis * at.AX_STRIDE
+    rows = [first + at.AX_SECONDARY_SETPOINT, first + at.AX_ACTUAL_POSITION]
+    setpoint, actual = yield from values.read_many(talk, rows)
+    yield Pause(REST_S)
+    later, now = yield from values.read_many(talk, rows)
+    if later != setpoint or abs(now - actual) > REST_CNT:
+        raise UserError(f"axis {axis} moves: it has to be at rest")
+    if abs(later - now) > bound_cnt:
+        raise UserError(
+            f"axis {axis} is {abs(later - now):g} pulses from its setpoint: at most"
+            f" {bound_cnt:g} (is its drive off?)"
+        )
+
+
+def measure(
+    talk: Talk,
+    axis: int,
+    excitation: Excitation,
+    *,
+    gains: Mapping[str, float] | None = None,
+    program: int | None = None,
+    progress: Progress | None = None,
+) -> Op[Measurement]:
+    """Excite an axis at rest and record it; UserError where a bound was exceeded.
+
+    The card does it in a program that is empty (or `program`), which is erased afterwards.
+    `gains` are set before; they stay, unless a bound is exceeded or the axis does not come to
+    rest: then the former ones are set again. `stop` ends it from another connection.
+    """
+    excitation, gains = excitation.checked(), gains or {}
+    yield from require_axis(talk, axis)
+    former = yield from settings_of(talk, axis)
+    former.require_modelled()
+    yield from require_rest(talk, axis, excitation.error_cnt / 4.0)
+    if (yield from values.read_bit(talk, ARMED)):
+        raise UserError("the sampler of the card is in use: SAMP CLEAR frees it")
+    period_s, count = former.period_s, excitation.samples(former.period_s)
+    level = yield from _room(talk, excitation.memory_bytes(period_s), program)
+    text = excitation.program(axis, period_s, gains)
+    try:
+        yield from download(talk, text, to=level, is_verified=False)
+        code, rows = yield from _listen(talk, level, count, progress)
+    except (OpenacrError, KeyboardInterrupt):
+        yield from _clear(talk, level)
+        raise
+    yield from _clear(talk, level)
+    if reason := excitation.ending(code):
+        raise UserError(f"axis {axis}: ended, because {reason}; {TAKEN_BACK}")
+    if len(rows) != count:
+        raise UserError(f"{level}: {len(rows)} of {count} samples came: was it halted?")
+    record = _record(rows, period_s)
+    if np.ptp(record.setpoint_cnt) < FOLLOWED_SHARE * excitation.height_cnt:
+        raise UserError(f"axis {axis}: its setpoint does not follow the jog offset of the card")
+    last = record.actual_cnt[-round(REST_S / period_s) :]
+    if gains and np.ptp(last) > max(REST_CNT, SWING_SHARE * excitation.height_cnt):
+        yield from write_gains(talk, axis, {word: former.gain(word) for word in gains})
+        raise UserError(f"axis {axis} swings by {np.ptp(last):g} pulses; {TAKEN_BACK}")
+    settings = former.changed(**gains) if gains else former
+    return Measurement(axis, excitation, settings, record)
+
+
+def stop(talk: Talk) -> Op[None]:
+    """End an excitation: its program takes everything back when the sampler is not armed."""
+    yield from talk.order(f"CLR {ARMED}")
+
+
+def write_gains(talk: Talk, axis: int, gains: Mapping[str, float]) -> Op[None]:
+    """Set gains of an axis at once."""
+    for line in set_lines(axis, gains):
+        yield from talk.order(line)
+
+
+def _room(talk: Talk, needed: int, program: int | None) -> Op[Level]:
+    """A program without text that has the memory; UserError if there is none."""
+    rooms = yield from stored.rooms(talk)
+    numbers = range(PROGRAMS - 1, -1, -1) if program is None else (program,)
+    most = 0
+    for number in numbers:
+        level = Level.program(number)
+        if level not in rooms:
+            continue
+        lines = yield from stored.listing(talk, level)
+        if any(line.text.strip().startswith(TITLE) for line in lines):  # of a host that was lost
+            yield from _clear(talk, level)
+        elif lines:
+            continue
+        most = max(most, rooms[level].total)
+        if rooms[level].total >= needed:
+            return level
+    where = "no empty program has" if program is None else f"PROG{program} does not have, empty,"
+    raise UserError(
+        f"{where} {needed} bytes (the largest has {most}): less time, or DIM PROG15({needed})"
+    )
+
+
+def _clear(talk: Talk, level: Level) -> Op[None]:
+    """End and erase the program of a measurement, after it has taken everything back."""
+    yield from talk.leave()
+    yield from stop(talk)
+    yield Pause(TAKE_BACK_S)
+    yield from talk.go(level)
+    for line in ("HALT", "NEW", "CLEAR", "SAMP CLEAR"):
+        yield from talk.command(line)
+    yield from talk.go(SYS)
+
+
+def _listen(
+    talk: Talk, level: Level, count: int, progress: Progress | None
+) -> Op[tuple[int, list[list[float]]]]:
+    """Run the program: its reason to end, and the samples it prints."""
+    text, numbers = "", list[float]()
+    yield from talk.go(level)
+    yield from talk.exchange(Follow("LRUN"))
+    while (piece := (yield from talk.hear(HEAR_S))) is not None:
+        *lines, text = (text + piece).split("\n")
+        numbers += [float(word) for line in lines for word in line.split()]
+        if progress is not None:
+            progress(max(0, len(numbers) - 1) // CHANNELS, count)
+    code, *samples = numbers or [0.0]
+    return int(code), [samples[k : k + CHANNELS] for k in range(0, len(samples), CHANNELS)]
+
+
+def _record(rows: list[list[float]], period_s: float) -> Record:
+    setpoint, actual, output = np.array(rows, dtype=np.float64).T
+    return Record(period_s, setpoint - setpoint[0], actual - setpoint[0], output)

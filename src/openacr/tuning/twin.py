@@ -1,0 +1,121 @@
+"""The axis computed: the servo interrupt of the card itself, with a motor of the world beside it.
+
+Nothing of the loop is modelled anew: `kernel.tick_cy` is what a virtual card executes, the motor is
+one of `plant.step_cy`. So limits, filters, converter steps and whole counts are as they are there.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from openacr.compiled import pick
+from openacr.kernel.tick_cy import tick
+from openacr.map import numbers as at
+from openacr.map.rows import axes, encoders, kernel, motors
+from openacr.map.words import af1
+from openacr.motion.axis import attach
+from openacr.motion.axis.settings import activate_derivative_smoothing
+from openacr.motion.card import Card
+from openacr.plant.apply import apply_world
+from openacr.plant.load import parse_world
+from openacr.plant.step_cy import plant_step
+from openacr.tuning.motor import Motor, Reals
+from openacr.tuning.settings import LoopSettings
+
+_tick, _plant = pick(tick), pick(plant_step)
+_DAC = at.DAC_BASE + at.DAC_DAC_OUTPUT
+_NO_LIMIT = 1e30
+COUNTS_PER_LINE = 4
+_WORLD = """
+[[axis]]
+number = 0
+counts_per_rev = 4000
+[axis.drive]
+mode = "torque"
+amps_per_volt = 1.0
+peak_amps = 100.0
+[axis.motor]
+inertia_kgm2 = 1e-5
+torque_nm_per_a = 0.1
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """An axis at each servo interrupt: setpoint, actual position [counts] and output [V]."""
+
+    period_s: float
+    setpoint_cnt: Reals
+    actual_cnt: Reals
+    output_v: Reals
+
+    @property
+    def error_cnt(self) -> Reals:
+        """Following error [counts]."""
+        return self.setpoint_cnt - self.actual_cnt
+
+    @property
+    def times_s(self) -> Reals:
+        """Times of the samples [s]."""
+        return np.arange(len(self.setpoint_cnt), dtype=np.float64) * self.period_s
+
+
+def run(
+    settings: LoopSettings, motor: Motor, setpoint_cnt: Reals, first: Record | None = None
+) -> Record:
+    """Move an axis that was at rest along a setpoint, one value per period.
+
+    It begins in position 0; or where `first` does, with the integral that its first output shows.
+    The setpoint is the jog offset, whole counts, as a program writes it.
+    """
+    origin = 0 if first is None else round(float(first.actual_cnt[0]))
+    wanted = np.rint(setpoint_cnt)
+    jogs = (wanted - origin).astype(int).tolist()
+    card = _card(settings, motor)
+    F, I, S = card.memory.F, card.memory.I, card.memory.S
+    for row in (axes.psp_cnt, axes.ssp_cnt, axes.error_old_cnt):
+        F[row[0]] = jogs[0]
+    if first is not None and settings.gain("IGAIN"):
+        F[axes.integral_v[0]] = float(first.output_v[0]) - settings.gain("PGAIN") * jogs[0]
+    actual, output = np.zeros(len(jogs)), np.zeros(len(jogs))
+    whole = int(motor.delay_tk)
+    part = motor.delay_tk - whole
+    sent = [0.0 if first is None else float(first.output_v[0])] * (whole + 2)
+    S[_DAC] = sent[0]
+    for k, jog in enumerate(jogs):
+        if part or whole:
+            S[_DAC] = (1.0 - part) * sent[-1 - whole] + part * sent[-2 - whole]
+        _plant(F, I, S, 1, settings.period_s)
+        I[axes.jog_offset[0]] = jog
+        _tick(F, I, S)
+        sent = [*sent[1:], S[_DAC]]
+        actual[k], output[k] = I[axes.actual_position[0]], S[axes.output_signal[0]]
+    return Record(settings.period_s, wanted, actual + origin, output)
+
+
+def _card(settings: LoopSettings, motor: Motor) -> Card:
+    """A card with axis 0 alone, its loop closed and its motor at rest."""
+    card = Card()
+    memory = card.memory
+    apply_world(parse_world(_WORLD), memory)
+    card.set_period(settings.period_s)
+    attach.master(card, 0, 0)
+    attach.slave(card, 0, 0, 0, "X")
+    for row, value in settings.rows.items():
+        memory.write(at.AX_BASE + row, value)
+    activate_derivative_smoothing(card, 0)
+    if settings.is_filtering:
+        memory.I[af1.word[0]] |= af1.BIQUAD_FILTER_ACTIVATE
+    for place, value in (
+        (motors.accel_per_volt, motor.accel_per_volt),
+        (motors.peak_accel, _NO_LIMIT),
+        (motors.viscous_per_s, motor.rate_per_s),
+        (motors.coulomb_accel, motor.coulomb_accel),
+        (motors.static_accel, motor.coulomb_accel),
+        (motors.offset_v, motor.offset_v),
+    ):
+        memory.F[place[0]] = value
+    memory.I[encoders.mult[0]] = COUNTS_PER_LINE  # the motor is given in counts of the position
+    memory.I[kernel.axes] = 1
+    memory.I[kernel.masters] = 1
+    return card

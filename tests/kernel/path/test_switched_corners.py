@@ -1,0 +1,162 @@
+"""LOOK ON, LOOK OFF, LOOK TOL while the path moves: what was decided for a corner stays."""
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.kernel.path.test_corners import (
+    Point,
+    accelerations,
+    follow,
+    jerks,
+    off_path,
+    rig,
+)
+from tests.kernel.path.test_late_corners import (
+    CHAINS,
+    DEPTHS,
+    EVERY,
+    JRK,
+    RAMPS,
+    TOLERANCES,
+    chain,
+    keeps_limits,
+    late_rig,
+)
+from tests.kernel.rig import Reals, Rig, T, examples
+
+from openacr.map import numbers as at
+from openacr.motion.path import buffer
+
+PATH = chain([(1.0, 0.0), (0.5, 30.0), (0.6, 0.0), (0.6, -40.0), (0.2, 20.0), (0.5, 90.0)])
+TOLERANCE = 0.1
+Switch = tuple[int, str]
+
+
+def switch(made: Rig, what: str) -> None:
+    if what in ("on", "off"):
+        buffer.switch_look(made.card, 0, on=what == "on")
+    elif what == "neglect":
+        made.I[at.MF4_WORD] ^= at.MF4_LOOK_AHEAD_NEGLECT
+    else:
+        made.F[at.MSF_BASE + at.MSF_TOLERANCE_U] = float(what)
+
+
+def switched(
+    made: Rig, points: list[Point], switches: list[Switch], *, on: bool, every: int = 0
+) -> Reals:
+    """Positions along the points, with LOOK switched as it says; in the end all moves are taken."""
+    due = dict(switches)
+    buffer.switch_look(made.card, 0, on=on)
+
+    def meanwhile(tick: int) -> None:
+        if tick in due:
+            switch(made, due[tick])
+
+    return follow(made, points, meanwhile, every=every)
+
+
+def keeps_acceleration(places: Reals, points: list[Point], tolerance: float) -> None:
+    assert tuple(places[-1]) == pytest.approx(points[-1], abs=1e-9)
+    assert off_path(places, points) <= tolerance * (1 + 1e-6) + 1e-9
+    assert accelerations(places).max() <= 1000 * (1 + 1e-4)
+
+
+@pytest.mark.parametrize("jrk", [0.0, JRK])
+@pytest.mark.parametrize("depth", [2, 10])
+@pytest.mark.parametrize("what", ["on", "off", "neglect", "0.02", "0.1"])
+def test_a_switch_at_any_tick_keeps_all_limits(what: str, depth: int, jrk: float) -> None:
+    def made() -> Rig:
+        it = rig(TOLERANCE, jrk=jrk)
+        it.depth(depth)
+        return it
+
+    on = what != "on"
+    for tick in range(len(switched(made(), PATH, [], on=on))):
+        places = switched(made(), PATH, [(tick, what)], on=on)
+        keeps_acceleration(places, PATH, TOLERANCE)
+        if jrk:
+            assert jerks(places).max() <= jrk * (1 + 1e-3)
+
+
+SWITCHES = st.lists(
+    st.tuples(
+        st.integers(1, 400), st.sampled_from(["on", "off", "neglect", "0.001", "0.1", "1.0"])
+    ),
+    min_size=1,
+    max_size=6,
+).map(
+    lambda waits: list(
+        zip(itertools.accumulate(wait for wait, _ in waits), [w for _, w in waits], strict=True)
+    )
+)
+
+
+@settings(max_examples=examples(100))
+@given(CHAINS, TOLERANCES, DEPTHS, EVERY, RAMPS, SWITCHES, st.booleans())
+def test_under_jerk_any_switches_keep_all_limits(
+    points: list[Point],
+    tolerance: float,
+    depth: int,
+    every: int,
+    ramps: tuple[float, float],
+    switches: list[Switch],
+    on: bool,
+) -> None:
+    places = switched(late_rig(tolerance, depth, ramps), points, switches, on=on, every=every)
+    keeps_limits(places, points, 1.0)
+
+
+@settings(max_examples=examples(100))
+@given(CHAINS, TOLERANCES, SWITCHES, st.booleans())
+def test_without_jerk_any_switches_keep_the_acceleration(
+    points: list[Point], tolerance: float, switches: list[Switch], on: bool
+) -> None:
+    places = switched(rig(tolerance), points, switches, on=on)
+    keeps_acceleration(places, points, 1.0)
+
+
+def rounds(places: Reals, corner: Point) -> bool:
+    """Whether a path stays off a corner."""
+    return float(np.min(np.linalg.norm(places - corner, axis=1))) > TOLERANCE / 2
+
+
+SQUARE = chain([(5.0, 0.0), (5.0, 90.0), (5.0, 90.0), (5.0, 90.0)])
+
+
+@pytest.mark.parametrize(("what", "rounded"), [("on", [False, True]), ("off", [True, False])])
+def test_a_switch_counts_for_the_corners_decided_from_then_on(
+    what: str, rounded: list[bool]
+) -> None:
+    made = rig(TOLERANCE)
+    made.depth(1)
+    places = switched(made, SQUARE, [(1, what)], on=what == "off")
+    assert [rounds(places, corner) for corner in SQUARE[:2]] == rounded
+
+
+@pytest.mark.parametrize("jrk", [0.0, JRK])
+def test_both_builds_agree_about_switches(jrk: float) -> None:
+    digests = []
+    for pure in (False, True):
+        made = rig(TOLERANCE, jrk=jrk, pure=pure)
+        switched(made, PATH[:4], [(40, "off"), (90, "on")], on=True)
+        digests.append(made.memory.digest())
+    assert digests[0] == digests[1]
+
+
+@pytest.mark.parametrize("tick", [1, 100, 180, 210])
+def test_a_move_given_without_look_ends_with_its_final_velocity_though_look_comes(
+    tick: int,
+) -> None:
+    line = chain([(6.0, 0.0), (6.0, 0.0), (6.0, 0.0)])
+    runs = []
+    for switches in ([], [(tick, "on")]):
+        made = rig(TOLERANCE).master(fvel=20.0)
+        runs.append(switched(made, line, switches, on=False))
+    assert len(runs[0]) == len(runs[1])
+    assert runs[1] == pytest.approx(runs[0], abs=1e-9)
+    speed = np.linalg.norm(np.diff(runs[1], axis=0), axis=1)
+    at_joint = speed[np.argmin(np.abs(runs[1][:, 0] - 6.0))] / T
+    assert at_joint == pytest.approx(20.0, abs=1.0)

@@ -1,0 +1,216 @@
+"""The editor of the workspace: what a person types, and what the card makes of it."""
+
+import re
+from collections.abc import Iterator
+
+import httpx
+import pytest
+from playwright.sync_api import BrowserContext, Locator, Page, expect
+from tests.panel.bench import Served
+from tests.panel.browser.conftest import open_page, until_model
+from tests.panel.browser.test_bench import open_pane
+from tests.panel.browser.test_screens import AXE, AXE_RUN
+
+from openacr.client import Level
+from openacr.panel.control.station import Station
+
+COUNTING = "PROGRAM\nDIM LV(1)\n_more\nLV0 = LV0+1\nDWL 0.2\nGOTO more\nENDP\n"
+
+
+def on_card(served: Served, *lines: str) -> None:
+    """Type lines at the card."""
+
+    def do(station: Station) -> None:
+        station.machine.card.go(Level())
+        for line in lines:
+            station.machine.card.command(line)
+
+    served.call(do)
+
+
+def stored(served: Served, text: str) -> None:
+    served.call(lambda station: station.machine.card.download(text, to=Level.program(3)))
+
+
+def listed(served: Served) -> str:
+    return served.call(lambda station: station.machine.card.upload(Level.program(3)))
+
+
+@pytest.fixture(scope="module")
+def workspace(context: BrowserContext, served: Served) -> Page:
+    stored(served, COUNTING)
+    for ask in ("colors", "findings"):  # the processes start; a loaded machine takes long for it
+        text = {"mark": "begin-0123", "name": "prog3.8k", "version": 1, "text": "", "ask": ask}
+        assert httpx.post(f"{served.url}/api/text", json=text, timeout=None).status_code == 200
+    page = open_page(context, f"{served.url}/bench")
+    until_model(page, "model.hello.value.client")
+    open_pane(page, "Editor")
+    expect(pane(page).get_by_label("Program or file").get_by_role("option")).not_to_have_count(0)
+    return page
+
+
+@pytest.fixture
+def page(workspace: Page, served: Served) -> Iterator[Page]:
+    """The editor with program 3, as the card lists it."""
+    on_card(served, "HALT PROG3")
+    stored(served, COUNTING)
+    read(workspace)
+    yield workspace
+    assert workspace.complaints == []  # type: ignore[attr-defined]
+
+
+def read(page: Page) -> None:
+    """Read program 3 of the card, whatever the text here has become."""
+    is_changed = "changed" in pane(page).locator(".text-foot .hint").inner_text()
+    pane(page).get_by_label("Program or file").select_option("PROG3")
+    if is_changed:
+        page.get_by_role("dialog").get_by_role("button", name="DROP").click()
+    expect(pane(page).locator(".text-foot .hint")).to_have_text("PROG3 · halted · 7 lines")
+    expect(lines(page).nth(3)).to_have_text(" LV0 = LV0+1")
+
+
+def pane(page: Page) -> Locator:
+    return page.locator("[data-pane=editor]")
+
+
+def key(page: Page, name: str) -> Locator:
+    return pane(page).locator(".pane-head").get_by_role("button", name=name, exact=True)
+
+
+def lines(page: Page) -> Locator:
+    return pane(page).locator(".cm-line")
+
+
+def put(page: Page, line: int, text: str) -> None:
+    """Type another text in place of a line, from 1."""
+    lines(page).nth(line - 1).click()
+    page.keyboard.press("End")
+    page.keyboard.press("Shift+Home")
+    page.keyboard.press("Shift+Home")
+    page.keyboard.insert_text(text)
+
+
+def test_a_mistake_is_marked_listed_and_mended_while_typing(page: Page) -> None:
+    put(page, 4, " LV0 = SQR(LV0)")
+    expect(pane(page).locator(".cm-lintRange-error")).to_have_count(1)
+    expect(pane(page).locator(".findings .item.error")).to_contain_text("4:8")
+    pane(page).locator(".findings").get_by_role("button", name="Write SQRT").click()
+    expect(lines(page).nth(3)).to_have_text(" LV0 = SQRT(LV0)")
+    expect(pane(page).locator(".findings .item")).to_have_count(0)
+    expect(lines(page).nth(4).locator(".tok-command")).to_have_text("DWL")
+
+
+def test_a_word_is_completed_and_a_label_renamed(page: Page) -> None:
+    put(page, 4, " DW")
+    page.keyboard.type("L")
+    expect(pane(page).locator(".cm-tooltip-autocomplete li").first).to_contain_text("DWL")
+    page.keyboard.press("Escape")
+    lines(page).nth(5).click()
+    page.keyboard.press("End")
+    page.keyboard.press("F2")
+    dialog = page.get_by_role("dialog", name="RENAME")
+    expect(dialog.get_by_role("textbox")).to_have_value("more")
+    dialog.get_by_role("textbox").fill("again")
+    page.keyboard.press("Enter")
+    expect(lines(page).nth(5)).to_have_text(" GOTO again")
+    expect(lines(page).nth(2)).to_have_text(" _again")
+
+
+def test_lines_fold_to_their_first_one_and_a_place_within_shows_them_again(page: Page) -> None:
+    put(page, 4, " IF (LV0 > 3)\n LV0 = 0\n ENDIF")
+    expect(lines(page)).to_have_count(9)
+    keys = pane(page).locator(".cm-foldGutter").get_by_title("Fold these lines")
+    expect(keys).to_have_count(2)
+    keys.nth(1).click()
+    expect(lines(page)).to_have_count(7)
+    expect(lines(page).nth(3)).to_have_text(" IF (LV0 > 3)\u2026")
+    lines(page).nth(1).click()
+    page.keyboard.press("End")
+    page.keyboard.insert_text("\n DWL 1")
+    expect(lines(page)).to_have_count(8)  # what is folded stays so
+    expect(lines(page).nth(4)).to_have_text(" IF (LV0 > 3)\u2026")
+    page.keyboard.press("Control+Alt+[")  # all of them
+    expect(lines(page)).to_have_count(1)
+    expect(lines(page).first).to_have_text(" PROGRAM\u2026")
+    key(page, "OUTLINE").click()
+    pane(page).locator(".text-beside").get_by_role("button", name="more").click()
+    expect(lines(page).nth(3)).to_have_text(" _more")
+    expect(lines(page).nth(3)).to_have_class(re.compile("cm-activeLine"))
+
+
+def test_a_number_of_the_card_is_explained_in_its_line_which_stays_as_it_is(
+    page: Page, served: Served
+) -> None:
+    put(page, 4, " LV0 = P12288")
+    hint = lines(page).nth(3).locator(".cm-hint")
+    expect(hint).to_have_text("AXIS 0: Current Position")
+    page.keyboard.press("End")
+    page.keyboard.type("+1")
+    expect(lines(page).nth(3)).to_have_text(" LV0 = P12288AXIS 0: Current Position+1")
+    page.keyboard.press("Home")
+    page.keyboard.press("Shift+End")
+    page.keyboard.insert_text(" LV0 = P12544")
+    expect(hint).to_have_text("AXIS 1: Current Position")
+    key(page, "DOWNLOAD").click()
+    expect(page.locator("#prompt")).to_have_text("PROG3: 7 lines were sent")
+    assert "LV0 = P12544\n" in listed(served)
+    page.evaluate(AXE.read_text())
+    assert page.evaluate(AXE_RUN) == []
+
+
+def test_a_refused_line_is_marked_and_another_text_of_the_card_is_not_lost(
+    page: Page, served: Served
+) -> None:
+    put(page, 4, " NOWORD 5")
+    key(page, "DOWNLOAD").click()
+    refused = pane(page).locator(".cm-line-refused")
+    expect(refused).to_have_text(" NOWORD 5")
+    expect(page.locator("#prompt")).to_contain_text("4: Unknown command")
+    put(page, 4, " LV0 = LV0+2")
+    expect(refused).to_have_count(0)
+    stored(served, COUNTING.replace("0.2", "0.3"))  # another browser
+    key(page, "DOWNLOAD").click()
+    dialog = page.get_by_role("dialog", name="Changed meanwhile")
+    dialog.get_by_role("button", name="COMPARE").click()
+    expect(pane(page).locator(".compared .is-different")).to_have_count(2)
+    assert "0.3" in listed(served)
+    key(page, "DOWNLOAD").click()
+    dialog.get_by_role("button", name="OVERWRITE").click()
+    expect(page.locator("#prompt")).to_have_text("PROG3: 7 lines were sent")
+    assert "LV0+2" in listed(served) and "0.2" in listed(served)
+    key(page, "COMPARE").click()
+    expect(pane(page).locator(".compared caption")).to_have_text("PROG3 · the same on the card")
+
+
+def test_the_running_line_is_marked_and_stays_at_its_line(page: Page, served: Served) -> None:
+    on_card(served, "RUN PROG3")
+    running = pane(page).locator(".cm-line-running")
+    expect(running).to_have_text(" DWL 0.2")
+    expect(running).to_have_attribute("data-mark", "PROG3")
+    expect(key(page, "DOWNLOAD")).to_be_disabled()
+    lines(page).nth(1).click()
+    page.keyboard.press("End")
+    page.keyboard.insert_text("\n' a line of its own")
+    expect(lines(page)).to_have_count(8)
+    expect(running).to_have_text(" DWL 0.2")
+    on_card(served, "HALT PROG3")
+    expect(running).to_have_count(0)
+
+
+def test_variables_and_the_flow_stack_of_a_program_are_seen_and_changed(
+    page: Page, served: Served
+) -> None:
+    looping = "PROGRAM\nDIM LV(1)\nLV0 = 5\nWHILE (LV0 < 9)\nP5 = LV0\nDWL 0.1\nWEND\nENDP\n"
+    stored(served, looping)
+    on_card(served, "RUN PROG3")
+    open_pane(page, "Variables")
+    shown = page.locator("[data-pane=variables]")
+    shown.get_by_label("Program").select_option("3")
+    expect(shown.locator(".level")).to_have_text("WHILE 40")
+    expect(shown.locator("[data-item=P5] .live")).to_have_text("5")
+    shown.get_by_role("button", name="Change LV0").click()
+    page.get_by_role("dialog").get_by_role("textbox").fill("4+3")
+    page.keyboard.press("Enter")
+    expect(shown.locator("[data-variable=LV0] .live")).to_have_text("7")
+    expect(shown.locator("[data-item=P5] .live")).to_have_text("7")
+    page.get_by_role("button", name="CLOSE PANE").click()

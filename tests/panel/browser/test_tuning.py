@@ -1,0 +1,91 @@
+"""The tuning pane of the workspace: an axis measured, gains proposed, set, and taken back."""
+
+from functools import partial
+
+import pytest
+from playwright.sync_api import BrowserContext, Page, expect
+from tests.panel.bench import Served
+from tests.panel.browser.conftest import open_page
+from tests.panel.browser.test_bench import open_pane
+from tests.panel.browser.test_screens import AXE, AXE_RUN
+
+from openacr.panel.control.station import Station
+
+P_GAIN, D_GAIN = 12304, 12308  # of axis X
+
+
+@pytest.fixture(scope="module")
+def page(context: BrowserContext, served: Served) -> Page:
+    """The workspace with the tuning pane open."""
+    opened = open_page(context, f"{served.url}/bench")
+    opened.set_viewport_size({"width": 1280, "height": 900})
+    open_pane(opened, "Tuning")
+    expect(opened.locator("[data-gain='P Gain'] input.field")).not_to_have_value("")
+    return opened
+
+
+def gain(station: Station, parameter: int = P_GAIN) -> float:
+    return float(station.machine.card.read(parameter))
+
+
+def test_nothing_moves_or_changes_before_it_is_confirmed(page: Page, served: Served) -> None:
+    before = served.call(gain)
+    page.get_by_role("textbox", name="Crossover").fill("30")
+    page.get_by_role("textbox", name="Time, s").fill("0.6")
+    page.get_by_role("button", name="MEASURE").click()
+    dialog = page.get_by_role("dialog", name="MEASURE")
+    expect(dialog).to_contain_text("by 100 pulses to both sides, for 0.6 s")
+    dialog.get_by_role("button", name="CANCEL").click()
+    expect(page.locator(".tune-chart")).to_have_count(0)
+    page.get_by_role("button", name="MEASURE").click()
+    dialog.get_by_role("button", name="MEASURE").click()
+    expect(page.locator(".tune-chart canvas")).to_have_count(5)
+    expect(page.locator("#prompt")).to_contain_text("Axis X is measured; nothing has been set")
+    rows = page.locator(".tune-table tbody tr")
+    expect(rows.filter(has_text="Crossover")).to_contain_text("30")
+    assert served.call(gain) == before
+    page.evaluate(AXE.read_text())
+    assert page.evaluate(AXE_RUN) == []
+
+
+def test_proposed_gains_are_set_when_confirmed_and_taken_back_by_undo(
+    page: Page, served: Served
+) -> None:
+    before = served.call(gain)
+    page.get_by_role("button", name="SET THESE GAINS").click()
+    page.get_by_role("dialog").get_by_role("button", name="SET THESE GAINS").click()
+    expect(page.locator(".tune-chart canvas")).to_have_count(6)
+    after = served.call(gain)
+    assert after != before
+    expect(page.locator(".tune-changes li", has_text="P Gain")).to_have_count(1)
+    page.get_by_role("button", name="AS AT THE START").click()
+    expect(page.locator("#prompt")).to_contain_text("as they were at the start")
+    assert served.call(gain) == pytest.approx(before, rel=1e-6)
+
+
+def test_a_step_is_drawn_over_the_one_before(page: Page) -> None:
+    page.get_by_role("button", name="STEP", exact=True).click()
+    page.get_by_role("dialog").get_by_role("button", name="STEP", exact=True).click()
+    expect(page.locator("#prompt")).to_contain_text("Axis X: overshoot")
+    step = page.get_by_role("img", name="Step, pulses")  # the one before was that of the new gains
+    expect(step).to_have_count(1)
+    for label in ("setpoint", "measured", "predicted", "before"):
+        expect(step.locator(".u-series", has_text=label)).to_have_count(1)
+
+
+def test_a_slider_acts_at_once_and_undo_and_redo_go_back_and_forth(
+    page: Page, served: Served
+) -> None:
+    before = served.call(partial(gain, parameter=D_GAIN))
+    row = page.locator("[data-gain='D Gain']")
+    changes = page.locator(".tune-changes li")
+    count = changes.count()
+    row.get_by_role("slider").press("ArrowRight")
+    expect(changes).to_have_count(count + 1)
+    wanted = float(f"{before * 10**0.01:.4g}")
+    assert served.call(partial(gain, parameter=D_GAIN)) == pytest.approx(wanted, rel=1e-3)
+    for word, value, left in (("UNDO", before, count), ("REDO", wanted, count + 1)):
+        page.get_by_role("button", name=word, exact=True).click()
+        expect(changes).to_have_count(left)
+        assert served.call(partial(gain, parameter=D_GAIN)) == pytest.approx(value, rel=1e-3)
+    assert page.complaints == []  # type: ignore[attr-defined]

@@ -1,0 +1,223 @@
+"""The pane World: where its links are drawn, and what is changed by hand in it."""
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Page, Route, expect
+from tests.panel.bench import Served
+from tests.panel.browser.conftest import LONGEST_MS, give, open_page, until_model
+
+from openacr.controller import Controller
+from openacr.panel.control.installation import Installation
+from openacr.panel.control.station import Station
+from openacr.panel.machine import FOLDER, opened
+from openacr.plant.load import load_world
+
+pytestmark = pytest.mark.evidence("oracle", "products of homogeneous matrices by numpy")
+GRIPPER = """
+[[device]]
+kind = "gripper"
+name = "jaws"
+outputs = { close = 33 }
+sign = { at = [0, 0, -50], parent = "Z" }
+"""
+STL = """solid wedge
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex 60 0 0
+vertex 0 40 30
+endloop
+endfacet
+facet normal 0 0 -1
+outer loop
+vertex 0 0 0
+vertex 0 40 30
+vertex 60 0 0
+endloop
+endfacet
+endsolid wedge
+"""
+FRAMES = (
+    "([links, positions]) => import('/js/draw/kinematics.js').then(({ frames }) => "
+    "frames(links, positions).flatMap(({ fixed, moving }) => [fixed, moving]))"
+)
+
+
+@pytest.fixture(scope="module")
+def page(context: BrowserContext, served: Served) -> Iterator[Page]:
+    """The workspace with the pane World."""
+    page = open_page(context, f"{served.url}/bench")
+    open_world(page)
+    yield page
+
+
+def card_bit(served: Served, number: int) -> bool:
+    def read(station: Station) -> bool:
+        assert station.installation.controller is not None
+        return station.installation.controller.bit[number]
+
+    return served.call(read)
+
+
+def link(parent: int | None, origin: list[float], direction: list[float], **more: Any) -> Any:
+    return {"parent": parent, "origin": origin, "direction": direction, "is_rotary": False,
+            "per_unit": 1.0, **more}  # fmt: skip
+
+
+def shift(x: float, y: float, z: float) -> Any:
+    found = np.eye(4)
+    found[:3, 3] = (x, y, z)
+    return found
+
+
+def turn(axis: int, degrees: float) -> Any:
+    """A rotation about X (0), Y (1) or Z (2), by the right hand."""
+    s, c = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
+    found, (j, k) = np.eye(4), ((axis + 1) % 3, (axis + 2) % 3)
+    found[j, j], found[j, k], found[k, j], found[k, k] = c, -s, s, c
+    return found
+
+
+def test_every_link_is_where_the_product_of_the_transforms_of_its_carriers_puts_it(
+    page: Page,
+) -> None:
+    links = [
+        link(None, [1, 2, 3], [1, 0, 0], per_unit=25.4),
+        link(0, [0, 0, 10], [0, 0.6, -0.8]),
+        link(1, [5, 0, 0], [0, 0, 1], is_rotary=True),
+        link(2, [0, 7, 0], [0, 1, 0], is_rotary=True, per_unit=360.0),
+        link(3, [0, 0, 9], [1, 0, 0], is_rotary=True),
+        link(None, [0, 40, 0], [0, 0, 1]),
+    ]
+    positions = [2.0, -3.0, 30.0, 0.125, -70.0, 4.5]
+    x = shift(1, 2, 3)
+    y = x @ shift(50.8, 0, 0) @ shift(0, 0, 10)
+    c = y @ shift(0, -1.8, 2.4) @ shift(5, 0, 0)
+    b = c @ turn(2, 30) @ shift(0, 7, 0)
+    a = b @ turn(1, 45) @ shift(0, 0, 9)
+    z = shift(0, 40, 0)
+    wanted = [
+        x, x @ shift(50.8, 0, 0), y, y @ shift(0, -1.8, 2.4), c, c @ turn(2, 30),
+        b, b @ turn(1, 45), a, a @ turn(0, -70), z, z @ shift(0, 0, 4.5),
+    ]  # fmt: skip
+    found = page.evaluate(FRAMES, [links, positions])
+    for matrix, expected in zip(found, wanted, strict=True):
+        np.testing.assert_allclose(np.reshape(matrix, (4, 4)).T, expected, atol=1e-12)
+
+
+def test_the_drawing_follows_the_positions_of_the_world(page: Page) -> None:
+    name = page.locator("[data-pane=world] .world-name[data-axis=X]")
+    expect(name).to_have_text(re.compile(r"^X (119\.99|120\.00)\d mm$"))
+    give(page, "mdi.execute", line="G21 G91 G0 X10")
+    expect(name).to_have_text(re.compile(r"^X (129\.99|130\.00)\d mm$"))
+    until_model(page, "!model.state.value.busy")
+    assert page.complaints == []  # type: ignore[attr-defined]
+
+
+def test_an_input_is_forced_and_released_by_its_keys_and_the_card_sees_it(
+    page: Page, served: Served
+) -> None:
+    row = page.locator("[data-pane=world] [data-input='2']")
+    expect(row).to_contain_text("home of axis X")
+    before = card_bit(served, 2)
+    for wish, text in (("on", "forced on"), ("off", "forced off")):
+        row.get_by_role("button", name=f"Input 2 {wish}").click()
+        expect(row.locator(".io-state")).to_have_text(text)
+        assert card_bit(served, 2) is (wish == "on")
+    row.get_by_role("button", name="Release input 2").click()
+    expect(row.locator(".io-state")).to_have_text("on" if before else "off")
+    expect(row.get_by_role("button", name="Release input 2")).to_be_disabled()
+
+
+def test_a_fault_is_caused_with_its_value_shown_and_mended(page: Page) -> None:
+    pane = page.locator("[data-pane=world]")
+    pane.get_by_label("Axis of the fault").select_option("Y")
+    pane.get_by_label("Kind of the fault").select_option("supply")
+    expect(pane.locator("form .hint")).to_have_text("voltage V (above 0 to 320 V)")
+    pane.get_by_label("voltage").fill("400")
+    pane.get_by_role("button", name="CAUSE").click()
+    expect(page.locator("#prompt")).to_contain_text("a supply of 400 V; above 0 to 320 V")
+    pane.get_by_label("voltage").fill("40")
+    pane.get_by_role("button", name="CAUSE").click()
+    shown = pane.locator("[data-fault='1.supply']")
+    expect(shown).to_contain_text("Y: supply too low 40 V")
+    shown.get_by_role("button").click()
+    expect(shown).to_have_count(0)
+
+
+# --- devices, bodies, other cards -----------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def cell(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    """The mill with a gripper, and a wedge of two faces as the body of Z."""
+    folder = tmp_path_factory.mktemp("cell")
+    (folder / "wedge.stl").write_text(STL)
+    text = (FOLDER / "machine.toml").read_text()
+    text = text.replace('name = "Z"\n', 'name = "Z"\nbody = { file = "wedge.stl" }\n') + GRIPPER
+    (folder / "machine.toml").write_text(text)
+    controller = Controller(world=load_world(folder / "machine.toml"), device_folder=folder)
+    store = opened(folder / "sysvar.db")
+    served = Served(folder, installation=Installation.inside(controller, store, folder))
+    yield served
+    served.close()
+
+
+def test_devices_are_commanded_by_hand_and_bodies_come_from_files(
+    context: BrowserContext, cell: Served
+) -> None:
+    page = context.new_page()
+    page.set_default_timeout(LONGEST_MS)
+    with page.expect_response(lambda answer: "/api/world/body" in answer.url) as answer:
+        page.goto(f"{cell.url}/bench")
+        page.wait_for_selector("body:not(.is-stale) #menu .menu-key")
+        open_world(page)
+    assert (answer.value.status, answer.value.url.partition("?")[2]) == (200, "axis=2")
+    assert answer.value.text() == STL
+    pane = page.locator("[data-pane=world]")
+    part = pane.get_by_role("button", name="jaws: part")
+    expect(pane.locator(".world-name[data-device=jaws]")).to_have_text("jaws opened")
+    for pressed in ("true", "false"):
+        part.click()
+        expect(part).to_have_attribute("aria-pressed", pressed)
+    page.close()
+
+
+def test_of_a_card_elsewhere_the_axes_are_drawn_and_the_pane_says_why_nothing_can_be_changed(
+    browser: Browser, served: Served
+) -> None:
+    context = browser.new_context()
+    page = context.new_page()
+    page.set_default_timeout(LONGEST_MS)
+
+    def elsewhere(route: Route) -> None:
+        about = route.fetch().json()
+        nothing: dict[str, object] = {"inputs": [], "faults": [], "devices": []}
+        links = [{**each, "file": ""} for each in reversed(about["links"])]
+        links = [{**each, "parent": None} for each in links]
+        route.fulfill(json={**about, **nothing, "links": links, "why_not": "it is elsewhere"})
+
+    page.route("**/api/world", elsewhere)
+    page.goto(f"{served.url}/bench")
+    page.wait_for_selector("body:not(.is-stale) #menu .menu-key")
+    open_world(page)
+    pane = page.locator("[data-pane=world]")
+    expect(pane.locator(".world-note")).to_have_text("it is elsewhere")
+    expect(pane.get_by_role("button", name="CAUSE")).to_have_count(0)
+    give(page, "control.take", force=True)
+    give(page, "mdi.execute", line="G21 G91 G0 Y2 Z1")  # of the card, which calls its start 0
+    for name, place in (("Y", r"(1\.99|2\.00)"), ("Z", r"(0\.99|1\.00)")):
+        shown = pane.locator(f".world-name[data-axis={name}]")
+        expect(shown).to_have_text(re.compile(rf"^{name} {place}\d mm$"))
+    until_model(page, "!model.state.value.busy")
+    context.close()
+
+
+def open_world(page: Page) -> None:
+    page.get_by_role("button", name="PANES").click()
+    page.get_by_role("dialog").get_by_role("button", name="World", exact=True).click()
+    expect(page.locator("[data-pane=world] canvas")).to_be_visible()

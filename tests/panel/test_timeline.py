@@ -1,0 +1,548 @@
+"""The timeline of the panel: time that is still, fast, slow or runs back, and its branches."""
+
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+from tests.controller.hosts import X_AND_Y, connected
+from tests.panel.bench import LIMIT_S, HandStation, Served
+
+from openacr.controller import Controller
+from openacr.controller.journal import read_journal
+from openacr.controller.replay import Replay
+from openacr.debugger.calls import is_running
+from openacr.errors import UserError
+from openacr.map.numbers import (
+    AF1_JOG_ACTIVE,
+    AF1_WORD,
+    MF1_IN_MOTION,
+    MF1_KILL_ALL_MOVES_REQUEST,
+    MF1_WORD,
+)
+from openacr.panel.control.history import AWAY, MOST_BRANCHES, STILL, History
+from openacr.panel.control.scope import Samples
+from openacr.panel.control.station import Station
+from openacr.panel.control.stepping import step_move
+from openacr.panel.control.times import Times
+from openacr.panel.control.watches import Wish
+from openacr.protocol.events import ControlKey
+from openacr.timeline import Kind
+
+LINES = ("10 P0=P0+1", "20 DWL 0.01", "30 GOTO 10")
+
+
+@pytest.fixture
+def hand(tmp_path: Path) -> Iterator[HandStation]:
+    """A station whose card counts in P0 every 10 ms."""
+    station = HandStation(tmp_path)
+    yield station
+    station.close()
+
+
+def history(hand: HandStation) -> History:
+    return hand.station.times.history
+
+
+def times(hand: HandStation) -> Times:
+    return hand.station.times
+
+
+def fact(hand: HandStation, name: str) -> dict[str, object]:
+    hand.station._facts.tell()
+    return dict(hand.station.facts[name])
+
+
+def count(hand: HandStation) -> None:
+    """Have program 5 count in P0."""
+    for line in LINES:
+        hand.station.machine.card.command(line, program=5)
+    hand.station.machine.card.command("RUN", program=5)
+
+
+def test_time_is_still_in_a_pause_and_goes_on_at_run(hand: HandStation) -> None:
+    count(hand)
+    hand.run(0.5)
+    hand.do("timeline.pause")
+    tick, digest = history(hand).lived_tk, history(hand).card.digest()
+    hand.run(5.0)
+    assert history(hand).lived_tk == tick
+    assert history(hand).card.digest() == digest
+    assert fact(hand, "timeline")["still"] is True
+    assert fact(hand, "moment")["tick"] == tick
+    assert hand.refused("mdi.execute", line="G0 X1")["text"] == STILL
+    assert hand.refused("memory.read")["text"] == STILL
+    hand.do("timeline.run")
+    hand.run(1.0)
+    assert (history(hand).lived_tk - tick) * history(hand).period_s == pytest.approx(1.0, abs=0.02)
+    assert hand.station.lost == ""
+    assert not hand.station.machine.runner.is_out_of_reach  # no watchdog has tripped
+    assert hand.station.machine.runner.alarms.active == []
+
+
+@pytest.mark.parametrize("speed", [0.01, 0.1, 4.0])
+def test_time_passes_as_fast_as_is_asked(hand: HandStation, speed: float) -> None:
+    hand.do("timeline.run", speed=speed)
+    hand.run(1.0)
+    begin = history(hand).lived_tk
+    hand.run(8.0)
+    passed_s = (history(hand).lived_tk - begin) * history(hand).period_s
+    assert passed_s == pytest.approx(8.0 * speed, rel=0.02, abs=0.03)
+    assert hand.now_s - hand.station.snapshot.read_s < 0.1
+
+
+def test_as_fast_as_it_goes_every_step_lets_a_burst_pass(hand: HandStation) -> None:
+    hand.do("timeline.run", speed=None)
+    begin = history(hand).lived_tk
+    hand.run(0.2)
+    assert (history(hand).lived_tk - begin) * history(hand).period_s >= 1.0
+
+
+@pytest.mark.parametrize("speed", [0.0099, 100.1, 0.0, -1.0])
+def test_another_speed_is_refused(hand: HandStation, speed: float) -> None:
+    answer = hand.refused("timeline.run", speed=speed)
+    assert answer["text"] == f"speed {speed:g}: 0.01 to 100, or as fast as it goes"
+
+
+def test_a_moment_shown_again_is_the_card_it_was_to_the_bit_and_so_is_what_follows(
+    hand: HandStation,
+) -> None:
+    count(hand)
+    card, digests = history(hand).card, {}
+    for _ in range(8):
+        hand.run(0.1)
+        digests[card.lived_tk] = card.digest()
+    hand.run(0.1)
+    ticks = list(digests)
+    for tick in (ticks[3], ticks[6], ticks[0]):
+        hand.do("timeline.seek", tick=tick)
+        assert (card.lived_tk, card.digest()) == (tick, digests[tick])
+    for tick in ticks[1:]:  # and forward, tick for tick where inputs came
+        history(hand).is_still = False
+        history(hand).advance(tick - card.lived_tk)
+        assert card.digest() == digests[tick]
+    assert len(history(hand).timeline.branches) == 1
+
+
+def test_screens_show_the_moment_and_move_nothing_until_the_machine_is_operated_from_it(
+    hand: HandStation,
+) -> None:
+    hand.do("watch.begin", topic="watch", parameters=["P0"], hz=20)
+    shown: list[float] = []
+    hand.station.watches.report = lambda _wish, _numbers, changed: shown.append(changed[0][1])
+    count(hand)
+    hand.run(1.0)
+    tick, value = history(hand).lived_tk, history(hand).card.p[0]
+    hand.run(1.0)
+    hand.do("timeline.seek", tick=tick)
+    hand.run(0.3)
+    assert shown[-1] == value
+    assert shown[-2] > value
+    assert history(hand).lived_tk == tick
+    assert hand.station.lost == AWAY
+    assert hand.now_s - hand.station.snapshot.read_s < 0.1
+    state = fact(hand, "state")
+    assert (state["reason"], state["link"]) == (AWAY, "ok")
+    assert AWAY in hand.refused("mdi.execute", line="G0 X1")["text"]
+    assert AWAY in hand.refused("term.open")["text"]
+    hand.do("timeline.operate")
+    assert hand.station.lost == ""
+    assert [each.number for each in history(hand).timeline.branches] == [0, 1]
+    parent, branch = history(hand).timeline.branches
+    assert branch.fork is not None
+    assert (branch.parent, branch.fork.tick) == (0, tick)
+    assert parent.last.tick > tick
+    before = history(hand).card.p[0]
+    hand.run(1.0)
+    assert history(hand).card.p[0] > before
+    assert hand.station.machine.runner.alarms.active == []
+
+
+def test_what_is_recorded_runs_again_up_to_its_end_and_is_still_there(hand: HandStation) -> None:
+    count(hand)
+    hand.run(1.0)
+    tick = history(hand).lived_tk
+    hand.run(0.5)
+    hand.do("timeline.seek", tick=tick)
+    last, digest = history(hand).timeline.branch.last, None
+    history(hand).timeline.seek(last)
+    digest = history(hand).card.digest()
+    hand.do("timeline.seek", tick=tick)
+    hand.do("timeline.run", speed=10.0)
+    hand.until(lambda: history(hand).is_still)
+    assert history(hand).timeline.now == last
+    assert history(hand).card.digest() == digest
+    assert len(history(hand).timeline.branches) == 1
+    hand.do("timeline.run", speed=1.0)  # and beyond, without the panel
+    hand.run(0.5)
+    assert history(hand).lived_tk > last.tick
+    assert not history(hand).is_still
+
+
+def test_a_value_set_in_the_past_begins_a_branch_and_both_can_be_compared(
+    hand: HandStation,
+) -> None:
+    count(hand)
+    hand.run(1.0)
+    tick, value = history(hand).lived_tk, history(hand).card.p[0]
+    hand.run(0.5)
+    hand.do("timeline.seek", tick=tick)
+    assert hand.do("card.write", parameter=0, value=500.0) == {"value": 500.0}
+    assert history(hand).timeline.branch.number == 1
+    hand.do("timeline.run", speed=1.0)
+    hand.run(0.5)
+    timeline = history(hand).timeline
+    channels = [timeline.course(n, tick).samples([0], tick, 100, 9)[0] for n in (0, 1)]
+    assert channels[0][0] == value
+    assert [b - a for a, b in zip(*channels, strict=True)] == [500.0 - value] * 9
+    values = [timeline.course(n, tick + 400, tick + 400).values([0], tick + 400) for n in (0, 1)]
+    assert values == [[channels[0][4]], [channels[1][4]]]
+    hand.do("timeline.switch", number=0, tick=tick)
+    assert (history(hand).card.p[0], timeline.branch.number) == (value, 0)
+    assert hand.refused("timeline.switch", number=7)["text"] == "there is no branch 7; known: 0, 1"
+    hand.do("timeline.forget", number=1)
+    assert hand.refused("timeline.forget", number=0)["text"] == (
+        "branch 0 is the present one: change to another one first"
+    )
+
+
+def test_a_branch_begun_without_a_change_goes_on_as_the_first_without_its_inputs(
+    hand: HandStation,
+) -> None:
+    assert hand.refused("timeline.branch")["text"] == (
+        "nothing follows here: go back to a moment first"
+    )
+    hand.run(0.5)
+    tick = history(hand).lived_tk
+    hand.run(0.5)
+    hand.do("timeline.seek", tick=tick)
+    assert hand.do("timeline.branch") == {"number": 1}
+    assert not history(hand).timeline.is_past
+    hand.do("timeline.name", number=1, name="what if")
+    branches = fact(hand, "timeline")["branches"]
+    assert [(b["number"], b["name"], b["fork"]) for b in branches] == [  # type: ignore[attr-defined]
+        (0, "first", None),
+        (1, "what if", tick),
+    ]
+
+
+def test_of_too_many_branches_the_oldest_is_forgotten(hand: HandStation) -> None:
+    hand.run(0.1)
+    hand.do("timeline.seek", tick=history(hand).lived_tk)
+    for _ in range(MOST_BRANCHES + 3):
+        hand.do("timeline.step", what="tick")
+        hand.do("timeline.step", what="back")
+        hand.do("timeline.branch")
+    numbers = [each.number for each in history(hand).timeline.branches]
+    assert numbers == list(range(4, 4 + MOST_BRANCHES))
+    assert sorted(history(hand).names) == numbers
+
+
+def test_a_step_is_one_tick_one_line_or_one_move(hand: HandStation) -> None:
+    card = history(hand).card
+    count(hand)
+    hand.run(0.3)
+    hand.do("timeline.pause")
+    tick = card.lived_tk
+    hand.do("timeline.step")
+    assert (card.lived_tk, times(hand).is_away) == (tick + 1, False)
+    hand.do("timeline.step", what="line", number=5)
+    assert (card.within > 0, card.announced_program) == (True, 5)
+    line = card.executor.threads.next_line(5)
+    for _ in range(3):
+        hand.do("timeline.step", what="line", number=5)
+    assert card.executor.threads.next_line(5) == line  # once round
+    tick = card.lived_tk
+    hand.do("timeline.step", what="tick")
+    assert (card.lived_tk, card.within) == (tick, 0)
+    hand.do("timeline.step", what="back")
+    assert card.lived_tk == tick - 1
+    assert hand.refused("timeline.step", what="line", number=6)["text"] == (
+        "PROG6 does not run: only a running program can step"
+    )
+    assert hand.refused("timeline.step", what="move", number=0)["text"] == (
+        "no move of MASTER0 has begun or ended in 10 s"
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "args"),
+    [
+        ("timeline.seek", {"tick": 0}),
+        ("timeline.switch", {"number": 0}),
+        ("timeline.step", {"what": "back"}),
+        ("timeline.step", {"what": "line", "number": 5}),
+        ("timeline.step", {"what": "move"}),
+    ],
+)
+def test_nothing_goes_to_the_past_while_the_panel_moves_the_machine(
+    hand: HandStation, name: str, args: dict[str, Any]
+) -> None:
+    begin = history(hand).lived_tk
+    if "tick" in args:
+        args = {"tick": begin}
+    hand.do("jog.increment", axis="X", direction=1, distance=2.0, tick=hand.tick)
+    hand.run(0.1)
+    assert hand.refused(name, **args)["text"] == (
+        "the panel moves the machine (state IDLE): wait until it rests, or STOP, then go back"
+    )
+    assert (times(hand).is_away, times(hand).is_still) == (False, False)
+    hand.until(lambda: not hand.is_busy)
+    assert hand.places()[0] == pytest.approx(2.0)
+
+
+def test_a_stop_ends_a_pause_and_another_speed_and_stops_the_machine(hand: HandStation) -> None:
+    hand.do("jog.increment", axis="X", direction=1, distance=50.0, tick=hand.tick)
+    hand.run(0.3)
+    hand.do("timeline.pause")
+    hand.run(1.0)
+    hand.do("stop.hold")
+    assert (times(hand).is_still, times(hand).speed) == (False, 1.0)
+    hand.until(lambda: not hand.is_busy)
+    hand.run(0.2)
+    assert hand.speeds(0.1)[0] == 0.0
+    assert hand.places()[0] < 50.0
+    hand.do("timeline.run", speed=0.01)
+    hand.do("stop.hold")
+    assert times(hand).speed == 1.0
+
+
+def test_a_stop_in_the_past_lets_time_be_still(hand: HandStation) -> None:
+    hand.run(0.5)
+    hand.do("timeline.seek", tick=history(hand).lived_tk - 500)
+    hand.do("timeline.run", speed=0.01)
+    for name in ("stop.hold", "stop.all", "stop.estop"):
+        history(hand).is_still = False
+        hand.do(name)
+        assert times(hand).is_still
+
+
+def test_held_keys_end_when_time_becomes_still(hand: HandStation) -> None:
+    assert hand.press(1)["ok"]
+    hand.keep(1, 0.3)
+    hand.do("timeline.pause")
+    assert not hand.station.hand_motion.presses.are_held
+    hand.do("timeline.run")
+    hand.until(lambda: not hand.is_busy)
+
+
+def test_bookmarks_are_set_at_the_tick_in_which_programs_end_and_errors_come(
+    hand: HandStation,
+) -> None:
+    card = hand.station.machine.card
+    for number, lines in ((5, ("10 DWL 0.05",)), (6, ("10 DWL 0.02", "20 P999999=1"))):
+        for line in lines:
+            card.command(line, program=number)
+        card.command("RUN", program=number)
+    hand.run(0.5)
+    hand.do("timeline.mark", text="by hand")
+    marks = history(hand).bookmarks.of(0)
+    assert [(each.kind.value, each.text.partition(":")[0]) for each in marks] == [
+        ("error", "PROG6"),
+        ("end", "PROG5 has ended"),
+        ("hand", "by hand"),
+    ]
+    for each, program in zip(marks, (6, 5), strict=False):
+        for tick, runs in ((each.tick - 1, True), (each.tick, False)):
+            hand.do("timeline.seek", tick=tick)
+            assert is_running(history(hand).card, program) is runs
+    assert history(hand).bookmarks.of(0) == marks  # the watchdog has ended without one
+
+
+def test_a_branch_is_saved_as_a_journal_that_replays_to_equal_digests(
+    hand: HandStation, tmp_path: Path
+) -> None:
+    count(hand)
+    hand.run(1.0)
+    hand.do("timeline.seek", tick=history(hand).lived_tk)
+    path = tmp_path / "branch.journal"
+    history(hand).timeline.course(0).save(path)
+    replay = Replay(read_journal(path))
+    replay.run()
+    assert replay.card.digest() == history(hand).card.digest()
+
+
+def test_the_end_of_a_part_program_is_marked_when_the_panel_notes_it(hand: HandStation) -> None:
+    (hand.installation.programs / "short.nc").write_text("G4 P0.1\nM2\n")
+    hand.do("program.load", path="short.nc")
+    hand.do("run.begin")
+    hand.until(lambda: hand.is_busy)
+    hand.until(lambda: not hand.is_busy)
+    hand.run(0.1)
+    (mark,) = history(hand).bookmarks.of(0)
+    assert (mark.kind.value, mark.text) == ("end", "short.nc has ended")
+
+
+def test_a_bridge_is_given_nothing_of_the_past(hand: HandStation) -> None:
+    count(hand)
+    given: list[float] = []
+    hand.station.watches.begin(
+        Wish(-1, "bridge"), [0], 50.0, lambda _wish, _numbers, changed: given.append(changed[0][1])
+    )
+    hand.run(0.5)
+    assert given
+    given.clear()
+    hand.do("timeline.seek", tick=history(hand).lived_tk - 500)
+    given.clear()
+    hand.do("timeline.run")
+    hand.run(0.5)
+    assert given == []
+    hand.do("timeline.operate")
+    hand.run(0.2)
+    assert given
+
+
+def test_a_step_of_a_move_ends_in_the_tick_in_which_one_begins_or_ends() -> None:
+    host = connected(*X_AND_Y)
+    history = History(host.card)
+    host.send("X1\rX3\r")
+
+    def now() -> tuple[bool, bool]:
+        """Whether the master moves, and whether the first move is over."""
+        moving = bool(int(history.card.p[MF1_WORD]) & MF1_IN_MOTION)
+        return moving, history.card.axis(0).commanded_u >= 1.0
+
+    assert now() == (True, False)
+    for before, there in (((True, False), (True, True)), ((True, True), (False, True))):
+        step_move(history, 0)
+        tick = history.lived_tk
+        assert now() == there
+        history.timeline.seek(tick - 1)
+        assert now() == before
+        history.timeline.seek(tick)
+    assert history.card.axis(0).commanded_u == 3.0
+    with pytest.raises(UserError, match="no move of MASTER0 has begun or ended in 10 s"):
+        step_move(history, 0)
+
+
+def test_memory_is_bounded_and_the_history_then_begins_later() -> None:
+    card = Controller()
+    history = History(card, most_bytes=6_000)
+    for _ in range(60):
+        card.set_input(3, not card.bit[3])
+        history.advance(round(2.0 / card.period_s))
+    assert history.timeline.size_bytes <= 6_000
+    branch = history.timeline.branch
+    assert branch.first.tick > 0
+    history.timeline.seek(branch.first)
+    history.timeline.seek(branch.last)
+
+
+def test_an_error_of_a_motion_kill_is_marked_as_an_alarm() -> None:
+    host = connected(*X_AND_Y)
+    history = History(host.card)
+    host.send("X100\r")
+    history.advance(100)
+    host.card.press(ControlKey.CTRL_X)
+    history.advance(10)
+    marks = [each for each in history.bookmarks.of(0) if each.kind is Kind.ALARM]
+    assert [(each.tick, each.text) for each in marks[:1]] == [
+        (marks[0].tick, "the motion of MASTER0 is killed")
+    ]
+    history.timeline.seek(marks[0].tick)
+    assert int(history.card.p[MF1_WORD]) & MF1_KILL_ALL_MOVES_REQUEST
+    history.timeline.seek(marks[0].tick - 1)
+    assert not int(history.card.p[MF1_WORD]) & MF1_KILL_ALL_MOVES_REQUEST
+
+
+@pytest.mark.parametrize("period_ms", [0.5, 2.0])
+def test_samples_of_the_scope_are_those_of_the_history_at_their_ticks(
+    hand: HandStation, period_ms: float
+) -> None:
+    hand.do("jog.increment", axis="X", direction=1, distance=5.0, tick=hand.tick)
+    hand.run(0.1)
+    armed = hand.do(
+        "scope.arm", channels=["P12290", "P6916", "BIT81"], period_ms=period_ms, samples=100
+    )
+    taken: list[Samples] = []
+    hand.station.sampled = taken.append
+    hand.run(0.2)
+    first, block, _period_s = taken[0]
+    every_tk = round(period_ms / 1000.0 / history(hand).period_s)
+    course = history(hand).timeline.course(0, armed["tick"], history(hand).lived_tk)
+    rows = course.samples([12290, 6916, 4098], armed["tick"], every_tk, block.shape[1])
+    assert first == armed["first"]
+    assert block[:2].tolist() == rows[:2]
+    assert block[2].tolist() == [float(int(word) >> 17 & 1) for word in rows[2]]
+    assert len({*block[0]}) > 1
+
+
+def test_samples_differences_and_a_journal_come_over_http(quiet_panel: Served) -> None:
+    def change(station: Station) -> int:
+        tick = station.times.history.lived_tk - 1000
+        station.times.seek(tick)
+        station.times.write(1, 7.0, is_flag=False)
+        station.times.history.timeline.advance(400)
+        return tick
+
+    quiet_panel.step(1.0)
+    tick = quiet_panel.call(change)
+    futures = ThreadPoolExecutor(1)
+    with httpx.Client(base_url=f"{quiet_panel.url}/api/timeline", timeout=LIMIT_S) as web:
+
+        def get(path: str, **query: Any) -> httpx.Response:
+            asked = futures.submit(web.get, path, params=query)
+            while not asked.done():
+                quiet_panel.step(0.002)
+            return asked.result()
+
+        query = {"parameters": "P1", "first": tick, "last": tick + 400, "count": 5}
+        for branch, value in ((0, 0.0), (1, 7.0)):
+            assert get("/samples", branch=branch, **query).json() == {
+                "first": tick,
+                "every": 100,
+                "names": ["P1"],
+                "channels": [[value] * 5],
+            }
+        found = get("/differences", branch=0, other=1, tick=tick).json()
+        assert found == {
+            "count": 1,
+            "differences": [
+                {"number": 1, "name": found["differences"][0]["name"], "values": [0, 7]}
+            ],
+        }
+        for wrong, text in (
+            (
+                {"parameters": ";".join(f"P{n}" for n in range(9))},
+                "9 parameters: 1 to 8 are sampled",
+            ),
+            ({"parameters": ""}, "0 parameters: 1 to 8 are sampled"),
+            ({"last": tick}, "an interval of 0 ticks: 1 to 1000000 are sampled"),
+        ):
+            answer = get("/samples", branch=0, **{**query, **wrong})
+            assert answer.json()["error"]["text"] == text
+        kept = get("/journal", branch=1)
+        assert kept.content.startswith(b"openacr journal 1\n")
+    futures.shutdown()
+
+
+def test_a_server_that_ends_in_a_pause_brings_its_machine_to_rest(tmp_path: Path) -> None:
+    served = Served(tmp_path, by_hand=True)
+    served.step(0.1)
+
+    def pause_in_motion(station: Station) -> None:
+        axis = station.machine.runner.settings.named("X").index
+        station.hand_motion.increment(axis, 1, preset=0, distance_u=50.0, fast=False)
+        station.times.history.advance(400)
+        station.times.pause()
+
+    served.call(pause_in_motion)
+    card = served.station.times.history.card
+    served.close()
+    assert not any(int(card.p[AF1_WORD + axis]) & AF1_JOG_ACTIVE for axis in range(3))
+    assert card.axis(0).commanded_u < 50.0
+
+
+def test_steps_that_fail_in_a_pause_end_what_moves(
+    hand: HandStation,
+) -> None:
+    hand.do("jog.increment", axis="X", direction=1, distance=50.0, tick=hand.tick)
+    hand.run(0.3)
+    hand.do("timeline.pause")
+    for _ in range(6):
+        hand.station.fail("a defect", is_new=True)
+    assert not times(hand).is_still
+    hand.until(lambda: not hand.is_busy)
+    assert hand.places()[0] < 50.0

@@ -1,0 +1,2 @@
+// Panes of the engineer's workspace.
+export { createDockview } from "dockview-core";
