@@ -4,14 +4,17 @@ Playwright keeps an event loop running in the thread of the tests for as long as
 open; other tests of the process start loops of their own, so no browser outlives its file.
 """
 
+import json
 import time
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Error, Page, expect, sync_playwright
 from tests.panel.bench import Served
 from tests.panel.browser.chromium import MISSING, OPTIONS, found
+from tests.panel.browser.latency import slow_link
 
 from openacr.panel.server import hello
 
@@ -19,6 +22,27 @@ LONGEST_MS = 60_000  # of any wait: a machine may be busy
 SETTLED_S = LONGEST_MS / 1000.0  # until a page is laid out
 expect.set_options(timeout=LONGEST_MS)
 READY = "() => document.querySelector('body:not(.is-stale) #menu .menu-key')"
+
+
+SHOWN = """() => {
+  const text = (selector) => document.querySelector(selector)?.innerText ?? '';
+  return { prompt: text('#prompt'), banner: text('#banner'), dialog: text('dialog[open]'),
+    menu: document.querySelector('#menu')?.dataset.shown, screen: text('#screen:not([hidden])'),
+    classes: document.body.className, sent: window.sent };
+}"""
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(
+    item: pytest.Item,
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """What the pages showed when a test failed."""
+    report = yield
+    for name, page in getattr(item, "funcargs", {}).items() if report.failed else ():
+        if isinstance(page, Page) and not page.is_closed():
+            with suppress(Error):
+                report.sections.append((f"page {name}", json.dumps(page.evaluate(SHOWN), indent=1)))
+    return report
 
 
 @pytest.fixture(scope="module")
@@ -151,6 +175,7 @@ def open_page(context: BrowserContext, url: str) -> Page:
         "console",
         lambda message: complaints.append(message.text) if message.type == "error" else None,
     )
+    page.add_init_script(slow_link())
     page.goto(url)
     page.wait_for_function(READY)
     return page

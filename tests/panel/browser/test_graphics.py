@@ -1,15 +1,17 @@
 """GRAPHICS as CONTROL and DISPLAY of SYS PARAM set it: colour and directions of path and cursor."""
 
 import itertools
+import time
 from typing import Any
 
 import pytest
 from playwright.sync_api import Page, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import give, load_file, to_main_menu, until_model
+from tests.panel.browser.conftest import SETTLED_S, give, load_file, to_main_menu, until_model
 
 from openacr.mill.plan.blank import SIZES
 from openacr.panel.control.station import Station
+from openacr.sysvar import Store
 from openacr.sysvar.tabs import CONTROL, DISPLAY
 
 ANGLE = "G21 G91 F600\nG1 X20\nY10\nM2\n"
@@ -89,7 +91,7 @@ def test_cutting_sizes_are_the_blank_of_the_picture_and_its_area(
         field.fill(str(size))
         page.get_by_role("button", name="SAVE", exact=True).click()
         expect(page.locator(f"#cell-{cell}-refusal")).to_have_text("")
-    assert [store.read(cell) for cell in SIZES] == [60.0, 40.0, 8.0]
+        until_stored(page, store, cell, size)
     to_main_menu(page)
     page.evaluate(CHOOSE, 2)  # X20, of which the blank has three times the length
     for view, shape in (("TOP", (60, 40)), ("FRONT", (60, 8)), ("SIDE", (40, 8))):
@@ -105,6 +107,13 @@ def test_cutting_sizes_are_the_blank_of_the_picture_and_its_area(
     assert (end - start - 4) == pytest.approx((right - left) / 3, abs=4)
     assert (start + end) / 2 - host["x"] == pytest.approx((left + right) / 2, abs=3)
     page.evaluate(CHOOSE, 0)
+
+
+def until_stored(page: Page, store: Store, cell: int, value: float) -> None:
+    end_s = time.monotonic() + SETTLED_S
+    while store.read(cell) != value:
+        assert time.monotonic() < end_s, (cell, store.read(cell))
+        page.wait_for_timeout(20)
 
 
 def until_blank(page: Page, size: tuple[int, int]) -> dict[str, Any]:

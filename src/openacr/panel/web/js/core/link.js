@@ -2,7 +2,7 @@
 import { readHead } from "./frames.js";
 import { Signal } from "./signal.js";
 
-const SILENT_MS = 1000;
+const SILENT_MS = 1000; // before the server has named its limits
 const AGAIN_MS = [100, 300, 1000, 2000];
 
 /**
@@ -39,6 +39,8 @@ export class Link {
     this.lastId = 0;
     this.tries = 0;
     this.heardAt = 0;
+    /** The silence after which the connection is replaced, ms. */
+    this.silentMs = SILENT_MS;
     this.isEnded = false;
   }
 
@@ -74,7 +76,7 @@ export class Link {
   /** A dead peer is not waited for: `close()` alone would take minutes. */
   replaceSilent() {
     const socket = this.socket;
-    if (!socket || performance.now() - this.heardAt < SILENT_MS) return;
+    if (!socket || performance.now() - this.heardAt < this.silentMs) return;
     if (socket.readyState === WebSocket.OPEN && !this.topics.has("status")) return;
     this.renew();
   }
