@@ -20,7 +20,7 @@
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup demo test browser lint bench soak lowest mutate docs editor-test web-lint web-bundle site clean
+.PHONY: help setup demo test test-pure browser lint bench soak lowest mutate docs editor-test web-lint web-bundle site clean
 
 VENV := .venv
 PY := $(VENV)/bin/python
@@ -84,12 +84,23 @@ lint: $(BUILT)
 browser: $(BUILT)
 	@$(PY) -m tests.panel.browser.chromium
 
+# Screens, links and processes of the tests run in real time; where the machine does not let them, those
+# that failed run once more, one after the other with nothing beside them. The second result counts.
+PYTEST := $(PY) -m pytest -m "not soak"
+define tested
+	@$(1) $(PYTEST) -n $(WORKERS) $(2) || { test $$? -eq 1 && \
+		echo "what failed, once more with nothing beside it" && \
+		$(1) $(PYTEST) -n 0 --last-failed --last-failed-no-failures none -rA --show-capture no $(2); }
+endef
+
 test: lint browser
-	$(PY) -m pytest -n $(WORKERS) -m "not soak"
+	$(call tested,,)
 	@if $(PY) -c 'from openacr.compiled import is_compiled; import sys; sys.exit(not is_compiled)' \
-		&& test -n "$(PURE_TESTS)"; then \
-		echo "the core once more as plain Python"; \
-		OPENACR_PURE=1 $(PY) -m pytest -n $(WORKERS) -m "not soak" $(PURE_TESTS); fi
+		&& test -n "$(PURE_TESTS)"; then $(MAKE) --no-print-directory test-pure; fi
+
+test-pure: $(BUILT)
+	@echo "the core once more as plain Python"
+	$(call tested,OPENACR_PURE=1,$(PURE_TESTS))
 
 bench: $(BUILT)
 	$(PY) -m bench
