@@ -11,9 +11,12 @@ settings.register_profile("patient", deadline=None)
 settings.load_profile("patient")
 
 
-# A shell lets what it starts in the background ignore Ctrl-C, and all processes of tests with it.
+# A shell lets what it starts in the background ignore Ctrl-C, nohup lets it ignore the end of its
+# terminal, and all processes of tests with it.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 @pytest.fixture(scope="session", autouse=True)
