@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Browser, Locator, Page, Route, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import open_page, to_main_menu
 
@@ -184,6 +184,38 @@ def test_a_text_is_edited_sent_and_cleared(programs: Page, served: Served) -> No
     chosen(page, "SEND")
     expect(page.locator("#prompt")).to_have_text("PLC0: 8 lines are stored on the card")
     stored(served, Level.plc(0), "NEW\n" + LADDER)
+
+
+def test_a_text_is_edited_only_once_it_has_been_read(programs: Page) -> None:
+    """What is sent under a name is never the text of the program that was chosen before."""
+    page = programs
+    asked: list[Route] = []
+    rows = page.locator(".program-text .listing-row")
+    expect(rows).to_have_count(8)
+    listing = re.compile(r"/card/listing\?plc=0$")
+    page.route(listing, lambda route: asked.append(route))
+    with page.expect_request(listing):
+        item(page, "PLC0").click()
+    expect(side(page)).to_contain_text("PLC0")
+    expect(rows).to_have_count(0)
+    expect(key(page, "EDIT")).to_be_disabled()
+    expect(key(page, "CLEAR")).to_be_disabled()
+    asked[0].continue_()
+    expect(rows).to_have_count(7)
+    expect(key(page, "CLEAR")).to_be_enabled()
+    item(page, "PROG3").click()
+    expect(rows).to_have_count(8)
+    with page.expect_request(listing):
+        item(page, "PLC0").click()
+    asked[1].abort()
+    expect(page.locator("#prompt")).to_contain_text("⚠")
+    expect(rows).to_have_count(0)
+    expect(key(page, "EDIT")).to_be_disabled()
+    page.unroute_all()
+    item(page, "PLC0").click()
+    chosen(page, "EDIT")
+    expect(page.locator(".program-side textarea")).to_have_value(LADDER.rstrip("\n"))
+    page.complaints.clear()  # type: ignore[attr-defined]  # of the answer that was cut off
 
 
 def test_programs_of_this_machine_can_only_be_looked_at(programs: Page) -> None:

@@ -26,6 +26,7 @@ export const screen = {
     let name = "";
     /** @type {{ number: number, text: string }[]} */
     let lines = [];
+    let isRead = false; // `lines` are those of the chosen program
     let listened = "";
     const items = h("div.list.scroll.program-list", { role: "listbox", ariaLabel: t("programs.list") });
     const title = h("strong", { role: "status" });
@@ -77,6 +78,8 @@ export const screen = {
     /** @param {string} chosen */
     async function choose(chosen) {
       if (chosen !== name && !(await mayDrop())) return;
+      if (chosen !== name) take([]); // the text of another program is never edited under this name
+      isRead = false;
       name = chosen;
       edit(false);
       for (const item of items.children) item.setAttribute("aria-selected", String(/** @type {HTMLElement} */ (item).dataset.name === name));
@@ -86,10 +89,16 @@ export const screen = {
     async function readText() {
       const found = await get("card/listing", which()).catch((error) => void refuse(error));
       if (!found || found.name !== name) return;
-      lines = found.lines;
+      isRead = true;
+      take(found.lines);
+      drawStates();
+    }
+
+    /** @param {{ number: number, text: string }[]} read */
+    function take(read) {
+      lines = read;
       listing.forget();
       listing.setTotal(lines.length);
-      drawStates();
     }
 
     let drawn = "";
@@ -97,7 +106,7 @@ export const screen = {
     function drawKeys(state) {
       const owner = listed.find((each) => each.name === name)?.owner ?? "";
       const isPlc = name.startsWith("PLC");
-      const looks = JSON.stringify([name, state?.state === HALTED, state?.state === "paused", state?.block, text.hidden, listened, owner, model.may("service")]);
+      const looks = JSON.stringify([name, isRead, lines.length > 0, state?.state === HALTED, state?.state === "paused", state?.block, text.hidden, listened, owner, model.may("service")]);
       if (looks === drawn || !name) return;
       drawn = looks;
       const bar = owner || (model.may("service") ? "" : t("role.needed", { role: t("role.service") }));
@@ -113,7 +122,7 @@ export const screen = {
           key("programs.block", order("card.block", { on: !state?.block }), { ariaPressed: String(Boolean(state?.block)) }), key("programs.step", order("card.step"), { disabled: Boolean(bar) || !state?.block }),
           key("programs.listen", () => listen(), { ariaPressed: String(listened === name), disabled: false, title: "" }),
         ]),
-        key("programs.edit", () => edit(true), { disabled: Boolean(bar) || isRunning }), key("programs.clear", () => clear(), { disabled: Boolean(bar) || isRunning || !lines.length }));
+        key("programs.edit", () => edit(true), { disabled: Boolean(bar) || isRunning || !isRead }), key("programs.clear", () => clear(), { disabled: Boolean(bar) || isRunning || !lines.length }));
       if (bar) keys.append(h("p.hint", {}, bar));
       const again = [...keys.querySelectorAll("button")].find((each) => each.textContent === focused && !each.disabled);
       again?.focus();
@@ -126,7 +135,8 @@ export const screen = {
 
     async function clear() {
       if (!(await confirm(t("programs.clear.title", { name }), t("programs.clear.text"), t("programs.clear"), "bad"))) return;
-      if (await give("card.clear", which())) report(t("programs.cleared", { name }));
+      const cleared = name;
+      if (await give("card.clear", which())) report(t("programs.cleared", { name: cleared }));
       await Promise.all([readText(), readList()]);
     }
 
@@ -146,10 +156,11 @@ export const screen = {
     }
 
     async function send() {
+      const sent = name;
       const done = await give("card.send", { ...which(), text: text.value });
       if (!done) return;
-      report(t("programs.sent", { name, count: done.sent }));
-      edit(false);
+      report(t("programs.sent", { name: sent, count: done.sent }));
+      if (sent === name) edit(false);
       await Promise.all([readText(), readList()]);
     }
 
