@@ -159,7 +159,7 @@ def test_the_path_has_the_colour_of_the_index_that_control_holds(
         field.fill(str(index))
         page.get_by_role("button", name="SAVE", exact=True).click()
         expect(page.locator("#prompt")).to_have_text("Saved: 1")
-        assert store.read(CONTROL.path_color) == index
+        until_stored(page, store, CONTROL.path_color, index)
         to_main_menu(page)
         until_counted(page, color)
 

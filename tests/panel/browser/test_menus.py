@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import BrowserContext, Page, expect
+from playwright.sync_api import BrowserContext, Page, Route, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import give, open_page, until_model
 
@@ -75,6 +75,18 @@ CLEAN = """(name) => import('/js/frame/screen_host.js').then(async ({ closeScree
   window.sent = [];
   (await import('/js/frame/menu_bar.js')).openMenu(name);
 })"""  # noqa: E501
+# The answers of commands, until `release` lets them through as carried out.
+HOLD_ANSWERS = """() => import('/js/core/app.js').then(({ link }) => {
+  const answered = link.answered;
+  const held = [];
+  link.answered = (message) => message.event ? answered.call(link, message) : held.push(message);
+  window.release = async () => {
+    while (!held.length) await new Promise((done) => setTimeout(done, 10));
+    delete link.answered;
+    for (const { id } of held) link.answered({ id, ok: true, result: {} });
+    await new Promise((done) => setTimeout(done));
+  };
+})"""
 HAPPENED = """([kind, what, before]) => {
   const shown = (selector) => document.querySelector(selector);
   if (kind === 'menu') return shown('#menu').dataset.shown === what;
@@ -82,7 +94,8 @@ HAPPENED = """([kind, what, before]) => {
   if (kind === 'sent') return window.sent.includes(what);
   if (kind === 'form') return shown('#screen:not([hidden])[data-screen=form] .form-row [id^=cell]');
   if (kind === 'screen') return shown(`#screen:not([hidden])[data-screen=${what}] .screen-body > *`);
-  return window.sent === undefined && localStorage.getItem('openacr.panel.tab') === null;
+  return window.sent === undefined && shown('#display-tab-graphics')?.ariaSelected === 'true'
+    && localStorage.getItem('openacr.panel.tab') !== 'plc';
 }"""  # noqa: E501
 BAR = """() => [...document.querySelectorAll('#menu .menu-key:not(.empty)')].map((key) =>
   [Number(key.dataset.fkey.slice(1)), key.querySelector('small').textContent, key.querySelector('span').textContent.replaceAll(/[\\u00ad\\u200b]/g, '')])"""  # noqa: E501
@@ -157,6 +170,50 @@ def test_every_key_of_every_menu_does_the_same_by_every_device(
             if does == "dialog OPEN":  # over the screen of the editor
                 assert page.locator("#screen").get_attribute("data-screen") == "edit"
             page.evaluate(CLEAN, menu)
+
+
+def test_of_two_screens_the_one_that_was_asked_for_last_is_shown(
+    context: BrowserContext, served: Served
+) -> None:
+    """Whichever of them is loaded first; a menu counts as none."""
+    page = open_page(context, served.url)
+    held: list[Route] = []
+    page.route("**/js/screens/views.js", lambda route: held.append(route))
+    page.evaluate(SHOW, "display")
+    with page.expect_request("**/js/screens/views.js"):
+        page.keyboard.press("F9")
+    page.keyboard.press("F1")
+    page.wait_for_function(HAPPENED, arg=["form", "BUTTONS", ""])
+    held[0].continue_()
+    page.evaluate("import('/js/screens/views.js')")  # is there, and what waited for it goes on
+    page.evaluate("() => new Promise((done) => setTimeout(done))")
+    assert page.locator("#screen").get_attribute("data-screen") == "form"
+    page.route("**/js/screens/mdi.js", lambda route: held.append(route))
+    page.evaluate(SHOW, "manual")
+    with page.expect_request("**/js/screens/mdi.js"):
+        page.keyboard.press("F1")
+    page.keyboard.press("F10")
+    held[1].continue_()
+    page.evaluate("import('/js/screens/mdi.js')")
+    page.evaluate("() => new Promise((done) => setTimeout(done))")
+    expect(page.locator("#screen")).to_be_hidden()
+    assert page.locator("#menu").get_attribute("data-shown") == "main"
+    page.close()
+
+
+def test_a_late_answer_to_abort_leaves_the_menu_that_was_chosen_meanwhile(page: Page) -> None:
+    page.evaluate(SHOW, "stop")
+    page.evaluate(HOLD_ANSWERS)
+    page.keyboard.press("F1")
+    page.keyboard.press("F10")
+    page.keyboard.press("F7")
+    page.evaluate("() => window.release()")
+    assert page.locator("#menu").get_attribute("data-shown") == "manual"
+    page.evaluate(SHOW, "stop")
+    page.evaluate(HOLD_ANSWERS)
+    page.keyboard.press("F1")
+    page.evaluate("() => window.release()")
+    assert page.locator("#menu").get_attribute("data-shown") == "run"
 
 
 @pytest.mark.req("MILL-OV-MENUDEPTH")

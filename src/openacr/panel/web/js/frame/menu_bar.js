@@ -34,8 +34,12 @@ export function startMenuBar() {
   });
 }
 
-/** @param {string} name */
-export function openMenu(name) {
+/**
+ * @param {string} name
+ * @param {string} [from] the menu that has to be shown still: none was chosen while an answer was waited for
+ */
+export function openMenu(name, from) {
+  if (from && menu.value !== from) return;
   closeScreen();
   menu.set(name);
 }

@@ -23,12 +23,15 @@ const endings = new Endings();
 let mayLeave = () => true;
 /** @type {Element | null} */
 let cameFrom = null;
+let turn = 0; // counts what was asked for: a screen, or none
+let showing = 0; // the turn of the shown screen
 
 /**
  * @param {string} name
  * @param {any} [args]
  */
 export async function openScreen(name, args = {}) {
+  const own = ++turn;
   if (shown.value && !(await mayLeave())) return;
   /** @type {{ screen: Screen }} */
   let module;
@@ -38,6 +41,8 @@ export async function openScreen(name, args = {}) {
     refuse(error);
     return;
   }
+  if (own !== turn) return; // what was asked for later counts, whatever is loaded first
+  showing = own;
   endings.end();
   mayLeave = () => true;
   cameFrom = shown.value ? cameFrom : document.activeElement;
@@ -55,18 +60,20 @@ export async function openScreen(name, args = {}) {
   prompt.set({ kind: "say", text: "" });
   shown.set(name);
   try {
-    await screen.show({ body, head: keys, endings, args, setTitle: (text) => fill(title, text), beforeClose: (question) => { mayLeave = question; } });
+    await screen.show({ body, head: keys, endings, args, setTitle: (text) => fill(title, text), beforeClose: (question) => { if (own === showing) mayLeave = question; } });
   } catch (error) {
     refuse(error);
   }
   const first = body.querySelector("[autofocus]") ?? body.querySelector("button:not(:disabled), input, select, textarea, [tabindex='0']");
-  if (shown.value === name && !pane.contains(document.activeElement)) /** @type {HTMLElement} */ (first ?? close).focus();
+  if (own === showing && !pane.contains(document.activeElement)) /** @type {HTMLElement} */ (first ?? close).focus();
 }
 
 /** Leave the shown screen, unless it has unsaved changes that are to be kept. */
 export async function closeScreen() {
+  turn += 1;
   if (!shown.value || !(await mayLeave())) return;
   endings.end();
+  showing = 0;
   mayLeave = () => true;
   const pane = byId("screen");
   pane.hidden = true;

@@ -9,7 +9,7 @@ import { isReadOutVisible, openScreen } from "../frame/screen_host.js";
 import { beginRun } from "./begin.js";
 import { exit } from "./exit.js";
 
-/** @typedef {{ openMenu: (name: string) => void }} Context */
+/** @typedef {{ openMenu: (name: string, from?: string) => void }} Context */
 
 /**
  * Whether motion may be asked for: not with positions that are old.
@@ -36,7 +36,7 @@ export const ACTIONS = {
   dryRun: () => mayMove() && beginRun({ dry: true }),
   resume: () => mayMove() && give("run.resume"),
   async abort({ openMenu }) {
-    if (await give("run.abort")) openMenu("run");
+    if (await give("run.abort")) openMenu("run", "stop");
   },
   traceBack: () => mayMove() && give("run.trace", { direction: -1 }),
   traceForward: () => mayMove() && give("run.trace", { direction: 1 }),
