@@ -144,6 +144,27 @@ def give(page: Page, command: str, **args: object) -> object:
     )
 
 
+def hold_answers(page: Page) -> None:
+    """Hold the answers to commands back, as a slow link does."""
+    page.evaluate("""() => import('/js/core/app.js').then(({ link }) => {
+      const answered = link.answered;
+      window.heldAnswers = [];
+      link.answered = (message) => message.event ? answered.call(link, message) : window.heldAnswers.push(message);
+    })""")  # noqa: E501
+
+
+def release_answers(page: Page, change: str = "") -> None:
+    """Let the held answers through, each changed before; returns when they were worked on."""
+    page.wait_for_function("() => window.heldAnswers.length")
+    page.evaluate(
+        """() => import('/js/core/app.js').then(({ link }) => {
+      delete link.answered;
+      for (const each of window.heldAnswers) { CHANGE; link.answered(each); }
+      return new Promise((done) => setTimeout(done));
+    })""".replace("CHANGE", change)
+    )
+
+
 def load_file(page: Page, name: str) -> None:
     """LOAD PROG of a file of the part folder, which leads to the menu RUN PROG."""
     to_main_menu(page)

@@ -7,7 +7,7 @@ import httpx
 import pytest
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import open_page, until_model
+from tests.panel.browser.conftest import hold_answers, open_page, release_answers, until_model
 from tests.panel.browser.test_bench import open_pane
 from tests.panel.browser.test_screens import AXE, AXE_RUN
 
@@ -61,7 +61,9 @@ def page(workspace: Page, served: Served) -> Iterator[Page]:
 
 def read(page: Page) -> None:
     """Read program 3 of the card, whatever the text here has become."""
-    shown = pane(page).locator(".text-foot .hint").get_by_text("PROG3 · halted · 7 lines")
+    shown = (
+        pane(page).locator(".text-foot .hint").get_by_text("PROG3 · halted · 7 lines", exact=True)
+    )
     drop = page.get_by_role("dialog").get_by_role("button", name="DROP")
     pane(page).get_by_label("Program or file").select_option("PROG3")
     expect(drop.or_(shown)).to_be_visible()
@@ -182,6 +184,22 @@ def test_a_refused_line_is_marked_and_another_text_of_the_card_is_not_lost(
     assert "LV0+2" in listed(served) and "0.2" in listed(served)
     key(page, "COMPARE").click()
     expect(pane(page).locator(".compared caption")).to_have_text("PROG3 · the same on the card")
+
+
+def test_the_answer_of_a_download_leaves_a_text_that_was_opened_meanwhile(page: Page) -> None:
+    """The text of the set-up is not taken for that of the program."""
+    hint = pane(page).locator(".text-foot .hint")
+    hold_answers(page)
+    key(page, "DOWNLOAD").click()
+    page.wait_for_function("() => window.heldAnswers.length")
+    pane(page).get_by_label("Program or file").select_option("")
+    expect(hint).to_have_text("setup.8k · 1 line")
+    with page.expect_response(re.compile("/card/")):  # of the version that is stored now
+        release_answers(page)
+    expect(page.locator("#prompt")).to_have_text("PROG3: 7 lines were sent")
+    expect(hint).to_have_text("setup.8k · 1 line")
+    put(page, 1, "ATTACH MASTER0")
+    expect(hint).to_have_text("setup.8k · 1 line · changed")
 
 
 def test_the_running_line_is_marked_and_stays_at_its_line(page: Page, served: Served) -> None:

@@ -7,7 +7,13 @@ from typing import Any
 import pytest
 from playwright.sync_api import BrowserContext, Page, Route, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import give, open_page, until_model
+from tests.panel.browser.conftest import (
+    give,
+    hold_answers,
+    open_page,
+    release_answers,
+    until_model,
+)
 
 # Menu: key, label, what it does: another menu, a screen, a dialog, or a command that is sent.
 MENUS: dict[str, list[tuple[int, str, str]]] = {
@@ -75,18 +81,6 @@ CLEAN = """(name) => import('/js/frame/screen_host.js').then(async ({ closeScree
   window.sent = [];
   (await import('/js/frame/menu_bar.js')).openMenu(name);
 })"""  # noqa: E501
-# The answers of commands, until `release` lets them through as carried out.
-HOLD_ANSWERS = """() => import('/js/core/app.js').then(({ link }) => {
-  const answered = link.answered;
-  const held = [];
-  link.answered = (message) => message.event ? answered.call(link, message) : held.push(message);
-  window.release = async () => {
-    while (!held.length) await new Promise((done) => setTimeout(done, 10));
-    delete link.answered;
-    for (const { id } of held) link.answered({ id, ok: true, result: {} });
-    await new Promise((done) => setTimeout(done));
-  };
-})"""
 HAPPENED = """([kind, what, before]) => {
   const shown = (selector) => document.querySelector(selector);
   if (kind === 'menu') return shown('#menu').dataset.shown === what;
@@ -203,16 +197,16 @@ def test_of_two_screens_the_one_that_was_asked_for_last_is_shown(
 
 def test_a_late_answer_to_abort_leaves_the_menu_that_was_chosen_meanwhile(page: Page) -> None:
     page.evaluate(SHOW, "stop")
-    page.evaluate(HOLD_ANSWERS)
+    hold_answers(page)
     page.keyboard.press("F1")
     page.keyboard.press("F10")
     page.keyboard.press("F7")
-    page.evaluate("() => window.release()")
+    release_answers(page, "each.ok = true, each.result = {}")
     assert page.locator("#menu").get_attribute("data-shown") == "manual"
     page.evaluate(SHOW, "stop")
-    page.evaluate(HOLD_ANSWERS)
+    hold_answers(page)
     page.keyboard.press("F1")
-    page.evaluate("() => window.release()")
+    release_answers(page, "each.ok = true, each.result = {}")
     assert page.locator("#menu").get_attribute("data-shown") == "run"
 
 

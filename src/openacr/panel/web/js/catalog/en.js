@@ -44,7 +44,7 @@ const BLOCKS = {
 };
 
 const RUN = {
-  "run.none": "No program is loaded: RUN SETUP, LOAD PROG", "run.line": "Start line", "run.lines": "{count} lines", "run.seconds": "about {time}", "run.dry": "Dry run: Trial Speed, M codes off.", "run.skip": "Block skip", "run.optional": "Optional stop",
+  "run.none": "No program is loaded: RUN SETUP, LOAD PROG", "run.line": "Start line", "run.lines": "{count} {count|line|lines}", "run.seconds": "about {time}", "run.dry": "Dry run: Trial Speed, M codes off.", "run.skip": "Block skip", "run.optional": "Optional stop",
   "run.safez": "Safe Z (machine)", "run.safez.hint": "Where the tool is free, if no line before brings it there at rapid", "run.range": "The program has the lines 1 to {last}", "run.begin": "START", "begin.title": "Start at line {line}", "begin.text": "The lines before it were run through without motion. This differs from what the machine has now:",
   "begin.tool": "Another tool is in the spindle", "begin.present": "Present", "begin.wanted": "Wanted", "begin.go": "MOVE AND START", "start.title": "Go on", "start.covered": "The machine goes on moving ({state} {reason}). The positions are covered by this screen.",
   "clrzero.title": "Clear zero", "clrzero.text": "The floating zero (G92) of all axes is cleared: positions read as in the work coordinate system.", "clrzero.done": "The floating zero is cleared",
@@ -55,7 +55,7 @@ const RUN = {
   "jog.title": "Jog", "jog.speed": "Speed", "jog.slow": "SLOW", "jog.fast": "FAST", "jog.how": "Continuous or increment", "jog.continuous": "CONTINUOUS", "jog.text": "Hold a key to move. Arrow keys move X and Y, Page Up and Page Down move Z. STOP is not an emergency stop.", "jog.ended": "The jog has ended: {reason}",
   "handwheel.title": "Handwheel", "handwheel.text": "The wheel moves the chosen axes until this screen is left.", "handwheel.axes": "Axes on the wheel", "handwheel.start": "CONNECT", "handwheel.end": "DISCONNECT", "handwheel.on": "The wheel moves {axes}",
   "teach.title": "Teach", "teach.text": "Where the machine is becomes the origin of the system.", "teach.system": "Work coordinate system", "teach.axes": "Axes, machine position", "teach.done": "{system}: {axes} taught", "teach.length": "TOOL LENGTH H", "teach.length.done": "H{h} taught",
-  "mdi.title": "MDI", "mdi.buffer": "Executed blocks", "mdi.line": "Block", "mdi.execute": "EXECUTE", "mdi.on": "BUFFER", "mdi.keep": "KEEP EDIT", "mdi.runall": "RUN ALL", "mdi.save": "SAVE AS", "mdi.clear": "CLEAR", "mdi.running": "A block is being executed", "mdi.count": "{count} blocks",
+  "mdi.title": "MDI", "mdi.buffer": "Executed blocks", "mdi.line": "Block", "mdi.execute": "EXECUTE", "mdi.on": "BUFFER", "mdi.keep": "KEEP EDIT", "mdi.runall": "RUN ALL", "mdi.save": "SAVE AS", "mdi.clear": "CLEAR", "mdi.running": "A block is being executed", "mdi.count": "{count} {count|block|blocks}",
 };
 
 const FORMS = {
@@ -67,12 +67,12 @@ const FORMS = {
   "ballscrew.count": "Rows: {count}", "ballscrew.imported": "{name} is read; SAVE stores it", "ballscrew.saved": "The ballscrew table of {axis} is stored",
   "parameters.title": "System parameters", "parameters.search": "Find a parameter", "parameters.nothing": "Nothing found", "offsets.title": "Offsets",
   "load.title": "Load program", "load.source": "Source", "load.file": "USER FILE", "load.part": "LIBRARY PART", "load.dxf": "DXF FILE", "load.batch": "BATCH FILE", "load.drip": "DRIP FEED", "load.files": "Part programs", "load.text": "Text of the file", "load.choose": "Choose a file",
-  "load.go": "LOAD FILE", "load.upload": "UPLOAD", "load.drop": "Files can be dropped here.", "load.toobig": "{name} is larger than {most}", "load.uploaded": "{name} is uploaded", "load.locked": "loaded", "load.more": "{count} more lines", "load.port": "Port",
+  "load.go": "LOAD FILE", "load.upload": "UPLOAD", "load.drop": "Files can be dropped here.", "load.toobig": "{name} is larger than {most}", "load.uploaded": "{name} is uploaded", "load.locked": "loaded", "load.more": "{count} more {count|line|lines}", "load.port": "Port",
   "load.drip.text": "The program is read from a serial port while it runs. An empty port is that of the COMMUNICATIONS tab.", "load.drip.start": "START READING",
   "load.link": "RS-232 (LINK)", "load.link.text": "A program is received over a serial port and kept as a file. It ends with %, Ctrl-Z, or silence after M2, M30 or M99. An empty port is that of the COMMUNICATIONS tab.",
-  "load.link.file": "Keep as", "load.link.start": "RECEIVE", "load.link.receiving": "{name} from {port}: {lines} lines, {bytes}", "load.link.kept": "{name} is kept: {lines} lines, {bytes}", "load.link.cancelled": "{name} was cancelled: nothing was kept",
+  "load.link.file": "Keep as", "load.link.start": "RECEIVE", "load.link.receiving": "{name} from {port}: {lines} {lines|line|lines}, {bytes}", "load.link.kept": "{name} is kept: {lines} {lines|line|lines}, {bytes}", "load.link.cancelled": "{name} was cancelled: nothing was kept",
   "dxf.kind": "Kind", "dxf.path": "Continuous path", "dxf.drill": "Drill pattern", "dxf.direction": "Trace direction", "dxf.cw": "0 clockwise", "dxf.ccw": "1 counter-clockwise", "dxf.depth": "Z of the cut", "dxf.tool": "Cutter, D number", "dxf.layer": "Layer", "dxf.all": "all layers", "dxf.output": "Output file", "dxf.convert": "CONVERT", "dxf.done": "Conversion was successful: {name}",
-  "edit.title": "Edit", "edit.text": "Text of the program", "edit.dxf": "DXF", "edit.open": "OPEN", "edit.new": "NEW", "edit.save": "SAVE", "edit.saveas": "SAVE AS", "edit.name": "File name (.TXT)", "edit.saved": "{name} is saved", "edit.unnamed": "new file", "edit.lines": "{count} lines", "edit.locked": "This program runs: it cannot be changed now",
+  "edit.title": "Edit", "edit.text": "Text of the program", "edit.dxf": "DXF", "edit.open": "OPEN", "edit.new": "NEW", "edit.save": "SAVE", "edit.saveas": "SAVE AS", "edit.name": "File name (.TXT)", "edit.saved": "{name} is saved", "edit.unnamed": "new file", "edit.lines": "{count} {count|line|lines}", "edit.locked": "This program runs: it cannot be changed now",
   "edit.leave": "Not saved", "edit.leave.text": "{name} has changes that are not saved.", "edit.conflict": "Changed meanwhile", "edit.overwrite": "OVERWRITE",
 };
 
@@ -80,7 +80,7 @@ const SERVICE = {
   "diag.warning": "Only experienced personnel: what is changed here acts on the card at once.", "terminal.title": "Terminal", "terminal.line": "Line for the card", "terminal.send": "SEND",
   "scope.title": "Scope", "scope.channel": "Source of channel {n}", "scope.scale": "Scale of channel {n}, units/div", "scope.offset": "Offset of channel {n}", "scope.source": "P12290", "scope.sweep": "Sweep, ms/div", "scope.period": "Sampling, ms",
   "scope.index": "INDEX", "scope.index.text": "The axis moves now: {move}. Is its path free?", "scope.profile": "Index profile", "scope.autoscale": "AUTOSCALE", "scope.range": "Sweep and sampling are times above 0 ms", "scope.divisions": "divisions", "scope.level": "Trigger level", "scope.mode": "Trigger", "scope.free": "free run", "scope.auto": "auto", "scope.normal": "normal", "scope.single": "single",
-  "scope.slope": "Edge", "scope.rising": "rising", "scope.falling": "falling", "scope.start": "START", "scope.stop": "STOP SCOPE", "scope.armed": "Armed", "scope.read": "{count} samples", "scope.stopped": "Stopped at {count} samples",
+  "scope.slope": "Edge", "scope.rising": "rising", "scope.falling": "falling", "scope.start": "START", "scope.stop": "STOP SCOPE", "scope.armed": "Armed", "scope.read": "{count} {count|sample|samples}", "scope.stopped": "Stopped at {count} {count|sample|samples}",
   "gain.title": "Gain", "gain.warning": "A gain acts on the servo loop the moment it is entered.", "gain.store": "keep it in the parameters of the machine", "gain.enter": "ENTER", "gain.done": "{gain} is {value}", "gain.later": "{gain} is {value}; it is stored once the machine rests",
   "board.title": "Board parameters", "board.search": "Name or number", "board.number": "Number", "board.name": "Name", "board.value": "Value", "board.doc": "Meaning", "values.set": "SET", "values.clear": "CLEAR", "values.now": "Now: {value}", "values.is": "{name} is {value}", "board.written": "P{number} is {value}",
   "pparm.title": "P parameters", "pparm.done": "P{n} is {value}", "servo.title": "Servo loop", "cpu.title": "CPU load", "fast.title": "Fast status", "memory.title": "Memory configuration",
@@ -91,7 +91,7 @@ const ON_CARD = {
   "splitter.label": "Edge between status and display window", "message.all": "All messages", "message.more": "+{count}",
   "menu.programs": "PROG/\u200bPLC", "programs.title": "Programs and PLCs of the card", "programs.list": "Programs and PLCs", "programs.text": "Text as the card lists it", "programs.printed": "What the program prints", "programs.read": "READ",
   "programs.choose": "Choose a program", "programs.line": "line {line}", "programs.bytes": "{used} bytes", "programs.nomemory": "no memory", "programs.run": "RUN", "programs.halt": "HALT", "programs.pause": "PAUSE", "programs.resume": "RESUME",
-  "programs.block": "BLOCK", "programs.step": "STEP", "programs.listen": "LISTEN", "programs.edit": "EDIT", "programs.clear": "CLEAR", "programs.send": "SEND", "programs.sent": "{name}: {count} lines are stored on the card",
+  "programs.block": "BLOCK", "programs.step": "STEP", "programs.listen": "LISTEN", "programs.edit": "EDIT", "programs.clear": "CLEAR", "programs.send": "SEND", "programs.sent": "{name}: {count} {count|line is|lines are} stored on the card",
   "programs.run.title": "Start {name}?", "programs.run.text": "A program of the card can move axes at once. STOP pauses it; it is not held by the overrides of this machine.",
   "programs.clear.title": "Erase {name}?", "programs.clear.text": "Its lines are erased from the memory of the card.", "programs.cleared": "{name} is empty",
   "programs.state.running": "running", "programs.state.halted": "halted", "programs.state.paused": "paused", "programs.state.waits for STEP": "waits for STEP", "programs.state.waits for room": "waits for room", "programs.state.dwells": "dwells", "programs.state.inhibited": "inhibited",

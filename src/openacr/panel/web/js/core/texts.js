@@ -25,13 +25,17 @@ export function addTexts(texts) {
 }
 
 /**
- * The text of a key with its values filled in: `t("zero.done", { axes: "X Y" })`.
+ * The text of a key with its values filled in: `t("zero.done", { axes: "X Y" })`. `{count|line|lines}` is the first
+ * word for a value of 1, else the second.
  * @param {TextKey} key
  * @param {Record<string, string | number>} [values]
  */
 export function t(key, values = {}) {
   const text = chosen[key] ?? /** @type {Record<string, string>} */ (en)[key] ?? key;
-  return text.replace(/\{(\w+)\}/g, (_whole, name) => String(values[name] ?? ""));
+  return text.replace(/\{(\w+)(?:\|([^|}]*)\|([^|}]*))?\}/g, (_whole, name, one, more) => {
+    const value = String(values[name] ?? "");
+    return one === undefined ? value : value === "1" ? one : more;
+  });
 }
 
 /**

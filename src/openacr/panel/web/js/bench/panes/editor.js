@@ -201,17 +201,21 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
 
   async function sendNow() {
     const text = editor.text();
+    const sent = opened;
+    const isLeft = () => opened !== sent; // another text was opened while an answer was waited for
     if (!opened.level && !(await confirm(t("texts.download.title", { name: opened.name }), t("texts.download.text"), t("texts.send")))) return;
     try {
-      const done = await toCard(opened, text);
-      report(t("texts.sent", { name: opened.level || opened.name, count: done.sent }));
+      const done = await toCard(sent, text);
+      report(t("texts.sent", { name: sent.level || sent.name, count: done.sent }));
+      const version = sent.level ? (await fromCard(sent.level)).version : sent.version;
+      if (isLeft()) return;
       list((done.remarks ?? []).map(([line, remark]) => ({ span: [line - 1, 0, line - 1, 0], text: remark, kind: "remark" })));
       refused = null;
       saved = text;
-      if (opened.level) opened = { ...opened, version: (await fromCard(opened.level)).version };
+      opened = { ...sent, version };
       await knowStored(opened.level ? [opened.level] : states.map((each) => each.name));
     } catch (error) {
-      if (!(error instanceof CommandError)) refuse(error);
+      if (isLeft() || !(error instanceof CommandError)) refuse(error);
       else await notTaken(error);
     }
     draw();

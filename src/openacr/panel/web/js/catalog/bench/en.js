@@ -9,7 +9,7 @@ const BENCH = {
   "pane.timeline": "Timeline", "time.pause": "PAUSE", "time.run": "RUN", "time.speed": "Speed", "time.most": "as fast as it goes", "time.step": "STEP", "time.step.what": "What a step is", "time.step.number": "Number of the program or master", "time.step.tick": "a tick", "time.step.back": "a tick back", "time.step.line": "a line of program", "time.step.move": "a move of master",
   "time.branch": "NEW BRANCH HERE", "time.operate": "OPERATE FROM HERE", "time.moment": "Moment", "time.memory": "{used} MB of {most} MB of memory, nothing on disk", "time.marks": "Bookmarks", "time.mark": "MARK", "time.mark.text": "Text of a bookmark", "time.kind.error": "error", "time.kind.alarm": "alarm", "time.kind.end": "end", "time.kind.hand": "mark",
   "time.branches": "Branch", "time.from": "from s", "time.to": "to s", "time.do": "Keys", "time.name": "NAME", "time.switch": "CHANGE TO", "time.forget": "FORGET", "time.parameters": "Parameters to compare", "time.other": "Branch to compare with", "time.around": "Time around the moment", "time.compare": "COMPARE", "time.comparing": "Both branches are lived through again \u2026",
-  "time.noother": "there is no other branch to compare with", "time.apart": "the two branches have no time in common here", "time.differences": "{count} parameters differ at {seconds} s",
+  "time.noother": "there is no other branch to compare with", "time.apart": "the two branches have no time in common here", "time.differences": "{count} {count|parameter differs|parameters differ} at {seconds} s",
   "pane.wizard": "Configuration", "wizard.dialogs": "Dialogs", "wizard.card": "Card", "wizard.of.axis": "Axis {number}: {name}", "wizard.of.master": "Master {number}",
   "wizard.axis": "ADD AXIS", "wizard.master": "ADD MASTER", "wizard.remove": "REMOVE {name}", "wizard.open": "OPEN FILE \u2026", "wizard.new": "NEW", "wizard.read": "Answers were read from {name}",
   "wizard.download": "DOWNLOAD {name}", "wizard.unset": "\u2014", "wizard.on": "on", "wizard.off": "off", "wizard.wrong": "wrong",
@@ -41,12 +41,12 @@ const TEXTS = {
   "pane.editor": "Editor", "texts.text": "Text of the controller file", "texts.which": "Program or file", "texts.file": "File", "texts.read": "READ", "texts.send": "DOWNLOAD",
   "texts.compare": "COMPARE", "texts.open": "OPEN FILE \u2026", "texts.save": "SAVE FILE", "texts.rename": "RENAME", "texts.newname": "New name", "texts.uses": "USES", "texts.format": "FORMAT",
   "texts.outline": "OUTLINE", "texts.close": "CLOSE", "texts.beside": "Beside the text", "texts.findings": "Findings and places", "texts.changed": "changed", "texts.runs": "{name} runs: halt it first",
-  "texts.more": "{count} more findings", "texts.other": "This name is defined on the card, not in this text", "texts.noname": "There is no name here that this text defines",
+  "texts.more": "{count} more {count|finding|findings}", "texts.other": "This name is defined on the card, not in this text", "texts.noname": "There is no name here that this text defines",
   "texts.fold": "Fold these lines", "texts.unfold": "Show the lines again", "texts.folded": "Folded lines", "texts.unfolded": "Lines shown again", "texts.foldto": "to",
   "texts.nooutline": "No program, label or alias", "texts.download.title": "Download {name}?",
   "texts.download.text": "The card stores the programs in this file and carries out all other lines at once: they can erase programs, change settings and move axes.",
-  "texts.sent": "{name}: {count} lines were sent", "texts.same": "the same on the card", "texts.different": "not the same on the card", "texts.here": "Here", "texts.oncard": "On the card",
-  "texts.compared": "{name} here and on the card", "texts.equal.lines": "{count} equal lines", "texts.noprogram": "No line of this file is stored in a program",
+  "texts.sent": "{name}: {count} {count|line was|lines were} sent", "texts.same": "the same on the card", "texts.different": "not the same on the card", "texts.here": "Here", "texts.oncard": "On the card",
+  "texts.compared": "{name} here and on the card", "texts.equal.lines": "{count} equal {count|line|lines}", "texts.noprogram": "No line of this file is stored in a program",
   "texts.notcompared": "The text could not be compared: try again",
 };
 
@@ -54,7 +54,7 @@ const TEXTS = {
 const TUNING = {
   "pane.tune": "Tuning", "tune.measure": "MEASURE", "tune.apply": "SET THESE GAINS", "tune.amplitude": "Amplitude, pulses", "tune.lowest": "Lowest frequency, Hz", "tune.highest": "Highest frequency, Hz",
   "tune.time": "Time, s", "tune.margin": "Phase margin, degrees", "tune.wanted": "Crossover, Hz (empty: the highest)", "tune.integral": "with IGAIN", "tune.measure.text": "Axis {axis} moves now: by {amplitude} pulses to both sides, for {time} s, quicker and quicker. Is it free to move? STOP ends it.", "tune.apply.text": "Axis {axis} gets {gains}. It then makes a step; predicted overshoot: {overshoot} %. Bad gains are taken back by the card.",
-  "tune.moving": "Axis {axis} is measured. STOP ends it.", "tune.reading": "{done} of {count} samples", "tune.done": "Axis {axis} is measured; nothing has been set", "tune.nothing": "Nothing is proposed: {why}", "tune.applied": "Axis {axis} has the proposed gains", "tune.facts": "Motor: {accel} pulses/s\u00b2 per V, rate {rate} /s, friction {friction} V, offset {offset} V, delay {delay} servo periods",
+  "tune.moving": "Axis {axis} is measured. STOP ends it.", "tune.reading": "{done} of {count} {count|sample|samples}", "tune.done": "Axis {axis} is measured; nothing has been set", "tune.nothing": "Nothing is proposed: {why}", "tune.applied": "Axis {axis} has the proposed gains", "tune.facts": "Motor: {accel} pulses/s\u00b2 per V, rate {rate} /s, friction {friction} V, offset {offset} V, delay {delay} servo periods",
   "tune.sure": "{error} % of the response is unexplained, coherence {coherence}", "tune.unsure": "Not sure: {error} % of the response is unexplained, coherence {coherence}", "tune.limited": "Faster is barred: {why}", "tune.crossover": "Crossover, Hz", "tune.gain.margin": "Gain margin, dB", "tune.bandwidth": "Bandwidth, Hz",
   "tune.overshoot": "Overshoot of a step, %", "tune.present": "present", "tune.proposed": "proposed", "tune.setpoint": "setpoint", "tune.measured": "measured", "tune.modelled": "modelled",
   "tune.predicted": "predicted", "tune.motor": "motor, measured", "tune.model": "motor, model", "tune.record": "Record, pulses", "tune.steps": "Predicted steps, pulses", "tune.magnitude": "Magnitude, dB",
