@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import to_main_menu
 
@@ -55,6 +55,26 @@ def test_a_chosen_file_is_uploaded_to_the_part_folder(
     page.get_by_role("option", name="sent.nc").wait_for()
     expect(page.locator("#prompt")).to_have_text("sent.nc is uploaded")
     assert (served.programs / "sent.nc").read_bytes() == b"G0 X1\r\nM2\r\n"
+
+
+def test_the_text_beside_the_list_is_that_of_the_chosen_file(page: Page, served: Served) -> None:
+    """However late the text of the one before comes."""
+    for name, text in (("EARLY.TXT", "G0 X1\n"), ("LATER.TXT", "G0 X2\n")):
+        (served.programs / name).write_text(text)
+    held: list[Route] = []
+    page.route("**/programs/text?path=EARLY.TXT*", lambda route: held.append(route))
+    load_screen(page)
+    shown = page.get_by_role("region", name="Text of the file")
+    with page.expect_request("**/programs/text?path=EARLY.TXT*"):
+        page.get_by_role("option", name="EARLY.TXT").click()
+    page.get_by_role("option", name="LATER.TXT").click()
+    expect(shown).to_have_text("G0 X2")
+    with page.expect_response("**/programs/text?path=EARLY.TXT*") as early:
+        held[0].continue_()
+    early.value.finished()
+    page.evaluate("() => new Promise((done) => setTimeout(done, 50))")
+    expect(shown).to_have_text("G0 X2")
+    page.unroute_all()
 
 
 def test_a_file_dropped_on_the_list_is_uploaded_and_can_be_loaded(

@@ -1,7 +1,7 @@
 """EDIT and LOAD PROG with .TXT programs, OFFSETS with SAVE PAGE."""
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import to_main_menu
 
@@ -51,6 +51,27 @@ def test_a_name_that_does_not_exist_begins_a_new_program(page: Page, served: Ser
     page.get_by_role("button", name="SAVE", exact=True).click()
     expect(page.locator("#prompt")).to_have_text("1111.txt is saved")
     assert (served.programs / "1111.txt").read_text() == SQUARE
+
+
+def test_a_file_that_is_begun_while_another_is_saved_is_a_new_one(
+    page: Page, served: Served
+) -> None:
+    """What was saved is neither its text nor its version."""
+    in_editor(page, "SLOW.TXT")
+    typed(page, "G0 X1\n")
+    held: list[Route] = []
+    page.route("**/programs/file?path=SLOW.TXT*", lambda route: held.append(route))
+    with page.expect_request("**/programs/file?path=SLOW.TXT*"):
+        page.get_by_role("button", name="SAVE", exact=True).click()
+    page.get_by_role("button", name="NEW", exact=True).click()
+    page.get_by_role("dialog", name="Not saved").get_by_role("button", name="DROP").click()
+    expect(page.locator("#screen-title")).to_have_text("Edit: new file")
+    held[0].continue_()
+    expect(page.locator("#prompt")).to_have_text("SLOW.TXT is saved")
+    assert (served.programs / "SLOW.TXT").read_text() == "G0 X1\n"
+    expect(page.locator("#screen-title")).to_have_text("Edit: new file")  # nothing to be saved
+    expect(page.get_by_role("button", name="SAVE", exact=True)).to_be_disabled()
+    page.unroute_all()
 
 
 @pytest.mark.req("MILL-LOAD-USER")

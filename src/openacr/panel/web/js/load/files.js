@@ -53,9 +53,10 @@ function source(host, kinds, load) {
     path = entry.path;
     key.disabled = false;
     fill(name, entry.name);
+    fill(text);
     try {
-      const page = await get("programs/text", { path, first: 1, lines: PREVIEW });
-      text.textContent = page.lines.join("\n") + (page.total > PREVIEW ? `\n\u2026 ${t("load.more", { count: page.total - PREVIEW })}` : "");
+      const page = await get("programs/text", { path: entry.path, first: 1, lines: PREVIEW });
+      if (path === entry.path) text.textContent = page.lines.join("\n") + (page.total > PREVIEW ? `\n\u2026 ${t("load.more", { count: page.total - PREVIEW })}` : "");
     } catch (error) {
       refuse(error);
     }

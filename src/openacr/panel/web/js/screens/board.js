@@ -24,9 +24,12 @@ export const screen = {
     /** @type {HTMLElement[]} */
     let values = [];
     let unsubscribe = () => {};
+    let searches = 0;
     const search = async () => {
+      const own = ++searches;
       try {
         const { parameters: shown, total } = await get("card/parameters", { text: field.value.trim() || undefined, first, count: PAGE });
+        if (own !== searches) return; // typed on meanwhile
         drawPages(total);
         values = shown.map(() => h("strong.live", {}, "\u2013"));
         fill(rows, ...shown.map((/** @type {any} */ each, /** @type {number} */ n) => rowOf(each, values[n])));

@@ -107,10 +107,12 @@ export const screen = {
     async function save() {
       if (!path) return saveAs();
       const text = editor.text();
+      const written = path;
       try {
-        ({ version } = await writeFile(path, text, version));
-        saved = text;
-        report(t("edit.saved", { name: path }));
+        const stored = await writeFile(written, text, version);
+        report(t("edit.saved", { name: written }));
+        if (path !== written) return true; // another file was opened meanwhile
+        [version, saved] = [stored.version, text];
         draw();
         return true;
       } catch (error) {
