@@ -21,8 +21,10 @@ from openacr.panel.server import hello
 LONGEST_MS = 60_000  # of any wait: a machine may be busy
 SETTLED_S = LONGEST_MS / 1000.0  # until a page is laid out
 expect.set_options(timeout=LONGEST_MS)
-READY = "() => document.querySelector('body:not(.is-stale) #menu .menu-key')"
-
+READY = (
+    "() => document.querySelector('body:not(.is-stale) #menu .menu-key')"
+    " && !document.querySelector('#status:not([aria-busy=false])')"
+)
 
 SHOWN = """() => {
   const text = (selector) => document.querySelector(selector)?.innerText ?? '';

@@ -22,6 +22,7 @@ let views = DEFAULTS;
 export async function startStatus() {
   const pane = byId("status");
   pane.ariaLabel = t("status.label");
+  pane.ariaBusy = "true"; // until it shows the blocks that the store has
   const tabs = Object.keys(DEFAULTS).map((id, n) => ({
     id,
     label: t("status.view", { n: n + 1 }),
@@ -48,6 +49,7 @@ export async function startStatus() {
   model.changed.watch(({ what, cells }) => what === "forms" && cells.some((cell) => cell >= FIRST_VIEW && cell < FIRST_VIEW + 3) && loadViews().then(() => redraw(choose)));
   await loadViews();
   redraw(choose);
+  pane.ariaBusy = "false";
 }
 
 function otherUnit() {
