@@ -29,7 +29,7 @@ in path_cy and curve_cy (geometry), hold_cy (stops), interrupt_cy (INT, TRG), se
 
 from openacr.kernel.axis.capture_cy import capture_arm
 from openacr.kernel.path.bezier_cy import is_timed
-from openacr.kernel.path.corner_cy import corner_drop, corner_pass
+from openacr.kernel.path.corner_cy import corner_drop, corner_enter, corner_pass
 from openacr.kernel.path.curveflags_cy import curve_show
 from openacr.kernel.path.hold_cy import (
     FEEDHOLDING,
@@ -70,6 +70,7 @@ from openacr.kernel.path.path_cy import (
     move_shape,
 )
 from openacr.kernel.path.plan_cy import look_refresh, master_plan
+from openacr.kernel.path.round_blend_cy import blend_begin
 from openacr.kernel.path.seek_cy import (
     SEEK_NONE,
     SEEK_SEARCHING,
@@ -104,6 +105,8 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity_ups: float, accel_ups2: 
     word2: int = mf2.word[m]
     move_flags(I, S, m, record)
     move_geometry(F, I, S, m)
+    if I[masters.rounding[m]]:
+        blend_begin(F, I, m, record)
     turn_deg: float = F[moves.turn_deg[record]]
     S[masters.look_ahead_vector_angle[m]] = turn_deg
     if starts_anew(I, m, record):
@@ -240,7 +243,11 @@ def moves_pass(F: F64, I: I32, S: F32, m: int) -> None:
         record = move_record(I, m)
         move_flags(I, S, m, record)
         length_u = F[moves.length_u[record]]
+        if I[masters.rounding[m]]:
+            corner_enter(F, I, m, record)
         move_shape(F, I, S, m, record, False)
+        if I[masters.rounding[m]]:
+            blend_begin(F, I, m, record)
         if F[moves.length_u[record]] != length_u:
             I[masters.look_dirty[m]] = 1  # its start was moved
         turn_deg: float = F[moves.turn_deg[record]]
@@ -404,6 +411,7 @@ def plan_over(F: F64, I: I32, S: F32, m: int) -> bool:
         return True
     if I[masters.cut[m]] == CUT:
         cut_end(F, I, m)
+        corner_drop(F, I, m)
         while I[masters.section_cnt[m]] > 1:  # what the path was planned through goes with it
             move_end(F, I, S, m)
             F[masters.origin_u[m]] = F[profiles.distance[m]]  # nothing of it has been gone
