@@ -18,9 +18,11 @@ FIRST = at.AX_BASE + AXIS * at.AX_STRIDE
 BIQUAD = 786 + 32 * AXIS
 
 
-def recorded(lines: str, setpoint_cnt: np.ndarray) -> tuple[LoopSettings, Record]:
+def recorded(
+    lines: str, setpoint_cnt: np.ndarray, world: str = WORLD
+) -> tuple[LoopSettings, Record]:
     """What a card does with axis 1 after these lines, and its settings."""
-    card = openacr.Controller(world=parse_world(WORLD))
+    card = openacr.Controller(world=parse_world(world))
     card.send('PROG0\rATTACH MASTER0\rATTACH SLAVE0 AXIS1 "X"\rMULT X4\r' + lines + "\r")
     rows = {row: card.p[FIRST + row] for row in ROWS}
     settings = LoopSettings(rows, bool(card.bit[BIQUAD]), card.period_s)

@@ -20,6 +20,7 @@ from openacr.tuning.settings import LoopSettings
 
 LOWEST_HZ = 0.1
 POINTS = 4000
+NEAR, NEAR_POINTS = 10.0, 401  # half widths of a resonance, and the frequencies within them
 HALF_POWER = math.sqrt(0.5)
 
 
@@ -45,9 +46,19 @@ def points(settings: LoopSettings, frequencies_hz: Reals) -> Complexes:
     return np.asarray(np.exp(2j * np.pi * frequencies_hz * settings.period_s))
 
 
-def scale(settings: LoopSettings, count: int = POINTS) -> Reals:
-    """Frequencies [Hz], evenly spaced on a logarithmic scale up to half of the servo rate."""
-    return np.geomspace(LOWEST_HZ, 0.5 / settings.period_s, count)
+def scale(settings: LoopSettings, motor: Motor | None = None, count: int = POINTS) -> Reals:
+    """Frequencies [Hz], evenly spaced on a logarithmic scale up to half of the servo rate.
+
+    They are closer together at the resonance and antiresonance of a motor on an elastic shaft.
+    """
+    highest_hz = 0.5 / settings.period_s
+    found = np.geomspace(LOWEST_HZ, highest_hz, count)
+    if motor is None or motor.shaft is None:
+        return found
+    shaft = motor.shaft
+    near = 1.0 + max(shaft.damping_ratio, 1e-3) * np.linspace(-NEAR, NEAR, NEAR_POINTS)
+    close = np.concatenate([near * hz for hz in (shaft.resonance_hz, shaft.antiresonance_hz)])
+    return np.union1d(found, close[(close > LOWEST_HZ) & (close < highest_hz)])
 
 
 def controller(settings: LoopSettings, z: Complexes) -> Complexes:
@@ -92,7 +103,7 @@ def filtering(settings: LoopSettings, z: Complexes) -> Complexes:
 
 def margins(settings: LoopSettings, motor: Motor) -> Margins:
     """Margins of the closed loop; the smallest where the open loop crosses several times."""
-    frequencies = scale(settings)
+    frequencies = scale(settings, motor)
     loop = open_loop(settings, motor, frequencies)
     phase_deg, crossover_hz = math.inf, 0.0
     for at_hz, value in _crossings(frequencies, loop, np.log(np.abs(loop))):
@@ -126,13 +137,9 @@ def is_stable(settings: LoopSettings, motor: Motor) -> bool:
     They are the zeros of N_C N_G + D_C D_G, all polynomials in 1/z.
     """
     numerator, denominator = _controller_polynomials(settings)
-    b1, b2, pole = motor.coefficients(settings.period_s)
-    whole = math.floor(motor.delay_tk)
-    part = motor.delay_tk - whole
-    delay = np.array([*[0.0] * whole, 1.0 - part, part])
-    plant = np.convolve([0.0, b1, b2], delay)
+    plant, poles = motor.fraction(settings.period_s)
     forward = np.convolve(numerator, plant)
-    back = np.convolve(denominator, np.convolve([1.0, -1.0], [1.0, -pole]))
+    back = np.convolve(denominator, poles)
     size = max(len(forward), len(back))
     total = np.pad(forward, (0, size - len(forward))) + np.pad(back, (0, size - len(back)))
     return bool(np.all(np.abs(np.roots(np.trim_zeros(total, "b"))) < 1.0))

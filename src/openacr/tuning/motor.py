@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from openacr.tuning.shaft import Shaft
+
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 SMALL = 1e-4  # of rate times period: below it the series are exact to a double
@@ -28,6 +30,7 @@ class Motor:
     coulomb_accel: float = 0.0  # counts/s^2
     offset_v: float = 0.0  # volts that act beside the output
     delay_tk: float = 0.0  # servo periods, beside the one that the loop itself takes
+    shaft: Shaft | None = None  # to the load; None: it is rigid
 
     @property
     def time_constant_s(self) -> float:
@@ -51,7 +54,37 @@ class Motor:
         whole = math.floor(self.delay_tk)
         part = self.delay_tk - whole
         delay = z**-whole * ((1.0 - part) + part / z)
-        return (b1 * z + b2) / ((z - 1.0) * (z - pole)) * delay
+        centre = (b1 * z + b2) / ((z - 1.0) * (z - pole))
+        return (centre + self._flexion(z, period_s)) * delay
+
+    def load_response(self, z: Complexes, period_s: float) -> Complexes:
+        """Counts of the load of a volt at z, beside those of `response`; rigid: the same."""
+        if self.shaft is None:
+            return self.response(z, period_s)
+        turned = 1.0 + 1.0 / self.shaft.inertia_ratio
+        return self.response(z, period_s) - turned * self._flexion(z, period_s)
+
+    def fraction(self, period_s: float) -> tuple[Reals, Reals]:
+        """Numerator and denominator of `response` in 1/z, lowest power first."""
+        b1, b2, pole = self.coefficients(period_s)
+        numerator, denominator = np.array([0.0, b1, b2]), np.convolve([1.0, -1.0], [1.0, -pole])
+        if self.shaft is not None:
+            swing, poles = self.shaft.fraction(period_s)
+            numerator = np.convolve(numerator, poles) + np.convolve(
+                self.accel_per_volt * swing, denominator
+            )
+            denominator = np.convolve(denominator, poles)
+        whole = math.floor(self.delay_tk)
+        part = self.delay_tk - whole
+        delay = np.array([*[0.0] * whole, 1.0 - part, part])
+        return np.convolve(numerator, delay), denominator
+
+    def _flexion(self, z: Complexes, period_s: float) -> Complexes:
+        """Counts of flexion of the shaft of a volt."""
+        if self.shaft is None:
+            return np.zeros_like(z)
+        b, a = (np.polyval(each[::-1], 1.0 / z) for each in self.shaft.fraction(period_s))
+        return np.asarray(self.accel_per_volt * b / a)
 
     def coefficients(self, period_s: float) -> tuple[float, float, float]:
         """B1, b2 and the pole of `response`."""

@@ -11,7 +11,8 @@ import numpy as np
 from openacr.compiled import pick
 from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at
-from openacr.map.rows import axes, encoders, kernel, motors
+from openacr.map.memory import Memory
+from openacr.map.rows import axes, compliant_loads, encoders, kernel, motors
 from openacr.map.words import af1
 from openacr.motion.axis import attach
 from openacr.motion.axis.settings import activate_derivative_smoothing
@@ -21,11 +22,13 @@ from openacr.plant.load import parse_world
 from openacr.plant.step_cy import plant_step
 from openacr.tuning.motor import Motor, Reals
 from openacr.tuning.settings import LoopSettings
+from openacr.tuning.shaft import Shaft
 
 _tick, _plant = pick(tick), pick(plant_step)
 _DAC = at.DAC_BASE + at.DAC_DAC_OUTPUT
 _NO_LIMIT = 1e30
 COUNTS_PER_LINE = 4
+MIDDLE = 0.5  # of a count: where a motor begins
 _WORLD = """
 [[axis]]
 number = 0
@@ -42,12 +45,16 @@ torque_nm_per_a = 0.1
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """An axis at each servo interrupt: setpoint, actual position [counts] and output [V]."""
+    """An axis at each servo interrupt: setpoint, actual position [counts] and output [V].
+
+    The position of the load on an elastic shaft is known of computed axes only.
+    """
 
     period_s: float
     setpoint_cnt: Reals
     actual_cnt: Reals
     output_v: Reals
+    load_cnt: Reals | None = None
 
     @property
     def error_cnt(self) -> Reals:
@@ -77,7 +84,8 @@ def run(
         F[row[0]] = jogs[0]
     if first is not None and settings.gain("IGAIN"):
         F[axes.integral_v[0]] = float(first.output_v[0]) - settings.gain("PGAIN") * jogs[0]
-    actual, output = np.zeros(len(jogs)), np.zeros(len(jogs))
+    actual, output, load = (np.zeros(len(jogs)) for _ in range(3))
+    turned = 0.0 if motor.shaft is None else 1.0 + 1.0 / motor.shaft.inertia_ratio
     whole = int(motor.delay_tk)
     part = motor.delay_tk - whole
     sent = [0.0 if first is None else float(first.output_v[0])] * (whole + 2)
@@ -90,7 +98,9 @@ def run(
         _tick(F, I, S)
         sent = [*sent[1:], S[_DAC]]
         actual[k], output[k] = I[axes.actual_position[0]], S[axes.output_signal[0]]
-    return Record(settings.period_s, wanted, actual + origin, output)
+        load[k] = F[motors.position_cnt[0]] - turned * F[compliant_loads.flex_cnt[0]]
+    where = load - MIDDLE + origin if turned else None
+    return Record(settings.period_s, wanted, actual + origin, output, where)
 
 
 def _card(settings: LoopSettings, motor: Motor) -> Card:
@@ -115,7 +125,19 @@ def _card(settings: LoopSettings, motor: Motor) -> Card:
         (motors.offset_v, motor.offset_v),
     ):
         memory.F[place[0]] = value
+    if motor.shaft is not None:
+        _bend(memory, motor.shaft)
     memory.I[encoders.mult[0]] = COUNTS_PER_LINE  # the motor is given in counts of the position
     memory.I[kernel.axes] = 1
     memory.I[kernel.masters] = 1
     return card
+
+
+def _bend(memory: Memory, shaft: Shaft) -> None:
+    """Put the load of axis 0 on an elastic shaft."""
+    for place, value in (
+        (compliant_loads.resonance_rad_s, shaft.resonance_rad_s),
+        (compliant_loads.damping_per_s, shaft.damping_per_s),
+        (compliant_loads.inertia_ratio, shaft.inertia_ratio),
+    ):
+        memory.F[place[0]] = value
