@@ -24,6 +24,7 @@ SET_UP = [
     *("PGAIN Y0.006 DGAIN Y0.00007", "DRIVE ON Y"),
 ]
 SHORT = Excitation(duration_s=0.5)
+CAM = ["DIM LA1", "DIM LA0(2)", "CAM DIM Y1", "CAM SEG Y(0,100,LA0)"]
 GAINS = range(12544 + 16, 12544 + 24)
 
 
@@ -167,6 +168,8 @@ def test_a_lost_host_leaves_an_axis_that_comes_back_by_itself(
         (["SET 817"], "axis 1: its servo loop is open: CLR 817"),
         (["DRIVE OFF Y", "SET 8500"], "axis 1 is not enabled: DRIVE ON"),
         (["JOG VEL Y1 JOG ACC Y1", "JOG FWD Y"], "axis 1 jogs: it has to be at rest"),
+        (["GEAR SRC Y ENC5", "GEAR ON Y"], "axis 1 is geared: it has to be at rest"),
+        ([*CAM, "CAM ON Y"], "axis 1 follows a cam: it has to be at rest"),
         (["AXIS1 KVP 1"], "KVP: the PV loop takes the place of the gains that are tuned: it is 1,"),
         (["SET 104"], "the sampler of the card is in use: SAMP CLEAR frees it"),
         (["VEL 20", "Y1000"], "axis 1 moves: it has to be at rest"),

@@ -38,7 +38,7 @@ TAKE_BACK_S = 0.1  # many rounds of the program
 CHANNELS = 3
 TAKEN_BACK = "what was changed was taken back"
 _OPEN_LOOP, _DRIVE_IO = 785, 8468
-_FOLLOWING = {792: "jogs", 793: "is geared", 794: "follows a cam"}
+_FOLLOWING = {792: "jogs", 788: "is geared", 790: "follows a cam"}
 
 
 @dataclass(frozen=True, slots=True)
