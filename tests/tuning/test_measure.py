@@ -226,7 +226,7 @@ def test_a_measurement_needs_an_empty_program_with_memory(card: Card) -> None:
         ({"height_cnt": 4.9}, "amplitude [pulses] 4.9: from 5 to 100000"),
         ({"duration_s": 10.1}, "time [s] 10.1: from 0.2 to 10"),
         ({"low_hz": 61.0}, "lowest frequency [Hz] 61: from 0.2 to 60"),
-        ({"high_hz": 151.0}, "highest frequency [Hz] 151: from 2 to 150"),
+        ({"high_hz": 1.9}, "lowest frequency [Hz] 2: from 0.2 to 1.9"),
         ({"error_cnt": 99.0}, "bounds below the amplitude of 100 pulses end it early"),
     ],
 )

@@ -1,17 +1,20 @@
 """What is done to an axis while it is recorded, as a program that the card executes by itself.
 
-The program adds a sine sweep or a step to the jog offset, lets the sampler record each servo
+The program adds a sine sweep or a step to the jog offset, or plays a fast sweep from a cam
+(`openacr.tuning.cam_sweep`), lets the sampler record each servo
 interrupt, watches the axis, takes the offset back and prints the record. Gains that are tried are
 set by the same program, which sets the former ones where a bound is exceeded. A host that is lost
 changes nothing: the program ends by itself within its time, with the axis where it was.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
 from openacr.errors import UserError
 from openacr.map import numbers as at
+from openacr.tuning import cam_sweep
 from openacr.tuning.settings import GAINS
 
 TITLE = "REM openacr tune"
@@ -23,6 +26,9 @@ KILL_FLAG, DRIVE_FLAG, FLAGS_PER_AXIS = 8467, 8465, 32
 CLOCK = "P6916"  # ms
 BYTES_PER_SAMPLE = 12
 BYTES_BESIDE = 8192  # text and variables of the program
+PROGRAM_HZ = 150.0  # what a program can write by itself; above it the card plays a cam
+RATE_SHARE = 0.4  # of the servo rate: the highest frequency of a cam
+BYTES_PER_POINT = 4
 LEAST_CNT, MOST_CNT = 5.0, 100_000.0
 LEAST_S, MOST_S = 0.2, 10.0
 ENDS = {
@@ -57,7 +63,7 @@ class Excitation:
             ("amplitude [pulses]", self.height_cnt, LEAST_CNT, MOST_CNT),
             ("time [s]", self.duration_s, LEAST_S, MOST_S),
             ("lowest frequency [Hz]", self.low_hz, 0.2, self.high_hz),
-            ("highest frequency [Hz]", self.high_hz, self.low_hz, 150.0),
+            ("highest frequency [Hz]", self.high_hz, self.low_hz, math.inf),
         ):
             if not least <= value <= most:
                 raise UserError(f"{name} {value:g}: from {least:g} to {most:g}")
@@ -71,6 +77,19 @@ class Excitation:
             self.kind, self.height_cnt, self.low_hz, self.high_hz, self.duration_s, error, travel
         )
 
+    @property
+    def is_cam(self) -> bool:
+        """Whether the card plays the sweep from a cam."""
+        return self.kind == "sine" and self.high_hz > PROGRAM_HZ
+
+    def require_rate(self, period_s: float) -> None:
+        """Refuse frequencies that are too high for a servo period; UserError."""
+        most = RATE_SHARE / period_s
+        if self.is_cam and self.high_hz > most:
+            raise UserError(
+                f"highest frequency [Hz] {self.high_hz:g}: at most {most:g} with this servo rate"
+            )
+
     def samples(self, period_s: float) -> int:
         """Samples of the record, with the rest after the excitation."""
         count = round((self.duration_s + REST_MS / 1000.0) / period_s)
@@ -78,7 +97,8 @@ class Excitation:
 
     def memory_bytes(self, period_s: float) -> int:
         """What the program needs of the memory of the card."""
-        return BYTES_BESIDE + BYTES_PER_SAMPLE * self.samples(period_s)
+        table = cam_sweep.points(self.duration_s, period_s) + 1 if self.is_cam else 0
+        return BYTES_BESIDE + BYTES_PER_SAMPLE * self.samples(period_s) + BYTES_PER_POINT * table
 
     def program(self, axis: int, period_s: float, gains: Mapping[str, float] | None = None) -> str:
         """The program, from PROGRAM to ENDP; it prints its reason to end, then the record.
@@ -89,43 +109,38 @@ class Excitation:
         former = {GAINS[word] + at.AX_BASE + axis * at.AX_STRIDE: k for k, word in enumerate(gains)}
         first = at.AX_BASE + axis * at.AX_STRIDE
         count = self.samples(period_s)
-        jog, actual = f"P{first + at.AX_JOG_OFFSET}", f"P{first + at.AX_ACTUAL_POSITION}"
+        actual = f"P{first + at.AX_ACTUAL_POSITION}"
+        written = cam_sweep.offset(axis) if self.is_cam else f"P{first + at.AX_JOG_OFFSET}"
         lines = [
             "PROGRAM",
             TITLE,
-            *(
-                "DIM LV(8)",
-                f"DIM SV({len(GAINS)})",
-                "DIM DV(2)",
-                "DIM LA(2)",
-                f"DIM LA0({count})",
-                f"DIM LA1({count})",
-            ),
-            *("DIM SA(1)", f"DIM SA0({count})", "SAMP CLEAR"),
+            *self._room(count, period_s),
             *(f"SAMP 0 SRC P{first + at.AX_SECONDARY_SETPOINT}", "SAMP 0 BASE LA0"),
             *(f"SAMP 1 SRC {actual}", "SAMP 1 BASE LA1"),
             *(f"SAMP 2 SRC P{first + at.AX_OUTPUT_SIGNAL}", "SAMP 2 BASE SA0"),
             "SAMP PERIOD 0",
-            f"LV0 = {jog}",
+            *self._table(axis, period_s),
+            f"LV0 = {written}",
             f"LV1 = {actual}",
             "LV3 = 0",
             *(f"SV{k} = P{row}" for row, k in former.items()),
             *set_lines(axis, gains),
             f"SET {ARMED}",
             *([f"DWL {BEFORE_STEP_S}"] if self.kind == "step" else []),
+            *self._begin(axis, first, actual),
             f"LV2 = {CLOCK}",
             "_MOVE",
             f"IF (BIT{ARMED} = 0) THEN LV3 = 4",
-            f"DV0 = ({CLOCK} - LV2) * 0.001",
             *self._watch(axis, first, actual),
             "IF (LV3 <> 0) THEN GOTO BACK",
-            f"{jog} = LV0 + {self._height()}",
-            f"IF (DV0 < {self.duration_s:g}) THEN GOTO MOVE",
+            *self._drive(axis, written),
             "_BACK",
-            f"{jog} = LV0",
+            *([f"AXIS{axis} CAM OFF"] if self.is_cam else []),
+            f"{written} = LV0",
             *self._watch(axis, first, actual),
             *(f"IF (LV3 <> 0) THEN P{row} = SV{k}" for row, k in former.items()),
             f"IF (BIT{ARMED}) THEN GOTO BACK",
+            *(cam_sweep.end_lines(axis) if self.is_cam else []),
             "SAMP CLEAR",
             "PRINT LV3",
             "LV4 = 0",
@@ -136,6 +151,43 @@ class Excitation:
             "ENDP",
         ]
         return "\n".join(lines) + "\n"
+
+    def _room(self, count: int, period_s: float) -> list[str]:
+        """Lines that dimension what the program needs."""
+        points = cam_sweep.points(self.duration_s, period_s) + 1
+        return [
+            *("DIM LV(8)", f"DIM SV({len(GAINS)})", "DIM DV(2)"),
+            *(f"DIM LA({3 if self.is_cam else 2})", f"DIM LA0({count})", f"DIM LA1({count})"),
+            *([f"DIM LA2({points})"] if self.is_cam else []),
+            *("DIM SA(1)", f"DIM SA0({count})", "SAMP CLEAR"),
+        ]
+
+    def _table(self, axis: int, period_s: float) -> list[str]:
+        """Lines that make the cam, where there is one."""
+        if not self.is_cam:
+            return []
+        sweep = (self.height_cnt, self.low_hz, self.high_hz, self.duration_s, period_s)
+        return [
+            *cam_sweep.table_lines(*sweep),
+            *cam_sweep.cam_lines(axis, self.duration_s, period_s),
+        ]
+
+    def _begin(self, axis: int, first: int, actual: str) -> list[str]:
+        """Lines that start a cam: a card refuses it for an axis that is killed."""
+        if not self.is_cam:
+            return []
+        watch = self._watch(axis, first, actual)
+        return [*watch, "IF (LV3 <> 0) THEN GOTO BACK", f"AXIS{axis} CAM ON"]
+
+    def _drive(self, axis: int, written: str) -> list[str]:
+        """Lines of a round that move the axis, until the excitation is over."""
+        if self.is_cam:
+            return [f"IF (BIT{cam_sweep.flag(axis)}) THEN GOTO MOVE"]
+        return [
+            f"DV0 = ({CLOCK} - LV2) * 0.001",
+            f"{written} = LV0 + {self._height()}",
+            f"IF (DV0 < {self.duration_s:g}) THEN GOTO MOVE",
+        ]
 
     def _height(self) -> str:
         """The offset at the time DV0; a sweep from low to high frequency."""

@@ -21,6 +21,7 @@ from openacr.tuning.excitation import (
     DRIVE_FLAG,
     FLAGS_PER_AXIS,
     KILL_FLAG,
+    PROGRAM_HZ,
     TITLE,
     Excitation,
     set_lines,
@@ -105,6 +106,15 @@ def _require_still(talk: Talk, axis: int, bound_cnt: float) -> Op[None]:
         )
 
 
+def _require_no_cam(talk: Talk, axis: int) -> Op[None]:
+    """Refuse an axis that has a cam of its own; UserError."""
+    if (yield from talk.query(f"AXIS{axis} CAM DIM")) != ("0",):
+        raise UserError(
+            f"axis {axis} has a cam, which a sweep above {PROGRAM_HZ:g} Hz needs:"
+            f" AXIS{axis} CAM CLEAR, or a lower frequency"
+        )
+
+
 def measure(
     talk: Talk,
     axis: int,
@@ -124,17 +134,22 @@ def measure(
     yield from require_axis(talk, axis)
     former = yield from settings_of(talk, axis)
     former.require_modelled()
+    excitation.require_rate(former.period_s)
     yield from require_rest(talk, axis, excitation.error_cnt / 4.0)
     if (yield from values.read_bit(talk, ARMED)):
         raise UserError("the sampler of the card is in use: SAMP CLEAR frees it")
     period_s, count = former.period_s, excitation.samples(former.period_s)
     level = yield from _room(talk, excitation.memory_bytes(period_s), program)
+    if excitation.is_cam:
+        yield from _require_no_cam(talk, axis)
     text = excitation.program(axis, period_s, gains)
     try:
         yield from download(talk, text, to=level, is_verified=False)
         code, rows = yield from _listen(talk, level, count, progress)
     except (OpenacrError, KeyboardInterrupt):
         yield from _clear(talk, level)
+        if excitation.is_cam:
+            yield from talk.command(f"AXIS{axis} CAM CLEAR")
         raise
     yield from _clear(talk, level)
     if reason := excitation.ending(code):
@@ -143,7 +158,8 @@ def measure(
         raise UserError(f"{level}: {len(rows)} of {count} samples came: was it halted?")
     record = _record(rows, period_s)
     if np.ptp(record.setpoint_cnt) < FOLLOWED_SHARE * excitation.height_cnt:
-        raise UserError(f"axis {axis}: its setpoint does not follow the jog offset of the card")
+        moved = "cam" if excitation.is_cam else "jog"
+        raise UserError(f"axis {axis}: its setpoint does not follow the {moved} offset of the card")
     last = record.actual_cnt[-round(REST_S / period_s) :]
     if gains and np.ptp(last) > max(REST_CNT, SWING_SHARE * excitation.height_cnt):
         yield from write_gains(talk, axis, {word: former.gain(word) for word in gains})
@@ -206,11 +222,20 @@ def _listen(
     yield from talk.exchange(Follow("LRUN"))
     while (piece := (yield from talk.hear(HEAR_S))) is not None:
         *lines, text = (text + piece).split("\n")
-        numbers += [float(word) for line in lines for word in line.split()]
+        for line in lines:
+            numbers += _numbers(level, line)
         if progress is not None:
             progress(max(0, len(numbers) - 1) // CHANNELS, count)
     code, *samples = numbers or [0.0]
     return int(code), [samples[k : k + CHANNELS] for k in range(0, len(samples), CHANNELS)]
+
+
+def _numbers(level: Level, line: str) -> list[float]:
+    """What the program prints in a line; UserError where the card reports an error."""
+    try:
+        return [float(word) for word in line.split()]
+    except ValueError:
+        raise UserError(f"{level}: {line.strip()}") from None
 
 
 def _record(rows: list[list[float]], period_s: float) -> Record:
