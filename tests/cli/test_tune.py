@@ -1,13 +1,14 @@
 """`openacr tune`: measure, propose, apply, undo."""
 
 import json
+import math
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from tests.tuning.worlds import axis_text
+from tests.tuning.worlds import axis_text, elastic
 from typer.testing import CliRunner
 
 from openacr.cli import tune
@@ -62,8 +63,9 @@ def test_gains_of_a_project_are_proposed_as_a_line_for_its_files(project: Path) 
     assert (code, problems) == (0, "")
     lines = text.splitlines()
     assert lines[0] == "axis 0: 1800 samples at 2000 Hz, amplitude 100 pulses, 2 to 60 Hz"
-    assert lines[3].startswith("sure: yes, ")
-    rows = {line[:26].strip(): line[26:].split() for line in lines[4:-1]}
+    assert lines[3] == "resonance: none was found from 2 to 60 Hz"
+    assert lines[4].startswith("sure: yes, ")
+    rows = {line[:26].strip(): line[26:].split() for line in lines[5:-1]}
     assert rows[""] == ["present", "proposed"]
     assert rows["PGAIN"][0] == "0.006"
     assert rows["crossover [Hz]"][1] == "50.0"
@@ -160,12 +162,35 @@ def test_a_loop_too_soft_to_move_is_said_and_nothing_is_proposed(card: Card) -> 
     )
 
 
-def test_a_resonance_within_the_band_is_no_motor_and_nothing_is_proposed(project: Path) -> None:
-    world = axis_text(0).replace("coulomb_nm = 0.008", "coulomb_nm = 0.008\nresonance_hz = 40.0")
-    (project / "machine.toml").write_text(world)
-    code, text, problems = called("propose", project, 0)
-    assert (code, "sure: no, " in text, "proposed" in text) == (1, True, False)
-    assert problems.startswith("error: no gains are proposed: the motor is not sure: ")
+def test_a_resonance_is_reported_with_its_uncertainty_and_in_the_json(project: Path) -> None:
+    (project / "machine.toml").write_text(elastic(190.0, 0.02, 0))
+    words = ("measure", project, 0, "--band", "2", "400")
+    code, text, _problems = called(*words)
+    assert code == 0
+    line = next(line for line in text.splitlines() if line.startswith("resonance: "))
+    numbers = re.fullmatch(
+        r"resonance: (\S+) Hz \(\+-0\.3\), antiresonance (\S+) Hz,"
+        r" damping (\S+) \(\+-\S+\), load (\S+) of the motor",
+        line,
+    )
+    assert numbers is not None
+    assert [float(each) for each in numbers.groups()] == [
+        pytest.approx(190.0, rel=0.01),
+        pytest.approx(190.0 / math.sqrt(1.5), rel=0.02),
+        pytest.approx(0.02, abs=0.006),
+        pytest.approx(0.5, rel=0.06),
+    ]
+    found = json.loads(called(*words, "--json")[1])["resonance"]
+    assert found["resonance_hz"] == pytest.approx(190.0, rel=0.01)
+    assert found["deviations"]["resonance_hz"] < 1.0
+    assert found["reason"] == ""
+
+
+def test_an_axis_without_a_resonance_says_up_to_where_there_is_none(project: Path) -> None:
+    words = ("measure", project, 0, "--band", "2", "145")
+    assert "\nresonance: none was found from 2 to 145 Hz\n" in called(*words)[1]
+    found = json.loads(called(*words, "--json")[1])["resonance"]
+    assert (found["resonance_hz"], found["searched_hz"]) == (None, [2.0, 145.0])
 
 
 def test_gains_reach_no_further_than_the_band_and_the_report_says_so(project: Path) -> None:

@@ -7,6 +7,7 @@ if TYPE_CHECKING:
     from openacr.tuning.advice import Advice, Outlook
     from openacr.tuning.measure import Measurement
     from openacr.tuning.predict import StepFigures
+    from openacr.tuning.resonance import Resonance
 
 
 def lines(advice: "Advice", *, with_proposal: bool) -> Iterator[str]:
@@ -25,6 +26,7 @@ def lines(advice: "Advice", *, with_proposal: bool) -> Iterator[str]:
         f"  friction {motor.coulomb_accel / volts:.3g} V, offset {motor.offset_v:.3g} V,"
         f" delay {motor.delay_tk:.2g} servo periods beside the one of the loop"
     )
+    yield _resonance(found.resonance)
     yield (
         f"sure: {'yes' if found.is_sure else 'no'}, {found.error_percent:.1f} % of the response"
         f" is unexplained, coherence {found.coherence:.2f}"
@@ -40,6 +42,17 @@ def lines(advice: "Advice", *, with_proposal: bool) -> Iterator[str]:
             yield f"faster is barred: {advice.proposal.limited_by}"
         gains = " ".join(f"{word} {value:.7G}" for word, value in advice.proposal.gains.items())
         yield f"AXIS{measurement.axis} {gains}"
+
+
+def _resonance(found: "Resonance") -> str:
+    shaft = found.shaft
+    if shaft is None:
+        return f"resonance: {found.reason}"
+    return (
+        f"resonance: {shaft.resonance_hz:.4g} Hz (+-{found.deviations['resonance_hz']:.1g}),"
+        f" antiresonance {shaft.antiresonance_hz:.4g} Hz, damping {shaft.damping_ratio:.2g}"
+        f" (+-{found.deviations['damping_ratio']:.1g}), load {shaft.inertia_ratio:.2g} of the motor"
+    )
 
 
 def step_lines(measurement: "Measurement", found: "StepFigures") -> Iterator[str]:

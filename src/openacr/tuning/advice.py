@@ -16,6 +16,7 @@ from openacr.tuning.frequency import LOWEST_HZ, Margins, margins, open_loop
 from openacr.tuning.identify import Identified, identify
 from openacr.tuning.measure import Measurement
 from openacr.tuning.propose import Proposal, Wish, propose
+from openacr.tuning.resonance import Resonance
 from openacr.tuning.settings import LoopSettings
 from openacr.tuning.twin import Record
 
@@ -98,10 +99,11 @@ def advice_data(advice: Advice) -> dict[str, Any]:
         "axis": measurement.axis,
         "period_s": measurement.settings.period_s,
         "motor": {
-            **asdict(found.motor),
+            **_plain(asdict(found.motor), "shaft"),
             "time_constant_s": _finite(found.motor.time_constant_s),
             "deviations": found.deviations,
         },
+        "resonance": _resonance_data(found.resonance),
         "is_sure": found.is_sure,
         "error_percent": found.error_percent,
         "coherence": found.coherence,
@@ -113,6 +115,24 @@ def advice_data(advice: Advice) -> dict[str, Any]:
         "bode": _bode(advice),
         "present": _outlook_data(advice.present),
         "proposed": _outlook_data(advice.proposed) if advice.proposed else None,
+    }
+
+
+def _plain(data: dict[str, Any], *without: str) -> dict[str, Any]:
+    return {name: value for name, value in data.items() if name not in without}
+
+
+def _resonance_data(found: Resonance) -> dict[str, Any]:
+    """The shaft that was found, its numbers None where there is none."""
+    shaft = found.shaft
+    return {
+        "resonance_hz": shaft.resonance_hz if shaft else None,
+        "antiresonance_hz": shaft.antiresonance_hz if shaft else None,
+        "damping_ratio": shaft.damping_ratio if shaft else None,
+        "inertia_ratio": shaft.inertia_ratio if shaft else None,
+        "deviations": found.deviations,
+        "searched_hz": list(found.searched_hz),
+        "reason": found.reason,
     }
 
 

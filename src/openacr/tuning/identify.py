@@ -7,21 +7,23 @@
    The loop is closed: what is noise in both signals has no relation to the setpoint, so it
    cancels in the quotient of cross spectra, which in S_uy / S_uu it would not.
 2. A first motor from this response, by least squares over its logarithm.
-3. The motor whose computed axis (`twin.run`) has the recorded following error most closely:
-   Gauss-Newton over acceleration, rate, friction, offset and delay. Friction that does not
-   grow with speed is in no frequency response; here it is.
+3. The motor whose computed axis has the recorded position most closely (`openacr.tuning.fit`):
+   acceleration, rate, friction, offset and delay. Friction that does not grow with speed is in
+   no frequency response; here it is.
+4. The same with a load on an elastic shaft, if the record shows one (`openacr.tuning.resonance`).
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from openacr.errors import UserError
-from openacr.tuning import twin
+from openacr.tuning import resonance, twin
+from openacr.tuning.fit import MOTOR_FIELDS, fit
 from openacr.tuning.motor import Complexes, Motor, Reals
+from openacr.tuning.resonance import Resonance
 from openacr.tuning.settings import LoopSettings
 from openacr.tuning.twin import Record
 
@@ -29,13 +31,7 @@ AVERAGED = 7  # neighbouring frequencies
 LEAST_SAMPLES = 400
 COHERENT = 0.8  # coherence from which a frequency counts
 FEWEST = 4  # frequencies for a fit
-STEPS = 12  # at most, for each of PROBES
-SETTLED = 1e-3  # relative change at which a fit ends
-PROBES = (0.4, 0.2, 0.1, 0.05)  # changes by which slopes are found: sticking has an edge at first
 LEAST_MOTION_CNT = 10.0
-ATTEMPTS = 6
-TINY = 1e-12
-LONGEST_DELAY_TK = 20.0
 PERCENT = 100.0
 Chosen = NDArray[np.bool_]
 SURE_ERROR, SURE_SPREAD = 20.0, 10.0  # per cent; above them no gains are proposed
@@ -81,6 +77,7 @@ class Identified:
     deviations: dict[str, float]  # standard deviations by field of Motor, if all errors were noise
     coherence: float  # mean where the excitation was
     measured_to_hz: float  # beyond it nothing is known of the axis
+    resonance: Resonance
 
     @property
     def is_sure(self) -> bool:
@@ -134,18 +131,19 @@ def identify(settings: LoopSettings, record: Record, band_hz: tuple[float, float
     low, high = band_hz
     inside = (measured.frequencies_hz >= low) & (measured.frequencies_hz <= high)
     first = _from_response(measured, inside & measured.is_coherent)
-    motor, covariance, residual = _refine(settings, record, first)
-    computed = twin.run(settings, motor, record.setpoint_cnt, record)
+    rigid = fit(settings, record, replace(first, coulomb_accel=0.02 * first.accel_per_volt))
+    measured_to_hz = measured.measured_to_hz(band_hz)
+    found, shaft = resonance.find(settings, record, rigid, band_hz, measured_to_hz)
     error_cnt = record.error_cnt - record.error_cnt.mean()
-    explained = float(np.sqrt(np.mean(residual**2)) / max(np.sqrt(np.mean(error_cnt**2)), 0.5))
     return Identified(
-        motor,
+        found.motor,
         measured,
-        computed,
-        PERCENT * explained,
-        dict(zip(_FIELDS, np.sqrt(np.diag(covariance)).tolist(), strict=True)),
+        twin.run(settings, found.motor, record.setpoint_cnt, record),
+        PERCENT * found.noise_cnt / max(float(np.sqrt(np.mean(error_cnt**2))), 0.5),
+        {name: found.deviations[name] for name in MOTOR_FIELDS},
         float(measured.coherence[inside].mean()) if inside.any() else 0.0,
-        measured.measured_to_hz(band_hz),
+        measured_to_hz,
+        shaft,
     )
 
 
@@ -170,79 +168,3 @@ def _from_response(measured: Spectrum, used: Chosen) -> Motor:
         if spread < best[0]:
             best = (spread, Motor(math.exp(mean), float(rate)))
     return best[1]
-
-
-Residual = Callable[[Motor], Reals]
-_FIELDS = ("accel_per_volt", "rate_per_s", "coulomb_accel", "offset_v", "delay_tk")
-
-
-def _vector(motor: Motor) -> Reals:
-    return np.array([getattr(motor, name) for name in _FIELDS], dtype=np.float64)
-
-
-def _motor(vector: Reals) -> Motor:
-    """A motor of these numbers, within what a motor can be."""
-    accel, rate, friction, offset, delay = vector.tolist()
-    return Motor(
-        accel, max(rate, 0.0), max(friction, 0.0), offset, min(max(delay, 0.0), LONGEST_DELAY_TK)
-    )
-
-
-def _refine(settings: LoopSettings, record: Record, first: Motor) -> tuple[Motor, Reals, Reals]:
-    """Gauss-Newton from a first motor: the motor, the covariance of its numbers, the residual."""
-
-    def residual(motor: Motor) -> Reals:
-        computed = twin.run(settings, motor, record.setpoint_cnt, record)
-        return np.asarray(computed.actual_cnt - record.actual_cnt)
-
-    motor = replace(first, coulomb_accel=0.02 * first.accel_per_volt)
-    left = residual(motor)
-    slopes = np.zeros((len(left), len(_FIELDS)))
-    for probe in PROBES:
-        damping = 1e-3
-        for _each in range(STEPS):
-            slopes = _slopes(motor, left, residual, probe)
-            before = motor
-            motor, left, damping = _better(motor, left, slopes, residual, damping)
-            gap = np.abs(_vector(motor) - _vector(before)) / _units(before)
-            if float(gap.max()) < SETTLED:
-                break
-    noise = max(float(np.mean(left**2)), 1.0 / 12.0)  # whole counts are noise at least
-    covariance = noise * np.linalg.pinv(slopes.T @ slopes)
-    return motor, covariance * np.outer(_units(motor), _units(motor)), left
-
-
-def _better(
-    motor: Motor, left: Reals, slopes: Reals, residual: Residual, damping: float
-) -> tuple[Motor, Reals, float]:
-    """A motor with a smaller residual, that residual, and the damping of the next step.
-
-    The same motor where no step along the slopes makes it smaller.
-    """
-    normal, gradient = slopes.T @ slopes, slopes.T @ left
-    for _attempt in range(ATTEMPTS):
-        damped = normal + damping * np.diag(np.diag(normal) + TINY)
-        change = -np.linalg.lstsq(damped, gradient, rcond=None)[0] * _units(motor)
-        tried = _motor(_vector(motor) + change)
-        new = residual(tried)
-        if new @ new < left @ left:
-            return tried, new, damping / 5.0
-        damping *= 5.0
-    return motor, left, damping
-
-
-def _units(motor: Motor) -> Reals:
-    """By how much each number of a motor changes in a step of 1."""
-    a = motor.accel_per_volt
-    return np.array([a, max(motor.rate_per_s, 5.0), max(motor.coulomb_accel, 0.02 * a), 0.05, 1.0])
-
-
-def _slopes(motor: Motor, left: Reals, residual: Residual, probe: float) -> Reals:
-    """How the residual changes with each number, in its units."""
-    found = []
-    vector, units = _vector(motor), _units(motor)
-    for k in range(len(_FIELDS)):
-        probed = vector.copy()
-        probed[k] += probe * units[k]
-        found.append((residual(_motor(probed)) - left) / probe)
-    return np.asarray(np.array(found).T)
