@@ -1,8 +1,9 @@
 """`openacr tune apply` and `undo`: set the proposed gains of an axis, or the former ones again."""
 
 import json
+from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -54,6 +55,7 @@ def apply_gains(
     the axis does not come to rest. The former gains are kept in a file, for `openacr tune undo`.
     Set-up files and what ESAVE keeps are not changed.
     """
+    from openacr.tuning.advice import new_filters
     from openacr.tuning.excitation import Excitation
     from openacr.tuning.measure import measure
 
@@ -73,7 +75,10 @@ def apply_gains(
             raise typer.Exit(FAILED)
         if not is_sure:
             typer.confirm(f"Set these gains of axis {axis} and try them with a step?", abort=True)
-        former = {"axis": axis, "gains": advice.measurement.settings.gains}
+        settings, filters = advice.measurement.settings, new_filters(advice)
+        former: dict[str, Any] = {"axis": axis, "gains": settings.gains}
+        if filters is not None and settings.filters is not None:
+            former["filters"] = asdict(settings.filters)
         _write(keep, json.dumps(former, indent=1) + "\n")
         trial = Excitation(
             "step",
@@ -84,7 +89,11 @@ def apply_gains(
         )
         gains = advice.proposal.gains
         try:
-            card.perform(lambda talk: measure(talk, axis, trial, gains=gains, program=program))
+            card.perform(
+                lambda talk: measure(
+                    talk, axis, trial, gains=gains, filters=filters, program=program
+                )
+            )
         except UserError:  # the card has the former gains
             keep.unlink()
             raise
@@ -98,6 +107,7 @@ def undo_gains(
     silence: Silence = SILENCE_S,
 ) -> None:
     """Set the gains again that an axis had before `openacr tune apply`."""
+    from openacr.tuning.filters import Filters
     from openacr.tuning.measure import require_rest, write_gains
     from openacr.tuning.settings import GAINS
 
@@ -105,13 +115,14 @@ def undo_gains(
         found = json.loads(kept.read_text("utf-8"))
         axis = int(found["axis"])
         gains = {word: float(found["gains"][word]) for word in GAINS}
+        filters = Filters(**found["filters"]) if "filters" in found else None
     except OSError as failed:
         raise UserError(f"{kept}: {failed.strerror}") from None
     except (ValueError, KeyError, TypeError):
         raise UserError(f"{kept}: not a file of `openacr tune apply`") from None
     with card_of(target, baud, silence) as card:
         card.perform(lambda talk: require_rest(talk, axis))
-        card.perform(lambda talk: write_gains(talk, axis, gains))
+        card.perform(lambda talk: write_gains(talk, axis, gains, filters))
     typer.echo(f"axis {axis}: " + " ".join(f"{word} {value:.7G}" for word, value in gains.items()))
 
 

@@ -5,8 +5,10 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from openacr.tuning.advice import Advice, Outlook
+    from openacr.tuning.filters import Filters
     from openacr.tuning.measure import Measurement
     from openacr.tuning.predict import StepFigures
+    from openacr.tuning.propose import Proposal
     from openacr.tuning.resonance import Resonance
 
 
@@ -40,8 +42,18 @@ def lines(advice: "Advice", *, with_proposal: bool) -> Iterator[str]:
     if with_proposal and advice.proposal is not None:
         if advice.proposal.limited_by:
             yield f"faster is barred: {advice.proposal.limited_by}"
-        gains = " ".join(f"{word} {value:.7G}" for word, value in advice.proposal.gains.items())
-        yield f"AXIS{measurement.axis} {gains}"
+        yield from _setting(advice, advice.proposal)
+
+
+def _setting(advice: "Advice", proposal: "Proposal") -> Iterator[str]:
+    """The lines that set a proposal; filters where they differ from those of the axis."""
+    from openacr.tuning.advice import new_filters
+
+    axis = advice.measurement.axis
+    if (filters := new_filters(advice)) is not None:
+        yield from filters.lines(axis)
+    gains = " ".join(f"{word} {value:.7G}" for word, value in proposal.gains.items())
+    yield f"AXIS{axis} {gains}"
 
 
 def _resonance(found: "Resonance") -> str:
@@ -68,6 +80,10 @@ def _table(loops: "list[Outlook]") -> Iterator[tuple[str, list[str]]]:
     for word in loops[0].settings.gains:
         yield word, [f"{loop.settings.gain(word):.5G}" for loop in loops]
     judged = [loop.margins for loop in loops]
+    if any(loop.settings.is_filtering for loop in loops):
+        yield "LOPASS [Hz]", [_filter(loop.settings.filters, "lopass_hz") for loop in loops]
+        yield "NOTCH [Hz]", [_filter(loop.settings.filters, "notch_hz") for loop in loops]
+        yield "  width [Hz]", [_filter(loop.settings.filters, "notch_width_hz") for loop in loops]
     yield "stable", ["yes" if each.is_stable else "no" for each in judged]
     yield "crossover [Hz]", [f"{each.crossover_hz:.1f}" for each in judged]
     yield "phase margin [deg]", [f"{each.phase_deg:.1f}" for each in judged]
@@ -77,8 +93,14 @@ def _table(loops: "list[Outlook]") -> Iterator[tuple[str, list[str]]]:
     yield "step: overshoot [%]", [f"{each.overshoot_percent:.1f}" for each in steps]
     yield "step: rise [ms]", [_ms(each.rise_s) for each in steps]
     yield "step: settling [ms]", [_ms(each.settling_s) for each in steps]
+    if steps[0].vibration_cnt is not None:
+        yield "step: load swings [pulses]", [f"{each.vibration_cnt:.2g}" for each in steps]
     if loops[0].move_error_cnt is not None:
         yield "move: error [pulses]", [f"{loop.move_error_cnt:.0f}" for loop in loops]
+
+
+def _filter(filters: "Filters | None", name: str) -> str:
+    return "by hand" if filters is None else f"{getattr(filters, name):.5G}"
 
 
 def _ms(value_s: float | None) -> str:

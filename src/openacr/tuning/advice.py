@@ -12,10 +12,12 @@ import numpy as np
 from openacr.errors import UserError
 from openacr.tuning import predict
 from openacr.tuning.curves import curves, rounded
+from openacr.tuning.filters import Filters
 from openacr.tuning.frequency import LOWEST_HZ, Margins, margins, open_loop
 from openacr.tuning.identify import Identified, identify
 from openacr.tuning.measure import Measurement
-from openacr.tuning.propose import Proposal, Wish, propose
+from openacr.tuning.notches import choose
+from openacr.tuning.propose import Proposal, Wish
 from openacr.tuning.resonance import Resonance
 from openacr.tuning.settings import LoopSettings
 from openacr.tuning.twin import Record
@@ -69,11 +71,19 @@ def advise(measurement: Measurement, wish: Wish | None = None, move: Move | None
                 f"the motor is not sure: {found.error_percent:.0f} % of the response is"
                 " unexplained (a larger amplitude, or is something loose?)"
             )
-        proposal = propose(settings, found.motor, wish, measured_to_hz=found.measured_to_hz)
+        proposal = choose(settings, found.motor, wish, measured_to_hz=found.measured_to_hz)
     except UserError as refused:
         return Advice(measurement, found, present, None, None, str(refused))
     proposed = outlook(measurement, found, proposal.settings, move)
     return Advice(measurement, found, present, proposal, proposed, "")
+
+
+def new_filters(advice: Advice) -> Filters | None:
+    """The filters to set with the gains that are proposed; None where they stay as they are."""
+    proposal = advice.proposal
+    if proposal is None or proposal.filters == advice.measurement.settings.filters:
+        return None
+    return proposal.filters
 
 
 def outlook(
@@ -88,7 +98,13 @@ def outlook(
             settings, found.motor, move.distance_cnt, move.velocity_cps, move.accel_cps2
         )
         error = float(np.abs(moved.error_cnt).max())
-    return Outlook(settings, margins(settings, found.motor), step, predict.figures(step), error)
+    return Outlook(
+        settings,
+        margins(settings, found.motor),
+        step,
+        predict.figures(step, found.motor.shaft),
+        error,
+    )
 
 
 def advice_data(advice: Advice) -> dict[str, Any]:
@@ -140,6 +156,7 @@ def _outlook_data(found: Outlook) -> dict[str, Any]:
     judged = {name: _finite(value) for name, value in asdict(found.margins).items()}
     return {
         "gains": found.settings.gains,
+        "filters": asdict(found.settings.filters) if found.settings.filters else None,
         "margins": {**judged, "gain_db": _finite(found.margins.gain_db)},
         "figures": asdict(found.figures),
         "move_error_cnt": found.move_error_cnt,

@@ -15,6 +15,7 @@ from typing import Literal
 from openacr.errors import UserError
 from openacr.map import numbers as at
 from openacr.tuning import cam_sweep
+from openacr.tuning.filters import Filters
 from openacr.tuning.settings import GAINS
 
 TITLE = "REM openacr tune"
@@ -43,6 +44,20 @@ def set_lines(axis: int, gains: Mapping[str, float]) -> list[str]:
     """Lines that set gains of an axis; what damps comes before what stiffens."""
     order = sorted(gains, key=lambda word: (word != "DGAIN", word == "IGAIN"))
     return [f"AXIS{axis} {word} {gains[word]:.7G}" for word in order]
+
+
+def _taken_back(axis: int, filters: "FilterChange | None") -> list[str]:
+    """Lines that set the former filters where a bound is exceeded."""
+    lines = filters.former.lines(axis) if filters else []
+    return [f"IF (LV3 <> 0) THEN {line}" for line in lines]
+
+
+@dataclass(frozen=True, slots=True)
+class FilterChange:
+    """Filters that are tried, and those before."""
+
+    tried: Filters
+    former: Filters
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,10 +115,16 @@ class Excitation:
         table = cam_sweep.points(self.duration_s, period_s) + 1 if self.is_cam else 0
         return BYTES_BESIDE + BYTES_PER_SAMPLE * self.samples(period_s) + BYTES_PER_POINT * table
 
-    def program(self, axis: int, period_s: float, gains: Mapping[str, float] | None = None) -> str:
+    def program(
+        self,
+        axis: int,
+        period_s: float,
+        gains: Mapping[str, float] | None = None,
+        filters: FilterChange | None = None,
+    ) -> str:
         """The program, from PROGRAM to ENDP; it prints its reason to end, then the record.
 
-        `gains` by their words are set before, and stay unless a bound is exceeded.
+        `gains` by their words and `filters` are set before, and stay unless a bound is exceeded.
         """
         gains = gains or {}
         former = {GAINS[word] + at.AX_BASE + axis * at.AX_STRIDE: k for k, word in enumerate(gains)}
@@ -124,6 +145,7 @@ class Excitation:
             f"LV1 = {actual}",
             "LV3 = 0",
             *(f"SV{k} = P{row}" for row, k in former.items()),
+            *(filters.tried.lines(axis) if filters else []),
             *set_lines(axis, gains),
             f"SET {ARMED}",
             *([f"DWL {BEFORE_STEP_S}"] if self.kind == "step" else []),
@@ -139,6 +161,7 @@ class Excitation:
             f"{written} = LV0",
             *self._watch(axis, first, actual),
             *(f"IF (LV3 <> 0) THEN P{row} = SV{k}" for row, k in former.items()),
+            *_taken_back(axis, filters),
             f"IF (BIT{ARMED}) THEN GOTO BACK",
             *(cam_sweep.end_lines(axis) if self.is_cam else []),
             "SAMP CLEAR",

@@ -21,6 +21,7 @@ from openacr.tuning.settings import LoopSettings
 LOWEST_HZ = 0.1
 POINTS = 4000
 NEAR, NEAR_POINTS = 10.0, 401  # half widths of a resonance, and the frequencies within them
+FAINTEST = 1e-300  # a loop at the centre of a notch is nothing
 HALF_POWER = math.sqrt(0.5)
 
 
@@ -106,7 +107,7 @@ def margins(settings: LoopSettings, motor: Motor) -> Margins:
     frequencies = scale(settings, motor)
     loop = open_loop(settings, motor, frequencies)
     phase_deg, crossover_hz = math.inf, 0.0
-    for at_hz, value in _crossings(frequencies, loop, np.log(np.abs(loop))):
+    for at_hz, value in _crossings(frequencies, loop, np.log(np.maximum(np.abs(loop), FAINTEST))):
         found = math.degrees(math.remainder(np.angle(value) - math.pi, 2.0 * math.pi))
         if abs(found) < abs(phase_deg):
             phase_deg, crossover_hz = found, at_hz

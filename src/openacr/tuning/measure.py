@@ -24,8 +24,10 @@ from openacr.tuning.excitation import (
     PROGRAM_HZ,
     TITLE,
     Excitation,
+    FilterChange,
     set_lines,
 )
+from openacr.tuning.filters import COEFFICIENTS, FILTERS, Filters
 from openacr.tuning.settings import BIQUAD_FLAG, ROWS, LoopSettings
 from openacr.tuning.twin import Record
 
@@ -59,7 +61,20 @@ def settings_of(talk: Talk, axis: int) -> Op[LoopSettings]:
     period = yield from talk.query("PERIOD")
     is_filtering = yield from values.read_bit(talk, BIQUAD_FLAG + FLAGS_PER_AXIS * axis)
     rows = dict(zip(ROWS, map(float, found), strict=True))
-    return LoopSettings(rows, is_filtering, float(period[-1]))
+    filters = yield from _filters_of(talk, axis)
+    period_s = float(period[-1])
+    coefficients = [rows[first + k] for first in FILTERS for k in range(COEFFICIENTS)]
+    if not filters.are(coefficients, period_s) or is_filtering is not filters.is_filtering:
+        return LoopSettings(rows, is_filtering, period_s)
+    return LoopSettings(rows, is_filtering, period_s, filters)
+
+
+def _filters_of(talk: Talk, axis: int) -> Op[Filters]:
+    """What LOPASS and NOTCH of an axis were given."""
+    (lopass,) = yield from talk.query(f"AXIS{axis} LOPASS")
+    (notch,) = yield from talk.query(f"AXIS{axis} NOTCH")
+    center, width = notch.split(",")
+    return Filters(float(lopass), float(center), float(width))
 
 
 def require_axis(talk: Talk, axis: int) -> Op[None]:
@@ -121,14 +136,15 @@ def measure(
     excitation: Excitation,
     *,
     gains: Mapping[str, float] | None = None,
+    filters: Filters | None = None,
     program: int | None = None,
     progress: Progress | None = None,
 ) -> Op[Measurement]:
     """Excite an axis at rest and record it; UserError where a bound was exceeded.
 
     The card does it in a program that is empty (or `program`), which is erased afterwards.
-    `gains` are set before; they stay, unless a bound is exceeded or the axis does not come to
-    rest: then the former ones are set again. `stop` ends it from another connection.
+    `gains` and `filters` are set before; they stay, unless a bound is exceeded or the axis does
+    not come to rest: then the former ones are set again. `stop` ends it from another connection.
     """
     excitation, gains = excitation.checked(), gains or {}
     yield from require_axis(talk, axis)
@@ -142,7 +158,8 @@ def measure(
     level = yield from _room(talk, excitation.memory_bytes(period_s), program)
     if excitation.is_cam:
         yield from _require_no_cam(talk, axis)
-    text = excitation.program(axis, period_s, gains)
+    changed = None if filters is None else _change(former, filters)
+    text = excitation.program(axis, period_s, gains, changed)
     try:
         yield from download(talk, text, to=level, is_verified=False)
         code, rows = yield from _listen(talk, level, count, progress)
@@ -162,10 +179,23 @@ def measure(
         raise UserError(f"axis {axis}: its setpoint does not follow the {moved} offset of the card")
     last = record.actual_cnt[-round(REST_S / period_s) :]
     if gains and np.ptp(last) > max(REST_CNT, SWING_SHARE * excitation.height_cnt):
-        yield from write_gains(talk, axis, {word: former.gain(word) for word in gains})
+        yield from write_gains(
+            talk,
+            axis,
+            {word: former.gain(word) for word in gains},
+            None if changed is None else changed.former,
+        )
         raise UserError(f"axis {axis} swings by {np.ptp(last):g} pulses; {TAKEN_BACK}")
     settings = former.changed(**gains) if gains else former
+    settings = settings if filters is None else settings.filtered(filters)
     return Measurement(axis, excitation, settings, record)
+
+
+def _change(former: LoopSettings, filters: Filters) -> FilterChange:
+    """Filters to try, with those before, which LOPASS and NOTCH have to be able to set again."""
+    if former.filters is None:
+        raise UserError("the filters of the axis were written by hand: they are not changed")
+    return FilterChange(filters, former.filters)
 
 
 def stop(talk: Talk) -> Op[None]:
@@ -173,9 +203,11 @@ def stop(talk: Talk) -> Op[None]:
     yield from talk.order(f"CLR {ARMED}")
 
 
-def write_gains(talk: Talk, axis: int, gains: Mapping[str, float]) -> Op[None]:
-    """Set gains of an axis at once."""
-    for line in set_lines(axis, gains):
+def write_gains(
+    talk: Talk, axis: int, gains: Mapping[str, float], filters: Filters | None = None
+) -> Op[None]:
+    """Set gains, and filters if any are given, of an axis at once."""
+    for line in [*(filters.lines(axis) if filters else []), *set_lines(axis, gains)]:
         yield from talk.order(line)
 
 

@@ -7,11 +7,13 @@ import numpy as np
 from openacr.errors import UserError
 from openacr.tuning.motor import Motor, Reals
 from openacr.tuning.settings import LoopSettings
+from openacr.tuning.shaft import Shaft
 from openacr.tuning.twin import Record, run
 
 REST_TK = 4  # before a step
 FIRST, LAST = 0.1, 0.9
 SETTLED_SHARE = 0.02
+CALM_S = 0.1  # after a step: from here on what swings is vibration
 PERCENT = 100.0
 LONGEST_TK = 200_000
 
@@ -23,6 +25,7 @@ class StepFigures:
     overshoot_percent: float
     rise_s: float | None  # from 10 % to 90 %
     settling_s: float | None  # until it stays within 2 %, or a count
+    vibration_cnt: float | None  # of a load on an elastic shaft afterwards, from peak to peak
 
 
 def step(settings: LoopSettings, motor: Motor, height_cnt: int, duration_s: float) -> Record:
@@ -37,8 +40,26 @@ def step_setpoint(height_cnt: int, duration_s: float, period_s: float) -> Reals:
     return setpoint
 
 
-def figures(record: Record) -> StepFigures:
-    """Overshoot, rise and settling of a recorded step, until the setpoint moves again."""
+def vibration(record: Record, shaft: Shaft) -> float:
+    """How far the load swings from peak to peak [counts], from CALM_S after a step on.
+
+    It is the distance to its mean over one turn of the resonance: what moves slowly is no swing.
+    """
+    if record.load_cnt is None:
+        return 0.0
+    turn = max(2, round(1.0 / (shaft.resonance_hz * record.period_s)))
+    mean = np.convolve(record.load_cnt, np.full(turn, 1.0 / turn), "valid")
+    place = record.load_cnt[turn // 2 :][: len(mean)]
+    begin = REST_TK + round(CALM_S / record.period_s)
+    swing = (place - mean)[begin - turn // 2 :]
+    return float(np.ptp(swing))
+
+
+def figures(record: Record, shaft: Shaft | None = None) -> StepFigures:
+    """Overshoot, rise and settling of a recorded step, until the setpoint moves again.
+
+    With the shaft of a computed axis also what its load swings.
+    """
     changes = np.nonzero(np.diff(record.setpoint_cnt))[0] + 1
     begin, end = int(changes[0]), int(changes[1]) if len(changes) > 1 else None
     height = float(record.setpoint_cnt[begin] - record.setpoint_cnt[begin - 1])
@@ -52,7 +73,8 @@ def figures(record: Record) -> StepFigures:
     settling = 0.0 if not len(away) else float(away[-1] + 1) * record.period_s
     is_settled = not len(away) or away[-1] + 1 < len(share)
     overshoot = PERCENT * max(0.0, float(share.max()) - 1.0)
-    return StepFigures(overshoot, rise, settling if is_settled else None)
+    swing = None if shaft is None else vibration(record, shaft)
+    return StepFigures(overshoot, rise, settling if is_settled else None, swing)
 
 
 def move(

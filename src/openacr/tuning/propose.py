@@ -11,12 +11,21 @@ FFVEL = rate / a holds a speed, FFACC = 1 / a makes an acceleration.
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from openacr.errors import UserError
-from openacr.tuning.frequency import Margins, controller, margins, points, slope
+from openacr.tuning.filters import Filters
+from openacr.tuning.frequency import (
+    Margins,
+    controller,
+    is_stable,
+    margins,
+    points,
+    slope,
+)
 from openacr.tuning.motor import Motor
 from openacr.tuning.settings import LoopSettings
 
@@ -44,6 +53,12 @@ class Proposal:
     settings: LoopSettings
     margins: Margins
     limited_by: str  # what bars a higher crossover; empty where one was asked for
+    asked_hz: float  # the crossover that the gains are made for
+
+    @property
+    def filters(self) -> Filters | None:
+        """The filters that belong to the gains; None for those that were written by hand."""
+        return self.settings.filters
 
     @property
     def gains(self) -> dict[str, float]:
@@ -57,8 +72,13 @@ def propose(
     wish: Wish | None = None,
     *,
     measured_to_hz: float = math.inf,
+    others: Sequence[Motor] = (),
+    slowest_hz: float = SLOWEST_HZ,
 ) -> Proposal:
     """Gains for a motor; UserError where what is asked for has too little margin.
+
+    With the motors of `others` the loop has to be stable with half of the gain margin, too. A
+    crossover below `slowest_hz` is not tried, unless it is asked for.
 
     The crossover is at most where the motor was measured: beyond it nothing was seen of what
     may swing there.
@@ -68,14 +88,14 @@ def propose(
         raise UserError(f"phase margin {wish.phase_deg:g}: from {LEAST_PHASE_DEG:g} to 80 degrees")
     if wish.bandwidth_hz is not None:
         _require_measured(wish.bandwidth_hz, measured_to_hz)
-        return _of_bandwidth(present, motor, wish, wish.bandwidth_hz)
+        return _of_bandwidth(present, motor, wish, wish.bandwidth_hz, others)
     best: Proposal | None = None
     reason = "the servo rate"
-    crossover_hz = SLOWEST_HZ
+    crossover_hz = slowest_hz
     while crossover_hz < 0.2 / present.period_s:
         try:
             _require_measured(crossover_hz, measured_to_hz)
-            best = _of_bandwidth(present, motor, wish, crossover_hz)
+            best = _of_bandwidth(present, motor, wish, crossover_hz, others)
         except UserError as limit:
             if best is not None:
                 reason = str(limit)
@@ -83,7 +103,7 @@ def propose(
         crossover_hz *= FINENESS
     if best is None:
         raise UserError("no gains have the margins: is the motor identified well?")
-    return Proposal(best.settings, best.margins, reason)
+    return replace(best, limited_by=reason)
 
 
 def _require_measured(crossover_hz: float, measured_to_hz: float) -> None:
@@ -95,14 +115,28 @@ def _require_measured(crossover_hz: float, measured_to_hz: float) -> None:
         )
 
 
-def _of_bandwidth(present: LoopSettings, motor: Motor, wish: Wish, crossover_hz: float) -> Proposal:
+def _of_bandwidth(
+    present: LoopSettings, motor: Motor, wish: Wish, crossover_hz: float, others: Sequence[Motor]
+) -> Proposal:
     if not 0.0 < crossover_hz < 0.2 / present.period_s:
         most_hz = 0.2 / present.period_s
         raise UserError(f"bandwidth {crossover_hz:g} Hz: above 0, below {most_hz:g} Hz")
     settings = _designed(present, motor, wish, crossover_hz)
     found = margins(settings, motor)
     _require(settings, found, crossover_hz)
-    return Proposal(settings, found, "")
+    if not all(is_stable(_louder(settings), other) for other in others):
+        raise UserError(
+            f"at {crossover_hz:.3g} Hz the loop does not bear a resonance that is a little off"
+        )
+    return Proposal(settings, found, "", crossover_hz)
+
+
+def _louder(settings: LoopSettings) -> LoopSettings:
+    """Settings with the loop gain raised by half of the gain margin that is needed."""
+    factor = 10.0 ** (LEAST_GAIN_DB / 40.0)
+    return settings.changed(
+        **{name: factor * settings.gain(name.upper()) for name in ("pgain", "igain", "dgain")}
+    )
 
 
 def _designed(present: LoopSettings, motor: Motor, wish: Wish, crossover_hz: float) -> LoopSettings:

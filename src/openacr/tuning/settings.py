@@ -1,12 +1,13 @@
 """The settings of the servo loop of an axis, as its parameters hold them."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 from openacr.errors import UserError
 from openacr.map import numbers as at
 from openacr.motion.axis.settings import DEEPEST_SMOOTHING
+from openacr.tuning.filters import COEFFICIENTS, FILTERS, Filters
 
 BIQUAD_FLAG, FLAGS_PER_AXIS = 786, 32  # of axis 0; distance to that of the next axis
 
@@ -20,13 +21,11 @@ GAINS = {  # words of the language, and the row each sets
     "FFVEL": at.AX_FEEDFORWARD_VELOCITY,
     "FFACC": at.AX_FEEDFORWARD_ACCEL,
 }
-FILTERS = (at.AX_FILTER0_B2, at.AX_FILTER1_B2)  # first of five coefficients: b2 a2 b1 a1 a0
-_COEFFICIENTS = 5
 ROWS = (
     *GAINS.values(),
     at.AX_PLUS_TORQUE_LIMIT,
     at.AX_MINUS_TORQUE_LIMIT,
-    *(first + k for first in FILTERS for k in range(_COEFFICIENTS)),
+    *(first + k for first in FILTERS for k in range(COEFFICIENTS)),
     at.AX_FBVEL_GAIN_SETTING,
     at.AX_SMOOTH_ENCODER_VELOCITY,
     at.AX_KVP,
@@ -49,19 +48,25 @@ class LoopSettings:
     rows: Mapping[int, float]
     is_filtering: bool
     period_s: float
+    filters: Filters | None = None  # what LOPASS and NOTCH were given; None: written by hand
 
     @classmethod
     def of_gains(cls, period_s: float, *, limit_v: float = 10.0, **gains: float) -> Self:
         """Settings with these gains (`pgain=0.002`); all others as after power-up."""
         rows = dict.fromkeys(ROWS, 0.0)
-        rows |= {first + _COEFFICIENTS - 1: 1.0 for first in FILTERS}
+        rows |= {first + COEFFICIENTS - 1: 1.0 for first in FILTERS}
         rows |= {at.AX_PLUS_TORQUE_LIMIT: limit_v, at.AX_MINUS_TORQUE_LIMIT: -limit_v}
-        return cls(rows, False, period_s).changed(**gains)
+        return cls(rows, False, period_s, Filters()).changed(**gains)
 
     def changed(self, **gains: float) -> Self:
         """The same settings with other gains."""
         named = {GAINS[name.upper()]: value for name, value in gains.items()}
-        return type(self)({**self.rows, **named}, self.is_filtering, self.period_s)
+        return replace(self, rows={**self.rows, **named})
+
+    def filtered(self, filters: Filters) -> Self:
+        """The same settings with other filters, as LOPASS and NOTCH set them."""
+        rows = {**self.rows, **filters.rows(self.period_s)}
+        return replace(self, rows=rows, is_filtering=filters.is_filtering, filters=filters)
 
     def gain(self, name: str) -> float:
         """A gain by its word, such as PGAIN."""
@@ -93,7 +98,7 @@ class LoopSettings:
             return []
         found = []
         for first in FILTERS:
-            b2, a2, b1, a1, a0 = (self.rows[first + k] for k in range(_COEFFICIENTS))
+            b2, a2, b1, a1, a0 = (self.rows[first + k] for k in range(COEFFICIENTS))
             found.append((b2, a2, b1, a1, a0))
         return found
 

@@ -6,7 +6,7 @@ in another process.
 
 from collections.abc import Callable
 from concurrent.futures import Future
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 from openacr.errors import UserError
@@ -16,11 +16,20 @@ from openacr.panel.control.installation import Installation
 from openacr.panel.control.jobs import Jobs
 from openacr.panel.work.tuning import Advised, Data, advised, stepped
 from openacr.tuning.excitation import ARMED, Excitation
+from openacr.tuning.filters import Filters
 from openacr.tuning.measure import Measurement, measure
 from openacr.tuning.propose import Wish
 
 TRIAL_S = 0.3
 T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What is set before an axis moves."""
+
+    gains: dict[str, float]
+    filters: Filters | None = None  # None: as they are
 
 
 class Tuning:
@@ -49,7 +58,7 @@ class Tuning:
             advice[axis] = found
             return found.data
 
-        return self._begin(client, axis, excitation, {}, keep, advised, wish)
+        return self._begin(client, axis, excitation, Change({}), keep, advised, wish)
 
     def jump(self, client: int, axis: int, height_cnt: float) -> "Future[Data]":
         """Move an axis by a step with the gains it has; what it did, and what was predicted."""
@@ -63,15 +72,21 @@ class Tuning:
         """
         gains, before = self.proposed(axis), self._advice[axis].excitation
         trial = replace(before, kind="step", duration_s=TRIAL_S)
-        return self._stepped(client, axis, trial, gains)
+        return self._stepped(client, axis, trial, gains, self._advice[axis].filters)
 
     def _stepped(
-        self, client: int, axis: int, trial: Excitation, gains: dict[str, float]
+        self,
+        client: int,
+        axis: int,
+        trial: Excitation,
+        gains: dict[str, float],
+        filters: Filters | None = None,
     ) -> "Future[Data]":
         """Try gains, or the present ones, with a step."""
         known = self._advice.get(axis)
         motor = known.motor if known is not None else None
-        return self._begin(client, axis, trial, gains, lambda data: data, stepped, gains, motor)
+        change = Change(gains, filters)
+        return self._begin(client, axis, trial, change, lambda data: data, stepped, gains, motor)
 
     def proposed(self, axis: int) -> dict[str, float]:
         """The gains that were proposed for an axis, by their words."""
@@ -85,7 +100,7 @@ class Tuning:
         client: int,
         axis: int,
         excitation: Excitation,
-        gains: dict[str, float],
+        change: Change,
         keep: Callable[[T], Data],
         work: Callable[..., T],
         *args: Any,
@@ -115,7 +130,14 @@ class Tuning:
                 answer.set_exception(error)
 
         begun = self._aside.begin(
-            lambda talk: measure(talk, axis, excitation, gains=gains, progress=progress)
+            lambda talk: measure(
+                talk,
+                axis,
+                excitation,
+                gains=change.gains,
+                filters=change.filters,
+                progress=progress,
+            )
         )
         self._client = client
         begun.add_done_callback(ended)

@@ -4,9 +4,10 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from openacr.tuning.advice import advice_data, advise
+from openacr.tuning.advice import advice_data, advise, new_filters
 from openacr.tuning.curves import curves
 from openacr.tuning.excitation import Excitation
+from openacr.tuning.filters import Filters
 from openacr.tuning.measure import Measurement
 from openacr.tuning.motor import Motor
 from openacr.tuning.predict import figures
@@ -23,6 +24,7 @@ class Advised:
     excitation: Excitation
     motor: Motor
     gains: dict[str, float] | None  # None: nothing is proposed
+    filters: Filters | None  # None: they stay as they are
     data: Data
 
 
@@ -31,7 +33,7 @@ def advised(measurement: Measurement, wish: Wish) -> Advised:
     advice = advise(measurement, wish)
     gains = None if advice.proposal is None else advice.proposal.gains
     motor = advice.identified.motor
-    return Advised(measurement.excitation, motor, gains, advice_data(advice))
+    return Advised(measurement.excitation, motor, gains, new_filters(advice), advice_data(advice))
 
 
 def stepped(measurement: Measurement, gains: Mapping[str, float], motor: Motor | None) -> Data:
