@@ -183,6 +183,12 @@ def test_a_resonance_is_reported_with_its_uncertainty_and_in_the_json(project: P
     found = json.loads(called(*words, "--json")[1])["resonance"]
     assert found["resonance_hz"] == pytest.approx(190.0, rel=0.01)
     assert found["deviations"]["resonance_hz"] < 1.0
+    bode = json.loads(called(*words, "--json")[1])["bode"]
+    size = dict(zip(bode["motor"]["magnitude_db"], bode["frequency_hz"], strict=True))
+    beyond = {db: hz for db, hz in size.items() if hz > 170.0}
+    assert beyond[max(beyond)] == pytest.approx(190.0, rel=0.01)  # the peak is drawn
+    called(*words, "--plot", project / "a.svg")
+    assert "resonance 1" in (project / "a.svg").read_text()
     assert found["reason"] == ""
 
 

@@ -13,7 +13,7 @@ from openacr.errors import UserError
 from openacr.tuning import predict
 from openacr.tuning.curves import curves, rounded
 from openacr.tuning.filters import Filters
-from openacr.tuning.frequency import LOWEST_HZ, Margins, margins, open_loop
+from openacr.tuning.frequency import LOWEST_HZ, Margins, beside, margins, open_loop
 from openacr.tuning.identify import Identified, identify
 from openacr.tuning.measure import Measurement
 from openacr.tuning.notches import choose
@@ -24,6 +24,7 @@ from openacr.tuning.twin import Record
 
 STEP_S = 0.25
 BODE_POINTS = 160
+PEAK_POINTS = 41  # beside, for each peak of a shaft
 BODE_SHARE = 0.45  # of the servo rate: at half of it the response is 0, its phase nothing
 NO_FEEDFORWARD = {"ffvel": 0.0, "ffacc": 0.0}  # a step of the setpoint only saturates it
 
@@ -176,7 +177,9 @@ def _bode(advice: Advice) -> dict[str, Any]:
         measured.frequencies_hz <= excitation.high_hz
     )
     settings = advice.measurement.settings
-    frequencies = np.geomspace(10 * LOWEST_HZ, BODE_SHARE / settings.period_s, BODE_POINTS)
+    ends = (10 * LOWEST_HZ, BODE_SHARE / settings.period_s)
+    peaks = np.clip(beside(motor, PEAK_POINTS), *ends)
+    frequencies = np.union1d(np.geomspace(*ends, BODE_POINTS), peaks)
     found = {
         "measured": {
             "frequency_hz": rounded(measured.frequencies_hz[chosen]),

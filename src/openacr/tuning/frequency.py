@@ -54,12 +54,19 @@ def scale(settings: LoopSettings, motor: Motor | None = None, count: int = POINT
     """
     highest_hz = 0.5 / settings.period_s
     found = np.geomspace(LOWEST_HZ, highest_hz, count)
-    if motor is None or motor.shaft is None:
+    if motor is None:
         return found
-    shaft = motor.shaft
-    near = 1.0 + max(shaft.damping_ratio, 1e-3) * np.linspace(-NEAR, NEAR, NEAR_POINTS)
-    close = np.concatenate([near * hz for hz in (shaft.resonance_hz, shaft.antiresonance_hz)])
+    close = beside(motor, NEAR_POINTS)
     return np.union1d(found, close[(close > LOWEST_HZ) & (close < highest_hz)])
+
+
+def beside(motor: Motor, count: int) -> Reals:
+    """Frequencies [Hz] around resonance and antiresonance, `count` for each; none without them."""
+    shaft = motor.shaft
+    if shaft is None:
+        return np.zeros(0)
+    near = 1.0 + max(shaft.damping_ratio, 1e-3) * np.linspace(-NEAR, NEAR, count)
+    return np.concatenate([near * hz for hz in (shaft.resonance_hz, shaft.antiresonance_hz)])
 
 
 def controller(settings: LoopSettings, z: Complexes) -> Complexes:

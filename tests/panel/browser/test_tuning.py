@@ -1,6 +1,9 @@
 """The tuning pane of the workspace: an axis measured, gains proposed, set, and taken back."""
 
+import math
+import re
 from functools import partial
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
@@ -9,8 +12,10 @@ from tests.panel.browser.conftest import open_page
 from tests.panel.browser.test_bench import open_pane
 from tests.panel.browser.test_screens import AXE, AXE_RUN
 
+from openacr.map.rows import compliant_loads
 from openacr.panel.control.station import Station
 
+RESONANCE_HZ = 330.0
 P_GAIN, D_GAIN = 12304, 12308  # of axis X
 
 
@@ -88,4 +93,44 @@ def test_a_slider_acts_at_once_and_undo_and_redo_go_back_and_forth(
         page.get_by_role("button", name=word, exact=True).click()
         expect(changes).to_have_count(left)
         assert served.call(partial(gain, parameter=D_GAIN)) == pytest.approx(value, rel=1e-3)
+    assert page.complaints == []  # type: ignore[attr-defined]
+
+
+def elastic(station: Station) -> None:
+    """Put the load of axis X, as heavy as its motor, on an elastic shaft."""
+    controller = station.installation.controller
+    assert controller is not None
+    memory = controller.memory
+    resonance_rad_s = 2.0 * math.pi * RESONANCE_HZ
+    for place, value in (
+        (compliant_loads.damping_per_s, 0.03 * resonance_rad_s),
+        (compliant_loads.inertia_ratio, 1.0),
+        (compliant_loads.resonance_rad_s, resonance_rad_s),
+    ):
+        memory.F[place[0]] = value
+
+
+def test_a_resonance_is_shown_and_a_notch_is_asked_for_with_the_gains(
+    page: Page, served: Served, pictures: Path
+) -> None:
+    served.call(elastic)
+    page.get_by_role("textbox", name="Highest frequency").fill("500")
+    page.get_by_role("textbox", name="Crossover").fill("")
+    page.get_by_role("textbox", name="Time, s").fill("1.2")
+    page.get_by_role("button", name="MEASURE").click()
+    page.get_by_role("dialog").get_by_role("button", name="MEASURE").click()
+    shown = page.locator(".tune-resonance")
+    expect(shown).to_contain_text("antiresonance", timeout=60_000)
+    found = re.match(r"Resonance: ([\d.]+) Hz", shown.inner_text())
+    assert found is not None
+    assert float(found[1]) == pytest.approx(RESONANCE_HZ, rel=0.02)
+    rows = page.locator(".tune-table tbody tr")
+    notch = rows.filter(has_text="NOTCH, Hz").locator("td").last.inner_text()
+    assert float(notch) == pytest.approx(RESONANCE_HZ, rel=0.02)
+    expect(rows.filter(has_text="Load swings")).to_have_count(1)
+    page.screenshot(path=pictures / "tuning-resonance.png")
+    page.get_by_role("button", name="SET THESE GAINS").click()
+    dialog = page.get_by_role("dialog")
+    expect(dialog).to_contain_text(f"NOTCH ({notch},")
+    dialog.get_by_role("button", name="CANCEL").click()
     assert page.complaints == []  # type: ignore[attr-defined]

@@ -51,6 +51,7 @@ def build_figure(advice: Advice) -> Figure:
     )
     _bode(magnitude, phase, coherence, data["bode"])
     _margins(magnitude, phase, data)
+    _resonance(magnitude, data["resonance"])
     return figure
 
 
@@ -111,6 +112,18 @@ def _margins(magnitude: Axes, phase: Axes, data: dict[str, Any]) -> None:
             phase.vlines(found["crossover_hz"], -180.0, at_deg, color, lw=2.0)
         if found["gain_db"] is not None:
             magnitude.vlines(found["gain_at_hz"], -found["gain_db"], 0.0, color, lw=2.0)
+
+
+def _resonance(magnitude: Axes, found: dict[str, Any]) -> None:
+    """Mark where the load swings on its shaft."""
+    if found["resonance_hz"] is not None:
+        magnitude.axvline(found["resonance_hz"], color=QUIET, ls=":", lw=1.0)
+        text = f"resonance {found['resonance_hz']:.4g} Hz"
+        at = (found["resonance_hz"], 0.98)
+        magnitude.text(
+            *at, text, fontsize=7, rotation=90, va="top", ha="right",
+            transform=magnitude.get_xaxis_transform(),
+        )  # fmt: skip
 
 
 def _named(panel: Axes, x: str, y: str) -> None:

@@ -138,7 +138,7 @@ export async function mount(host, { head, kept, keep }) {
 
   async function onApply() {
     const { overshoot_percent: overshoot } = found.proposed.figures;
-    const text = t("tune.apply.text", { axis: axis.name, overshoot: shown(overshoot), gains: GAINS.map((word) => `${word} ${shown(found.proposed.gains[word])}`).join(", ") });
+    const text = t("tune.apply.text", { axis: axis.name, overshoot: shown(overshoot), gains: GAINS.map((word) => `${word} ${shown(found.proposed.gains[word])}`).join(", ") + filterText(found.proposed) });
     if (!mayMove() || !(await confirm(t("tune.apply"), text, t("tune.apply")))) return;
     const answer = await moved("tune.apply", { axis: axis.name, store: store.checked });
     await gains?.reload();
@@ -165,19 +165,48 @@ function table(advice) {
   const { motor } = advice;
   const rows = [
     ...GAINS.map((word) => [word, (/** @type {any} */ loop) => shown(loop.gains[word])]),
+    ...filterRows(loops),
     [t("tune.crossover"), (/** @type {any} */ loop) => shown(loop.margins.crossover_hz)],
     [t("tune.margin"), (/** @type {any} */ loop) => shown(loop.margins.phase_deg)],
     [t("tune.gain.margin"), (/** @type {any} */ loop) => shown(loop.margins.gain_db)],
     [t("tune.bandwidth"), (/** @type {any} */ loop) => shown(loop.margins.bandwidth_hz)],
     [t("tune.overshoot"), (/** @type {any} */ loop) => shown(loop.figures.overshoot_percent)],
+    ...(advice.resonance.resonance_hz === null ? [] : [[t("tune.swing"), (/** @type {any} */ loop) => shown(loop.figures.vibration_cnt)]]),
   ];
   return h("div.stack", {},
     h("p.tune-motor", {}, t("tune.facts", { accel: shown(motor.accel_per_volt), rate: shown(motor.rate_per_s), friction: shown(motor.coulomb_accel / motor.accel_per_volt), offset: shown(motor.offset_v), delay: shown(motor.delay_tk) })),
+    h("p.tune-resonance", {}, resonance(advice.resonance)),
     h("p", { className: advice.is_sure ? "hint" : "notice" }, t(advice.is_sure ? "tune.sure" : "tune.unsure", { error: shown(advice.error_percent), coherence: shown(advice.coherence) })),
     advice.refusal || advice.limited_by ? h("p.hint", {}, advice.refusal || t("tune.limited", { why: advice.limited_by })) : null,
     h("table.grid.tune-table", {},
       h("thead", {}, h("tr", {}, h("th", {}), ...loops.map((_loop, n) => h("th.number", {}, t(n ? "tune.proposed" : "tune.present"))))),
       h("tbody", {}, ...rows.map(([name, cell]) => h("tr", {}, h("th", { scope: "row" }, /** @type {string} */ (name)), ...loops.map((loop) => h("td.number", {}, /** @type {(loop: any) => string} */ (cell)(loop))))))));
+}
+
+/**
+ * The resonance that was found, or up to where there is none.
+ * @param {any} found
+ */
+function resonance({ resonance_hz: hz, antiresonance_hz: anti, damping_ratio: damping, inertia_ratio: ratio, deviations, reason }) {
+  if (hz === null) return t("tune.rigid", { why: reason });
+  return t("tune.resonance", { hz: shown(hz), spread: Number(deviations.resonance_hz.toPrecision(1)), anti: shown(anti), damping: Number(damping.toPrecision(2)), ratio: Number(ratio.toPrecision(2)) });
+}
+
+/**
+ * Rows of the filters, where one of the loops has any.
+ * @param {any[]} loops
+ * @returns {any[]}
+ */
+function filterRows(loops) {
+  const words = /** @type {const} */ ([["tune.lopass", "lopass_hz"], ["tune.notch", "notch_hz"], ["tune.width", "notch_width_hz"]]);
+  return words.filter(([, key]) => loops.some((loop) => loop.filters?.[key])).map(([text, key]) => [t(text), (/** @type {any} */ loop) => shown(loop.filters?.[key] ?? null)]);
+}
+
+/** The filters of a loop as they are written in a question. @param {any} loop */
+function filterText({ filters }) {
+  if (!filters) return "";
+  const notch = filters.notch_hz ? `, NOTCH (${shown(filters.notch_hz)},${shown(filters.notch_width_hz)})` : "";
+  return `${filters.lopass_hz ? `, LOPASS ${shown(filters.lopass_hz)}` : ""}${notch}`;
 }
 
 /** @param {number | null} seconds */
