@@ -4,8 +4,8 @@ import asyncio
 import socket
 import subprocess
 import sys
-from collections.abc import AsyncIterator, Awaitable, Callable
-from contextlib import asynccontextmanager
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
+from contextlib import asynccontextmanager, contextmanager
 from pathlib import Path
 from typing import Any, cast
 
@@ -316,25 +316,35 @@ def test_a_file_on_the_disk_counts_after_it_was_closed(project: Path, store: Pat
     run(work)
 
 
-def test_a_port_of_this_computer_serves_one_client(store: Path) -> None:
+@contextmanager
+def listening(*options: str) -> Iterator[tuple[subprocess.Popen[str], int]]:
     with socket.socket() as found:
         found.bind(("127.0.0.1", 0))
         port = found.getsockname()[1]
     process = subprocess.Popen(
-        [*COMMAND, "--tcp", str(port), "--store", str(store)], stderr=subprocess.PIPE, text=True
+        [*COMMAND, "--tcp", str(port), *options], stderr=subprocess.PIPE, text=True
     )
     try:
         assert process.stderr is not None
         assert process.stderr.readline() == f"listening lsp=127.0.0.1:{port}\n"
+        yield process, port
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def test_the_port_is_open_when_it_is_named_and_a_client_that_leaves_ends_the_server() -> None:
+    with listening() as (process, port):
+        socket.create_connection(("127.0.0.1", port)).close()
+        assert process.wait(PATIENCE_S) == 0
+
+
+def test_a_port_of_this_computer_serves_one_client(store: Path) -> None:
+    with listening("--store", str(store)) as (process, port):
 
         async def work() -> None:
             client = Client()
-            for _ in range(600):
-                try:
-                    await client.start_tcp("127.0.0.1", port)
-                    break
-                except OSError:
-                    await asyncio.sleep(0.1)
+            await client.start_tcp("127.0.0.1", port)
             capabilities = types.ClientCapabilities()
             answer = await client.initialize_async(
                 types.InitializeParams(capabilities=capabilities)
@@ -342,15 +352,14 @@ def test_a_port_of_this_computer_serves_one_client(store: Path) -> None:
             assert answer.server_info is not None
             assert answer.server_info.name == "openacr"
             assert answer.capabilities.hover_provider
+            with pytest.raises(ConnectionRefusedError):
+                await Client().start_tcp("127.0.0.1", port)
             await client.shutdown_async(None)
             client.exit(None)
             await client.stop()  # type: ignore[no-untyped-call]
 
         run(work)
-        process.wait(PATIENCE_S)
-    finally:
-        process.kill()
-        process.communicate()
+        assert process.wait(PATIENCE_S) == 0
 
 
 def test_a_port_in_use_is_refused_as_by_all_commands_that_listen() -> None:

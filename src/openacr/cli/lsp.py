@@ -3,12 +3,14 @@
 import gc
 import logging
 from pathlib import Path
+from socket import SOCK_STREAM as STREAM
 from typing import Annotated
 
 import typer
 
 from openacr.cli.mill.check import AtStore, Dialect
 from openacr.errors import UserError, reason
+from openacr.io.listening import bound_socket
 
 HOST = "127.0.0.1"
 LAST_PORT = 65535
@@ -39,7 +41,6 @@ def lsp(
     except ImportError:
         raise UserError(MISSING) from None
     gc.disable()
-    from openacr.io.listening import listen_failure
     from openacr.language_server.features import serve
     from openacr.language_server.server import Server
 
@@ -49,11 +50,9 @@ def lsp(
     if tcp is None:
         serve(server)
         return
-    typer.echo(f"listening lsp={HOST}:{tcp}", err=True)
-    try:
-        serve(server, tcp, HOST)
-    except OSError as error:
-        raise listen_failure(HOST, tcp, error, "--tcp PORT", takes_zero=False) from None
+    with bound_socket(HOST, tcp, STREAM, "--tcp PORT", takes_zero=False) as listener:
+        typer.echo(f"listening lsp={HOST}:{tcp}", err=True)
+        serve(server, listener)
 
 
 def _log_to(path: Path | None) -> None:

@@ -8,10 +8,13 @@ from openacr.errors import UserError, reason
 BACKLOG = 16  # connections that wait to be accepted
 
 
-def bound_socket(host: str, port: int, kind: socket.SocketKind, option: str) -> socket.socket:
+def bound_socket(
+    host: str, port: int, kind: socket.SocketKind, option: str, *, takes_zero: bool = True
+) -> socket.socket:
     """A socket bound to the first address of `host` (port 0: any free one); one of TCP listens.
 
-    UserError says why it cannot be had; `option` is where the user chooses the port.
+    UserError says why it cannot be had; `option` is where the user chooses the port, and
+    `takes_zero` whether it takes 0 for any.
     """
     if not 0 <= port <= 0xFFFF:
         raise UserError(f"port {port} is not in 0..65535")
@@ -28,7 +31,7 @@ def bound_socket(host: str, port: int, kind: socket.SocketKind, option: str) -> 
             raise
         return sock
     except OSError as failure:
-        raise listen_failure(host, port, failure, option) from None
+        raise listen_failure(host, port, failure, option, takes_zero=takes_zero) from None
 
 
 def listen_failure(

@@ -14,6 +14,8 @@ from openacr.language_server.conversions import TOKEN_MODIFIERS, TOKEN_TYPES
 from openacr.language_server.server import Server
 
 if TYPE_CHECKING:
+    import socket
+
     from openacr.editing.symbols import Location
 
 REQUEST_FAILED = -32803
@@ -240,10 +242,10 @@ def _locations(ls: Server, found: list[Location]) -> list[types.Location]:
     ]
 
 
-def serve(server: Server, port: int | None = None, host: str = "127.0.0.1") -> None:
-    """Serve one client over the standard streams, or over a port of this computer."""
+def serve(server: Server, listener: socket.socket | None = None) -> None:
+    """Serve one client over the standard streams, or the first that connects to a socket."""
     register(server)
-    if port is None:
+    if listener is None:
         server.start_io()
     else:
-        server.start_tcp(host, port)
+        server.start_at(listener)

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import asyncio
+import logging
+import threading
 from functools import cached_property
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lsprotocol import types
+from pygls.io_ import run_async
 from pygls.lsp.server import LanguageServer
 
 from openacr.editing.document import Document, Edit, Place, units_of
@@ -16,11 +20,14 @@ from openacr.language_server.conversions import Columns, path_of, uri_of
 from openacr.language_server.protocol import Protocol
 
 if TYPE_CHECKING:
+    import socket
+
     from openacr.editing.completions import Item
     from openacr.editing.engine import Engine
     from openacr.editing.symbols import Finding
 
 NAME = "openacr"
+logger = logging.getLogger(__name__)
 
 
 def _bytes_of(text: str) -> int:
@@ -49,6 +56,26 @@ class Server(LanguageServer):
         from openacr.editing.engine import Engine
 
         return Engine(*self._machine)
+
+    def start_at(self, listener: socket.socket) -> None:
+        """Serve the first client of a socket that listens, until it leaves; no other gets in."""
+        connection, _ = listener.accept()
+        listener.close()
+        asyncio.run(self._answer(connection))
+
+    async def _answer(self, connection: socket.socket) -> None:
+        self._stop_event = threading.Event()
+        reader, writer = await asyncio.open_connection(sock=connection)
+        self.protocol.set_writer(writer)
+        try:
+            await run_async(
+                self._stop_event, reader, self.protocol, error_handler=self.report_server_error
+            )
+        except OSError as failure:
+            logger.info("the client is gone: %s", failure)
+        finally:
+            self.shutdown()  # type: ignore[no-untyped-call]
+            writer.close()
 
     def agree(self) -> None:
         """Count columns in the unit that was agreed on."""
