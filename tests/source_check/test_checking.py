@@ -244,7 +244,15 @@ def test_an_alias_beyond_dim_def_is_refused_as_by_the_card(
         ("SYS\nDIM PROG0(100)\nPROG0\nIF (BIT5) THEN X10\nDIM LV(60)\n", [(5, "Out of memory")]),
         ("SYS\nDIM DEF(1)\n#DEFINE a BIT1\nPROG0\nIF (BIT5) THEN SAMP CLEAR\n#DEFINE b BIT1\n",
          [(6, "Out of define space")]),
+        # a target with its number is that of the command, not the program at the prompt
+        ("SYS\nDIM PROG0(100)\nPROG0\nDIM LV(6)\nCLEAR COM1\nDIM LV(6)\n",
+         [(6, "Re-dimensioned block")]),
+        ("SYS\nDIM PROG0(100)\nPROG0\nPROGRAM\nSET 34\nSET 35\nSET 36\nENDP\n"
+         "SYS\nNEW PROG0\nPROG0\nDIM LV(15)\n", []),
         # what may have given memory back leaves nothing to count with
+        ("SYS\nDIM P(1)\nDIM PROG0(100)\nPROG0\nPROGRAM\nSET 34\nSET 35\nSET 36\nENDP\n"
+         "NEW PROG(P0)\nDIM LV(15)\n", []),
+        ("SYS\nDIM P(1)\nP0=1\nDIM COM1(500000)\nCLEAR COM(P0)\nDIM PROG8(400000)\n", []),
         ("SYS\nDIM PROG0(100)\nPROG0\nDIM LV(6)\nIF (NOT BIT5) THEN CLEAR\nDIM LV(6)\n", []),
         ("SYS\nDIM DEF(1)\n#DEFINE a BIT1\nIF (NOT BIT5) THEN DEF CLEAR\n#DEFINE b BIT1\n", []),
         ("SYS\nDIM PROG0(100)\nPROG0\nPROGRAM\nSET 34\nSET 35\nSET 36\nENDP\n"
@@ -297,3 +305,63 @@ def test_a_text_entered_anew_is_checked_without_the_lost_lines_of_the_one_before
     alone = [(line + 3, column, text) for _, line, column, text in places(at, whole)]
     assert len(alone) == 1
     assert [place[1:] for place in places(at, lost + whole)][1:] == alone
+
+
+def test_numbered_text_continued_in_a_second_file_is_checked_as_one_text(tmp_path: Path) -> None:
+    """What the second file completes is no fault of the first; each is placed in its own file."""
+    (tmp_path / "setup.8k").write_text(
+        "SYS\nDIM PROG0(400)\nPROG0\n10 GOTO there\n20 GOTO here\n30 _twice\n40 IF (BIT5)\n"
+    )
+    program = tmp_path / "prog0.8k"
+    program.write_text("50 ENDIF\n60 _here\n70 _twice\n80 FOR LV0=1 TO 2\n")
+    expected = [
+        ("setup.8k", 4, "Label not found: there", "did you mean here?"),
+        ("prog0.8k", 3, "Duplicate label: twice", "the first is in line 6 of setup.8k"),
+        ("prog0.8k", 4, "FOR without NEXT", "still open at the end"),
+        ("prog0.8k", 4, "Undefined variable", "no DIM LV was read"),
+    ]
+    found = [(Path(each.path).name, each.line, each.message, each.hint) for each in check(tmp_path)]
+    assert found == expected
+    assert [(each.path, each.line) for each in check(program)] == [
+        (str(program), line) for _, line, *_ in expected[1:3]
+    ]
+    program.write_text("50 NEXT\n60 _here\n70 _here\n")
+    hints = [(Path(each.path).name, each.line, each.hint) for each in check(tmp_path)]
+    assert hints == [
+        ("setup.8k", 4, "did you mean here?"),
+        ("setup.8k", 7, "still open at the end"),
+        ("prog0.8k", 1, "open here is the IF of line 7 of setup.8k"),
+        ("prog0.8k", 3, "the first is in line 2"),
+    ]
+    (tmp_path / "setup.8k").write_text("SYS\nDIM PROG0(400)\nPROG0\n10 WHILE (1)\n20 IF (BIT5)\n")
+    program.write_text("50 WEND\n")
+    assert [(each.line, each.hint) for each in check(tmp_path)] == [
+        (5, "still open at the WEND of line 1 of prog0.8k")
+    ]
+
+
+def test_a_warning_of_a_text_that_goes_on_in_a_second_file_is_given_once(tmp_path: Path) -> None:
+    setup = (
+        'SYS\nDIM PROG0(400)\nPROG0\nATTACH MASTER0\nATTACH SLAVE0 AXIS0 "X"\n10 LOPASS X 4000\n'
+    )
+    (tmp_path / "setup.8k").write_text(setup)
+    (tmp_path / "prog0.8k").write_text("PERIOD 0.0002\n20 LOPASS X 3000\n")
+    found = [(Path(each.path).name, each.line, each.hint) for each in check(tmp_path)]
+    assert found == [
+        ("setup.8k", 6, "at most 200 Hz at PERIOD 0.0005"),
+        ("prog0.8k", 2, "at most 500 Hz at PERIOD 0.0002"),
+    ]
+
+
+def test_the_text_after_new_is_another_one(tmp_path: Path) -> None:
+    new = "SYS\nDIM PROG0(60)\nPROG0\n10 _a\n20 GOTO b\n30 SET 32\n{}\n10 _c\n20 _a\n30 _b\n"
+    faults = {
+        "NEW": [(5, "Label not found: b")],
+        "SYS\nNEW PROG0\nPROG0": [(5, "Label not found: b")],
+        "SYS\nNEW ALL\nPROG0": [(5, "Label not found: b")],
+        "NEW PROG1": [],
+        "NEW PROG(P0)": [],
+    }
+    for line, expected in faults.items():
+        (tmp_path / "setup.8k").write_text(new.format(line))
+        assert [(each.line, each.message) for each in check(tmp_path)] == expected, line

@@ -51,8 +51,7 @@ def check_text(text: str, path: Path, at: Level | None = None) -> list[Fault]:
     source = SourceFile(path, text.encode(errors="replace"), place, number)
     home = Project(path.parent) if place is Place.SETUP else _home(path.parent, is_needed=False)
     reader = _reader(home)
-    _read_setup(reader, home)
-    reader.read(source)
+    _read_after_setup(reader, home, source)
     return reader.faults
 
 
@@ -76,8 +75,7 @@ def read(
         for source in project.sources:
             reader.read(source)
         return reader
-    _read_setup(reader, home)
-    reader.read(read_source(file, place, number, unsaved))
+    _read_after_setup(reader, home, read_source(file, place, number, unsaved))
     return reader
 
 
@@ -106,13 +104,16 @@ def _reader(home: Project) -> Reader:
     )
 
 
-def _read_setup(reader: Reader, home: Project) -> None:
-    """Read the set-up of a project for what follows it; its own faults are not wanted."""
+def _read_after_setup(reader: Reader, home: Project, source: SourceFile) -> None:
+    """Read a file after the set-up of its project, whose own faults are not wanted."""
     if home.setup:
         reader.room.is_complete = True
         reader.read(home.setup)
         reader.faults.clear()
         reader.parts.clear()
+    reader.read(source)
+    path = str(source.path)
+    reader.faults[:] = [fault for fault in reader.faults if fault.path == path]
 
 
 def _home(folder: Path, unsaved: Mapping[Path, bytes] = _NOTHING, *, is_needed: bool) -> Project:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 from openacr.basic.commands import targets
 from openacr.basic.commands.character_io import channel_name
@@ -42,7 +43,7 @@ class Room:
     _names: set[str] = field(default_factory=set)  # of aliases
 
     def note(self, level: Level, number: int, blocks: Iterable[Block]) -> CardError | None:
-        """Execute the DIM, CLEAR and NEW commands of a line; what the card says against one."""
+        """Execute the DIM and CLEAR commands of a line; what the card says against one."""
         for block in blocks:
             for statement in block:
                 if isinstance(statement, Statement) and self.is_known:
@@ -56,8 +57,10 @@ class Room:
         words, arguments = statement.command.words, statement.arguments
         if words == ("DIM",) and isinstance(arguments[0], Dimension):
             self._dimension(level, number, arguments[0])
-        elif words == ("CLEAR",) and isinstance(arguments[0], ObjectRef):
-            self.storage.clear_stream(channel_name(arguments[0]))
+        elif words in (("CLEAR",), ("NEW",)) and is_computed(arguments[0]):
+            self.is_known = False
+        elif words == ("CLEAR",) and (stream := _named(arguments[0])):
+            self.storage.clear_stream(channel_name(stream))
         elif words == ("CLEAR",) and level is Level.SYS:
             self.storage.clear_system()
             self._names.clear()
@@ -65,9 +68,6 @@ class Room:
             self._names.clear()
         elif words == ("CLEAR",) and level is Level.PROG:
             self.storage.locals.clear(number)
-        elif words == ("NEW",):
-            for owner in _owners(level, number, arguments[0]):
-                self.storage.set_code_bytes(owner, 0)
         elif any(_resizes(getattr(argument, "blocks", ())) for argument in arguments):
             self.is_known = False
 
@@ -91,11 +91,16 @@ class Room:
             self._names.discard(name)
             raise CardError(OUT_OF_DEFINE_SPACE)
 
+    def forget(self, level: Level, number: int) -> None:
+        """NEW: the text of a program or PLC takes nothing any more."""
+        for owner in owners(level, number, None):
+            self.storage.set_code_bytes(owner, 0)
+
     def store(self, level: Level, number: int, text: Text) -> Iterator[Finding]:
         """Account for a text; the first line that finds no room, if there is one."""
         if not self.is_known or text.lost:
             return
-        (owner,) = _owners(level, number, None)
+        (owner,) = owners(level, number, None)
         if not self.is_complete and not self.storage.size(owner):
             return
         self.storage.set_code_bytes(owner, 0)
@@ -114,13 +119,26 @@ class Room:
         self.storage.set_code_bytes(owner, used)
 
 
-def _owners(level: Level, number: int, target: object) -> Iterable[int]:
-    """The programs (0-15) and PLCs (16-23) a command or a text belongs to."""
-    if isinstance(target, ObjectRef):
-        return range(OWNERS) if target.word == "ALL" else (targets.named(target),)
-    if level is Level.SYS:
+def owners(level: Level, number: int, target: object) -> Iterable[int]:
+    """The programs (0-15) and PLCs (16-23) that a command with a target, or a text, belongs to."""
+    if found := _named(target):
+        return range(OWNERS) if found.word == "ALL" else (targets.named(found),)
+    if level is Level.SYS or is_computed(target):
         return ()
     return (number + PROGRAMS if level is Level.PLC else number,)
+
+
+def is_computed(target: object) -> bool:
+    """Whether the number of an object, as written after a command, is not a literal."""
+    return target is not None and _named(target) is None
+
+
+def _named(target: Any) -> ObjectRef | None:
+    """The object that is written after a command with a literal number or with none."""
+    if not isinstance(target, tuple):
+        return None
+    word, number = target[0], _integer(target[1])
+    return None if number is None else ObjectRef(word, number)
 
 
 def _bytes(line: TextLine) -> int:

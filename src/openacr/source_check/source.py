@@ -13,12 +13,13 @@ from openacr.basic.channels.entry import split_at_level
 from openacr.basic.commands.card_setup import CONFIG_NOTICE
 from openacr.basic.commands.operating_system import Definition
 from openacr.basic.language.aliases import check_name, numbered_names
-from openacr.basic.language.loader import FileLine, file_lines, long_lived_objects
+from openacr.basic.language.loader import FileLine, FileText, file_lines, long_lived_objects
 from openacr.basic.language.nodes import Block, Expr, Move, Number, Statement, String
 from openacr.basic.language.parser import Parser
 from openacr.basic.language.plc_names import PlcNames
 from openacr.basic.language.registry import Level
 from openacr.basic.language.scope import Scope, join_names
+from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.program_store import line_number, opens_capture
 from openacr.basic.vm.outline import Outline, outline
 from openacr.errors import CardError
@@ -33,7 +34,7 @@ from openacr.source_check import numbers
 from openacr.source_check.cutoffs import Cutoffs, statements
 from openacr.source_check.faults import Fault, place_of
 from openacr.source_check.hints import hint_for
-from openacr.source_check.room import Room
+from openacr.source_check.room import Room, owners
 from openacr.source_check.sizes import Sizes, undimensioned, variable
 from openacr.source_check.structure import Structure
 from openacr.source_check.texts import Finding, Text, TextLine, label_of
@@ -67,23 +68,25 @@ class Reader:
     number: int = 0
     is_capturing: bool = False
     model: Model = ACR8020  # of the card; this one has the most axes
-    _path: str = ""
-    _originals: list[str] = field(default_factory=list)
+    _file: FileText = field(default_factory=lambda: FileText("", []))  # being read
+    _order: dict[str, int] = field(default_factory=dict)  # of the files
+    _checked: dict[tuple[Level, int], set[Fault]] = field(default_factory=dict)  # of texts
     _captured: Text = field(default_factory=Text)
-    _begun: dict[tuple[Level, int], None] = field(default_factory=dict)  # texts, in this file
+    _begun: dict[tuple[Level, int], None] = field(default_factory=dict)  # texts with lines here
     _known: dict[str, Outline] = field(default_factory=dict)  # by shape, what may be captured
     _stored_scope: Scope = field(default_factory=Scope)
     _kinds: dict[str, str] = field(default_factory=dict)  # of the variables that have aliases
 
     def read(self, source: SourceFile) -> None:
         """Read one file; program and PLC files begin at the level their name says."""
-        self._path = str(source.path)
-        self._originals = source.text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+        lines = source.text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+        self._file = FileText(str(source.path), lines)
+        self._order.setdefault(self._file.path, len(self._order))
         levels = {Place.SETUP: Level.SYS, Place.PROGRAM: Level.PROG, Place.PLC: Level.PLC}
         self.level, self.number = levels[source.place], source.number
         self.is_capturing = False
         self._scope_changed()
-        self._begun, known_faults = {}, len(self.faults)
+        self._begun = {}
         with long_lived_objects():
             for line in file_lines(source.text):
                 known = self._known.get(line.shape)
@@ -93,15 +96,14 @@ class Reader:
                 self._check(*key)
         for finding in self.cutoffs.findings():
             self._report(finding)
-        self.faults[known_faults:] = sorted(
-            self.faults[known_faults:], key=lambda fault: (fault.line, fault.column)
-        )
+        self.faults.sort(key=lambda fault: (self._order[fault.path], fault.line, fault.column))
 
     def _put_known(self, line: FileLine, known: Outline) -> bool:
         """Store a captured line of a shape that was accepted before."""
         if known.has_label and label_of(line.text) is None:
             return False
         text = self._captured
+        line.file = self._file
         text.put(TextLine(text.next_number(), line, known, self._stored_scope))
         return True
 
@@ -140,7 +142,7 @@ class Reader:
         """PROGRAM: everything up to ENDP is stored."""
         self._captured = self._text()
         self._captured.clear()
-        self._begun[self.level, self.number] = None
+        self._checked.pop((self.level, self.number), None)
         self.is_capturing = True
         self._store(line, tokens("PROGRAM", 1))
         if rest.startswith("_"):
@@ -152,9 +154,19 @@ class Reader:
             raise CardError(UNKNOWN_COMMAND)
         key = (self.level, self.number)
         if key not in self.texts:
-            self.texts[key], self._begun[key] = Text(), None
+            self.texts[key] = Text()
             self.parts.append(self.texts[key])
+        self._begun[key] = None
         return self.texts[key]
+
+    def _forget(self, level: Level, number: int) -> None:
+        """NEW: what was stored has been a text of its own."""
+        if (level, number) in self._begun:
+            self._check(level, number)
+            self.room.forget(level, number)
+            del self._begun[level, number]
+        self.texts.pop((level, number), None)
+        self._checked.pop((level, number), None)
 
     def _scope(self, *, stored: bool) -> Scope:
         axes = frozenset(self.axes.get(self.number, ()) if self.level is Level.PROG else ())
@@ -163,6 +175,7 @@ class Reader:
 
     def _store(self, line: FileLine, found: list[Token]) -> None:
         text = self._text()
+        line.file = self._file
         number, start = text.next_number(), 0
         if found[0].kind is TokenKind.NUMBER:
             number, start = line_number(found[0]), found[0].column + len(found[0].text) - 1
@@ -212,6 +225,11 @@ class Reader:
         elif words[:2] == ("ATTACH", "SLAVE"):
             names = [item.text for item in arguments if isinstance(item, String)]
             self.axes.setdefault(self.number, set()).update(name.upper() for name in names)
+        elif words == ("NEW",):
+            for owner in owners(self.level, self.number, arguments[0]):
+                is_plc = owner >= PROGRAMS
+                level = Level.PLC if is_plc else Level.PROG
+                self._forget(level, owner - PROGRAMS if is_plc else owner)
         for item in arguments:
             if isinstance(item, Definition) and item.target is not None:
                 check_name(item.name, has_digits=self.model.has_digits_in_names)
@@ -219,7 +237,14 @@ class Reader:
                 self.room.define(item.name)
 
     def _check(self, level: Level, number: int) -> None:
-        """Tie the lines of a program or PLC together."""
+        """Tie the lines of a program or PLC together, those of earlier files included."""
+        gone = self._checked.pop((level, number), set())
+        self.faults[:] = [fault for fault in self.faults if fault not in gone]
+        known_faults = len(self.faults)
+        self._check_text(level, number)
+        self._checked[level, number] = set(self.faults[known_faults:])
+
+    def _check_text(self, level: Level, number: int) -> None:
         text = self.texts[level, number]
         for finding in self.room.store(level, number, text):
             self._report(finding)
@@ -246,7 +271,8 @@ class Reader:
 
     def _judge(self, line: FileLine, found: Iterable[Token], blocks: tuple[Block, ...]) -> None:
         """What is wrong with a line that can be read."""
-        self.cutoffs.note(line, tuple(found), blocks)
+        if line.file is None or line.file is self._file:  # those of others have been judged
+            self.cutoffs.note(line, tuple(found), blocks)
         for finding in numbers.missing(line, found, blocks, self.model.axes):
             self._report(finding)
         self._warn(line, blocks)
@@ -271,8 +297,7 @@ class Reader:
         if finding.error is not None:
             self._fault(finding.line, finding.error, finding.hint)
         else:
-            place = place_of(finding.line, finding.span, self._originals)
-            self._add(place, finding.warning, finding.hint, "warning")
+            self._add(finding.line, finding.span, finding.warning, finding.hint, "warning")
 
     def _fault(self, line: FileLine, error: CardError, hint: str = "") -> None:
         span: Span | None = getattr(error, "span", None)
@@ -280,11 +305,13 @@ class Reader:
         if error.message is NOT_SUPPORTED and not hint:
             hint = f"the {self.model.name} has {self.model.lacks}"
         hint = hint or hint_for(error.message, line.text, span, self.level, names)
-        self._add(place_of(line, span, self._originals), error.text, hint, "error")
+        self._add(line, span, error.text, hint, "error")
 
-    def _add(self, place: tuple[int, int, int], text: str, hint: str, severity: str) -> None:
-        original = self._originals[place[0] - 1].rstrip()
-        self.faults.append(Fault(self._path, *place, text, hint, original, severity))
+    def _add(self, line: FileLine, span: Span | None, text: str, hint: str, severity: str) -> None:
+        file = line.file or self._file
+        place = place_of(line, span, file.lines)
+        original = file.lines[place[0] - 1].rstrip()
+        self.faults.append(Fault(file.path, *place, text, hint, original, severity))
 
 
 def _words(text: str) -> set[str]:

@@ -1,9 +1,11 @@
 """Labels, jumps and levels of a whole program, tied together as RUN would."""
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import NamedTuple
 
 from openacr.basic.language.cursor import StatementError
+from openacr.basic.language.loader import FileLine
 from openacr.basic.vm import flow_cy as flow
 from openacr.basic.vm.levels import CompileError, Level, Levels, unclosed
 from openacr.basic.vm.outline import KINDS, FlowEvent, OpenLevel, follow
@@ -40,7 +42,7 @@ class Structure:
         self.findings: list[Finding] = []
         self._levels = Levels[OpenLevel]()
         self._places: dict[str, Level | None] = {}  # of labels
-        self._label_lines: dict[str, int] = {}  # of the file
+        self._label_lines: dict[str, FileLine] = {}
         self._jumps: list[_Jump] = []
         self._has_all_levels = not text.lost & _LEVEL_WORDS
 
@@ -61,11 +63,11 @@ class Structure:
         level = self._levels.innermost
         if line.outline.has_label and (label := label_of(line.place.text, line.start)):
             if label in self._places:
-                hint = f"the first is in line {self._label_lines[label]}"
+                hint = f"the first is in line {_seen(self._label_lines[label], line)}"
                 error = CardError(DUPLICATE_LABEL, label)
                 self.findings.append(Finding(line.place, error, hint=hint))
             self._places[label] = level
-            self._label_lines.setdefault(label, line.place.number)
+            self._label_lines.setdefault(label, line.place)
         if self._has_all_levels:
             for event in line.outline.events:
                 self._follow(line, event)
@@ -81,19 +83,20 @@ class Structure:
         except CompileError as error:
             inner = self._levels.innermost
             if inner is not None and error.message is unclosed(inner).message:
-                hint = f"still open at the {event.word} of line {line.place.number}"
+                opened = self.text.lines[inner.line]
+                hint = f"still open at the {event.word} of line {_seen(line.place, opened)}"
                 self._unclosed(self._levels.open.pop(), hint)
                 self._follow(line, event)
             else:
-                self._add(line, event.token, error, self._open_here(inner))
+                self._add(line, event.token, error, self._open_here(inner, line))
 
-    def _open_here(self, inner: OpenLevel | None) -> str:
+    def _open_here(self, inner: OpenLevel | None, line: TextLine) -> str:
         if inner is None:
             return "no block is open here"
-        return f"open here is the {_NAMES[inner.kind]} of line {self._place_of(inner)}"
+        return f"open here is the {_NAMES[inner.kind]} of line {self._place_of(inner, line)}"
 
-    def _place_of(self, level: Level) -> int:
-        return self.text.lines[level.line].place.number
+    def _place_of(self, level: Level, seen_from: TextLine) -> str:
+        return _seen(self.text.lines[level.line].place, seen_from)
 
     def _unclosed(self, level: OpenLevel, hint: str) -> None:
         self._add(self.text.lines[level.line], level.token, unclosed(level), hint)
@@ -130,10 +133,17 @@ class Structure:
         return around is not None
 
     def _warn(self, jump: _Jump, level: Level) -> None:
-        text = f"GOTO out of the {_NAMES[level.kind]} of line {self._place_of(level)}"
+        text = f"GOTO out of the {_NAMES[level.kind]} of line {self._place_of(level, jump.line)}"
         self.findings.append(
             Finding(jump.line.place, None, jump.target.span, text, _EXIT_HINTS[level.kind])
         )
+
+
+def _seen(line: FileLine, seen_from: TextLine) -> str:
+    """The number of a line in its file, which is named in a message about another one."""
+    if line.file is None or line.file is seen_from.place.file:
+        return str(line.number)
+    return f"{line.number} of {Path(line.file.path).name}"
 
 
 def _jumps(found: tuple[Token, ...]) -> Iterator[tuple[str, Token]]:

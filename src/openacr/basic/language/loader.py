@@ -39,18 +39,27 @@ _MOVE = re.compile(r"\s*([A-Za-z]{1,4})\s*[-+/(\d.\u2013\u2014\u2212]")
 _DEFAULT_AXIS_NAMES = frozenset("XYZABCUVW")
 
 
+@dataclass(frozen=True, slots=True)
+class FileText:
+    """A file as it is: its path and its lines."""
+
+    path: str
+    lines: list[str]
+
+
 @dataclass(slots=True)  # files have many lines: a frozen one takes three times as long
 class FileLine:
     """One line to send, the line of the file where it begins, and its shape.
 
     `rests` are the lines of the file that were joined to it: number, and column (from 1) where each
-    begins in the text.
+    begins in the text. `file` is set by readers of several files.
     """
 
     number: int
     text: str
     shape: str = field(default="", compare=False, repr=False)
     rests: tuple[tuple[int, int], ...] = field(default=(), compare=False, repr=False)
+    file: FileText | None = field(default=None, compare=False, repr=False)
 
     def place(self, column: int) -> tuple[int, int]:
         """The line of the file and the column there, without its indentation, of a column."""
