@@ -180,7 +180,7 @@ def test_the_check_of_a_file_agrees_with_run(seed: int, length: int) -> None:
     reader = Reader()
     text = "\n".join(["PROGRAM", *accepted(Programs(seed).program(length)), "ENDP", ""])
     reader.aliases = {"count": Parameter(Number(3))}
-    reader.axes = {0: set("XY")}
+    reader.axes = {0: {"X": 0, "Y": 1}}
     reader.read(SourceFile(Path("prog0.8k"), text.encode(), Place.PROGRAM))
     faults = [fault for fault in reader.faults if not fault.is_warning]
     found = {fault.message for fault in faults}

@@ -271,6 +271,56 @@ def test_memory_is_counted_as_by_the_card(
     assert found == by_card == refused
 
 
+@pytest.mark.parametrize(
+    ("lines", "refused"),
+    [
+        (["CAM DIM X 5", "CAM DIM X", "CAM DIM X 5"], [(3, "Re-dimensioned block")]),
+        (["CAM DIM X 5", "CAM DIM X", "BSC DIM X 5", "CAM DIM Y 5 AXIS2 5"], []),
+        (["BSC DIM X 5", "BSC DIM AXIS3 4"], [(2, "Re-dimensioned block")]),
+        (["CAM DIM X 5", "CAM CLEAR X Y", "CAM DIM X 64", "CAM CLEAR Y", "CAM DIM X 1"],
+         [(5, "Re-dimensioned block")]),
+        (["BSC DIM X 5", "CAM CLEAR X", "BSC DIM X 5"], [(3, "Re-dimensioned block")]),
+        (["CAM DIM X 65", "CAM DIM X 5", "CAM CLEAR X", "AXIS3 CAM DIM 0"],
+         [(1, "Out of memory"), (4, "Invalid argument")]),
+        (["SYS", "CLEAR", "PROG0", "CAM DIM AXIS7 5", "BSC DIM AXIS7 5", "CAM DIM AXIS7 6"],
+         [(6, "Re-dimensioned block")]),
+        # a size or an axis that is computed leaves nothing to count with until CLEAR
+        (["P0=3", "CAM DIM AXIS(P0) 5", "CAM CLEAR AXIS(P0)", "CAM DIM X 5"], []),
+        (["P0=3", "CAM DIM X 5", "CAM CLEAR AXIS(P0)", "CAM DIM X 5", "CAM CLEAR X", "CAM DIM X 5",
+          "CAM DIM X 5"], [(7, "Re-dimensioned block")]),
+        (["CAM DIM X 5", "IF (NOT BIT5) THEN CAM CLEAR X", "CAM DIM X 5"], []),
+        (["P0=0", "CAM DIM X 5", "IF (BIT5) THEN CAM CLEAR Y : BSC CLEAR X", "CAM DIM X (P0)",
+          "CAM DIM Y 5"], [(4, "Re-dimensioned block")]),
+    ],
+)  # fmt: skip
+def test_segments_of_cams_are_counted_as_by_the_card(
+    tmp_path: Path, lines: list[str], refused: list[tuple[int, str]]
+) -> None:
+    begin = ["SYS", "DIM P(1)", "PROG0", "ATTACH MASTER0"]
+    begin += ['ATTACH SLAVE0 AXIS3 "X"', 'ATTACH SLAVE1 AXIS1 "Y"']
+    (tmp_path / "setup.8k").write_text("\n".join([*begin, *lines, ""]))
+    found = [(each.line - len(begin), each.message) for each in check(tmp_path)]
+    card = Controller()
+    answers = [card.send(f"{line}\r").splitlines()[1:-1] for line in [*begin, *lines]]
+    by_card = [(n, said[0]) for n, said in enumerate(answers, 1 - len(begin)) if said]
+    assert [each for each in by_card if not each[1].isdigit()] == refused
+    computed = [n for n, line in enumerate(lines, 1) if "(P0)" in line]
+    assert found == [each for each in refused if each[0] not in computed]
+
+
+def test_a_cam_whose_size_is_computed_may_have_been_refused(tmp_path: Path) -> None:
+    (tmp_path / "setup.8k").write_text(
+        "SYS\nDIM P(1)\nPROG0\nCAM DIM AXIS0 (P0)\nCAM DIM AXIS0 5\nCAM DIM AXIS0 5\n"
+    )
+    assert check(tmp_path) == []
+
+
+def test_a_cam_of_an_axis_that_there_is_not_has_one_fault(tmp_path: Path) -> None:
+    (tmp_path / "setup.8k").write_text("PROG0\nBSC DIM AXIS16 5\nBSC DIM AXIS16 5\n")
+    hints = [(each.line, each.hint) for each in check(tmp_path)]
+    assert hints == [(line, "the card has axes 0 to 7") for line in (2, 3)]
+
+
 def test_a_program_file_is_checked_that_takes_the_place_of_a_text_of_the_set_up(
     tmp_path: Path,
 ) -> None:

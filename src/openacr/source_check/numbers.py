@@ -12,11 +12,13 @@ from openacr.basic.language.nodes import (
     Alias,
     AxisRef,
     Block,
+    Expr,
     Flag,
     Number,
     Parameter,
     Prefix,
     Statement,
+    resolved,
 )
 from openacr.basic.language.registry import Command, Function
 from openacr.lang.lexer import Token, TokenKind
@@ -40,6 +42,12 @@ def is_doubtful(text: str, axes: int) -> bool:
     if any(len(digits) > _LONGEST or _is_unused(int(digits)) for digits in _INTEGER.findall(text)):
         return True
     return any(int(number) >= axes for number in _AXIS.findall(text))
+
+
+def literal(number: Expr) -> int | None:
+    """The whole number that is written, or that an alias stands for; None if it is computed."""
+    value = resolved(number)
+    return int(value.value) if isinstance(value, Number) else None
 
 
 def missing(

@@ -13,7 +13,7 @@ from openacr.basic.commands.memory_control import (
     is_of_system,
 )
 from openacr.basic.language.grammar import ObjectRef
-from openacr.basic.language.nodes import Block, Expr, Number, Statement, resolved
+from openacr.basic.language.nodes import Block, Statement
 from openacr.basic.language.registry import Level
 from openacr.basic.memory.memory_cost import PLC_INSTRUCTION, line_bytes
 from openacr.basic.memory.program_memory import PROGRAMS
@@ -23,6 +23,7 @@ from openacr.errors import CardError
 from openacr.map.memory import Memory
 from openacr.messages import OUT_OF_DEFINE_SPACE, OUT_OF_MEMORY
 from openacr.source_check.cutoffs import statements
+from openacr.source_check.numbers import literal
 from openacr.source_check.texts import Finding, Text, TextLine
 
 RESIZING = frozenset((("DIM",), ("CLEAR",), ("DEF", "CLEAR"), ("NEW",)))
@@ -72,8 +73,8 @@ class Room:
             self.is_known = False
 
     def _dimension(self, level: Level, number: int, what: Dimension) -> None:
-        index = None if what.index is None else _integer(what.index)
-        sizes = tuple(map(_integer, what.sizes))
+        index = None if what.index is None else literal(what.index)
+        sizes = tuple(map(literal, what.sizes))
         known = [size for size in sizes if size is not None]
         if len(known) < len(sizes) or (what.index is not None and index is None):
             self.is_known = False
@@ -137,7 +138,7 @@ def _named(target: Any) -> ObjectRef | None:
     """The object that is written after a command with a literal number or with none."""
     if not isinstance(target, tuple):
         return None
-    word, number = target[0], _integer(target[1])
+    word, number = target[0], literal(target[1])
     return None if number is None else ObjectRef(word, number)
 
 
@@ -156,8 +157,3 @@ def _most_bytes(line: TextLine) -> int:
 def _resizes(blocks: Iterable[Block]) -> bool:
     """Whether there is a command among what may be executed that takes or gives memory."""
     return any(each.command.words in RESIZING for each in statements(blocks))
-
-
-def _integer(size: Expr) -> int | None:
-    value = resolved(size)
-    return int(value.value) if isinstance(value, Number) else None

@@ -7,6 +7,7 @@ entered with PROGRAM, the axis names of each program and the aliases. Nothing is
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import Any
 
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
 from openacr.basic.channels.entry import split_at_level
@@ -37,6 +38,7 @@ from openacr.source_check.hints import hint_for
 from openacr.source_check.room import Room, owners
 from openacr.source_check.sizes import Sizes, undimensioned, variable
 from openacr.source_check.structure import Structure
+from openacr.source_check.tables import Tables
 from openacr.source_check.texts import Finding, Text, TextLine, label_of
 
 EXTENSION_WARNING = "an extension of openacr: real cards refuse it"
@@ -58,9 +60,10 @@ class Reader:
 
     faults: list[Fault] = field(default_factory=list)
     aliases: dict[str, Expr] = field(default_factory=dict)
-    axes: dict[int, set[str]] = field(default_factory=dict)
+    axes: dict[int, dict[str, int | None]] = field(default_factory=dict)  # numbers, of each program
     sizes: Sizes = field(default_factory=Sizes)
     room: Room = field(default_factory=Room)
+    tables: Tables = field(default_factory=Tables)
     cutoffs: Cutoffs = field(default_factory=Cutoffs)
     texts: dict[tuple[Level, int], Text] = field(default_factory=dict)
     parts: list[Text | Immediate] = field(default_factory=list)  # in the order of a listing
@@ -168,8 +171,12 @@ class Reader:
         self.texts.pop((level, number), None)
         self._checked.pop((level, number), None)
 
+    def _axes(self) -> dict[str, int | None]:
+        """The axes that have names at the present level."""
+        return self.axes.get(self.number, {}) if self.level is Level.PROG else {}
+
     def _scope(self, *, stored: bool) -> Scope:
-        axes = frozenset(self.axes.get(self.number, ()) if self.level is Level.PROG else ())
+        axes = frozenset(self._axes())
         numbered = numbered_names(self.aliases)
         return Scope(self.level, stored, axes, self.aliases, numbered, self.model.lacks)
 
@@ -204,9 +211,13 @@ class Reader:
             self.parts.append(Immediate(line, tuple(found)))
         self.sizes.note(self.number, tree.blocks)
         self._judge(line, found, tree.blocks)
-        refused = self.room.note(self.level, self.number, tree.blocks)
-        if refused is not None:
-            self._fault(line, refused)
+        axes = self._axes()
+        for refused in (
+            self.room.note(self.level, self.number, tree.blocks),
+            self.tables.note(tree.blocks, axes),
+        ):
+            if refused is not None:
+                self._fault(line, refused)
         try:
             for block in tree.blocks:
                 for statement in block:
@@ -223,8 +234,7 @@ class Reader:
             self.level = _LEVEL_WORDS[words[0]]
             self.number = _integer(arguments[0]) if arguments else 0
         elif words[:2] == ("ATTACH", "SLAVE"):
-            names = [item.text for item in arguments if isinstance(item, String)]
-            self.axes.setdefault(self.number, set()).update(name.upper() for name in names)
+            self.axes.setdefault(self.number, {}).update(_attached(*arguments))
         elif words == ("NEW",):
             for owner in owners(self.level, self.number, arguments[0]):
                 is_plc = owner >= PROGRAMS
@@ -317,6 +327,11 @@ class Reader:
 def _words(text: str) -> set[str]:
     """The words of a line that cannot be read, and its number."""
     return {word.upper() for word in re.findall(r"\w+", text)}
+
+
+def _attached(axis: Any, name: Any) -> dict[str, int | None]:
+    """The name of an axis that is attached, and its number unless it is computed."""
+    return {name.text.upper(): numbers.literal(axis[1])} if isinstance(name, String) else {}
 
 
 def _integer(argument: object) -> int:

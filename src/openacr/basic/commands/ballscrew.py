@@ -98,5 +98,5 @@ def bsc_clear(run: Run, axes: tuple[Axis, ...]) -> None:
     """Switch ballscrew tables off and forget their segments and settings."""
     for axis in axes:
         cam.ballscrew_off(run.card, axis.number)
-        cam.clear(run.card, cam.ballscrew(axis.number))
+        cam.clear(run.card.memory, cam.ballscrew(axis.number))
         set_source(run.card.memory, sources.axis_tap(axis.number, USE_BALLSCREW), FROM_SELF)

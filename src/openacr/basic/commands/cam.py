@@ -89,7 +89,7 @@ def cam_clear(run: Run, axes: tuple[Axis, ...]) -> None:
     """Switch cams off and forget their segments and settings."""
     for axis in axes:
         cam.off(run.card, axis.number)
-        cam.clear(run.card, axis.number)
+        cam.clear(run.card.memory, axis.number)
         choose_sources(run, ((axis, ObjectRef("CLK")),), USE_CAM)
 
 
@@ -104,9 +104,9 @@ def dimension(run: Run, axes: tuple[AxisValue, ...], table: Callable[[int], int]
     for item in axes:
         number = table(item.axis.number)
         if item.is_query:
-            run.print(str(cam.segments(run.card, number)))
+            run.print(str(cam.segments(run.card.memory, number)))
         else:
-            cam.dimension(run.card, number, whole(item.value))
+            cam.dimension(run.card.memory, number, whole(item.value))
 
 
 @command("CAM SEG", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(SegmentForm()),), ref=REF)

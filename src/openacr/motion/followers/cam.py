@@ -7,6 +7,7 @@ from openacr.errors import CardError
 from openacr.kernel.followers import cam_cy
 from openacr.kernel.followers.cam_cy import BALLSCREW_TABLES, LONGS
 from openacr.kernel.sources.source_cy import CAM_ON, TRIGGERS
+from openacr.map.memory import Memory
 from openacr.map.rows import axes, cams, tables
 from openacr.map.words import af1, af2
 from openacr.messages import (
@@ -36,20 +37,20 @@ def ballscrew(axis: int) -> int:
 # tables
 
 
-def segments(card: Card, table: int) -> int:
+def segments(memory: Memory, table: int) -> int:
     """How many segments a table has."""
-    return card.memory.I[tables.segments[table]]
+    return memory.I[tables.segments[table]]
 
 
-def dimension(card: Card, table: int, count: int) -> None:
+def dimension(memory: Memory, table: int, count: int) -> None:
     """DIM: give a table its segments."""
-    if segments(card, table):
+    if segments(memory, table):
         raise CardError(REDIMENSIONED_BLOCK)
     if count < 1:
         raise CardError(INVALID_ARGUMENT)
     if count > MOST_SEGMENTS:
         raise CardError(OUT_OF_MEMORY)
-    card.memory.I[tables.segments[table]] = count
+    memory.I[tables.segments[table]] = count
 
 
 def array_length(card: Card, program: int, table: int, array: int, words: int) -> int:
@@ -64,7 +65,7 @@ def set_segment(
     card: Card, table: int, segment: int, length_cnt: float, program: int, array: int
 ) -> None:
     """SEG: a segment has a length in source pulses and has the points of an array."""
-    if not 0 <= segment < segments(card, table):
+    if not 0 <= segment < segments(card.memory, table):
         raise CardError(SUBSCRIPT_OUT_OF_RANGE)
     if array_length(card, program, LONGS, array, 1) < 2 or not length_cnt > 0.0:
         raise CardError(INVALID_ARGUMENT)
@@ -152,9 +153,9 @@ def reset(card: Card, axis: int, offset_u: float) -> None:
     memory.F[tables.shift_cnt[axis]] = 0.0
 
 
-def clear(card: Card, table: int) -> None:
+def clear(memory: Memory, table: int) -> None:
     """CLEAR: drop segments and settings of a table that is off."""
-    set_table_defaults(card.memory, table)
+    set_table_defaults(memory, table)
 
 
 # ballscrews
