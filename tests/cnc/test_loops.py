@@ -6,7 +6,7 @@ import pytest
 from tests.cnc.programs import STORE, made
 
 from openacr.cnc.canonical import Line
-from openacr.cnc.interpreter import loops
+from openacr.cnc.interpreter import execution, loops
 from openacr.cnc.interpreter.survey import Survey, survey
 from openacr.cnc.loading.load import load
 from openacr.cnc.state.shadow import Shadow
@@ -81,6 +81,14 @@ def test_a_loop_without_motion_ends_at_the_line_that_jumps(
 )  # fmt: skip
 def test_lines_without_motion_after_a_loop_are_named_themselves(text: str, line: int) -> None:
     assert found(of(text)) == [("endless loop", line, "")]
+
+
+def test_lines_without_motion_and_without_a_jump_are_named_themselves(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(execution, "MOST_IDLE", 3)
+    assert found(of("P201=1|P202=1|M2")) == []
+    assert found(of("P201=1|P202=1|P203=1|M2")) == [("endless loop", 4, "")]
 
 
 def test_a_loop_in_another_file_is_not_that_of_the_program(tmp_path: Path) -> None:

@@ -415,3 +415,36 @@ def test_the_text_after_new_is_another_one(tmp_path: Path) -> None:
     for line, expected in faults.items():
         (tmp_path / "setup.8k").write_text(new.format(line))
         assert [(each.line, each.message) for each in check(tmp_path)] == expected, line
+
+
+def test_a_program_file_alone_has_the_memory_that_the_set_up_gives_it(tmp_path: Path) -> None:
+    (tmp_path / "setup.8k").write_text("SYS\nDIM P(1)\n")
+    (tmp_path / "prog9.8k").write_text("PROGRAM\nP0=1\nENDP\n")
+    found = [(each.line, each.message, each.hint) for each in check(tmp_path / "prog9.8k")]
+    assert found == [(1, "Out of memory", "the text takes 36 bytes, there is room for 0")]
+
+
+def test_a_text_with_a_lost_line_is_not_counted(tmp_path: Path) -> None:
+    (tmp_path / "setup.8k").write_text("SYS\nDIM P(1)\nDIM PROG0(20)\n")
+    (tmp_path / "prog0.8k").write_text("PROGRAM\nP0=\nP0=1\nENDP\n")
+    assert [(each.line, each.message) for each in check(tmp_path)] == [(2, "Syntax error")]
+
+
+def test_a_text_takes_memory_from_the_variables_of_later_files(tmp_path: Path) -> None:
+    text = "PROGRAM\nSET 34\nSET 35\nSET 36\nENDP\n"  # 52 bytes
+    (tmp_path / "setup.8k").write_text(f"SYS\nDIM PROG0(100)\nPROG0\n{text}")
+    other = tmp_path / "prog1.8k"
+    other.write_text("PROG0\nDIM LV(12)\n")
+    assert check(tmp_path) == []
+    other.write_text("PROG0\nDIM LV(13)\n")
+    assert [(Path(each.path).name, each.message) for each in check(tmp_path)] == [
+        ("prog1.8k", "Out of memory")
+    ]
+
+
+@pytest.mark.parametrize("model", ["ACR8020", "ACR9000"])
+def test_streams_are_those_of_the_card(tmp_path: Path, model: str) -> None:
+    (tmp_path / "machine.toml").write_text(f'[card]\nmodel = "{model}"\n')
+    (tmp_path / "setup.8k").write_text("SYS\nDIM DPCB(500)\n")
+    messages = [each.message for each in check(tmp_path)]
+    assert messages == ([] if model == "ACR8020" else ["Invalid device"])

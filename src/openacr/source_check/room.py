@@ -113,7 +113,7 @@ class Room:
             cost = _bytes(line)
             if used + cost > free:
                 whole = sum(map(_bytes, lines))
-                hint = f"the text takes {whole} bytes, there is room for {max(free, 0)}"
+                hint = f"the text takes {whole} bytes, there is room for {free}"
                 yield Finding(line.place, CardError(OUT_OF_MEMORY), hint=hint)
                 break
             used += cost
