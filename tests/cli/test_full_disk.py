@@ -48,6 +48,8 @@ def is_possible(*words: str) -> bool:
          ("new.db", "new.db-seq")),  # a new store takes them over
         (("run", "../square.8k", "--for", "0.1", "--trace", "t.csv"),
          "t.csv: cannot be written: no space left on device", ()),
+        (("run", "../square.8k", "--for", "0.1", "--journal", "j"),
+         "j: cannot be written: no space left on device", ()),
     ],
 )  # fmt: skip
 def test_a_full_disk_is_said_and_nothing_is_lost_or_half_there(
@@ -66,6 +68,26 @@ def test_a_full_disk_is_said_and_nothing_is_lost_or_half_there(
     assert set((tmp_path / "left").read_text().split()) - STORED <= set(left)
     with Store(tmp_path / "kept.db") as store:
         assert store.read(SPEEDS.cut_speed) == 5.0
+
+
+@pytest.mark.skipif(not is_possible(*TO_MOUNT), reason="this system lets nothing be mounted")
+def test_files_of_a_run_on_other_disks_are_written_and_what_it_did_is_said(tmp_path: Path) -> None:
+    (tmp_path / "square.8k").write_text("PROG0\n")
+    (tmp_path / "kept.db").write_text("")
+    (tmp_path / "disk").mkdir()
+    words = ("run", "../square.8k", "--for", "0.1", "--summary", "s.json", "--trace", "../t.csv")
+    script = [*TO_MOUNT, "sh", "-c", FILLED, "sh", str(tmp_path / "disk"), *OPENACR, *words]
+    ended = subprocess.run(
+        [*script, "--plot", "p.svg"], capture_output=True, text=True, check=False
+    )
+    no_space = "cannot be written: no space left on device"
+    assert (ended.returncode, ended.stderr) == (
+        2,
+        f"error: s.json: {no_space}\nerror: p.svg: {no_space}\n",
+    )
+    assert "0.1000 s simulated in 200 ticks" in ended.stdout
+    assert (tmp_path / "t.csv").read_text().startswith("time_s")
+    assert set((tmp_path / "left").read_text().split()) == {"kept.db"}
 
 
 @pytest.mark.skipif(PLAIN != () and not is_possible(*PLAIN), reason="root may write anywhere")

@@ -13,7 +13,7 @@ from typer.testing import CliRunner, Result
 
 from openacr.channels import StreamKind
 from openacr.cli.main import app
-from openacr.io.recording import Event, Recorder, What
+from openacr.io.recording import Event, Recorder, What, read_recording
 
 ROOT = Path(__file__).parents[2]
 OPENACR = (sys.executable, "-m", "openacr")
@@ -54,6 +54,37 @@ def test_a_session_is_recorded_and_replayed(tmp_path: Path) -> None:
     same = openacr("replay", file, "--project", ROOT / "examples" / "square")
     assert same.exit_code == 0, same.output
     assert same.stdout.endswith(": every answer is the same\n")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
+@pytest.mark.parametrize("most_bytes", [0, 200])
+def test_a_recording_that_is_not_whole_is_an_error(tmp_path: Path, most_bytes: int) -> None:
+    import resource
+
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes))
+
+    file = tmp_path / "session.jsonl"
+    ports = ("--ascii-port", "0", "--binary-port", "0", "--no-journal")
+    with running("serve", ROOT / "examples" / "square", *ports) as line:
+        card = line.split("ascii=")[1].split()[0]
+        words = [*OPENACR, "record", card, str(file), "--port", "0"]
+        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+        with subprocess.Popen(words, preexec_fn=limit, **pipes) as process:  # type: ignore[call-overload]
+            if most_bytes:
+                place = process.stdout.readline().split()[1]
+                term = [*OPENACR, "term", place]
+                subprocess.run(term, input="PROG0\n?6*7\n", text=True, check=True, stdout=-3)
+                process.terminate()
+            _, said = process.communicate(timeout=30)
+    assert process.returncode == 2
+    assert said.splitlines()[-1] == f"error: {file}: cannot be written: file too large"
+    assert file.exists() == bool(most_bytes)
+    if most_bytes:
+        assert "the recording ends here: file too large; connections go on" in said
+        recording = read_recording(file)
+        assert recording.is_whole
+        assert f"{file}: {len(recording.events)} events" in said.splitlines()
 
 
 def received(fd: int, count: int) -> bytes:

@@ -261,8 +261,9 @@ def test_a_full_disk_ends_the_journal_and_not_the_card(
     if not full.exists():
         pytest.skip("no device that is always full")
     card = Controller()
-    with pytest.raises(StoreError, match="No space left"):
+    with pytest.raises(StoreError, match="full: cannot be written: no space left"):
         Recorder(card, full)
+    assert full.exists()
     assert caplog.messages == []  # the error alone says it
     card.recorder = recorder = Recorder(card, tmp_path / "a")
     recorder.records._file.close()

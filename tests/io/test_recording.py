@@ -291,6 +291,27 @@ def test_a_full_disk_ends_the_recording_and_not_the_connection(
     assert b'"card"' not in file.getvalue().split(b"\n", 1)[1]
 
 
+def test_a_recording_on_a_disk_that_gets_full_ends_with_a_whole_event(tmp_path: Path) -> None:
+    class Small(io.FileIO):
+        def write(self, data: bytes, /) -> int:  # type: ignore[override]
+            free = 200 - self.tell()
+            if not free:
+                raise OSError(28, "No space left on device")
+            return super().write(data[: min(free, 30)])  # in parts
+
+    path = tmp_path / "a"
+    with Small(path, "wb") as file:
+        recorder = Recorder(file, "c:5002", StreamKind.TERMINAL)
+        recorder.add(SESSION[0])
+        assert recorder.failure is None
+        with pytest.raises(OSError, match="No space left"):
+            for event in SESSION[1:]:
+                recorder.add(event)
+        assert recorder.failure is not None
+    read = read_recording(path)
+    assert (read.is_whole, read.events) == (True, SESSION[:2])
+
+
 def test_a_card_that_cannot_be_reached_refuses_the_host(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:

@@ -5,7 +5,7 @@ import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, BinaryIO, TypeAlias
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
@@ -17,11 +17,19 @@ from openacr.errors import UserError, unwritable
 if TYPE_CHECKING:
     from openacr.client.links import SerialLink, TcpLink
     from openacr.io.proxy import Proxy
+    from openacr.io.recording import Recorder
     from openacr.io.server import Guests
 
 
 log = logging.getLogger(__name__)
-Records: TypeAlias = Callable[[BinaryIO], int]  # until it is ended; how many events
+
+
+class Session(NamedTuple):
+    """A card whose hosts are recorded until `record` is ended; it returns how many events."""
+
+    card: str
+    kind: StreamKind
+    record: "Callable[[Recorder], int]"
 
 
 def record(
@@ -62,11 +70,12 @@ def record(
     else:
         guests = admitted(address, allow, is_open=insecure)
         recording = _network(link, guests, address, port)
-    with recording as records:
-        typer.echo(f"{file}: {_recorded(file, records)} events", err=True)
+    with recording as session:
+        _record(file, session)
 
 
-def _recorded(file: Path, records: Records) -> int:
+def _record(file: Path, session: Session) -> None:
+    from openacr.io.recording import Recorder
     from openacr.store.private import open_to_write
 
     try:
@@ -74,35 +83,41 @@ def _recorded(file: Path, records: Records) -> int:
     except OSError as failure:
         raise unwritable(file, failure) from None
     with output:
-        return records(output)
+        try:
+            recorder = Recorder(output, session.card, session.kind)
+        except OSError as failure:
+            if file.is_file():
+                file.unlink()
+            raise unwritable(file, failure) from None
+        typer.echo(f"{file}: {session.record(recorder)} events", err=True)
+    if recorder.failure is not None:
+        raise unwritable(file, recorder.failure)
 
 
 @contextmanager
-def _network(link: "TcpLink", guests: "Guests", address: str, port: int) -> Iterator[Records]:
+def _network(link: "TcpLink", guests: "Guests", address: str, port: int) -> Iterator[Session]:
     """A card that hosts reach through this computer; refused before a file is made."""
     from openacr.io.proxy import Proxy
-    from openacr.io.recording import Recorder
 
-    def records(output: BinaryIO) -> int:
-        proxy = Proxy(link.address, Recorder(output, link.name, kind), guests)
+    def record(recorder: "Recorder") -> int:
+        proxy = Proxy(link.address, recorder, guests)
         asyncio.run(_serve(proxy, link.name, address, port))
         return proxy.events
 
     kind = StreamKind.PACKETS if link.address[1] == BINARY_PORT else StreamKind.TERMINAL
     _require_card(link)
-    yield records
+    yield Session(link.name, kind, record)
 
 
 @contextmanager
-def _line(link: "SerialLink", host_port: str) -> Iterator[Records]:
+def _line(link: "SerialLink", host_port: str) -> Iterator[Session]:
     """A serial line through this computer; its ports are open before a file is made."""
-    from openacr.io.recording import Recorder
     from openacr.io.serial_port import LineSettings
     from openacr.io.serial_tap import SerialTap
 
-    def records(output: BinaryIO) -> int:
+    def record(recorder: "Recorder") -> int:
         with suppress(KeyboardInterrupt), terminations_as_interrupts():
-            tap.start(Recorder(output, link.name, StreamKind.SERIAL))
+            tap.start(recorder)
             print(f"joined {host_port} card={link.name}", flush=True)
             tap.wait()
         tap.close()
@@ -112,7 +127,7 @@ def _line(link: "SerialLink", host_port: str) -> Iterator[Records]:
 
     tap = SerialTap(host_port, link.name, LineSettings(baud=link.baud))
     try:
-        yield records
+        yield Session(link.name, StreamKind.SERIAL, record)
     finally:
         tap.close()
 

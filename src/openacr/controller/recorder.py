@@ -51,13 +51,15 @@ class Records:
             self._file = private.open_to_write(path)
             self._write_mark()
         except OSError as failure:
-            raise StoreError(f"{path} cannot be written: {reason(failure)}") from None
+            raise StoreError(f"{path}: cannot be written: {reason(failure).lower()}") from None
 
     def _write_mark(self) -> None:
         try:
             self._write_all(MAGIC)
         except OSError:
             self._file.close()
+            if self.path.is_file():
+                self.path.unlink()
             raise
 
     def put(self, record: bytes) -> None:

@@ -7,6 +7,7 @@ closed. Bytes are characters 0 to 255 of the same code, so that lines of a termi
 
 import json
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -51,10 +52,15 @@ class Recording:
 
 
 class Recorder:
-    """Writes events as they happen; each is in the file before the next one."""
+    """Writes events as they happen; each is in the file, whole, before the next one.
+
+    `failure` is why the file could not be written any more. It ends with the last whole event.
+    """
 
     def __init__(self, file: BinaryIO, target: str, kind: StreamKind) -> None:
+        self.failure: OSError | None = None
         self._file = file
+        self._size_bytes = 0
         self._put({"format": FORMAT, "version": VERSION, "card": target, "kind": kind.value})
 
     def add(self, event: Event) -> None:
@@ -69,7 +75,16 @@ class Recorder:
         self._put(record)
 
     def _put(self, record: dict[str, object]) -> None:
-        self._file.write(json.dumps(record).encode() + b"\n")
+        line = rest = json.dumps(record).encode() + b"\n"
+        try:
+            while rest:  # a disk that gets full takes a part
+                rest = rest[self._file.write(rest) :]
+        except OSError as failure:
+            self.failure = failure
+            with suppress(OSError):
+                self._file.truncate(self._size_bytes)
+            raise
+        self._size_bytes += len(line)
 
 
 def is_recording(path: Path) -> bool:

@@ -41,9 +41,9 @@ class SerialTap:
         self.has_failed = False
 
     def start(self, recorder: Recorder) -> None:
-        """Pass bytes on from now on; OSError if the recording cannot be written."""
-        recorder.add(Event(0.0, THE_LINE, What.OPEN))
-        self._recorder, self.events = recorder, 1
+        """Pass bytes on from now on."""
+        self._recorder = recorder
+        self._record(What.OPEN)
         for source, target, what in (
             (self._host, self._card, What.HOST),
             (self._card, self._host, What.CARD),

@@ -2,7 +2,9 @@
 
 import sys
 import time
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 from openacr.cli.results import Event, Watched
@@ -19,6 +21,7 @@ from openacr.cli.run.report import (
 )
 from openacr.cli.signals import terminations_as_interrupts
 from openacr.compiled import is_compiled
+from openacr.errors import UserError
 from openacr.lang.characters import shown
 from openacr.scenario import Scenario, card_view
 from openacr.scenario.course import Course, Stop, Until, stored_but_idle
@@ -173,18 +176,31 @@ class Session:
         return report.has_failed
 
     def _write(self, report: Report) -> None:
+        """Write the files; one that cannot be written leaves the others alone."""
+        failures: list[UserError] = []
+        for write in self._files(report):
+            try:
+                write()
+            except UserError as failure:
+                failures.append(failure)
+        for earlier in failures[:-1]:
+            print(f"error: {earlier}", file=sys.stderr)
+        if failures:
+            raise failures[-1]
+
+    def _files(self, report: Report) -> Iterator[Callable[[], None]]:
         options = self._options
         if options.summary:
-            output.write_summary(options.summary, summary(report))
+            yield partial(output.write_summary, options.summary, summary(report))
         if options.trace or options.plot:
             curves = self._machine.curves(shown(options.project.resolve().stem))
             curves = replace(curves, events=report.events)
             if options.trace:
-                output.write_trace(options.trace, curves)
+                yield partial(output.write_trace, options.trace, curves)
             if options.plot:
                 from openacr.cli.plots import draw
 
-                output.write_whole(options.plot, lambda partial: draw(curves, partial))
+                yield partial(output.write_whole, options.plot, partial(draw, curves))
 
     def _show(self, report: Report) -> None:
         from rich.console import Console
