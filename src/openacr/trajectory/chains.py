@@ -32,6 +32,7 @@ class Chain:
     """Successive pieces that are passed without a stop."""
 
     pieces: deque[Piece] = field(default_factory=deque)  # not taken by a course yet
+    given: list[Piece] = field(default_factory=list)  # taken by one that may still be dropped
     head: list[Piece] = field(default_factory=list)  # the first ones
     tail: deque[Piece] = field(default_factory=lambda: deque(maxlen=MOST_NEAR))  # the last ones
     corner: Corner | None = None  # with the chain before
@@ -48,6 +49,7 @@ class Chain:
                 turn_after(self, piece) <= STRAIGHT_RAD
                 and last.feed_ups == new.feed_ups
                 and last.tool_ups == new.tool_ups
+                and last.fastest == new.fastest
             )
         self.is_straight &= piece.is_line
         self.pieces.append(piece)
@@ -55,6 +57,17 @@ class Chain:
         if len(self.head) < MOST_NEAR:
             self.head.append(piece)
         self.length_u += piece.length_u
+
+    def give(self) -> Piece:
+        """Remove and return the next piece, for a course."""
+        piece = self.pieces.popleft()
+        self.given.append(piece)
+        return piece
+
+    def take_back(self) -> None:
+        """Have all pieces again: the course that took them is dropped."""
+        self.pieces.extendleft(reversed(self.given))
+        self.given.clear()
 
     def pieces_within(self, length_u: float) -> list[Piece]:
         """The first of the pieces not taken yet, until they are `length_u` long."""

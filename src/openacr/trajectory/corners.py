@@ -35,7 +35,7 @@ def corner_between(limits: Limits, period_s: float, before: Chain, after: Chain)
     tolerance = min(end.segment.tolerance_u, start.segment.tolerance_u)
     change = math.dist(u1, u2)
     alongs = [
-        limits.along(u, each.segment.feed_ups, period_s, each.segment.tool_ups)
+        limits.along(u, each.feed_ups, period_s, each.tool_ups)
         for u, each in ((u1, end), (u2, start))
     ]
     plain = _softs(_plain_jerk(limits.jerks(period_s), end, start), 0.0, tolerance / change, alongs)

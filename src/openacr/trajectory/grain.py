@@ -33,7 +33,7 @@ class Grain:
 def grain_of(limits: Limits, period_s: float, known: Sequence[Piece]) -> Grain:
     """The grain of a chain of which some pieces are known."""
     tolerance = min(piece.segment.tolerance_u for piece in known)
-    feed = max(piece.segment.feed_ups for piece in known)
+    feed = max(piece.feed_ups for piece in known)
     along = limits.along(known[0].tangent(0.0), feed, period_s)
     corner_s = max(0.1 * (48.0 * tolerance / along.jerk) ** (1 / 3), 0.5 * period_s)
     time_s = min(corner_s, max(along.acceleration / along.jerk / 16.0, 0.5 * period_s))

@@ -10,7 +10,6 @@ window. Nothing is given out that could not be brought to rest by what is known.
 import math
 from collections import deque
 from dataclasses import replace
-from itertools import accumulate
 
 from openacr.compiled import pick
 from openacr.trajectory import overlap_cy
@@ -18,18 +17,19 @@ from openacr.trajectory.arrays import numbers, room
 from openacr.trajectory.chains import Chain, Corner
 from openacr.trajectory.corners import corner_between, near_corner
 from openacr.trajectory.course import Course, Soft, straight_course
+from openacr.trajectory.faster_line import run_faster
 from openacr.trajectory.grain import look_ahead
-from openacr.trajectory.limits import Limits, TrajectoryError
+from openacr.trajectory.limits import Along, Limits, TrajectoryError
+from openacr.trajectory.sections import Sections
 from openacr.trajectory.segments import Piece, Point, Segment
 from openacr.trajectory.setpoints import Setpoints
 from openacr.trajectory.smooth_course import SmoothCourse
-from openacr.trajectory.stream import Member, Stream
+from openacr.trajectory.stream import APART, Member, Stream
 
 PERIOD_S = 0.003
 NEARLY = 0.999  # of the jerk on straight lines: what rounding may take
 MOST_POINTS = 1024  # of one take
 FIRST = 3.0  # look-ahead distances of a smooth chain that are known when it begins
-APART = 4.0  # periods between the first and the last of three courses: no difference has both
 NEAR = 30.0  # tolerances around a corner within which the deviation of an overlap is examined
 _overlap_time = pick(overlap_cy.overlap_time)
 
@@ -44,6 +44,7 @@ class TrajectoryPlanner:
         self._at = start
         self._chains: deque[Chain] = deque()
         self._stream = Stream(start, period_s)
+        self._factor = 1.0  # of the feeds
         self._base_u = 0.0
         self._last: Chain | None = None  # that of the last complete course
         self._growing: SmoothCourse | None = None
@@ -55,6 +56,7 @@ class TrajectoryPlanner:
     def add(self, segment: Segment) -> float:
         """Append a segment; one without length is passed over. Returns its length."""
         piece = Piece(self._at, segment)
+        piece.factor = self._factor
         self._at = segment.end
         if piece.length_u <= 0.0:
             return 0.0
@@ -73,21 +75,79 @@ class TrajectoryPlanner:
         if self._chains:
             self._chains[-1].is_closed = True
 
+    def override(self, factor: float) -> None:
+        """Plan the path with another factor of its feeds, but for what has been taken.
+
+        The course that is being taken is planned again where the factor rises: from there on what
+        a higher speed leaves is known to keep the limits.
+        """
+        if factor == self._factor or self._fault is not None:
+            return
+        self._factor = factor
+        self._drop_untaken()
+        for chain in self._chains:
+            for piece in chain.pieces:
+                piece.factor = factor
+        member = self._stream.last
+        if member is not None:
+            self._hasten(member)
+
+    def _drop_untaken(self) -> None:
+        """Drop the courses of which nothing was taken; their chains are planned again."""
+        dropped = self._stream.drop_untaken()
+        if self._growing is not None and (self._is_new or dropped):
+            self._growing, self._is_new = None, False
+            self._chains[0].take_back()
+        for member in reversed(dropped):
+            if not self._chains or member.chain is not self._chains[0]:
+                member.chain.take_back()
+                self._chains.appendleft(member.chain)
+            self._base_u = member.base_u
+        if dropped:
+            last = self._stream.last
+            self._last = None if last is None else last.chain
+            self._await_next(last)
+
+    def _hasten(self, member: Member) -> None:
+        """Let the last course run faster from where it may change."""
+        if min(member.sections.factors) >= self._factor:
+            return
+        course, since_s = member.course, self._stream.free_s - member.course.begin_s
+        if isinstance(course, SmoothCourse):
+            chain = member.chain
+            ahead_u = sum(piece.length_u for piece in chain.pieces)
+            if chain.is_closed and (chain.stops or course.is_closed or len(self._chains) > 1):
+                ahead_u = math.inf
+            if course.hasten(since_s, self._factor, ahead_u) and self._growing is None:
+                self._growing, self._base_u = course, member.base_u
+                self._chains.appendleft(chain)
+                if not chain.stops:
+                    member.held_s = math.inf
+            return
+        for piece in member.chain.pieces:
+            piece.factor = max(piece.factor, self._factor)
+        end = self._end_of(member.chain, self._chains[0] if self._chains else None)
+        since_u = run_faster(course, since_s, self._along(member.chain), end)
+        if since_u is not None:
+            member.sections.hasten(since_u, self._factor)
+            self._await_next(member)
+
     # --- output ------------------------------------------------------------------
 
-    def take(self) -> Setpoints | None:
-        """Plan, and return the next setpoints; None where nothing is ready.
+    def take(self, most: int = MOST_POINTS) -> Setpoints | None:
+        """Plan, and return the next setpoints, `most` at most; None where nothing is ready.
 
-        TrajectoryError where the path cannot be planned, after all that was planned before.
+        No more is planned than is needed for them. TrajectoryError where the path cannot be
+        planned, after all that was planned before.
         """
         try:
-            while self._fault is None and self._stream.ready() < MOST_POINTS and self._plan_more():
+            while self._fault is None and self._stream.ready() < most and self._plan_more():
                 pass
         except TrajectoryError as error:
             self._fault = error
         if self._fault is not None and not self._stream.ready():
             raise self._fault
-        return self._stream.take(MOST_POINTS)
+        return self._stream.take(most)
 
     def _plan_more(self) -> bool:
         """Plan one more section; False where more segments are needed."""
@@ -122,9 +182,11 @@ class TrajectoryPlanner:
         """
         if not self._is_new:
             course.drop(self._stream.next_s - course.begin_s - 8.0 * self.period_s)
+            if self._stream.taken_s > course.begin_s:
+                chain.given.clear()
         wants_u = course.wants_u
         while chain.pieces and course.known_u < wants_u:
-            course.add(chain.pieces.popleft())
+            course.add(chain.give())
         if not chain.pieces:
             if not chain.is_closed:  # whether this is its end makes a difference
                 return False
@@ -142,8 +204,7 @@ class TrajectoryPlanner:
 
     def _look_u(self, piece: Piece) -> float:
         """The look-ahead distance at the feed of a piece."""
-        feed = piece.segment.feed_ups
-        return look_ahead(self.limits.along(piece.tangent(0.0), feed, self.period_s))
+        return look_ahead(self.limits.along(piece.tangent(0.0), piece.feed_ups, self.period_s))
 
     def _before(self) -> Chain | None:
         """The chain that the next one overlaps."""
@@ -160,11 +221,13 @@ class TrajectoryPlanner:
         else:
             course.begin_s = self._stream.after_rest_s()
         if isinstance(course, SmoothCourse):
-            member = Member(course, self._base_u, course.sections.ends, course.sections.lines)
+            sections = course.sections
         else:
-            offsets = list(accumulate(piece.length_u for piece in chain.pieces))
-            member = Member(course, self._base_u, offsets,
-                            [piece.segment.line for piece in chain.pieces])  # fmt: skip
+            sections, end_u = Sections(), 0.0
+            for piece in chain.pieces:
+                end_u += piece.length_u
+                sections.add(piece, end_u)
+        member = Member(course, self._base_u, chain, sections)
         if not chain.stops:
             member.held_s = math.inf
         self._stream.add(member)
@@ -176,27 +239,36 @@ class TrajectoryPlanner:
         self._last = chain
         member = self._stream.last
         if member is not None:
-            course = member.course
             member.held_s = 0.0
             member.rests = chain.stops
-            if not chain.stops and after is not None:
-                member.held_s = min(course.duration_s - course.lead_s,
-                                    self._corner(chain, after).longest_s)  # fmt: skip
+            self._await_next(member)
+
+    def _await_next(self, member: Member | None) -> None:
+        """Hold back the end of a course that will overlap the next one."""
+        if member is None or member.chain.stops or not self._chains:
+            return
+        course, corner = member.course, self._corner(member.chain, self._chains[0])
+        member.held_s = min(course.duration_s - course.lead_s, corner.longest_s)
 
     def _straight(self, chain: Chain, after: Chain | None) -> Course:
         """The course of a closed chain that is one straight line."""
         first, last = chain.pieces[0], chain.pieces[-1]
-        u, rules = first.tangent(0.0), first.segment
-        along = self.limits.along(u, rules.feed_ups, self.period_s, rules.tool_ups)
-        along = replace(along, jerk=NEARLY * along.jerk)
-        before = self._before()
-        softs = (
-            Soft(along.jerk, 0.0) if before is None else self._corner(before, chain).start,
-            Soft(along.jerk, 0.0)
-            if chain.stops or after is None
-            else self._corner(chain, after).end,
-        )
-        return straight_course(first.start, last.segment.end, chain.length_u, along, softs)
+        along, before = self._along(chain), self._before()
+        start = Soft(along.jerk, 0.0) if before is None else self._corner(before, chain).start
+        return straight_course(first.start, last.segment.end, chain.length_u, along,
+                               (start, self._end_of(chain, after)))  # fmt: skip
+
+    def _along(self, chain: Chain) -> Along:
+        """The limits along a chain that is one straight line."""
+        first = chain.pieces[0]
+        along = self.limits.along(first.tangent(0.0), first.feed_ups, self.period_s, first.tool_ups)
+        return replace(along, jerk=NEARLY * along.jerk)
+
+    def _end_of(self, chain: Chain, after: Chain | None) -> Soft:
+        """How a chain that is one straight line ends."""
+        if chain.stops or after is None:
+            return Soft(self._along(chain).jerk, 0.0)
+        return self._corner(chain, after).end
 
     def _corner(self, before: Chain, after: Chain) -> Corner:
         """The corner between two chains."""
@@ -209,9 +281,10 @@ class TrajectoryPlanner:
         end, start, corner = before.tail[-1], after.head[0], self._corner(before, after)
         tolerance = min(end.segment.tolerance_u, start.segment.tolerance_u)
         alone_s = a.duration_s - a.lead_s - APART * self.period_s
-        longest = max(0.0, min(alone_s, 0.5 * b.duration_s, b.committed_s, corner.longest_s))
-        speed = max(end.segment.feed_ups, start.segment.feed_ups)
-        tool = max(end.segment.tool_ups, start.segment.tool_ups)
+        longest = max(0.0, min(alone_s, 0.5 * b.duration_s, b.committed_s, corner.longest_s,
+                               a.end_s - self._stream.taken_s))  # fmt: skip
+        speed = max(end.feed_ups, start.feed_ups)
+        tool = max(end.tool_ups, start.tool_ups)
         rules = numbers([self.period_s, a.begin_s, 0.999 * tolerance, speed, tool, longest,
                                        *self.limits.checked()])  # fmt: skip
         near = near_corner(before, after, corner.near_u)

@@ -27,7 +27,8 @@ class Arc:
 class Segment:
     """One programmed move: where it ends, how fast, and how far the path may be left.
 
-    `feed_ups` counts along all axes, `tool_ups` along those that carry the tool (`Limits`).
+    `feed_ups` counts along all axes, `tool_ups` along those that carry the tool (`Limits`). An
+    override raises both by the factor `fastest` at most.
     """
 
     line: int
@@ -37,19 +38,23 @@ class Segment:
     is_rapid: bool = False
     arc: Arc | None = None
     tool_ups: float = math.inf
+    fastest: float = 1.0
 
 
 class Piece:
-    """A segment with its start: lengths, points and tangents by programmed length."""
+    """A segment with its start: lengths, points and tangents by programmed length.
 
-    __slots__ = ("_offset_rad", "_radius", "_radius_end", "length_u", "segment", "start")
+    `factor` is that of its feeds, 1 as programmed.
+    """
+
+    __slots__ = ("_offset_rad", "_radius", "_radius_end", "factor", "length_u", "segment", "start")
 
     def __init__(self, start: Point, segment: Segment) -> None:
         if len(start) != len(segment.end):
             raise TrajectoryError(
                 f"line {segment.line}: an end with {len(segment.end)} axes, not {len(start)}"
             )
-        self.start, self.segment = start, segment
+        self.start, self.segment, self.factor = start, segment, 1.0
         arc = segment.arc
         self._radius = self._radius_end = self._offset_rad = 0.0
         if arc is None:
@@ -71,8 +76,18 @@ class Piece:
         if arc is not None:
             circle = [arc.first_axis, arc.second_axis, *arc.centre, self._radius,
                       self._radius_end, self._offset_rad, arc.sweep_rad]  # fmt: skip
-        rules = [segment.tolerance_u, segment.feed_ups]
+        rules = [segment.tolerance_u, self.feed_ups]
         return [self.length_u, *circle, *rules, *self.start, *segment.end]
+
+    @property
+    def feed_ups(self) -> float:
+        """The feed along all axes, with the factor."""
+        return self.segment.feed_ups * min(self.factor, self.segment.fastest)
+
+    @property
+    def tool_ups(self) -> float:
+        """The feed of the axes that carry the tool, with the factor."""
+        return self.segment.tool_ups * min(self.factor, self.segment.fastest)
 
     @property
     def is_line(self) -> bool:

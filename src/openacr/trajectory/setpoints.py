@@ -25,9 +25,8 @@ class Setpoints:
     """Successive control points of a trajectory, and those that bring it to rest after them.
 
     `lines` and `path_u` are the source line and the programmed distance since the start of the
-    path at
-    each of them. `rest` continues `points` where no further setpoints come: it ends at rest, at
-    `rest_path_u`.
+    path at each of them, `factors` those of the feeds that they are planned with. `rest` continues
+    `points` where no further setpoints come: it ends at rest, at `rest_path_u`.
     """
 
     first: int
@@ -38,6 +37,7 @@ class Setpoints:
     rest: Reals
     rest_line: int
     rest_path_u: float
+    factors: Reals
 
     @property
     def end(self) -> int:

@@ -8,6 +8,8 @@ which keeps all limits; from there every step of the solver keeps them, too (spe
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -17,9 +19,9 @@ from openacr.trajectory.arrays import flat
 from openacr.trajectory.course import Course, Soft
 from openacr.trajectory.end_law import rest_shape, turn_row
 from openacr.trajectory.grain import grain_of, look_ahead
-from openacr.trajectory.knot_rules import REST_SHARE, KnotRules
+from openacr.trajectory.knot_rules import REST_SHARE, KnotRules, Shares
 from openacr.trajectory.knots import Grid, Rest, closed_knots, first_knots
-from openacr.trajectory.limits import Limits, TrajectoryError
+from openacr.trajectory.limits import Along, Limits, TrajectoryError
 from openacr.trajectory.sections import Sections
 from openacr.trajectory.segments import Piece
 from openacr.trajectory.setpoint_check import setpoints_keep_limits
@@ -37,6 +39,7 @@ from openacr.trajectory.spacing import continued, sharpest, widest
 from openacr.trajectory.tube import AHEAD, Tube, tube_share
 from openacr.trajectory.window import Curve, Window
 
+State = tuple[Any, ...]
 _law = pick(speed_rows_cy.law_from_speed)
 PARTS = speed_rows_cy.PARTS
 
@@ -53,13 +56,35 @@ LEAST_KNOTS = 32  # ahead of what is committed
 RAMP = 12  # dense knots from one slow speed to the next
 MOST_TRIES = 40
 BATCH = 0.5  # of that, committed at once
+LEAST_AGAIN = 12  # knots of a window that is planned again
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """A window as it was planned: the rows of its law from `first` on, its knots and their law.
+
+    `done`: the number of the last knot that is committed.
+    """
+
+    first: int
+    rows: Reals
+    knots: Reals
+    x: Reals
+    shares: Shares
+    done: int
+
+    @property
+    def times(self) -> Reals:
+        """The times of the knots."""
+        return self.rows[self.first : self.first + PARTS * (len(self.knots) - 5) + 1 : PARTS, 0]
 
 
 class SmoothCourse(Course):
     """A course that grows with its chain."""
 
-    __slots__ = ("_begun_s", "_grid", "_kept", "_knots", "_last", "_limits",
-                 "_period_s", "_rules", "_slow_h", "_tube", "_x",
+    __slots__ = ("_along", "_begun_s", "_first", "_grid", "_has_end", "_kept", "_knots",
+                 "_last", "_limits", "_period_s", "_rules", "_slow_h", "_solved", "_spare",
+                 "_tube", "_x", "factor",
                  "look_u", "sections", "steps")  # fmt: skip
 
     def __init__(
@@ -82,9 +107,15 @@ class SmoothCourse(Course):
         self._knots = np.empty(0)
         self._x = np.empty(0)
         self._begun_s = 0.0  # where the present window begins
+        self._solved: Solved | None = None  # the last window
+        self._spare: State | None = None  # of the course, before it was reopened
+        self._has_end = False  # the knots include those of the end
         self._slow_h: float = min(
             stop_speed(4.0 * dense_u, along.jerk) ** 2, 0.25 * along.acceleration * RAMP * dense_u
         )
+        self._along: Along = along
+        self._first = known
+        self.factor = first.factor  # the highest one of its feeds
         self.look_u = look_ahead(along)
         self.steps = 0  # of the solver, all windows together
 
@@ -123,14 +154,83 @@ class SmoothCourse(Course):
     @property
     def wants_u(self) -> float:
         """The length of path that has to be known before the next window."""
-        begun = float(self._knots[2]) if len(self._knots) else 0.0
+        return self._wants_from(float(self._knots[2]) if len(self._knots) else 0.0)
+
+    def _wants_from(self, begun_u: float) -> float:
+        """The same where that window begins at a distance."""
         known_u = (RAMP + 8) * self._grid.length_u + AHEAD * self._tube.step
-        return begun + (1.0 + BATCH) * self.look_u + known_u
+        return begun_u + (1.0 + BATCH) * self.look_u + known_u
+
+    # --- faster ------------------------------------------------------------------
+
+    def hasten(self, since_s: float, factor: float, ahead_u: float) -> bool:
+        """Raise the factor of the feeds; whether a part of the course has to be planned again.
+
+        That is what the last window has committed after `since_s`, where enough is known of the
+        path: it has `ahead_u` more. Else the windows that follow run faster.
+        """
+        self.factor = max(self.factor, factor)
+        is_complete, self.look_u = self.is_complete, max(self.look_u, self._look_u())
+        is_open = self._reopen(since_s, ahead_u)
+        if is_open or not is_complete:
+            self.sections.hasten(float(self._kept[-1, 1]), factor)
+        return is_open
+
+    def _look_u(self) -> float:
+        """The look-ahead distance at the highest feed that was known at the start."""
+        rules = (piece.segment for piece in self._first)
+        feed = max(each.feed_ups * min(self.factor, each.fastest) for each in rules)
+        return look_ahead(replace(self._along, speed=max(self._along.speed, feed)))
+
+    def _reopen(self, since_s: float, ahead_u: float) -> bool:
+        """Go back to the knot of the last window after a time, if it is committed further."""
+        solved = self._solved
+        if solved is None:
+            return False
+        at = int(np.searchsorted(solved.times, since_s))
+        if at > min(solved.done, len(solved.times) - LEAST_AGAIN):
+            return False
+        if self._wants_from(float(solved.knots[at + 2])) > self.known_u + ahead_u:
+            return False
+        self._spare = self._state()
+        self._kept = solved.rows[: solved.first + PARTS * at + 1].copy()
+        self._knots, self._x = solved.knots[at:].copy(), solved.x[at:].copy()
+        self._rules.set_shares(solved.shares)
+        self._rules.drop(at)
+        self._has_end, self.is_complete, self._solved = self.is_complete, False, None
+        self.committed_s = float(self._kept[-1, 0])
+        return True
+
+    def _state(self) -> State:
+        """What a window changes."""
+        return (self._knots, self._x, self._kept, self._rules.shares(), self._rules.ease,
+                self._solved, self._has_end, self._begun_s, self.Z,
+                self.H[course_cy.H_ROWS], self.committed_s, self.is_complete)  # fmt: skip
+
+    def _return_to(self, state: State) -> None:
+        """Be as the course was before."""
+        (self._knots, self._x, self._kept, shares, self._rules.ease, self._solved, self._has_end,
+         self._begun_s, self.Z, self.H[course_cy.H_ROWS], self.committed_s,
+         self.is_complete) = state  # fmt: skip
+        self._rules.set_shares(shares)
 
     # --- one window --------------------------------------------------------------
 
     def plan(self) -> None:
         """Plan the next window, and commit what may be run.
+
+        Where a course that was reopened finds no other speed it is what it was before.
+        """
+        try:
+            self._plan()
+        except TrajectoryError:
+            if self._spare is None:
+                raise
+            self._return_to(self._spare)
+        self._spare = None
+
+    def _plan(self) -> None:
+        """Plan the next window.
 
         Its setpoints are checked; where one is above a limit the window is planned again with less
         of the jerk, and then more slowly. TrajectoryError where nothing keeps the limits: what was
@@ -139,8 +239,8 @@ class SmoothCourse(Course):
         self._tube.grow()
         points, origin = self._tube.control_points()
         is_first = not len(self._knots)
-        law = self.Z, self.H[course_cy.H_ROWS], self.committed_s, self.is_complete
         self.set_path(points, self._tube.step, origin)
+        state = self._state()
         before = self._knots, self._x, self._kept
         shares = self._rules.shares()
         for share in (*(1.0,) * (MOST_AGAIN + 1), *SLOWER):
@@ -152,7 +252,7 @@ class SmoothCourse(Course):
             self._rules.ease *= AGAIN_SHARE if share == 1.0 else 1.0
             if is_first and share < 1.0 and self._slow_down():
                 return
-        self.Z, self.H[course_cy.H_ROWS], self.committed_s, self.is_complete = law
+        self._return_to(state)
         line = self.sections.lines[-1]
         raise TrajectoryError(f"line {line}: no speed keeps the limits")
 
@@ -207,6 +307,8 @@ class SmoothCourse(Course):
     def _new_knots(self, points: Reals, origin: float) -> int:
         """Append knots as far as the path is final; returns how many there were before."""
         tube, grid, before = self._tube, self._grid, len(self._knots)
+        if self._has_end:
+            return before
         dense, length = grid.length_u, tube.length_u
         end_u = tube.valid_u - (RAMP + 4) * dense
         last: list[float] = []
@@ -235,6 +337,8 @@ class SmoothCourse(Course):
         knots, old = self._knots, len(self._x)
         x = np.empty(len(knots) - 2)
         x[:old] = self._x
+        if old == len(x):
+            return x
         place = places(knots)
         new = place[old:]
         inverse = np.full(len(new), level**-2.0)
@@ -272,6 +376,7 @@ class SmoothCourse(Course):
             time_s = rest_shape(s, swing_u)[2] / z[last, 2]
             z[last + 2] = (z[last, 0] + time_s, length, 0.0, 0.0)
             z[last + 1] = z[last + 2] + np.array(turn_row(time_s, s, swing_u)) * BACKWARDS
+            self._solved = Solved(row, z, knots, self._x, self._rules.shares(), count - 1)
             self.is_complete = True
             self.set_law(flat(z), last + 3)
             self.committed_s = float(z[last + 2, 0])
@@ -282,6 +387,7 @@ class SmoothCourse(Course):
         self.set_law(flat(z), last + 4)
         done = int(np.searchsorted(knots[2:-2], knots[-3] - self.look_u)) - 1
         done = max(done, 1)
+        self._solved = Solved(row, z, knots, self._x, self._rules.shares(), done)
         self.committed_s = float(z[row + PARTS * done, 0])
         self._kept = z[: row + PARTS * done + 1].copy()
         self._knots, self._x = knots[done:].copy(), self._x[done:].copy()
