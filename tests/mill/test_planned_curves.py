@@ -81,8 +81,8 @@ def test_the_setpoints_of_the_card_are_those_of_the_plan(monkeypatch: pytest.Mon
     taken: list[Setpoints] = []
     take = PlannedPath.take
 
-    def noted(self: PlannedPath) -> Setpoints | None:
-        found = take(self)
+    def noted(self: PlannedPath, most: int) -> Setpoints | None:
+        found = take(self, most)
         taken.extend([found] if found is not None else [])
         return found
 

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from tests.mill.planned import (
     ACCEL,
-    FEED,
     JERK,
     SPEED,
     SQUARE,
@@ -115,34 +114,6 @@ def test_an_override_scales_the_time_of_the_curve() -> None:
     assert half == pytest.approx(2 * whole, abs=0.15)  # from the first poll on
 
 
-def test_an_override_above_100_percent_replans_what_follows() -> None:
-    shop, faster = planned_shop(), planned_shop()
-    percent = max(shop.store.read(cell) for cell in FOV.percents)
-    assert percent > 100.0
-    program: list[c.Entry] = [*path([*SQUARE, *SQUARE], feed=0.5 * FEED), end()]
-    slow = follow(shop, *program)
-    places = follow(faster, *program, actions=[(0.1, feed(percent))])
-    period_s = faster.controller.period_s
-    speed = np.linalg.norm(np.diff(places, axis=0), axis=1) / period_s
-    assert speed[: round(1.0 / period_s)].max() == pytest.approx(0.5 * SPEED, rel=1e-3)
-    assert speed.max() == pytest.approx(0.5 * SPEED * percent / 100.0, rel=1e-3)
-    assert len(places) < len(slow) - 0.8 / period_s
-    limits(places, faster)
-
-
-def test_an_override_above_100_percent_is_soon_seen_on_a_path_of_short_chords() -> None:
-    shop = planned_shop()
-    percent = max(shop.store.read(cell) for cell in FOV.percents)
-    program: list[c.Entry] = [*path(wave(300), feed=0.5 * FEED), end()]
-    places = follow(shop, *program, actions=[(0.5, feed(percent))])
-    period_s = shop.controller.period_s
-    speed = np.linalg.norm(np.diff(places, axis=0), axis=1) / period_s
-    faster = np.flatnonzero(speed > 0.51 * SPEED)
-    assert 0.5 < faster[0] * period_s < 1.35
-    assert speed.max() == pytest.approx(0.5 * SPEED * percent / 100.0, rel=0.01)
-    limits(places, shop)
-
-
 def test_an_abort_comes_to_rest_on_the_path() -> None:
     shop = planned_shop()
     places = follow(shop, *square(), actions=[(0.2, lambda shop: shop.runner.abort())])
@@ -221,10 +192,10 @@ def test_a_path_that_cannot_be_planned_ends_at_rest_before_that(
     take = TrajectoryPlanner.take
     taken: list[Setpoints] = []
 
-    def fails(planner: TrajectoryPlanner) -> Setpoints | None:
-        if len(taken) >= 4:
+    def fails(planner: TrajectoryPlanner, most: int = 1024) -> Setpoints | None:
+        if len(taken) >= 100:
             raise TrajectoryError("line 70: no speed keeps the limits")
-        found = take(planner)
+        found = take(planner, most)
         taken.extend([] if found is None else [found])
         return found
 

@@ -1,6 +1,7 @@
 """The control points of one planned curve, from rest to rest, and where they are on the path."""
 
 from collections import deque
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from openacr.trajectory.timescale import Progress, TimeScale
 
 Rows = NDArray[np.float64]
 REST = 3  # equal control points
+SLOWING = 50  # knots in which a scale of time is slowed down, mostly
 
 
 class CurveRows:
@@ -54,21 +56,25 @@ class CurveWindow:
         self.scale = TimeScale(start.tolist(), PERIOD_S, accelerations(settings), jerks)
         self._rows = CurveRows(start)
         self._paths: deque[float] = deque()  # the path at knots, from `_first` on
+        self._factors: deque[float] = deque()  # of the feeds there
         self._first = 1
 
     def append(self, found: Setpoints) -> None:
         """Add setpoints."""
-        self._append(*self._rows.add(found))
+        points, paths = self._rows.add(found)
+        self._append(points, paths, found.factors[len(found.factors) - len(points) :])
 
     def complete(self) -> None:
         """Let the curve end as its last setpoints say."""
-        self._append(*self._rows.tail())
+        points, paths = self._rows.tail()
+        self._append(points, paths, np.ones(len(points)))
         self.scale.complete()
 
-    def _append(self, points: Rows, paths: Rows) -> None:
+    def _append(self, points: Rows, paths: Rows, factors: Rows) -> None:
         if len(points):
             self.scale.append(points)
             self._paths.extend(paths.tolist())
+            self._factors.extend(factors.tolist())
 
     def next(self) -> tuple[Progress, Rows]:
         """The next control point."""
@@ -82,8 +88,18 @@ class CurveWindow:
     @property
     def path_u(self) -> float:
         """The path at the last control point."""
+        self._pass()
+        return self._paths[0] if self._paths else 0.0
+
+    @property
+    def factor(self) -> float:
+        """The highest factor of the feeds, of the plan at the last control point and soon after."""
+        self._pass()
+        return max(islice(self._factors, SLOWING), default=1.0)
+
+    def _pass(self) -> None:
         knot = int(self.scale.knot)
         while self._first < knot and len(self._paths) > 1:
             self._paths.popleft()
+            self._factors.popleft()
             self._first += 1
-        return self._paths[0] if self._paths else 0.0

@@ -55,7 +55,6 @@ class Job(PlannedMove):
     jerk_ups3: float = 0.0  # along its path, as a move of its own
     path_tolerance_u: float = 0.0  # of a path planned with a jerk limit, 0: a move of its own
     is_in_curve: bool = False  # its path is part of a planned curve
-    feed_scale: float = 1.0  # the override its path is planned with
     count: int = 0  # the number of its first packet, 0 until it is sent
     last: int = 0  # the number of its last packet
     block: int = 0  # blocks that end before it

@@ -5,6 +5,7 @@ curve is in. A move without a tolerance does not belong to such a curve (`is_pla
 as a move of its own, as on any machine.
 """
 
+import math
 from collections import deque
 from collections.abc import Iterator, Sequence
 
@@ -21,7 +22,9 @@ from openacr.trajectory import Segment, Setpoints, TrajectoryError, TrajectoryPl
 
 Rows = NDArray[np.float64]
 AHEAD_U = 1e-9
+MOST_POINTS = 1024  # of one take
 PASSED_S = 0.4  # of motion at the programmed feeds that the planner knows, at least
+PASSED_FASTER_S = 1.2  # the same where a part of it is to be planned again with higher feeds
 
 
 class PlannedPath:
@@ -37,7 +40,7 @@ class PlannedPath:
         self._metric = PlanMetric(settings)
         self._path_u = 0.0
         self.planned_u = 0.0  # the path of the moves that the planner has
-        self.feed = 1.0  # factor of the feeds of moves that follow: an override above 100 %
+        self._feed = 1.0
         self.start: Rows = np.zeros(len(self._axes))  # whole pulses
         self._known_s = self._passed_s = 0.0
         self._is_stopped = False  # the path known so far ends at rest
@@ -56,12 +59,23 @@ class PlannedPath:
             self._planner = TrajectoryPlanner(
                 self._metric.place(start), self._metric.limits(), PERIOD_S
             )
+            self._planner.override(self._feed)
         self._is_stopped = self.is_at_end = False
         job.is_in_curve = True
         self._jobs.append((self._path_u, job))
         self._path_u += job.length_u
         self._known_s += job.length_u / job.feed_ups
         self._waiting.append(job)
+
+    def override(self, factor: float) -> None:
+        """Plan what has not been taken with a factor of the feeds: an override above 100 %."""
+        planner, rises = self._planner, factor > self._feed
+        self._feed = factor
+        if planner is None:
+            return
+        while rises and self._passed_s < PASSED_FASTER_S and self._pass_on(planner):
+            pass
+        planner.override(factor)
 
     def _pass_on(self, planner: TrajectoryPlanner) -> bool:
         """Pass a move on to the planner; the last one only where the path rests, on a pulse."""
@@ -77,14 +91,13 @@ class PlannedPath:
             first, second = (self._axes.index(a) for a in (entry.plane.first, entry.plane.second))
             arc = PlanArc(first, second, entry.centre, entry.sweep_rad)
         self.planned_u += job.length_u
-        job.feed_scale = 1.0 if job.is_rapid else self.feed
         self._passed_s += job.length_u / job.feed_ups
-        feed_ups = self._feed_of(job)
         planned_u = planner.add(
             Segment(
-                line=entry.source.line, end=self._metric.place(end), feed_ups=feed_ups * ratio,
-                tolerance_u=job.path_tolerance_u, is_rapid=job.is_rapid, arc=arc,
-                tool_ups=feed_ups,
+                line=entry.source.line, end=self._metric.place(end),
+                feed_ups=job.feed_ups * ratio, tolerance_u=job.path_tolerance_u,
+                is_rapid=job.is_rapid, arc=arc, tool_ups=job.feed_ups,
+                fastest=self._fastest(job),
             )
         )  # fmt: skip
         self._metric.note(planned_u, job.length_u)
@@ -92,11 +105,13 @@ class PlannedPath:
             planner.stop()
         return True
 
-    def _feed_of(self, job: Job) -> float:
-        feed_ups = job.feed_ups * job.feed_scale
+    def _fastest(self, job: Job) -> float:
+        """The largest factor of the feed of a move."""
+        if job.is_rapid:
+            return 1.0
         if job.start is None:  # of rotary axes alone: the planner has their limits
-            return feed_ups
-        return min(feed_ups, max(self._settings.speeds.max_ups, job.feed_ups))
+            return math.inf
+        return max(self._settings.speeds.max_ups / job.feed_ups, 1.0)
 
     def _whole(self, counts: Sequence[int]) -> tuple[float, ...]:
         return tuple(count / scale for count, scale in zip(counts, self._scales, strict=True))
@@ -144,22 +159,25 @@ class PlannedPath:
             if not self._waiting:
                 self._planner.stop()
 
-    def take(self) -> Setpoints | None:
-        """The next setpoints; None where nothing more can be planned yet, or at all (`fault`)."""
+    def take(self, most: int = MOST_POINTS) -> Setpoints | None:
+        """The next setpoints, `most` at most; None where nothing more can be planned yet.
+
+        That is so for good where there is a `fault`.
+        """
         if self.fault:
             return None
         try:
-            return self._next()
+            return self._next(most)
         except TrajectoryError as error:
             self.fault, self.is_at_end = str(error), True
             return None
 
-    def _next(self) -> Setpoints | None:
+    def _next(self, most: int) -> Setpoints | None:
         planner, found = self._planner, None
         while planner is not None and found is None:
             while self._passed_s < PASSED_S and self._pass_on(planner):
                 pass
-            found = planner.take()
+            found = planner.take(most)
             if found is None and not self._pass_on(planner):
                 break
         self.is_at_end = found is None and self._is_stopped

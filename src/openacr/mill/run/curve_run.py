@@ -25,9 +25,10 @@ from openacr.mill.run.tracking import Tracker
 from openacr.protocol.move import Move
 from openacr.trajectory.timescale import Progress
 
-AHEAD_S = 0.4  # of the plan known ahead of the points that are sent, on the virtual machine
+AHEAD_S = 0.38  # of the plan known ahead of the points that are sent, on the virtual machine
 AHEAD_LINK_S = 1.0  # over a link, where the host may be late
 SHORT = 0.6  # of that left at which a program that does not arrive is brought to rest
+TAKEN = 4  # points of the plan at once: what is taken is not planned again
 BUFFERED_S = 0.04  # of the curve on the virtual machine
 SPARE = 2  # places of the move buffer that stay free
 Rows = NDArray[np.float64]
@@ -104,10 +105,10 @@ class CurveRun:
         """Plan ahead; the curve begins with the next poll."""
         if self._holds or (self._window is not None and self._window.scale.is_complete):
             return  # what has arrived meanwhile begins another curve
-        path.feed = max(self._factors[0], 1.0)
+        path.override(max(self._factors[0], 1.0))
         if is_complete or (is_starved and self._ahead_s < SHORT * self._wanted_s):
             path.stop()
-        while self._ahead_s < self._wanted_s and (found := path.take()) is not None:
+        while self._ahead_s < self._wanted_s and (found := path.take(TAKEN)) is not None:
             if self._window is None:
                 self._path, self._window = path, CurveWindow(path.start, self._settings)
                 self._before_u = 0.0, 0.0
@@ -146,7 +147,7 @@ class CurveRun:
         packets: list[Move] = []
         progress = Progress.MOVES
         while progress is Progress.MOVES and self._tracker.waiting < self.depth:
-            window.scale.want = self._want()
+            window.scale.want = self._want(window)
             progress, point = window.next()
             if progress is Progress.WAITS or (progress is Progress.HELD and not self._is_begun):
                 break
@@ -159,14 +160,14 @@ class CurveRun:
             self._finish(packets, point, has_ended=progress is Progress.ENDED)
         return packets
 
-    def _want(self) -> float:
-        """The wanted scale of time for the present move."""
+    def _want(self, window: CurveWindow) -> float:
+        """The wanted scale of time for the present move, and for what is planned faster."""
         if self._holds:
             return 0.0
         job, (feed, rapid) = self._job, self._factors
         if job is None:
             return 1.0
-        factor = rapid if job.is_rapid else feed / job.feed_scale
+        factor = rapid if job.is_rapid else feed / window.factor
         return min(max(factor, 0.0), 1.0)
 
     def _begin(self, packets: list[Move]) -> None:
