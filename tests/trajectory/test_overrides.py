@@ -170,3 +170,10 @@ def test_a_course_that_finds_no_faster_law_is_what_it_was(monkeypatch: pytest.Mo
     while (setpoints := planner.take(FEW)) is not None:
         found.append(setpoints)
     require_all([each for each in found if each is not None], segments, START)
+
+
+def test_a_leg_that_is_raised_by_much_keeps_its_acceleration() -> None:
+    segments = [Segment(1, (300.0, 0.0, 0.0), 20.0, 0.01, fastest=5.0)]
+    speed = require_all(run(segments, START, {200: 5.0}), segments, START)
+    assert speed.max() == pytest.approx(100.0, rel=1e-9)
+    assert np.diff(speed).max() / PERIOD_S == pytest.approx(1000.0, rel=1e-3)
