@@ -135,6 +135,21 @@ def test_a_lost_host_and_a_halted_program_leave_an_axis_that_comes_back(
     assert (host.p[SMOOTH] == 7) is not is_halted
 
 
+def test_a_cam_that_is_stopped_is_off_within_some_rounds_of_the_program(
+    card: Card, host: openacr.Controller
+) -> None:
+    card.download(FAST.checked().program(1, T), to=Level.program(7))
+    card.command("RUN", program=7)
+    for _ in range(500):
+        card.pause(0.01)
+        if host.bit[CAM_ON]:
+            break
+    card.pause(0.1)
+    host.bit[104] = False
+    host.advance(seconds=0.05)
+    assert (host.p[CAM_OFFSET], host.bit[CAM_ON]) == (0, False)
+
+
 def test_an_axis_with_a_cam_of_its_own_keeps_it(card: Card) -> None:
     for line in OWN_CAM:
         card.command(line)

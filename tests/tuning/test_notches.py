@@ -125,9 +125,14 @@ def test_filters_written_by_hand_are_known_as_such_and_not_changed(bench: Bench)
     settings = bench.card.perform(lambda talk: settings_of(talk, AXIS))
     with pytest.raises(UserError, match="filters of the axis were written by hand"):
         bench.step(Filters(300.0))
-    for line in before.filters.lines(AXIS):
-        bench.card.command(line)
+    for line in ("LOPASS 0", "NOTCH (400,50)", "NOTCH (0,0)"):
+        bench.card.command(f"AXIS1 {line}")
+        if line.startswith("NOTCH (4"):
+            bench.card.command("CLR 818")  # Biquad Filter Activate: the notch does nothing
+            off = bench.card.perform(lambda talk: settings_of(talk, AXIS))
+            assert (off.filters, off.is_filtering) == (None, False)
     assert settings.filters is None
+    assert bench.card.perform(lambda talk: settings_of(talk, AXIS)) == before
     by_hand = replace(PRESENT, filters=None)
     wish = Wish(bandwidth_hz=20.0)
     assert choose(by_hand, STIFF, wish, measured_to_hz=490.0) == propose(by_hand, STIFF, wish)

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from openacr.tuning.fit import fit
+from openacr.tuning.fit import Fit, fit
 from openacr.tuning.identify import Identified, identify
 from openacr.tuning.motor import Motor
+from openacr.tuning.resonance import _counts
 from openacr.tuning.settings import LoopSettings
 from openacr.tuning.shaft import Shaft
 from openacr.tuning.twin import Record, run
@@ -102,3 +103,13 @@ def test_noise_below_the_peak_leaves_it_found_and_makes_it_less_sure() -> None:
     clean, shaken = (fit(SETTINGS, each, motor) for each in (record, noisy(record, 8.0)))
     for name in ("damping_ratio", "inertia_ratio"):
         assert shaken.deviations[name] > 3.0 * clean.deviations[name]
+
+
+@pytest.mark.parametrize(
+    ("resonance_hz", "is_there"), [(1.9, False), (2.1, True), (96.9, True), (97.1, False)]
+)
+def test_a_peak_counts_only_within_what_was_searched(resonance_hz: float, is_there: bool) -> None:
+    shaft = Shaft(resonance_hz, 0.02, 0.5)
+    sure = dict.fromkeys(("resonance_hz", "damping_ratio", "inertia_ratio"), 0.001)
+    rigid, bent = Fit(RIGID, np.ones(9), {}), Fit(RIGID, np.full(9, 0.1), sure)
+    assert _counts(rigid, bent, shaft, (2.0, 100.0)) is is_there
