@@ -12,6 +12,7 @@ import pytest
 from tests.panel.bench import JOBS_S, HandStation, is_alive
 
 from openacr.errors import UserError
+from openacr.map.rows import compliant_loads
 from openacr.panel.control import tuning
 from openacr.panel.control.jobs import KILLED
 from openacr.panel.control.orders import Order
@@ -272,3 +273,18 @@ def test_what_is_out_of_range_is_refused_before_anything_moves(hand: HandStation
         "amplitude [pulses] 4: from 5 to 100000"
     )
     assert "Q" in hand.refused("tune.measure", axis="Q")["text"]
+
+
+def test_gains_that_need_a_notch_are_not_kept_without_it(hand: HandStation) -> None:
+    controller = hand.installation.controller
+    assert controller is not None
+    for place, value in (
+        (compliant_loads.damping_per_s, 60.0),
+        (compliant_loads.inertia_ratio, 1.0),
+        (compliant_loads.resonance_rad_s, 2000.0),
+    ):
+        controller.memory.F[place[0]] = value
+    found = hand.do("tune.measure", axis="X", time_s=1.2, high_hz=500.0)
+    assert found["proposed"]["filters"]["notch_hz"] == pytest.approx(318.3, rel=0.02)
+    text = hand.refused("tune.apply", axis="X", store=True)["text"]
+    assert text.startswith("the parameters of the machine have no NOTCH and LOPASS")

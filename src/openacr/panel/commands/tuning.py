@@ -96,6 +96,8 @@ def tune_step(station: Station, order: Order, args: OfStep) -> Later:
 def tune_apply(station: Station, order: Order, args: OfProposal) -> Later:
     """Set the gains that were proposed; the card tries them with a step and takes bad ones back."""
     axis = _resting(station, args.axis)
+    if args.store:
+        station.tuning.require_kept(axis)
     cells = _cells(station, axis, station.tuning.proposed(axis)) if args.store else {}
     applying = station.tuning.apply(order.person.client, axis)
 

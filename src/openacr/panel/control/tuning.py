@@ -95,6 +95,15 @@ class Tuning:
             raise UserError("nothing was proposed for this axis: measure it first")
         return found.gains
 
+    def require_kept(self, axis: int) -> None:
+        """Refuse to keep gains whose filters the parameters of the machine cannot hold."""
+        found = self._advice.get(axis)
+        if found is not None and found.filters is not None:
+            raise UserError(
+                "the parameters of the machine have no NOTCH and LOPASS: set the gains without"
+                " keeping them"
+            )
+
     def _begin(
         self,
         client: int,
