@@ -2,6 +2,7 @@
 
 import gc
 import logging
+import sys
 from pathlib import Path
 from socket import SOCK_STREAM as STREAM
 from typing import Annotated
@@ -14,6 +15,8 @@ from openacr.io.listening import bound_socket
 
 HOST = "127.0.0.1"
 LAST_PORT = 65535
+TURN_S = 0.0005  # a check gives way to a question after this time
+MOST_OBJECTS = 2_000_000  # until a collection that is not waited for (`checks.py`)
 MISSING = "the language server needs pygls: pip install 'openacr[lsp]'"
 
 
@@ -46,7 +49,9 @@ def lsp(
 
     server = Server(store, dialect)
     gc.freeze()  # what is imported stays: no collection goes through it
+    gc.set_threshold(MOST_OBJECTS)
     gc.enable()
+    sys.setswitchinterval(TURN_S)
     if tcp is None:
         serve(server)
         return

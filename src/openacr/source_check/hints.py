@@ -3,6 +3,7 @@
 import re
 from collections.abc import Collection, Iterable
 from difflib import get_close_matches
+from functools import lru_cache
 
 from openacr.basic.language import registry
 from openacr.basic.language.registry import Level
@@ -21,6 +22,7 @@ from openacr.messages import (
 )
 
 MOST_NAMES = 5
+WORDS = 4096  # whose hints are kept: a wrong word comes again and again
 AFTER_A_TARGET = "after a target come other axes, a command or `:`"
 NO_ALIASES = "DIM DEF(n) at SYS, before it, makes space for n aliases; a new card has none"
 TEXT_AND_NUMBER = "STR$ makes text of a number, VAL a number of text"
@@ -63,8 +65,13 @@ def _close_word(word: str, names: Collection[str]) -> str:
         return ""  # a call, not a word
     close = get_close_matches(word, sorted(names), n=1)
     if len(word) > 1:  # one letter is an axis, not a command with a letter missing
-        close = close or get_close_matches(word.upper(), registry.keywords(), n=1)
+        close = close or _close_keywords(word.upper())
     return close[0] if close and close[0] != word.upper() else ""
+
+
+@lru_cache(WORDS)
+def _close_keywords(word: str) -> list[str]:
+    return get_close_matches(word, registry.keywords(), n=1)
 
 
 def _usage(text: str, span: Span, names: Collection[str]) -> str:
