@@ -78,7 +78,7 @@ def running(feed: Feed, count: int) -> Iterator[Bridge]:
 
 def _cpu_s() -> float:
     """The processor time of the thread of the bridge."""
-    thread = next(each for each in threading.enumerate() if each.name == "bridge")
+    thread = next(each for each in threading.enumerate() if each.name == Bridge.__name__)
     return time.clock_gettime(time.pthread_getcpuclockid(thread.ident or 0))
 
 
