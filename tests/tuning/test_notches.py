@@ -28,6 +28,8 @@ from openacr.tuning.settings import LoopSettings
 from openacr.tuning.shaft import Shaft
 from openacr.tuning.twin import Record, run
 
+pytestmark = pytest.mark.evidence("oracle", "the loop with two masses on a spring, by scipy.signal")
+
 RESONANCE_HZ = 230.0
 PERIOD_S = 0.001  # a slow card: the delay of its loop turns the phase at the resonance
 PRESENT = LoopSettings.of_gains(0.0005, pgain=0.006, dgain=7e-5)

@@ -118,5 +118,5 @@ def test_the_load_swings_as_the_second_mass_does() -> None:
     _of_motor, of_load, denominator = two_masses(SHAFT)
     expected = signal.lfilter(of_load, denominator, np.ones(400))
     assert found.load_cnt is not None
-    assert np.abs(found.load_cnt - expected).max() < 1e-6
+    assert np.abs(found.load_cnt - expected).max() < 1e-9 * np.abs(expected).max()
     assert np.abs(found.load_cnt - found.actual_cnt).max() > 5.0

@@ -399,9 +399,9 @@ def turning(leg: float, degrees: float, count: int = 20) -> list[Point]:
 @pytest.mark.parametrize(
     ("points", "tolerance", "seconds"),
     [
-        (wave(0.4), 0.01, 2.114),
-        (wave(2.0), 0.01, 1.925),
-        (wave(2.0), 0.1, 1.262),
+        (wave(0.4), 0.01, 3.368),
+        (wave(2.0), 0.01, 1.914),
+        (wave(2.0), 0.1, 1.786),
         (turning(5.0, 20.0), 0.01, 3.869),
         (turning(5.0, 20.0), 0.1, 2.321),
         (turning(5.0, 45.0), 0.01, 4.0),

@@ -32,43 +32,25 @@ def corner_lift(x_u: float, reach_u: float, smooth: int) -> float:
     return left_u * left_u / (4.0 * reach_u)
 
 
-def corner_turn(F: F64, I: I32, a: int, b: int, s: int) -> float:
-    """Change of the direction of slave s [pulses per unit of the path] from record a to b."""
-    turn: float = 0.0
-    if I[moves.slaves[b]] & (1 << s) and F[moves.length_u[b]] > 0.0:
-        turn += F[moves.delta_cnt[b] + s] / F[moves.length_u[b]]
-    if I[moves.slaves[a]] & (1 << s) and F[moves.length_u[a]] > 0.0:
-        turn -= F[moves.delta_cnt[a] + s] / F[moves.length_u[a]]
-    return turn
-
-
-def corner_turns(F: F64, I: I32, m: int, a: int, b: int) -> None:
-    """Note the two directions of the corner between records a and b, to which the path comes."""
-    for s in range(SLAVE_COUNT):
-        F[masters.corner_out_cnt[m] + s] = corner_turn(F, I, a, b, s)
-
-
 def corner_open(F: F64, I: I32, m: int, a: int, b: int, reach_u: float, smooth: int) -> None:
-    """The path comes to the rounded corner between records a and b."""
-    corner_turns(F, I, m, a, b)
+    """The path comes to the rounded corner between records a and b: note its two directions."""
+    first: int = I[moves.slaves[a]]
+    second: int = I[moves.slaves[b]]
+    for s in range(SLAVE_COUNT):
+        turn: float = 0.0
+        if second & (1 << s) and F[moves.length_u[b]] > 0.0:
+            turn += F[moves.delta_cnt[b] + s] / F[moves.length_u[b]]
+        if first & (1 << s) and F[moves.length_u[a]] > 0.0:
+            turn -= F[moves.delta_cnt[a] + s] / F[moves.length_u[a]]
+        F[masters.corner_out_cnt[m] + s] = turn
     F[masters.corner_out_u[m]] = reach_u
-    F[masters.blend_out_u[m]] = 0.0
     I[masters.corner_smooth_out[m]] = smooth
-
-
-def corner_blend(F: F64, I: I32, m: int, a: int, b: int) -> None:
-    """Move a has begun, which is blended into move b."""
-    corner_turns(F, I, m, a, b)
-    F[masters.blend_out_u[m]] = F[moves.blend_u[a]]
-    I[masters.corner_smooth_out[m]] = 1
 
 
 def corner_pass(F: F64, I: I32, m: int, record: int) -> None:
     """The move in front of a corner has ended; `record` is to leave it."""
     I[masters.corner_next[m]] = 0
-    F[masters.blend_in_u[m]] = F[masters.blend_out_u[m]]
-    F[masters.blend_out_u[m]] = 0.0
-    if F[masters.corner_out_u[m]] <= 0.0 and F[masters.blend_in_u[m]] <= 0.0:
+    if F[masters.corner_out_u[m]] <= 0.0:
         return
     for s in range(SLAVE_COUNT):
         F[masters.corner_in_cnt[m] + s] = F[masters.corner_out_cnt[m] + s]
@@ -83,11 +65,9 @@ def corner_pass(F: F64, I: I32, m: int, record: int) -> None:
 def corner_enter(F: F64, I: I32, m: int, record: int) -> None:
     """A move begins: after its corner from the corner itself, else from where the axes are."""
     F[masters.corner_out_u[m]] = 0.0
-    F[masters.blend_out_u[m]] = 0.0
     if I[masters.corner_next[m]] != record + 1:
         F[masters.corner_in_u[m]] = 0.0
-        F[masters.blend_in_u[m]] = 0.0
-    elif F[masters.corner_in_u[m]] > 0.0 or F[masters.blend_in_u[m]] > 0.0:
+    elif F[masters.corner_in_u[m]] > 0.0:
         for s in range(SLAVE_COUNT):
             axis: int = I[masters.slave_axis[m] + s]
             if axis >= 0 and F[masters.corner_in_cnt[m] + s] != 0.0:
@@ -99,8 +79,6 @@ def corner_drop(F: F64, I: I32, m: int) -> None:
     """End the rounding of both corners."""
     F[masters.corner_in_u[m]] = 0.0
     F[masters.corner_out_u[m]] = 0.0
-    F[masters.blend_in_u[m]] = 0.0
-    F[masters.blend_out_u[m]] = 0.0
     I[masters.corner_next[m]] = 0
 
 
@@ -109,20 +87,18 @@ def corner_place(F: F64, I: I32, m: int, slaves: int, gone_u: float, left_u: flo
 
     Those of `slaves` stand where the present move puts them, the others at their targets.
     """
-    in_u: float = max(F[masters.corner_in_u[m]], F[masters.blend_in_u[m]])
-    out_u: float = max(F[masters.corner_out_u[m]], F[masters.blend_out_u[m]])
-    if in_u <= 0.0 and out_u <= 0.0:
+    if F[masters.corner_in_u[m]] <= 0.0 and F[masters.corner_out_u[m]] <= 0.0:
         return
-    passed: float = corner_lift(gone_u, in_u, I[masters.corner_smooth_in[m]])
-    ahead: float = corner_lift(left_u, out_u, I[masters.corner_smooth_out[m]])
+    passed: float = corner_lift(gone_u, F[masters.corner_in_u[m]], I[masters.corner_smooth_in[m]])
+    ahead: float = corner_lift(left_u, F[masters.corner_out_u[m]], I[masters.corner_smooth_out[m]])
     for s in range(SLAVE_COUNT):
         axis: int = I[masters.slave_axis[m] + s]
         turn: float = 0.0
         lift: float = 0.0
-        if in_u > 0.0:
+        if F[masters.corner_in_u[m]] > 0.0:
             turn = fabs(F[masters.corner_in_cnt[m] + s])
             lift = passed * F[masters.corner_in_cnt[m] + s]
-        if out_u > 0.0:
+        if F[masters.corner_out_u[m]] > 0.0:
             turn += fabs(F[masters.corner_out_cnt[m] + s])
             lift += ahead * F[masters.corner_out_cnt[m] + s]
         if axis >= 0 and turn > 0.0:

@@ -29,7 +29,7 @@ in path_cy and curve_cy (geometry), hold_cy (stops), interrupt_cy (INT, TRG), se
 
 from openacr.kernel.axis.capture_cy import capture_arm
 from openacr.kernel.path.bezier_cy import is_timed
-from openacr.kernel.path.corner_cy import corner_drop, corner_enter, corner_pass
+from openacr.kernel.path.corner_cy import corner_drop, corner_pass
 from openacr.kernel.path.curveflags_cy import curve_show
 from openacr.kernel.path.hold_cy import (
     FEEDHOLDING,
@@ -70,8 +70,6 @@ from openacr.kernel.path.path_cy import (
     move_shape,
 )
 from openacr.kernel.path.plan_cy import look_refresh, master_plan
-from openacr.kernel.path.round_between_cy import round_bar, round_passes
-from openacr.kernel.path.round_blend_cy import blend_begin
 from openacr.kernel.path.seek_cy import (
     SEEK_NONE,
     SEEK_SEARCHING,
@@ -106,8 +104,6 @@ def move_begin(F: F64, I: I32, S: F32, m: int, velocity_ups: float, accel_ups2: 
     word2: int = mf2.word[m]
     move_flags(I, S, m, record)
     move_geometry(F, I, S, m)
-    if I[masters.rounding[m]]:
-        blend_begin(F, I, m, record)
     turn_deg: float = F[moves.turn_deg[record]]
     S[masters.look_ahead_vector_angle[m]] = turn_deg
     if starts_anew(I, m, record):
@@ -244,11 +240,7 @@ def moves_pass(F: F64, I: I32, S: F32, m: int) -> None:
         record = move_record(I, m)
         move_flags(I, S, m, record)
         length_u = F[moves.length_u[record]]
-        if I[masters.rounding[m]]:
-            corner_enter(F, I, m, record)
         move_shape(F, I, S, m, record, False)
-        if I[masters.rounding[m]]:
-            blend_begin(F, I, m, record)
         if F[moves.length_u[record]] != length_u:
             I[masters.look_dirty[m]] = 1  # its start was moved
         turn_deg: float = F[moves.turn_deg[record]]
@@ -383,8 +375,7 @@ def move_enter(F: F64, I: I32, S: F32, m: int, velocity_ups: float, accel_ups2: 
     if I[masters.hold[m]] == FEEDHOLDING and velocity_ups <= 0.0:
         master_at_rest(F, I, S, m)
         return WAITS
-    barred: bool = sync_bars(I, m) or (I[mf1.word[m]] & BARS != 0 and move_barred(I, m))
-    if barred and not round_passes(I, m, velocity_ups):
+    if sync_bars(I, m) or (I[mf1.word[m]] & BARS and move_barred(I, m)):
         profile_reset(F, I, m, 0.0, 0.0)
         return WAITS
     if move_skipped(I, m):
@@ -413,7 +404,6 @@ def plan_over(F: F64, I: I32, S: F32, m: int) -> bool:
         return True
     if I[masters.cut[m]] == CUT:
         cut_end(F, I, m)
-        corner_drop(F, I, m)
         while I[masters.section_cnt[m]] > 1:  # what the path was planned through goes with it
             move_end(F, I, S, m)
             F[masters.origin_u[m]] = F[profiles.distance[m]]  # nothing of it has been gone
@@ -452,8 +442,6 @@ def master_follow(F: F64, I: I32, S: F32, m: int) -> None:
     if I[moves.interrupt[move_record(I, m)]]:
         interrupt_step(F, I, S, m)
     word: int = mf1.word[m]
-    if I[masters.rounding[m]] and (I[word] & mf1.START_MOVE_INHIBIT or sync_bars(I, m)):
-        round_bar(F, I, S, m)
     dirty: bool = I[masters.look_dirty[m]] != 0
     if dirty and I[masters.cut[m]] != CUT:
         look_refresh(F, I, S, m)

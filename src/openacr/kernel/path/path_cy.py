@@ -85,8 +85,6 @@ def move_limit(F: F64, I: I32, S: F32, m: int, record: int, override: float) -> 
         velocity_ups = min(velocity_ups, limit_ups)
     if F[moves.maxvel_ups[record]] > 0.0:
         velocity_ups = min(velocity_ups, F[moves.maxvel_ups[record]])
-    if F[moves.blend_ups[record]] > 0.0:
-        velocity_ups = min(velocity_ups, F[moves.blend_ups[record]])
     return velocity_ups if velocity_ups > 0.0 else 0.0
 
 

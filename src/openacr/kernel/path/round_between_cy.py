@@ -22,20 +22,10 @@ from openacr.kernel.path.lookahead_cy import (
     look_record,
 )
 from openacr.kernel.path.path_cy import MARK_ROUNDS, move_record
-from openacr.kernel.path.round_blend_cy import (
-    blend_after,
-    blend_before,
-    blend_entered,
-    blend_pays,
-    blend_reach,
-    blend_restore,
-    blend_share,
-)
 from openacr.kernel.path.round_corner_cy import SLACK
 from openacr.kernel.path.round_cy import (
     round_end,
     round_first,
-    round_lasts,
     round_planned,
     round_through,
     round_where,
@@ -55,9 +45,8 @@ from openacr.kernel.path.round_settle_cy import round_arrives
 from openacr.map.rows import masters, moves, profiles
 from openacr.views import F32, F64, I32
 
-__all__ = ["round_bar", "round_between", "round_drop", "round_passes"]
+__all__ = ["round_between", "round_drop"]
 
-BESIDE_BLEND = 1.0 - 1.0 / 64.0  # of the tolerance: a window as long as a move lifts by the rest
 REACH = 0.5  # of the shorter of two lines: corners may touch each other in the middle of a line
 REACH_JRK = 0.25  # with jerk: half of a line is left to change the speed on
 FEEDHOLDING = 1  # see hold_cy
@@ -69,7 +58,6 @@ def round_between(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> None:
     F[moves.corner_turn[a]] = 0.0
     F[moves.corner_u[b]] = 0.0
     F[moves.corner_turn[b]] = 0.0
-    F[moves.blend_u[a]] = 0.0
     I[moves.ahead[a]] = AS_LOOK
     tolerance_u: float = F[moves.tolerance_u[a]]
     if not tolerance_u > 0.0 or not round_straight(F, I, a) or not round_straight(F, I, b):
@@ -94,68 +82,14 @@ def round_between(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> None:
         jerk_ups3 = min(jerk_ups3, F[moves.jrk_ups3[b]])
         if jerk_ups3 <= 0.0:  # only one of the two has a limit of jerk
             return
-        if F[moves.blend_ups[a]] > 0.0:
-            tolerance_u *= BESIDE_BLEND
         reach_u = min(6.0 * tolerance_u / turn, REACH_JRK * shorter_u)
     limit_ups2: float = round_accel(F, a)
     other_ups2: float = round_accel(F, b)
     if limit_ups2 <= 0.0 or 0.0 < other_ups2 < limit_ups2:
         limit_ups2 = other_ups2
     F[moves.corner_ups[a]] = round_cap(turn, reach_u, limit_ups2, jerk_ups3)
-    pays: bool = jerk_ups3 <= 0.0 or round_pays(F, a, b, reach_u, limit_ups2, jerk_ups3)
-    if jerk_ups3 > 0.0 and round_blends(F, I, S, m, a, b, reach_u if pays else 0.0):
-        return
-    if pays:
+    if jerk_ups3 <= 0.0 or round_pays(F, a, b, reach_u, limit_ups2, jerk_ups3):
         round_take(F, I, S, m, a, reach_u)
-
-
-def round_blends(F: F64, I: I32, S: F32, m: int, a: int, b: int, reach_u: float) -> bool:
-    """Blend two short moves if that is quicker than a corner of `reach_u`, or a stop if it is 0."""
-    blend_u: float = blend_reach(F, I, m, a, b)
-    if blend_u <= 0.0:
-        return False
-    before_ups: float = blend_before(F, I, S, m, a, b, blend_u)
-    after_ups: float = blend_after(F, a, b, blend_u)
-    cap_ups: float = F[moves.corner_ups[a]] if reach_u > 0.0 else 0.0
-    accel_ups2: float = round_accel(F, b)
-    jerk_ups3: float = F[moves.jrk_ups3[b]]
-    if not blend_pays(F, a, before_ups, reach_u, cap_ups, accel_ups2, jerk_ups3):
-        return False
-    if not blend_pays(F, b, after_ups, reach_u, cap_ups, accel_ups2, jerk_ups3):
-        return False
-    return round_share(F, I, S, m, a, b, blend_u, before_ups, after_ups)
-
-
-def round_share(
-    F: F64,
-    I: I32,
-    S: F32,
-    m: int,
-    a: int,
-    b: int,
-    blend_u: float,
-    before_ups: float,
-    after_ups: float,
-) -> bool:
-    """Blend two moves if the path can still come to them as slow as that asks for."""
-    acc_ups2: float = F[moves.acc_ups2[a]]
-    dec_ups2: float = F[moves.dec_ups2[a]]
-    stp_ups2: float = F[moves.stp_ups2[a]]
-    jrk_ups3: float = F[moves.jrk_ups3[a]]
-    was_ups: float = F[moves.blend_ups[a]]
-    next_acc_ups2: float = F[moves.acc_ups2[b]]
-    next_dec_ups2: float = F[moves.dec_ups2[b]]
-    next_stp_ups2: float = F[moves.stp_ups2[b]]
-    next_jrk_ups3: float = F[moves.jrk_ups3[b]]
-    blend_share(F, a, before_ups)
-    blend_share(F, b, after_ups)
-    round_take(F, I, S, m, a, 0.0)
-    if I[moves.ahead[a]] == JOINED:
-        F[moves.blend_u[a]] = blend_u
-        return True
-    blend_restore(F, a, acc_ups2, dec_ups2, stp_ups2, jrk_ups3, was_ups)
-    blend_restore(F, b, next_acc_ups2, next_dec_ups2, next_stp_ups2, next_jrk_ups3, 0.0)
-    return False
 
 
 def round_take(F: F64, I: I32, S: F32, m: int, a: int, reach_u: float) -> None:
@@ -179,8 +113,6 @@ def round_keeps(F: F64, I: I32, S: F32, m: int) -> bool:
     record: int = move_record(I, m)
     if not I[masters.moving[m]] or not round_through(F, I, m, record):
         return True
-    if I[masters.queued[m]] <= 1 and blend_entered(F, I, m):
-        return False
     jerk_ups3: float = F[moves.jrk_ups3[record]]
     part: int = round_where(F, I, m)
     cap_ups: float = F[masters.look_cap_ups[m]]
@@ -202,8 +134,6 @@ def round_keeps(F: F64, I: I32, S: F32, m: int) -> bool:
         return F[profiles.end_distance[m]] <= end_u and end_ups <= top_ups
     if round_planned(F, I, m, end_u, leaving_ups):
         return True
-    if round_lasts(F, I, S, m):
-        return True
     rate_ups2: float = round_rate(F, look_record(I, m, first), w_v2)
     if jerk_ups3 <= 0.0:
         velocity_ups: float = F[profiles.velocity[m]]
@@ -223,41 +153,3 @@ def round_drop(F: F64, I: I32, S: F32, m: int) -> None:
             kept += 1
         I[masters.look_dirty[m]] = 1
     I[masters.queued[m]] = kept
-    if kept <= 1:
-        F[masters.blend_out_u[m]] = 0.0
-
-
-def round_bar(F: F64, I: I32, S: F32, m: int) -> None:
-    """The moves that wait may not begin: stop at the next corner before which there is room.
-
-    That corner is a stop for good, as if it were decided so when its move was appended.
-    """
-    if I[masters.cut[m]] or not round_through(F, I, m, move_record(I, m)):
-        return
-    queued: int = I[masters.queued[m]]
-    kept: int = 1
-    while kept < queued and I[moves.ahead[look_record(I, m, kept - 1)]] == JOINED:
-        I[masters.queued[m]] = kept
-        if round_keeps(F, I, S, m):
-            break
-        kept += 1
-    I[masters.queued[m]] = queued
-    if kept >= queued or I[moves.ahead[look_record(I, m, kept - 1)]] != JOINED:
-        return
-    record: int = look_record(I, m, kept - 1)
-    I[moves.ahead[record]] = STOPS
-    F[moves.corner_u[record]] = 0.0
-    F[moves.blend_u[record]] = 0.0
-    if kept == 1:
-        F[masters.blend_out_u[m]] = 0.0
-    I[masters.look_dirty[m]] = 1
-
-
-def round_passes(I: I32, m: int, velocity_ups: float) -> bool:
-    """Whether the path comes to the move at the head at speed, out of a corner or straight on."""
-    if not I[masters.rounding[m]] or velocity_ups <= 0.0:
-        return False
-    before: int = I[masters.head[m]] - 1
-    if before < 0:
-        before = I[masters.size[m]] - 1
-    return I[moves.ahead[I[masters.first[m]] + before]] == JOINED

@@ -25,22 +25,15 @@ from openacr.kernel.path.round_corner_cy import (
     round_corner,
     round_decelerate,
 )
-from openacr.kernel.path.round_law_cy import SHARE, round_accel
+from openacr.kernel.path.round_law_cy import round_accel
 from openacr.kernel.path.round_pass_cy import (
     CORNER_AFTER,
     CORNER_BEFORE,
     LINE,
-    round_chain,
-    round_entry2,
     round_exit2,
 )
 from openacr.kernel.path.round_run_cy import round_last, round_rate, round_run
-from openacr.kernel.path.round_settle_cy import (
-    round_arrives,
-    round_even,
-    round_reached,
-    round_settle,
-)
+from openacr.kernel.path.round_settle_cy import round_even, round_reached, round_settle
 from openacr.kernel.profile.profile_cy import profile_plan
 from openacr.kernel.profile.ramps_cy import rest_speed
 from openacr.map.rows import masters, moves, profiles
@@ -57,7 +50,7 @@ def round_through(F: F64, I: I32, m: int, record: int) -> bool:
         return False
     if look_active(I, m) or look_beyond(I, m, record):
         return True
-    return F[masters.corner_in_u[m]] > 0.0 or F[masters.blend_in_u[m]] > 0.0
+    return F[masters.corner_in_u[m]] > 0.0
 
 
 def round_where(F: F64, I: I32, m: int) -> int:
@@ -98,8 +91,6 @@ def round_first(F: F64, I: I32, S: F32, m: int, part: int) -> int:
     """Moves from the present one to the one in which its piece ends: with jerk lines are runs."""
     F[masters.look_cap_ups[m]] = 0.0
     if part == LINE and F[moves.jrk_ups3[move_record(I, m)]] > 0.0:
-        if F[moves.blend_ups[move_record(I, m)]] > 0.0:
-            return round_chain(F, I, S, m)
         return round_run(F, I, S, m)
     return 0
 
@@ -120,12 +111,7 @@ def round_plan(F: F64, I: I32, S: F32, m: int) -> None:
     """Plan the piece of the present move in which the path is."""
     record: int = move_record(I, m)
     part: int = round_part(F, I, m)
-    cap_ups: float = F[masters.look_cap_ups[m]]
     first: int = round_first(F, I, S, m, part)
-    if part == LINE and round_stays(F, I, S, m, first):
-        F[masters.look_cap_ups[m]] = cap_ups
-        F[profiles.target_velocity[m]] = master_limit(F, I, S, m)
-        return
     reach_u: float = round_reach(F, I, m, first)
     I[masters.piece[m]] = 0
     if part == CORNER_BEFORE or (part == LINE and reach_u > 0.0):
@@ -138,7 +124,7 @@ def round_plan(F: F64, I: I32, S: F32, m: int) -> None:
     if part == LINE:
         round_line(F, I, m, first, limit_ups, sqrt(w_v2))
     elif part == CORNER_BEFORE:
-        cap_ups = F[masters.corner_in_ups[m]]
+        cap_ups: float = F[masters.corner_in_ups[m]]
         round_corner(
             F,
             I,
@@ -156,36 +142,6 @@ def round_plan(F: F64, I: I32, S: F32, m: int) -> None:
             F, I, m, record, limit_ups, w_v2, F[masters.corner_out_turn[m]], reach_u, cap_ups
         )
     F[profiles.target_velocity[m]] = limit_ups
-
-
-def round_stays(F: F64, I: I32, S: F32, m: int, first: int) -> bool:
-    """Whether the plan in force has to be kept: a blended path cannot come to the end of its run.
-
-    Runs end elsewhere when moves are appended; it would have acceleration there.
-    """
-    if not F[moves.blend_ups[move_record(I, m)]] > 0.0:
-        return False
-    end_u: float = round_end(F, I, m, LINE, first)
-    leaving_ups: float = sqrt(F[masters.chain_v2[m]])
-    if round_planned(F, I, m, end_u, leaving_ups):
-        return False
-    record: int = look_record(I, m, first)
-    room_u: float = (end_u - F[profiles.distance[m]]) * SHARE
-    rate_ups2: float = round_rate(F, record, F[masters.chain_v2[m]])
-    if round_arrives(F, m, room_u, leaving_ups, rate_ups2, F[moves.jrk_ups3[record]]):
-        return False
-    return round_lasts(F, I, S, m)
-
-
-def round_lasts(F: F64, I: I32, S: F32, m: int) -> bool:
-    """Whether the plan in force still leads to the end of a move of the chain, slow enough."""
-    if not F[moves.blend_ups[move_record(I, m)]] > 0.0:
-        return False
-    last: int = I[masters.section_cnt[m]] - 1
-    if last >= I[masters.queued[m]]:
-        return False
-    end_u: float = round_end(F, I, m, LINE, last)
-    return round_planned(F, I, m, end_u, sqrt(round_entry2(F, I, S, m, last)))
 
 
 def round_line(F: F64, I: I32, m: int, first: int, limit_ups: float, leaving_ups: float) -> None:
@@ -215,7 +171,6 @@ def round_line(F: F64, I: I32, m: int, first: int, limit_ups: float, leaving_ups
                 misses: bool = reached_ups < 0.0 or reached_ups > leaving_ups * (1.0 + SLACK)
                 settled: bool = F[profiles.target_velocity[m]] == limit_ups
                 if misses or (settled and reached_ups < F[profiles.end_velocity[m]]):
-                    F[masters.section_u[m]] = F[profiles.end_distance[m]]
                     return
             if reached_ups == 0.0 and limit_ups > 0.0:
                 leaving_ups = 0.0  # there is room for nothing but a stop at its end
@@ -236,9 +191,7 @@ def round_line(F: F64, I: I32, m: int, first: int, limit_ups: float, leaving_ups
 
 def round_planned(F: F64, I: I32, m: int, end_u: float, leaving_ups: float) -> bool:
     """Whether the present plan leads to `end_u` with `leaving_ups` at most and no acceleration."""
-    if I[profiles.seg_count[m]] <= 0:
-        return False
-    if fabs(F[profiles.end_distance[m]] - end_u) > SLACK * F[moves.length_u[move_record(I, m)]]:
+    if I[profiles.seg_count[m]] <= 0 or F[profiles.end_distance[m]] != end_u:
         return False
     steady_ups2: float = STEADY * round_accel(F, move_record(I, m))
     if fabs(F[profiles.plan_accel[m]]) > steady_ups2:

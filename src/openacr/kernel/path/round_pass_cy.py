@@ -7,9 +7,7 @@ A binary move with a tolerance of its own is planned through the corner at its e
 is off; the chain of such moves ends with the first other one, as that one ends without LOOK.
 """
 
-from openacr.cmath import sqrt
 from openacr.kernel.path.lookahead_cy import look_final, look_rate, look_record, look_speed
-from openacr.kernel.path.round_blend_cy import blend_joined
 from openacr.kernel.path.round_law_cy import (
     ENDLESS,
     line_start2,
@@ -32,7 +30,6 @@ __all__ = ["round_exit2"]
 CORNER_BEFORE = 0  # parts of a move
 LINE = 1
 CORNER_AFTER = 2
-CHAIN = -1  # as the move in which a line ends: to be found
 FEW = 16  # moves the backward pass looks at first
 
 
@@ -81,7 +78,6 @@ def round_pass(F: F64, I: I32, S: F32, m: int, part: int, first: int, far: int, 
     capped: bool = far >= last
     run_u: float = 0.0  # of the moves of a run after this one
     run_v2: float = ENDLESS
-    ends: int = k  # the move with which the present run ends
     if far >= last:
         w_v2 = look_final(F, I, S, m, r)
         w_v2 = w_v2 * w_v2
@@ -108,12 +104,6 @@ def round_pass(F: F64, I: I32, S: F32, m: int, part: int, first: int, far: int, 
                 w_v2 = cap_v2
                 capped = True
         if k == first and part == LINE:
-            if run_u > 0.0:  # it is no end of a run as they are now
-                w_v2 = min(round_line2(F, r, run_u, w_v2, rate_ups2, capped), top_v2)
-            break
-        if k == 0 and first == CHAIN:
-            F[masters.look_cap_ups[m]] = sqrt(top_v2)
-            I[masters.chain_last[m]] = ends
             break
         run_u += F[moves.length_u[r]] - reach_u - before_u
         if k > 0 and round_merges(F, I, S, m, a, r):
@@ -121,14 +111,6 @@ def round_pass(F: F64, I: I32, S: F32, m: int, part: int, first: int, far: int, 
             r = a
             k -= 1
             continue
-        if k > 0 and blend_joined(F, I, a, r):
-            near_ups: float = look_speed(F, I, S, m, a)
-            joint_v2: float = min(top_v2, near_ups * near_ups)
-            if round_line2(F, r, run_u, w_v2, rate_ups2, capped) < joint_v2:
-                run_v2 = joint_v2
-                r = a
-                k -= 1
-                continue
         w_v2 = round_line2(F, r, run_u, w_v2, rate_ups2, capped)
         run_u = 0.0
         run_v2 = ENDLESS
@@ -146,30 +128,11 @@ def round_pass(F: F64, I: I32, S: F32, m: int, part: int, first: int, far: int, 
         rate_ups2 = round_rate(F, a, w_v2)
         r = a
         k -= 1
-        ends = k
     return w_v2 if capped else -1.0
-
-
-def round_chain(F: F64, I: I32, S: F32, m: int) -> int:
-    """Moves from the present one, which is blended, to the last of its run; note its speeds.
-
-    Neighbours of different speeds are one run where the lower of them is too high to matter.
-    """
-    last: int = round_last(I, m)
-    F[masters.chain_v2[m]] = round_pass(F, I, S, m, LINE, CHAIN, last, last)
-    return I[masters.chain_last[m]]
-
-
-def round_entry2(F: F64, I: I32, S: F32, m: int, first: int) -> float:
-    """Highest speed squared at the end of move `first`, wherever runs end."""
-    last: int = round_last(I, m)
-    return round_pass(F, I, S, m, LINE, first, last, last)
 
 
 def round_exit2(F: F64, I: I32, S: F32, m: int, part: int, first: int) -> float:
     """Highest speed squared at the end of a piece of the present move, or of a run to `first`."""
-    if part == LINE and F[moves.blend_ups[look_record(I, m, 0)]] > 0.0:
-        return F[masters.chain_v2[m]]
     last: int = round_last(I, m)
     far: int = min(first + FEW, last)
     w_v2: float = round_pass(F, I, S, m, part, first, far, last)

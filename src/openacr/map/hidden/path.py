@@ -76,8 +76,6 @@ MOVE = HiddenBlock(
         "corner_u",  # from how far before that corner it is rounded, 0 not at all
         "corner_turn",  # size of the change of direction there, 0 to 2
         "corner_ups",  # highest speed in it
-        "blend_u",  # from how far before its end it is blended into the next, 0 not at all
-        "blend_ups",  # highest speed of a move that is blended into a neighbour, 0 none is
         "hsint_window_cnt",  # HSINT: captures count from `start` to `start + window`
         "hsint_start_cnt",
         "hsint_distance_cnt",  # and lead this much farther
@@ -181,9 +179,6 @@ MASTER = HiddenBlock(
         ("corner_in_cnt", SLAVES),
         "corner_out_u",  # the one ahead
         ("corner_out_cnt", SLAVES),
-        "blend_in_u",  # as corner_in_u, of a corner that is blended (kernel/path/round_blend_cy.py)
-        "blend_out_u",
-        "chain_v2",  # speed squared at the end of the run that round_chain has found
         "rotate_deg",  # ROTATE of programmed paths (motion/path/transform.py)
         ("rotate_center_u", 2),
         "stop_ups2",  # rate and jerk of a feed hold of a curve in time (kernel/path/timed_stop_cy)
@@ -225,7 +220,6 @@ MASTER = HiddenBlock(
         "sync_go",  # SYNC: the move at the head may begin
         "sync_start",  # SYNC MDI: a cycle start has arrived
         "final_zero",  # FVEL Zero Active as the present plan knows it
-        "chain_last",  # the move in which that run ends, from the present one on
         "step_go",  # STEP in block mode: one move may begin in spite of Start Move Inhibit
         ("rotate_slave", 2),  # the plane of ROTATE
     ),

@@ -89,7 +89,6 @@ def _write_profile(card: Card, master: int, record: int) -> None:
     timed = card.memory.I[mf2.word[master]] & mf2.MASTER_IN_TMOV
     time_s = card.memory.S[masters.move_time[master]]
     reals[moves.tmov_s[record]] = time_s if timed else 0.0
-    reals[moves.blend_ups[record]] = 0.0
     reals[moves.vel_ups[record]] = card.memory.S[masters.user_velocity[master]]
 
 
@@ -133,7 +132,6 @@ def _look_back(card: Card, master: int, record: int, queued: int) -> None:
         memory.F[moves.turn_deg[before]] = turn
         _round_between(memory.F, memory.I, memory.S, master, before, record)
     memory.F[moves.corner_u[record]] = 0.0
-    memory.F[moves.blend_u[record]] = 0.0
     memory.F[moves.corner_turn[record]] = 0.0
     if memory.F[moves.tolerance_u[record]] > 0.0:
         memory.I[masters.rounding[master]] = 1
