@@ -59,17 +59,17 @@ def read_all(items: Sequence[Item], moment: Moment) -> Readings:
 
 def _row(chosen: Chosen) -> Row:
     """The row of a parameter or flag the user chose."""
-    meaning = chosen.meaning or chosen.name
+    meaning, number = chosen.meaning or chosen.name, chosen.parameter_number
     if chosen.is_flag:
-        return Row(chosen.name, meaning, Kind.SWITCH, partial(_flag, chosen))
-    return Row(chosen.name, meaning, Kind.NUMBER, partial(_parameter, chosen))
+        return Row(chosen.name, meaning, Kind.SWITCH, partial(_flag, number, chosen.bit))
+    return Row(chosen.name, meaning, Kind.NUMBER, partial(_parameter, number))
 
 
-def _parameter(chosen: Chosen, moment: Moment, _axis: int) -> Value:
-    found = moment.watched.get(chosen.parameter_number)
+def _parameter(number: int, moment: Moment, _axis: int) -> Value:
+    found = moment.watched.get(number)
     return None if moment.lost or found is None else float(found)
 
 
-def _flag(chosen: Chosen, moment: Moment, _axis: int) -> Value:
-    word = moment.watched.get(chosen.parameter_number)
-    return None if moment.lost or word is None else bool(int(word) >> chosen.bit & 1)
+def _flag(number: int, bit: int, moment: Moment, _axis: int) -> Value:
+    word = moment.watched.get(number)
+    return None if moment.lost or word is None else bool(int(word) >> bit & 1)

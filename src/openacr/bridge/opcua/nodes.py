@@ -1,7 +1,7 @@
 """Values as nodes: where each is, its browse name, its type, and the value it shows."""
 
 from datetime import datetime
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 from asyncua import ua
 
@@ -41,6 +41,7 @@ TYPES = {
     Kind.ALARMS: ua.VariantType.String,
     Kind.TOOLS: ua.VariantType.String,
 }
+GOOD = ua.StatusCode(ua.StatusCodes.Good)
 UNECE = "http://www.opcfoundation.org/UA/units/un/cefact"
 CODES = {  # units of UNECE Recommendation 20: code, and how it is shown
     Unit.MM: ("MMT", "mm"),
@@ -50,6 +51,20 @@ CODES = {  # units of UNECE Recommendation 20: code, and how it is shown
     Unit.PERCENT: ("P1", "%"),
     Unit.SECOND: ("SEC", "s"),
 }
+
+
+class Reading(ua.DataValue):  # type: ignore[misc]
+    """A value with its time, never changed once it is made.
+
+    The library keeps a deep copy of every value for each item a host has subscribed, to compare the
+    next one with it. A copy of what never changes is the thing itself; making one took four fifths
+    of the time of a subscribed value.
+    """
+
+    __slots__ = ()
+
+    def __deepcopy__(self, memo: object) -> Self:
+        return self
 
 
 class Place(NamedTuple):
@@ -84,14 +99,14 @@ def units_of(item: Item) -> ua.EUInformation | None:
     )
 
 
-def data_value(item: Item, value: Value, now: datetime, *, is_lost: bool) -> ua.DataValue:
+def data_value(item: Item, value: Value, now: datetime, *, is_lost: bool) -> Reading:
     """A value with its time; one that is not known is bad: lost, or without data."""
     kind = TYPES[item.row.kind]
     if value is None:
         codes = ua.StatusCodes
         bad = ua.StatusCode(codes.BadNoCommunication if is_lost else codes.BadNoData)
-        return ua.DataValue(ua.Variant(None), StatusCode=bad, SourceTimestamp=now)
+        return Reading(ua.Variant(None), bad, now)
     if isinstance(value, tuple):
         texts = [str(each) for each in value]
-        return ua.DataValue(ua.Variant(texts, kind, is_array=True), SourceTimestamp=now)
-    return ua.DataValue(ua.Variant(value, kind), SourceTimestamp=now)
+        return Reading(ua.Variant(texts, kind, is_array=True), GOOD, now)
+    return Reading(ua.Variant(value, kind, is_array=False), GOOD, now)
