@@ -4,7 +4,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -56,35 +56,99 @@ def test_a_session_is_recorded_and_replayed(tmp_path: Path) -> None:
     assert same.stdout.endswith(": every answer is the same\n")
 
 
+OLD = "an older session\n"
+SAID = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+
+
+def limited(most_bytes: int) -> Callable[[], None]:
+    """What a process calls first, so that its files take no more: as on a disk that is full."""
+
+    def limit() -> None:
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes))
+
+    return limit
+
+
+@contextmanager
+def square() -> Iterator[str]:
+    """A card in a process of its own; where it is."""
+    ports = ("--ascii-port", 0, "--binary-port", 0, "--no-journal")
+    with running("serve", ROOT / "examples" / "square", *ports) as line:
+        yield line.split("ascii=")[1].split()[0]
+
+
+def ask(place: str) -> None:
+    words = [*OPENACR, "term", place]
+    typed = subprocess.run(words, input="PROG0\n?6*7\n", text=True, check=True, stdout=-1)
+    assert "42" in typed.stdout
+
+
+def left(folder: Path) -> list[str]:
+    return sorted(each.name for each in folder.iterdir())
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
 @pytest.mark.parametrize("most_bytes", [0, 200])
 def test_a_recording_that_is_not_whole_is_an_error(tmp_path: Path, most_bytes: int) -> None:
-    import resource
-
-    def limit() -> None:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes))
-
     file = tmp_path / "session.jsonl"
-    ports = ("--ascii-port", "0", "--binary-port", "0", "--no-journal")
-    with running("serve", ROOT / "examples" / "square", *ports) as line:
-        card = line.split("ascii=")[1].split()[0]
+    with square() as card:
         words = [*OPENACR, "record", card, str(file), "--port", "0"]
-        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
-        with subprocess.Popen(words, preexec_fn=limit, **pipes) as process:  # type: ignore[call-overload]
+        with subprocess.Popen(words, preexec_fn=limited(most_bytes), **SAID) as process:  # type: ignore[call-overload]
             if most_bytes:
-                place = process.stdout.readline().split()[1]
-                term = [*OPENACR, "term", place]
-                subprocess.run(term, input="PROG0\n?6*7\n", text=True, check=True, stdout=-3)
+                ask(process.stdout.readline().split()[1])
                 process.terminate()
             _, said = process.communicate(timeout=30)
     assert process.returncode == 2
     assert said.splitlines()[-1] == f"error: {file}: cannot be written: file too large"
-    assert file.exists() == bool(most_bytes)
+    assert left(tmp_path) == ([file.name] if most_bytes else [])
     if most_bytes:
         assert "the recording ends here: file too large; connections go on" in said
         recording = read_recording(file)
         assert recording.is_whole
         assert f"{file}: {len(recording.events)} events" in said.splitlines()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
+@pytest.mark.parametrize("most_bytes", [0, 100, 150])
+def test_an_older_recording_is_kept_where_the_disk_takes_no_new_one(
+    tmp_path: Path, most_bytes: int
+) -> None:
+    file = tmp_path / "session.jsonl"
+    file.write_text(OLD)
+    with square() as card:
+        words = [*OPENACR, "record", card, str(file), "--port", "0", "--force"]
+        with subprocess.Popen(words, preexec_fn=limited(most_bytes), **SAID) as process:  # type: ignore[call-overload]
+            if most_bytes:
+                ask(process.stdout.readline().split()[1])
+                process.terminate()
+            _, said = process.communicate(timeout=30)
+    assert process.returncode == 2
+    assert said.splitlines()[-1] == f"error: {file}: cannot be written: file too large"
+    assert (left(tmp_path), file.read_text()) == ([file.name], OLD)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_an_older_recording_is_replaced_with_the_first_bytes_of_the_new_one(tmp_path: Path) -> None:
+    old, file = tmp_path / "old.jsonl", tmp_path / "session.jsonl"
+    old.write_text(OLD)
+    old.chmod(0o644)
+    file.symlink_to(old)
+    with square() as card:
+        with running("record", card, file, "--port", 0, "--force"):
+            assert old.read_text() == OLD
+        assert (left(tmp_path), old.read_text()) == (["old.jsonl", "session.jsonl"], OLD)
+        with running("record", card, file, "--port", 0, "--force") as listening:
+            ask(listening.split()[1])
+            assert len(read_recording(old).events) > 2  # while it is recorded
+    assert file.is_symlink()
+    assert left(tmp_path) == ["old.jsonl", "session.jsonl"]
+    assert old.stat().st_mode & 0o777 == 0o600
+    recording = read_recording(file)
+    assert recording.is_whole
+    assert [event.what for event in recording.events[:2]] == [What.OPEN, What.HOST]
+    assert recording.events[-1].what is What.CLOSE
 
 
 def received(fd: int, count: int) -> bytes:
@@ -117,6 +181,41 @@ def test_a_serial_line_is_recorded_until_a_signal(tmp_path: Path) -> None:
     assert file.stat().st_mode & 0o777 == 0o600
     replayed = openacr("replay", file)
     assert replayed.stdout.endswith(" events: every answer is the same\n")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
+@pytest.mark.parametrize("is_forced", [False, True])
+def test_a_serial_line_goes_on_when_the_disk_is_full(tmp_path: Path, is_forced: bool) -> None:
+    import pty
+    import tty
+
+    (host, host_line), (card, card_line) = pty.openpty(), pty.openpty()
+    for each in (host_line, card_line):
+        tty.setraw(each)
+    file, ports = tmp_path / "s.jsonl", (os.ttyname(card_line), os.ttyname(host_line))
+    words = [*OPENACR, "record", ports[0], str(file), "--host-port", ports[1]]
+    if is_forced:
+        file.write_text(OLD)
+        words.append("--force")
+    with subprocess.Popen(words, preexec_fn=limited(150), **SAID) as process:  # type: ignore[call-overload]
+        assert process.stdout.readline().startswith("joined ")
+        for _ in range(5):
+            for sender, receiver in ((host, card), (card, host)):
+                os.write(sender, b"?6*7\r")
+                assert received(receiver, 5) == b"?6*7\r"
+        assert process.poll() is None
+        process.terminate()
+        _, said = process.communicate(timeout=30)
+    for each in (host, host_line, card, card_line):
+        os.close(each)
+    assert process.returncode == 2
+    assert said.count("the recording ends here: file too large; the line goes on") == 1
+    assert said.splitlines()[-1] == f"error: {file}: cannot be written: file too large"
+    assert left(tmp_path) == [file.name]
+    if is_forced:
+        assert file.read_text() == OLD
+    else:
+        assert [event.what for event in read_recording(file).events] == [What.OPEN]
 
 
 @pytest.fixture
@@ -191,6 +290,19 @@ def test_a_file_is_not_replaced_without_force(tmp_path: Path) -> None:
     assert result.exit_code == 2
     assert "is there already (--force replaces it)" in result.stderr
     assert (tmp_path / "s.jsonl").read_text() == "mine"
+
+
+def test_what_is_no_file_is_not_replaced(tmp_path: Path) -> None:
+    result = openacr("record", "127.0.0.1:1", tmp_path, "--force")
+    assert result.exit_code == 2
+    assert f"{tmp_path} is not a file that could be replaced" in result.stderr
+
+
+def test_a_card_that_is_away_leaves_the_older_recording(tmp_path: Path) -> None:
+    (tmp_path / "s.jsonl").write_text(OLD)
+    result = openacr("record", "127.0.0.1:1", tmp_path / "s.jsonl", "--force")
+    assert result.exit_code == 2
+    assert (left(tmp_path), (tmp_path / "s.jsonl").read_text()) == (["s.jsonl"], OLD)
 
 
 def test_an_option_of_recordings_is_refused_for_journals(tmp_path: Path) -> None:

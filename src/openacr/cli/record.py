@@ -3,7 +3,7 @@
 import asyncio
 import logging
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
@@ -61,6 +61,8 @@ def record(
     link = wire_to(target, baud)
     if file.exists() and not is_forced:
         raise UserError(f"{file} is there already (--force replaces it)")
+    if file.exists() and not file.is_file():
+        raise UserError(f"{file} is not a file that could be replaced")
     if isinstance(link, SerialLink):
         if host_port is None:
             raise UserError(f"{target} is recorded between two serial ports: give --host-port")
@@ -75,23 +77,28 @@ def record(
 
 
 def _record(file: Path, session: Session) -> None:
+    """Record a session; a file that is there is kept until the session has its first bytes."""
     from openacr.io.recording import Recorder
-    from openacr.store.private import open_to_write
+    from openacr.store.private import Replacement
 
     try:
-        output = open_to_write(file)
+        new = Replacement(file)
     except OSError as failure:
         raise unwritable(file, failure) from None
-    with output:
+    with closing(new):
         try:
-            recorder = Recorder(output, session.card, session.kind)
+            recorder = Recorder(new, session.card, session.kind, new.take_place)
+            if not file.exists():
+                new.take_place()
         except OSError as failure:
-            if file.is_file():
-                file.unlink()
             raise unwritable(file, failure) from None
-        typer.echo(f"{file}: {session.record(recorder)} events", err=True)
+        events = session.record(recorder)
+        if new.is_in_place:
+            typer.echo(f"{file}: {events} events", err=True)
     if recorder.failure is not None:
         raise unwritable(file, recorder.failure)
+    if not new.is_in_place:
+        typer.echo(f"{file}: nothing was sent; the file is as it was", err=True)
 
 
 @contextmanager

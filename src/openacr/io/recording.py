@@ -6,12 +6,12 @@ closed. Bytes are characters 0 to 255 of the same code, so that lines of a termi
 """
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, Protocol
 
 from openacr.channels import StreamKind
 from openacr.errors import SourceError, read_bytes
@@ -51,15 +51,33 @@ class Recording:
     is_whole: bool = True
 
 
+class Output(Protocol):
+    """What a recording is written to: a file without a buffer."""
+
+    def write(self, data: bytes, /) -> int:
+        """Write; how many bytes were taken."""
+
+    def truncate(self, size: int, /) -> int:
+        """Leave out what comes after this size."""
+
+
 class Recorder:
     """Writes events as they happen; each is in the file, whole, before the next one.
 
     `failure` is why the file could not be written any more. It ends with the last whole event.
+    `when_begun` is called once, after the first bytes of a host or the card are in the file.
     """
 
-    def __init__(self, file: BinaryIO, target: str, kind: StreamKind) -> None:
+    def __init__(
+        self,
+        file: Output,
+        target: str,
+        kind: StreamKind,
+        when_begun: Callable[[], None] | None = None,
+    ) -> None:
         self.failure: OSError | None = None
         self._file = file
+        self._when_begun = when_begun
         self._size_bytes = 0
         self._put({"format": FORMAT, "version": VERSION, "card": target, "kind": kind.value})
 
@@ -73,6 +91,13 @@ class Recorder:
         if event.data:
             record["data"] = event.data.decode("latin-1")
         self._put(record)
+        if event.data and self._when_begun is not None:
+            begun, self._when_begun = self._when_begun, None
+            try:
+                begun()
+            except OSError as failure:
+                self.failure = failure
+                raise
 
     def _put(self, record: dict[str, object]) -> None:
         line = rest = json.dumps(record).encode() + b"\n"
