@@ -102,6 +102,12 @@ class GivenFeed:
         self.moment = replace(self.moment, lost=why)
 
 
+def show_line(feed: GivenFeed, line: int) -> None:
+    """Have the machine execute another line."""
+    assert feed.moment.run is not None
+    feed.moment = replace(feed.moment, run=replace(feed.moment.run, line=line))
+
+
 @contextmanager
 def bridged(text: str, feed: Feed, folder: Path = Path()) -> Iterator[Bridge]:
     """A bridge that runs."""

@@ -6,9 +6,38 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from tests.bridge.mqtt import RunningBroker, Subscriber
 from tests.panel.bench import Served
 
-LEAVING = ("test_epics", "test_opcua", "test_sparkplug")
+HERE = Path(__file__).parent
+LEAVING = ("test_epics", "test_opcua", "test_process", "test_sparkplug")
+UNRAISABLE = "ignore::pytest.PytestUnraisableExceptionWarning"
+
+
+def is_leaving(module: str) -> bool:
+    """Whether the tests of a module use such libraries."""
+    return module.rpartition(".")[2].startswith(LEAVING)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Sockets and streams that libraries leave to the collector are no failure of a test."""
+    for item in items:
+        if item.path.parent == HERE and is_leaving(item.path.stem):
+            item.add_marker(pytest.mark.filterwarnings(UNRAISABLE))
+
+
+@pytest.fixture
+def broker() -> Iterator[RunningBroker]:
+    """A broker of MQTT."""
+    with RunningBroker() as running:
+        yield running
+
+
+@pytest.fixture
+def host(broker: RunningBroker) -> Iterator[Subscriber]:
+    """A host application at the broker."""
+    with Subscriber(broker.port) as subscriber:
+        yield subscriber
 
 
 @pytest.fixture
@@ -23,7 +52,7 @@ def quiet_panel(tmp_path: Path) -> Iterator[Served]:
 def swept(request: pytest.FixtureRequest) -> Iterator[None]:
     """Collect what libraries leave open at the end of a test, before other tests are blamed."""
     yield
-    if request.module.__name__.rpartition(".")[2].startswith(LEAVING):
+    if is_leaving(request.module.__name__):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ResourceWarning)
             gc.collect()

@@ -4,6 +4,7 @@ import asyncio
 import socket
 import threading
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from amqtt.plugins.base import BaseTopicPlugin
 from amqtt.session import Session
 from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
 from paho.mqtt.enums import CallbackAPIVersion
-from tests.bridge.bench import LIMIT_S, until
+from tests.bridge.bench import LIMIT_S, VALUES, until
 
 ANONYMOUS = "amqtt.plugins.authentication.AnonymousAuthPlugin"
 TEXT, UINT64, UINT32, DOUBLE, FLOAT, BOOL, MESSAGE = 9, 4, 13, 1, 2, 8, 11
@@ -69,6 +70,17 @@ def value_of(metric: Any) -> Any:
     return next(getattr(metric, name) for name in names if metric.HasField(name))
 
 
+def named(payload: Any) -> dict[str, Any]:
+    """The values of a payload whose metrics have names: of a birth or a death."""
+    return {metric.name: value_of(metric) for metric in payload.metrics}
+
+
+def node_file(port: int, more: str = "") -> str:
+    """The bridge file of an edge node with a broker at a port; `more` keys of its table."""
+    table = f'group = "shop"\nport = {port}\n{more}'
+    return f'name = "mill"\nrate_hz = 50\n[sparkplug]\n{table}{VALUES}'
+
+
 class OneUser(BaseAuthPlugin):  # type: ignore[misc]
     """Lets one user in."""
 
@@ -101,7 +113,7 @@ def free_port() -> int:
         return int(found.getsockname()[1])
 
 
-class RunningBroker:
+class RunningBroker(AbstractContextManager["RunningBroker"]):
     """A broker that can end and come again at its port."""
 
     def __init__(self, *, plugin: str = ANONYMOUS, certificate: tuple[Path, Path] | None = None):
@@ -120,6 +132,9 @@ class RunningBroker:
         self._thread = threading.Thread(target=lambda: self._loop.run_until_complete(self._run()))
         self._thread.start()
         assert self._is_up.wait(LIMIT_S)
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
 
     async def _run(self) -> None:
         broker = Broker(self._config)
@@ -140,7 +155,7 @@ class RunningBroker:
             self._loop.close()
 
 
-class Subscriber:
+class Subscriber(AbstractContextManager["Subscriber"]):
     """A host application: it sees all messages and sends commands."""
 
     def __init__(self, port: int, *, change: Callable[[paho.Client], None] = lambda _c: None):
@@ -154,6 +169,9 @@ class Subscriber:
         self.client.connect("127.0.0.1", port, 60)
         self.client.loop_start()
         assert self._is_ready.wait(LIMIT_S)
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def _connected(self, *_: object) -> None:
         self.client.subscribe("spBv1.0/#", qos=1)

@@ -14,9 +14,6 @@ from openacr.bridge.items import items_of
 from openacr.bridge.load import parse_bridge
 from openacr.errors import SourceError
 
-# The library leaves sockets and streams to the collector.
-pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-
 LIMIT_S = 30.0
 SHOWN = """
 [[value]]

@@ -18,9 +18,6 @@ from openacr.bridge.rows import Alarm
 from openacr.errors import SourceError, UserError
 from openacr.mill.run.lifecycle import State
 
-# The library leaves sockets and streams to the collector.
-pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-
 FILE = 'name = "mill"\nrate_hz = 50\n[opcua]\nport = 0\n' + VALUES
 READ_ONLY = FILE.replace("write = true\nlow = -1000\nhigh = 1000\n", "").replace(
     "write = true\n", ""

@@ -18,9 +18,8 @@ from unittest.mock import Mock
 
 import httpx
 import pytest
-from tests.bridge.bench import LIMIT_S, RUNNING, VALUES, GivenFeed, until
-from tests.bridge.mqtt import Metric, RunningBroker, Subscriber
-from tests.bridge.test_sparkplug import file, named, show_line
+from tests.bridge.bench import LIMIT_S, RUNNING, VALUES, GivenFeed, show_line, until
+from tests.bridge.mqtt import Metric, RunningBroker, Subscriber, named, node_file
 from tests.panel.bench import Served
 from tests.workers.orphans import left_by
 
@@ -36,8 +35,6 @@ from openacr.cli.panel import _bridge
 from openacr.errors import OpenacrError, UserError
 
 # The library of the broker leaves sockets and streams to the collector.
-pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-
 METRICS = 'name = "mill"\nrate_hz = 50\n[prometheus]\nport = 0\n' + VALUES
 
 
@@ -66,30 +63,25 @@ def pids(caplog: pytest.LogCaptureFixture) -> list[int]:
 
 
 def test_values_go_to_the_process_and_its_writes_come_back_with_what_refuses_them(
-    caplog: pytest.LogCaptureFixture,
+    caplog: pytest.LogCaptureFixture, broker: RunningBroker, host: Subscriber
 ) -> None:
     caplog.set_level(logging.INFO)
-    broker, feed = RunningBroker(), GivenFeed()
-    try:
-        host = Subscriber(broker.port)
-        with running(file(broker.port), feed, []) as bridge:
-            assert bridge.places == [f"sparkplug mqtt://127.0.0.1:{broker.port}"]
-            assert "bridge" not in [thread.name for thread in threading.enumerate()]
-            assert feed.watched == [12290, 4096]
-            until(lambda: any(named(each)["line"] == 12 for each in host.of("NBIRTH")))
-            host.command(Metric(name="user/pulses", datatype=10, double_value=7.0))
-            host.command(Metric(name="user/gate", datatype=11, boolean_value=False))
-            until(lambda: sorted(feed.written) == [(2, 0.0, True), (12290, 7.0, False)])
-            feed.refusal = "the card does not answer"
-            host.command(Metric(name="user/pulses", datatype=10, double_value=8.0))
-            said = "sparkplug: a command is refused: user.pulses: the card does not answer"
-            until(lambda: said in caplog.messages)
-            show_line(feed, 13)
-            until(lambda: 13 in [m.long_value for data in host.of("NDATA") for m in data.metrics])
-        assert host.await_first("NDEATH")
-        host.close()
-    finally:
-        broker.stop()
+    feed = GivenFeed()
+    with running(node_file(broker.port), feed, []) as bridge:
+        assert bridge.places == [f"sparkplug mqtt://127.0.0.1:{broker.port}"]
+        assert "bridge" not in [thread.name for thread in threading.enumerate()]
+        assert feed.watched == [12290, 4096]
+        until(lambda: any(named(each)["line"] == 12 for each in host.of("NBIRTH")))
+        host.command(Metric(name="user/pulses", datatype=10, double_value=7.0))
+        host.command(Metric(name="user/gate", datatype=11, boolean_value=False))
+        until(lambda: sorted(feed.written) == [(2, 0.0, True), (12290, 7.0, False)])
+        feed.refusal = "the card does not answer"
+        host.command(Metric(name="user/pulses", datatype=10, double_value=8.0))
+        said = "sparkplug: a command is refused: user.pulses: the card does not answer"
+        until(lambda: said in caplog.messages)
+        show_line(feed, 13)
+        until(lambda: 13 in [m.long_value for data in host.of("NDATA") for m in data.metrics])
+    assert host.await_first("NDEATH")
     assert "user.pulses was set to 7 by Sparkplug" in caplog.messages
 
 
@@ -114,22 +106,18 @@ def test_a_process_that_is_killed_is_started_again_and_it_is_said(
             os.kill(pid, 0)
 
 
-def test_a_machine_with_other_axes_has_them_in_a_process_that_is_started_again() -> None:
+def test_a_machine_with_other_axes_has_them_in_a_process_that_is_started_again(
+    broker: RunningBroker, host: Subscriber
+) -> None:
     feed, said = GivenFeed(), list[str]()
-    broker = RunningBroker()
-    try:
-        host = Subscriber(broker.port)
-        with running(file(broker.port), feed, said):
-            assert "C/actual" in named(host.await_first("NBIRTH"))
-            feed.axes = (AxisName("X"), AxisName("A", is_rotary=True))
-            assert host.await_first("NDEATH")
-            until(lambda: len(said) == 2)
-            until(lambda: len(host.of("NBIRTH")) == 2)
-            found = named(host.of("NBIRTH")[1])
-            assert (found["X/actual"], found["A/actual"], "C/actual" in found) == (1.5, -2.0, False)
-        host.close()
-    finally:
-        broker.stop()
+    with running(node_file(broker.port), feed, said):
+        assert "C/actual" in named(host.await_first("NBIRTH"))
+        feed.axes = (AxisName("X"), AxisName("A", is_rotary=True))
+        assert host.await_first("NDEATH")
+        until(lambda: len(said) == 2)
+        until(lambda: len(host.of("NBIRTH")) == 2)
+        found = named(host.of("NBIRTH")[1])
+        assert (found["X/actual"], found["A/actual"], "C/actual" in found) == (1.5, -2.0, False)
     assert said == [
         "the axes of the machine have changed; it is started again in 1 s",
         f"the bridge publishes again: sparkplug mqtt://127.0.0.1:{broker.port}",

@@ -1,14 +1,14 @@
 """The edge node of Sparkplug B, seen by paho through a broker, read by Google's protobuf."""
 
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.bridge.bench import LIMIT_S, VALUES, GivenFeed, bridged, until
-from tests.bridge.mqtt import Metric, Payload, RunningBroker, Subscriber, value_of
+from tests.bridge.bench import LIMIT_S, GivenFeed, bridged, show_line, until
+from tests.bridge.mqtt import Metric, Payload, RunningBroker, Subscriber, named, node_file, value_of
 
 from openacr.bridge.items import Readings, items_of
 from openacr.bridge.load import parse_bridge
@@ -17,44 +17,12 @@ from openacr.bridge.sparkplug.node import SparkplugSystem
 from openacr.bridge.sparkplug.payload import DataType, PayloadError, decode, encode
 from openacr.errors import SourceError
 
-# The library leaves sockets and streams to the collector.
-pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-
-
-def file(port: int, more: str = "") -> str:
-    head = 'name = "mill"\nrate_hz = 50\n'
-    return f'{head}[sparkplug]\ngroup = "shop"\nport = {port}\n{more}{VALUES}'
-
-
-@pytest.fixture
-def broker() -> Iterator[RunningBroker]:
-    running = RunningBroker()
-    yield running
-    running.stop()
-
-
-@pytest.fixture
-def host(broker: RunningBroker) -> Iterator[Subscriber]:
-    subscriber = Subscriber(broker.port)
-    yield subscriber
-    subscriber.close()
-
-
-def named(birth: object) -> dict[str, object]:
-    return {metric.name: value_of(metric) for metric in birth.metrics}  # type: ignore[attr-defined]
-
-
-def show_line(feed: GivenFeed, line: int) -> None:
-    """Have the machine execute another line."""
-    assert feed.moment.run is not None
-    feed.moment = replace(feed.moment, run=replace(feed.moment.run, line=line))
-
 
 def test_a_birth_has_every_value_and_data_have_what_changes(
     broker: RunningBroker, host: Subscriber
 ) -> None:
     feed = GivenFeed()
-    with bridged(file(broker.port), feed):
+    with bridged(node_file(broker.port), feed):
         birth = host.await_first("NBIRTH")
         assert birth.seq == 0
         found = named(birth)
@@ -95,7 +63,7 @@ def test_a_host_asks_for_another_birth_and_writes_what_the_file_lists(
     broker: RunningBroker, host: Subscriber
 ) -> None:
     feed = GivenFeed()
-    with bridged(file(broker.port), feed):
+    with bridged(node_file(broker.port), feed):
         birth = host.await_first("NBIRTH")
         aliases = {m.name: m.alias for m in birth.metrics}
         host.command(Metric(name="Node Control/Rebirth", datatype=11, boolean_value=False))
@@ -142,7 +110,7 @@ def test_a_connection_has_one_birth_after_its_subscription_however_late_the_brok
     monkeypatch.setattr(SparkplugSystem, "publish", publish)
     monkeypatch.setattr(SparkplugSystem, "_on_connect", late)
     feed = GivenFeed()
-    with bridged(file(broker.port), feed):
+    with bridged(node_file(broker.port), feed):
         host.await_first("NBIRTH")
         show_line(feed, 13)
         assert host.await_first("NDATA").seq == 1
@@ -153,14 +121,12 @@ def test_a_connection_has_one_birth_after_its_subscription_however_late_the_brok
 def test_a_broker_that_lets_no_commands_through_is_said_and_gets_the_values(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
-    broker = RunningBroker(plugin="tests.bridge.mqtt.NoCommands")
-    try:
-        host = Subscriber(broker.port)
-        with bridged(file(broker.port), GivenFeed()):
-            assert host.await_first("NBIRTH").seq == 0
-        host.close()
-    finally:
-        broker.stop()
+    with (
+        RunningBroker(plugin="tests.bridge.mqtt.NoCommands") as broker,
+        Subscriber(broker.port) as host,
+        bridged(node_file(broker.port), GivenFeed()),
+    ):
+        assert host.await_first("NBIRTH").seq == 0
     said = "sparkplug: the broker refuses the subscription of commands: Unspecified error"
     assert said in caplog.messages
 
@@ -170,7 +136,7 @@ def test_a_broker_that_goes_and_comes_back_gets_a_new_birth_with_the_next_number
 ) -> None:
     feed = GivenFeed()
     first = Subscriber(broker.port)
-    with bridged(file(broker.port), feed):
+    with bridged(node_file(broker.port), feed):
         first.await_first("NBIRTH")
         first.close()
         broker.stop()
@@ -191,25 +157,24 @@ def test_a_broker_that_goes_and_comes_back_gets_a_new_birth_with_the_next_number
 
 
 def test_a_broker_that_is_away_at_the_start_is_no_failure() -> None:
-    with bridged(file(1), GivenFeed()) as bridge:
+    with bridged(node_file(1), GivenFeed()) as bridge:
         assert bridge.places == ["sparkplug mqtt://127.0.0.1:1"]
 
 
 def test_a_broker_with_a_password_gets_it(tmp_path: Path) -> None:
     (tmp_path / "secret").write_text("hush\n")
     (tmp_path / "wrong").write_text("loud\n")
-    broker = RunningBroker(plugin="tests.bridge.mqtt.OneUser")
-    try:
-        host = Subscriber(broker.port, change=lambda c: c.username_pw_set("mill", "hush"))
-        more = 'user = "mill"\npassword_file = "wrong"\n'
-        with bridged(file(broker.port, more), GivenFeed(), tmp_path):
+    more = 'user = "mill"\npassword_file = "wrong"\n'
+    with (
+        RunningBroker(plugin="tests.bridge.mqtt.OneUser") as broker,
+        Subscriber(broker.port, change=lambda c: c.username_pw_set("mill", "hush")) as host,
+    ):
+        with bridged(node_file(broker.port, more), GivenFeed(), tmp_path):
             pass
         assert host.of("NBIRTH") == []
-        with bridged(file(broker.port, more.replace("wrong", "secret")), GivenFeed(), tmp_path):
+        right = node_file(broker.port, more.replace("wrong", "secret"))
+        with bridged(right, GivenFeed(), tmp_path):
             host.await_first("NBIRTH")
-        host.close()
-    finally:
-        broker.stop()
 
 
 @pytest.mark.parametrize(

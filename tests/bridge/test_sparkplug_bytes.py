@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 
 import pytest
 from tests.bridge.bench import LIMIT_S, GivenFeed, bridged, until
+from tests.bridge.mqtt import node_file
 
 from openacr.bridge.items import Readings
 from openacr.bridge.sparkplug import node
@@ -80,8 +81,7 @@ def test_will_and_birth_of_a_connection_have_its_number_and_the_next_one_the_nex
     listener: socket.socket,
 ) -> None:
     port = listener.getsockname()[1]
-    text_of_file = f'name = "mill"\n[sparkplug]\ngroup = "shop"\nport = {port}\n'
-    with bridged(text_of_file, GivenFeed()):
+    with bridged(node_file(port), GivenFeed()):
         for number in range(3):
             peer = Peer(listener)
             assert peer.packet() == (0x10, connect(number))
@@ -114,8 +114,7 @@ def test_a_primary_host_brings_birth_and_death_and_the_next_connection_the_next_
 
     monkeypatch.setattr(node.SparkplugSystem, "publish", publish)
     port = listener.getsockname()[1]
-    table = f'[sparkplug]\ngroup = "shop"\nport = {port}\nprimary_host = "scada"\n'
-    with bridged(f'name = "mill"\nrate_hz = 50\n{table}', GivenFeed()):
+    with bridged(node_file(port, 'primary_host = "scada"\n'), GivenFeed()):
         for number in range(3):
             peer = Peer(listener)
             assert peer.packet() == (0x10, connect(number))

@@ -3,20 +3,17 @@
 import logging
 import threading
 import time
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from tests.bridge.bench import VALUES, GivenFeed, bridged, until
-from tests.bridge.mqtt import Metric, RunningBroker, Subscriber, value_of
+from tests.bridge.bench import GivenFeed, bridged, until
+from tests.bridge.mqtt import Metric, RunningBroker, Subscriber, named, node_file
 
 from openacr.bridge.load import parse_bridge
 from openacr.bridge.sparkplug import link, node
 from openacr.bridge.sparkplug.primary_host import PrimaryHost
 from openacr.errors import SourceError
 
-# The library leaves sockets and streams to the collector.
-pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 NEW, OLD = "spBv1.0/STATE/scada", "STATE/scada"
 
 
@@ -24,29 +21,13 @@ def state(online: str, at_ms: int) -> str:
     return f'{{"online": {online}, "timestamp": {at_ms}}}'
 
 
-@pytest.fixture
-def broker() -> Iterator[RunningBroker]:
-    running = RunningBroker()
-    yield running
-    running.stop()
-
-
-@pytest.fixture
-def host(broker: RunningBroker) -> Iterator[Subscriber]:
-    subscriber = Subscriber(broker.port)
-    yield subscriber
-    subscriber.close()
-
-
 def file(broker: RunningBroker) -> str:
-    table = f'group = "shop"\nport = {broker.port}\nprimary_host = "scada"\n'
-    return f'name = "mill"\nrate_hz = 50\n[sparkplug]\n{table}{VALUES}'
+    return node_file(broker.port, 'primary_host = "scada"\n')
 
 
 def numbers_of(host: Subscriber, kind: str) -> list[int]:
     """The bdSeq of all births or deaths that were seen."""
-    metrics = [{each.name: each for each in payload.metrics} for payload in host.of(kind)]
-    return [value_of(each["bdSeq"]) for each in metrics]
+    return [named(payload)["bdSeq"] for payload in host.of(kind)]
 
 
 def test_a_node_lives_while_its_host_does_and_refuses_commands_without_it(
@@ -157,13 +138,12 @@ def test_a_departure_under_way_is_completed_before_the_end(
 
 
 def test_a_broker_that_lets_no_states_through_is_reported(caplog: pytest.LogCaptureFixture) -> None:
-    running = RunningBroker(plugin="tests.bridge.mqtt.NoStates")
-    try:
-        with bridged(file(running), GivenFeed()):
-            refused = "sparkplug: the broker refuses the subscription of"
-            until(lambda: len([each for each in caplog.messages if refused in each]) >= 2)
-    finally:
-        running.stop()
+    refused = "sparkplug: the broker refuses the subscription of"
+    with (
+        RunningBroker(plugin="tests.bridge.mqtt.NoStates") as running,
+        bridged(file(running), GivenFeed()),
+    ):
+        until(lambda: len([each for each in caplog.messages if refused in each]) >= 2)
     said = [each.rpartition(":")[0] for each in caplog.messages if refused in each]
     assert said == [f"{refused} states", f"{refused} states of 2.2"]
 

@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pytest
 from tests.bridge.authority import Authority
-from tests.bridge.bench import GivenFeed, bridged, until
-from tests.bridge.mqtt import Metric, RunningBroker, Subscriber
-from tests.bridge.test_sparkplug import file, named, show_line
+from tests.bridge.bench import GivenFeed, bridged, show_line, until
+from tests.bridge.mqtt import Metric, RunningBroker, Subscriber, named, node_file
 
 from openacr.errors import UserError
 
@@ -23,9 +22,8 @@ def authority(tmp_path: Path) -> Authority:
 
 @pytest.fixture
 def broker(authority: Authority) -> Iterator[RunningBroker]:
-    running = RunningBroker(certificate=authority.server("127.0.0.1"))
-    yield running
-    running.stop()
+    with RunningBroker(certificate=authority.server("127.0.0.1")) as running:
+        yield running
 
 
 def host(broker: RunningBroker, authority: Authority) -> Subscriber:
@@ -42,7 +40,7 @@ def test_two_hosts_of_one_broker_see_the_machine_over_tls_and_each_commands_it(
     feed = GivenFeed()
     one, other = host(broker, authority), host(broker, authority)
     with bridged(
-        file(broker.port, 'tls = true\nauthority = "authority.pem"\n'), feed, tmp_path
+        node_file(broker.port, 'tls = true\nauthority = "authority.pem"\n'), feed, tmp_path
     ) as b:
         assert b.places == [f"sparkplug mqtts://127.0.0.1:{broker.port}"]
         births = [named(each.await_first("NBIRTH")) for each in (one, other)]
@@ -65,7 +63,7 @@ def test_a_broker_of_another_authority_is_refused_and_the_log_says_why(
     Authority(tmp_path, "wrong")
     watching = host(broker, authority)
     more = 'tls = true\nauthority = "wrong.pem"\n'
-    with bridged(file(broker.port, more), GivenFeed(), tmp_path):
+    with bridged(node_file(broker.port, more), GivenFeed(), tmp_path):
         until(lambda: said(caplog))
     assert said(caplog) == [
         f"sparkplug: the certificate of 127.0.0.1:{broker.port} is refused: unable to get local"
@@ -78,13 +76,12 @@ def test_a_broker_of_another_authority_is_refused_and_the_log_says_why(
 def test_a_broker_with_the_certificate_of_another_address_is_refused(
     authority: Authority, tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    running = RunningBroker(certificate=authority.server("192.0.2.1"))
-    try:
-        more = 'tls = true\nauthority = "authority.pem"\n'
-        with bridged(file(running.port, more), GivenFeed(), tmp_path):
-            until(lambda: said(caplog))
-    finally:
-        running.stop()
+    more = 'tls = true\nauthority = "authority.pem"\n'
+    with (
+        RunningBroker(certificate=authority.server("192.0.2.1")) as running,
+        bridged(node_file(running.port, more), GivenFeed(), tmp_path),
+    ):
+        until(lambda: said(caplog))
     assert said(caplog) == [
         f"sparkplug: the certificate of 127.0.0.1:{running.port} is refused: IP address mismatch,"
         " certificate is not valid for '127.0.0.1'; it is tried again"
@@ -99,7 +96,7 @@ def test_a_server_that_speaks_no_tls_is_said(
         port = server.server_address[1]
         more = 'tls = true\nauthority = "authority.pem"\n'
         try:
-            with bridged(file(port, more), GivenFeed(), tmp_path):
+            with bridged(node_file(port, more), GivenFeed(), tmp_path):
                 until(lambda: said(caplog))
         finally:
             server.shutdown()
@@ -124,6 +121,6 @@ def test_an_authority_that_is_no_certificate_is_said(tmp_path: Path) -> None:
         more = f'tls = true\nauthority = "{name}"\n'
         with (
             pytest.raises(UserError, match="sparkplug: the certificates cannot be used: "),
-            bridged(file(1, more), GivenFeed(), tmp_path),
+            bridged(node_file(1, more), GivenFeed(), tmp_path),
         ):
             pass
