@@ -13,6 +13,7 @@ from starlette.requests import Request
 from tests.panel.bench import Served
 
 from openacr.panel.server.modules import with_modules
+from openacr.panel.server.parts import with_parts
 from openacr.panel.server.static import WEB, static_file
 
 LINK = re.compile(r'<link rel="modulepreload" href="/([^"]+)">')
@@ -50,6 +51,39 @@ def test_a_page_names_every_module_of_its_start_once_and_none_that_is_imported_l
 
 def test_a_page_without_a_script_stays_as_it_is() -> None:
     assert with_modules("<p>nothing</p>", lambda path: SITE[path]) == "<p>nothing</p>"
+
+
+def test_a_part_of_a_page_stands_where_its_line_was() -> None:
+    files = {"parts/a.html": "    <b>1</b>\n    <b>2</b>\n", "top.html": "<i></i>\n"}
+    lines = ("<p>", "    <!-- include parts/a.html -->", "<!-- include top.html -->", "<!-- a -->")
+    page = "".join(f"{line}\n" for line in lines)
+    assert with_parts(page, files.__getitem__) == (
+        "<p>\n    <b>1</b>\n    <b>2</b>\n<i></i>\n<!-- a -->\n"
+    )
+
+
+@pytest.mark.parametrize("path", ["/", "/bench", "/login"])
+def test_every_page_has_the_common_head_once_and_each_workspace_the_top(
+    web: httpx.Client, path: str
+) -> None:
+    page = web.get(path).text
+    assert "include" not in page
+    for line in ('<meta charset="utf-8">', 'name="viewport"', 'href="/css/base.css"'):
+        assert page.count(line) == 1
+    for place in ("state", "alarms", "banner", "tools"):
+        assert page.count(f'id="{place}"') == (path != "/login")
+
+
+def test_a_page_is_sent_anew_when_one_of_its_parts_has_changed(tmp_path: Path) -> None:
+    (tmp_path / "index.html").write_text("<!-- include top.html -->\n")
+    request = Request({"type": "http", "headers": [], "path_params": {"path": ""}})
+    found = []
+    for text in ("one", "other"):
+        (tmp_path / "top.html").write_text(text)
+        answer = static_file(request, tmp_path)
+        found.append((bytes(answer.body).decode(), answer.headers["etag"]))
+    assert [body for body, _ in found] == ["one", "other"]
+    assert found[0][1] != found[1][1]
 
 
 def test_the_workspace_names_modules_that_are_there_and_no_library(web: httpx.Client) -> None:

@@ -41,6 +41,11 @@ class Dialog:
     within: str = ""  # the key of the table within that one
 
 
+def _word(key: str, title: str, unit: str = "") -> Row:
+    """An answer that the word of AcroBASIC with the name of its key takes."""
+    return Row(key, title, unit, key.upper())
+
+
 DIALOGS = (
     Dialog("card", "Card", "card", CardAnswers, (
         Row("model", "Model", "", "Axes, masters and outputs are checked against it."),
@@ -69,16 +74,16 @@ DIALOGS = (
         Row("excess_error", "Excess position error", "units", "EXC."),
     )),
     Dialog("gains", "Servo loop", "axis", Gains, (
-        Row("pgain", "Proportional gain", "V/count", "PGAIN"),
-        Row("igain", "Integral gain", "", "IGAIN"),
-        Row("ilimit", "Limit of the integral part", "V", "ILIMIT"),
-        Row("idelay", "Delay of the integral part", "s", "IDELAY"),
-        Row("dgain", "Derivative gain", "", "DGAIN"),
-        Row("dwidth", "Sampling of the derivative", "s", "DWIDTH"),
-        Row("ffvel", "Velocity feedforward", "", "FFVEL"),
-        Row("ffacc", "Acceleration feedforward", "", "FFACC"),
-        Row("tlm", "Limit of the output", "V", "TLM"),
-        Row("fbvel", "Velocity feedback", "", "FBVEL"),
+        _word("pgain", "Proportional gain", "V/count"),
+        _word("igain", "Integral gain"),
+        _word("ilimit", "Limit of the integral part", "V"),
+        _word("idelay", "Delay of the integral part", "s"),
+        _word("dgain", "Derivative gain"),
+        _word("dwidth", "Sampling of the derivative", "s"),
+        _word("ffvel", "Velocity feedforward"),
+        _word("ffacc", "Acceleration feedforward"),
+        _word("tlm", "Limit of the output", "V"),
+        _word("fbvel", "Velocity feedback"),
     ), within="gains"),
     Dialog("drive", "Drive", "axis", Drive, (
         Row("uses_signals", "Enable, reset and fault lines", "", "They are connected."),
@@ -106,10 +111,10 @@ DIALOGS = (
     Dialog("master", "Master", "master", MasterAnswers, (
         Row("number", "Number", "", "The program it is attached to has the same."),
         Row("axes", "Axes", "", "Names of the axes that it moves together."),
-        Row("acc", "Acceleration", "units/s²", "ACC"),
-        Row("dec", "Deceleration between moves", "units/s²", "DEC"),
-        Row("stp", "Deceleration to rest", "units/s²", "STP"),
-        Row("vel", "Velocity", "units/s", "VEL"),
+        _word("acc", "Acceleration", "units/s²"),
+        _word("dec", "Deceleration between moves", "units/s²"),
+        _word("stp", "Deceleration to rest", "units/s²"),
+        _word("vel", "Velocity", "units/s"),
         Row("jrk", "Jerk", "units/s³", "JRK; 0: no limit."),
     )),
 )  # fmt: skip

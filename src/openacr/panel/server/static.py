@@ -9,6 +9,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
 from openacr.panel.server.modules import with_modules
+from openacr.panel.server.parts import with_parts
 
 WEB = Path(__file__).parents[1] / "web"
 PAGES = {"": "index.html", "bench": "bench.html", "login": "login.html"}
@@ -39,8 +40,7 @@ def static_file(request: Request, root: Path = WEB) -> Response:
         return PlainTextResponse(text, status_code=404)
     body = _body(place)
     if place.suffix == ".html":
-        page = with_modules(body.decode(), lambda module: _body(root / module).decode())
-        body = page.encode()
+        body = _page(body.decode(), root).encode()
     tag = f'"{hashlib.blake2b(body, digest_size=12).hexdigest()}"'
     headers = {"ETag": tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding"}
     if request.headers.get("if-none-match") == tag:
@@ -50,6 +50,15 @@ def static_file(request: Request, root: Path = WEB) -> Response:
         packed = place.with_name(f"{place.name}.gz")
         body = _body(packed) if packed.is_file() else _packed(body)
     return Response(body, media_type=TYPES[place.suffix], headers=headers)
+
+
+def _page(text: str, root: Path) -> str:
+    """A page with the parts and the links that its file leaves out."""
+
+    def read(name: str) -> str:
+        return _body(root / name).decode()
+
+    return with_modules(with_parts(text, read), read)
 
 
 def _place(root: Path, name: str) -> Path | None:
