@@ -51,8 +51,10 @@ def test_what_only_some_models_have() -> None:
     assert {row.name for row in rows if row.has_battery} == {"ACR1505", "ACR8020"}
     assert {row.name for row in rows if row.has_digits_in_names} == {"ACR7000"}
     assert {row.name: str(row.lacks) for row in rows if row.lacks} == {
-        "ACR1500": "no NURBs and no look-ahead"
+        "ACR1500": "no NURBs and no look-ahead",
+        "ACR8000": "no user flash",
     }
+    assert {row.name for row in rows if "DPCB" in row.streams} == {"ACR1505", "ACR8020"}
     fixed = {row.name for row in rows if row.has_fixed_adc_mode}
     assert fixed == {"ACR7000", "ACR9000", "ACR9030", "ACR9040"}
 

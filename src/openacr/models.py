@@ -17,13 +17,18 @@ class Feature(Flag):
     NONE = 0
     NURBS = 1
     LOOK_AHEAD = 2
+    USER_FLASH = 4
 
     def __str__(self) -> str:
         """Name the features as a sentence does: `no NURBs and no look-ahead`."""
         return " and ".join(f"no {_TITLES[one]}" for one in self)
 
 
-_TITLES = {Feature.NURBS: "NURBs", Feature.LOOK_AHEAD: "look-ahead"}
+_TITLES = {
+    Feature.NURBS: "NURBs",
+    Feature.LOOK_AHEAD: "look-ahead",
+    Feature.USER_FLASH: "user flash",
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,20 +86,23 @@ class Model:
 # for a PC slot have no network of their own; here hosts reach them over it all the same.
 _NETWORK = ("STREAM1", "STREAM2", "STREAM3", "STREAM4", "STREAM5")
 _CARD_STREAMS = ("FIFO", "COM1", "COM2", *_NETWORK)
+_DPCB_STREAMS = (*_CARD_STREAMS, "DPCB")
 _BOX_STREAMS = ("COM1", "COM2", *_NETWORK)
 
 # Boards of the front end's guide; what is not written here they have like the others. NURBs and
 # look-ahead are missing on "less expensive controllers like the ACR1500", the only one it names.
+# DPCB and user flash follow from what the Programmer's Guide omits for which model in the
+# sequence of Return to Factory Default.
 ACR1200 = Model(name="ACR1200", axes=8, connectors=2, masters=8, streams=_BOX_STREAMS)
 ACR1500 = Model(
     name="ACR1500", axes=8, connectors=4, masters=8, streams=_CARD_STREAMS,
     lacks=Feature.NURBS | Feature.LOOK_AHEAD,
 )  # fmt: skip
 ACR2000 = Model(name="ACR2000", axes=8, lines=16, connectors=4, masters=8, streams=_CARD_STREAMS)
-ACR8000 = Model(name="ACR8000", axes=8, masters=8, streams=_CARD_STREAMS)
+ACR8000 = Model(name="ACR8000", axes=8, masters=8, streams=_CARD_STREAMS, lacks=Feature.USER_FLASH)
 ACR8010 = Model(name="ACR8010", axes=8, masters=8, streams=_CARD_STREAMS)
-ACR1505 = Model(name="ACR1505", axes=8, streams=_CARD_STREAMS, has_battery=True)
-ACR8020 = Model(name="ACR8020", streams=(*_CARD_STREAMS, "DPCB"), has_battery=True)
+ACR1505 = Model(name="ACR1505", axes=8, streams=_DPCB_STREAMS, has_battery=True)
+ACR8020 = Model(name="ACR8020", streams=_DPCB_STREAMS, has_battery=True)
 ACR9000 = Model(
     name="ACR9000", axes=8, masters=8, slaves=8, streams=_BOX_STREAMS,
     has_fixed_adc_mode=True, has_canopen=True,

@@ -26,6 +26,10 @@ FACTORY_DEFAULT = (
     "HALT ALL", "NEW ALL", "DETACH ALL", "CLEAR", "ERASE", "FLASH ERASE", "CONFIG CLEAR",
     "CLEAR DPCB", "CLEAR FIFO", "CLEAR COM1", "CLEAR COM2", "BRESET",
 )  # fmt: skip
+OMITTED = {  # what the guide says to omit for which model
+    "ACR1505": set[str](), "ACR8020": set[str](),
+    "ACR8000": {"FLASH ERASE", "CLEAR DPCB"}, "ACR9000": {"CLEAR DPCB", "CLEAR FIFO"},
+}  # fmt: skip
 SHARES = "".join(f"DIM PROG{program}(65536)|" for program in range(8))
 BLINK = ("PBOOT", "_LOOP1", "BIT 32 = NOT BIT 32", "DWL 0.25", "GOTO LOOP1")
 
@@ -250,19 +254,32 @@ def test_reboot_drops_outputs_programs_and_connections() -> None:
 
 
 @pytest.mark.req("ACR-RST-03", "ACR-RST-04")
-def test_the_factory_default_sequence(power_up: PowerUp) -> None:
-    fresh = _factory_state(connected(model="ACR8020"))
-    host = power_up()
+@pytest.mark.parametrize("model", OMITTED)
+def test_the_factory_default_sequence(power_up: PowerUp, model: str) -> None:
+    fresh = _factory_state(connected(model=model))
+    host = power_up(model)
     host.type("DIM P(10)", "DIM DEF(3)", "DIM COM1(1000)", "DIM PROG8(9000)", "CONFIG CLEAR")
     host.type("CONFIG ENC4 NONE NONE NONE", "#DEFINE Count P1", 'IP "10.0.0.1"', *SETTINGS)
     store(host, "PBOOT", "DWL 1000")
     host.type("RUN", "ESAVE", "HALT", "SYS", "FLASH IMAGE")
     assert _factory_state(host) != fresh
     host.type("SYS")
-    assert [host.type(line) for line in FACTORY_DEFAULT] == ["SYS>"] * len(FACTORY_DEFAULT)
+    sequence = [line for line in FACTORY_DEFAULT if line not in OMITTED[model]]
+    assert [host.type(line) for line in sequence] == ["SYS>"] * len(sequence)
     assert host.type("REBOOT") == "SYS>"
     assert _factory_state(host) == fresh
-    assert _factory_state(power_up()) == fresh
+    assert _factory_state(power_up(model)) == fresh
+
+
+@pytest.mark.req("ACR-RST-05")
+@pytest.mark.parametrize("model", OMITTED)
+def test_what_the_sequence_omits_for_a_model_is_refused_by_it(model: str) -> None:
+    host = connected(model=model)
+    refused = {line for line in FACTORY_DEFAULT if host.type(line) != "SYS>"}
+    assert refused == OMITTED[model]
+    for line in refused:
+        said = "Not supported" if line.startswith("FLASH") else "Invalid device"
+        assert host.type(line) == f"{said}|SYS>"
 
 
 def _factory_state(host: Host) -> list[str]:

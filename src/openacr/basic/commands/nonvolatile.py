@@ -12,6 +12,7 @@ from openacr.basic.memory import user_memory
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import NOT_SUPPORTED, PROGRAMS_RUNNING
+from openacr.models import Feature
 from openacr.motion.interlocks import axis_moving
 
 GROUP = "Non-Volatile"
@@ -68,6 +69,7 @@ def erase(run: Run) -> None:
     use=IMMEDIATE,
     grammar=(Word("ERASE", "IMAGE", "LOAD", "RES", "SAVE"),),
     ref=REF,
+    needs=Feature.USER_FLASH,
 )
 def flash(run: Run, what: str) -> None:
     """Save programs (IMAGE: variables too) in user flash, load, erase, or restart from it."""
