@@ -203,6 +203,23 @@ def test_a_hardware_limit_kills_absolute_and_incremental_moves(move: str) -> Non
     assert made.bit(POSITIVE_HARD)
 
 
+@pytest.mark.req("ACR-LIM-04")
+@pytest.mark.parametrize(("side", "latch"), [(0, 16132), (1, 16133)])
+def test_every_kill_of_the_master_has_to_be_cleared_before_motion(side: int, latch: int) -> None:
+    made = bench("HLIM X3 : HLDEC X100", f"X{-20 if side else 20}").seconds(0.1)
+    made.all(f"SET {side}").seconds(0.2)
+    assert [made.bit(flag) for flag in (latch, 16132 + 16133 - latch)] == [True, False]
+    killed = "Associated Slave Kill Motion Request Active"
+    made.all("CLR 522")
+    for cleared, other in ((8467, 8499), (8499, 8467)):
+        made.all(f"CLR {cleared}", f"SET {other}").ticks(1)
+        made.all(f"CLR {cleared}", "CLR 522")
+        assert [made.type(line) for line in ("X0", "Y1", "JOG FWD Y")] == [killed] * 3
+    made.all("CLR 8467", "CLR 522", "X0 Y1")
+    made.until_clear(IN_MOTION)
+    assert (made.p(CURRENT), made.p(CURRENT + 256)) == (0, 1000)
+
+
 @pytest.mark.req("ACR-LIM-03", "ACR-LIMDET-01")
 def test_each_limit_stops_with_its_own_rate() -> None:
     made = bench("HLIM X1 : HLDEC X100 : SLIM X1 : SLM X(3,0) : SLDEC X50", "JOG FWD X")
@@ -238,6 +255,22 @@ def test_an_inverted_limit_is_active_while_its_input_is_off() -> None:
     made.all("JOG FWD X").ticks(10)
     made.all("CLR 0").ticks(3)
     assert made.bit(POSITIVE_HARD)
+
+
+@pytest.mark.req("ACR-LIM-20")
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("which", [0, 1, 2])  # positive, negative, home
+def test_the_present_and_the_previous_state_of_each_input_can_be_read(
+    axis: int, which: int
+) -> None:
+    made = bench().ticks(2)
+    present = 16128 + 32 * axis + which
+    seen = []
+    for line in ("SET", "SET", "CLR", "CLR"):
+        made.all(f"{line} {3 * axis + which}").ticks(1)
+        seen.append((made.bit(present), made.bit(present + 8)))
+    assert seen == [(True, False), (True, True), (False, True), (False, False)]
+    assert made.p(4600) == made.p(4601) == 0
 
 
 @pytest.mark.req("ACR-LIM-17")

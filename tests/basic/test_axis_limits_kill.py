@@ -2,6 +2,7 @@
 
 import pytest
 from tests.basic.motion_bench import Bench, ticks
+from tests.controller.hosts import connected
 
 from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
@@ -145,6 +146,17 @@ def test_excess_error_kills_the_axis_if_it_is_answered(answered: bool, line: str
     assert (made.bit(KAMR_X), made.bit(8479), made.bit(769)) == (answered, answered, False)
 
 
+@pytest.mark.req("ACR-CMD-EXC")
+@pytest.mark.parametrize(
+    ("target", "faults"), [(0.3, False), (0.301, True), (-0.2, False), (-0.201, True)]
+)
+def test_the_ends_of_the_error_band_belong_to_it(target: float, faults: bool) -> None:
+    made = bench("EXC Y(0.3,-0.2) : TLM Y0", "SET 8501", f"Y{target}").seconds(0.2)
+    assert [made.bit(flag) for flag in (KAMR_Y, 8511)] == [faults] * 2
+    assert made.bit(801) is not faults
+    assert made.bit(769)
+
+
 # Kill All Moves and Stop All Moves
 
 
@@ -178,6 +190,16 @@ def test_kill_all_moves_leaves_programs_running() -> None:
     assert (made.bit(KILL_MOVES), made.p(0)) == (True, 50.0)
 
 
+@pytest.mark.req("ACR-KAMR-36")
+def test_kill_all_moves_leaves_plcs_running() -> None:
+    host = connected("DIM PLC0(1000)", "PLC0")
+    host.type("10 LD 40", "20 OUT 41", "RUN", "SET 522")
+    for on in (True, False):
+        host.card.bit[40] = on
+        host.card.advance(200)
+        assert (host.card.bit[41], host.card.bit[KILL_MOVES]) == (on, True)
+
+
 @pytest.mark.req("ACR-KAMR-33", "ACR-KAMR-39")
 def test_stop_all_moves_ramps_with_dec_then_kills() -> None:
     made = bench("X10").seconds(0.1)
@@ -197,11 +219,16 @@ def test_stop_all_moves_ramps_with_dec_then_kills() -> None:
 
 
 @pytest.mark.req("ACR-KAMR-26")
-def test_drive_on_lifts_kills_and_latches_of_a_drive_that_is_off() -> None:
-    made = bench("SET 8467", "SET 16132").ticks(5)
-    made.all("DRIVE ON X").seconds(0.02)
-    found = [made.bit(flag) for flag in (KAMR_X, KAMR_Y, KILL_MOVES, 16132)]
-    assert found == [False] * 4
+@pytest.mark.parametrize("axis", [0, 1])
+def test_drive_on_lifts_kills_and_latches_of_a_drive_that_is_off(axis: int) -> None:
+    latches = [flag + 32 * axis for flag in (16132, 16133)]
+    of_other = 16132 + 32 * (1 - axis)
+    made = bench(*(f"SET {flag}" for flag in (8467 + 32 * axis, *latches, of_other))).ticks(5)
+    kills = (KAMR_X, KAMR_Y, KILL_MOVES)
+    assert all(made.bit(flag) for flag in kills)
+    made.all(f"DRIVE ON {'XY'[axis]}").seconds(0.02)
+    assert not any(made.bit(flag) for flag in (*kills, *latches))
+    assert made.bit(of_other)
     assert made.type("X1 Y1") == ""
 
 

@@ -135,7 +135,8 @@ def test_all_programs_that_begin_with_pboot_run_together(card: Machine) -> None:
 
 @pytest.mark.req("ACR-RUN-11")
 def test_run_and_halt_all_act_on_all_programs(card: Machine) -> None:
-    for program in (2, 3):
+    card.type("NEW")
+    for program in (1, 2, 3):
         card.load(program, "_L", f"P{program} = P{program} + 1", "DWL 0.001", "GOTO L")
     card.type("RUN ALL")
     card.advance(20)
@@ -147,8 +148,12 @@ def test_run_and_halt_all_act_on_all_programs(card: Machine) -> None:
     assert counts(card) == held
     card.type("RESUME ALL")
     card.advance(100)
-    assert counts(card)[1] > held[1]
-    assert card.type("HALT ALL", "?BIT1056;BIT1088;BIT1120").endswith("000|P01>")
+    assert all(now > before for now, before in zip(counts(card), held, strict=True))
+    card.type("HALT ALL")
+    assert card.type("?BIT1056;BIT1088;BIT1120").endswith("000|P01>")
+    ended = counts(card)
+    card.advance(100)
+    assert counts(card) == ended
 
 
 @pytest.mark.req("ACR-ALIAS-05")

@@ -1,5 +1,7 @@
 """Gains, dead zone and filters: by command, and what they do to the output."""
 
+import itertools
+
 import pytest
 from tests.basic.motion_bench import Bench
 
@@ -52,10 +54,11 @@ def test_a_gain_is_its_parameter(word: str, row: int, default: str) -> None:
     ],
 )
 def test_a_value_in_pulses_is_a_whole_number(word: str, row: int) -> None:
-    made = Bench("X")
-    assert made.type(f"{word} X") == "0"
-    made.all(f"{word} X 12.7")
-    assert (made.type(f"{word} X"), made.p(row)) == ("12", 12)
+    made = Bench("X", "Y")
+    assert made.type(f"{word} X Y") == "0|0"
+    made.all(f"{word} X 12.7 Y 5")
+    assert made.type(f"{word} X Y") == "12|5"
+    assert (made.p(row), made.p(row + 256)) == (12, 5)
     assert made.type(f"{word} X 3e9") == "Invalid argument"
 
 
@@ -106,12 +109,21 @@ def test_the_integral_waits_after_motion() -> None:
 def test_the_derivative_is_the_slope_over_its_width() -> None:
     made = stalled("DGAIN X0.001", "VEL 2000", "X1000").ticks(20)
     assert made.p(D_TERM) == pytest.approx(0.001 * 2000)
-    made.all("DWIDTH X0.005")
-    made.ticks(50)
-    held = made.p(D_TERM)
-    made.ticks(1)
-    assert made.p(D_TERM) == pytest.approx(held)
-    assert held == pytest.approx(2.0)
+
+
+@pytest.mark.req("ACR-CMD-DWIDTH")
+@pytest.mark.parametrize(("width", "period"), [("0", 1), ("0.0012", 2), ("0.005", 10)])
+def test_the_slope_is_sampled_once_a_width_or_every_period(width: str, period: int) -> None:
+    made = stalled("DGAIN X0.001", f"DWIDTH X{width}", "ACC 1000 VEL 2000", "X1000").ticks(40)
+    terms = []
+    for _ in range(60):
+        terms.append(made.p(D_TERM))
+        made.ticks(1)
+    steps = [n for n, (old, new) in enumerate(itertools.pairwise(terms)) if old != new]
+    assert {later - first for first, later in itertools.pairwise(steps)} == {period}
+    grown = 0.001 * 1000 * period * 0.0005  # DGAIN times the gain of speed in a sample
+    for first in steps:
+        assert terms[first + 1] - terms[first] == pytest.approx(grown, rel=1e-5)
 
 
 def test_dgain_puts_the_smoothing_into_effect() -> None:
@@ -129,8 +141,16 @@ def test_feedforward_follows_the_command() -> None:
     assert made.p(12355) == pytest.approx(0.01, rel=1e-3)
     speed = made.axis(0, at.AX_VELOCITY)
     assert made.p(12354) == pytest.approx(0.001 * speed)
-    made.all("FFVC X200").ticks(1)
-    assert made.p(12354) == 0.0
+
+
+@pytest.mark.req("ACR-CMD-FFVC")
+@pytest.mark.parametrize("velocity", [100, -100])
+def test_the_feedforward_is_cut_off_below_its_velocity_and_not_at_it(velocity: int) -> None:
+    made = stalled("FFVEL X0.001 : VEL 100", f"X{10 * velocity}").ticks(250)
+    for cutoff, term in ((99, 0.001 * velocity), (100, 0.001 * velocity), (101, 0.0)):
+        made.all(f"FFVC X{cutoff}")
+        shown = [made.ticks(1).p(12354) for _ in range(200)]
+        assert shown == [pytest.approx(term)] * 200
 
 
 @pytest.mark.req("ACR-CMD-DZU", "ACR-CMD-DZL", "ACR-CMD-DIP", "ACR-CMD-DIN")

@@ -84,6 +84,15 @@ def test_ctrl_x_and_ctrl_z_bring_every_axis_to_rest(axes: Host, key: str) -> Non
     assert enabled == [key == "\x18"] * 2
 
 
+@pytest.mark.req("ACR-KAMR-13", "ACR-KAMR-41", "ACR-KAMR-43")
+@pytest.mark.parametrize("key", ["\x18", "\x1a"])
+def test_they_reach_the_last_of_sixteen_axes_attached_or_not(key: str) -> None:
+    host = connected(model="ACR8020")
+    host.send(key)
+    host.card.advance(1)
+    assert [host.card.bit[8467 + 32 * n] for n in range(16)] == [True] * 16
+
+
 @pytest.mark.req("ACR-KAMR-29", "ACR-KAMR-38", "ACR-KAMR-42")
 def test_ctrl_y_clears_the_kills_of_all_axes_and_masters_and_moves_nothing(axes: Host) -> None:
     axes.type("X1000")

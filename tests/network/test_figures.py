@@ -66,7 +66,7 @@ def test_a_node_needs_time_for_each_point(
 @pytest.mark.req("ACR-CAN-14", "ACR-CAN-15")
 @pytest.mark.parametrize(
     ("coupler", "points", "needed_ms"),
-    [("PIO-347", LARGE, 31), ("PIO-337", LARGE, 5), ("PIO-347", SMALL, 12)],
+    [("PIO-347", LARGE, 31), ("PIO-337", LARGE, 5), ("PIO-347", SMALL, 12), ("PIO-337", SMALL, 2)],
 )
 def test_a_cycle_that_is_too_fast_for_a_node_is_a_health_event(
     coupler: str, points: dict[str, object], needed_ms: int

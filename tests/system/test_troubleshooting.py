@@ -59,12 +59,24 @@ def test_cause_2_kill_all_moves_of_the_master(card: Console) -> None:
 
 
 @pytest.mark.req("ACR-TRB-16")
-def test_cause_3_the_kill_request_of_the_axis(card: Console) -> None:
-    card.type("SET 8467")
+@pytest.mark.parametrize(("axis", "position"), [(0, 12288), (7, 14080), (8, 14336), (15, 16128)])
+def test_cause_3_the_kill_request_of_the_axis(axis: int, position: int) -> None:
+    card = Console("ACR8020")
+    card.type("PROG0", "ATTACH MASTER0", f'ATTACH SLAVE0 AXIS{axis} "X"')
+    card.type("PPU X1000", "VEL 10", "ACC 0", "DEC 0", "STP 0", "X2")
     card.card.advance(seconds=0.1)
+    kill = 8467 + 32 * axis
+    card.type(f"SET {kill}")
+    card.card.advance(seconds=0.1)
+    stopped = card.card.p[position]
+    assert 0 < stopped < 2000
     assert card.type("X1") == "Associated Slave Kill Motion Request Active"
-    card.type("CLR 8467", "CLR 522")
-    assert moves(card, 1)
+    card.type(f"CLR {kill}")
+    assert card.type("X1") == "Master Kill All Moves Request Active"
+    card.type("CLR 522")
+    assert card.type("X/0.5") == ""
+    card.card.advance(seconds=0.5)
+    assert card.card.p[position] == stopped + 500
 
 
 @pytest.mark.req("ACR-TRB-17")

@@ -43,6 +43,7 @@ A2 = 1
 B1 = 2
 A1 = 3
 A0 = 4
+CUTOFF_SLACK_CPS = 0.001  # differences of large positions are that far from a constant speed
 TINY = 1e-30  # filter states below this are 0: denormal numbers are very slow
 
 
@@ -155,7 +156,7 @@ def servo_sum(
     banded: bool = dead_band(F, I, S, n, error_cnt)
     used_cnt: float = 0.0 if banded else error_cnt
     feed_v: float = S[axes.feedforward_velocity[n]] * command_cps
-    if fabs(command_cps) < I[axes.ffvc[n]]:
+    if fabs(command_cps) < I[axes.ffvc[n]] - CUTOFF_SLACK_CPS:
         feed_v = 0.0
     surge_v: float = S[axes.feedforward_accel[n]] * F[axes.ssp_accel_cps2[n]]
     tacho: float = 0.0
