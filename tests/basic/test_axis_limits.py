@@ -205,17 +205,17 @@ def test_a_hardware_limit_kills_absolute_and_incremental_moves(move: str) -> Non
 
 @pytest.mark.req("ACR-LIM-04")
 @pytest.mark.parametrize(("side", "latch"), [(0, 16132), (1, 16133)])
-def test_every_kill_of_the_master_has_to_be_cleared_before_motion(side: int, latch: int) -> None:
+@pytest.mark.parametrize(("cleared", "left"), [(8467, 8499), (8499, 8467)])
+def test_every_kill_of_the_master_has_to_be_cleared_before_motion(
+    side: int, latch: int, cleared: int, left: int
+) -> None:
     made = bench("HLIM X3 : HLDEC X100", f"X{-20 if side else 20}").seconds(0.1)
     made.all(f"SET {side}").seconds(0.2)
     assert [made.bit(flag) for flag in (latch, 16132 + 16133 - latch)] == [True, False]
+    made.all(f"CLR {cleared}", "CLR 522")
     killed = "Associated Slave Kill Motion Request Active"
-    made.all("CLR 522")
-    for cleared, other in ((8467, 8499), (8499, 8467)):
-        made.all(f"CLR {cleared}", f"SET {other}").ticks(1)
-        made.all(f"CLR {cleared}", "CLR 522")
-        assert [made.type(line) for line in ("X0", "Y1", "JOG FWD Y")] == [killed] * 3
-    made.all("CLR 8467", "CLR 522", "X0 Y1")
+    assert [made.type(line) for line in ("X0", "Y1", "JOG FWD Y")] == [killed] * 3
+    made.all(f"CLR {left}", "CLR 522", "X0 Y1")
     made.until_clear(IN_MOTION)
     assert (made.p(CURRENT), made.p(CURRENT + 256)) == (0, 1000)
 

@@ -81,6 +81,15 @@ def test_mbuf_lets_ten_moves_wait() -> None:
 
 
 @pytest.mark.req("ACR-CMD-MBUF")
+def test_each_master_shows_the_filling_of_its_own_buffer() -> None:
+    made = Bench("X").all("VEL 1", "MBUF ON", "X1", "X2")
+    made.attach(1, (1, "Y"))
+    made.at(Level.PROG, 1).all("VEL 1", "MBUF ON", *(f"Y{number}" for number in range(1, 5)))
+    made.ticks(1)
+    assert (made.p(8212), made.p(8468), made.type("MBUF")) == (1, 3, "3")
+
+
+@pytest.mark.req("ACR-CMD-MBUF")
 def test_dim_mbuf_makes_the_buffer_longer() -> None:
     made = Bench("X").all("DIM MBUF(100)", "MBUF ON", "VEL 100")
     assert made.bit(USER_RAM)

@@ -179,9 +179,13 @@ def test_ihpos_gives_up_after_its_timeout_and_a_new_one_clears_the_flag() -> Non
 def test_ihpos_with_timeout_0_waits_for_ever() -> None:
     rig = Rig()
     start(rig, 0, "IHPOS P6160 (40000,0)", "SET 41")
+    rig.memory.write(6160, 40000)
     rig.pass_ticks(5000)
     assert rig.bit(INHIBITED)
     assert not rig.bit(41)
+    rig.memory.write(6160, 40001)
+    rig.pass_ticks(4)
+    assert (rig.bit(41), rig.bit(INHIBITED), rig.bit(TIMEOUT)) == (True, False, False)
 
 
 def test_a_waiting_line_is_answered_when_it_is_done() -> None:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from tests.basic.motion_bench import Bench
 
+from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
 IN_MOTION, TANG = 516, 2074
@@ -56,6 +57,18 @@ def test_the_flags_and_the_limit() -> None:
     assert not made.bit(TANG)
     assert not made.bit(TANGENTIAL)
     assert made.type("TANG") == "OFF"
+
+
+@pytest.mark.req("ACR-CMD-TANG")
+def test_each_master_has_its_own_flag_axis_and_limit() -> None:
+    made = bench("P8492 = 45")
+    made.attach(1, (3, "A"), (4, "B"), (5, "D"))
+    assert (made.p(8236), made.p(8492)) == (0, 45)
+    made.all("TANG OFF").at(Level.PROG, 1).all("TANG ON D")
+    assert (made.bit(TANG), made.bit(TANG + 32), made.type("TANG")) == (False, True, "D")
+    assert made.at(Level.PROG, 0).type("TANG") == "OFF"
+    made.at(Level.PROG, 1).all("TANG OFF")
+    assert not made.bit(TANG + 32)
 
 
 @pytest.mark.req("ACR-CMD-TANG")

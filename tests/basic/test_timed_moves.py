@@ -156,6 +156,16 @@ def test_a_move_follows_an_encoder() -> None:
     assert not made.bit(IN_MOTION)
 
 
+@pytest.mark.req("ACR-PROF-18")
+@pytest.mark.parametrize("lines", [(), ("SRC ENC9", "SRC CLK")])
+def test_the_clock_is_the_time_base_at_first_and_again_by_src_clk(lines: tuple[str, ...]) -> None:
+    made = bench("ACC 0 STP 0 VEL 10", *lines)
+    assert made.type("SRC") == "CLK"
+    made.all("X1").ticks(1)
+    assert made.until_clear(IN_MOTION) == 0.1 / made.card.period_s - 1
+    assert made.psp(0) == 1000
+
+
 def test_a_source_backwards_takes_the_path_back_to_its_start() -> None:
     made = bench("SRC P6288", "X10")
     made.memory.write(6288, 300)

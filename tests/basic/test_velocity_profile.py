@@ -337,6 +337,24 @@ def test_fov_scales_the_speed_of_a_move_under_way_with_the_ramps() -> None:
         made.seconds(ramp_s)
         assert made.p(VELOCITY) == pytest.approx(20 * float(factor))
         assert made.p(8201) == float(factor)
+    made.type("FOV 0")
+    made.seconds(20 / 200 + 0.001)
+    held = made.p(12288)
+    assert (made.p(VELOCITY), made.p(8201), made.bit(IN_MOTION)) == (0.0, 0.0, True)
+    made.seconds(0.1)
+    assert made.p(12288) == held < 100_000
+    made.type("FOV 1")
+    made.until_clear(IN_MOTION)
+    assert made.p(12288) == 100_000
+
+
+@pytest.mark.req("ACR-CMD-FOV")
+def test_the_override_is_that_of_one_master() -> None:
+    made = bench("FOV 0.75")
+    made.attach(1, (2, "Z"))
+    made.at(Level.PROG, 1).all("FOV 0.5")
+    assert (made.p(8201), made.p(8457)) == (0.75, 0.5)
+    assert (made.type("FOV"), made.at(Level.PROG, 0).type("FOV")) == ("0.5", "0.75")
 
 
 @pytest.mark.req("ACR-MOT-16", "ACR-MOT-17")

@@ -73,6 +73,14 @@ def test_saved_parameters_are_back_after_reboot_others_are_not() -> None:
     assert host.type("ACC") == "123.456|P00>"
 
 
+@pytest.mark.req("ACR-MOT-16")
+def test_an_override_is_not_saved_and_leaves_the_velocity_that_is() -> None:
+    host = connected("PROG0", "ATTACH MASTER0", "VEL 7", "FOV 0.5", "ESAVE")
+    assert host.asks("FOV", "VEL") == ["0.5", "7"]
+    host.type("REBOOT", "PROG0")
+    assert host.asks("FOV", "VEL") == ["1", "7"]
+
+
 @pytest.mark.req("ACR-CMD-ESAVE", "ACR-RST-02", "ACR-PROF-08")
 def test_without_esave_parameters_are_defaults_after_reboot() -> None:
     host = connected(*SETTINGS, "SYS", 'IP "10.0.0.7"', "CONFIG NONE NONE NONE NONE")

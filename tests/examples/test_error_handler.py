@@ -71,10 +71,15 @@ def soft_limit(bench: Bench) -> None:
     bench.card.until(16140)
 
 
-def hard_limit(bench: Bench) -> None:
-    bench.type_in("SLIM X0")
-    bench.type_in("JOG REV X")
-    bench.card.until(16133)
+def hard_limit(axis: str, jog: str) -> Callable[[Bench], None]:
+    latch = {"FWD": 16132, "REV": 16133}[jog] + 32 * "XY".index(axis)
+
+    def drive(bench: Bench) -> None:
+        bench.type_in(f"SLIM {axis}0")
+        bench.type_in(f"JOG {jog} {axis}")
+        assert bench.card.until(latch)
+
+    return drive
 
 
 def excess_error(bench: Bench) -> None:
@@ -109,14 +114,29 @@ def set_by_user(bench: Bench) -> None:
             ["Axis 0 Error 1 -> Positive Software End-of-travel hit, Axis 0"],
             marks=pytest.mark.req("ACR-ERR-05"),
         ),
-        pytest.param(
-            hard_limit,
-            (4, 7),
-            [
-                "Axis 0 Error 4 -> Negative Hardware End-of-travel hit, Axis 0",
-                f"Axis 1 Error 7 -> {OTHER}",
-            ],
-            marks=pytest.mark.req("ACR-ERR-06", "ACR-KAMR-21"),
+        *(
+            pytest.param(
+                hard_limit("X", jog),
+                (code, 7),
+                [
+                    f"Axis 0 Error {code} -> {side} Hardware End-of-travel hit, Axis 0",
+                    f"Axis 1 Error 7 -> {OTHER}",
+                ],
+                marks=pytest.mark.req("ACR-ERR-06", "ACR-KAMR-21"),
+            )
+            for jog, code, side in (("FWD", 3, "Positive"), ("REV", 4, "Negative"))
+        ),
+        *(
+            pytest.param(
+                hard_limit("Y", jog),
+                (7, code),
+                [
+                    f"Axis 0 Error 7 -> {OTHER}",
+                    f"Axis 1 Error {code} -> {side} Hardware End-of-travel hit, Axis 1",
+                ],
+                marks=pytest.mark.req("ACR-ERR-06", "ACR-KAMR-21"),
+            )
+            for jog, code, side in (("FWD", 3, "Positive"), ("REV", 4, "Negative"))
         ),
         pytest.param(
             excess_error,
@@ -166,11 +186,12 @@ def test_a_trouble_has_its_code_and_its_text(
     assert (bench.card.p[X_CODE], bench.card.p[Y_CODE]) == codes
     assert not bench.card.bit[ERROR_OCCURRED]
     assert (bench.card.bit[8479], bench.card.bit[8511]) == (False, False)
+    assert not any(bench.card.bit[latch] for latch in (16132, 16133, 16164, 16165))
 
 
 @pytest.mark.req("ACR-ERR-11")
 def test_motion_is_possible_again_after_a_limit_switch(bench: Bench) -> None:
-    hard_limit(bench)
+    hard_limit("X", "REV")(bench)
     assert bench.card.bit[KILL]
     bench.wait()
     assert not bench.card.bit[16133]
@@ -210,7 +231,11 @@ def test_each_trouble_is_reported_once_and_its_codes_are_reset(bench: Bench) -> 
     set_by_user(bench)
     assert bench.wait().count("Axis 0 Error 7") == 1
     assert (bench.card.p[X_CODE], bench.card.p[Y_CODE]) == (0, 0)
+    assert not bench.card.bit[ERROR_OCCURRED]
     assert bench.wait(0.5) == ""
+    bench.type_in(f"SET {ERROR_OCCURRED}")  # by hand: a message without any code
+    assert re.fullmatch(r"Approximate Time Running : .* Seconds \r\n\r\n", bench.wait())
+    assert not bench.card.bit[ERROR_OCCURRED]
     set_by_user(bench)
     assert bench.wait().count("Axis 0 Error 7") == 1
 
@@ -257,16 +282,22 @@ def test_an_open_motion_enable_input_is_reported_and_its_closing_too(bench: Benc
 
 
 @pytest.mark.req("ACR-ERR-04")
-def test_a_canopen_problem_has_the_number_of_its_state(bench: Bench) -> None:
-    bench.card.p[32779] = 5
+@pytest.mark.parametrize("problem", [3, 5, 10])
+def test_a_canopen_problem_has_the_number_of_its_state(bench: Bench, problem: int) -> None:
+    bench.card.p[32779] = problem
     text = bench.wait()
-    assert "CANopen Error 5 -> CANopen network problem occurred.\r\n" in text
-    assert bench.card.p[CANOPEN_CODE] == 5
-    for state in (2, 1):
-        bench.card.p[CANOPEN_CODE] = 5
+    assert f"CANopen Error {problem} -> CANopen network problem occurred.\r\n" in text
+    assert bench.card.p[CANOPEN_CODE] == problem
+    bench.type_in("PROG1")
+    for state, said in (
+        (2, "CANopen status is good"),
+        (1, "CANopen is ready to start (SET 11265)"),
+    ):
+        bench.card.p[CANOPEN_CODE] = problem
         bench.card.p[32779] = state
-        bench.wait(0.1)
+        assert bench.wait(0.1) == ""
         assert bench.card.p[CANOPEN_CODE] == 0
+        assert said in bench.type_in("?$V1")
 
 
 @pytest.mark.req("ACR-ERR-08")

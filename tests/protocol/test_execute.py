@@ -167,9 +167,14 @@ def test_single_bits_are_set_and_cleared() -> None:
 @pytest.mark.req("BIN-164", "BIN-165", "BIN-167", "BIN-168", "BIN-170", "BIN-171", "BIN-173")
 def test_overrides_reach_the_selected_masters() -> None:
     card = FakeCard()
-    for request in ("07 08 00 00 00 00 00 3F", "1F 00 01 80 00 00 00 3F"):
-        assert ask(card, request) == ""
-    assert card.overrides == [([3], 0.5, False), ([0, 15], 0.5, True)]
+    sent = {
+        "07 08 00 00 00 00 00 3F": ([3], 0.5, False),
+        "1F 08 00 00 00 00 00 3F": ([3], 0.5, True),
+        "1F 05 00 00 6D E7 FB 3D": ([0, 2], pytest.approx(0.123), True),
+        "1F 00 01 80 00 00 00 3F": ([0, 15], 0.5, True),
+    }
+    assert [ask(card, request) for request in sent] == [""] * 4
+    assert card.overrides == list(sent.values())
 
 
 def test_a_refused_move_sends_nothing_back() -> None:

@@ -54,6 +54,13 @@ def test_fields_come_in_the_documented_order() -> None:
 def test_positions_are_integers_unless_marked_floating() -> None:
     assert decoded(bytes.fromhex("04 08 00 01 00") + words(-5)).targets == ((0, -5),)
     assert decoded(bytes.fromhex("04 08 00 01 04") + words(-5.5)).targets == ((0, -5.5),)
+    for code3, values in ((0, (-5, 7, -100_000, 3)), (4, (-5.5, 7.25, -0.5, 3.0))):
+        arc = decoded(bytes((4, 8, 0x20, 3, code3)) + words(*values))
+        assert arc.targets == ((0, values[0]), (1, values[1]))
+        assert (arc.curve, arc.centers) == (Curve.ARC, values[2:])
+        for code1, curve in ((0x40, Curve.NURB), (0x80, Curve.SPLINE)):
+            point = decoded(bytes((4, 8, code1, 3, 0x40 | code3)) + words(*values[:2]))
+            assert (point.curve, point.targets) == (curve, arc.targets)
 
 
 @pytest.mark.req("BIN-125", "BIN-137")

@@ -314,6 +314,8 @@ def test_points_taught_by_hand_are_run_in_order() -> None:
     assert points == pytest.approx([1.5, 3.75, 0.75], abs=2 / 4000)
     assert card.p[12288] == pytest.approx(points[-1] * 4000, abs=0.5)
     assert not card.bit[1024]
+    console.type("ECHO 4")
+    assert console.type("DIM") == "DIM LV(2)|DIM $V(1,10)|DIM DA(1)|DIM DA0(3)"
 
 
 @pytest.mark.req("ACR-FLOW-18")
