@@ -354,7 +354,10 @@ def test_the_override_is_that_of_one_master() -> None:
     made.attach(1, (2, "Z"))
     made.at(Level.PROG, 1).all("FOV 0.5")
     assert (made.p(8201), made.p(8457)) == (0.75, 0.5)
+    made.all("PPU Z1000", "ACC 0 DEC 0 STP 0 VEL 20", "Z100")
     assert (made.type("FOV"), made.at(Level.PROG, 0).type("FOV")) == ("0.5", "0.75")
+    made.all("ACC 0 DEC 0 STP 0 VEL 20", "X100").ticks(2)
+    assert (made.p(VELOCITY), made.p(VELOCITY + 256)) == (15.0, 10.0)
 
 
 @pytest.mark.req("ACR-MOT-16", "ACR-MOT-17")
