@@ -191,20 +191,42 @@ def test_one_layer_is_taken_whatever_its_case_or_all_but_the_frozen_ones(tmp_pat
         areas(layer="cat")
 
 
+SURVEY_FOOT_IN = 1200 / 3937 / 0.0254  # by its definition in metres
+# What one of a unit of $INSUNITS is in inches (G20) or millimetres (G21).
+DRAWING_UNITS = [
+    (1, "G20", 1.0), (2, "G20", 12.0), (3, "G20", 63360.0), (4, "G21", 1.0), (5, "G21", 10.0),
+    (6, "G21", 1000.0), (7, "G21", 1e6), (8, "G20", 1e-6), (9, "G20", 1e-3), (10, "G20", 36.0),
+    (11, "G21", 1e-7), (12, "G21", 1e-6), (13, "G21", 1e-3), (14, "G21", 100.0),
+    (15, "G21", 1e4), (16, "G21", 1e5), (21, "G20", SURVEY_FOOT_IN),
+    (22, "G20", SURVEY_FOOT_IN / 12), (23, "G20", SURVEY_FOOT_IN * 3),
+    (24, "G20", SURVEY_FOOT_IN * 5280),
+]  # fmt: skip
+
+
 @pytest.mark.req("MILL-DXF-11")
-@pytest.mark.parametrize(
-    ("units", "code", "factor"),
-    [(1, "G20", 1.0), (4, "G21", 1.0), (5, "G21", 10.0), (6, "G21", 1000.0)],
-)
+@pytest.mark.parametrize(("units", "code", "factor"), DRAWING_UNITS)
 def test_the_unit_of_the_drawing_is_respected(
     units: int, code: str, factor: float, tmp_path: Path
 ) -> None:
     document = drawing(units)
-    document.modelspace().add_line((0, 0), (3, 4))
-    result = converted(document, tmp_path)
+    document.modelspace().add_line((1 / factor, 0), (301 / factor, 400 / factor))
+    result = converted(document, tmp_path, is_metric=code == "G20")
     assert code in result.text.splitlines()
-    assert trace(result.text).length == pytest.approx(5 * factor)
+    assert trace(result.text).length == pytest.approx(500, rel=1e-7)
     assert result.notes == ()
+
+
+@pytest.mark.req("MILL-DXF-11")
+@pytest.mark.parametrize("units", [17, 18, 19, 20, 25])
+def test_a_drawing_in_units_of_no_machine_is_in_default_units_with_a_warning(
+    units: int, tmp_path: Path
+) -> None:
+    document = drawing(units)
+    document.modelspace().add_line((0, 0), (3, 4))
+    result = converted(document, tmp_path, is_metric=True)
+    assert "G21" in result.text.splitlines()
+    assert trace(result.text).length == pytest.approx(5)
+    assert result.notes == (f"the drawing has unit {units}, which is not known here: taken as mm",)
 
 
 @pytest.mark.req("MILL-DXF-11")

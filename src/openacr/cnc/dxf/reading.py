@@ -16,12 +16,30 @@ if TYPE_CHECKING:
     from ezdxf.document import Drawing
 
 INCH, MM = 1, 4
-# $INSUNITS: unit of the drawing, and what one of it is in inches or millimetres
+SURVEY_FOOT_IN = 1200.0 / 3937.0 / 0.0254  # of the United States, by its definition in metres
+# $INSUNITS: unit of the drawing, whether it is metric, and what one of it is in inches or
+# millimetres. Gigametres and what is longer (17 to 20) are of no machine.
 UNITS: dict[int, tuple[bool, float]] = {
     1: (False, 1.0),
+    2: (False, 12.0),  # feet
+    3: (False, 63360.0),  # miles
     4: (True, 1.0),
     5: (True, 10.0),
     6: (True, 1000.0),
+    7: (True, 1e6),  # km
+    8: (False, 1e-6),  # microinches
+    9: (False, 1e-3),  # mils
+    10: (False, 36.0),  # yards
+    11: (True, 1e-7),  # angstroms
+    12: (True, 1e-6),  # nm
+    13: (True, 1e-3),  # microns
+    14: (True, 100.0),  # dm
+    15: (True, 1e4),  # dam
+    16: (True, 1e5),  # hm
+    21: (False, SURVEY_FOOT_IN),
+    22: (False, SURVEY_FOOT_IN / 12.0),
+    23: (False, SURVEY_FOOT_IN * 3.0),
+    24: (False, SURVEY_FOOT_IN * 5280.0),
 }
 DEEPEST = 16  # blocks within blocks
 MOST = 2_000_000  # entities of a drawing with its blocks expanded
