@@ -304,19 +304,70 @@ def test_the_spindle_is_on_the_dac_the_store_names(dac: int) -> None:
     assert shop.controller.p[6400 + 16 * dac] == pytest.approx(3.33)
 
 
+FINE_BORING = "F600 G90 G0 Z1\nM3 S500\nG76 X1 Y0 Z-.5 R.1 Q.1\nG80\nM2\n$I CYCLES.TXT\n"
+
+
 @pytest.mark.req("MILL-SPINDLE-ORIENT")
 def test_fine_boring_orients_the_spindle_and_checks_that_it_is_there() -> None:
     shop = Shop(P800_012=46, P800_013=12, P250_142=0, **SPINDLE)
-    shop.load("F600 G90 G0 Z1\nM3 S500\nG76 X1 Y0 Z-.5 R.1 Q.1\nG80\nM2\n$I CYCLES.TXT\n")
+    shop.load(FINE_BORING)
     shop.until(State.WAIT)
     shop.pass_time(0.5)
     assert shop.runner.reason == "spindle oriented"
     assert shop.outputs((46, 40)) == [True, False]
-    assert shop.pulses()[2] == -5000
+    assert volts(shop) == 0.0
+    assert shop.pulses() == (10000, 0, -5000)  # no shift before it is there
     shop.controller.set_input(12, True)
     shop.until(State.IDLE)
     assert shop.outputs((46,)) == [False]
     assert shop.pulses() == (10000, 0, 10000)
+
+
+@pytest.mark.req("MILL-SPINDLE-ORIENT", "MILL-G76-ORIENT")
+@pytest.mark.parametrize(("code", "level"), [(8, False), (24, True)])
+def test_a_spindle_is_at_rest_before_it_is_oriented(code: int, level: bool) -> None:
+    """The guide: it is stopped and goes through an orientation cycle."""
+    shop = Shop(P800_000=code, P800_003=10, P800_012=46, P800_013=12, **SPINDLE)
+    shop.controller.set_input(10, not level)
+    shop.load(FINE_BORING)
+    shop.until(State.WAIT)
+    shop.pass_time(0.5)
+    assert shop.runner.reason == "spindle at rest"
+    assert shop.outputs((46, 40)) == [False, False]
+    assert volts(shop) == 0.0
+    shop.controller.set_input(10, level)
+    shop.pass_time(0.1)
+    assert shop.runner.reason == "spindle oriented"
+    assert shop.outputs((46, 40)) == [True, False]
+    shop.controller.set_input(12, True)
+    shop.until(State.IDLE)
+    assert shop.pulses() == (10000, 0, 10000)
+
+
+@pytest.mark.req("MILL-SPINDLE-ORIENT")
+def test_a_spindle_that_is_never_oriented_is_an_alarm_in_the_hole() -> None:
+    shop = Shop(P800_012=46, P800_013=12, P800_015=2.0, **SPINDLE)
+    shop.load(FINE_BORING)
+    shop.until(State.WAIT)
+    shop.pass_time(1.9)
+    assert shop.runner.state is State.WAIT
+    shop.until(State.ALARM, limit_s=0.3)
+    assert [alarm.kind.code for alarm in shop.runner.alarms.active] == [42]
+    assert shop.pulses() == (10000, 0, -5000)
+
+
+@pytest.mark.req("MILL-SPINDLE-ORIENT")
+@pytest.mark.parametrize("orient_s", [0.4, 1.2])
+def test_without_an_oriented_input_the_orientation_has_its_time(orient_s: float) -> None:
+    shop = Shop(P800_012=46, P800_014=orient_s, **SPINDLE)
+    shop.load(FINE_BORING)
+    while not shop.controller.bit[46]:
+        shop.pass_time(STEP_S)
+    elapsed_s = 0.0
+    while shop.pulses() == (10000, 0, -5000):
+        shop.pass_time(STEP_S)
+        elapsed_s += STEP_S
+    assert elapsed_s == pytest.approx(orient_s, abs=0.02)
 
 
 @pytest.mark.req("MILL-COOL-MIST", "MILL-COOL-FLOOD", "MILL-COOL-OFF")

@@ -1,13 +1,15 @@
 """SPINDLE, coolant and TOOL settings of the store: programs on the virtual machine obey them."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import pytest
-from tests.mill.shop import Shop
+from tests.mill.shop import STEP_S, Shop
 
 from openacr.cnc.canonical import Entry
 from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.cnc.loading.load import load
+from openacr.mill.card.alarms import AlarmError
 from openacr.mill.run.lifecycle import State
 from openacr.mill.run.run_host import RunHost
 from openacr.sysvar import Store
@@ -139,15 +141,52 @@ def test_without_inputs_nothing_is_waited_for() -> None:
 
 
 @pytest.mark.req("MILL-SPINDLE-EXCEPTION", "MILL-SYS-SPINDLE-EXCEPT")
-def test_a_spindle_fault_holds_ends_the_program_and_gives_an_alarm() -> None:
+@pytest.mark.parametrize("before", ["S1500 M3", "S1500 M4", "S1500 M3\nM5", ""])
+def test_a_spindle_fault_holds_ends_the_program_and_gives_an_alarm(before: str) -> None:
+    """Also while the spindle runs down or is off: the guide has no condition."""
+    assert Store().read(SPINDLE + EXCEPTION) == -1.0
     shop = shop_with(more={f"P{SPINDLE + EXCEPTION}": 12})
-    begin(shop, "S1500 M3\nF60 G1 X5\nM2")
+    begin(shop, f"{before}\nF60 G1 X5\nM2")
     shop.pass_time(1.0)
     shop.controller.set_input(12, True)
-    assert shop.until(State.ALARM) is State.ALARM
+    speeds = []
+    while shop.runner.state is not State.ALARM or shop.runner.is_busy:
+        shop.pass_time(STEP_S)
+        speeds.append(float(shop.controller.axis(0).velocity_ups))
+    falls = [a - b for a, b in pairwise(speeds)]
+    assert max(falls) <= 100 * STEP_S * 1.01  # the ramp of the feed: a hold, no kill
     assert [alarm.kind.code for alarm in shop.runner.alarms.active] == [41]
     assert 0 < shop.pulses()[0] < 50_000
     assert volts(shop) == 0.0
+
+
+@pytest.mark.req("MILL-SYS-SPINDLE-EXCEPT", "MILL-ALM-CLEAR")
+def test_a_spindle_fault_stays_until_its_contact_is_open_and_it_is_acknowledged() -> None:
+    shop = shop_with(more={f"P{SPINDLE + EXCEPTION}": 12})
+    begin(shop, "S1500 M3\nF60 G1 X5\nM2")
+    shop.pass_time(0.2)
+    shop.controller.set_input(12, True)
+    shop.until(State.ALARM)
+    assert [alarm.kind.code for alarm in shop.runner.acknowledge()] == [41]
+    with pytest.raises(AlarmError, match="Spindle exception"):
+        begin(shop, "F600 G1 X1\nM2")
+    shop.controller.set_input(12, False)
+    shop.pass_time(0.5)
+    assert [alarm.kind.code for alarm in shop.runner.alarms.active] == [41]
+    assert shop.runner.acknowledge() == []
+    begin(shop, "F600 G1 X1\nM2")
+    shop.until(State.IDLE)
+    assert shop.pulses()[0] == 10_000
+
+
+@pytest.mark.req("MILL-SYS-SPINDLE-EXCEPT")
+def test_without_an_exception_input_no_input_is_a_spindle_fault() -> None:
+    shop = shop_with()
+    for number in range(32):
+        shop.controller.set_input(number, True)
+    begin(shop, "S1500 M3\nF600 G1 X1\nM2")
+    shop.until(State.IDLE)
+    assert (shop.pulses()[0], shop.runner.alarms.active) == (10_000, [])
 
 
 # --- coolant ----------------------------------------------------------------------------

@@ -55,11 +55,6 @@ class Spindle:
         self.rpm = 0.0
         self.override = 1.0
 
-    @property
-    def is_on(self) -> bool:
-        """Whether the spindle turns or is commanded to turn."""
-        return self.state != OFF
-
     def volts(self) -> float:
         """The voltage of the DAC, from speed, scaling and override."""
         if self.state == OFF:
@@ -105,9 +100,13 @@ class Spindle:
     def stop(self, *, always_waits: bool = False) -> Steps:
         """Stop the spindle (M5); a tool change always waits until it is at rest."""
         self.switch_off()
+        if self._row.code & WAITS_FOR_ZERO or always_waits:
+            yield from self._rest()
+
+    def _rest(self) -> Steps:
+        """Wait until the spindle is at rest, where an input shows it."""
         row = self._row
-        if row.code & WAITS_FOR_ZERO or always_waits:
-            yield from self._level(row.at_zero, bool(row.code & ZERO_LEVEL), "spindle at rest")
+        yield from self._level(row.at_zero, bool(row.code & ZERO_LEVEL), "spindle at rest")
 
     def switch_off(self) -> None:
         """Switch the spindle off at once, as ABORT and E-stop do."""
@@ -133,9 +132,14 @@ class Spindle:
             yield Until(reason, is_met, limit_s, alarms.SPINDLE_TIME_OUT)
 
     def orient(self) -> Steps:
-        """Orient the spindle to the fixed angle of fine boring and hold it there."""
+        """Stop the spindle, orient it to the fixed angle of fine boring and hold it there.
+
+        The OFF output stays off: a drive that it disables could not turn to the angle.
+        """
         row, io = self._row, self._io
         self._remove_drive()
+        if row.code & WAITS_FOR_ZERO:
+            yield from self._rest()
         io.output(row.orient, True)
         if io.has_input(row.oriented):
             yield from self._level(row.oriented, True, "spindle oriented")

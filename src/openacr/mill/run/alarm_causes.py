@@ -25,10 +25,10 @@ class Watch:
         self.killed = Killed(io.machine)
         self._has_error_band = any(axis.excess_error_u > 0.0 for axis in io.settings.axes)
 
-    def causes(self, sample: CardState, *, spins: bool) -> Iterator[Cause]:
-        """Yield every present cause of an alarm; `spins`: the spindle is on."""
+    def causes(self, sample: CardState) -> Iterator[Cause]:
+        """Yield every present cause of an alarm."""
         killed_by = self.killed.kind(sample)
-        yield from self._present(sample, spins=spins)
+        yield from self._present(sample)
         if self._is_killed(sample):
             yield killed_by, ""
 
@@ -37,7 +37,7 @@ class Watch:
         is_crossed = any(word & SOFT_LIMIT for word in sample.limits)
         return sample.is_killed and not is_crossed and not self._io.machine.is_dropping
 
-    def _present(self, sample: CardState, *, spins: bool) -> Iterator[Cause]:
+    def _present(self, sample: CardState) -> Iterator[Cause]:
         """Yield the present causes other than a kill."""
         wiring, spindle = self._io.settings.wiring, self._io.settings.spindle
         if self._io.is_in(sample, wiring.emergency_stop):
@@ -52,7 +52,7 @@ class Watch:
         if self._has_error_band and not sample.is_within_error:
             for name in self._in_error():
                 yield alarms.EXCESS_ERROR, name
-        if spins and self._io.is_in(sample, spindle.exception):
+        if self._io.is_in(sample, spindle.exception):
             yield alarms.SPINDLE_EXCEPTION, ""
         if self._io.is_in(sample, wiring.lubrication):
             yield alarms.LUBRICATION, ""
@@ -75,9 +75,9 @@ class Watch:
             if axis.excess_error_u > 0.0 and not word & n.AF1_NOT_EXCESS_ERROR:
                 yield axis.name
 
-    def is_gone(self, sample: CardState, *, spins: bool) -> Callable[[Alarm], bool]:
+    def is_gone(self, sample: CardState) -> Callable[[Alarm], bool]:
         """A test whether the cause of an alarm is gone; a kill is present as long as it lasts."""
-        present = {(kind.code, detail) for kind, detail in self._present(sample, spins=spins)}
+        present = {(kind.code, detail) for kind, detail in self._present(sample)}
         if self._is_killed(sample):
             present.add((alarms.MOVES_KILLED.code, ""))
         return lambda alarm: (alarm.kind.code, alarm.detail) not in present

@@ -46,7 +46,6 @@ class Supervision:
         self._alarms = alarm_list
         self._stream = stream
         self._entry_actions = entry_actions
-        self._spindle = entry_actions.spindle
         self._manual = manual
         self._retrace = retrace
         self._console = console
@@ -87,7 +86,7 @@ class Supervision:
             self.raise_alarm(alarms.HOST_AWAY, f"{step_s:.1f}")
         if self._does_not_begin(sample):
             self.raise_alarm(alarms.NOT_MOVED, "")
-        for kind, detail in self._watch.causes(sample, spins=self._spindle.is_on):
+        for kind, detail in self._watch.causes(sample):
             self.raise_alarm(kind, detail)
 
     def _go_on_after_rest(self) -> None:
@@ -241,7 +240,7 @@ class Supervision:
             machine.clear_limits()
             self.rearm()
         sample = machine.poll()
-        is_gone = self._watch.is_gone(sample, spins=self._spindle.is_on)
+        is_gone = self._watch.is_gone(sample)
         left = self._alarms.acknowledge(
             lambda alarm: is_gone(alarm) or (is_over and alarm.kind is alarms.MOVES_KILLED)
         )

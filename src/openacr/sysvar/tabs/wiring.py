@@ -144,7 +144,7 @@ class SPINDLE:
         7, "Spindle OFF Output", 0, typical="user", doc="On at rest, 0: not connected.", **OUTPUT
     )
     exception_input = tab.integer(
-        8, "Spindle Exception Input", -1, typical="user", doc="Spindle fault.", **INPUT
+        8, "Spindle Exception Input", -1, typical="user", doc="Fault, also at rest.", **INPUT
     )
     coolant_mist_output = tab.integer(9, "Coolant Mist Output", -1, doc="On by M7.", **OUTPUT)
     coolant_flood_output = tab.integer(10, "Coolant Flood Output", -1, doc="On by M8.", **OUTPUT)
