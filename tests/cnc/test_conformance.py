@@ -201,6 +201,16 @@ def test_31_the_input_test() -> None:
     text = "If #1 = 1 THEN GOTO 100\nX1\nN100 X2"
     assert run(text, machine=Bench(bits={1})).moves == ["L X2"]
     assert run(text, {1: 1}).moves == ["L X1", "L X2"]
+    assert run(text, machine=Bench(bits={0, 2, 129})).moves == ["L X1", "L X2"]
+    text = "If #1 = 0 THEN GOTO 100\nX1\nN100 X2"
+    assert run(text, {1: 1}).moves == ["L X2"]
+    assert run(text, machine=Bench(bits={1})).moves == ["L X1", "L X2"]
+    for n in (0, 31):
+        text = f"IF #{n}=1 THEN GOTO 100\nX1\nN100 X2"
+        assert run(text, machine=Bench(bits={n})).moves == ["L X2"]
+    of_the_parameter = "IF P1=1 THEN GOTO 100\nX1\nN100 X2"
+    assert run(of_the_parameter, machine=Bench(bits={1})).moves == ["L X1", "L X2"]
+    assert run(of_the_parameter, {1: 1}).moves == ["L X2"]
 
 
 @pytest.mark.req("MILL-G41", "MILL-G40", "MILL-WORD-D")

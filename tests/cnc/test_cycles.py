@@ -1,5 +1,6 @@
 """Canned cycles, macros, probing and floating zeros."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -50,13 +51,17 @@ BODIES = [
     ("G85 Z-1 R.1", "", "R0.1 F-1 F0.1 R2"),
     ("G99 G85 Z-1 R.1", "", "R0.1 F-1 F0.1"),
     ("G86 Z-1 R.1", "M3", "M3 R0.1 F-1 R2"),
+    ("G99 G86 Z-1 R.1", "M3", "M3 R0.1 F-1 R0.1"),
     ("G89 Z-1 R.1 P1", "", "R0.1 F-1 dwell1 R2"),
+    ("G99 G89 Z-1 R.1 P1", "", "R0.1 F-1 dwell1 R0.1"),
     ("G74 Z-1 R.1", "M4", "M4 R0.1 F-1 M3 F0.1 M4 R2"),
     ("G99 G74 Z-1 R.1", "M4", "M4 R0.1 F-1 M3 F0.1 M4"),
     ("G84 Z-1 R.1 P1", "M3", "M3 R0.1 F-1 M4 dwell1 F0.1 M3 R2"),
     ("G76 Z-1 R.1 Q.2", "M3", "M3 R0.1 F-1 orient F-1 R2 R2 release M3"),
     ("G87 Z-1 R-2 Q.2", "M3", "M3 orient R2 R-2 R-2 release M3 M3 F-1 orient R-1 R2 R2 release M3"),
     ("G88 Z-1 R.1 P1", "M3", "M3 R0.1 F-1 dwell1 M5 R2 release M3"),
+    ("G99 G88 Z-1 R.1 P1", "M4", "M4 R0.1 F-1 dwell1 M5 R0.1 release M4"),
+    ("G99 G76 Z-1 R.1 Q.2", "M4", "M4 R0.1 F-1 orient F-1 R0.1 R0.1 release M4"),
 ]
 CYCLE_IDS = (
     "MILL-CYC-SIXSTEP", "MILL-G74", "MILL-G74-SYNC", "MILL-G76", "MILL-G76-ORIENT", "MILL-G81",
@@ -131,6 +136,14 @@ def test_cycles_need_their_text_after_the_end() -> None:
     assert errors("$I CYCLES.TXT\nG81 X1 Z-1 R0\nM2") == ["E262"]
     assert errors("G81 X1 Z-1 R0" + CYCLES) == []
     assert errors("G81 X1 Z-1 R0", {700_006: 1.0}) == []
+
+
+@pytest.mark.req("MILL-CYC-LABELS")
+def test_labels_of_the_supplied_cycles_begin_at_73000() -> None:
+    labels = re.findall(
+        r"^N(\d+)", Path(supplied.__file__).with_name("CYCLES.TXT").read_text(), re.M
+    )
+    assert min(int(label) for label in labels) == 73_000
 
 
 @pytest.mark.req("MILL-CYC-LABELS")

@@ -17,7 +17,7 @@ def paces(done: Run) -> list[tuple[PathMode, bool, bool]]:
 # --- G0 to G3 ---------------------------------------------------------------------------
 
 
-@pytest.mark.req("MILL-G0-MODAL", "MILL-G1")
+@pytest.mark.req("MILL-G0-MODAL", "MILL-G1", "MILL-G2", "MILL-G3")
 def test_motion_codes_hold_until_another() -> None:
     assert run("F10 G0 X1\nX2\nG1 X3\nX4\nG0 Y1").moves == [
         "R X1", "R X2", "L X3", "L X4", "R X4 Y1",
@@ -52,6 +52,14 @@ def test_a_line_moves_any_axes_together() -> None:
 def test_the_feed_of_each_line_is_its_own() -> None:
     lines = run("G1 F10 X1\nX2 F20\nX3").of(Line)
     assert [e.pace.feed_upm for e in lines if isinstance(e, Line)] == [10, 20, 20]
+
+
+@pytest.mark.req("MILL-G2", "MILL-G3")
+@pytest.mark.parametrize("code", ["G2", "G3"])
+def test_the_feed_of_each_arc_is_its_own(code: str) -> None:
+    text = f"F30 G1 X1\n{code} X2 I1.5 J0\nF20 X3 I2.5 J0\nX4 I3.5 J0"
+    arcs = run(text).of(Arc)
+    assert [e.pace.feed_upm for e in arcs if isinstance(e, Arc)] == [30, 20, 20]
 
 
 ARCS = [
@@ -222,6 +230,25 @@ def test_centres_do_not_depend_on_the_distance_mode(distance: str) -> None:
     assert run(text).moves[-1] == "A X1 Y1 about 1,2 -360"
 
 
+@pytest.mark.req("MILL-G200-F0", "MILL-G200-F1", "MILL-G200-F2", "MILL-WORD-I", "MILL-WORD-J")
+@pytest.mark.req("MILL-WORD-K")
+@pytest.mark.parametrize(("f", "centre"), [(0, (-1, -0.5)), (1, (1, 0.5)), (2, (2, 1.5))])
+@pytest.mark.parametrize(
+    ("plane", "axes", "words"), [(17, "XY", "IJ"), (18, "ZX", "KI"), (19, "YZ", "JK")]
+)
+def test_each_reading_counts_for_both_centres_of_every_plane_in_g90_and_g91(
+    f: int, centre: tuple[float, float], plane: int, axes: str, words: str
+) -> None:
+    """From 1,1 about 2,1.5 to 3,1."""
+    (u, v), (i, j) = list(axes), list(words)
+    about = f"{i}{centre[0]:g} {j}{centre[1]:g}"
+    third = next(letter for letter in "XYZ" if letter not in axes)
+    begin = f"G{plane} G0 {u}1 {v}1 {third}7\nF10\nG200 F{f}\n"
+    for distance, end in (("G90", f"{u}3 {v}1"), ("G91", f"{u}2 {v}0")):
+        shown = run(f"{begin}{distance} G2 {end} {about}").moves[-1]
+        assert shown == f"A {placed(**{u: 3, v: 1, third: 7})} about 2,1.5 -233", distance
+
+
 @pytest.mark.req("MILL-G200-SAMECIRCLE", "MILL-G200-F0", "MILL-G200-F1", "MILL-G200-F2")
 @pytest.mark.parametrize("words", ["G200 F0 I0 J-1", "G200 F1 I0 J1", "G200 F2 I1 J2"])
 def test_the_same_circle_in_three_readings(words: str) -> None:
@@ -316,6 +343,19 @@ def test_lengths_are_added_or_taken_away() -> None:
     assert run("G0 G43 H2 Z1\nH0 Z1", cells).moves == ["R Z2.25", "R Z1"]
     done = run("G43 H2\nP450=P4000 P451=P4001 P452=P237", cells)
     assert [done.p(450 + k) for k in range(3)] == [1, 0.25, 2]
+
+
+@pytest.mark.req("MILL-G52")
+@pytest.mark.parametrize("system", range(54, 60))
+def test_a_local_shift_moves_the_zero_of_the_system_that_is_active(system: int) -> None:
+    """In every axis by its own amount, not added to the one before."""
+    zero = (system, 1, 2)
+    done = run(
+        f"G10 L2 P{system - 53} X{zero[0]} Y{zero[1]} Z{zero[2]}\nG{system}\n"
+        "G52 X.5 Y.25 Z-.75\nG0 X0 Y0 Z0\nG52 X.125 Z1\nX1 Y1 Z1"
+    )
+    assert done.ends == [(system + 0.5, 1.25, 1.25), (system + 1.125, 2.25, 4.0)]
+    assert [done.p(910 + 10 * (system - 54) + axis) for axis in range(3)] == list(zero)
 
 
 @pytest.mark.req("MILL-G52-CANCEL", "MILL-G52")

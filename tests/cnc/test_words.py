@@ -88,6 +88,8 @@ def test_t_p_transfers_a_parameter_to_the_card() -> None:
 def test_t_stands_beside_other_codes() -> None:
     story = run("T5 M6 G0 X1 M3 S10").story
     assert story == ["SetCell", "tool 5", "M3 S10", "R X1", "end"]
+    story = run("P3=55555\nG0 X1 T P3 M8").story  # the transfer of the guide
+    assert story == ["P3=55555", "coolant 01", "R X1", "end"]
 
 
 @pytest.mark.req("MILL-WORD-Q")

@@ -1,11 +1,14 @@
 """M codes, reference points, probing and parameters of the card on the virtual machine."""
 
+from pathlib import Path
+
 import pytest
 from tests.mill.shop import PULSES, Shop
 
 from openacr.map import numbers as n
 from openacr.mill.run.lifecycle import State
 from openacr.sysvar import Store
+from openacr.sysvar.tabs import TOOL
 from openacr.sysvar.values import SettingError
 
 DAC_VALUE = 6400 + 16 * 3
@@ -35,9 +38,9 @@ def at_m0(shop: Shop, *, go_on: bool = True) -> None:
 @pytest.mark.req("MILL-M3", "MILL-M4", "MILL-M5")
 def test_the_spindle_turns_both_ways_and_stops() -> None:
     shop = Shop(**SPINDLE)
-    shop.load("S1000\nM3\nM0\nM4\nM0\nM5\nM0\nM2\n")
+    shop.load("S1000\nM3\nM0\nM4\nM0\nM5\nM0\nM3\nM0\nM5\nM0\nM2\n")
     seen = []
-    for _ in range(3):
+    for _ in range(5):
         at_m0(shop, go_on=False)
         volts = float(shop.controller.p[DAC_VALUE])
         seen.append((*shop.outputs((CW, CCW, OFF)), round(volts, 6)))
@@ -46,7 +49,27 @@ def test_the_spindle_turns_both_ways_and_stops() -> None:
         (True, False, False, 3.33),
         (False, True, False, 3.33),
         (False, False, True, 0.0),
+        (True, False, False, 3.33),
+        (False, False, True, 0.0),
     ]
+
+
+@pytest.mark.req("MILL-VAR-CUSTOM")
+@pytest.mark.parametrize(
+    ("line", "detail"),
+    [("P200=1/P201", "M300.TXT:2:1: E210"), ("GOTO (P201+77)", "M300.TXT:2:1: E220")],
+)
+def test_a_code_of_the_user_that_fails_stops_the_machine_with_an_alarm(
+    line: str, detail: str, tmp_path: Path
+) -> None:
+    (tmp_path / "M300.TXT").write_text(f"P201=0\n{line}\nRET\n")
+    shop = Shop()
+    shop.store.write_text(TOOL.custom_m_folder, str(tmp_path))
+    shop.load("F600 G1 X1\nM300\nX2\nM2\n")
+    shop.until(State.ALARM)
+    assert alarms(shop) == [60]
+    assert detail in shop.runner.alarms.active[0].text
+    assert shop.pulses() == (10_000, 0, 0)
 
 
 @pytest.mark.req("MILL-M7", "MILL-M8", "MILL-M9")

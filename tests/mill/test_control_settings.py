@@ -13,6 +13,7 @@ from openacr.cnc.loading.load import load
 from openacr.controller import Controller
 from openacr.errors import UserError
 from openacr.mill.run.lifecycle import Options, State
+from openacr.sysvar import Store
 
 VECTOR_VELOCITY = 8193
 CORNERED = "G90 F{feed} G62\nG1 X2\nX{x:.6f} Y{y:.6f}\nM2\n"
@@ -106,8 +107,9 @@ def test_the_tangential_axis_turns_at_corners_or_along_small_ones(
 
 
 @pytest.mark.req("MILL-SYS-CTL-FWDTHR")
-@pytest.mark.parametrize("ahead", [1, 150])
+@pytest.mark.parametrize("ahead", [1, 10, 150])
 def test_as_many_blocks_are_kept_ahead_during_motion(ahead: int) -> None:
+    assert Store().read(250_117) == 10
     shop = Shop(P250_116=1, P250_117=ahead)
     counter = count_reads(shop, 1000)
     shop.pass_time(0.5)
@@ -143,6 +145,32 @@ def test_repeat_forever_runs_the_part_in_a_loop(is_forever: int) -> None:
     shop.pass_time(3.0)
     assert shop.runner.is_busy == bool(is_forever)
     assert (shop.runner.passes > 3) == bool(is_forever)
+
+
+@pytest.mark.req("MILL-FLOW-REPEAT")
+@pytest.mark.parametrize("is_forever", [0, 1])
+def test_the_shape_of_the_guide_without_its_if_is_repeated_for_ever_or_run_once(
+    is_forever: int,
+) -> None:
+    """Each pass goes on from where the one before has ended: G91."""
+    shop = Shop(P250_013=is_forever)
+    shop.load("G91\nF1000\nP5=0\nN100\nP5=5\nX1\nY1\nM2\n")
+    for passes in range(1, 21) if is_forever else (1,):
+        while shop.runner.is_busy and shop.pulses()[1] < passes * 10_000:
+            shop.pass_time(STEP_S)
+        assert shop.pulses()[1] == passes * 10_000
+    if is_forever:
+        shop.runner.stop()
+        shop.pass_time(0.5)
+        shop.runner.abort()
+    assert shop.until(State.IDLE) is State.IDLE
+    assert is_forever or shop.pulses() == (10_000, 10_000, 0)
+
+
+@pytest.mark.req("MILL-G4")
+@pytest.mark.parametrize("seconds", [0.1, 2.5])
+def test_a_dwell_lasts_as_many_seconds_of_the_card(seconds: float) -> None:
+    assert Shop().run_text(f"G4 F{seconds}\nM2\n") == pytest.approx(seconds, abs=0.011)
 
 
 @pytest.mark.req("MILL-SYS-CTL-GOTOSTART")

@@ -257,6 +257,38 @@ def test_the_wheel_ends_at_a_soft_limit_and_turns_back_from_it_at_once() -> None
     assert position(shop) == pytest.approx(0.4)
 
 
+@pytest.mark.req("MILL-HW-LIMITS")
+def test_each_axis_of_the_wheel_ends_at_its_own_limits() -> None:
+    limits = {"P200_000": 0.5, "P200_001": -0.3, "P201_000": 0.2, "P201_001": -0.7}
+    limits |= {"P200_002": 0.0, "P201_002": 0.0, "P271": 3.0}
+    shop = handy(P200_010=0.1, P201_010=0.1, **limits)
+    shop.runner.turn([0, 1])
+    found = []
+    for clicks in (12, -20):
+        turn(shop, clicks)
+        shop.pass_time(1.5)
+        found.append((position(shop, 0), position(shop, 1)))
+    assert found == [(0.5, 0.2), (-0.3, -0.7)]
+
+
+@pytest.mark.req("MILL-HW-LIMITS")
+def test_the_wheel_turns_no_axis_that_is_to_be_homed_first() -> None:
+    shop = handy(P200_007=1.0)
+    for axes in ([0], [1, 0]):
+        with pytest.raises(AlarmError, match="Axis X not homed"):
+            shop.runner.turn(axes)
+        turn(shop, 5)
+        shop.pass_time(0.2)
+        assert (position(shop, 0), position(shop, 1)) == (0.0, 0.0)
+    shop.runner.turn([1])  # not required of Y
+    shop.runner.turn([])
+    homed = handy(P200_007=1.0, P271=1.0)
+    homed.runner.turn([0])
+    turn(homed, 5)
+    homed.pass_time(0.2)
+    assert position(homed) == pytest.approx(0.025)
+
+
 def test_one_hand_at_a_time() -> None:
     shop = handy()
     shop.runner.turn([0])

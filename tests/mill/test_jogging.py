@@ -56,6 +56,18 @@ def test_an_increment_is_exact(preset: int) -> None:
     assert shop.pulses()[0] == -3 * 10 ** (5 - preset)
 
 
+@pytest.mark.req("MILL-JOG-SLOWFAST")
+@pytest.mark.parametrize(("fast", "per_minute"), [(False, 10), (True, 100)])
+@pytest.mark.parametrize("axis", [0, 2])
+def test_without_other_settings_the_speeds_are_10_and_100_per_minute(
+    axis: int, fast: bool, per_minute: float
+) -> None:
+    shop = Shop()
+    shop.runner.jog(lambda jog: jog.hold(axis, -1, fast=fast))
+    shop.pass_time(0.5)
+    assert shop.controller.axis(axis).velocity_ups == pytest.approx(-per_minute / 60)
+
+
 @pytest.mark.req("MILL-JOG-SLOWFAST", "MILL-JOG-MAXSPEED")
 @pytest.mark.parametrize(
     ("fast", "most", "speed"), [(False, 6e3, 1), (True, 6e3, 10), (True, 300, 5)]

@@ -83,12 +83,18 @@ def test_single_axes_can_be_chosen_for_homing() -> None:
 
 
 @pytest.mark.req("MILL-G88")
-def test_g88_stops_the_spindle_and_waits_for_a_retract_by_hand() -> None:
+@pytest.mark.parametrize(("level", "z"), [("G98", 10000), ("G99", 1000)])
+def test_g88_stops_the_spindle_and_waits_for_a_retract_by_hand(level: str, z: int) -> None:
     shop = Shop(P800_005=40)
-    shop.load("G90 F600 G0 Z1\nM3 S500\nG88 X1 Z-.5 R.1 P.2\nG80\nM2\n$I CYCLES.TXT\n")
+    shop.load(f"G90 F600 G0 Z1\nM3 S500\n{level} G88 X1 Z-.5 R.1 P.4\nG80\nM0\nM2\n$I CYCLES.TXT\n")
+    shop.until(State.WAIT)
+    assert shop.runner.reason == "dwell 0.4 s"
+    assert shop.outputs((40,)) == [True]
     assert shop.until(State.HOLD) is State.HOLD
     assert shop.pulses() == (10000, 0, -5000)
     assert shop.outputs((40,)) == [False]
+    shop.pass_time(1.0)
+    assert shop.runner.state is State.HOLD
     shop.runner.jog(lambda jog: jog.move(2, 1.0, fast=True))
     shop.pass_time(2.0)
     shop.runner.start()
@@ -96,9 +102,12 @@ def test_g88_stops_the_spindle_and_waits_for_a_retract_by_hand() -> None:
     while shop.runner.is_busy and lowest > -0.2:
         shop.pass_time(0.005)
         lowest = min(lowest, shop.place()[2])
+        if shop.runner.state is State.HOLD:  # the M0 after the cycle
+            assert shop.pulses() == (10000, 0, z)
+            assert shop.outputs((40,)) == [True]
+            shop.runner.start()
     shop.until(State.IDLE)
     assert lowest > 0.0  # it is not sent back down
-    assert shop.pulses() == (10000, 0, 10000)
 
 
 @pytest.mark.req("MILL-G87")

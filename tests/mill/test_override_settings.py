@@ -57,6 +57,20 @@ def test_0_percent_stops_and_the_next_click_goes_on(tab: int, is_rapid: bool) ->
     assert shop.pulses()[0] == 100_000
 
 
+@pytest.mark.req("MILL-SYS-SOV-16")
+def test_each_of_16_clicks_of_the_spindle_switch_has_its_own_percentage() -> None:
+    percent = [3 + 7 * click + click * click / 10 for click in range(16)]
+    entries = {f"P{SOV + click}": each for click, each in enumerate(percent)}
+    shop = shop_with(0, {f"P{SOV + 16}": float(FIRST_INPUT)} | entries)
+    turn(shop, 0)
+    begin(shop, "S1500 M3\nF10 G1 X5\nM2")
+    found = []
+    for click in range(16):
+        turn(shop, click)
+        found.append(volts(shop))
+    assert found == pytest.approx([4.995 * each / 100 for each in percent])
+
+
 @pytest.mark.req("MILL-SYS-SOV-LIVE", "MILL-SYS-SOV-ZERO")
 def test_a_click_scales_the_spindle_and_0_percent_stops_it() -> None:
     shop = shop_with(0, {f"P{SOV + 16}": float(FIRST_INPUT), f"P{SOV}": 0.0})

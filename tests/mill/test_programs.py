@@ -196,6 +196,19 @@ def test_tangent_moves_run_into_each_other_at_the_feed() -> None:
     assert max(moving) < 1.01 * 5
 
 
+@pytest.mark.req("MILL-RUN-FOV")
+@pytest.mark.parametrize("code", ["G2", "G3"])
+def test_the_feed_override_acts_on_arcs_of_both_directions(code: str) -> None:
+    shop = Shop()
+    shop.load(f"F240\n{code} X0 Y0 I20 J0\nM2\n")
+    found = []
+    for click in (10, 5, 0, 15):  # 100, 50, 0 and 150 %
+        shop.runner.overrides.choose(Override.FEED, click)
+        shop.pass_time(0.5)
+        found.append(math.hypot(*(shop.controller.axis(n).velocity_ups for n in range(2))))
+    assert found == pytest.approx([4.0, 2.0, 0.0, 6.0])
+
+
 @pytest.mark.req("MILL-RUN-FOV", "MILL-RUN-ROV", "MILL-RUN-MAXSPEED")
 def test_each_override_acts_on_its_own_moves_and_never_beyond_the_machine() -> None:
     shop = Shop(P650_000=300.0, P450_017=15)  # 150 % of 240 would be 360

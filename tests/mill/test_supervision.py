@@ -80,7 +80,10 @@ def test_an_alarm_bars_the_start_until_it_is_acknowledged() -> None:
         shop.start(*long_path())
     assert [alarm.kind.code for alarm in shop.runner.acknowledge()] == [10]
     shop.controller.set_input(5, False)
-    shop.pass_time(0.02)
+    shop.pass_time(0.5)
+    assert codes(shop) == [10]  # until it is acknowledged
+    with pytest.raises(AlarmError, match="Emergency stop"):
+        shop.start(*long_path())
     assert shop.runner.acknowledge() == []
     assert shop.runner.state is State.IDLE
     shop.pass_time(0.2)

@@ -32,6 +32,32 @@ def steps_until_paused(shop: Shop) -> list[tuple[int, float]]:
     return seen
 
 
+AT_SPEED = 11
+
+
+@pytest.mark.req("MILL-G74-SYNC", "MILL-G84")
+@pytest.mark.parametrize(("code", "into"), [("M4 S500\nG74", -5.0), ("M3 S500\nG84", 5.0)])
+def test_the_reversal_is_complete_before_the_feed_goes_up_and_before_the_next_hole(
+    code: str, into: float
+) -> None:
+    """Code 7: both directions by the sign, and a wait until the spindle is at speed."""
+    shop = Shop(**(CELLS | {"P800_000": 7.0, "P800_004": AT_SPEED}))
+    shop.load(f"G0 Z1\n{code} Z-.5 R.1 F60\nX1\nG80\nM2\n$I CYCLES.TXT\n")
+    waits = [((0, 0, 10_000), into)]
+    for x in (0, 10_000):
+        waits += [((x, 0, DEPTH), -into), ((x, 0, LEVEL), into)]
+    for place, volts in waits:
+        shop.until(State.WAIT)
+        shop.pass_time(1.0)
+        assert (shop.pulses(), shop.runner.reason) == (place, "spindle at speed")
+        assert shop.card.read(DAC3) == volts
+        shop.controller.set_input(AT_SPEED, True)
+        shop.pass_time(0.05)
+        shop.controller.set_input(AT_SPEED, False)
+    shop.until(State.IDLE)
+    assert shop.pulses() == (10_000, 0, 10_000)
+
+
 def down_to(shop: Shop, pulses: int) -> None:
     while shop.pulses()[2] > pulses:
         shop.pass_time(0.005)

@@ -175,6 +175,34 @@ def test_paths_that_no_longer_cross_are_joined_by_an_inserted_line() -> None:
         assert one.end == pytest.approx(other.start)
 
 
+def chord_and_circle(*, is_arc_first: bool) -> Path:
+    """A line that is a chord, 1/2 above the centre of a circle of radius 1; the tool is inside."""
+    x = sqrt(0.75)
+    if is_arc_first:
+        return Path(0, -3).to(0, -2).to(-1, 0).arc(x, 0.5, 0, 0, -1).to(-2, 0.5).to(-3, 0.5)
+    return Path(-3, 0.5).to(-2, 0.5).to(x, 0.5).arc(-1, 0, 0, 0, 1).to(0, -2).to(0, -3)
+
+
+@pytest.mark.req("MILL-COMP-08")
+@pytest.mark.parametrize("is_arc_first", [False, True])
+@pytest.mark.parametrize(
+    ("radius", "joins"),
+    [(0.2, []), (0.25, []), (0.3, [(0.8, 0.7)]), (0.45, [(0.95, 0.55)])],
+)
+def test_a_line_and_an_arc_that_no_longer_cross_are_joined_where_they_are_nearest(
+    radius: float, joins: list[tuple[float, float]], is_arc_first: bool
+) -> None:
+    """Their offsets, y = 1/2 + r and the circle of radius 1 - r, touch with r = 1/4."""
+    path = chord_and_circle(is_arc_first=is_arc_first)
+    trace = compensate(path.elements, radius, Side.RIGHT if is_arc_first else Side.LEFT)
+    lines = [each for each in trace.inserted if each.centre is None]
+    across = [(one.start[:2], one.end[:2])[:: -1 if is_arc_first else 1] for one in lines]
+    assert across == [(near((0, high)), near((0, low))) for high, low in joins]
+    assert trace.codes.count("W320") == len(joins)
+    for one, other in zip(trace.elements, trace.elements[1:], strict=False):
+        assert one.end == pytest.approx(other.start)
+
+
 @pytest.mark.req("MILL-COMP-21")
 def test_a_spiral_within_epsilon_gets_the_nearest_centre() -> None:
     path = Path(0, -2).to(0, -1).arc(1.0005, 0, 0, 0, 1).to(1, 1).to(0, 1)
