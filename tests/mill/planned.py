@@ -1,4 +1,4 @@
-"""A machine with a jerk limit, in mm: its path is planned, and followed tick by tick."""
+"""A machine in inches with a jerk limit: its path is planned, and followed tick by tick."""
 
 import math
 from collections.abc import Callable, Sequence

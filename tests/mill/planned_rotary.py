@@ -12,7 +12,7 @@ from openacr.cnc import canonical as c
 from openacr.map import numbers as n
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.arcs import along
-from openacr.mill.plan.geometry import per_degree
+from openacr.mill.plan.geometry import weights
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import AXIS, SPEEDS
 
@@ -32,7 +32,7 @@ CELLS = {
 
 
 def rotary_shop(**cells: float) -> Shop:
-    """A machine in mm that plans its paths, with a table A."""
+    """A machine in inches that plans its paths, with a table A."""
     own = {f"P{cell}": value for cell, value in CELLS.items()}
     shop = planned_shop(**own | cells)
     shop.card.command("DRIVE ON A", program=0)
@@ -142,6 +142,6 @@ def off_path(
     store: Store, places: Reals, program: Sequence[c.Entry], begin: c.Point = BEGIN
 ) -> float:
     """The largest distance from the programmed path, in the space in which it is planned."""
-    factors = np.array([1.0, 1.0, 1.0, per_degree(Settings(store))])
+    factors = np.array(weights(Settings(store))[: A + 1])
     path = polyline(program, begin) * factors
     return off(places * factors, path[:-1], path[1:])

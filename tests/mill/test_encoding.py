@@ -149,6 +149,8 @@ def test_a_polyline_is_planned_and_sent_like_its_lines_one_by_one(
     cells = {"P100_001": 4.0, "P650_000": 6000.0, "P650_010": 720.0}
     if is_limited:
         cells |= {f"P{AXIS.max_axis_speed[0]}": 120.0, f"P{AXIS.max_axis_acceleration[1]}": 7.0}
+        cells |= {f"P{AXIS.tolerance_radius[3]}": 4.0, f"P{AXIS.max_axis_jerk[3]}": 300.0}
+        cells |= {"P650_015": 1000.0, f"P{AXIS.max_axis_jerk[0]}": 700.0}
     coder = encoder(**cells)
     begin, ends, point = at(1.0, -2.0), [], np.array(at(1.0, -2.0))
     for path in paths:
@@ -166,6 +168,8 @@ def test_a_polyline_is_planned_and_sent_like_its_lines_one_by_one(
         assert one.length_u == pytest.approx(other.length_u, rel=1e-12)
         assert one.feed_ups == pytest.approx(other.feed_ups, rel=1e-12)
         assert one.ramp_ups2 == pytest.approx(other.ramp_ups2, rel=1e-12)
+        assert one.jerk_ups3 == pytest.approx(other.jerk_ups3, rel=1e-12)
+        assert list(one.turns) == pytest.approx(other.turns, rel=1e-12)
         assert one.start == (other.start and pytest.approx(other.start, rel=1e-12))
         assert one.entry.source.line == other.entry.source.line
         assert coder.packet(one) == coder.packet(other)

@@ -37,6 +37,7 @@ def machine(chance: random.Random) -> dict[int, float]:
         (AXIS.max_axis_speed[1], 25.0),
         (AXIS.max_axis_acceleration[0], 2.5),
         (AXIS.max_axis_acceleration[3], 90.0),
+        (AXIS.tolerance_radius[3], 4.0),
         (AXIS.pulses_per_unit[2], 12345.0),
         (AXIS.pulses_per_unit[0], 3e9),
     ]

@@ -31,7 +31,7 @@ from openacr.cnc import canonical as c
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.encoding import Job
-from openacr.mill.plan.geometry import per_degree
+from openacr.mill.plan.geometry import weights
 from openacr.mill.plan.plan_metric import PlanMetric
 from openacr.mill.plan.predicting import Phases, Predictor
 from openacr.mill.run.lifecycle import Options, State
@@ -88,7 +88,7 @@ def test_a_degree_counts_as_a_length_that_keeps_every_bit(is_metric: bool, degre
     store = Store(is_metric=is_metric)
     store.write(AXIS.configured[A], 1.0)
     settings = Settings(store)
-    assert per_degree(settings) == degree_u
+    assert weights(settings) == (1.0, 1.0, 1.0, degree_u, 1.0, 1.0, 1.0, 1.0)
     place = (0.1, 0.2, 0.3, 123.456)
     planned = PlanMetric(settings).place(place)
     assert planned == (0.1, 0.2, 0.3, 123.456 * degree_u)

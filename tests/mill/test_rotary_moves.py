@@ -26,7 +26,7 @@ from tests.mill.shop import Shop, end, src
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.encoding import Encoder
-from openacr.mill.plan.geometry import per_degree
+from openacr.mill.plan.geometry import weights
 from openacr.mill.plan.planning import CornerRules, corner_speed
 from openacr.sysvar.tabs import AXIS, SPEEDS
 
@@ -120,7 +120,7 @@ def test_a_turn_that_changes_counts_as_corner_step(rate: float, is_metric: bool)
     store = table_store(**cells) if is_metric else rotary_shop(**cells).store
     settings = Settings(store)
     assert settings.is_metric is is_metric
-    coder, degree_u = Encoder(settings), per_degree(settings)
+    coder, degree_u = Encoder(settings), weights(settings)[A]
     turning = coder.job(line(1, 10, 0, 0, 10 * rate), BEGIN)
     turning_back = coder.job(line(2, 20, 0, 0), turning.finish)
     tilted = coder.job(line(3, 20, 10, 0), turning_back.finish)
@@ -144,7 +144,7 @@ def test_the_speed_of_the_table_steps_by_the_corner_step_at_most() -> None:
     period_s = shop.controller.period_s
     begin, over = (round(at_s / period_s) for at_s in (1.3, 2.8))
     assert np.abs(places[begin] - places[over])[0] > 1.0  # some corners
-    lengths = np.array([1.0, 1.0, 1.0, per_degree(shop.runner.settings)])
+    lengths = np.array(weights(shop.runner.settings)[: A + 1])
     steps = np.abs(np.diff(places[begin:over], 2, axis=0)) / period_s * lengths
     ramp_ups = ACCEL * period_s  # within one period, where no corner is
     assert steps[:, :A].max() <= step_ups + ramp_ups

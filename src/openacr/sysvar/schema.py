@@ -79,6 +79,7 @@ class Row:
     is_per_axis: bool = False
     is_motion: bool = False  # must not change while a program runs
     is_fixed: bool = False  # read-only
+    is_of_tool: bool = False  # a length of linear axes, in the cell of a rotary one, too
     wire: Wire | None = None  # the value is the number of an input or output of the card
 
     @property

@@ -158,8 +158,10 @@ class Store(Closing):
         return self.read(UNITS) == 1.0
 
     def letter_of(self, parameter: Parameter) -> str:
-        """The name of the axis a cell belongs to, empty if it belongs to none."""
-        if parameter.axis is None or parameter.number == AXIS.name[parameter.axis]:
+        """The name of the axis in whose unit a cell is, empty if that of no one axis."""
+        if parameter.axis is None or parameter.row.is_of_tool:
+            return ""
+        if parameter.number == AXIS.name[parameter.axis]:
             return ""
         return self.read_text(AXIS.name[parameter.axis])
 

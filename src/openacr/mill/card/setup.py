@@ -118,7 +118,7 @@ def lines(settings: Settings) -> Iterator[str]:
     yield "VECDEF " + " ".join(f"{one.name}{int(one.is_linear)}" for one in settings.axes)
     yield "FOV 1"
     yield "ROV 1"
-    yield f"JRK {_number(settings.speeds.jerk_ups3)}"
+    yield f"JRK {_number(settings.lowest_jerk_ups3)}"
     if Feature.LOOK_AHEAD not in settings.model.lacks:
         yield "LOOK OFF"  # the front end plans the corners
     if can_plan(settings):

@@ -126,6 +126,8 @@ class Settings:
             is_home_required=bool(self._int(AXIS.home_required[a])),
             max_speed_ups=self._per_s(AXIS.max_axis_speed[a]),
             max_acceleration_ups2=self._real(AXIS.max_axis_acceleration[a]),
+            jerk_ups3=self._jerk(a),
+            tolerance_radius_u=self._real(AXIS.tolerance_radius[a]),
             backlash_u=self._real(OFFSETS.backlash[a]),
             jog_ups=self._per_s(JOG.feedrate[a]),
             jog_rapid_ups=self._per_s(JOG.rapid[a]),
@@ -133,6 +135,11 @@ class Settings:
             jog_dec_ups2=self._real(JOG.deceleration[a]),
             jog_stp_ups2=self._real(JOG.stp_ramp[a]),
         )
+
+    def _jerk(self, a: int) -> float:
+        """The jerk limit of an axis; only a machine with a Path jerk has any."""
+        path = self._real(SPEEDS.path_jerk)
+        return (self._real(AXIS.max_axis_jerk[a]) or path) if path > 0.0 else 0.0
 
     def real(self, n: int) -> float:
         """The number in a cell."""
@@ -221,6 +228,11 @@ class Settings:
             is_manual_change=bool(self._int(TOOL.manual_tool_change)),
             tool_time_out_s=self._real(TOOL.change_time_out),
         )
+
+    @property
+    def lowest_jerk_ups3(self) -> float:
+        """The jerk that every axis keeps in any move, 0 = any: the JRK of the card."""
+        return min([self.speeds.jerk_ups3, *(axis.jerk_ups3 for axis in self.axes)])
 
     @property
     def rest_s(self) -> float:

@@ -27,6 +27,8 @@ class AxisSettings:
     is_home_required: bool
     max_speed_ups: float
     max_acceleration_ups2: float
+    jerk_ups3: float  # on paths, 0 = any
+    tolerance_radius_u: float  # of a rotary axis, 0: by the unit of the machine
     backlash_u: float
     jog_ups: float
     jog_rapid_ups: float

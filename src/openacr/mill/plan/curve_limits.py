@@ -4,11 +4,21 @@ Rotary axes have theirs in degrees: the ramps and the jerk of the machine are nu
 of each axis, as they are of a move of rotary axes alone.
 """
 
+import math
+
 from openacr.mill.config.settings import Settings
 
 # What is left of the limits of the machine for the changes of an override and a feed hold.
 ACCELERATION_SHARE, JERK_SHARE = 0.99, 0.96
 UNLIMITED = 1e6  # units/s
+
+
+def stop_s(speed_ups: float, acceleration_ups2: float, jerk_ups3: float) -> float:
+    """The quickest ramp from a speed to rest, v/A + A/J, or 2 sqrt(v/J) where A is not reached."""
+    ramp_s = acceleration_ups2 / jerk_ups3
+    if speed_ups < acceleration_ups2 * ramp_s:
+        return 2.0 * math.sqrt(speed_ups / jerk_ups3)
+    return speed_ups / acceleration_ups2 + ramp_s
 
 
 def accelerations(settings: Settings) -> list[float]:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.curve_limits import accelerations
+from openacr.mill.plan.curve_limits import accelerations, stop_s
 
 Rows = NDArray[np.float64]
 RAMPS = 2.4
@@ -34,7 +34,7 @@ class Reserve:
 
     def __init__(self, settings: Settings, most: int) -> None:
         self._acceleration_ups2 = min(accelerations(settings))
-        self._jerk_ups3 = settings.speeds.jerk_ups3
+        self._jerk_ups3 = settings.lowest_jerk_ups3
         self._most = most
         self._speeds: deque[float] = deque(maxlen=most)
         self._last: Rows | None = None
@@ -49,12 +49,8 @@ class Reserve:
     def least(self) -> int:
         """Pieces with which the card comes to rest without its host."""
         fastest_ups = max(self._speeds, default=0.0)
-        ramp_s = self._acceleration_ups2 / self._jerk_ups3
-        if fastest_ups < self._acceleration_ups2 * ramp_s:
-            stop_s = 2.0 * math.sqrt(fastest_ups / self._jerk_ups3)
-        else:
-            stop_s = fastest_ups / self._acceleration_ups2 + ramp_s
-        pieces = math.ceil((RAMPS * stop_s + NOTICED_S) / PERIOD_S / STEP) * STEP
+        rest_s = RAMPS * stop_s(fastest_ups, self._acceleration_ups2, self._jerk_ups3)
+        pieces = math.ceil((rest_s + NOTICED_S) / PERIOD_S / STEP) * STEP
         return min(pieces, self._most - self.on_the_line)
 
     @property

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.curve_limits import accelerations
+from openacr.mill.plan.curve_limits import accelerations, stop_s
 from openacr.trajectory import Setpoints
 from openacr.trajectory.timescale import Progress, TimeScale
 
@@ -52,8 +52,10 @@ class CurveWindow:
     """The part of a curve that is known ahead, run through at a scale of its time."""
 
     def __init__(self, start: Rows, settings: Settings) -> None:
-        jerks = [settings.speeds.jerk_ups3] * len(start)
-        self.scale = TimeScale(start.tolist(), PERIOD_S, accelerations(settings), jerks)
+        self._limits = accelerations(settings), [axis.jerk_ups3 for axis in settings.axes]
+        self.scale = TimeScale(start.tolist(), PERIOD_S, *self._limits)
+        self._last = start[None, :]
+        self._fastest_ups = np.zeros(len(start))  # of each axis so far
         self._rows = CurveRows(start)
         self._paths: deque[float] = deque()  # the path at knots, from `_first` on
         self._factors: deque[float] = deque()  # of the feeds there
@@ -72,6 +74,9 @@ class CurveWindow:
 
     def _append(self, points: Rows, paths: Rows, factors: Rows) -> None:
         if len(points):
+            steps = np.abs(np.diff(np.concatenate([self._last, points]), axis=0))
+            self._fastest_ups = np.maximum(self._fastest_ups, steps.max(axis=0) / PERIOD_S)
+            self._last = points[-1:]
             self.scale.append(points)
             self._paths.extend(paths.tolist())
             self._factors.extend(factors.tolist())
@@ -84,6 +89,11 @@ class CurveWindow:
     def ahead_s(self) -> float:
         """How long what is known ahead takes at the planned speed."""
         return self.scale.ahead * PERIOD_S
+
+    @property
+    def stop_s(self) -> float:
+        """The quickest ramp to rest from the highest speeds of the curve so far."""
+        return max(map(stop_s, self._fastest_ups.tolist(), *self._limits))
 
     @property
     def path_u(self) -> float:

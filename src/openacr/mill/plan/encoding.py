@@ -75,7 +75,7 @@ class Encoder:
         self._is_dry = is_dry
         self._rounds = rounds and settings.speeds.jerk_ups3 <= 0.0
         self._plans = can_plan(settings)
-        self.jerk_ups3 = settings.speeds.jerk_ups3  # of moves that no axis limits further
+        self.jerk_ups3 = settings.lowest_jerk_ups3  # of the card, between moves that allow more
 
     # --- planning ---------------------------------------------------------------------
 

@@ -15,7 +15,7 @@ from openacr.compiled import pick
 from openacr.mill.config.settings import S_PER_MIN
 from openacr.mill.plan import forecast_cy as core
 from openacr.mill.plan import move_rows_cy as row
-from openacr.mill.plan.geometry import per_degree
+from openacr.mill.plan.geometry import weights
 from openacr.mill.plan.predicting import Prediction, Timing
 
 if TYPE_CHECKING:
@@ -73,15 +73,16 @@ class Forecast(Timing):
         X[row.X_RAPID], X[row.X_RAPID_RAMP] = rapid_ups, speeds.rapid_acc_ups2
         X[row.X_FEED_RAMP], X[row.X_ARC_RAMP] = speeds.feed_acc_ups2, speeds.arc_acc_ups2
         X[row.X_MAX], X[row.X_ROTARY] = speeds.max_ups, speeds.rotary_max
-        X[row.X_DEGREE] = per_degree(settings)
         X[core.X_ANGLE1], X[core.X_ANGLE2] = speeds.angle1_deg, speeds.angle2_deg
         X[core.X_SLOWEST], X[core.X_STEP] = speeds.corner_ups, speeds.corner_step_ups
         self._J[row.J_AXES], self._J[core.J_LEAST] = len(settings.axes), settings.forward_threshold
+        each = weights(settings)
         for k, axis in enumerate(settings.axes):
             high, low = axis.soft_limits or (0.0, 0.0)
             numbers = (
                 axis.index, axis.is_linear, axis.pulses_per_unit, axis.max_speed_ups,
                 axis.max_acceleration_ups2, axis.soft_limits is not None, high, low,
+                each[axis.index],
             )  # fmt: skip
             for n, number in enumerate(numbers):
                 self._Y[k * row.Y_SIZE + n] = float(number)

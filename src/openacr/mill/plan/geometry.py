@@ -53,20 +53,22 @@ def linear_axes(settings: Settings) -> list[int]:
     return [one.index for one in settings.axes if one.is_linear]
 
 
-def per_degree(settings: Settings) -> float:
-    """The length that a degree counts as [units of the machine]: 1 mm or 1/32 inch.
+def per_degree(settings: Settings, axis: AxisSettings) -> float:
+    """The length that a degree of a rotary axis counts as [units of the machine].
 
-    A power of two, so that scaling and scaling back are exact.
+    It is the arc at the radius that the axis has in the store. Without one it is 1 mm or 1/32 inch:
+    a power of two, so that scaling and scaling back are exact.
     """
+    if axis.tolerance_radius_u > 0.0:
+        return math.radians(axis.tolerance_radius_u)
     radius_u = RADIUS_MM if settings.is_metric else RADIUS_MM / MM_PER_INCH
     return 2.0 ** math.floor(math.log2(math.radians(radius_u)))
 
 
 def weights(settings: Settings) -> tuple[float, ...]:
     """What a unit or degree of each axis 0..7 counts as, where all axes make up one distance."""
-    turns = {one.index for one in settings.axes if not one.is_linear}
-    degree_u = per_degree(settings)
-    return tuple(degree_u if axis in turns else 1.0 for axis in range(AXES))
+    turns = {one.index: per_degree(settings, one) for one in settings.axes if not one.is_linear}
+    return tuple(turns.get(axis, 1.0) for axis in range(AXES))
 
 
 class Geometry:
@@ -77,7 +79,7 @@ class Geometry:
         self._speeds = settings.speeds
         self._linear = linear_axes(settings)
         self._rotary = [one.index for one in settings.axes if not one.is_linear]
-        self._degree_u = per_degree(settings)
+        self._weights = weights(settings)
         self._plans = can_plan(settings)
 
     def line(self, start: Point, end: Point) -> MoveShape:
@@ -130,7 +132,7 @@ class Geometry:
     def _turns(self, delta: Sequence[float], length: float) -> Direction:
         """The part of the rotary axes in a path that has a length, as in `MoveShape`."""
         per = length or 1.0
-        return tuple(self._degree_u * delta[axis] / per for axis in self._rotary)
+        return tuple(self._weights[axis] * delta[axis] / per for axis in self._rotary)
 
     def _tangent(
         self,
@@ -189,8 +191,11 @@ class Geometry:
         return min([ramp_ups2, *own])
 
     def jerk_limit(self, shape: MoveShape) -> float:
-        """The vector jerk that keeps the one of the machine on every axis, units/s3; 0 = any."""
-        return self._speeds.jerk_ups3 / self._fastest_turn(shape)
+        """The highest vector jerk within those of the path and of all axes, units/s3; 0 = any."""
+        path = self._speeds.jerk_ups3
+        own = ((one, one.jerk_ups3) for one in self._axes if limits_jerk(one, path))
+        travel = [path] if shape.start is not None else []
+        return min(travel + _per_axis(own, shape), default=path)
 
     def _fastest_turn(self, shape: MoveShape) -> float:
         """The largest share of a rotary axis where it is above that of the path, else 1."""
@@ -200,6 +205,11 @@ class Geometry:
         """The acceleration of an arc in any direction of its plane [units/s2]."""
         own = (one.max_acceleration_ups2 for one in self._axes if one.index in bend.plane)
         return min([self._speeds.arc_acc_ups2, *(limit for limit in own if limit > 0.0)])
+
+
+def limits_jerk(axis: AxisSettings, path_ups3: float) -> bool:
+    """Whether moves of an axis may need less jerk than that of the path."""
+    return not axis.is_linear or axis.jerk_ups3 < path_ups3
 
 
 def _per_axis(limits: Iterable[tuple[AxisSettings, float]], shape: MoveShape) -> list[float]:

@@ -50,7 +50,8 @@ Y_RAMP = 4
 Y_HAS_LIMITS = 5
 Y_HIGH = 6
 Y_LOW = 7
-Y_SIZE = 8
+Y_WEIGHT = 8  # the length that a unit or degree counts as
+Y_SIZE = 9
 
 # Speeds of the machine.
 X_RAPID = 0
@@ -59,8 +60,7 @@ X_FEED_RAMP = 2
 X_ARC_RAMP = 3
 X_MAX = 4
 X_ROTARY = 5
-X_DEGREE = 6  # the length that a degree counts as
-X_MOVES = 7  # numbers before these
+X_MOVES = 6  # numbers before these
 
 J_AXES = 0  # count
 J_UNHOMED = 1  # mask of axes whose first move is to be flagged
@@ -169,13 +169,13 @@ def move_arc(
             place += 1
 
 
-def move_rotation(J: I32, X: F64, Y: F64, U: F64, Q: F64, q: int) -> None:
+def move_rotation(J: I32, Y: F64, U: F64, Q: F64, q: int) -> None:
     """What the rotary axes turn by the length of the move."""
     place: int = 0
     for k in range(J[J_AXES]):
         y: int = k * Y_SIZE
         if Y[y + Y_IS_LINEAR] <= 0.0:
-            turned: float = X[X_DEGREE] * U[U_DELTA + int(Y[y + Y_INDEX])]
+            turned: float = Y[y + Y_WEIGHT] * U[U_DELTA + int(Y[y + Y_INDEX])]
             Q[q + Q_ROTATION + place] = turned / Q[q + Q_LENGTH] if Q[q + Q_LENGTH] > 0.0 else 0.0
             place += 1
 
@@ -293,7 +293,7 @@ def move_row(
             if move_is_linear(J, Y, U):
                 Q[q + Q_TOLERANCE] = tolerance
                 move_as_sent(J, Y, U, Q, q, begin, ends, at)
-    move_rotation(J, X, Y, U, Q, q)
+    move_rotation(J, Y, U, Q, q)
     move_limits(J, X, Y, U, Q, q, Q[q + Q_TOLERANCE] > 0.0)
     if U[U_BEND] > 0.0:
         move_turns(J, X, Y, U, Q, q, first, second)

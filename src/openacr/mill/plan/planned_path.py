@@ -53,12 +53,10 @@ class PlannedPath:
     def add(self, job: Job) -> None:
         """Append a move."""
         if self._planner is None:
-            start = self._whole(job.begin_cnt)
-            self.start = np.array(start)
             self._metric = PlanMetric(self._settings)
-            self._planner = TrajectoryPlanner(
-                self._metric.place(start), self._metric.limits(), PERIOD_S
-            )
+            start = self._metric.place(self._whole(job.begin_cnt))
+            self.start = self._metric.of_plan(np.array(start))  # as its first setpoints
+            self._planner = TrajectoryPlanner(start, self._metric.limits(), PERIOD_S)
             self._planner.override(self._feed)
         self._is_stopped = self.is_at_end = False
         job.is_in_curve = True

@@ -14,7 +14,7 @@ from openacr.cnc.canonical import Line, Polyline, Source
 from openacr.mill.config.curves import can_plan
 from openacr.mill.config.settings import Settings
 from openacr.mill.config.tabs import AxisSettings
-from openacr.mill.plan.geometry import Point, per_degree
+from openacr.mill.plan.geometry import Point, limits_jerk, weights
 
 Column = NDArray[np.float64]
 MOST_PULSES = float(1 << 62)  # beyond any card; keeps the conversion to integers defined
@@ -59,12 +59,15 @@ def columns(
     only_linear = is_linear & (turned == 0.0)
     tolerance = np.where(only_linear, tolerance_u, 0.0)
     rounds = tolerance > 0.0
+    jerk = np.where(is_linear | (turned == 0.0), speeds.jerk_ups3, np.inf)
     for axis in axes:
         goes = share[:, axis.index]
         rotary_ups = speeds.rotary_max if axis.index in rotary else 0.0
         feed = _limited(_limited(feed, axis.max_speed_ups, goes), rotary_ups, goes)
         part = np.where(rounds & (goes > 0.0), 1.0, goes)  # see Geometry.ramp_limit
         ramp = _limited(ramp, axis.max_acceleration_ups2, part)
+        if limits_jerk(axis, speeds.jerk_ups3):
+            jerk = _limited(jerk, axis.jerk_ups3, goes)
     scale = np.array([axis.pulses_per_unit for axis in axes])
     exact = np.clip(points[:, [axis.index for axis in axes]] * scale, -MOST_PULSES, MOST_PULSES)
     pulses = np.copysign(np.floor(np.abs(exact) + 0.5), exact).astype(np.int64)
@@ -72,8 +75,7 @@ def columns(
     if tolerance_u > 0.0:
         sent, goes_far = _as_sent(np.diff(pulses, axis=0) / scale, axes)
         direction[rounds & goes_far] = sent[rounds & goes_far]
-    jerk = speeds.jerk_ups3 / fastest_turn
-    turns = per_degree(settings) * delta[:, rotary] / per
+    turns = np.array(weights(settings))[rotary] * delta[:, rotary] / per
     return Columns(length, feed, ramp, jerk, direction, turns, tolerance, pulses)
 
 

@@ -17,7 +17,7 @@ from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.curve_limits import accelerations
 from openacr.mill.plan.curve_packets import COUNTED, LEAD, CurvePackets
-from openacr.mill.plan.curve_reserve import Reserve
+from openacr.mill.plan.curve_reserve import RAMPS, Reserve
 from openacr.mill.plan.curve_window import CurveWindow
 from openacr.mill.plan.encoding import Job
 from openacr.mill.plan.planned_path import PlannedPath
@@ -25,7 +25,7 @@ from openacr.mill.run.tracking import Tracker
 from openacr.protocol.move import Move
 from openacr.trajectory.timescale import Progress
 
-AHEAD_S = 0.38  # of the plan known ahead of the points that are sent, on the virtual machine
+AHEAD_S = 0.38  # of the plan known ahead of the points that are sent, at least
 AHEAD_LINK_S = 1.0  # over a link, where the host may be late
 SHORT = 0.6  # of that left at which a program that does not arrive is brought to rest
 TAKEN = 4  # points of the plan at once: what is taken is not planned again
@@ -45,7 +45,6 @@ class CurveRun:
         self._tracker = tracker
         self._packets = CurvePackets(settings)
         self._reserve = None if machine.rounds_corners else Reserve(settings, most - SPARE)
-        self._wanted_s = AHEAD_S if self._reserve is None else AHEAD_LINK_S
         self._guarded = 0  # pieces below which the watchdog holds
         self.jobs = 0  # moves begun
         self._path: PlannedPath | None = None
@@ -117,6 +116,13 @@ class CurveRun:
         window = self._window
         if window is not None and path.is_at_end and not window.scale.is_complete:
             window.complete()
+
+    @property
+    def _wanted_s(self) -> float:
+        """How much of the plan is to be known: a hold has its ramp in it."""
+        if self._reserve is not None:
+            return AHEAD_LINK_S
+        return max(AHEAD_S, RAMPS * self._window.stop_s) if self._window is not None else AHEAD_S
 
     @property
     def _ahead_s(self) -> float:

@@ -1,7 +1,7 @@
 """Sending of moves to the card, each with the jerk limit that its axes need.
 
 A packet has speed and ramp of a move, but no jerk: a move takes the one its master has when it
-arrives (JRK). Moves that need a lower one than the machine are sent between two commands.
+arrives (JRK). Moves with another one than every axis keeps are sent between two commands.
 """
 
 from collections.abc import Iterable

@@ -185,6 +185,24 @@ class AXIS:
         low=0,
         doc="Highest acceleration of the axis, 0: unlimited.",
     )
+    max_axis_jerk = tab.per_axis.real(
+        17,
+        "Max axis jerk",
+        "u/s3",
+        low=0,
+        high=1e12,
+        doc="With Path jerk: highest jerk of the axis, 0: the number of Path jerk.",
+    )
+    tolerance_radius = tab.per_axis.real(
+        18,
+        "Tolerance radius",
+        "u",
+        low=0,
+        high=1e6,
+        is_of_tool=True,
+        doc="Of rotary axes: radius at which turns keep the tolerance of a path, 0: a degree counts"
+        " as 1 mm or 1/32 inch.",
+    )
 
 
 class HOME:
@@ -356,7 +374,7 @@ class SPEEDS:
         low=0,
         high=1e6,
         doc="Largest speed step of an axis at a corner, 0: unlimited."
-        " A degree counts as 1 mm or 1/32 inch.",
+        " A degree counts as the arc at Tolerance radius.",
     )
     arc_acceleration = tab.real(
         13,
