@@ -52,16 +52,16 @@ def cells() -> dict[int, float]:
     }
 
 
-def text_of(points: list[Point]) -> str:
+def text_of(points: list[Point], feed: float = FEED) -> str:
     """A path with a tolerance as a program."""
     blocks = "\n".join(f"X{p[0]:.6f} Y{p[1]:.6f} Z{(*p, 0.0)[2]:.6f}" for p in points)
-    return f"G64 P{TOLERANCE}\nF{FEED}\nG1\n{blocks}\nM2\n"
+    return f"G64 P{TOLERANCE}\nF{feed}\nG1\n{blocks}\nM2\n"
 
 
 class Host:
     """A host that drives a card over a link, here without one, and can be silent."""
 
-    def __init__(self, points: list[Point]) -> None:
+    def __init__(self, points: list[Point], feed: float = FEED) -> None:
         self.card = Controller()
         self.said: list[str] = []
         store = Store()
@@ -69,7 +69,7 @@ class Host:
             store.write(cell, value)
         self.session = MillSession.real(self.card, store, self.said.append)
         self.session.card.command("DRIVE ON X Y Z", program=0)
-        program = load(text_of(points).encode(), store, "rs274ngc")
+        program = load(text_of(points, feed).encode(), store, "rs274ngc")
         self.session.start(program, Start(dialect="rs274ngc", is_repeated=False))
         rows = [n.AXF_BASE + axis * n.AXF_STRIDE + n.AXF_PSP_CNT for axis in range(3)]
         self.card.record(samples=[Sample(Watched.FP64, row) for row in rows])

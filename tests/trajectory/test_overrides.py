@@ -1,5 +1,6 @@
 """Feeds that are raised while a path is planned: from where, how fast, and within which limits."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -18,9 +19,21 @@ ALLOWED = 1.0 + 1e-6
 HALF = 0.5
 FACTORS = (1.0, 1.2, 1.5, 2.0)
 FEW = 8  # points of one take
+AHEAD = 300  # points planned before they are taken
 START = (0.0, 0.0, 0.0)
 SLOT = [line(1, 200, 0, 0, 0.01), *(line(2 + k, 200 + x, x * x / 20, 0, 0.01) for k, x in
         enumerate(np.arange(0.5, 8.0, 0.5)))]  # fmt: skip
+
+WAVE = [line(k, 0.4 * k, 2 * math.sin(k / 10), 0, 0.01) for k in range(1, 250)]
+WHOLE: dict[str, Segments] = {
+    "leg": [line(1, 300, 0, 0, 0.01)], "slot": SLOT, "corners": corners(0.01, count=14),
+    "surface": surface(0.01, rows=1, width=40.0), "wave": WAVE,
+}  # fmt: skip
+
+
+def start_of(name: str) -> tuple[float, ...]:
+    """Where a program of WHOLE begins."""
+    return WHOLE[name][0].end if name == "surface" else START
 
 
 def slower(segments: Segments) -> Segments:
@@ -30,9 +43,13 @@ def slower(segments: Segments) -> Segments:
 
 
 def run(
-    segments: Segments, start: tuple[float, ...], turns: dict[int, float], known: int = 10_000
+    segments: Segments,
+    start: tuple[float, ...],
+    turns: dict[int, float],
+    known: int = 10_000,
+    ahead: int = 0,
 ) -> list[Setpoints]:
-    """The setpoints of segments that are added `known` at a time.
+    """The setpoints of segments that are added `known` at a time, `ahead` planned before.
 
     `turns`: the factors of the feeds, by the count of control points after which they are set.
     """
@@ -41,6 +58,8 @@ def run(
     while True:
         while waiting and waiting[0][0] <= count:
             planner.override(waiting.pop(0)[1])
+        while planner.prepare(ahead):
+            pass
         setpoints = planner.take(FEW)
         if setpoints is not None:
             found.append(setpoints)
@@ -78,9 +97,10 @@ def require_all(found: list[Setpoints], segments: Segments, start: tuple[float, 
     st.integers(0, 5000),
     st.lists(st.tuples(st.integers(0, 80), st.sampled_from(FACTORS)), min_size=3, max_size=9),
     st.sampled_from([1, 4, 10_000]),
+    st.sampled_from([0, 40, AHEAD]),
 )
 def test_overrides_of_any_course_keep_limits_tolerance_and_end(
-    seed: int, turns: list[tuple[int, float]], known: int
+    seed: int, turns: list[tuple[int, float]], known: int, ahead: int
 ) -> None:
     whole, axes, _ = program(seed)
     segments, at, wanted = slower(whole), 0, {}
@@ -88,7 +108,27 @@ def test_overrides_of_any_course_keep_limits_tolerance_and_end(
         at += after
         wanted[at] = factor
     start = (0.0,) * axes
-    require_all(run(segments, start, wanted, known), segments, start)
+    require_all(run(segments, start, wanted, known, ahead), segments, start)
+
+
+@pytest.mark.parametrize("name", ["leg", "slot", "corners", "surface", "wave"])
+def test_what_is_planned_ahead_makes_no_difference_until_it_is_planned_again(name: str) -> None:
+    segments, at, start = slower(WHOLE[name]), 100, start_of(name)
+    before = points(run(segments, start, {}))
+    ahead = points(run(segments, start, {}, ahead=AHEAD))
+    assert np.abs(ahead - before).max() <= 0.2 * segments[0].tolerance_u  # as for other takes
+    found = [run(segments, start, {at: 2.0}, ahead=count) for count in (0, AHEAD)]
+    for each in found:
+        require_all(each, segments, start)
+    lazy, early = (len(points(each)) for each in found)
+    assert early <= lazy + 6  # the windows are others
+
+
+def test_a_window_before_the_last_one_is_planned_again() -> None:
+    segments, at = slower(WHOLE["wave"]), 104
+    speed = require_all(run(segments, START, {at: 2.0}, ahead=AHEAD), segments, START)
+    assert speed[:at].max() <= HALF * 100.0 * ALLOWED
+    assert speed[at : at + 24].max() > 1.02 * HALF * 100.0
 
 
 @pytest.mark.parametrize("seed", [52, 157, 298])  # a course begins amid the end of another one
@@ -101,12 +141,7 @@ def test_a_course_that_overlaps_another_keeps_the_limits(seed: int, first: int) 
 
 @pytest.mark.parametrize("name", ["leg", "slot", "corners", "surface"])
 def test_no_point_that_was_taken_changes_and_the_next_ones_are_faster(name: str) -> None:
-    whole: dict[str, Segments] = {
-        "leg": [line(1, 300, 0, 0, 0.01)], "slot": SLOT, "corners": corners(0.01, count=14),
-        "surface": surface(0.01, rows=1, width=40.0),
-    }  # fmt: skip
-    segments, at = slower(whole[name]), 100
-    start = segments[0].end if name == "surface" else START
+    segments, at, start = slower(WHOLE[name]), 100, start_of(name)
     before, found = run(segments, start, {}), run(segments, start, {at: 2.0})
     speed = require_all(found, segments, start)
     taken = -(-at // FEW) * FEW + 2

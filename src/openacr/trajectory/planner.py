@@ -149,6 +149,24 @@ class TrajectoryPlanner:
             raise self._fault
         return self._stream.take(most)
 
+    def prepare(self, count: int) -> bool:
+        """Plan one more section where fewer than `count` setpoints are ready; whether it has.
+
+        Until they are taken an override plans them again.
+        """
+        if self._fault is not None or self._stream.ready() >= count:
+            return False
+        try:
+            return self._plan_more()
+        except TrajectoryError as error:
+            self._fault = error
+            return False
+
+    @property
+    def ready(self) -> int:
+        """The count of setpoints that are planned and not taken."""
+        return self._stream.ready()
+
     def _plan_more(self) -> bool:
         """Plan one more section; False where more segments are needed."""
         if not self._chains:
@@ -187,7 +205,7 @@ class TrajectoryPlanner:
         wants_u = course.wants_u
         while chain.pieces and course.known_u < wants_u:
             course.add(chain.give())
-        if not chain.pieces:
+        if not chain.pieces and not (course.catches_up and course.known_u >= wants_u):
             if not chain.is_closed:  # whether this is its end makes a difference
                 return False
             if not course.is_closed:

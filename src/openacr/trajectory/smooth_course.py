@@ -63,7 +63,8 @@ LEAST_AGAIN = 12  # knots of a window that is planned again
 class Solved:
     """A window as it was planned: the rows of its law from `first` on, its knots and their law.
 
-    `done`: the number of the last knot that is committed.
+    `done`: the number of the last knot that is committed; `has_end`: the knots include those of
+    the end.
     """
 
     first: int
@@ -72,20 +73,50 @@ class Solved:
     x: Reals
     shares: Shares
     done: int
+    has_end: bool = False
 
     @property
     def times(self) -> Reals:
         """The times of the knots."""
         return self.rows[self.first : self.first + PARTS * (len(self.knots) - 5) + 1 : PARTS, 0]
 
+    @property
+    def done_s(self) -> float:
+        """The time up to which it is committed."""
+        return float(self.rows[self.first + PARTS * self.done, 0])
+
+    def knot_after(self, since_s: float) -> int | None:
+        """The first knot after a time from which the window may be planned again."""
+        at = int(np.searchsorted(self.times, since_s))
+        return None if at > min(self.done, len(self.times) - LEAST_AGAIN) else at
+
 
 class SmoothCourse(Course):
     """A course that grows with its chain."""
 
-    __slots__ = ("_along", "_begun_s", "_first", "_grid", "_has_end", "_kept", "_knots",
-                 "_last", "_limits", "_period_s", "_rules", "_slow_h", "_solved", "_spare",
-                 "_tube", "_x", "factor",
-                 "look_u", "sections", "steps")  # fmt: skip
+    __slots__ = (
+        "_along",
+        "_begun_s",
+        "_first",
+        "_grid",
+        "_has_end",
+        "_kept",
+        "_knots",
+        "_last",
+        "_limits",
+        "_period_s",
+        "_rules",
+        "_slow_h",
+        "_solved",
+        "_spare",
+        "_tube",
+        "_x",
+        "catches_up",
+        "factor",
+        "look_u",
+        "sections",
+        "steps",
+    )  # fmt: skip
 
     def __init__(
         self, limits: Limits, period_s: float, known: Sequence[Piece], soft: Soft | None
@@ -107,8 +138,9 @@ class SmoothCourse(Course):
         self._knots = np.empty(0)
         self._x = np.empty(0)
         self._begun_s = 0.0  # where the present window begins
-        self._solved: Solved | None = None  # the last window
+        self._solved: tuple[Solved, ...] = ()  # the windows that are not passed
         self._spare: State | None = None  # of the course, before it was reopened
+        self.catches_up = False  # what was planned is planned again: by windows as long as before
         self._has_end = False  # the knots include those of the end
         self._slow_h: float = min(
             stop_speed(4.0 * dense_u, along.jerk) ** 2, 0.25 * along.acceleration * RAMP * dense_u
@@ -161,12 +193,19 @@ class SmoothCourse(Course):
         known_u = (RAMP + 8) * self._grid.length_u + AHEAD * self._tube.step
         return begun_u + (1.0 + BATCH) * self.look_u + known_u
 
+    @property
+    def _reaches_end(self) -> bool:
+        """Whether the present window ends with the chain."""
+        if self.catches_up and self.wants_u < self._tube.length_u:
+            return False
+        return self.is_closed
+
     # --- faster ------------------------------------------------------------------
 
     def hasten(self, since_s: float, factor: float, ahead_u: float) -> bool:
         """Raise the factor of the feeds; whether a part of the course has to be planned again.
 
-        That is what the last window has committed after `since_s`, where enough is known of the
+        That is what the windows have committed after `since_s`, where enough is known of the
         path: it has `ahead_u` more. Else the windows that follow run faster.
         """
         self.factor = max(self.factor, factor)
@@ -183,12 +222,10 @@ class SmoothCourse(Course):
         return look_ahead(replace(self._along, speed=max(self._along.speed, feed)))
 
     def _reopen(self, since_s: float, ahead_u: float) -> bool:
-        """Go back to the knot of the last window after a time, if it is committed further."""
-        solved = self._solved
+        """Go back to the first knot of a window after a time, if it is committed further."""
+        found = ((each, each.knot_after(since_s)) for each in self._solved)
+        solved, at = next(((each, at) for each, at in found if at is not None), (None, 0))
         if solved is None:
-            return False
-        at = int(np.searchsorted(solved.times, since_s))
-        if at > min(solved.done, len(solved.times) - LEAST_AGAIN):
             return False
         if self._wants_from(float(solved.knots[at + 2])) > self.known_u + ahead_u:
             return False
@@ -197,7 +234,8 @@ class SmoothCourse(Course):
         self._knots, self._x = solved.knots[at:].copy(), solved.x[at:].copy()
         self._rules.set_shares(solved.shares)
         self._rules.drop(at)
-        self._has_end, self.is_complete, self._solved = self.is_complete, False, None
+        self._has_end, self.is_complete, self._solved = solved.has_end, False, ()
+        self.catches_up = not solved.has_end
         self.committed_s = float(self._kept[-1, 0])
         return True
 
@@ -205,13 +243,14 @@ class SmoothCourse(Course):
         """What a window changes."""
         return (self._knots, self._x, self._kept, self._rules.shares(), self._rules.ease,
                 self._solved, self._has_end, self._begun_s, self.Z,
-                self.H[course_cy.H_ROWS], self.committed_s, self.is_complete)  # fmt: skip
+                self.H[course_cy.H_ROWS], self.committed_s, self.is_complete,
+                self.catches_up)  # fmt: skip
 
     def _return_to(self, state: State) -> None:
         """Be as the course was before."""
         (self._knots, self._x, self._kept, shares, self._rules.ease, self._solved, self._has_end,
          self._begun_s, self.Z, self.H[course_cy.H_ROWS], self.committed_s,
-         self.is_complete) = state  # fmt: skip
+         self.is_complete, self.catches_up) = state  # fmt: skip
         self._rules.set_shares(shares)
 
     # --- one window --------------------------------------------------------------
@@ -278,11 +317,11 @@ class SmoothCourse(Course):
         curve = Curve(self.C, len(points), self._limits.axes, self._tube.step, origin)
         is_first = not len(self._knots)
         before = self._new_knots(points, origin)
-        tail_u = math.inf if self.is_closed else float(self._knots[-3]) - self.look_u
+        tail_u = math.inf if self._reaches_end else float(self._knots[-3]) - self.look_u
         window = Window(
             curve, self._knots, self._rules.next(self._knots, max(before - 4, 0), tail_u),
             Rest(0.0, self._grid.swing_u) if is_first else None,
-            Rest(self._tube.length_u, self._last.swing_u) if self.is_closed else None,
+            Rest(self._tube.length_u, self._last.swing_u) if self._reaches_end else None,
         )  # fmt: skip
         level = slow_h(
             curve, self._rules.fresh, float(self._knots[max(before - RAMP, 2)]),
@@ -312,7 +351,11 @@ class SmoothCourse(Course):
         dense, length = grid.length_u, tube.length_u
         end_u = tube.valid_u - (RAMP + 4) * dense
         last: list[float] = []
-        if self.is_closed:
+        if self.catches_up:
+            limit_u = self.wants_u - AHEAD * tube.step - (RAMP + 4) * dense
+            self.catches_up = limit_u < end_u
+            end_u = min(end_u, limit_u)
+        if self._reaches_end:
             ending = Grid(dense, grid.time_s, REST_SHARE * self._last.jerk, self._last.swing_u)
             ending = ending.on(sharpest(points[-END_ROWS:], tube.step))
             last = [length - s for s in reversed(ending.graded(0.5 * length))]
@@ -346,7 +389,7 @@ class SmoothCourse(Course):
         if is_first:
             begin = Soft(self._grid.jerk, 0.0, self._grid.swing_u)
             to_rest(inverse, np.maximum(new, knots[2]), brake, begin, ease)
-        if self.is_closed:
+        if self._reaches_end:
             to_end = self._tube.length_u - np.minimum(new, knots[-3])
             to_rest(inverse, to_end, brake, self._last, ease)
         x[old:] = inverse**-0.5
@@ -370,13 +413,13 @@ class SmoothCourse(Course):
         _law(flat(knots), flat(self._x), flat(plain), 0, count, flat(z), row)
         last = row + PARTS * (count - 1)
         self._begun_s = 0.0 if is_first else float(z[row, 0])
-        if self.is_closed:
+        if self._reaches_end:
             length, swing_u = self._tube.length_u, self._last.swing_u
             s = length - float(knots[-3])
             time_s = rest_shape(s, swing_u)[2] / z[last, 2]
             z[last + 2] = (z[last, 0] + time_s, length, 0.0, 0.0)
             z[last + 1] = z[last + 2] + np.array(turn_row(time_s, s, swing_u)) * BACKWARDS
-            self._solved = Solved(row, z, knots, self._x, self._rules.shares(), count - 1)
+            self._note(Solved(row, z, knots, self._x, self._rules.shares(), count - 1, True))
             self.is_complete = True
             self.set_law(flat(z), last + 3)
             self.committed_s = float(z[last + 2, 0])
@@ -387,14 +430,19 @@ class SmoothCourse(Course):
         self.set_law(flat(z), last + 4)
         done = int(np.searchsorted(knots[2:-2], knots[-3] - self.look_u)) - 1
         done = max(done, 1)
-        self._solved = Solved(row, z, knots, self._x, self._rules.shares(), done)
+        self._note(Solved(row, z, knots, self._x, self._rules.shares(), done))
         self.committed_s = float(z[row + PARTS * done, 0])
         self._kept = z[: row + PARTS * done + 1].copy()
         self._knots, self._x = knots[done:].copy(), self._x[done:].copy()
         self._rules.drop(done)
 
+    def _note(self, solved: Solved) -> None:
+        """Keep a window, so that a faster feed may begin in it."""
+        self._solved = (*self._solved, solved)
+
     def drop(self, time_s: float) -> None:
         """Forget what lies before a time of the course."""
+        self._solved = tuple(each for each in self._solved if each.done_s > time_s)
         keep = int(np.searchsorted(self._kept[:, 0], time_s)) - 2
         if keep > 0:
             self._kept = self._kept[keep:].copy()

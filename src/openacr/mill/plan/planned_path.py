@@ -170,6 +170,20 @@ class PlannedPath:
             self.fault, self.is_at_end = str(error), True
             return None
 
+    def prepare(self, ahead_s: float) -> bool:
+        """Plan one more section of what is to be taken within a time; whether there was any."""
+        planner = self._planner
+        if planner is None or self.fault:
+            return False
+        while self._passed_s < PASSED_S + ahead_s and self._pass_on(planner):
+            pass
+        return planner.prepare(math.ceil(ahead_s / PERIOD_S))
+
+    @property
+    def ready_s(self) -> float:
+        """How long the setpoints take that are planned and not taken."""
+        return 0.0 if self._planner is None else self._planner.ready * PERIOD_S
+
     def _next(self, most: int) -> Setpoints | None:
         planner, found = self._planner, None
         while planner is not None and found is None:

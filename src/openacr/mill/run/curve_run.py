@@ -26,8 +26,9 @@ from openacr.protocol.move import Move
 from openacr.trajectory.timescale import Progress
 
 AHEAD_S = 0.38  # of the plan known ahead of the points that are sent, at least
-AHEAD_LINK_S = 1.0  # over a link, where the host may be late
-SHORT = 0.6  # of that left at which a program that does not arrive is brought to rest
+AHEAD_LINK_S = 1.0  # planned ahead over a link, where the host may be late
+SENT_NEXT_S = 0.06  # of it taken ahead of what has room on the card, while nothing slows down
+SHORT = 0.6  # of what is wanted ahead left when a path that does not arrive is brought to rest
 TAKEN = 4  # points of the plan at once: what is taken is not planned again
 BUFFERED_S = 0.04  # of the curve on the virtual machine
 SPARE = 2  # places of the move buffer that stay free
@@ -54,6 +55,7 @@ class CurveRun:
         self._job: Job | None = None  # the last move begun
         self._ramp_ups2 = min(accelerations(settings))
         self._factors = (1.0, 1.0)
+        self._planned_factor = 1.0  # the highest one that the present curve was planned with
         self._holds = False
 
     # --- commands -----------------------------------------------------------------------
@@ -82,6 +84,7 @@ class CurveRun:
         """Forget the curve: the card holds none of it, or has dropped it."""
         self._path = self._window = self._job = None
         self._is_begun = self._holds = False
+        self._planned_factor = 1.0
         self._guard(0)
         self._packets = CurvePackets(self._settings)
 
@@ -104,9 +107,19 @@ class CurveRun:
         """Plan ahead; the curve begins with the next poll."""
         if self._holds or (self._window is not None and self._window.scale.is_complete):
             return  # what has arrived meanwhile begins another curve
-        path.override(max(self._factors[0], 1.0))
-        if is_complete or (is_starved and self._ahead_s < SHORT * self._wanted_s):
+        wanted_s = self._wanted_s if self._reserve is None else AHEAD_LINK_S
+        if is_complete or (is_starved and self._ahead_s + path.ready_s < SHORT * wanted_s):
             path.stop()
+        self._take(path)
+        if self._reserve is not None:
+            while path.prepare(AHEAD_LINK_S - self._ahead_s) and not self._is_begun:
+                pass
+
+    def _take(self, path: PlannedPath) -> None:
+        """Take from the plan what is wanted of it now."""
+        factor = max(self._factors[0], 1.0)
+        self._planned_factor = max(self._planned_factor, factor)
+        path.override(factor)
         while self._ahead_s < self._wanted_s and (found := path.take(TAKEN)) is not None:
             if self._window is None:
                 self._path, self._window = path, CurveWindow(path.start, self._settings)
@@ -119,10 +132,20 @@ class CurveRun:
 
     @property
     def _wanted_s(self) -> float:
-        """How much of the plan is to be known: a hold has its ramp in it."""
-        if self._reserve is not None:
-            return AHEAD_LINK_S
+        """How much of the plan is to be taken: what slows it down has its ramp in it.
+
+        Over a link it is the card that holds. What is not taken is planned again where the
+        feed rises, so nothing is taken there before it is sent, while no override slows down.
+        """
+        if self._reserve is not None and not self._slows:
+            return max(self.depth - self._tracker.waiting, 0) * PERIOD_S + SENT_NEXT_S
         return max(AHEAD_S, RAMPS * self._window.stop_s) if self._window is not None else AHEAD_S
+
+    @property
+    def _slows(self) -> bool:
+        """Whether the plan is, or is going to be, run at a lower scale of its time."""
+        is_slow = self._window is not None and self._window.scale.scale < 1.0
+        return is_slow or min(self._factors) < 1.0 or self._factors[0] < self._planned_factor
 
     @property
     def _ahead_s(self) -> float:
@@ -138,6 +161,8 @@ class CurveRun:
         if self._holds and self._reserve is not None and self._is_begun:
             return  # the card holds; what it has of the curve is dropped and planned again
         if self._window is not None and (self._is_begun or self._tracker.is_at_end(sample)):
+            if self._path is not None and not self._holds and not self._window.scale.is_complete:
+                self._take(self._path)
             packets = self._next_packets(self._window)
             if packets:
                 self._machine.send(packets)
@@ -221,5 +246,6 @@ class CurveRun:
         self._tracker.add_packet()
         self._window = self._path = self._job = None
         self._is_begun = False
+        self._planned_factor = 1.0
         if path is not None:
             path.end_at(point)
