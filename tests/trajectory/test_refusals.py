@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from tests.trajectory.measures import PERIOD_S, limits, planned, points
 from tests.trajectory.programs import Segments, surface
+from tests.trajectory.random_programs import program
 
 from openacr.trajectory import Arc, Limits, Segment, TrajectoryError, TrajectoryPlanner
 from openacr.trajectory.smooth_course import SmoothCourse
@@ -85,3 +86,15 @@ def test_what_cannot_be_planned_is_an_error_after_a_path_that_ends_at_rest(
     assert (a, j) <= (1000.0, 20_000.0)
     assert control[-1].tolist() == control[-2].tolist() == control[-3].tolist()
     assert 5.0 < np.linalg.norm(control[-1] - control[0]) < 100.0
+
+
+def test_a_window_that_is_slowed_down_is_a_start_for_the_next_one() -> None:
+    """The jerk of one axis is a hundredth of the others': a mean of two laws broke a row there."""
+    segments, axes, _ = program(16)
+    jerks = np.array([20_000.0] * (axes - 1) + [200.0])
+    machine = Limits((100.0,) * axes, (1000.0,) * axes, tuple(jerks.tolist()))
+    control = points(planned(segments, (0.0,) * axes, machine))
+    assert control[-1].tolist() == list(segments[-1].end)
+    reached = np.abs(np.diff(control, 3, axis=0)).max(axis=0) / PERIOD_S**3
+    assert (reached <= jerks * (1 + 1e-6)).all()
+    assert reached[-1] > 0.95 * jerks[-1]

@@ -339,7 +339,7 @@ class SmoothCourse(Course):
             raise TrajectoryError(f"line {line}: no slow speed keeps the limits")
         slowness = 1.0 / math.sqrt(float(window.cap.max()))
         fastest, steps = window.fit(start, slowness)
-        self._x = window.tie(start + share * (fastest - start))
+        self._x = window.towards(start, fastest, share)
         self.steps += steps
         self._commit(window, is_first)
 

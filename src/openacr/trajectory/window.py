@@ -168,6 +168,20 @@ class Window:
                 return found, steps
         return start, steps
 
+    def towards(self, start: Reals, x: Reals, share: float) -> Reals:
+        """A share of the difference from a start to x, or less of it where that breaks a row.
+
+        What keeps the jerk between two laws that do is no convex set: a mean of both may not.
+        """
+        whole: Reals = self.tie(start + share * (x - start))
+        if share == 1.0 or self.slack(whole) > 0.0:
+            return whole
+        for part in BLENDS[1:]:
+            found: Reals = self.tie(start + part * share * (x - start))
+            if self.slack(found) > 0.0:
+                return found
+        return start.copy()
+
     def _tighten(self, start: Reals, push: Reals, jerk: Reals, reach: int) -> None:
         """Lower the shares at the knots up to `reach` from cells above a limit."""
         used = self._used(start)
