@@ -55,6 +55,7 @@ BACKWARDS = np.array([-1.0, -1.0, 1.0, -1.0])  # a row of a start as one of an e
 LEAST_KNOTS = 32  # ahead of what is committed
 RAMP = 12  # dense knots from one slow speed to the next
 MOST_TRIES = 40
+STRETCHES = (1.0, 2.0, 4.0, 8.0, 16.0)  # of RAMP, where a slow start is not found
 BATCH = 0.5  # of that, committed at once
 LEAST_AGAIN = 12  # knots of a window that is planned again
 
@@ -327,21 +328,28 @@ class SmoothCourse(Course):
             curve, self._rules.fresh, float(self._knots[max(before - RAMP, 2)]),
             self._tube.valid_u, self._grid.length_u, self._slow_h,
         )  # fmt: skip
-        ease = 1.0
-        for _ in range(MOST_TRIES):
-            start = window.tie(self._guess(level, ease, is_first))
-            if window.slack(start) > 0.0:
-                break
-            level *= 0.5
-            ease *= 0.5
-        else:
-            line = self.sections.lines[-1]
-            raise TrajectoryError(f"line {line}: no slow speed keeps the limits")
+        start = self._slow_start(window, level, is_first)
         slowness = 1.0 / math.sqrt(float(window.cap.max()))
         fastest, steps = window.fit(start, slowness)
         self._x = window.towards(start, fastest, share)
         self.steps += steps
         self._commit(window, is_first)
+
+    def _slow_start(self, window: Window, level: float, is_first: bool) -> Reals:
+        """Coefficients that keep all limits, as fast as they are easily found.
+
+        What was planned ends at a slow speed along its own direction. Where an axis with far lower
+        limits comes in there, more path is needed to be still slower.
+        """
+        for stretch in STRETCHES:
+            ease = 1.0
+            for _ in range(MOST_TRIES):
+                start = window.tie(self._guess(level * ease, ease, stretch, is_first))
+                if window.slack(start) > 0.0:
+                    return start
+                ease *= 0.5
+        line = self.sections.lines[-1]
+        raise TrajectoryError(f"line {line}: no slow speed keeps the limits")
 
     def _new_knots(self, points: Reals, origin: float) -> int:
         """Append knots as far as the path is final; returns how many there were before."""
@@ -375,8 +383,8 @@ class SmoothCourse(Course):
             self._knots = closed_knots(self._knots, last, length)
         return before
 
-    def _guess(self, level: float, ease: float, is_first: bool) -> Reals:
-        """Coefficients that keep all limits: those planned before, then a slow constant speed."""
+    def _guess(self, level: float, ease: float, stretch: float, is_first: bool) -> Reals:
+        """Those coefficients: the ones planned before, then a slow constant speed."""
         knots, old = self._knots, len(self._x)
         x = np.empty(len(knots) - 2)
         x[:old] = self._x
@@ -394,7 +402,7 @@ class SmoothCourse(Course):
             to_rest(inverse, to_end, brake, self._last, ease)
         x[old:] = inverse**-0.5
         if old:
-            length = RAMP * self._grid.length_u
+            length = stretch * RAMP * self._grid.length_u
             x[old:] = eased(x[old - 1], x[old:], new - place[old - 1], length)
         return x
 
