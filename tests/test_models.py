@@ -54,6 +54,7 @@ def test_what_only_some_models_have() -> None:
         "ACR1500": "no NURBs and no look-ahead",
         "ACR8000": "no user flash",
     }
+    assert {row.name: row.commutators for row in rows if row.commutators != 8} == {"ACR8000": 0}
     assert {row.name for row in rows if "DPCB" in row.streams} == {"ACR1505", "ACR8020"}
     fixed = {row.name for row in rows if row.has_fixed_adc_mode}
     assert fixed == {"ACR7000", "ACR9000", "ACR9030", "ACR9040"}

@@ -50,6 +50,7 @@ class Model:
     encoders: int = 20
     dacs: int = 16
     adcs: int = 16
+    commutators: int = 8
     lines: int = 32  # digital inputs on the board, and as many outputs
     streams: tuple[str, ...]
     has_fixed_adc_mode: bool = False  # 16-bit analog inputs only
@@ -92,14 +93,18 @@ _BOX_STREAMS = ("COM1", "COM2", *_NETWORK)
 # Boards of the front end's guide; what is not written here they have like the others. NURBs and
 # look-ahead are missing on "less expensive controllers like the ACR1500", the only one it names.
 # DPCB and user flash follow from what the Programmer's Guide omits for which model in the
-# sequence of Return to Factory Default.
+# sequence of Return to Factory Default. The ACR8000 has no commutators (User's Guide Part 2,
+# CMT Parameters and CMT Flags).
 ACR1200 = Model(name="ACR1200", axes=8, connectors=2, masters=8, streams=_BOX_STREAMS)
 ACR1500 = Model(
     name="ACR1500", axes=8, connectors=4, masters=8, streams=_CARD_STREAMS,
     lacks=Feature.NURBS | Feature.LOOK_AHEAD,
 )  # fmt: skip
 ACR2000 = Model(name="ACR2000", axes=8, lines=16, connectors=4, masters=8, streams=_CARD_STREAMS)
-ACR8000 = Model(name="ACR8000", axes=8, masters=8, streams=_CARD_STREAMS, lacks=Feature.USER_FLASH)
+ACR8000 = Model(
+    name="ACR8000", axes=8, masters=8, commutators=0, streams=_CARD_STREAMS,
+    lacks=Feature.USER_FLASH,
+)  # fmt: skip
 ACR8010 = Model(name="ACR8010", axes=8, masters=8, streams=_CARD_STREAMS)
 ACR1505 = Model(name="ACR1505", axes=8, streams=_DPCB_STREAMS, has_battery=True)
 ACR8020 = Model(name="ACR8020", streams=_DPCB_STREAMS, has_battery=True)

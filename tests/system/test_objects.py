@@ -86,6 +86,21 @@ def test_what_a_model_does_not_have_is_refused_by_name() -> None:
     assert Console("ACR8020").type("SYS", "CLEAR FIFO") == ""
 
 
+@pytest.mark.parametrize(
+    "line",
+    [
+        "CMT0", "CMT0 ON", "CMT0 OFF", "CMT0 MODE 1", "CMT0 OFFSET(0,0)", "CMT0 PPR 1000",
+        "CMT0 ENC0 ENC1", "CMT0 DAC0 DAC1", "CMT0 ADC0 ADC1", "ATTACH AXIS0 ENC0 CMT0 ENC0",
+    ],
+)  # fmt: skip
+def test_an_acr8000_has_no_commutators(line: str) -> None:
+    assert Console("ACR8000").type(line) == "Invalid argument"
+    assert Console("ACR8010").type(line) != "Invalid argument"
+    last, beyond = line.replace("CMT0", "CMT7"), line.replace("CMT0", "CMT8")
+    assert Console("ACR8010").type(last) != "Invalid argument"
+    assert Console("ACR8010").type(beyond) == "Invalid argument"
+
+
 @pytest.mark.req("ACR-ERR-16")
 def test_the_system_clock_counts_milliseconds_and_wraps_at_2_to_the_31(card: Console) -> None:
     assert card.type("?P6916") == "0"

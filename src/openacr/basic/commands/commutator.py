@@ -56,7 +56,7 @@ class Channel(Form):
 
 def commutators(card: Card) -> int:
     """How many commutators there are."""
-    return at.CMT_COUNT
+    return card.model.commutators
 
 
 def _long(row: int) -> Setting:
@@ -115,7 +115,7 @@ class Channels:
 
 def _register(channels: Channels) -> None:
     def handler(run: Run, number: int, first: int | None, second: int | None) -> None:
-        check_number(number, at.CMT_COUNT)
+        check_number(number, commutators(run.card))
         if first is None:
             run.print(",".join(map(str, channels.read(run.card, number))))
         else:
@@ -156,7 +156,7 @@ def _first_offset(number: int) -> int:
          grammar=(Group("a", "b", optional=True),))  # fmt: skip
 def cmt_offset(run: Run, number: int, offsets: tuple[float, float] | None) -> None:
     """Set what is added to the signal of each phase."""
-    check_number(number, at.CMT_COUNT)
+    check_number(number, commutators(run.card))
     if offsets is None:
         run.print(",".join(number_text(v, NumberKind.SINGLE) for v in _offsets(run.card, number)))
     else:
@@ -181,7 +181,7 @@ def _set_mode(card: Card, number: int, mode: int) -> None:
          grammar=(Int("mode", 0, 1, optional=True),))  # fmt: skip
 def cmt_mode(run: Run, number: int, mode: int | None) -> None:
     """Choose trapezoidal (0) or sinusoidal (1) commutation."""
-    check_number(number, at.CMT_COUNT)
+    check_number(number, commutators(run.card))
     if mode is None:
         run.print(str(_mode(run.card, number)))
     else:
@@ -194,7 +194,7 @@ kept["CMT # MODE"] = each("CMT # MODE", commutators, _mode, _set_mode)
 @command("CMT # ON", group=GROUP, levels=ANY, ref=REF)
 def cmt_on(run: Run, number: int) -> None:
     """Turn a commutator on and forget what has turned it off."""
-    check_number(number, at.CMT_COUNT)
+    check_number(number, commutators(run.card))
     flags = run.card.memory.I[at.CMF_WORD + number] & ~FAULTS
     run.card.memory.I[at.CMF_WORD + number] = flags | at.CMF_CMT_COMMUTATOR_ON
 
@@ -202,13 +202,13 @@ def cmt_on(run: Run, number: int) -> None:
 @command("CMT # OFF", group=GROUP, levels=ANY, ref=REF)
 def cmt_off(run: Run, number: int) -> None:
     """Turn a commutator off: both phases are 0 V."""
-    check_number(number, at.CMT_COUNT)
+    check_number(number, commutators(run.card))
     run.card.memory.I[at.CMF_WORD + number] &= ~at.CMF_CMT_COMMUTATOR_ON
 
 
 @command("CMT #", group=GROUP, levels=ANY, ref=REF)
 def cmt_report(run: Run, number: int) -> None:
     """Report whether a commutator is on."""
-    check_number(number, at.CMT_COUNT)
+    check_number(number, commutators(run.card))
     is_on = run.card.memory.I[at.CMF_WORD + number] & at.CMF_CMT_COMMUTATOR_ON
     run.print("ON" if is_on else "OFF")

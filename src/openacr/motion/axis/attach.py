@@ -115,7 +115,9 @@ def _feedback_count(card: Card, kind: Feedback) -> int:
 
 
 def _signal_count(card: Card, kind: Signal) -> int:
-    return {Signal.DAC: card.model.dacs, Signal.CMT: 8}.get(kind, card.model.axes)
+    return {Signal.DAC: card.model.dacs, Signal.CMT: card.model.commutators}.get(
+        kind, card.model.axes
+    )
 
 
 def detach(card: Card, program: int) -> None:
