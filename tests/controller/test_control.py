@@ -112,6 +112,20 @@ def test_they_reach_the_last_of_sixteen_axes_attached_or_not(key: str) -> None:
     assert [host.card.bit[8467 + 32 * n] for n in range(16)] == [True] * 16
 
 
+@pytest.mark.req("ACR-KAMR-29", "ACR-KAMR-38")
+def test_ctrl_y_reaches_the_last_of_sixteen_axes_and_masters() -> None:
+    host = connected(model="ACR8020")
+    kills = [8467 + 32 * n for n in range(16)]
+    kills += [base + 32 * n for base in (522, 7434) for n in range(8)]
+    for number in kills:
+        host.card.bit[number] = True
+    host.card.advance(1)
+    assert all(host.card.bit[number] for number in kills)
+    host.send("\x19")
+    host.card.advance(1)
+    assert not any(host.card.bit[number] for number in kills)
+
+
 @pytest.mark.req("ACR-KAMR-29", "ACR-KAMR-38", "ACR-KAMR-42")
 def test_ctrl_y_clears_the_kills_of_all_axes_and_masters_and_moves_nothing(axes: Host) -> None:
     axes.type("X1000")
