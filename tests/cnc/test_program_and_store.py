@@ -204,6 +204,16 @@ def test_programs_begin_absolute_or_incremental() -> None:
 def test_control_mode_is_the_unit_programs_begin_in() -> None:
     assert run("F10 X25.4").ends == [(25.4, 0, 0)]
     assert run("F10 X25.4", {850_030: 21.0}).ends == [(1, 0, 0)]
+    for mode, feed in ((20.0, 10.0), (21.0, 10.0 / 25.4)):
+        (line,) = run("F10 X1", {850_030: mode}).of(Line)
+        assert isinstance(line, Line)
+        assert line.pace.feed_upm == pytest.approx(feed)
+        for word in ("G20", "G21"):  # what a program says of itself comes first
+            both = [run(f"{word} F10 X25.4", {850_030: each}).ends for each in (20.0, 21.0)]
+            assert both[0] == both[1]
+    in_mm = {250_001: 1.0}
+    assert run("F10 X1", in_mm | {850_030: 20.0}).ends == [(25.4, 0, 0)]
+    assert run("F10 X1", in_mm | {850_030: 21.0}).ends == [(1, 0, 0)]
 
 
 @pytest.mark.req("MILL-SYS-CTL-UNITS")

@@ -4,8 +4,10 @@ The appendix shows scope pictures; what they show is asserted as numbers: ringin
 at speed, spikes in the ramps, the error at rest.
 """
 
+import math
 from dataclasses import dataclass
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -277,6 +279,43 @@ def test_a_low_pass_is_3_db_down_at_its_frequency_and_bypassed_without() -> None
     assert sine_at_dac(100) == pytest.approx(1.0, rel=0.01)
     assert sine_at_dac(1000, "LOPASS X1000") == pytest.approx(2**-0.5, rel=0.02)
     assert sine_at_dac(50, "LOPASS X1000") == pytest.approx(1.0, rel=0.02)
+
+
+def clipped(amplitude: float, limit: float) -> float:
+    """Amplitude of a sine with as much power as one that is cut at a limit."""
+    angle = math.asin(min(1.0, limit / amplitude))
+    below = amplitude**2 * (angle / 2 - math.sin(2 * angle) / 4)
+    return math.sqrt(4 / math.pi * (below + limit**2 * (math.pi / 2 - angle)))
+
+
+@pytest.mark.req("MILL-TUNE-23")
+@pytest.mark.parametrize(
+    ("hz", "filters"),
+    [(200, []), (200, ["NOTCH X(100,100)"]), (400, ["LOPASS X200"]), (500, ["LOPASS X200"]),
+     (300, ["NOTCH X(100,100)", "LOPASS X1000"])],
+)  # fmt: skip
+def test_the_torque_limit_is_that_of_the_filtered_output(hz: float, filters: list[str]) -> None:
+    """A sine of 1 V that a filter makes smaller than the limit is not cut before it."""
+    filtered = sine_at_dac(hz, *filters)
+    assert sine_at_dac(hz, *filters, "TLM X0.5") == pytest.approx(clipped(filtered, 0.5), rel=0.01)
+
+
+@pytest.mark.req("MILL-TUNE-20")
+@pytest.mark.parametrize("hz", [60, 90, 110, 150])
+def test_the_narrower_a_notch_is_the_less_it_takes_beside_its_centre(hz: float) -> None:
+    widths = (100, 50, 20, 5, 1)
+    left = [sine_at_dac(hz, f"NOTCH X(100,{width})") for width in widths]
+    assert left == sorted(left)
+    assert min(b - a for a, b in pairwise(left)) > 0
+    assert left[-1] == pytest.approx(1.0, abs=0.02)
+
+
+@pytest.mark.req("MILL-TUNE-22")
+@pytest.mark.parametrize("hz", [100, 200, 400])
+def test_two_equal_filters_take_twice_as_many_decibels_at_every_frequency(hz: float) -> None:
+    copies = [f"P{12341 + n}=P{12336 + n}" for n in range(5)]
+    once = sine_at_dac(hz, "LOPASS X200")
+    assert sine_at_dac(hz, "LOPASS X200", *copies) == pytest.approx(once**2, rel=0.01)
 
 
 @pytest.mark.req("MILL-TUNE-20")
