@@ -101,15 +101,23 @@ def test_thirteen_outputs_go_on_and_off_on_the_card() -> None:
 
 
 @pytest.mark.req("MILL-M0")
-def test_m0_holds_with_everything_as_it_is_until_start() -> None:
-    shop = Shop(**SPINDLE)
+@pytest.mark.parametrize("go_on", ["START", "RESUME", "Cycle Start"])
+def test_m0_holds_with_everything_as_it_is_until_start_or_resume(go_on: str) -> None:
+    shop = Shop(**SPINDLE, P400_003=9)
     shop.load("G91 F600 S500\nM3\nM8\nG1 X1\nM0\nX1\nM2\n")
     shop.until(State.HOLD)
     shop.pass_time(2.0)
     assert shop.runner.reason == "M0"
     assert shop.outputs((CW, FLOOD)) == [True, True]
     assert shop.pulses() == (10_000, 0, 0)
-    shop.runner.start()
+    if go_on == "START":
+        shop.runner.start()
+    elif go_on == "RESUME":
+        shop.runner.resume()
+    else:
+        shop.controller.set_input(9, True)
+        shop.pass_time(0.05)
+    assert shop.runner.state is State.RUN
     shop.until(State.IDLE)
     assert shop.pulses() == (20_000, 0, 0)
 

@@ -231,7 +231,10 @@ class Runner:
         self._supervision.pause()
 
     def resume(self) -> None:
-        """Continue the path where it was held (RESUME)."""
+        """Continue the path where it was held, or the program after its stop (RESUME)."""
+        if self.state is State.HOLD:
+            self.start()
+            return
         self._lifecycle.require(Event.RESUME)
         self.alarms.require_none()
         self._require_rest()
