@@ -203,7 +203,9 @@ def test_programs_begin_absolute_or_incremental() -> None:
 @pytest.mark.req("MILL-SYS-DISP-MODE")
 def test_control_mode_is_the_unit_programs_begin_in() -> None:
     assert run("F10 X25.4").ends == [(25.4, 0, 0)]
-    assert run("F10 X25.4", {850_030: 21.0}).ends == [(1, 0, 0)]
+    for is_start_set_chosen in (0.0, 1.0):  # the start unit of a chosen set is at first this one
+        cells = {100_010: is_start_set_chosen, 850_030: 21.0}
+        assert run("F10 X25.4", cells).ends == [(1, 0, 0)]
     for mode, feed in ((20.0, 10.0), (21.0, 10.0 / 25.4)):
         (line,) = run("F10 X1", {850_030: mode}).of(Line)
         assert isinstance(line, Line)
