@@ -171,3 +171,44 @@ def test_without_jerk_a_late_sharp_corner_keeps_the_acceleration(
     made.depth(depth)
     places = follow(made, chain([(1.0, 0.0)] * 6 + [(1.0, turn_deg)]))
     assert accelerations(places).max() <= ACC * (1 + 1e-4)
+
+
+def without_jerk(tolerance: float, depth: int, ramps: Ramps) -> Rig:
+    made = late_rig(tolerance, depth, ramps)
+    made.master(jrk=0.0)
+    return made
+
+
+def keeps_ramps(places: Reals, points: Sequence[Point], tolerance: float) -> None:
+    assert tuple(places[-1]) == pytest.approx(points[-1], abs=1e-9)
+    assert off_path(places, points) <= tolerance * (1 + 1e-6) + 1e-9
+    assert accelerations(places).max() <= ACC * (1 + 1e-4)
+
+
+# Stops with STP, and a corner comes that is refused: it would have to brake with DEC, less.
+REFUSED = [(1.278, 0.0), (0.247, 0.0), (0.075, 10.01), (2.766, 0.27), (9.481, 0.02)]
+
+
+@settings(max_examples=examples(200))
+@given(CHAINS, TOLERANCES, DEPTHS, EVERY, RAMPS, EVENTS)
+@example(chain(REFUSED), 0.12, 2, 50, (0.6, 1.0), [])
+def test_without_jerk_late_moves_keep_the_acceleration_whatever_happens(
+    points: list[Point],
+    tolerance: float,
+    depth: int,
+    every: int,
+    ramps: Ramps,
+    events: list[Event],
+) -> None:
+    made = without_jerk(tolerance, depth, ramps)
+    places = follow(made, points, disturbed(made, events), every=every)
+    keeps_ramps(places, points, tolerance)
+
+
+@pytest.mark.parametrize("tick", range(150, 215, 5))
+def test_a_hold_softer_than_the_stop_ahead_comes_to_rest_in_it(tick: int) -> None:
+    """With DEC, less than STP, the path would pass the corner that is a stop."""
+    points = chain([(3.0, 0.0), (3.0, 120.0), (3.0, 0.0)])
+    made = without_jerk(1e-3, 1, (0.6, 1.0))
+    places = follow(made, points, disturbed(made, [(tick, "hold", 0.0)]), every=150)
+    keeps_ramps(places, points, 1e-3)

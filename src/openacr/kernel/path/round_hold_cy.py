@@ -1,12 +1,13 @@
 """Feedholds near rounded corners: where they wait, and how fast they slow the path."""
 
+from openacr.kernel.path.interrupt_cy import stop_distance
 from openacr.kernel.path.path_cy import move_record
 from openacr.kernel.path.round_corner_cy import LINGER
 from openacr.kernel.path.round_cy import round_part, round_planned, round_through
 from openacr.kernel.path.round_law_cy import round_accel, round_brake, round_limit
 from openacr.kernel.path.round_pass_cy import CORNER_AFTER, LINE
 from openacr.kernel.path.round_settle_cy import round_even, round_settle
-from openacr.kernel.profile.ramps_cy import ramp_distance, rest_speed
+from openacr.kernel.profile.ramps_cy import rest_speed
 from openacr.map.rows import masters, moves, profiles
 from openacr.views import F32, F64, I32
 
@@ -14,24 +15,24 @@ __all__ = ["round_hold_rate", "round_holds"]
 
 
 def round_holds(F: F64, I: I32, S: F32, m: int, rate_ups2: float) -> bool:
-    """A feedhold under a jerk limit: True if it has to wait until a corner is passed.
+    """Whether a feedhold has to wait: until the stop ahead or, with jerk, beyond a corner.
 
-    In front of a corner it slows the path as far as that can be done without acceleration in
-    the corner, where the path neither stops nor lingers.
+    Under jerk it slows the path in front of a corner as far as that can be done without
+    acceleration in the corner, where the path neither stops nor lingers.
     """
     record: int = move_record(I, m)
-    jerk_ups3: float = F[moves.jrk_ups3[record]]
-    if jerk_ups3 <= 0.0 or not round_through(F, I, m, record):
+    if not round_through(F, I, m, record):
         return False
+    jerk_ups3: float = F[moves.jrk_ups3[record]]
     if round_part(F, I, m) != LINE:
-        return True
+        return jerk_ups3 > 0.0
     end_u: float = F[masters.section_u[m]]
     distance_u: float = end_u - F[profiles.distance[m]]
     if not I[masters.piece[m]]:  # at a corner that is a stop the path has planned to rest
-        velocity_ups: float = F[profiles.velocity[m]]
-        accel_ups2: float = F[profiles.accel[m]]
-        needed_u: float = ramp_distance(velocity_ups, accel_ups2, 0.0, rate_ups2, jerk_ups3)
-        return needed_u >= distance_u and round_planned(F, I, m, end_u, 0.0)
+        stop_u: float = stop_distance(F, m, rate_ups2, jerk_ups3)
+        return stop_u >= distance_u and round_planned(F, I, m, end_u, 0.0)
+    if jerk_ups3 <= 0.0:
+        return False
     reached_ups: float = round_settle(F, m, distance_u, 0.0, 0.0, rate_ups2, jerk_ups3)
     if reached_ups == 0.0:
         return False

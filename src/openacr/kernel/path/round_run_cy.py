@@ -72,7 +72,7 @@ def round_run(F: F64, I: I32, S: F32, m: int) -> int:
 
 def round_rate(F: F64, record: int, leaving_v2: float) -> float:
     """The ramp at the end of a run: STP where the path comes to rest, as it does without LOOK."""
-    if leaving_v2 <= 0.0 and F[moves.jrk_ups3[record]] > 0.0:
+    if leaving_v2 <= 0.0:
         return move_stop_rate(F, record)
     return look_rate(F, record)
 
