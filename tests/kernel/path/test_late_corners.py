@@ -9,6 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from tests.kernel.path.test_corners import (
     EVENTS,
+    IN_MOTION,
     Event,
     Point,
     accelerations,
@@ -20,7 +21,9 @@ from tests.kernel.path.test_corners import (
 )
 from tests.kernel.rig import Reals, Rig, T, examples
 
+from openacr.map import numbers as at
 from openacr.motion.path import moves
+from openacr.motion.path.move_request import Circle, Direction
 
 ACC = 1000.0
 JRK = 20_000.0
@@ -212,3 +215,52 @@ def test_a_hold_softer_than_the_stop_ahead_comes_to_rest_in_it(tick: int) -> Non
     made = without_jerk(1e-3, 1, (0.6, 1.0))
     places = follow(made, points, disturbed(made, [(tick, "hold", 0.0)]), every=150)
     keeps_ramps(places, points, 1e-3)
+
+
+# Refused corners: with a final velocity of 20 units/s the path came to them too fast to stop.
+TO_A_STOP = [(0.356, 5.0), (0.056, 37.0), (0.562, 45.0), (0.305, 0.0), (0.092, -141.0), (1.2, 98.0)]
+
+
+@settings(max_examples=examples(150))
+@given(CHAINS, TOLERANCES, DEPTHS, EVERY, RAMPS, EVENTS, st.sampled_from([0.0, JRK]))
+@example(chain(TO_A_STOP), 0.14, 1, 50, (1.0, 1.0), [], 0.0)
+@example(chain(TO_A_STOP), 0.14, 1, 50, (1.0, 1.0), [], JRK)
+def test_a_final_velocity_takes_no_room_from_corners_with_a_tolerance(
+    points: list[Point],
+    tolerance: float,
+    depth: int,
+    every: int,
+    ramps: Ramps,
+    events: list[Event],
+    jrk: float,
+) -> None:
+    made = late_rig(tolerance, depth, ramps).master(jrk=jrk, fvel=20.0)
+    places = follow(made, points, disturbed(made, events), every=every)
+    keeps_ramps(places, points, tolerance)
+    if jrk:
+        assert jerks(places).max() <= jrk * (1 + 1e-3)
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "looks", "end_ups"), [(0.0, True, 20.0), (0.1, True, 0.0), (0.1, False, 20.0)]
+)
+def test_without_a_tolerance_or_look_a_path_ends_with_its_final_velocity(
+    tolerance: float, looks: bool, end_ups: float
+) -> None:
+    made = rig(tolerance).master(fvel=20.0)
+    if not looks:
+        made.I[at.MF4_WORD] &= ~at.MF4_LOOK_AHEAD_MODE
+    places = follow(made, [(10.0, 0.0)])
+    last = np.linalg.norm(np.diff(places[-4:], axis=0), axis=1) / T
+    assert last.max() == pytest.approx(end_ups, abs=2.0)
+
+
+def test_an_arc_with_a_tolerance_ends_with_its_final_velocity() -> None:
+    made = rig(0.1).master(fvel=20.0)
+    speeds: list[float] = []
+    arc = Circle((0, 1), (5.0, 5.0), (0.0, 5.0), Direction.COUNTER_CLOCKWISE)
+    moves.issue(made.card, 0, [arc])
+    while made.bit(IN_MOTION):
+        speeds.append(made.path_velocity)
+        made.ticks()
+    assert speeds[-1] == pytest.approx(20.0, abs=1.0)

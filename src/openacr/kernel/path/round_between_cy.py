@@ -66,7 +66,8 @@ def round_between(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> None:
     if I[masters.cut[m]] and I[masters.queued[m]] <= cut_left(I, m) + 1:
         I[moves.ahead[a]] = STOPS
         return
-    active: bool = look_active(I, m)
+    # Given without LOOK, a move keeps its final velocity: the path may be too near to stop.
+    active: bool = look_active(I, m) and F[moves.fvel_ups[a]] <= 0.0
     I[moves.ahead[a]] = STOPS if active else APART
     if not active and not I[moves.marks[a]] & MARK_ROUNDS:
         return

@@ -24,4 +24,5 @@ def set_of_move(card: Card, master: int, record: int, tolerance_u: float) -> Non
         raise CardError(INVALID_ARGUMENT)
     card.memory.F[moves.tolerance_u[record]] = tolerance_u
     if tolerance_u > 0.0:
+        card.memory.F[moves.fvel_ups[record]] = 0.0  # as with LOOK, see records
         card.memory.I[masters.rounding[master]] = 1

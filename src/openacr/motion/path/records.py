@@ -7,7 +7,7 @@ from openacr.compiled import pick
 from openacr.errors import CardError
 from openacr.kernel.path import path_cy, round_between_cy
 from openacr.map.rows import axes, masters, moves
-from openacr.map.words import mf1, mf2
+from openacr.map.words import mf1, mf2, mf4
 from openacr.messages import INVALID_ARC
 from openacr.motion.axis import settings
 from openacr.motion.card import Card
@@ -135,6 +135,10 @@ def _look_back(card: Card, master: int, record: int, queued: int) -> None:
     memory.F[moves.corner_turn[record]] = 0.0
     if memory.F[moves.tolerance_u[record]] > 0.0:
         memory.I[masters.rounding[master]] = 1
+        looks = memory.I[mf4.word[master]] & (mf4.LOOK_AHEAD_MODE | mf4.LOOK_AHEAD_NEGLECT)
+        if looks == mf4.LOOK_AHEAD_MODE and not memory.I[moves.curved[record]]:
+            # A rounded corner or a stop may come: no room is left for it before a final velocity.
+            memory.F[moves.fvel_ups[record]] = 0.0
 
 
 def _take_trigger(card: Card, master: int, record: int) -> None:
