@@ -25,7 +25,7 @@ from tests.kernel.path.test_late_corners import (
     keeps_limits,
     late_rig,
 )
-from tests.kernel.rig import Reals, Rig, T, examples
+from tests.kernel.rig import Reals, Rig, T, examples, stride
 
 from openacr.map import numbers as at
 from openacr.motion.path import buffer
@@ -160,3 +160,46 @@ def test_a_move_given_without_look_ends_with_its_final_velocity_though_look_come
     speed = np.linalg.norm(np.diff(runs[1], axis=0), axis=1)
     at_joint = speed[np.argmin(np.abs(runs[1][:, 0] - 6.0))] / T
     assert at_joint == pytest.approx(20.0, abs=1.0)
+
+
+EXACT = [[(3.0, 0.0), (3.0, 20.0), (3.0, -15.0), (1.0, 5.0)], [(1.5, 9.0)] * 7 + [(0.3, 9.0)]]
+
+
+def ramps(made: Rig, points: list[Point], tick: int, what: str) -> Reals:
+    """Changes of the speed along a path by time, with one switch."""
+    speeds = [0.0]
+
+    def meanwhile(now: int) -> None:
+        if now == tick:
+            switch(made, what)
+        speeds.append(made.path_velocity)
+
+    follow(made, points, meanwhile)
+    return np.asarray(np.abs(np.diff([*speeds, made.path_velocity])) / T)
+
+
+@pytest.mark.parametrize("share", [(1.0, 1.0), (1.0, 0.5), (0.6, 1.0)])
+@pytest.mark.parametrize("what", ["off", "neglect"])
+@pytest.mark.parametrize("jrk", [0.0, JRK])
+@pytest.mark.parametrize("legs", EXACT)
+def test_look_off_at_any_tick_leaves_exact_corners_their_room_to_brake(
+    legs: list[tuple[float, float]], jrk: float, what: str, share: tuple[float, float]
+) -> None:
+    points = chain(legs)
+    for tick in range(1, len(follow(rig(0.0, jrk=jrk), points)), stride(3)):
+        made = rig(0.0, jrk=jrk).master(dec=1000 * share[0], stp=1000 * share[1])
+        assert ramps(made, points, tick, what).max() <= 1000 * (1 + 1e-6)
+
+
+@pytest.mark.parametrize(
+    ("tick", "passed"), [(20, 0), (60, 0), (120, 1), (150, 1), (155, 2), (222, 3)]
+)
+def test_look_off_ends_the_path_at_the_first_exact_corner_before_which_there_is_room(
+    tick: int, passed: int
+) -> None:
+    """Of legs of 3 units, by 1000 units/s^2: the last one, of 1 unit, is too short to stop on."""
+    points = chain(EXACT[0])
+    places = switched(rig(0.0), points, [(tick, "off")], on=True)
+    slow = np.linalg.norm(np.diff(places, axis=0), axis=1) / T < 1.0
+    at = [bool(slow[np.argmin(np.linalg.norm(places - each, axis=1)) - 1]) for each in points[:3]]
+    assert at == [False] * passed + [True] * (3 - passed)

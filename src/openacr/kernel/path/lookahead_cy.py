@@ -48,6 +48,7 @@ AS_LOOK = 0  # nothing: LOOK rules as it is when the path comes there
 JOINED = 1  # the path goes on, through a rounded corner or straight
 STOPS = 2  # a corner with a tolerance that is better passed by a stop
 APART = 3  # the move ends as moves do without LOOK
+BY_LOOK = 4  # LOOK rules, and has planned to go on: too late to end there when LOOK goes off
 
 
 def look_active(I: I32, m: int) -> bool:
@@ -64,7 +65,9 @@ def look_beyond(I: I32, m: int, record: int) -> bool:
 
 def look_through(F: F64, I: I32, m: int, record: int) -> bool:
     """Whether plans may run beyond a move: with look-ahead, and along SPLINE and NURB always."""
-    return look_plain(F, I, record) and (look_active(I, m) or is_bezier(I, record))
+    if not look_plain(F, I, record):
+        return False
+    return look_active(I, m) or is_bezier(I, record) or I[moves.ahead[record]] == BY_LOOK
 
 
 def same_curve(I: I32, a: int, b: int) -> bool:
@@ -214,6 +217,8 @@ def look_entry(F: F64, I: I32, S: F32, m: int, first: int) -> float:
             entry_ups: float = ramp_start(max(length_u, 0.0), end_ups, rate_ups2, jerk_ups3)
             end_ups = min(corner_ups, min(entry_ups, cap_ups))
             rate_ups2 = look_rate(F, a)
+            if I[moves.ahead[a]] == AS_LOOK and not look_through(F, I, m, a):
+                rate_ups2 = F[moves.stp_ups2[a]]
             length_u = F[moves.length_u[a]]
             length_u -= F[moves.corner_u[a]]
             cap_ups = look_speed(F, I, S, m, a)
@@ -231,7 +236,10 @@ def look_scan(F: F64, I: I32, S: F32, m: int) -> None:
     velocity_ups: float = look_speed(F, I, S, m, a)
     k: int = 1
     corner_ups: float = 0.0
+    active: bool = look_active(I, m)
     while k < queued:
+        if active and I[moves.ahead[a]] == AS_LOOK:
+            I[moves.ahead[a]] = BY_LOOK
         b: int = look_record(I, m, k)
         corner_ups = look_corner(F, I, S, m, a, b)
         if not look_merges(F, I, S, m, a, b, corner_ups):

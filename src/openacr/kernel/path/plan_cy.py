@@ -1,6 +1,9 @@
 """Plan the path of a master from where it is: the present move, or all that look-ahead joins."""
 
 from openacr.kernel.path.lookahead_cy import (
+    AS_LOOK,
+    BY_LOOK,
+    look_active,
     look_rate,
     look_record,
     look_scan,
@@ -10,11 +13,14 @@ from openacr.kernel.path.path_cy import master_limit, move_final_ups, move_recor
 from openacr.kernel.path.round_corner_cy import round_decelerate
 from openacr.kernel.path.round_cy import round_plan, round_through
 from openacr.kernel.profile.profile_cy import profile_plan
+from openacr.kernel.profile.ramps_cy import ramp_distance
 from openacr.map.rows import masters, moves, profiles
 from openacr.map.words import mf1, mf4
 from openacr.views import F32, F64, I32
 
 __all__ = ["master_plan"]
+
+ROUNDING = 1e-6  # of a distance
 
 
 def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
@@ -25,6 +31,8 @@ def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
         round_plan(F, I, S, m)
         return
     I[masters.piece[m]] = 0
+    if not look_active(I, m) and look_before(I, m, record):
+        look_leave(F, I, S, m)
     if look_through(F, I, m, record):
         look_scan(F, I, S, m)
         look_plan(F, I, S, m)
@@ -44,6 +52,52 @@ def master_plan(F: F64, I: I32, S: F32, m: int) -> None:
         F[moves.stp_ups2[record]],
         F[moves.jrk_ups3[record]],
     )
+
+
+def look_before(I: I32, m: int, record: int) -> bool:
+    """Whether LOOK has planned the path to go on beyond a move, or into it."""
+    before: int = I[masters.head[m]] - 1
+    if before < 0:
+        before = I[masters.size[m]] - 1
+    before += I[masters.first[m]]
+    return I[moves.ahead[record]] == BY_LOOK or I[moves.ahead[before]] == BY_LOOK
+
+
+def look_leave(F: F64, I: I32, S: F32, m: int) -> None:
+    """LOOK was switched off under way: its law rules on to the first junction with room before it.
+
+    From there on the moves end as without LOOK.
+    """
+    queued: int = I[masters.queued[m]]
+    for k in range(queued):
+        if I[moves.ahead[look_record(I, m, k)]] == BY_LOOK:
+            I[moves.ahead[look_record(I, m, k)]] = AS_LOOK
+    for k in range(queued - 1):
+        look_scan(F, I, S, m)
+        if look_fits(F, I, m):
+            return
+        if I[moves.ahead[look_record(I, m, k)]] == AS_LOOK:
+            I[moves.ahead[look_record(I, m, k)]] = BY_LOOK
+
+
+def look_fits(F: F64, I: I32, m: int) -> bool:
+    """Whether the path slows down to the speed at the end of the section that was found."""
+    section: int = I[masters.section_cnt[m]]
+    last: int = look_record(I, m, section - 1)
+    velocity_ups: float = F[profiles.velocity[m]]
+    leaving_ups: float = min(F[masters.look_exit_ups[m]], velocity_ups)
+    rate_ups2: float = F[moves.stp_ups2[last]]
+    if section < I[masters.queued[m]] and I[moves.ahead[last]] != AS_LOOK:
+        rate_ups2 = look_rate(F, last)
+    if rate_ups2 <= 0.0:
+        return True
+    room_u: float = (F[masters.section_u[m]] - F[profiles.distance[m]]) * (1.0 + ROUNDING)
+    jerk_ups3: float = F[moves.jrk_ups3[last]]
+    if jerk_ups3 <= 0.0:
+        change_v2: float = velocity_ups * velocity_ups - leaving_ups * leaving_ups
+        return change_v2 <= 2.0 * rate_ups2 * room_u
+    accel_ups2: float = F[profiles.accel[m]]
+    return ramp_distance(velocity_ups, accel_ups2, leaving_ups, rate_ups2, jerk_ups3) <= room_u
 
 
 def look_rebase(F: F64, m: int) -> None:
@@ -92,6 +146,9 @@ def look_refresh(F: F64, I: I32, S: F32, m: int) -> None:
     I[masters.look_dirty[m]] = 0
     if round_through(F, I, m, move_record(I, m)):
         round_plan(F, I, S, m)
+        return
+    if not look_active(I, m) and look_before(I, m, move_record(I, m)):
+        master_plan(F, I, S, m)
         return
     if not look_through(F, I, m, move_record(I, m)):
         return
