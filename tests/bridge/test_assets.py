@@ -1,5 +1,6 @@
 """Cutting tools as assets of the MTConnect agent: documents, what is noted, what is refused."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from xml.etree import ElementTree as ET
@@ -12,6 +13,17 @@ from openacr.mill.config.tools import Tip, Tool
 
 ASSETS = "{urn:mtconnect.org:MTConnectAssets:1.8}"
 SMALL, LARGE = Tool(3, 3.0, 50.25, Tip.FLAT), Tool(12, None, -7.5, Tip.BALL)
+# The order of the standard (MTConnect 1.8, Part 4.1), values as its schema of assets lists them.
+LIFE_CYCLE = (
+    "CutterStatus", "ReconditionCount", "ToolLife", "ProgramToolGroup", "ProgramToolNumber",
+    "Location", "ProcessSpindleSpeed", "ProcessFeedRate", "ConnectionCodeMachineSide",
+    "Measurements", "CuttingItems",
+)  # fmt: skip
+LOCATIONS = {
+    "POT", "STATION", "CRIB", "SPINDLE", "TRANSFER_POT", "RETURN_POT", "STAGING_POT", "REMOVAL_POT",
+    "EXPIRED_POT", "END_EFFECTOR",
+}  # fmt: skip
+MEASURED = re.compile(r"[+-]?\d+(\.\d+)?([Ee][+-]?\d+)?")
 
 
 @pytest.fixture
@@ -64,6 +76,7 @@ def test_every_tool_of_the_table_is_a_cutting_tool(agent: str) -> None:
         ("CutterStatus", {}, None),
         ("Status", {}, "UNKNOWN"),
         ("ProgramToolNumber", {}, "3"),
+        ("Location", {"type": "SPINDLE"}, "0"),
         ("Measurements", {}, None),
         ("CuttingDiameterMax", {"code": "DC", "units": "MILLIMETER"}, "6"),
         ("FunctionalLength", {"code": "LF", "units": "MILLIMETER"}, "50.25"),
@@ -75,6 +88,71 @@ def test_every_tool_of_the_table_is_a_cutting_tool(agent: str) -> None:
         ("FunctionalLength", "-7.5"),
     ]  # fmt: skip
     assert other[0].text == "ball end"
+
+
+def life_cycle(agent: str, name: str) -> ET.Element:
+    """The life cycle of a tool, in the form the schema asks for."""
+    found = asked(agent, f"asset/{name}")[1][0].find(f"{ASSETS}CuttingToolLifeCycle")
+    assert found is not None
+    tags = [each.tag.removeprefix(ASSETS) for each in found]
+    assert tags == sorted(set(tags), key=LIFE_CYCLE.index)
+    for life in found.iter(f"{ASSETS}ToolLife"):
+        assert set(life.attrib) == {"type", "countDirection"}
+        assert (life.attrib["type"], life.attrib["countDirection"]) == ("WEAR", "UP")
+        assert float(life.text or "") > 0.0
+    for place in found.iter(f"{ASSETS}Location"):
+        assert place.attrib["type"] in LOCATIONS
+        assert str(int(place.text or "")) == place.text
+    (sizes,) = found.iter(f"{ASSETS}Measurements")
+    assert len(sizes) > 0
+    assert all(MEASURED.fullmatch(size.text or "") for size in sizes)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("radius_wear_u", "length_wear_u", "life"),
+    [(-0.01, 0.0, "0.02"), (0.0, -0.25, "0.25"), (-0.2, 0.25, "0.4"), (0.0, 0.0, None)],
+)
+def test_the_life_of_a_tool_is_its_greater_wear_and_its_sizes_have_nominal_ones(
+    agent: str, feed: GivenFeed, radius_wear_u: float, length_wear_u: float, life: str | None
+) -> None:
+    worn = replace(
+        SMALL, radius_u=3.0 + radius_wear_u, length_u=50.25 + length_wear_u,
+        radius_wear_u=radius_wear_u, length_wear_u=length_wear_u,
+    )  # fmt: skip
+    changed(agent, feed, worn, replace(LARGE, length_u=-7.25))
+    found = life_cycle(agent, "mill.T3")
+    shown = [each.text for each in found.iter(f"{ASSETS}ToolLife")]
+    assert shown == ([] if life is None else [life])
+    (sizes,) = found.iter(f"{ASSETS}Measurements")
+    assert [float(size.text or "") for size in sizes] == [
+        pytest.approx(6.0 + 2.0 * radius_wear_u), pytest.approx(50.25 + length_wear_u),
+    ]  # fmt: skip
+    assert [size.get("nominal") for size in sizes] == [
+        "6" if radius_wear_u else None, "50.25" if length_wear_u else None,
+    ]  # fmt: skip
+
+
+def test_the_place_of_the_tool_in_the_spindle_is_known_and_no_other(
+    agent: str, feed: GivenFeed
+) -> None:
+    def in_spindle() -> list[str]:
+        names = ("mill.T3", "mill.T12")
+        return [n for n in names if list(life_cycle(agent, n).iter(f"{ASSETS}Location"))]
+
+    def load(tool: int | None) -> list[tuple[str, str | None]]:
+        begin = int(head(asked(agent, "current"))["nextSequence"])
+        assert feed.moment.run is not None
+        run = replace(feed.moment.run, tool=tool or 0)
+        feed.moment = replace(feed.moment, run=run)
+        until(lambda: current(agent)["tool"].text == str(tool or 0))
+        return sorted(noted(agent, begin))
+
+    assert in_spindle() == ["mill.T3"]
+    assert load(12) == [("AssetChanged", "mill.T12"), ("AssetChanged", "mill.T3")]
+    assert in_spindle() == ["mill.T12"]
+    assert load(None) == [("AssetChanged", "mill.T12")]
+    assert in_spindle() == []
 
 
 def test_assets_are_counted_in_the_headers(agent: str) -> None:

@@ -68,13 +68,16 @@ class Folder:
 
     def serve(self, words: list[str]) -> str:
         """The server, on free ports; it prints those of the page."""
-        ports = ["--ascii-port", "0", "--binary-port", "0"]
+        ports = ["--ascii-port", "0", "--binary-port", "0", "--status-port", "0"]
         self.server = subprocess.Popen(
             [*OPENACR, *words, *ports], cwd=self.path, stdout=subprocess.PIPE, text=True
         )
         line = self.output().readline()
-        self.port, binary = re.findall(r"127\.0\.0\.1:(\d+)", line)
-        return line.replace(self.port, "5002").replace(binary, "5006")
+        found = re.findall(r"127\.0\.0\.1:(\d+)", line)
+        self.port = found[0]
+        for port, shown in zip(found, ("5002", "5006", "5003"), strict=True):
+            line = line.replace(f":{port}", f":{shown}")
+        return line
 
     def output(self) -> IO[str]:
         assert self.server is not None and self.server.stdout is not None

@@ -20,9 +20,9 @@ def test_a_tool_is_there_when_its_radius_its_length_or_a_wear_is_entered() -> No
         cells.write(TOOL.tip[4], 1)
         cells.write(CELLS.d_radius[400], 8.0)
         assert table.read() == (
-            Tool(1, 2.875, None, Tip.BALL),
-            Tool(2, None, 0.25, Tip.FLAT),
-            Tool(3, 0.5, None, Tip.FLAT),
+            Tool(1, 2.875, None, Tip.BALL, radius_wear_u=-0.125),
+            Tool(2, None, 0.25, Tip.FLAT, length_wear_u=0.25),
+            Tool(3, 0.5, None, Tip.FLAT, radius_wear_u=0.5),
             Tool(400, 8.0, None, Tip.FLAT),
             Tool(999, None, 10.0, Tip.FLAT),
         )
@@ -34,12 +34,12 @@ def test_a_table_follows_what_is_stored_after_it_was_read() -> None:
         table = ToolTable(cells)
         cells.write(CELLS.h_length[5], 40.0)
         cells.write(CELLS.h_wear[5], 0.5)
-        assert table.read() == (Tool(5, None, 40.5, Tip.FLAT),)
-        assert table.read() == (Tool(5, None, 40.5, Tip.FLAT),)
+        assert table.read() == (Tool(5, None, 40.5, Tip.FLAT, 0.0, 0.5),)
+        assert table.read() == (Tool(5, None, 40.5, Tip.FLAT, 0.0, 0.5),)
         cells.write(TOOL.tip[5], 1)
-        assert table.read() == (Tool(5, None, 40.5, Tip.BALL),)
+        assert table.read() == (Tool(5, None, 40.5, Tip.BALL, 0.0, 0.5),)
         cells.write(CELLS.h_length[5], 0.0)
-        assert table.read() == (Tool(5, None, 0.5, Tip.BALL),)
+        assert table.read() == (Tool(5, None, 0.5, Tip.BALL, 0.0, 0.5),)
         cells.write(CELLS.h_wear[5], 0.0)
         assert table.read() == ()
 

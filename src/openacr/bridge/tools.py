@@ -8,12 +8,14 @@ from openacr.mill.config.tools import Tip, Tool
 
 @dataclass(frozen=True, slots=True)
 class CuttingTool:
-    """A tool of the tool table; None: that size is not entered."""
+    """A tool of the tool table, its sizes with their wear; None: that size is not entered."""
 
     number: int
     diameter_mm: float | None
     length_mm: float | None
     tip: Tip
+    diameter_wear_mm: float = 0.0
+    length_wear_mm: float = 0.0
 
     def __str__(self) -> str:
         return f"T{self.number} {self.text}"
@@ -22,6 +24,11 @@ class CuttingTool:
     def sizes_mm(self) -> tuple[float | None, float | None]:
         """Diameter and length."""
         return self.diameter_mm, self.length_mm
+
+    @property
+    def wears_mm(self) -> tuple[float, float]:
+        """The parts of diameter and length that are wear."""
+        return self.diameter_wear_mm, self.length_wear_mm
 
     @property
     def text(self) -> str:
@@ -46,4 +53,5 @@ def cutting_tools(moment: Moment) -> tuple[CuttingTool, ...] | None:
 def _cutting_tool(tool: Tool, mm_per_unit: float) -> CuttingTool:
     diameter_mm = None if tool.radius_u is None else 2.0 * tool.radius_u * mm_per_unit
     length_mm = None if tool.length_u is None else tool.length_u * mm_per_unit
-    return CuttingTool(tool.number, diameter_mm, length_mm, tool.tip)
+    wears_mm = (2.0 * tool.radius_wear_u * mm_per_unit, tool.length_wear_u * mm_per_unit)
+    return CuttingTool(tool.number, diameter_mm, length_mm, tool.tip, *wears_mm)

@@ -48,6 +48,7 @@ class MTConnectSystem:
         rows = [*map(data_item, items), REMOVED, *OF_AGENT]
         self._available = next(k for k, item in enumerate(items) if item.name == "available")
         self._tools = next(k for k, item in enumerate(items) if item.row.kind is Kind.TOOLS)
+        self._tool = next(k for k, item in enumerate(items) if item.name == "tool")
         self._removed, self._connection = rows.index(REMOVED), rows.index(CONNECTION)
         self._assets = Assets(machine)
         self._instance, self._began = epoch_ms() // 1000, stamp()
@@ -74,18 +75,20 @@ class MTConnectSystem:
         if self._available in changed:
             connection = CONNECTIONS[bool(readings[self._available])]
             self._buffer.put([(self._connection, connection)], now)
-        if self._tools in changed:
-            self._note_tools(readings[self._tools], now)
+        if not {self._tools, self._tool}.isdisjoint(changed):
+            self._note_tools(readings[self._tools], readings[self._tool], now)
         if self._buffer.next != before:
             news, self._news = self._news, asyncio.Event()
             news.set()
 
-    def _note_tools(self, tools: Value, now: str) -> None:
+    def _note_tools(self, tools: Value, in_spindle: Value, now: str) -> None:
         """Note what has changed in the tool table; unknown, its assets are kept as they were."""
         if not isinstance(tools, tuple):
             self._buffer.put([(self._tools, None), (self._removed, None)], now)
             return
-        found = self._assets.update((each for each in tools if isinstance(each, CuttingTool)), now)
+        table = [each for each in tools if isinstance(each, CuttingTool)]
+        number = in_spindle if isinstance(in_spindle, int) else None
+        found = self._assets.update(table, number, now)
         for name in found.removed:
             self._buffer.note_asset(self._removed, name, now)
         if self._buffer.value(self._tools) in found.removed:

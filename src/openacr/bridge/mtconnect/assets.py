@@ -10,11 +10,12 @@ from openacr.mill.config.tools import MOST_TOOLS
 
 @dataclass(frozen=True, slots=True)
 class Asset:
-    """A tool, and when it was last changed."""
+    """A tool, where it is, and when it was last changed."""
 
     id: str
     stamp: str
     tool: CuttingTool
+    is_in_spindle: bool = False
     is_removed: bool = False
 
 
@@ -41,22 +42,25 @@ class Assets:
         """How many there are, without the removed ones."""
         return sum(not each.is_removed for each in self._kept.values())
 
-    def update(self, tools: Iterable[CuttingTool], stamp: str) -> Changes:
-        """Take over the tool table as it is now."""
+    def update(self, tools: Iterable[CuttingTool], in_spindle: int | None, stamp: str) -> Changes:
+        """Take over the tool table as it is now, and the number of the tool in the spindle."""
         table = {f"{self._machine}.T{tool.number}": tool for tool in tools}
         gone = [each for each in self._kept.values() if each.id not in table]
         removed = [each for each in gone if not each.is_removed]
         for each in removed:
             self._kept[each.id] = replace(each, stamp=stamp, is_removed=True)
-        changed = [name for name, tool in table.items() if not self._has(name, tool)]
-        for name in changed:
-            self._kept.pop(name, None)
-            self._kept[name] = Asset(name, stamp, table[name])
-        return Changes(tuple(changed), tuple(each.id for each in removed))
+        assets = (
+            Asset(name, stamp, tool, tool.number == in_spindle) for name, tool in table.items()
+        )
+        changed = [each for each in assets if not self._has(each)]
+        for each in changed:
+            self._kept.pop(each.id, None)
+            self._kept[each.id] = each
+        return Changes(tuple(each.id for each in changed), tuple(each.id for each in removed))
 
-    def _has(self, name: str, tool: CuttingTool) -> bool:
-        kept = self._kept.get(name)
-        return kept is not None and not kept.is_removed and kept.tool == tool
+    def _has(self, asset: Asset) -> bool:
+        kept = self._kept.get(asset.id)
+        return kept is not None and replace(kept, stamp=asset.stamp) == asset
 
     def named(self, name: str) -> Asset | None:
         """The asset with an id, a removed one as well."""

@@ -130,18 +130,32 @@ def assets(found: Iterable[Asset], uuid: str) -> ET.Element:
             shown["removed"] = "true"
         one = ET.SubElement(body, CUTTING_TOOL, shown)
         ET.SubElement(one, "Description").text = f"{each.tool.tip.name.lower()} end"
-        cycle = ET.SubElement(one, "CuttingToolLifeCycle")
-        ET.SubElement(ET.SubElement(cycle, "CutterStatus"), "Status").text = "UNKNOWN"
-        ET.SubElement(cycle, "ProgramToolNumber").text = str(each.tool.number)
-        sizes = ET.SubElement(cycle, "Measurements")
-        for (name, code), size_mm in zip(SIZES, each.tool.sizes_mm, strict=True):
-            if size_mm is not None:
-                row = ET.SubElement(sizes, name, {"code": code, "units": "MILLIMETER"})
-                row.text = f"{size_mm:.9g}"
+        one.append(_life_cycle(each))
     return body
 
 
+def _life_cycle(asset: Asset) -> ET.Element:
+    """What changes with the use of a tool, in the order of the standard."""
+    cycle, tool = ET.Element("CuttingToolLifeCycle"), asset.tool
+    ET.SubElement(ET.SubElement(cycle, "CutterStatus"), "Status").text = "UNKNOWN"
+    if (wear_mm := max(map(abs, tool.wears_mm))) > 0.0:
+        life = ET.SubElement(cycle, "ToolLife", {"type": "WEAR", "countDirection": "UP"})
+        life.text = f"{wear_mm:.9g}"
+    ET.SubElement(cycle, "ProgramToolNumber").text = str(tool.number)
+    if asset.is_in_spindle:
+        ET.SubElement(cycle, "Location", {"type": "SPINDLE"}).text = ONLY_SPINDLE
+    sizes = ET.SubElement(cycle, "Measurements")
+    for (name, code), size_mm, worn_mm in zip(SIZES, tool.sizes_mm, tool.wears_mm, strict=True):
+        if size_mm is not None:
+            row = ET.SubElement(sizes, name, {"code": code, "units": "MILLIMETER"})
+            row.text = f"{size_mm:.9g}"
+            if worn_mm:
+                row.set("nominal", f"{size_mm - worn_mm:.9g}")
+    return cycle
+
+
 SIZES = (("CuttingDiameterMax", "DC"), ("FunctionalLength", "LF"))  # codes of ISO 13399
+ONLY_SPINDLE = "0"
 
 
 def errors(code: str, text: str) -> ET.Element:

@@ -24,12 +24,14 @@ class Tip(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Tool:
-    """A tool whose radius or length is entered; None: that one is not."""
+    """A tool whose radius or length is entered, each with its wear; None: that one is not."""
 
     number: int
     radius_u: float | None
     length_u: float | None
     tip: Tip
+    radius_wear_u: float = 0.0
+    length_wear_u: float = 0.0
 
 
 def radius_u(read: Read, number: int) -> float:
@@ -43,7 +45,10 @@ def tool_at(read: Read, number: int) -> Tool | None:
     length = _entered(read, number, CELLS.h_length, CELLS.h_wear)
     if radius is None and length is None:
         return None
-    return Tool(number, radius, length, Tip(int(read(TOOL.tip[number]))))
+    worn_radius = 0.0 if radius is None else read(CELLS.d_wear[number])
+    worn_length = 0.0 if length is None else read(CELLS.h_wear[number])
+    tip = Tip(int(read(TOOL.tip[number])))
+    return Tool(number, radius, length, tip, worn_radius, worn_length)
 
 
 def _entered(read: Read, number: int, sizes: range, wears: range) -> float | None:
