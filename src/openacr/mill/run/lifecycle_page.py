@@ -26,7 +26,8 @@ TABLE = """
 
 An event that is not listed for a state is refused and changes nothing. If an action refuses,
 the state stays; endings (bold) are entered even if their action fails halfway.
-A feed hold during homing raises alarm 34, which is `FAULT`.
+A feed hold during homing raises alarm 34, which is `FAULT`. RESUME given in HOLD is `CYCLE_START`,
+START given in PAUSED is `RESUME`.
 
 """
 
