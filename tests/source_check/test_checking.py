@@ -321,6 +321,42 @@ def test_a_cam_of_an_axis_that_there_is_not_has_one_fault(tmp_path: Path) -> Non
     assert hints == [(line, "the card has axes 0 to 7") for line in (2, 3)]
 
 
+@pytest.mark.parametrize("model", ["ACR8000", "ACR8020", "ACR9000"])
+def test_objects_that_the_card_does_not_have_are_found_as_the_card_refuses_them(
+    tmp_path: Path, model: str
+) -> None:
+    objects = (
+        *("CMT{} MODE 1", "CMT{} ON", "DAC{} GAIN 1"),
+        *("ENC{} MULT 4", "ENC{}", "ADC{}"),
+    )
+    lines = [text.format(n) for text in objects for n in (0, 7, 8, 15, 16, 19, 20)]
+    lines += [f"ATTACH AXIS{n} ENC0 DAC0" for n in (7, 8, 15, 16)]
+    lines += [f"ATTACH AXIS0 ENC{n} DAC0 ENC{n}" for n in (19, 20)]
+    lines += [f"ATTACH AXIS0 ENC0 {word}" for word in ("CMT0", "CMT8", "DAC15", "DAC16")]
+    lines += [f"ATTACH AXIS0 STEPPER{n} STEPPER{n}" for n in (7, 8, 16)]
+    lines += [f"MASTER{n} VEL 5" for n in (7, 8, 16)] + [
+        "MASTER(99) VEL 5",
+        "enc (20) res 0",
+        "ENC20 SRC 0",
+    ]
+    lines += ["PROG0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"', "SRC ENC19", "SRC ENC20"]
+    lines += ["GEAR SRC X ENC20", "GEAR SRC X ADC16", "GEAR SRC X CLK", "AXIS16 GEAR SRC CLK"]
+    (tmp_path / "machine.toml").write_text(f'[card]\nmodel = "{model}"\n')
+    (tmp_path / "setup.8k").write_text("\n".join(["SYS", *lines, ""]))
+    found = [(each.line - 1, each.message) for each in check(tmp_path)]
+    card = Controller(model)
+    answers = [card.send(f"{line}\r").splitlines()[1:-1] for line in lines]
+    refused = [(n, said[0]) for n, said in enumerate(answers, 1) if said and "nvalid" in said[0]]
+    assert found == refused
+    assert {lines[n - 1][:3] for n, _ in found} >= {"ENC", "DAC", "ADC", "CMT", "ATT", "MAS", "SRC"}
+
+
+@pytest.mark.parametrize("line", ["ENC20 RES 0", "enc20 res 0", "SET 40 : DAC (16) GAIN 1"])
+def test_objects_in_stored_programs_are_looked_at_too(tmp_path: Path, line: str) -> None:
+    (tmp_path / "prog0.8k").write_text(f"PROGRAM\nENC19 RES 0\n{line}\nENDP\n")
+    assert [(each.line, each.message) for each in check(tmp_path)] == [(3, "Invalid argument")]
+
+
 def test_a_program_file_is_checked_that_takes_the_place_of_a_text_of_the_set_up(
     tmp_path: Path,
 ) -> None:

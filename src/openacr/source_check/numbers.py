@@ -1,9 +1,10 @@
-"""Parameters, flags and axes of a file that no card, or not this one, has."""
+"""Parameters, flags, axes and other objects of a file that no card, or not this one, has."""
 
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import fields, is_dataclass
 from functools import cache
+from itertools import pairwise
 
 from openacr.basic.language.cursor import StatementError
 from openacr.basic.language.grammar.flags import BitItem
@@ -25,23 +26,42 @@ from openacr.lang.lexer import Token, TokenKind
 from openacr.lang.source import Span
 from openacr.map.memory import kind_table
 from openacr.map.numbers import FLAG_LAST, KIND_NONE, USER_COUNT
-from openacr.messages import INVALID_ARGUMENT, INVALID_BIT, INVALID_PARAMETER, Message
+from openacr.messages import (
+    INVALID_ARGUMENT,
+    INVALID_BIT,
+    INVALID_PARAMETER,
+    INVALID_SOURCE,
+    Message,
+)
+from openacr.models import Model
 from openacr.source_check.cutoffs import statements
 from openacr.source_check.texts import Finding
 
-_NAMES = re.compile(r"(?<![A-Za-z$])(?:P|BIT|SET|CLR|INH|TRG|INT|AXIS)[ \t(+-]*\d", re.IGNORECASE)
-_AXIS = re.compile(r"(?<![A-Za-z$])AXIS[ \t(]*(\d+)", re.IGNORECASE)
+_OBJECTS = {  # word: count of a model, and what they are called
+    "AXIS": ("axes", "axes"),
+    "MASTER": ("masters", "masters"),
+    "ENC": ("encoders", "encoders"),
+    "DAC": ("dacs", "analog outputs"),
+    "ADC": ("adcs", "analog inputs"),
+    "STEPPER": ("axes", "steppers"),
+    "CMT": ("commutators", "commutators"),
+}
+_WORDS = "|".join(_OBJECTS)
+_NAMES = re.compile(
+    rf"(?<![A-Za-z$])(?:P|BIT|SET|CLR|INH|TRG|INT|{_WORDS})[ \t(+-]*\d", re.IGNORECASE
+)
+_OBJECT = re.compile(rf"(?<![A-Za-z$])({_WORDS})[ \t(]*(\d+)", re.IGNORECASE)
 _INTEGER = re.compile(r"\d+")
 _LONGEST = 18  # digits; more make no number of anything
 
 
-def is_doubtful(text: str, axes: int) -> bool:
+def is_doubtful(text: str, model: Model) -> bool:
     """Whether a line may name what there is not; cheap, for all lines of a long program."""
     if not _NAMES.search(text):
         return False
     if any(len(digits) > _LONGEST or _is_unused(int(digits)) for digits in _INTEGER.findall(text)):
         return True
-    return any(int(number) >= axes for number in _AXIS.findall(text))
+    return any(int(number) >= _count(model, word) for word, number in _OBJECT.findall(text))
 
 
 def literal(number: Expr) -> int | None:
@@ -51,30 +71,53 @@ def literal(number: Expr) -> int | None:
 
 
 def missing(
-    line: FileLine, found: Iterable[Token], blocks: tuple[Block, ...], axes: int
+    line: FileLine, found: Iterable[Token], blocks: tuple[Block, ...], model: Model
 ) -> Iterator[Finding]:
-    """An error for each literal number of a parameter, flag or axis that does not exist."""
+    """An error for each literal number of a parameter, flag or object that does not exist."""
     tokens = list(found)
     for statement in statements(blocks):
-        for number, message, hint in dict.fromkeys(_wrong(statement, axes)):
+        for number, message, hint in dict.fromkeys(_wrong(statement, model)):
             span = _place(tokens, statement, number)
             yield Finding(line, StatementError(message, span), hint=hint)
 
 
-def _wrong(statement: Statement, axes: int) -> Iterator[tuple[int, Message, str]]:
-    for node in _nodes((statement.arguments, statement.prefix)):
+def _wrong(statement: Statement, model: Model) -> Iterator[tuple[int, Message, str]]:
+    named = tuple(_objects(statement))
+    for node in _nodes((*named, statement.arguments, statement.prefix)):
         match node:
             case Parameter(Number(value)) if not _is_parameter(int(value)):
                 yield int(value), INVALID_PARAMETER, f"there is no parameter P{int(value)}"
             case Flag(Number(value)) | BitItem(Number(value)) if not abs(value) <= FLAG_LAST:
                 yield abs(int(value)), INVALID_BIT, f"flags are 0 to {FLAG_LAST}"
-            case AxisRef("AXIS", Number(value)) | Prefix("AXIS", Number(value)) if value >= axes:
-                yield int(value), INVALID_ARGUMENT, f"the card has axes 0 to {axes - 1}"
+            case (
+                AxisRef(word, Number(value)) | Prefix(word, Number(value)) | (word, Number(value))
+            ) if word in _OBJECTS and value >= _count(model, word):
+                is_source = statement.command.name.endswith("SRC") and isinstance(node, tuple)
+                message = INVALID_SOURCE if is_source and node not in named else INVALID_ARGUMENT
+                yield int(value), message, _what_there_is(model, word)
+
+
+def _objects(statement: Statement) -> Iterator[tuple[str, Expr]]:
+    """The objects that a command names itself: CMT 0 of CMT # MODE."""
+    words = statement.command.name.split()
+    named = (word for word, number in pairwise(words) if number == "#")
+    return zip(named, statement.indices, strict=False)
+
+
+def _count(model: Model, word: str) -> int:
+    count: int = getattr(model, _OBJECTS[word.upper()][0])
+    return count
+
+
+def _what_there_is(model: Model, word: str) -> str:
+    called, last = _OBJECTS[word][1], _count(model, word) - 1
+    return f"the card has {called} 0 to {last}" if last >= 0 else f"the card has no {called}"
 
 
 def _nodes(item: object) -> Iterator[object]:
     """A tree and all that is written in it; an alias was judged where it is defined."""
     if isinstance(item, tuple):
+        yield item
         for part in item:
             yield from _nodes(part)
     elif is_dataclass(item) and not isinstance(item, Command | Function | Alias | Statement):

@@ -264,7 +264,7 @@ class Reader:
             for finding in undimensioned(text, number, self.sizes, self.aliases):
                 self._report(finding)
             for line in text.in_order():
-                is_doubtful = numbers.is_doubtful(line.place.text, self.model.axes)
+                is_doubtful = numbers.is_doubtful(line.place.text, self.model)
                 if line.outline.is_judged or is_doubtful:
                     self._judge(line.place, line.tokens, self._tree_of(line))
         elif not text.lost:
@@ -283,7 +283,7 @@ class Reader:
         """What is wrong with a line that can be read."""
         if line.file is None or line.file is self._file:  # those of others have been judged
             self.cutoffs.note(line, tuple(found), blocks)
-        for finding in numbers.missing(line, found, blocks, self.model.axes):
+        for finding in numbers.missing(line, found, blocks, self.model):
             self._report(finding)
         self._warn(line, blocks)
 
