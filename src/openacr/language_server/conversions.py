@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 NO_FILES = Path("/no-file")  # where texts without a file would be
 SOURCE = "openacr"
+MOST_FINDINGS = 1000  # of a file: editors show no more
 ITEM_KINDS = {
     Kind.COMMAND: types.CompletionItemKind.Keyword,
     Kind.KEYWORD: types.CompletionItemKind.Operator,
@@ -114,6 +115,17 @@ class Columns:
             code=finding.code or None,
             source=SOURCE,
         )
+
+    def diagnostics(self, document: Document, found: list[Finding]) -> list[types.Diagnostic]:
+        """The findings of a file; of very many the first ones, errors before warnings."""
+        if len(found) <= MOST_FINDINGS:
+            return [self.diagnostic(document, each) for each in found]
+        ordered = sorted(found, key=lambda each: each.is_warning)
+        shown = [self.diagnostic(document, each) for each in ordered[:MOST_FINDINGS]]
+        where = self.range(document, ordered[MOST_FINDINGS].span)
+        text = f"{len(found) - MOST_FINDINGS} more findings are not shown"
+        severity = types.DiagnosticSeverity.Information
+        return [*shown, types.Diagnostic(where, text, severity=severity, source=SOURCE)]
 
     def completion(self, document: Document, found: Completion) -> types.CompletionList:
         """Proposals."""

@@ -24,11 +24,14 @@ FEATURES: list[tuple[str, Any, Callable[..., Any]]] = []
 
 
 def feature(method: str, options: Any = None) -> Callable[[Asked], Asked]:
-    """Enter a function as the answer to a method; a file that is not open has no answer."""
+    """Enter a function as the answer to a method; a file that is not open has no answer.
+
+    Each answer is a task: one that is withdrawn before its turn is not computed.
+    """
 
     def enter(asked: Asked) -> Asked:
         @wraps(asked)
-        def answer(ls: Server, params: Any) -> Any:
+        async def answer(ls: Server, params: Any) -> Any:
             try:
                 return asked(ls, params)
             except OpenacrError:
@@ -40,25 +43,35 @@ def feature(method: str, options: Any = None) -> Callable[[Asked], Asked]:
     return enter
 
 
+def notified(method: str) -> Callable[[Asked], Asked]:
+    """Enter a function as what follows from a notification, at once."""
+
+    def enter(asked: Asked) -> Asked:
+        FEATURES.append((method, None, asked))
+        return asked
+
+    return enter
+
+
 def register(server: Server) -> None:
     """Give a server all features."""
     for method, options, answer in FEATURES:
         server.feature(method, options)(answer)
 
 
-@feature(types.INITIALIZED)
+@notified(types.INITIALIZED)
 def initialized(ls: Server, params: types.InitializedParams) -> None:
     """Columns are counted as agreed from now on."""
     ls.agree()
 
 
-@feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
+@notified(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
 def watched(ls: Server, params: types.DidChangeWatchedFilesParams) -> None:
     """Files have changed on the disk."""
     ls.disk_changed()
 
 
-@feature(types.TEXT_DOCUMENT_DID_SAVE)
+@notified(types.TEXT_DOCUMENT_DID_SAVE)
 def saved(ls: Server, params: types.DidSaveTextDocumentParams) -> None:
     """A file was written."""
     ls.disk_changed()
@@ -246,6 +259,6 @@ def serve(server: Server, listener: socket.socket | None = None) -> None:
     """Serve one client over the standard streams, or the first that connects to a socket."""
     register(server)
     if listener is None:
-        server.start_io()
+        server.start_here()
     else:
         server.start_at(listener)

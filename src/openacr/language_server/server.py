@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import sys
 import threading
 from functools import cached_property
 from importlib.metadata import version
@@ -11,13 +12,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lsprotocol import types
-from pygls.io_ import run_async
+from pygls.io_ import StdoutWriter, run_async
 from pygls.lsp.server import LanguageServer
 
 from openacr.editing.document import Document, Edit, Place, units_of
 from openacr.language_server.checks import Checks
 from openacr.language_server.conversions import Columns, path_of, uri_of
 from openacr.language_server.protocol import Protocol
+from openacr.language_server.streams import stream_of
 
 if TYPE_CHECKING:
     import socket
@@ -61,18 +63,34 @@ class Server(LanguageServer):
         """Serve the first client of a socket that listens, until it leaves; no other gets in."""
         connection, _ = listener.accept()
         listener.close()
-        asyncio.run(self._answer(connection))
+        asyncio.run(self._serve_connection(connection))
 
-    async def _answer(self, connection: socket.socket) -> None:
-        self._stop_event = threading.Event()
+    def start_here(self) -> None:
+        """Serve the client at the standard streams, until it leaves."""
+        asyncio.run(self._serve_streams())
+
+    async def _serve_connection(self, connection: socket.socket) -> None:
         reader, writer = await asyncio.open_connection(sock=connection)
+        await self._answer(reader, writer)
+
+    async def _serve_streams(self) -> None:
+        # Unbuffered: a thread that waits in a buffer would hold its lock at the end.
+        incoming = open(sys.stdin.fileno(), "rb", buffering=0, closefd=False)
+        await self._answer(stream_of(incoming), StdoutWriter(sys.stdout.buffer))
+
+    async def _answer(
+        self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter | StdoutWriter
+    ) -> None:
+        self._stop_event = threading.Event()
         self.protocol.set_writer(writer)
         try:
             await run_async(
                 self._stop_event, reader, self.protocol, error_handler=self.report_server_error
             )
-        except OSError as failure:
-            logger.info("the client is gone: %s", failure)
+            for _ in range(2):  # what was asked last is computed, and sent
+                await asyncio.sleep(0)
+        except (OSError, EOFError, ValueError) as failure:
+            logger.warning("the client is gone: %s", failure)
         finally:
             self.shutdown()  # type: ignore[no-untyped-call]
             writer.close()
@@ -156,7 +174,7 @@ class Server(LanguageServer):
         self.text_document_publish_diagnostics(
             types.PublishDiagnosticsParams(
                 self.uri(path),
-                [self.columns.diagnostic(text, each) for each in found],
+                self.columns.diagnostics(text, found),
                 version=self._versions.get(path) if is_present else None,
             )
         )

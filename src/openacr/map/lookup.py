@@ -5,9 +5,10 @@ The tables load at the first question, so that importing the map stays cheap.
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import cache
 from typing import TypeVar
+
+from msgspec import Struct
 
 from openacr.errors import MapError
 from openacr.map.block import (
@@ -25,8 +26,7 @@ from openacr.map.block import (
 from openacr.map.flag_block import FlagBlock
 
 
-@dataclass(frozen=True, slots=True)
-class Parameter:
+class Parameter(Struct, frozen=True):
     """Everything known about one parameter; `index` tells which of several objects."""
 
     number: int
@@ -44,8 +44,7 @@ class Parameter:
     erratum: str
 
 
-@dataclass(frozen=True, slots=True)
-class Flag:
+class Flag(Struct, frozen=True):
     """Everything known about one flag; `printed` is the manual's own name for it."""
 
     number: int
