@@ -3,82 +3,99 @@
 Starts are CPU time of the server from its first import to its end: after the answer to
 `initialize`, and after the findings of a file of the gantry.
 
-The client of the keys is a program of its own: what is measured is real time from the message of
-the key, with a request for proposals after it, to the answer. The check of the file runs
-meanwhile, as in an editor.
+The client of the keys makes no objects of what it is sent, which would take longer than the server
+does: what is measured is real time from the message of the key, with a request for proposals
+after it, to the answer. The check of the file runs meanwhile, as in an editor.
 """
 
-import asyncio
 import os
 import statistics
+import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
-
-from lsprotocol import types
-from pygls.lsp.client import LanguageClient
+from typing import IO, cast
 
 from bench.cards import GANTRY
 from bench.check import program
 from bench.figures import RUNS, as_installed, at_most, children_s
+from openacr.debugger.wire import read_message, write_message
 
 LINES = 20_000
 KEYS = "SET 34 : JOG VEL X12"
+FINDINGS = "textDocument/publishDiagnostics"
 
 
-async def _started() -> LanguageClient:
-    """A client of a server that has answered `initialize`."""
-    client = LanguageClient("bench", "1")
-    await client.start_io(sys.executable, "-m", "openacr", "lsp", env=as_installed())
-    await client.initialize_async(types.InitializeParams(capabilities=types.ClientCapabilities()))
-    client.initialized(types.InitializedParams())
-    return client
+class Client:
+    """An editor without a window: a server that has answered `initialize`."""
+
+    def __init__(self) -> None:
+        command = [sys.executable, "-m", "openacr", "lsp"]
+        pipe = subprocess.PIPE
+        self._server = subprocess.Popen(command, stdin=pipe, stdout=pipe, env=as_installed())
+        self._out = cast("IO[bytes]", self._server.stdin)
+        self._in = cast("IO[bytes]", self._server.stdout)
+        self.ask("initialize", {"capabilities": {}})
+        self.tell("initialized", {})
+
+    def tell(self, method: str, params: object, **more: object) -> None:
+        """Send a notification."""
+        write_message(self._out, {"jsonrpc": "2.0", "method": method, "params": params, **more})
+
+    def ask(self, method: str, params: object) -> None:
+        """Send a request, and wait for its answer."""
+        self.tell(method, params, id=method)
+        self.wait("id", method)
+
+    def wait(self, key: str, value: str) -> None:
+        """Read up to the message that has this value, or to the end."""
+        while (message := read_message(self._in)) is not None and message.get(key) != value:
+            pass
+
+    def open(self, uri: str, text: str) -> None:
+        """Open a document."""
+        item = {"uri": uri, "languageId": "acrobasic", "version": 1, "text": text}
+        self.tell("textDocument/didOpen", {"textDocument": item})
+
+    def end(self) -> None:
+        """Shut the server down, and wait for its end."""
+        self.ask("shutdown", None)
+        self.tell("exit", None)
+        self._server.communicate()
 
 
-async def _ended(client: LanguageClient) -> None:
-    await client.shutdown_async(None)
-    client.exit(None)
-    await client.stop()
-
-
-async def _start(opened: Path | None = None) -> float:
+def _start(opened: Path | None = None) -> float:
     """CPU time of a server that answers `initialize`, and reports what it finds in a file."""
     used_s = children_s()
-    client = await _started()
+    client = Client()
     if opened is not None:
-        found = asyncio.Event()
-        client.feature(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)(lambda params: found.set())
-        item = types.TextDocumentItem(opened.as_uri(), "acrobasic", 1, opened.read_text())
-        client.text_document_did_open(types.DidOpenTextDocumentParams(item))
-        await found.wait()
-    await _ended(client)
+        client.open(opened.as_uri(), opened.read_text())
+        client.wait("method", FINDINGS)
+    client.end()
     return children_s() - used_s
 
 
-async def keys(path: Path) -> list[float]:
+def keys(path: Path) -> list[float]:
     """Seconds to the answer after each key."""
-    client = await _started()
-    client.feature(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)(lambda params: None)
+    client = Client()
     lines = program(LINES).split("\n")
     lines[LINES // 2] = ""
-    document = types.TextDocumentIdentifier(path.as_uri())
-    item = types.TextDocumentItem(document.uri, "acrobasic", 1, "\n".join(lines))
-    client.text_document_did_open(types.DidOpenTextDocumentParams(item))
-    found = [await _key(client, document, place) for place in range(len(KEYS))]
-    await _ended(client)
+    client.open(path.as_uri(), "\n".join(lines))
+    found = [_key(client, path.as_uri(), place) for place in range(len(KEYS))]
+    client.end()
     return found[1:]  # the first one waits for the tables
 
 
-async def _key(client: LanguageClient, document: types.TextDocumentIdentifier, at: int) -> float:
-    here, there = (types.Position(LINES // 2, at + more) for more in (0, 1))
-    change = types.TextDocumentContentChangePartial(types.Range(here, here), KEYS[at])
-    versioned = types.VersionedTextDocumentIdentifier(at + 2, document.uri)
+def _key(client: Client, uri: str, at: int) -> float:
+    here, there = ({"line": LINES // 2, "character": at + more} for more in (0, 1))
+    change = {"range": {"start": here, "end": here}, "text": KEYS[at]}
+    document = {"uri": uri, "version": at + 2}
     began = time.perf_counter()
-    client.text_document_did_change(types.DidChangeTextDocumentParams(versioned, [change]))
-    await client.text_document_completion_async(types.CompletionParams(document, there))
+    client.tell("textDocument/didChange", {"textDocument": document, "contentChanges": [change]})
+    client.ask("textDocument/completion", {"textDocument": {"uri": uri}, "position": there})
     took_s = time.perf_counter() - began
-    await asyncio.sleep(0.15 if at % 3 else 1.0)  # as keys come; checks begin between them
+    time.sleep(0.15 if at % 3 else 1.0)  # as keys come; checks begin between them
     return took_s
 
 
@@ -87,9 +104,9 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         os.environ["OPENACR_STORE"] = str(Path(folder, "sysvar.db"))
         for name, opened in (("answer", None), ("findings", GANTRY / "prog0.8k")):
-            used_s = min(asyncio.run(_start(opened)) for _ in range(RUNS))
+            used_s = min(_start(opened) for _ in range(RUNS))
             at_most(f"language server: start to the first {name}", used_s, 0.5, "s")
-        found = asyncio.run(keys(Path(folder, "prog0.8k")))
+        found = keys(Path(folder, "prog0.8k"))
     at_most("a key in 20,000 lines, usual", 1000 * statistics.median(found), 50.0, "ms")
     at_most("a key in 20,000 lines, the longest", 1000 * max(found), 50.0, "ms")
 

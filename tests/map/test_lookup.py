@@ -3,7 +3,18 @@
 import pytest
 
 from openacr.errors import MapError
-from openacr.map import find_flag, find_parameter, flag, flags, flags_of, parameter, parameters
+from openacr.map import (
+    find_flag,
+    find_parameter,
+    flag,
+    flag_names,
+    flags,
+    flags_of,
+    parameter,
+    parameter_names,
+    parameters,
+)
+from openacr.map.explain import has_meaning
 from openacr.map.tables import BLOCKS, FLAG_BLOCKS
 
 
@@ -81,3 +92,9 @@ def test_every_number_is_declared_once() -> None:
     words = sum(block.count for block in FLAG_BLOCKS)
     assert len(parameters()) == rows + words
     assert len(flags()) == 32 * words
+
+
+def test_names_without_rows_are_those_of_the_rows_that_are_described() -> None:
+    for names, rows in ((parameter_names(), parameters()), (flag_names(), flags())):
+        described = {n: row.name for n, row in rows.items() if has_meaning(row)}
+        assert list(names.items()) == list(described.items())

@@ -1,17 +1,22 @@
 """What an editor proposes while typing, and how a call is written."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import NamedTuple
 
 from openacr.editing.document import Span
 from openacr.editing.marks import Kind
 from openacr.editing.texts import short
-from openacr.map import explain, flags, parameters
-from openacr.map.lookup import Flag, Parameter
+from openacr.map import Flag, Parameter, flag, flag_names, parameter, parameter_names
 
 MOST_RECORDS = 100
 FEWEST_LETTERS = 3  # of a word that is looked for in names of parameters and flags
+_Rows = tuple[Callable[[int], Parameter | Flag], Callable[[], dict[int, str]], str]
+_RECORDS: dict[Kind, _Rows] = {
+    Kind.PARAMETER: (parameter, parameter_names, "P"),
+    Kind.FLAG: (flag, flag_names, "BIT"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,17 +59,14 @@ def beginning_with(typed: str, items: Iterable[Item]) -> list[Item]:
     return list(first.values())
 
 
-def by_number(records: Iterable[Parameter | Flag], digits: str, prefix: str) -> Iterator[Item]:
+def by_number(digits: str, kind: Kind) -> list[Item]:
     """Parameters or flags whose number begins with the digits typed so far."""
-    kind = Kind.FLAG if prefix == "BIT" else Kind.PARAMETER
-    count = 0
-    for record in records:
-        if str(record.number).startswith(digits) and explain.has_meaning(record):
-            name = str(record.number)
-            yield Item(f"{prefix}{name}", kind, short(record), name, name, record)
-            count += 1
-            if count == MOST_RECORDS:
-                return
+    row_of, names, prefix = _RECORDS[kind]
+    found = (str(number) for number in names() if str(number).startswith(digits))
+    return [
+        Item(f"{prefix}{name}", kind, short(row := row_of(int(name))), name, name, row)
+        for name in islice(found, MOST_RECORDS)
+    ]
 
 
 def by_name(word: str) -> Iterator[Item]:
@@ -72,13 +74,8 @@ def by_name(word: str) -> Iterator[Item]:
     if len(word) < FEWEST_LETTERS:
         return
     wanted = word.lower()
-    for records, kind in ((parameters(), Kind.PARAMETER), (flags(), Kind.FLAG)):
-        count = 0
-        prefix = "P" if kind is Kind.PARAMETER else "BIT"
-        for record in records.values():
-            if wanted in record.name.lower() and explain.has_meaning(record):
-                name = f"{prefix}{record.number}"
-                yield Item(f"{short(record)} ({name})", kind, name, name, word, record)
-                count += 1
-                if count == MOST_RECORDS:
-                    break
+    for kind, (row_of, names, prefix) in _RECORDS.items():
+        found = (number for number, name in names().items() if wanted in name.lower())
+        for number in islice(found, MOST_RECORDS):
+            row, name = row_of(number), f"{prefix}{number}"
+            yield Item(f"{short(row)} ({name})", kind, name, name, word, row)

@@ -22,7 +22,6 @@ from openacr.editing.outlines import Entry, Fold
 from openacr.editing.symbols import Finding, Fix, Location
 from openacr.editing.texts import markdown
 from openacr.errors import UserError
-from openacr.map import flags, parameters
 
 
 class Colored(NamedTuple):
@@ -57,11 +56,6 @@ class Engine:
         from openacr.editing.part_programs.language import PartProgramLanguage
 
         return PartProgramLanguage(self.files, *self._machine)
-
-    @staticmethod
-    def warm_up() -> None:
-        """Load the tables that proposals need, before they are needed."""
-        parameters(), flags()
 
     # texts
 

@@ -6,7 +6,8 @@ Each language adds the rows that it alone has, when it is imported.
 from collections.abc import Iterable
 from functools import singledispatch
 
-from openacr.map import explain, flags, flags_of, parameters
+import openacr.map as card_map
+from openacr.map import explain, flags_of
 from openacr.map.lookup import Flag, Parameter
 
 
@@ -31,14 +32,12 @@ def _(row: Flag) -> str:
 
 def parameter(number: int) -> Parameter | None:
     """The parameter of a card with this number, if there is one that has a meaning."""
-    found = parameters().get(number)
-    return found if found is not None and explain.has_meaning(found) else None
+    return card_map.parameter(number) if number in card_map.parameter_names() else None
 
 
 def flag(number: int) -> Flag | None:
     """The flag of a card with this number, if there is one that has a meaning."""
-    found = flags().get(number)
-    return found if found is not None and explain.has_meaning(found) else None
+    return card_map.flag(number) if number in card_map.flag_names() else None
 
 
 def short(record: Parameter | Flag) -> str:

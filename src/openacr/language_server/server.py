@@ -48,7 +48,6 @@ class Server(LanguageServer):
         self.columns = Columns(units_of)
         self.proposed: list[Item] = []  # last, to say more of one of them
         self._machine = store, dialect
-        self._is_warm = False
         self._uris: dict[Path, str] = {}
         self._versions: dict[Path, int] = {}
 
@@ -123,12 +122,6 @@ class Server(LanguageServer):
         self.engine.open(path, found.text, found.language_id)
         self.checks.ask(self.engine.subject(path), 0.0)
 
-    def _warm_up(self) -> None:
-        """Load the tables of proposals after the first findings, which need a few rows of them."""
-        if not self._is_warm:
-            self._is_warm = True
-            self.thread_pool.submit(self.engine.warm_up)
-
     def changed(self, params: types.DidChangeTextDocumentParams) -> None:
         """Change a document; one that was never opened is left alone."""
         path = path_of(params.text_document.uri)
@@ -178,4 +171,3 @@ class Server(LanguageServer):
                 version=self._versions.get(path) if is_present else None,
             )
         )
-        self._warm_up()

@@ -6,10 +6,12 @@ from openacr.map.lookup import (
     find_flag,
     find_parameter,
     flag,
+    flag_names,
     flags,
     flags_of,
     packet_groups,
     parameter,
+    parameter_names,
     parameters,
 )
 
@@ -19,9 +21,11 @@ __all__ = [
     "find_flag",
     "find_parameter",
     "flag",
+    "flag_names",
     "flags",
     "flags_of",
     "packet_groups",
     "parameter",
+    "parameter_names",
     "parameters",
 ]

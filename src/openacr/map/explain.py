@@ -1,7 +1,7 @@
 """What a parameter or flag is, as facts with names: for the command line and for editors."""
 
-from openacr.map.block import RESERVED, UNDOCUMENTED, Access, Kind, Packet, Speed
-from openacr.map.lookup import Flag, Parameter
+from openacr.map.block import Access, Kind, Packet, Speed
+from openacr.map.lookup import Flag, Parameter, is_described
 from openacr.units import explain
 
 GET_PACKET = 0x00
@@ -33,7 +33,7 @@ def object_of(record: Parameter | Flag) -> str:
 
 def has_meaning(record: Parameter | Flag) -> bool:
     """Whether the manual says what it is."""
-    return record.access is not Access.RESERVED and record.name not in (RESERVED, UNDOCUMENTED)
+    return record.access is not Access.RESERVED and is_described(record.name)
 
 
 def _of_parameter(parameter: Parameter) -> dict[str, str]:

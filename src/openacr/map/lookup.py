@@ -23,7 +23,7 @@ from openacr.map.block import (
     Row,
     Speed,
 )
-from openacr.map.flag_block import FlagBlock
+from openacr.map.flag_block import FlagBlock, FlagRow
 
 
 class Parameter(Struct, frozen=True):
@@ -113,6 +113,38 @@ def flags_of(number: int) -> list[Flag]:
 
 
 @cache
+def parameter_names() -> dict[int, str]:
+    """The names of the parameters that the manual describes, by number; built without the rows."""
+    found = {n: _parameter_name(block, row, index) for n, (block, row, index) in _rows().items()}
+    reserved = {n for n, (_, row, _) in _rows().items() if row.access is Access.RESERVED}
+    for number, (words, position, _) in _flag_words().items():
+        found[number] = words.word_title(position)
+        if words.word_access is Access.RESERVED:
+            reserved.add(number)
+    return {
+        n: name for n, name in sorted(found.items()) if n not in reserved and is_described(name)
+    }
+
+
+@cache
+def flag_names() -> dict[int, str]:
+    """The names of the flags that the manual describes, by number; built without the rows."""
+    found = {}
+    for word, (block, position, _) in sorted(_flag_words().items()):
+        first = (word - FLAG_WORD_BASE) * BITS_PER_WORD
+        for bit, row in sorted(block.rows.items()):
+            name = _flag_name(block, row, position)
+            if row.access is not Access.RESERVED and is_described(name):
+                found[first + bit] = name
+    return found
+
+
+def is_described(name: str) -> bool:
+    """Whether the manual says what a parameter or flag of this name is."""
+    return name not in (RESERVED, UNDOCUMENTED)
+
+
+@cache
 def packet_groups() -> dict[tuple[int, int], tuple[int | None, ...]]:
     """Parameter numbers of the eight mask bits of every packet group code and index."""
     groups: dict[tuple[int, int], list[int | None]] = {}
@@ -171,12 +203,24 @@ def _enter(found: dict[int, _T], number: int, declared: _T) -> None:
     found[number] = declared
 
 
+def _parameter_name(block: Block, row: Row, index: int) -> str:
+    return RESERVED if index >= block.named else row.name
+
+
+def _flag_name(block: FlagBlock, row: FlagRow, position: int) -> str:
+    if position >= block.named and row.name != UNDOCUMENTED:
+        return RESERVED
+    if "{" not in row.name:
+        return row.name
+    return row.name.format(n=block.index_of(position), io=block.io_of(position) + row.bit)
+
+
 def _parameter(block: Block, row: Row, index: int, number: int) -> Parameter:
     unnamed = index >= block.named
     erratum = row.erratum if row.erratum_at in (None, index) else ""
     return Parameter(
         number=number,
-        name=RESERVED if unnamed else row.name,
+        name=_parameter_name(block, row, index),
         kind=row.kind,
         access=Access.RESERVED if unnamed else row.access,
         object=block.object,
@@ -220,7 +264,7 @@ def _flag(word: int, bit: int) -> Flag:
     io = block.io_of(position) + bit
     return Flag(
         number=(word - FLAG_WORD_BASE) * BITS_PER_WORD + bit,
-        name=RESERVED if unnamed else row.name.format(n=index, io=io),
+        name=_flag_name(block, row, position),
         printed=RESERVED if unnamed else row.printed.format(n=index, io=io),
         access=Access.RESERVED if unnamed else row.access,
         speed=Speed.UNKNOWN if unnamed else row.speed,

@@ -22,7 +22,6 @@ from openacr.editing.controller.texts import written
 from openacr.editing.document import Place, Span
 from openacr.editing.marks import Kind, Mark
 from openacr.lang.lexer import Token, TokenKind
-from openacr.map import flags, parameters
 from openacr.plc.instructions import BY_WORDS
 
 _JUMP = re.compile(r"(?<![A-Za-z])GO(?:TO|SUB)[ \t]+_?[ \t]*(\w*)$", re.IGNORECASE)
@@ -51,13 +50,12 @@ def complete(
     found = tokens_before(text, place.column)
     row = _row_before(marks, place.column)
     if numbered := _NUMBERED.search(before):
-        word = numbered[1].upper()
-        records = parameters() if word == "P" else flags()
-        items = list(by_number(records.values(), numbered[2], word))
+        kind = Kind.PARAMETER if numbered[1].upper() == "P" else Kind.FLAG
+        items = by_number(numbered[2], kind)
         return _completion(place, numbered[2], items, is_whole=False)
     if digits := _DIGITS.search(before):
         is_flag = names_flags(row) if isinstance(row, Command) else level is Level.PLC
-        items = list(by_number(flags().values(), digits[1], "BIT")) if is_flag else []
+        items = by_number(digits[1], Kind.FLAG) if is_flag else []
         return _completion(place, digits[1], items, is_whole=False)
     word = _WORD.search(before)
     typed = word[0] if word else ""
