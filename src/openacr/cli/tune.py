@@ -8,38 +8,9 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from openacr.cli.live.online import (
-    BAUD,
-    FAILED,
-    SILENCE_S,
-    Baud,
-    Silence,
-    connected,
-    progress_bar,
-)
-from openacr.cli.tune_options import (
-    AMPLITUDE_CNT,
-    AXES,
-    BAND_HZ,
-    BY_AMPLITUDE,
-    PHASE_DEG,
-    SWEEP_S,
-    Amplitude,
-    AsJson,
-    AxisNumber,
-    Band,
-    Bandwidth,
-    Duration,
-    IsSure,
-    MostError,
-    MostTravel,
-    MoveOption,
-    NoIntegral,
-    Phase,
-    Picture,
-    Program,
-    Where,
-)
+from openacr.cli.live.online import FAILED, connected, progress_bar
+from openacr.cli.option_groups import takes
+from openacr.cli.tune_options import AXES, MeasureOptions, ProposeOptions
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
@@ -50,62 +21,31 @@ if TYPE_CHECKING:
     from openacr.tuning.propose import Wish
 
 
-def measure_axis(
-    target: Where,
-    axis: AxisNumber,
-    amplitude: Amplitude = AMPLITUDE_CNT,
-    band: Band = BAND_HZ,
-    duration: Duration = SWEEP_S,
-    max_error: MostError = BY_AMPLITUDE,
-    max_travel: MostTravel = BY_AMPLITUDE,
-    program: Program = None,
-    plot: Picture = None,
-    as_json: AsJson = False,
-    is_sure: IsSure = False,
-    baud: Baud = BAUD,
-    silence: Silence = SILENCE_S,
-) -> None:
+@takes(MeasureOptions)
+def measure_axis(asked: MeasureOptions) -> None:
     """Move an axis by a sine sweep, identify its motor and judge its present gains.
 
     The axis has to be enabled and at rest. The card does it by itself, in an empty program that is
     erased afterwards, and ends it where a bound is exceeded.
     """
-    excitation = excitation_of(amplitude, band, duration, max_error, max_travel)
-    require_picture(plot)
-    with card_of(target, baud, silence) as card:
-        ask_to_move(is_sure, target, axis, excitation)
-        advice = advised(card, axis, excitation, program, None, None)
-    report(advice, plot, as_json=as_json, with_proposal=False)
+    excitation = asked.excitation()
+    require_picture(asked.plot)
+    with card_of(asked.target, asked.baud, asked.silence) as card:
+        ask_to_move(asked.is_sure, asked.target, asked.axis, excitation)
+        advice = advised(card, asked.axis, excitation, asked.program, None, None)
+    report(advice, asked.plot, as_json=asked.as_json, with_proposal=False)
 
 
-def propose_gains(
-    target: Where,
-    axis: AxisNumber,
-    bandwidth: Bandwidth = None,
-    phase: Phase = PHASE_DEG,
-    no_integral: NoIntegral = False,
-    move: MoveOption = None,
-    amplitude: Amplitude = AMPLITUDE_CNT,
-    band: Band = BAND_HZ,
-    duration: Duration = SWEEP_S,
-    max_error: MostError = BY_AMPLITUDE,
-    max_travel: MostTravel = BY_AMPLITUDE,
-    program: Program = None,
-    plot: Picture = None,
-    as_json: AsJson = False,
-    is_sure: IsSure = False,
-    baud: Baud = BAUD,
-    silence: Silence = SILENCE_S,
-) -> None:
+@takes(ProposeOptions)
+def propose_gains(asked: ProposeOptions) -> None:
     """Measure an axis and propose gains, beside what they would do; nothing is set."""
-    excitation = excitation_of(amplitude, band, duration, max_error, max_travel)
-    wish = wish_of(bandwidth, phase, no_integral)
-    require_picture(plot)
-    with card_of(target, baud, silence) as card:
-        ask_to_move(is_sure, target, axis, excitation)
-        wanted = _move(card, axis, move)
-        advice = advised(card, axis, excitation, program, wish, wanted)
-    report(advice, plot, as_json=as_json, with_proposal=True)
+    excitation = asked.excitation()
+    require_picture(asked.plot)
+    with card_of(asked.target, asked.baud, asked.silence) as card:
+        ask_to_move(asked.is_sure, asked.target, asked.axis, excitation)
+        wanted = _move(card, asked.axis, asked.move)
+        advice = advised(card, asked.axis, excitation, asked.program, asked.wish(), wanted)
+    report(advice, asked.plot, as_json=asked.as_json, with_proposal=True)
 
 
 def require_picture(plot: Path | None) -> None:
@@ -117,22 +57,6 @@ def require_picture(plot: Path | None) -> None:
 
 
 # --- parts of these ---------------------------------------------------------------------
-
-
-def excitation_of(
-    amplitude: float, band: tuple[float, float], duration: float, error: float, travel: float
-) -> "Excitation":
-    """A sweep with the bounds that end it; UserError for one that is refused."""
-    from openacr.tuning.excitation import Excitation
-
-    return Excitation("sine", amplitude, *band, duration, error, travel).checked()
-
-
-def wish_of(bandwidth: float | None, phase: float, no_integral: bool) -> "Wish":
-    """What the gains are to keep."""
-    from openacr.tuning.propose import Wish
-
-    return Wish(bandwidth, phase, not no_integral)
 
 
 def _move(card: "Card", axis: int, move: tuple[float, float, float] | None) -> "Move | None":

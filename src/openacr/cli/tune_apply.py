@@ -8,47 +8,14 @@ from typing import Annotated, Any
 import typer
 
 from openacr.cli.live.online import BAUD, FAILED, SILENCE_S, Baud, Silence
-from openacr.cli.tune import advised, ask_to_move, card_of, excitation_of, report, wish_of
-from openacr.cli.tune_options import (
-    AMPLITUDE_CNT,
-    BAND_HZ,
-    BY_AMPLITUDE,
-    PHASE_DEG,
-    STEP_S,
-    SWEEP_S,
-    Amplitude,
-    AxisNumber,
-    Band,
-    Bandwidth,
-    Duration,
-    IsSure,
-    MostError,
-    MostTravel,
-    NoIntegral,
-    Phase,
-    Program,
-    Where,
-)
+from openacr.cli.option_groups import takes
+from openacr.cli.tune import advised, ask_to_move, card_of, report
+from openacr.cli.tune_options import STEP_S, ApplyOptions, Where
 from openacr.errors import UserError
 
 
-def apply_gains(
-    target: Where,
-    axis: AxisNumber,
-    keep: Annotated[Path, typer.Option(help="New file for the former gains.")] = Path("gains.json"),
-    bandwidth: Bandwidth = None,
-    phase: Phase = PHASE_DEG,
-    no_integral: NoIntegral = False,
-    amplitude: Amplitude = AMPLITUDE_CNT,
-    band: Band = BAND_HZ,
-    duration: Duration = SWEEP_S,
-    max_error: MostError = BY_AMPLITUDE,
-    max_travel: MostTravel = BY_AMPLITUDE,
-    program: Program = None,
-    is_sure: IsSure = False,
-    baud: Baud = BAUD,
-    silence: Silence = SILENCE_S,
-) -> None:
+@takes(ApplyOptions)
+def apply_gains(asked: ApplyOptions) -> None:
     """Measure an axis, propose gains, show what they would do, and set them when confirmed.
 
     The card tries them with a step and sets the former ones again where a bound is exceeded or
@@ -59,21 +26,21 @@ def apply_gains(
     from openacr.tuning.excitation import Excitation
     from openacr.tuning.measure import measure
 
+    target, axis, keep = asked.target, asked.axis, asked.keep
     if Path(target).exists():
         raise UserError(
             f"{target} is a project: put the lines that `propose` prints into its files"
         )
     if keep.exists():
         raise UserError(f"{keep} exists: choose another file for the former gains (--keep)")
-    excitation = excitation_of(amplitude, band, duration, max_error, max_travel)
-    with card_of(target, baud, silence) as card:
-        ask_to_move(is_sure, target, axis, excitation)
-        wish = wish_of(bandwidth, phase, no_integral)
-        advice = advised(card, axis, excitation, program, wish, None)
+    excitation = asked.excitation()
+    with card_of(target, asked.baud, asked.silence) as card:
+        ask_to_move(asked.is_sure, target, axis, excitation)
+        advice = advised(card, axis, excitation, asked.program, asked.wish(), None)
         report(advice, None, as_json=False, with_proposal=True)
         if advice.proposal is None:
             raise typer.Exit(FAILED)
-        if not is_sure:
+        if not asked.is_sure:
             typer.confirm(f"Set these gains of axis {axis} and try them with a step?", abort=True)
         settings, filters = advice.measurement.settings, new_filters(advice)
         former: dict[str, Any] = {"axis": axis, "gains": settings.gains}
@@ -91,7 +58,7 @@ def apply_gains(
         try:
             card.perform(
                 lambda talk: measure(
-                    talk, axis, trial, gains=gains, filters=filters, program=program
+                    talk, axis, trial, gains=gains, filters=filters, program=asked.program
                 )
             )
         except UserError:  # the card has the former gains

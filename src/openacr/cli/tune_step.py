@@ -7,61 +7,27 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from openacr.cli.live.online import BAUD, SILENCE_S, Baud, Silence
+from openacr.cli.option_groups import takes
 from openacr.cli.tune import ask_to_move, card_of, recorded, require_picture
-from openacr.cli.tune_options import (
-    AMPLITUDE_CNT,
-    BY_AMPLITUDE,
-    STEP_S,
-    Amplitude,
-    AsJson,
-    AxisNumber,
-    IsSure,
-    MostError,
-    MostTravel,
-    Picture,
-    Program,
-    StepTime,
-    Where,
-)
+from openacr.cli.tune_options import StepOptions
 from openacr.cli.tune_report import step_lines
 
 if TYPE_CHECKING:
     from openacr.tuning.measure import Measurement
 
 
-def record_step(
-    target: Where,
-    axis: AxisNumber,
-    amplitude: Amplitude = AMPLITUDE_CNT,
-    duration: StepTime = STEP_S,
-    max_error: MostError = BY_AMPLITUDE,
-    max_travel: MostTravel = BY_AMPLITUDE,
-    program: Program = None,
-    plot: Picture = None,
-    as_json: AsJson = False,
-    is_sure: IsSure = False,
-    baud: Baud = BAUD,
-    silence: Silence = SILENCE_S,
-) -> None:
+@takes(StepOptions)
+def record_step(asked: StepOptions) -> None:
     """Move an axis by a step and back, and report its overshoot, rise and settling.
 
     The axis has to be enabled and at rest. The gains stay as they are.
     """
-    from openacr.tuning.excitation import Excitation
-
-    excitation = Excitation(
-        "step",
-        amplitude,
-        duration_s=duration,
-        error_cnt=max_error,
-        travel_cnt=max_travel,
-    ).checked()
-    require_picture(plot)
-    with card_of(target, baud, silence) as card:
-        ask_to_move(is_sure, target, axis, excitation)
-        found = recorded(card, axis, excitation, program)
-    _report(found, plot, as_json=as_json)
+    excitation = asked.excitation()
+    require_picture(asked.plot)
+    with card_of(asked.target, asked.baud, asked.silence) as card:
+        ask_to_move(asked.is_sure, asked.target, asked.axis, excitation)
+        found = recorded(card, asked.axis, excitation, asked.program)
+    _report(found, asked.plot, as_json=asked.as_json)
 
 
 def _report(found: "Measurement", plot: Path | None, *, as_json: bool) -> None:
