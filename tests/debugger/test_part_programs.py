@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.debugger.client import Client, RefusedError
+from tests.debugger.client import Client
 from tests.debugger.part_programs import COUNTING, CUTTING, SPINDLE, target_of
 
 from openacr.cnc.loading.load import load
@@ -403,8 +403,9 @@ def test_an_editor_debugs_a_part_program(client: Client, tmp_path: Path) -> None
     client.ask("stepBack", threadId=1)
     client.stop()
     assert client.place(1) == ("part.nc", 3)
-    with pytest.raises(RefusedError, match="no value is watched"):
-        client.ask("setDataBreakpoints", breakpoints=[{"dataId": "P12288"}])
+    (data,) = client.ask("setDataBreakpoints", breakpoints=[{"dataId": "P12288"}])["breakpoints"]
+    assert not data["verified"]
+    assert "no value is watched" in data["message"]
     assert client.ask("openacrTimeline")["branch"] == 0
     client.ask("setBreakpoints", source={"path": str(file)}, breakpoints=[])
     client.ask("continue", threadId=1)

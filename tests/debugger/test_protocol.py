@@ -1,10 +1,12 @@
 """The debugger as editors use it: a process that speaks the protocol."""
 
+import socket
 import subprocess
 import sys
 from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
+from typing import IO, cast
 
 import pytest
 from tests.debugger.client import LIMIT_S, Client, RefusedError
@@ -13,7 +15,7 @@ from tests.debugger.project import card_of, write
 from openacr.controller import Controller
 from openacr.controller.recorder import Recorder
 from openacr.debugger.server import serve
-from openacr.debugger.wire import BrokenStreamError
+from openacr.debugger.wire import BrokenStreamError, read_message, write_message
 from openacr.plant.load import parse_world
 
 LAMP = """\
@@ -70,6 +72,40 @@ def test_a_session_from_its_beginning_to_its_end(begun: Client, tmp_path: Path) 
     assert begun.end() == 0
 
 
+def test_one_breakpoint_that_cannot_be_leaves_the_others(begun: Client, tmp_path: Path) -> None:
+    source = {"path": str(tmp_path / "prog0.8k")}
+    wanted = [{"line": 5, "hitCondition": "x"}, {"line": 6}, {"line": 7, "hitCondition": "\u00b2"}]
+    found = begun.ask("setBreakpoints", source=source, breakpoints=wanted)["breakpoints"]
+    assert [each["verified"] for each in found] == [False, True, False]
+    assert found[0]["message"] == "x: the count of hits is a number from 1 on"
+    data = [{"dataId": "Q1"}, {"dataId": "P1"}]
+    found = begun.ask("setDataBreakpoints", breakpoints=data)["breakpoints"]
+    assert [each["verified"] for each in found] == [False, True]
+    assert found[0]["message"].startswith("Q1: a value to be watched is a parameter")
+    begun.ask("continue", threadId=1)
+    assert (begun.stop(), begun.place(1)) == (("breakpoint", 1), ("prog0.8k", 6))
+    begun.ask("setBreakpoints", source=source, breakpoints=[])
+    begun.ask("continue", threadId=1)
+    assert (begun.stop()[0], begun.value("P1")) == ("data breakpoint", "6")
+    assert begun.end() == 0
+
+
+def test_labels_and_remarks_alone_are_no_lines_to_stop_at(begun: Client, tmp_path: Path) -> None:
+    source = {"path": str(tmp_path / "prog0.8k")}
+    every = [{"line": line} for line in range(1, 15)]
+    found = begun.ask("setBreakpoints", source=source, breakpoints=every)["breakpoints"]
+    refused = {each["line"]: each["message"] for each in found if not each["verified"]}
+    assert refused == dict.fromkeys((2, 4, 9), "nothing is executed here")
+    places = begun.ask("breakpointLocations", source=source, line=1, endLine=14)["breakpoints"]
+    met = set()
+    for _ in range(26):
+        begun.ask("continue", threadId=1)
+        assert begun.stop() == ("breakpoint", 1)
+        met.add(begun.place(1)[1])
+    assert [each["line"] for each in places] == sorted(met | {14})
+    assert begun.end() == 0
+
+
 def test_a_line_of_a_plc_stops_where_its_coil_changes(begun: Client, tmp_path: Path) -> None:
     source = {"path": str(tmp_path / "plc0.8k")}
     found = begun.ask("setBreakpoints", source=source, breakpoints=[{"line": 1}, {"line": 2}])
@@ -102,7 +138,6 @@ def test_a_wrong_request_is_answered_with_a_sentence_and_ends_nothing(begun: Cli
         ("evaluate", {"expression": "LV9"}, r"\?LV9: Undefined variable"),
         ("evaluate", {"expression": "P0\r\nNEW"}, "cannot be typed"),
         ("source", {"sourceReference": 9}, "there is no listing 9"),
-        ("setDataBreakpoints", {"breakpoints": [{"dataId": "Q1"}]}, "Q1: a value to be watched"),
         ("openacrSeek", {"tick": 10**9}, "tick 1000000000 is not on branch 0"),
     ):
         with pytest.raises(RefusedError, match=text):
@@ -293,3 +328,19 @@ def test_a_journal_with_own_devices_needs_their_folder(client: Client, tmp_path:
     client.ask("configurationDone")
     assert client.stop()[0] == "entry"
     assert client.end() == 0
+
+
+@pytest.mark.parametrize("last", ["disconnect", "terminate"])
+def test_the_end_of_a_session_over_tcp_waits_for_no_client_and_no_other_gets_in(last: str) -> None:
+    command = [sys.executable, "-m", "openacr", "debug", "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        port = int(process.stdout.readline().rsplit(":", 1)[1])
+        with socket.create_connection(("127.0.0.1", port)) as client:
+            with cast("IO[bytes]", client.makefile("rwb", buffering=0)) as stream:
+                write_message(stream, {"seq": 1, "type": "request", "command": "initialize"})
+                assert (read_message(stream) or {})["success"]
+                with pytest.raises(ConnectionRefusedError):
+                    socket.create_connection(("127.0.0.1", port))
+                write_message(stream, {"seq": 2, "type": "request", "command": last})
+                assert process.wait(LIMIT_S) == 0

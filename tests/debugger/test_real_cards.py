@@ -220,7 +220,6 @@ def test_what_a_card_over_a_link_cannot_do_is_refused_with_the_reason(
         ("pause", {"threadId": 17}, "a PLC cannot be held"),
         ("scopes", {"frameId": 1700}, "there is no program 16"),
         ("source", {"sourceReference": 9}, "there is no listing 9"),
-        ("setDataBreakpoints", {"breakpoints": [{"dataId": "P0"}]}, "P0: no value of a card"),
         ("evaluate", {"expression": "P0 : SET 128"}, "without a colon"),
         ("evaluate", {"expression": "LV9", "frameId": 100}, "Undefined variable"),
         ("setExpression", {"expression": "X", "value": "5"}, "what can be changed are variables"),
@@ -229,6 +228,9 @@ def test_what_a_card_over_a_link_cannot_do_is_refused_with_the_reason(
     ):  # fmt: skip
         with pytest.raises(RefusedError, match=text):
             client.ask(command, **arguments)
+    (data,) = client.ask("setDataBreakpoints", breakpoints=[{"dataId": "P0"}])["breakpoints"]
+    assert not data["verified"]
+    assert "P0: no value of a card" in data["message"]
     assert not card.read_bit(128)
     for source in ({"sourceReference": 1}, {"path": "/tmp/prog0.8k"}):
         found = client.ask("setBreakpoints", source=source, breakpoints=[{"line": 6}])

@@ -127,7 +127,6 @@ def test_a_line_without_a_coil_is_refused(bench: Bench) -> None:
     assert "no coil" in bench.session.why_no_stop((PLC, LOAD))
     assert "no coil" in bench.session.why_no_stop((PLC, SET - 5))  # no such line
     assert bench.session.why_no_stop((PLC, OUT)) == ""
-    assert bench.session.why_no_stop((0, LOAD)) == ""
 
 
 def test_no_more_is_watched_than_the_engine_can(bench: Bench) -> None:

@@ -2,7 +2,7 @@
 
 import socket
 import sys
-from typing import Annotated
+from typing import IO, Annotated, cast
 
 import typer
 
@@ -39,11 +39,8 @@ def debug(
 
     with bound_socket("127.0.0.1", port, socket.SOCK_STREAM, "--port") as listener:
         typer.echo(f"waiting for a debugger client at 127.0.0.1:{listener.getsockname()[1]}")
-        connection, _ = listener.accept()
-        with (
-            connection,
-            connection.makefile("rb") as incoming,
-            connection.makefile("wb") as outgoing,
-            terminations_as_interrupts(),
-        ):
-            serve(incoming, outgoing, ending=deaf)
+        connection, _ = listener.accept()  # the first client; no other gets in
+    # Unbuffered, as above: to close a buffer in which a thread waits would wait for the client.
+    stream = cast("IO[bytes]", connection.makefile("rwb", buffering=0))
+    with connection, terminations_as_interrupts():
+        serve(stream, stream, ending=deaf)

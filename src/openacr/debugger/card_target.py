@@ -10,7 +10,7 @@ from openacr.debugger.breakpoints import watches_of
 from openacr.debugger.calls import PROGRAMS, frame_of, frames_of, listing, name_of, owners
 from openacr.debugger.session import DebugSession
 from openacr.debugger.sources import Sources
-from openacr.debugger.target import Frame, Place
+from openacr.debugger.target import NO_STATEMENT, Frame, Place
 from openacr.debugger.variables import axis_states, locals_of, program_state, time_state
 from openacr.errors import UserError
 from openacr.timeline import Timeline
@@ -108,9 +108,10 @@ class CardTarget(DebugSession):
         return {line: place for line, place in found.items() if line in lines}
 
     def why_no_stop(self, place: Place) -> str:
-        """Why the card cannot stop at a line: nothing of a PLC is seen but its coils."""
-        is_plc = place[0] >= PROGRAMS
-        return rungs.NO_COIL if is_plc and not rungs.coils(self.card, *place) else ""
+        """Why the card cannot stop at a line: of a PLC its coils are seen alone."""
+        if place[0] >= PROGRAMS:
+            return "" if rungs.coils(self.card, *place) else rungs.NO_COIL
+        return "" if Sources(self.card).has_statement(*place) else NO_STATEMENT
 
     def require_watchable(self, name: str) -> None:
         """UserError unless it is a parameter or flag of the card."""

@@ -29,6 +29,11 @@ class Sources:
                     found[origin[1]] = owner, stored.number
         return found
 
+    def has_statement(self, owner: int, number: int) -> bool:
+        """Whether a line of a program is executed: labels and remarks alone are not."""
+        lines = self._card.system.programs.lines(owner)
+        return any(any(stored.tree.blocks) for stored in lines if stored.number == number)
+
     def lines_listed(self, owner: int) -> dict[int, tuple[int, int]]:
         """The same for the listing of a program: its first line is 1."""
         lines = self._card.system.programs.lines(owner)

@@ -15,6 +15,7 @@ from openacr.debugger.stops import Stop
 from openacr.timeline import Moment, Timeline
 
 Place = tuple[int, int]  # an owner of lines and a line
+NO_STATEMENT = "nothing is executed here"  # why there is no stop
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from openacr.debugger import requests
 from openacr.debugger.adapter import Adapter, Json, request
 from openacr.debugger.breakpoints import DataBreakpoint, LineBreakpoint
+from openacr.debugger.target import NO_STATEMENT, Target
 from openacr.errors import OpenacrError, UserError
 
 
@@ -14,28 +15,34 @@ def set_breakpoints(adapter: Adapter, arguments: requests.SetBreakpoints) -> Jso
     target, source = adapter.target, arguments.source
     wanted = frozenset(each.line for each in arguments.breakpoints)
     lines = target.places_of(source.path, source.source_reference, wanted)
-    kept, answers = [], []
+    kept, answers = [], list[Json]()
     for each in arguments.breakpoints:
-        found = lines.get(each.line)
-        answer: Json = {"verified": False, "line": each.line}
-        if found is None:
-            answer["message"] = "nothing is executed here"
-        elif reason := target.why_no_stop(found):
-            answer["message"] = reason
-        else:
-            hits = _hits(each.hit_condition)
-            kept.append(LineBreakpoint(*found, each.condition, hits, each.log_message))
-            answer = {"verified": True, "line": each.line}
-        answers.append(answer)
+        try:
+            kept.append(_line_breakpoint(target, each, lines.get(each.line)))
+            answers.append({"verified": True, "line": each.line})
+        except UserError as refused:  # the others count all the same
+            answers.append({"verified": False, "line": each.line, "message": str(refused)})
     adapter.set_breakpoints_of(source.path or str(source.source_reference), kept)
     return {"breakpoints": answers}
+
+
+def _line_breakpoint(
+    target: Target, asked: requests.SourceBreakpoint, place: tuple[int, int] | None
+) -> LineBreakpoint:
+    """A breakpoint at a place of a program; UserError says why there can be none."""
+    if place is None:
+        raise UserError(NO_STATEMENT)
+    if reason := target.why_no_stop(place):
+        raise UserError(reason)
+    hits = _hits(asked.hit_condition)
+    return LineBreakpoint(*place, asked.condition, hits, asked.log_message)
 
 
 def _hits(text: str) -> int:
     digits = text.strip().removeprefix(">=").strip()
     if not digits:
         return 1
-    if not digits.isdigit() or not 0 < int(digits) < 1 << 31:
+    if not digits.isdecimal() or not 0 < int(digits) < 1 << 31:
         raise UserError(f"{text}: the count of hits is a number from 1 on")
     return int(digits)
 
@@ -64,9 +71,16 @@ def data_breakpoint_info(adapter: Adapter, arguments: requests.DataBreakpointInf
 @request(requests.SetDataBreakpoints)
 def set_data_breakpoints(adapter: Adapter, arguments: requests.SetDataBreakpoints) -> Json:
     """Stop after the tick in which values change."""
-    wanted = [DataBreakpoint(each.data_id, each.condition) for each in arguments.breakpoints]
-    adapter.target.set_data(wanted)
-    return {"breakpoints": [{"verified": True}] * len(wanted)}
+    kept, answers = [], list[Json]()
+    for each in arguments.breakpoints:
+        try:
+            adapter.target.require_watchable(each.data_id)
+            kept.append(DataBreakpoint(each.data_id, each.condition))
+            answers.append({"verified": True})
+        except OpenacrError as refused:  # the others count all the same
+            answers.append({"verified": False, "message": str(refused)})
+    adapter.target.set_data(kept)
+    return {"breakpoints": answers}
 
 
 @request(requests.SetExceptionBreakpoints)
