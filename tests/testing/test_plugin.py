@@ -114,14 +114,18 @@ def test_a_condition_that_does_not_hold_says_the_values_and_draws_the_last_momen
 
         def test_wrong(until):
             until("P12290 is far")
+
+        def test_output(until):
+            until("BIT34 = 1", limit_s=0.01)
     """, "--openacr-pictures", "pictures")  # fmt: skip
-    assert "2 failed" in out, out
+    assert "3 failed" in out, out
+    assert "BIT34 (OUTPUT: OUT 34) is 0" in out
     assert "P12290 > 100000 did not hold within 0.5 s: P12290 (AXIS 0: Actual Position) is 5" in out
     assert re.search(r"axis 0: commanded 0\.5, actual 0\.\d+", out), out
     assert "openacr: the last moments" in out
     assert re.search(r"axis 0 position +▁[▁-█]+ 0 to 0\.5", out), out
     assert "printed: 'done" in out
-    assert "a condition is P or BIT, its number, = and a value" in out
+    assert "a condition is P or BIT, its number, one of <= >= <> = < > and a value" in out
     picture = shop.path / "pictures" / "test_never.png"
     assert f"picture: {Path('pictures', 'test_never.png')}" in out
     assert picture.read_bytes().startswith(b"\x89PNG")

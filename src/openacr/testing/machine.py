@@ -12,6 +12,7 @@ from openacr.controller.trace import Trace
 from openacr.errors import UserError
 from openacr.map import find_flag, find_parameter
 from openacr.map import numbers as at
+from openacr.map.explain import object_of
 
 RUNNING = 1024  # the flag Program Running of PROG0
 BITS = 32
@@ -88,7 +89,10 @@ class Machine:
             return condition, LOOK_S
         found = _CONDITION.fullmatch(condition)
         if found is None:
-            raise UserError(f"{condition!r}: a condition is P or BIT, its number, = and a value")
+            raise UserError(
+                f"{condition!r}: a condition is P or BIT, its number, one of {' '.join(_TESTS)}"
+                " and a value"
+            )
         values = self.card.p if found[1].upper() == "P" else self.card.bit
         number, holds, bound = int(found[2]), _TESTS[found[3]], float(found[4])
         return lambda: holds(float(values[number]), bound), self.card.period_s
@@ -104,7 +108,7 @@ class Machine:
         number = int(found[2])
         value = self.card.p[number] if is_parameter else int(self.card.bit[number])
         record = (find_parameter if is_parameter else find_flag)(str(number))[0]
-        what = f"{found[1].upper()}{number} ({record.object} {record.index}: {record.name})"
+        what = f"{found[1].upper()}{number} ({object_of(record)}: {record.name})"
         return f"{condition} did not hold within {limit_s:g} s: {what} is {value:g}\n{self.state()}"
 
     def state(self) -> str:
