@@ -156,6 +156,11 @@ def examples(count: int) -> int:
     return count if compiled.is_compiled else max(2, count // 150)
 
 
+def stride(count: int) -> int:
+    """Every which tick of a path to try an event at: plain Python tries few."""
+    return count if compiled.is_compiled else 25 * count
+
+
 def row_of(prefix: str, name: str) -> int:
     """Offset of a row by its name in lower case."""
     return int(getattr(at, f"{prefix}_{name.upper()}"))

@@ -70,6 +70,7 @@ from openacr.kernel.path.path_cy import (
     move_shape,
 )
 from openacr.kernel.path.plan_cy import look_refresh, master_plan
+from openacr.kernel.path.round_between_cy import round_bar, round_passes
 from openacr.kernel.path.seek_cy import (
     SEEK_NONE,
     SEEK_SEARCHING,
@@ -375,7 +376,8 @@ def move_enter(F: F64, I: I32, S: F32, m: int, velocity_ups: float, accel_ups2: 
     if I[masters.hold[m]] == FEEDHOLDING and velocity_ups <= 0.0:
         master_at_rest(F, I, S, m)
         return WAITS
-    if sync_bars(I, m) or (I[mf1.word[m]] & BARS and move_barred(I, m)):
+    barred: bool = sync_bars(I, m) or (I[mf1.word[m]] & BARS != 0 and move_barred(I, m))
+    if barred and not round_passes(I, m, velocity_ups):
         profile_reset(F, I, m, 0.0, 0.0)
         return WAITS
     if move_skipped(I, m):
@@ -442,6 +444,8 @@ def master_follow(F: F64, I: I32, S: F32, m: int) -> None:
     if I[moves.interrupt[move_record(I, m)]]:
         interrupt_step(F, I, S, m)
     word: int = mf1.word[m]
+    if I[masters.rounding[m]] and (I[word] & mf1.START_MOVE_INHIBIT or sync_bars(I, m)):
+        round_bar(F, I, S, m)
     dirty: bool = I[masters.look_dirty[m]] != 0
     if dirty and I[masters.cut[m]] != CUT:
         look_refresh(F, I, S, m)

@@ -167,6 +167,21 @@ def move_shape(F: F64, I: I32, S: F32, m: int, record: int, planned: bool) -> No
         move_maxvel(F, I, S, m, record)
 
 
+def moves_lead(F: F64, I: I32, m: int) -> None:
+    """After moves were dropped: what is appended now begins where those that are left lead."""
+    for s in range(SLAVE_COUNT):
+        axis: int = I[masters.slave_axis[m] + s]
+        if axis >= 0:
+            F[masters.target_cnt[m] + s] = F[axes.target_cnt[axis]]
+            for k in range(1, I[masters.queued[m]]):
+                place: int = I[masters.head[m]] + k
+                if place >= I[masters.size[m]]:
+                    place -= I[masters.size[m]]
+                record: int = I[masters.first[m]] + place
+                if I[moves.slaves[record]] & (1 << s):
+                    F[masters.target_cnt[m] + s] = F[moves.target_cnt[record] + s]
+
+
 def move_maxvel(F: F64, I: I32, S: F32, m: int, record: int) -> None:
     """Bound of the path speed by MAXVEL of the axes: the least v_i L/|dp_i/df|."""
     slaves: int = I[moves.slaves[record]]

@@ -45,7 +45,7 @@ from openacr.kernel.path.round_settle_cy import round_arrives
 from openacr.map.rows import masters, moves, profiles
 from openacr.views import F32, F64, I32
 
-__all__ = ["round_between", "round_drop"]
+__all__ = ["round_bar", "round_between", "round_drop", "round_passes"]
 
 REACH = 0.5  # of the shorter of two lines: corners may touch each other in the middle of a line
 REACH_JRK = 0.25  # with jerk: half of a line is left to change the speed on
@@ -114,6 +114,8 @@ def round_keeps(F: F64, I: I32, S: F32, m: int) -> bool:
     record: int = move_record(I, m)
     if not I[masters.moving[m]] or not round_through(F, I, m, record):
         return True
+    if F[masters.corner_out_u[m]] > 0.0 and I[masters.queued[m]] <= 1:  # within a corner
+        return False
     jerk_ups3: float = F[moves.jrk_ups3[record]]
     part: int = round_where(F, I, m)
     cap_ups: float = F[masters.look_cap_ups[m]]
@@ -154,3 +156,35 @@ def round_drop(F: F64, I: I32, S: F32, m: int) -> None:
             kept += 1
         I[masters.look_dirty[m]] = 1
     I[masters.queued[m]] = kept
+
+
+def round_bar(F: F64, I: I32, S: F32, m: int) -> None:
+    """The moves that wait may not begin: stop at the next corner before which there is room.
+
+    That corner is a stop for good, as if it were decided so when its move was appended.
+    """
+    if I[masters.cut[m]] or not round_through(F, I, m, move_record(I, m)):
+        return
+    queued: int = I[masters.queued[m]]
+    kept: int = 1
+    while kept < queued and I[moves.ahead[look_record(I, m, kept - 1)]] == JOINED:
+        I[masters.queued[m]] = kept
+        if round_keeps(F, I, S, m):
+            break
+        kept += 1
+    I[masters.queued[m]] = queued
+    record: int = look_record(I, m, kept - 1)
+    if kept < queued and I[moves.ahead[record]] == JOINED:
+        I[moves.ahead[record]] = STOPS
+        F[moves.corner_u[record]] = 0.0
+        I[masters.look_dirty[m]] = 1
+
+
+def round_passes(I: I32, m: int, velocity_ups: float) -> bool:
+    """Whether the path comes to the move at the head at speed, out of a corner or straight on."""
+    if not I[masters.rounding[m]] or velocity_ups <= 0.0:
+        return False
+    before: int = I[masters.head[m]] - 1
+    if before < 0:
+        before = I[masters.size[m]] - 1
+    return I[moves.ahead[I[masters.first[m]] + before]] == JOINED

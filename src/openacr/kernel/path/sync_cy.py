@@ -12,7 +12,9 @@ from openacr.kernel.path.path_cy import (
     move_geometry,
     move_limit,
     move_record,
+    moves_lead,
 )
+from openacr.kernel.path.round_between_cy import round_drop
 from openacr.kernel.path.timed_cy import plan_seconds
 from openacr.kernel.profile.profile_cy import profile_reset
 from openacr.map.rows import kernel, masters, moves
@@ -61,9 +63,10 @@ def sync_seconds(F: F64, I: I32, S: F32, m: int) -> float:
 
 
 def sync_drop(F: F64, I: I32, S: F32, m: int) -> None:
-    """Drop the moves of master m that wait; one under way goes on."""
+    """Drop the moves of master m that wait; one under way goes on, if need be round a corner."""
     if I[masters.moving[m]]:
-        I[masters.queued[m]] = I[masters.section_cnt[m]]
+        round_drop(F, I, S, m)
+        moves_lead(F, I, m)
     elif I[masters.queued[m]]:
         master_drop(F, I, S, m)
 
