@@ -17,7 +17,7 @@ from openacr.trajectory.setpoints import Reals
 pytestmark = pytest.mark.evidence("oracle", "closed forms of constant jerk, differences of samples")
 START, TOLERANCE = (0.0, 0.0, 0.0), 0.01
 SWING, JERK = 0.01, 20_000.0
-SMOOTH_POINTS = 262
+SMOOTH_POINTS = 260
 
 
 def curve(*vertices: tuple[float, float], feed: float = 100.0) -> Reals:

@@ -28,6 +28,7 @@ class Grain:
     step_u: float  # between two samples
     dense_u: float  # between two knots where the path bends
     time_s: float
+    piece_u: float  # mean length of the known pieces
 
 
 def grain_of(limits: Limits, period_s: float, known: Sequence[Piece]) -> Grain:
@@ -49,7 +50,7 @@ def grain_of(limits: Limits, period_s: float, known: Sequence[Piece]) -> Grain:
     if not math.isfinite(radius):  # corners are passed at J/2 (48 e/J)^(1/3)
         jerk = max(limits.jerks(period_s))
         across = min(across, 0.5 * jerk * (48.0 * tolerance / jerk) ** (1 / 3))
-    return Grain(along, tolerance, across, step, KNOT * step, time_s)
+    return Grain(along, tolerance, across, step, KNOT * step, time_s, length / len(known))
 
 
 def look_ahead(along: Along) -> float:

@@ -128,7 +128,7 @@ class SmoothCourse(Course):
         grain = grain_of(limits, period_s, known)
         along, dense_u, time_s = grain.along, grain.dense_u, grain.time_s
         share = tube_share(grain.across_ups2, period_s, grain.tolerance_u)
-        self._tube = Tube(limits.axes, grain.step_u, share)
+        self._tube = Tube(limits.axes, grain.step_u, share, grain.piece_u)
         self._last = Soft(along.jerk, 0.0)
         start = self._last if soft is None else soft.at_most(along.jerk)
         self._grid = Grid(dense_u, time_s, REST_SHARE * start.jerk, start.swing_u)

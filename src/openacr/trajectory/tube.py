@@ -22,8 +22,9 @@ _smooth = pick(tube_cy.tube_smooth)
 _point = pick(spline_cy.spline_point)
 
 STEP = 4.0  # tolerances between two samples
-STAGES = (10.0, 6.0, 4.0, 2.4, 2.4, 2.4)  # lengths of smoothing, in samples
-ROUNDS = 8
+STAGES = (10.0, 6.0, 4.0, 2.4, 2.4, 1.8)  # lengths of smoothing, in samples
+ROUNDS, DENSE_ROUNDS = 24, 8  # of every stage; dense pieces leave no long waves
+DENSE = 16.0  # samples of a piece on average, where pieces are dense
 AHEAD = 150  # samples that still change with what follows
 GIVEN = 7  # samples at the beginning that are given: the spline ends where they end
 PINNED = 3.01  # samples before the end of the chain that are given
@@ -50,11 +51,13 @@ class Tube:
     """Samples of the programmed path, and the smoothed ones, from the index `first` on."""
 
     __slots__ = ("_axes", "_end", "_first", "_left", "_origin", "_pieces", "_q",
-                 "_rows", "_start", "_start_off", "final", "known_u", "length_u", "share",
-                 "step")  # fmt: skip
+                 "_rounds", "_rows", "_start", "_start_off", "final", "known_u", "length_u",
+                 "share", "step")  # fmt: skip
 
-    def __init__(self, axes: int, step: float, share: float) -> None:
+    def __init__(self, axes: int, step: float, share: float, piece_u: float) -> None:
+        """`piece_u`: the mean length of the first pieces."""
         self._axes, self.step, self.share = axes, step, share
+        self._rounds = DENSE_ROUNDS if piece_u < DENSE * step else ROUNDS
         self._rows = array("d")
         self._pieces = 0
         self._start = self._end = self._start_off = np.zeros(axes)
@@ -123,7 +126,7 @@ class Tube:
                 break
             _smooth(count, self._axes, GIVEN, tail, flat(programmed),
                     flat(np.minimum(narrower * radius, taper)), flat(arcs),
-                    len(STAGES), numbers(STAGES), ROUNDS,
+                    len(STAGES), numbers(STAGES), self._rounds,
                     flat(q), *(flat(each) for each in room))  # fmt: skip
             if (self._off(q[:count], programmed) <= OVER * radius).all():
                 break
