@@ -11,6 +11,7 @@ from openacr.trajectory import tube, tube_cy
 from openacr.trajectory.arrays import flat, numbers
 from openacr.trajectory.setpoints import Reals
 
+pytestmark = pytest.mark.evidence("oracle", "bounded least squares of scipy")
 RADIUS = 0.008
 STEP = 0.04
 COUNT = 120
