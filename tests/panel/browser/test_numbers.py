@@ -49,24 +49,6 @@ def test_a_position_keeps_a_place_for_its_sign_and_never_shows_a_negative_zero(
     assert call(page, "format", "position", value, decimals) == text
 
 
-@pytest.mark.req("MILL-SYS-DISP-RES")
-@pytest.mark.parametrize(
-    ("value", "digits", "text"),
-    [
-        (1.5, (3, 6), "\u2007\u2007\u20071.500000"),
-        (-1.5, (3, 6), "\u2007\u2007−1.500000"),
-        (-123.4567894, (3, 6), "−123.456789"),
-        (12345.5, (3, 1), "\u200712345.5"),
-        (7.4, (4, 0), "\u2007\u2007\u2007\u20077"),
-    ],
-)
-def test_a_position_has_the_digits_of_its_format_on_both_sides_of_the_point(
-    page: Page, value: float, digits: tuple[int, int], text: str
-) -> None:
-    whole, decimals = digits
-    assert call(page, "format", "position", value, decimals, whole) == text
-
-
 @pytest.mark.parametrize(
     ("seconds", "text"),
     [(0, "0:00"), (59.6, "1:00"), (61, "1:01"), (3600, "1:00:00"), (3725, "1:02:05")],

@@ -1,6 +1,5 @@
 """What a machine is: its card, unit and axes."""
 
-from dataclasses import astuple
 from typing import Any
 
 from openacr.mill.config.readout import METRIC_MODE, Format
@@ -39,8 +38,8 @@ def axes(store: Store) -> list[dict[str, Any]]:
                 "name": name,
                 "index": index,
                 "unit": "deg" if name in ROTARY else unit,
-                "digits": {
-                    each: astuple(Format.of(store.read(cells[index])))
+                "decimals": {
+                    each: Format.of(store.read(cells[index])).right
                     for each, cells in formats.items()
                 },
                 "low": store.read(AXIS.minus_soft_limit[index]) if is_limited else None,

@@ -26,7 +26,7 @@ export function positionBlock(panel, endings) {
  * @param {number} n
  */
 function rowOf(axis, n) {
-  const { unit, whole, decimals, factor } = viewOf(axis);
+  const { unit, decimals, factor } = viewOf(axis);
   const name = h("span.axis-name", {}, axis.name, h("small", {}, unit));
   const work = h("span.work-value.live", {}, "\u2013");
   const [machine, toGo] = [h("span.number.live", { title: t("position.machine") }), h("span.number.live", { title: t("position.togo") })];
@@ -40,9 +40,9 @@ function rowOf(axis, n) {
     element,
     /** @param {import("../core/frames.js").Status} status */
     draw(status) {
-      setText(work, position(status.work[n] * factor, decimals, whole));
-      setText(machine, position(status.machine[n] * factor, decimals, whole));
-      setText(toGo, position(status.toGo[n] * factor, decimals, whole));
+      setText(work, position(status.work[n] * factor, decimals));
+      setText(machine, position(status.machine[n] * factor, decimals));
+      setText(toGo, position(status.toGo[n] * factor, decimals));
       const isAtLimit = (status.limit >> n) & 1;
       const isMoving = (status.jogging >> n) & 1;
       element.classList.toggle("is-limit", Boolean(isAtLimit));
@@ -103,5 +103,5 @@ function simpleBlock(panel, endings, title, values) {
   const cells = model.axes.map((axis) => ({ axis, ...viewOf(axis), value: h("span.number.live", {}, "\u2013") }));
   panel.append(h("section.block", { ariaLabel: title }, h("h3", {}, title), h("div.simple-positions", {},
     ...cells.map(({ axis, value, unit }) => h("div.simple-row", { data: { axis: axis.name } }, h("strong", {}, axis.name), value, h("span.quiet", {}, unit))))));
-  endings.add(model.status.watch((status) => status && cells.forEach(({ value, whole, decimals, factor }, n) => setText(value, position(values(status)[n] * factor, decimals, whole)))));
+  endings.add(model.status.watch((status) => status && cells.forEach(({ value, decimals, factor }, n) => setText(value, position(values(status)[n] * factor, decimals)))));
 }

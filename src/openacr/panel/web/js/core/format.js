@@ -3,16 +3,14 @@
 const MINUS = "\u2212";
 
 /**
- * A position with fixed decimals, room for as many digits before its point, and always a place for its sign. No digit is cut.
+ * A position with fixed decimals and always a place for its sign.
  * @param {number} value
  * @param {number} decimals
- * @param {number} [whole]
  */
-export function position(value, decimals, whole = 1) {
+export function position(value, decimals) {
   if (!Number.isFinite(value)) return "\u2013";
   const text = Math.abs(value).toFixed(decimals);
-  const width = 1 + whole + (decimals > 0 ? decimals + 1 : 0);
-  return ((value < 0 && Number(text) !== 0 ? MINUS : "\u2007") + text).padStart(width, "\u2007");
+  return (value < 0 && Number(text) !== 0 ? MINUS : "\u2007") + text;
 }
 
 /**

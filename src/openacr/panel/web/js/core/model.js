@@ -3,7 +3,7 @@ import { BITS, readFlags, readScope, readStatus, readWatch, readWorld } from "./
 import { Signal } from "./signal.js";
 
 /**
- * @typedef {{ name: string, index: number, unit: string, digits: { mm: [number, number], inch: [number, number] }, low: number | null, high: number | null, home_required: boolean }} Axis
+ * @typedef {{ name: string, index: number, unit: string, decimals: { mm: number, inch: number }, low: number | null, high: number | null, home_required: boolean }} Axis
  * @typedef {{ kind: string, name: string, card: string, unit: string, shown: string, is_small: boolean, is_virtual: boolean, axes: Axis[] }} Machine
  * @typedef {{ name: string, path: string, kind: string, lines: number, errors: number, warnings: number, seconds: number | null,
  *   extents: Record<string, [number, number]> | null, tools: number[], id: string, drawn: boolean }} Loaded

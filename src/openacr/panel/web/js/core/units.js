@@ -27,12 +27,11 @@ export function lengthFactor() {
 }
 
 /**
- * How an axis is shown: its unit, its digits before and after the point, and the factor from the unit of the machine.
+ * How an axis is shown: its unit, its decimals, and the factor from the unit of the machine.
  * @param {import("./model.js").Axis} axis
  */
 export function viewOf(axis) {
   const isLength = axis.unit !== "deg";
   const shown = shownUnit();
-  const [whole, decimals] = axis.digits[/** @type {"mm" | "inch"} */ (shown)];
-  return { unit: isLength ? shown : axis.unit, whole, decimals, factor: isLength ? lengthFactor() : 1 };
+  return { unit: isLength ? shown : axis.unit, decimals: axis.decimals[/** @type {"mm" | "inch"} */ (shown)], factor: isLength ? lengthFactor() : 1 };
 }

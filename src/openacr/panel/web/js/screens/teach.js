@@ -33,9 +33,6 @@ export const screen = {
     };
     body.append(h("p", {}, t("teach.text")), h("label.row", {}, h("span.grow", {}, t("teach.system")), system), choice.element, h("div.row.wrap", {},
       h("button.key.big.main", { type: "button", onclick: teach }, t("menu.teach")), h("button.key.big", { type: "button", onclick: length }, t("teach.length"))));
-    endings.add(model.status.watch((status) => status && model.axes.forEach((axis, n) => {
-      const { whole, decimals, factor } = viewOf(axis);
-      setText(places[n], position(status.machine[n] * factor, decimals, whole));
-    })));
+    endings.add(model.status.watch((status) => status && model.axes.forEach((axis, n) => setText(places[n], position(status.machine[n] * viewOf(axis).factor, viewOf(axis).decimals)))));
   },
 };
