@@ -35,7 +35,8 @@ SET_UP = (
     + "DIM LV(100)\nDIM SV(100)\nDIM DV(100)\nDIM $V(100,80)\n"
     "DIM LA(1)\nDIM LA0(400)\n"
 )
-_NUMBER = re.compile(r"(?<![A-Za-z&#\d.])\d+(?:\.\d+)?")
+# Numbers of objects stay those of the card.
+_NUMBER = re.compile(r"(?<![A-Za-z&#\d.])(?<!ENC )(?<!MASTER )\d+(?:\.\d+)?")
 _NAME = re.compile(r"(?i)(^\s*_|GOTO\s+_?|GOSUB\s+_?)([A-Za-z]\w*)")
 _WORDS = "axis camera drive fast home lift part safe slow table tool wait".split()
 _BODY = re.compile(r"(?ims)^\s*PROGRAM\b(.*?)^\s*ENDP\b")

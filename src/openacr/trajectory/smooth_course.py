@@ -55,7 +55,7 @@ BACKWARDS = np.array([-1.0, -1.0, 1.0, -1.0])  # a row of a start as one of an e
 LEAST_KNOTS = 32  # ahead of what is committed
 RAMP = 12  # dense knots from one slow speed to the next
 MOST_TRIES = 40
-STRETCHES = (1.0, 2.0, 4.0, 8.0, 16.0)  # of RAMP, where a slow start is not found
+MULTIPLES = (1.0, 2.0, 4.0, 8.0, 16.0)  # of RAMP, where a slow start is not found
 BATCH = 0.5  # of that, committed at once
 LEAST_AGAIN = 12  # knots of a window that is planned again
 
@@ -341,10 +341,10 @@ class SmoothCourse(Course):
         What was planned ends at a slow speed along its own direction. Where an axis with far lower
         limits comes in there, more path is needed to be still slower.
         """
-        for stretch in STRETCHES:
+        for multiple in MULTIPLES:
             ease = 1.0
             for _ in range(MOST_TRIES):
-                start = window.tie(self._guess(level * ease, ease, stretch, is_first))
+                start = window.tie(self._guess(level * ease, ease, multiple, is_first))
                 if window.slack(start) > 0.0:
                     return start
                 ease *= 0.5
@@ -383,7 +383,7 @@ class SmoothCourse(Course):
             self._knots = closed_knots(self._knots, last, length)
         return before
 
-    def _guess(self, level: float, ease: float, stretch: float, is_first: bool) -> Reals:
+    def _guess(self, level: float, ease: float, multiple: float, is_first: bool) -> Reals:
         """Those coefficients: the ones planned before, then a slow constant speed."""
         knots, old = self._knots, len(self._x)
         x = np.empty(len(knots) - 2)
@@ -402,7 +402,7 @@ class SmoothCourse(Course):
             to_rest(inverse, to_end, brake, self._last, ease)
         x[old:] = inverse**-0.5
         if old:
-            length = stretch * RAMP * self._grid.length_u
+            length = multiple * RAMP * self._grid.length_u
             x[old:] = eased(x[old - 1], x[old:], new - place[old - 1], length)
         return x
 

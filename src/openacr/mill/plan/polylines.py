@@ -68,6 +68,7 @@ def columns(
         ramp = _limited(ramp, axis.max_acceleration_ups2, part)
         if limits_jerk(axis, speeds.jerk_ups3):
             jerk = _limited(jerk, axis.jerk_ups3, goes)
+    jerk = np.where(np.isinf(jerk), speeds.jerk_ups3, jerk)  # a move that none of these limits
     scale = np.array([axis.pulses_per_unit for axis in axes])
     exact = np.clip(points[:, [axis.index for axis in axes]] * scale, -MOST_PULSES, MOST_PULSES)
     pulses = np.copysign(np.floor(np.abs(exact) + 0.5), exact).astype(np.int64)
