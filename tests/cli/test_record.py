@@ -89,12 +89,10 @@ def left(folder: Path) -> list[str]:
     return sorted(each.name for each in folder.iterdir())
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
-@pytest.mark.parametrize("most_bytes", [0, 200])
-def test_a_recording_that_is_not_whole_is_an_error(tmp_path: Path, most_bytes: int) -> None:
-    file = tmp_path / "session.jsonl"
+def refused(file: Path, most_bytes: int, *options: str) -> str:
+    """What a recording says whose file takes no more than some bytes."""
     with square() as card:
-        words = [*OPENACR, "record", card, str(file), "--port", "0"]
+        words = [*OPENACR, "record", card, str(file), "--port", "0", *options]
         with subprocess.Popen(words, preexec_fn=limited(most_bytes), **SAID) as process:  # type: ignore[call-overload]
             if most_bytes:
                 ask(process.stdout.readline().split()[1])
@@ -102,6 +100,14 @@ def test_a_recording_that_is_not_whole_is_an_error(tmp_path: Path, most_bytes: i
             _, said = process.communicate(timeout=30)
     assert process.returncode == 2
     assert said.splitlines()[-1] == f"error: {file}: cannot be written: file too large"
+    return str(said)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
+@pytest.mark.parametrize("most_bytes", [0, 200])
+def test_a_recording_that_is_not_whole_is_an_error(tmp_path: Path, most_bytes: int) -> None:
+    file = tmp_path / "session.jsonl"
+    said = refused(file, most_bytes)
     assert left(tmp_path) == ([file.name] if most_bytes else [])
     if most_bytes:
         assert "the recording ends here: file too large; connections go on" in said
@@ -117,15 +123,7 @@ def test_an_older_recording_is_kept_where_the_disk_takes_no_new_one(
 ) -> None:
     file = tmp_path / "session.jsonl"
     file.write_text(OLD)
-    with square() as card:
-        words = [*OPENACR, "record", card, str(file), "--port", "0", "--force"]
-        with subprocess.Popen(words, preexec_fn=limited(most_bytes), **SAID) as process:  # type: ignore[call-overload]
-            if most_bytes:
-                ask(process.stdout.readline().split()[1])
-                process.terminate()
-            _, said = process.communicate(timeout=30)
-    assert process.returncode == 2
-    assert said.splitlines()[-1] == f"error: {file}: cannot be written: file too large"
+    refused(file, most_bytes, "--force")
     assert (left(tmp_path), file.read_text()) == ([file.name], OLD)
 
 
