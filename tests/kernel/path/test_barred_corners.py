@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 from tests.kernel.path.test_corners import Point, accelerations, follow, jerks, rig
 from tests.kernel.path.test_late_corners import JRK, chain
-from tests.kernel.rig import Reals, Rig, stride
+from tests.kernel.rig import Reals, Rig, T, stride
 
 from openacr.kernel.path.sync_cy import sync_drop
 from openacr.map import numbers as at
 from openacr.map.words import mf1, mf2
 from openacr.motion.path import moves
+from openacr.motion.path.move_request import Circle, Direction
 
 PATH = chain([(1.0, 0.0), (0.5, 30.0), (0.6, 0.0), (0.6, -40.0), (0.2, 20.0), (0.5, 90.0)])
 CHORDS = chain([(0.4, 3.0)] * 20)
@@ -62,6 +63,51 @@ def test_a_barred_path_rests_at_the_first_corner_before_which_it_has_room(bar: B
     rests = np.flatnonzero(np.all(np.diff(places, axis=0) == 0.0, axis=1))
     assert len(rests) > 300
     assert tuple(places[rests[0]]) == pytest.approx(PATH[2], abs=1e-9)
+
+
+STRAIGHT = chain([(0.5, 0.0)] * 12)
+
+
+@pytest.mark.parametrize("jrk", [0.0, JRK])
+@pytest.mark.parametrize("bar", [inhibit, sync])
+def test_a_path_without_a_tolerance_is_barred_at_the_first_joint_before_which_it_has_room(
+    bar: Bar, jrk: float
+) -> None:
+    """On a straight line the joints are no reason to slow down, but places to stop at."""
+    free = follow(rig(0.0, jrk=jrk), STRAIGHT)
+    for tick in range(1, len(free) - 1, stride(5)):
+        places = barred(rig(0.0, jrk=jrk), STRAIGHT, tick, bar)
+        assert tuple(places[-1]) == pytest.approx(STRAIGHT[-1], abs=1e-9)
+        assert accelerations(places).max() <= 1000 * (1 + 1e-4)
+        if jrk:
+            assert jerks(places).max() <= jrk * (1 + 1e-3)
+        speed = (free[tick] - free[tick - 1])[0] / T
+        room = speed**2 / 2000.0
+        rests = np.flatnonzero(np.all(np.diff(places[tick:], axis=0) == 0.0, axis=1))
+        if not jrk and free[tick][0] + room < STRAIGHT[-2][0] - 0.1:
+            rest = places[tick + rests[0]][0]
+            assert min(abs(rest - x) for x, _ in STRAIGHT) < 1e-9
+            assert free[tick][0] + room - 0.1 <= rest <= free[tick][0] + room + 0.6
+
+
+def test_a_barred_path_with_curves_at_both_ends_of_a_line_rests_in_front_of_one() -> None:
+    """Beside an arc no corner is rounded, though the path has a tolerance."""
+    made = rig(0.1)
+
+    def issue(point: Point) -> None:
+        if point == (6.0, 2.0):
+            arc = Circle((0, 1), (6.0, 2.0), (4.0, 2.0), Direction.COUNTER_CLOCKWISE)
+            moves.issue(made.card, 0, [arc])
+        else:
+            made.move(*point)
+
+    def meanwhile(now: int) -> None:
+        if now in (20, 20 + REST):
+            inhibit(made, now == 20)
+
+    places = follow(made, [(4.0, 0.0), (6.0, 2.0), (6.0, 8.0)], meanwhile, issue)
+    rests = np.flatnonzero(np.all(np.diff(places, axis=0) == 0.0, axis=1))
+    assert tuple(places[rests[0]]) == pytest.approx((4.0, 0.0), abs=1e-9)
 
 
 def dropped(made: Rig, points: list[Point], tick: int) -> Reals:
@@ -139,3 +185,25 @@ def test_both_builds_agree_about_barred_paths(bar: Bar, jrk: float) -> None:
         barred(made, PATH[:4], 90, bar)
         digests.append(made.memory.digest())
     assert digests[0] == digests[1]
+
+
+def test_a_kill_of_one_member_lets_the_other_brake_on_a_path_without_a_tolerance() -> None:
+    """Every other move of the line is slower, so that each of them is a section of its own."""
+    lengths = []
+    for tick in range(5, 160, stride(3)):
+        made = rig(0.0)
+
+        def issue(point: Point, made: Rig = made) -> None:
+            made.master(vel=100.0 if round(2 * point[0]) % 2 else 60.0)
+            made.move(*point)
+
+        def meanwhile(now: int, made: Rig = made, tick: int = tick) -> None:
+            if now == tick:
+                sync_drop(made.F, made.I, made.S, 0)
+
+        places = follow(made, STRAIGHT[:9], meanwhile, issue)
+        assert min(abs(places[-1][0] - x) for x, _ in STRAIGHT) < 1e-9
+        assert accelerations(places).max() <= 1000 * (1 + 1e-4)
+        lengths.append(places[-1][0])
+    assert lengths == sorted(lengths)
+    assert lengths[0] < lengths[-1] <= STRAIGHT[8][0]

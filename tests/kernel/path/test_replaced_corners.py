@@ -47,10 +47,11 @@ def test_a_path_that_is_turned_back_on_a_long_line_does_not_go_on_to_its_end(jrk
     keeps(places, jrk)
 
 
-@pytest.mark.parametrize("jrk", [0.0, JRK])
-def test_corners_after_the_move_that_turns_back_are_rounded_once_its_place_is_known(
-    jrk: float,
+@pytest.mark.parametrize(("jrk", "first"), [(0.0, 0.5), (JRK, 0.21)])
+def test_corners_after_the_path_has_turned_back_are_rounded_from_where_it_did(
+    jrk: float, first: float
 ) -> None:
+    """Under jerk the first reaches to a quarter of the line from there: 6.85 units."""
     made = rig(0.5, jrk=jrk)
     back: list[Point] = [(-3.0, -5.0), (-3.0, -15.0), (-13.0, -15.0)]
 
@@ -63,7 +64,7 @@ def test_corners_after_the_move_that_turns_back_are_rounded_once_its_place_is_kn
     places = follow(made, PATH, meanwhile)
     assert tuple(places[-1]) == pytest.approx(back[-1], abs=1e-9)
     off = [np.min(np.linalg.norm(places - corner, axis=1)) for corner in back[:2]]
-    assert off == pytest.approx([0.0, 0.5], abs=0.02)
+    assert off == pytest.approx([first, 0.5], abs=0.001)
     keeps(places, jrk)
 
 

@@ -28,6 +28,7 @@ in path_cy and curve_cy (geometry), hold_cy (stops), interrupt_cy (INT, TRG), se
 """
 
 from openacr.kernel.axis.capture_cy import capture_arm
+from openacr.kernel.path.bar_cy import path_bar, path_passes, skip_take
 from openacr.kernel.path.bezier_cy import is_timed
 from openacr.kernel.path.corner_cy import corner_drop, corner_pass
 from openacr.kernel.path.curveflags_cy import curve_show
@@ -53,7 +54,6 @@ from openacr.kernel.path.interrupt_cy import (
     response_period,
 )
 from openacr.kernel.path.path_cy import (
-    MARK_BLOCK_SKIP,
     MARK_COUNT_DOWN,
     MARK_COUNT_UP,
     MARK_CURVE_BEGIN,
@@ -70,7 +70,7 @@ from openacr.kernel.path.path_cy import (
     move_shape,
 )
 from openacr.kernel.path.plan_cy import look_refresh, master_plan
-from openacr.kernel.path.round_between_cy import round_bar, round_passes
+from openacr.kernel.path.relay_cy import path_relay
 from openacr.kernel.path.seek_cy import (
     SEEK_NONE,
     SEEK_SEARCHING,
@@ -193,18 +193,6 @@ def move_count(flags: int, marks: int) -> int:
     return step
 
 
-def move_skipped(I: I32, m: int) -> bool:
-    """Block skip: with Check and Input set the next move is dropped; Check clears."""
-    word2: int = mf2.word[m]
-    flags: int = I[word2]
-    if I[moves.marks[move_record(I, m)]] & MARK_BLOCK_SKIP:
-        flags |= mf2.BLOCK_SKIP_CHECK
-    if not flags & mf2.BLOCK_SKIP_CHECK:
-        return False
-    I[word2] = flags & ~mf2.BLOCK_SKIP_CHECK
-    return flags & mf2.BLOCK_SKIP_INPUT != 0
-
-
 def move_pop(I: I32, m: int) -> None:
     """Remove the record at the head of the ring."""
     head: int = I[masters.head[m]] + 1
@@ -239,6 +227,7 @@ def moves_pass(F: F64, I: I32, S: F32, m: int) -> None:
         F[masters.origin_u[m]] += length_u
         F[masters.corner_in_u[m]] = 0.0  # lies before the move that has been passed
         record = move_record(I, m)
+        skip_take(I, m)
         move_flags(I, S, m, record)
         length_u = F[moves.length_u[record]]
         move_shape(F, I, S, m, record, False)
@@ -377,11 +366,13 @@ def move_enter(F: F64, I: I32, S: F32, m: int, velocity_ups: float, accel_ups2: 
         master_at_rest(F, I, S, m)
         return WAITS
     barred: bool = sync_bars(I, m) or (I[mf1.word[m]] & BARS != 0 and move_barred(I, m))
-    if barred and not round_passes(I, m, velocity_ups):
+    passes: bool = path_passes(F, I, m, velocity_ups)
+    if barred and not passes:
         profile_reset(F, I, m, 0.0, 0.0)
         return WAITS
-    if move_skipped(I, m):
+    if skip_take(I, m) and not passes:
         move_pop(I, m)
+        path_relay(F, I, S, m)
         return SKIPPED if I[masters.queued[m]] else WAITS
     move_begin(F, I, S, m, velocity_ups, accel_ups2)
     if I[masters.hold[m]] == FEEDHOLDING:
@@ -400,17 +391,25 @@ def plan_over(F: F64, I: I32, S: F32, m: int) -> bool:
         return False
     if I[masters.piece[m]]:
         return piece_over(F, I, S, m)
-    if I[masters.seek_phase[m]] != SEEK_NONE and seek_end(F, I, S, m):
-        return True
-    if I[masters.hsint_phase[m]] != HSINT_NONE and hsint_end(F, I, S, m):
-        return True
+    elsewhere: bool = I[masters.cut[m]] == CUT  # than planned
+    if I[masters.seek_phase[m]] != SEEK_NONE:
+        if seek_end(F, I, S, m):
+            return True
+        elsewhere = True
+    if I[masters.hsint_phase[m]] != HSINT_NONE:
+        if hsint_end(F, I, S, m):
+            return True
+        elsewhere = True
     if I[masters.cut[m]] == CUT:
         cut_end(F, I, m)
         while I[masters.section_cnt[m]] > 1:  # what the path was planned through goes with it
             move_end(F, I, S, m)
             F[masters.origin_u[m]] = F[profiles.distance[m]]  # nothing of it has been gone
             I[masters.section_cnt[m]] -= 1
+        I[masters.cut[m]] = 0
     move_end(F, I, S, m)
+    if elsewhere:
+        path_relay(F, I, S, m)
     return I[masters.queued[m]] != 0
 
 
@@ -444,8 +443,7 @@ def master_follow(F: F64, I: I32, S: F32, m: int) -> None:
     if I[moves.interrupt[move_record(I, m)]]:
         interrupt_step(F, I, S, m)
     word: int = mf1.word[m]
-    if I[masters.rounding[m]] and (I[word] & mf1.START_MOVE_INHIBIT or sync_bars(I, m)):
-        round_bar(F, I, S, m)
+    path_bar(F, I, S, m)
     dirty: bool = I[masters.look_dirty[m]] != 0
     if dirty and I[masters.cut[m]] != CUT:
         look_refresh(F, I, S, m)

@@ -19,6 +19,7 @@ from openacr.kernel.path.lookahead_cy import (
     JOINED,
     STOPS,
     look_active,
+    look_beyond,
     look_record,
 )
 from openacr.kernel.path.path_cy import MARK_ROUNDS, move_record
@@ -45,7 +46,7 @@ from openacr.kernel.path.round_settle_cy import round_arrives
 from openacr.map.rows import masters, moves, profiles
 from openacr.views import F32, F64, I32
 
-__all__ = ["round_bar", "round_between", "round_drop", "round_passes"]
+__all__ = ["round_again", "round_between"]
 
 REACH = 0.5  # of the shorter of two lines: corners may touch each other in the middle of a line
 REACH_JRK = 0.25  # with jerk: half of a line is left to change the speed on
@@ -53,7 +54,19 @@ FEEDHOLDING = 1  # see hold_cy
 
 
 def round_between(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> None:
-    """Find how the corner between a move and the one just appended to it is rounded."""
+    """Decide the corner between a move and the one just appended to it."""
+    # Given without LOOK, a move keeps its final velocity: the path may be too near to stop.
+    active: bool = look_active(I, m) and F[moves.fvel_ups[a]] <= 0.0
+    round_decide(F, I, S, m, a, b, active)
+
+
+def round_again(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> None:
+    """Decide a corner once more, of a path at rest whose moves lie elsewhere now."""
+    round_decide(F, I, S, m, a, b, look_beyond(I, m, a))
+
+
+def round_decide(F: F64, I: I32, S: F32, m: int, a: int, b: int, active: bool) -> None:
+    """Find how a corner is rounded; where LOOK is not `active` it is by a move that says so."""
     F[moves.corner_u[a]] = 0.0
     F[moves.corner_turn[a]] = 0.0
     F[moves.corner_u[b]] = 0.0
@@ -66,8 +79,6 @@ def round_between(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> None:
     if I[masters.cut[m]] and I[masters.queued[m]] <= cut_left(I, m) + 1:
         I[moves.ahead[a]] = STOPS
         return
-    # Given without LOOK, a move keeps its final velocity: the path may be too near to stop.
-    active: bool = look_active(I, m) and F[moves.fvel_ups[a]] <= 0.0
     I[moves.ahead[a]] = STOPS if active else APART
     if not active and not I[moves.marks[a]] & MARK_ROUNDS:
         return
@@ -142,49 +153,3 @@ def round_keeps(F: F64, I: I32, S: F32, m: int) -> bool:
         velocity_ups: float = F[profiles.velocity[m]]
         return velocity_ups * velocity_ups <= w_v2 + 2.0 * rate_ups2 * room_u * SHARE
     return round_arrives(F, m, room_u * SHARE, leaving_ups, rate_ups2, jerk_ups3)
-
-
-def round_drop(F: F64, I: I32, S: F32, m: int) -> None:
-    """Drop the moves that wait, but for those without which the path could not brake in time."""
-    queued: int = I[masters.queued[m]]
-    kept: int = I[masters.section_cnt[m]]
-    if round_through(F, I, m, move_record(I, m)):
-        while kept < queued:
-            I[masters.queued[m]] = kept
-            if round_keeps(F, I, S, m):
-                break
-            kept += 1
-        I[masters.look_dirty[m]] = 1
-    I[masters.queued[m]] = kept
-
-
-def round_bar(F: F64, I: I32, S: F32, m: int) -> None:
-    """The moves that wait may not begin: stop at the next corner before which there is room.
-
-    That corner is a stop for good, as if it were decided so when its move was appended.
-    """
-    if I[masters.cut[m]] or not round_through(F, I, m, move_record(I, m)):
-        return
-    queued: int = I[masters.queued[m]]
-    kept: int = 1
-    while kept < queued and I[moves.ahead[look_record(I, m, kept - 1)]] == JOINED:
-        I[masters.queued[m]] = kept
-        if round_keeps(F, I, S, m):
-            break
-        kept += 1
-    I[masters.queued[m]] = queued
-    record: int = look_record(I, m, kept - 1)
-    if kept < queued and I[moves.ahead[record]] == JOINED:
-        I[moves.ahead[record]] = STOPS
-        F[moves.corner_u[record]] = 0.0
-        I[masters.look_dirty[m]] = 1
-
-
-def round_passes(I: I32, m: int, velocity_ups: float) -> bool:
-    """Whether the path comes to the move at the head at speed, out of a corner or straight on."""
-    if not I[masters.rounding[m]] or velocity_ups <= 0.0:
-        return False
-    before: int = I[masters.head[m]] - 1
-    if before < 0:
-        before = I[masters.size[m]] - 1
-    return I[moves.ahead[I[masters.first[m]] + before]] == JOINED

@@ -7,6 +7,7 @@ well. A kill on one member drops what waits in all.
 
 from openacr.kernel.path.hold_cy import NOT_HELD, master_drop
 from openacr.kernel.path.interrupt_cy import move_barred
+from openacr.kernel.path.keeps_cy import path_drop
 from openacr.kernel.path.path_cy import (
     SLAVE_COUNT,
     move_geometry,
@@ -14,7 +15,6 @@ from openacr.kernel.path.path_cy import (
     move_record,
     moves_lead,
 )
-from openacr.kernel.path.round_between_cy import round_drop
 from openacr.kernel.path.timed_cy import plan_seconds
 from openacr.kernel.profile.profile_cy import profile_reset
 from openacr.map.rows import kernel, masters, moves
@@ -65,7 +65,7 @@ def sync_seconds(F: F64, I: I32, S: F32, m: int) -> float:
 def sync_drop(F: F64, I: I32, S: F32, m: int) -> None:
     """Drop the moves of master m that wait; one under way goes on, if need be round a corner."""
     if I[masters.moving[m]]:
-        round_drop(F, I, S, m)
+        path_drop(F, I, S, m)
         moves_lead(F, I, m)
     elif I[masters.queued[m]]:
         master_drop(F, I, S, m)

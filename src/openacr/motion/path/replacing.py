@@ -2,7 +2,7 @@
 
 from openacr.compiled import pick
 from openacr.kernel.axis import axis_cy
-from openacr.kernel.path import hold_cy, interrupt_cy, path_cy, round_between_cy, round_cy
+from openacr.kernel.path import hold_cy, interrupt_cy, keeps_cy, path_cy, round_cy
 from openacr.map.rows import masters, moves, profiles
 from openacr.motion.card import Card
 from openacr.motion.interlocks import axes_of, scale_of
@@ -11,7 +11,7 @@ from openacr.motion.path.records import SlaveMove
 _axis_target_changed = pick(axis_cy.axis_target_changed)
 _master_cut = pick(interrupt_cy.master_cut)
 _move_over = pick(hold_cy.move_over)
-_round_drop = pick(round_between_cy.round_drop)
+_path_drop = pick(keeps_cy.path_drop)
 _round_through = pick(round_cy.round_through)
 _path_slope = pick(path_cy.path_slope)
 
@@ -57,7 +57,7 @@ def _cut(card: Card, master: int) -> None:
         memory.I[masters.queued[master]] = memory.I[masters.section_cnt[master]]
         _master_cut(memory.F, memory.I, memory.S, master)
         return
-    _round_drop(memory.F, memory.I, memory.S, master)
+    _path_drop(memory.F, memory.I, memory.S, master)
     most = memory.I[masters.size[master]] - 1  # the new move needs its place
     memory.I[masters.queued[master]] = min(memory.I[masters.queued[master]], most)
     memory.I[masters.cut[master]] = interrupt_cy.CUT + memory.I[masters.queued[master]]
