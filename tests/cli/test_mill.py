@@ -100,6 +100,20 @@ def test_a_program_with_errors_is_not_run(tmp_path: Path) -> None:
     assert "moves" not in text
 
 
+def test_a_single_move_is_counted_as_one(tmp_path: Path) -> None:
+    part = program(tmp_path, "G90 F60\nG1 X1\nM2\n")
+    assert "1 move)" in mill("time", part)[1]
+    assert "1 move)" in mill("run", part)[1]
+
+
+@pytest.mark.parametrize("jerk", [0, 20_000])
+def test_a_run_counts_the_moves_of_planned_paths_like_others(jerk: int, tmp_path: Path) -> None:
+    assert CliRunner().invoke(app, ["sysvar", "set", f"P650015={jerk}"]).exit_code == 0
+    part = program(tmp_path, "G20 G64 P.001 F60\nG1 X1\nY1\nG0 Z1\nG1 X0 Y0\nM30\n")
+    assert as_json("run", part)["moves"] == 4
+    assert "4 moves)" in mill("time", part)[1]
+
+
 def test_an_error_at_run_time_is_an_alarm_with_its_line(tmp_path: Path) -> None:
     code, text = mill("run", program(tmp_path, "G90 F600\nP5=0\nG1 X1\nG1 X(1/P5)\nM2\n"))
     assert code == 1

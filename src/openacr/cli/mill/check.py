@@ -151,7 +151,8 @@ def time_program(
     if as_json:
         typer.echo(json_format.dumps({"dialect": name} | record | left_out, indent=1))
         return
-    typer.echo(f"{clock(prediction.time_s)}  ({prediction.time_s:.2f} s, {prediction.moves} moves)")
+    moves = counted(prediction.moves, "move")
+    typer.echo(f"{clock(prediction.time_s)}  ({prediction.time_s:.2f} s, {moves})")
     _note_left_out(left_out)
     for key, text in (("feed_s", "cutting"), ("rapid_s", "rapids"), ("dwell_s", "dwells")):
         typer.echo(f"  {text:<8} {record[key]:10.2f} s")
@@ -205,7 +206,7 @@ def _planned(prediction: "Prediction") -> dict[str, dict[str, float]]:
 def _show_planned(prediction: "Prediction") -> None:
     if prediction.planned:
         typer.echo(
-            f"planned with tolerance and jerk: {prediction.planned} moves,"
+            f"planned with tolerance and jerk: {counted(prediction.planned, 'move')},"
             f" {prediction.lost_s:.2f} s more than at their feeds; most at line"
             f" {prediction.slowest_line} ({prediction.slowest_s:.3f} s)"
         )

@@ -10,6 +10,7 @@ from openacr.cli.mill.check import AtStore, Dialect, Dry, opened_store
 from openacr.cli.mill.shop import ToHost, end_with_alarms, workshop
 from openacr.cli.mill.terminal import Attendant
 from openacr.errors import UserError
+from openacr.wording import counted
 
 if TYPE_CHECKING:
     from openacr.mill.session import MillSession
@@ -47,7 +48,7 @@ def drip_program(
         shop.keep_drip(drip)
         shop.start_drip(drip, Start(dialect=name, is_dry=is_dry))
         _run(shop)
-        typer.echo(f"{shop.runner.stream.moves} moves")
+        typer.echo(counted(shop.runner.stream.moves, "move"))
         end_with_alarms(shop)
 
 

@@ -25,6 +25,7 @@ from openacr.cli.mill.shop import ToHost, end_with_alarms, place_text, workshop
 from openacr.cli.mill.terminal import Attendant, require_yes
 from openacr.cli.mill.trace import Every, ToTrace, require_trace, trace_file
 from openacr.errors import UserError
+from openacr.wording import counted
 
 if TYPE_CHECKING:
     from openacr.cnc.interpreter.replay import Replay
@@ -278,7 +279,7 @@ def _report(shop: "MillSession", as_json: bool, is_quiet: bool) -> None:
         typer.echo(json_format.dumps(record, indent=1))
     elif not is_quiet:
         typer.echo(
-            f"{clock(runner.run_s)}  ({runner.run_s:.2f} s, {runner.stream.moves} moves)"
+            f"{clock(runner.run_s)}  ({runner.run_s:.2f} s, {counted(runner.stream.moves, 'move')})"
             f"  {place_text(shop, place)}"
         )
     end_with_alarms(shop, is_shown=not as_json)

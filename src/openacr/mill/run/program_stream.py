@@ -46,7 +46,7 @@ class ProgramStream:
         self.settings = io.settings
         self.host = RunHost(io.machine, io.settings, lambda: self._probing.point)
         self.tracker = Tracker()
-        self.moves = 0  # moves sent
+        self._sent = 0  # moves sent one by one
         self.is_retaking = False  # moves are being withdrawn from the card
         self.may_lack_moves = False  # moves sent at the beginning of a pause may be lost
         self._machine = io.machine
@@ -83,6 +83,11 @@ class ProgramStream:
     def has_program(self) -> bool:
         """Whether a program is being sent."""
         return self._feed is not None
+
+    @property
+    def moves(self) -> int:
+        """Moves sent, those of planned curves as they begin."""
+        return self._sent + self._curve.jobs
 
     @property
     def is_read_up(self) -> bool:
@@ -195,7 +200,7 @@ class ProgramStream:
             if isinstance(job.entry, c.Rapid):
                 before, level = self._rapid_level, job.finish[c.TOOL_AXIS]
                 self._rapid_level = level if before is None else max(before, level)
-        self.moves += send(self._machine, self._encoder, self.tracker, jobs)
+        self._sent += send(self._machine, self._encoder, self.tracker, jobs)
 
     def probe(self, entry: c.Probe) -> Steps:
         """Make a probing move (G31), from rest to rest."""
