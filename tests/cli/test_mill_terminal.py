@@ -2,7 +2,7 @@
 
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 from pathlib import Path
 from typing import TextIO
@@ -178,6 +178,28 @@ def test_a_killed_card_is_acknowledged_before_anything_runs(card: Controller) ->
     assert mill("acknowledge") == (0, "alarm 14: Card killed moves\n")
     assert mill("acknowledge") == (0, "no alarms\n")
     assert mill("mdi", "G4 F.1")[0] == 0
+
+
+def test_a_homing_that_fails_says_that_no_axis_is_homed(
+    card: Controller, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    homing = MillSession.home
+
+    def killed(shop: MillSession, names: str, attend: Callable[[MillSession], None]) -> list[str]:
+        def kill(_shop: MillSession) -> None:
+            card.bit[8467] = True
+
+        return homing(shop, names, kill)
+
+    monkeypatch.setattr(MillSession, "home", killed)
+    code, text = mill("home", "--axes", "X")
+    assert (code, "homed: none\n" in text, "alarm 14" in text) == (1, True, True)
+
+
+def test_a_homing_without_axes_to_home_says_so(card: Controller) -> None:
+    with Store(Path(os.environ["OPENACR_STORE"])) as store:
+        store.write(300_009, 0)
+    assert mill("home", "--axes", "X") == (0, "homed: no axis has a priority\n")
 
 
 def test_mdi_reads_the_dialect_of_the_store(card: Controller) -> None:

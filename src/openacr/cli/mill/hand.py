@@ -98,7 +98,9 @@ def home_axes(
     """Home axes of a card."""
     with opened_store(store, is_written=host is not None) as cells, workshop(host, cells) as shop:
         homed = shop.home(axes, _telling(Attendant()))
-        typer.echo(f"homed: {' '.join(homed) or 'no axis has a priority'}")
+        has_failed = shop.runner.alarms.active or shop.runner.was_aborted
+        without = "none" if has_failed else "no axis has a priority"
+        typer.echo(f"homed: {' '.join(homed) or without}")
         end_with_alarms(shop)
 
 
