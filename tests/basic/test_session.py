@@ -318,6 +318,18 @@ def test_escape_in_lrun_gives_one_prompt_and_leaves_the_program_running(bench: B
     assert bench.sent() == ""
 
 
+def test_an_lrun_that_is_refused_gives_the_prompt_back(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(_program: int, _line: int | None = None) -> None:
+        raise CardError(DIVIDE_BY_ZERO)
+
+    monkeypatch.setattr(bench.control, "run", refuse)
+    bench.type("PROG 0", "10 DWL 1")
+    assert bench.type("LRUN") == "Divide by zero|P00>"
+    assert bench.session.attention is Attention.COMMANDS
+
+
 def test_the_prompt_returns_once_when_a_program_followed_with_lrun_ends(bench: Bench) -> None:
     bench.type("PROG 0", "10 DWL 1", "LRUN")
     bench.system.listeners.print(0, "done\r\n")

@@ -256,5 +256,9 @@ def lrun(run: Run, line: int | None) -> None:
     if run.system.control.is_running(program):
         raise CardError(PROGRAM_IS_RUNNING)
     if not run.system.programs.is_empty(program):
-        run.channel.listen(program, until_end=True)
-        run.system.control.run(program, line)
+        run.channel.listen(program, until_end=True)  # its first line may print an error
+        try:
+            run.system.control.run(program, line)
+        except CardError:
+            run.channel.stop_listening()
+            raise
