@@ -168,6 +168,24 @@ def test_with_json_unusable_input_is_an_object_on_standard_output(
     ]
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("param", "--json"), "Missing argument 'NUMBER|NAME'."),
+        (("mill", "run", "--json", "part.nc", "--line", "0"), "Invalid value for '--line'"),
+        (("check", "gantry", "--json", "--no-such"), "No such option: --no-such"),
+        (("replay", "--json"), "--json is for recordings of `openacr record`"),
+    ],
+)
+def test_with_json_wrong_words_are_an_object_on_standard_output(
+    words: tuple[str, ...], said: str
+) -> None:
+    code, out, err = openacr(*words)
+    record = json.loads(out)
+    assert (code, said in record["error"], said in err) == (2, True, True)
+    assert record["errors"][0]["message"] == record["error"]
+
+
 def test_without_json_standard_output_stays_empty(tmp_path: Path) -> None:
     code, out, _ = openacr("check", tmp_path / "nowhere")
     assert (code, out) == (2, "")

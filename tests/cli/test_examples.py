@@ -48,6 +48,12 @@ def test_the_list_as_json_names_the_files() -> None:
     }  # fmt: skip
 
 
+def test_options_without_a_sub_command_are_those_of_the_list() -> None:
+    meant = command("--json")
+    assert (meant.exit_code, meant.stdout) == (0, command("list", "--json").stdout)
+    assert "copy" in command("-h").stdout
+
+
 def test_an_example_is_copied_under_its_name_and_runs(folder: Path) -> None:
     result = command("copy", "square")
     assert result.exit_code == 0

@@ -100,6 +100,12 @@ def test_a_program_with_errors_is_not_run(tmp_path: Path) -> None:
     assert "moves" not in text
 
 
+@pytest.mark.parametrize("command", ["check", "time", "run"])
+def test_errors_of_a_program_are_json_where_that_is_asked_for(command: str, tmp_path: Path) -> None:
+    (error,) = as_json(command, program(tmp_path, "G90 F60\nG1 X1\nQQ\n"))["errors"]
+    assert (error["code"], error["line"], error["block"]) == ("E105", 3, "QQ")
+
+
 def test_a_single_move_is_counted_as_one(tmp_path: Path) -> None:
     part = program(tmp_path, "G90 F60\nG1 X1\nM2\n")
     assert "1 move)" in mill("time", part)[1]

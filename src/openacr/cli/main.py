@@ -18,7 +18,7 @@ from typer.core import TyperCommand, TyperGroup
 from openacr.cli.commands import COMMANDS, Entry, Family
 from openacr.cli.conversions import quick
 from openacr.cli.refusals import failed_json, parts_of
-from openacr.errors import OpenacrError
+from openacr.errors import OpenacrError, UserError
 from openacr.lang.characters import shown
 
 BAD_INPUT = 2
@@ -26,7 +26,8 @@ INTERRUPTED = 130
 MANY_OBJECTS = 250_000
 
 
-HELP = {"help_option_names": ["-h", "--help"]}
+HELP_OPTIONS = ["-h", "--help"]
+HELP = {"help_option_names": HELP_OPTIONS}
 
 
 class SubCommand(TyperCommand):
@@ -38,7 +39,19 @@ class SubCommand(TyperCommand):
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse the words; the error hints at a file whose name begins with a minus."""
-        words = list(args)
+        try:
+            return self._parsed(ctx, list(args))
+        except Exception as error:
+            said = getattr(error, "format_message", None)  # of words that are wrong or missing
+            if said is not None and "--json" in args and self._has_json:
+                typer.echo(failed_json([UserError(said())]))
+            raise
+
+    @property
+    def _has_json(self) -> bool:
+        return any("--json" in each.opts for each in self.params)
+
+    def _parsed(self, ctx: Any, words: list[str]) -> list[str]:
         while True:
             try:
                 return super().parse_args(ctx, list(words))
@@ -88,8 +101,11 @@ class LazyGroup(TyperGroup):
         return quick(super().get_params(ctx))
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Parse the words; without any of them the default sub-command is meant."""
-        return super().parse_args(ctx, args or [self.default] if self.default else args)
+        """Parse the words; without the name of a sub-command the default one is meant."""
+        is_named = bool(args) and (not args[0].startswith("-") or args[0] in HELP_OPTIONS)
+        return super().parse_args(
+            ctx, args if is_named or not self.default else [self.default, *args]
+        )
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Name the sub-commands in the order of their table."""

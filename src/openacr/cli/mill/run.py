@@ -101,7 +101,7 @@ def run_program(
         safe_z=safe_z,
     )
     with opened_store(store, is_written=host is not None) as cells:
-        program, name = _checked(file, cells, dialect)
+        program, name = _checked(file, cells, dialect, as_json=as_json)
         with workshop(host, cells, to_stderr=as_json) as shop:
             shop.runner.stream.host.answers.update(map(_answer, answers or []))
             start = _with_dialect(start, name)
@@ -146,11 +146,17 @@ def _runs(batch: "Batch", *, repeats: bool) -> "Iterator[Entry]":
         yield from batch.runs()
 
 
-def _checked(path: Path, cells: "Store", dialect: str | None) -> "tuple[Program, str]":
+def _checked(
+    path: Path, cells: "Store", dialect: str | None, *, as_json: bool = False
+) -> "tuple[Program, str]":
     """Load a program; exit with code 1 if it has errors."""
     program, name = loaded(path, cells, dialect)
     if program.errors:
-        show_findings(in_folder(program.errors, path))
+        findings = in_folder(program.errors, path)
+        show_findings(findings)
+        if as_json:
+            errors = [finding.data() for finding in findings]
+            typer.echo(json_format.dumps({"dialect": name, "errors": errors}, indent=1))
         raise typer.Exit(FAILED)
     return program, name
 

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from openacr.controller.replay import Replay
 
 DIFFERS = 1
+RECORDINGS = "for recordings of `openacr record`"
 
 
 def replay(
@@ -53,6 +54,7 @@ def replay(
     if until is not None and not 0.0 <= until < float("inf"):
         raise UserError(f"--until {until:g}: give a number of seconds, 0 or more")
     if journal is None:
+        _refuse(RECORDINGS, {"--json": as_json})
         from openacr.cli.run.journals import listing
 
         typer.echo(listing())
@@ -63,7 +65,7 @@ def replay(
 
         replay_recording(journal, project, as_json=as_json)
         return
-    _refuse("for recordings of `openacr record`", {"--json": as_json})
+    _refuse(RECORDINGS, {"--json": as_json})
     from openacr.controller.journal import read_journal
     from openacr.controller.replay import Replay
 

@@ -99,8 +99,8 @@ class Survey:
         has_moved = any(self.low[a] < math.inf for _, a in letters)
         return {
             "lines": self.line_cnt,
-            "errors": [_as_data(finding) for finding in self.errors],
-            "warnings": [_as_data(finding) for finding in self.warnings],
+            "errors": [finding.data() for finding in self.errors],
+            "warnings": [finding.data() for finding in self.warnings],
             "moves": self.move_cnts,
             "unit": self.unit,
             "length": self.shown_lengths,
@@ -111,18 +111,6 @@ class Survey:
             "end": {letter: self.shown(letter, self.end[axis]) for letter, axis in letters},
             "tools": self.tools,
         }
-
-
-def _as_data(finding: Finding) -> dict[str, Any]:
-    return {
-        "code": finding.code,
-        "text": finding.text,
-        "file": finding.file,
-        "line": finding.line,
-        "column": finding.column,
-        "hint": finding.hint,
-        "block": finding.block,
-    }
 
 
 def survey(

@@ -1,6 +1,6 @@
 """Findings of part programs: code, position and text of errors, warnings and alarms."""
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 from openacr.errors import UserError
 
@@ -113,6 +113,10 @@ class Finding:
 
     def __str__(self) -> str:
         return placed(self.file, self.line, self.column, f"{self.code} {self.text}", self.hint)
+
+    def data(self) -> dict[str, str | int]:
+        """All of it for JSON."""
+        return asdict(self)
 
 
 def placed(file: str, line: int, column: int, text: str, hint: str) -> str:
