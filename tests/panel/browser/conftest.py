@@ -11,7 +11,15 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Error, Page, expect, sync_playwright
+from playwright.sync_api import (
+    Browser,
+    BrowserContext,
+    Error,
+    Page,
+    Route,
+    expect,
+    sync_playwright,
+)
 from tests.panel.bench import Served
 from tests.panel.browser.chromium import MISSING, OPTIONS, found
 from tests.panel.browser.latency import slow_link
@@ -165,6 +173,14 @@ def release_answers(page: Page, change: str = "") -> None:
       return new Promise((done) => setTimeout(done));
     })""".replace("CHANGE", change)
     )
+
+
+def let_through(page: Page, held: Route) -> None:
+    """Let a request through that was held back; returns when its answer was worked on."""
+    with page.expect_response(lambda answer: answer.request == held.request) as late:
+        held.continue_()
+    late.value.finished()
+    page.evaluate("() => new Promise((done) => setTimeout(done, 50))")
 
 
 def load_file(page: Page, name: str) -> None:

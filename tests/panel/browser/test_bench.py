@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
+from playwright.sync_api import Browser, BrowserContext, Locator, Page, Route, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import give, left_over, open_page, until_model
+from tests.panel.browser.conftest import give, left_over, let_through, open_page, until_model
 from tests.panel.browser.test_screens import AXE, AXE_RUN, MISFITS
 
 from openacr.panel.control.station import Station
@@ -471,3 +471,22 @@ def test_another_panel_of_status_and_its_objects_are_kept_with_the_layout(page: 
             "\u2013"
         )
     assert panels[-1] == "CANopen nodes"
+
+
+def test_the_panel_of_status_that_was_chosen_last_is_shown(page: Page) -> None:
+    """However late the answer to the choice before comes."""
+    held: list[Route] = []
+    asked = "**/api/card/panel?*"
+    page.route(asked, lambda route: route.continue_() if held else held.append(route))
+    with page.expect_request(asked):
+        page.evaluate(
+            "void import('/js/bench/workspace.js').then((each) => each.openPane('status'))"
+        )
+    page.get_by_label("What is shown").select_option("Masters")
+    heads = page.locator("[data-pane=status] thead th")
+    masters = ["", *(f"MASTER{n}" for n in range(4))]
+    expect(heads).to_have_text(masters)
+    let_through(page, held[0])
+    expect(heads).to_have_text(masters)
+    expect(page.get_by_label("What is shown").locator("option:checked")).to_have_text("Masters")
+    page.unroute(asked)

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, Route, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import to_main_menu
+from tests.panel.browser.conftest import let_through, to_main_menu
 
 DROP = """([name, text]) => {
   const data = new DataTransfer();
@@ -69,10 +69,7 @@ def test_the_text_beside_the_list_is_that_of_the_chosen_file(page: Page, served:
         page.get_by_role("option", name="EARLY.TXT").click()
     page.get_by_role("option", name="LATER.TXT").click()
     expect(shown).to_have_text("G0 X2")
-    with page.expect_response("**/programs/text?path=EARLY.TXT*") as early:
-        held[0].continue_()
-    early.value.finished()
-    page.evaluate("() => new Promise((done) => setTimeout(done, 50))")
+    let_through(page, held[0])
     expect(shown).to_have_text("G0 X2")
     page.unroute_all()
 

@@ -37,12 +37,14 @@ export async function mount(host, { head, kept, keep }) {
   let cells = [];
   /** @type {Map<number, number>} */
   let values = new Map();
+  let choices = 0;
 
-  /** @param {string} wanted */
+  /** Replies may arrive in another order than they were asked for: the last choice counts. @param {string} wanted */
   async function choose(wanted) {
+    const mine = ++choices;
     /** @type {Panel | undefined} */
     const panel = await get("card/panel", { name: wanted }).catch((error) => void refuse(error));
-    if (!panel) return;
+    if (!panel || mine !== choices) return;
     name = wanted;
     choice.value = name;
     draw(panel);
