@@ -74,6 +74,26 @@ def test_the_text_beside_the_list_is_that_of_the_chosen_file(page: Page, served:
     page.unroute_all()
 
 
+def test_the_folder_that_was_chosen_last_is_shown(page: Page, served: Served) -> None:
+    """However late the list of the one before comes."""
+    for name in ("covers", "plugs"):
+        (served.programs / name).mkdir()
+        (served.programs / name / f"{name}.nc").write_text("M2\n")
+    held: list[Route] = []
+    covers = "**/api/programs?folder=covers"
+    page.route(covers, lambda route: held.append(route))
+    load_screen(page)
+    files = page.get_by_role("listbox", name="Part programs").get_by_role("option")
+    with page.expect_request(covers):
+        files.filter(has_text="covers").click()
+    files.filter(has_text="plugs").click()
+    expect(files.filter(has_text="plugs.nc")).to_have_count(1)
+    let_through(page, held[0])
+    expect(files.filter(has_text="plugs.nc")).to_have_count(1)
+    expect(page.locator(".file-list .mono")).to_have_text("/plugs")
+    page.unroute(covers)
+
+
 def test_a_file_dropped_on_the_list_is_uploaded_and_can_be_loaded(
     page: Page, served: Served
 ) -> None:

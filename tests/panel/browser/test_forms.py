@@ -2,6 +2,7 @@
 
 from playwright.sync_api import Page, Route, expect
 from tests.panel.bench import Served
+from tests.panel.browser.conftest import let_through
 
 from openacr.sysvar.tabs import JOG, SPEEDS
 
@@ -108,6 +109,71 @@ def test_a_reason_stays_with_its_value_when_an_older_question_is_answered_after_
     expect(field).to_have_value("-1")
     expect(field).to_have_attribute("aria-invalid", "true")
     page.unroute("**/api/forms/**")
+
+
+# Three replies that come in another order, a refusal, and one that comes after the end.
+NEWEST = """async () => {
+  const { latest } = await import('/js/core/api.js');
+  const { Endings } = await import('/js/core/signal.js');
+  const endings = new Endings();
+  const newest = latest(endings);
+  const asked = [];
+  const ask = () => newest(new Promise((give, refuse) => asked.push({ give, refuse })));
+  const three = [ask(), ask(), ask()];
+  asked[2].give('third');
+  asked[0].give('first');
+  asked[1].refuse(new Error('second'));
+  const shown = await Promise.all(three);
+  const refused = ask().catch((error) => error.message);
+  asked[3].refuse(new Error('no'));
+  shown.push(await refused);
+  const late = ask();
+  endings.end();
+  asked[4].give('late');
+  return [...shown, await late];
+}"""
+
+
+def test_of_replies_in_another_order_the_newest_counts_until_the_end(page: Page) -> None:
+    assert page.evaluate(NEWEST) == [None, None, "third", "no", None]
+
+
+def test_the_axis_of_a_form_that_was_chosen_last_is_shown(page: Page) -> None:
+    """However late the answer for the one before comes."""
+    parameters(page, "Servo")
+    axis = page.get_by_role("radiogroup", name="Axis").get_by_role("radio")
+    expect(axis.filter(has_text="X")).to_be_checked()
+    field = page.locator("#screen .form-rows input").first
+    of_x = field.get_attribute("id")
+    held: list[Route] = []
+    asked = "**/api/forms/SERVO?*"
+    page.route(asked, lambda route: route.continue_() if held else held.append(route))
+    with page.expect_request(asked):
+        axis.filter(has_text="Y").click()
+    axis.filter(has_text="Z").click()
+    expect(axis.filter(has_text="Z")).to_be_checked()
+    of_z = field.get_attribute("id")
+    let_through(page, held[0])
+    expect(axis.filter(has_text="Z")).to_be_checked()
+    assert field.get_attribute("id") == of_z != of_x
+    page.unroute(asked)
+
+
+def test_a_search_shows_what_was_typed_last(page: Page) -> None:
+    """However late the answer to the word before comes."""
+    parameters(page, "Servo")
+    held: list[Route] = []
+    early = "**/api/settings/search?text=feed"
+    page.route(early, lambda route: held.append(route))
+    field = page.get_by_role("searchbox")
+    with page.expect_request(early):
+        field.fill("feed")
+    field.fill("no such parameter")
+    found = page.locator(".search-results")
+    expect(found).to_have_text("Nothing found")
+    let_through(page, held[0])
+    expect(found).to_have_text("Nothing found")
+    page.unroute(early)
 
 
 def test_a_form_with_changes_asks_before_it_is_left(page: Page) -> None:

@@ -1,5 +1,5 @@
 // Two branches of the timeline over the same time: curves of parameters, and what differs at a moment.
-import { get } from "../core/api.js";
+import { get, latest } from "../core/api.js";
 import { model, refuse } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
 import { plain } from "../core/format.js";
@@ -26,6 +26,7 @@ export function compare({ kept, keep, seconds }) {
   } }, names, other, around, h("button.key", { type: "submit" }, t("time.compare"))), chart, found);
   /** @type {any} */
   let plot = null;
+  const newest = latest();
 
   async function draw() {
     const { branch, branches, period_s: period } = model.timeline.value;
@@ -40,9 +41,13 @@ export function compare({ kept, keep, seconds }) {
     if (to <= from) return refuse(t("time.apart"));
     setText(found, t("time.comparing"));
     const query = { parameters: names.value, first: from, last: to, count: SAMPLES };
-    const both = names.value.trim() ? [await get("timeline/samples", { branch, ...query }), await get("timeline/samples", { branch: chosen.number, ...query })] : [];
+    const sampled = async () => (query.parameters.trim() ? [await get("timeline/samples", { branch, ...query }), await get("timeline/samples", { branch: chosen.number, ...query })] : []);
+    const both = await newest(sampled());
+    if (!both) return;
     show(both, period);
-    const { count, differences } = await get("timeline/differences", { branch, other: chosen.number, tick: at });
+    const answer = await newest(get("timeline/differences", { branch, other: chosen.number, tick: at }));
+    if (!answer) return;
+    const { count, differences } = answer;
     fill(found, h("p", { data: { count: String(count) } }, t("time.differences", { count: String(count), seconds: seconds(at) })), h("table.grid", {}, h("tbody", {}, ...differences.map((/** @type {any} */ each) =>
       h("tr", {}, h("td.number", {}, `P${each.number}`), h("td", {}, each.name), ...each.values.map((/** @type {number | null} */ value) => h("td.number", {}, value === null ? "\u2013" : plain(value, 6))))))));
   }

@@ -45,6 +45,27 @@ export async function get(path, query) {
 }
 
 /**
+ * Replies may arrive in another order than they were asked for: of those that pass the function that is returned, the newest counts.
+ * One that another was asked for after, or that arrives after the end, is undefined, also where it is a refusal.
+ * @param {import("./signal.js").Endings} [endings]
+ * @returns {<T>(reply: Promise<T>) => Promise<T | undefined>}
+ */
+export function latest(endings) {
+  let count = 0;
+  endings?.add(() => { count += 1; });
+  return async (reply) => {
+    const mine = ++count;
+    try {
+      const found = await reply;
+      return mine === count ? found : undefined;
+    } catch (error) {
+      if (mine === count) throw error;
+      return undefined;
+    }
+  };
+}
+
+/**
  * @param {string} method
  * @param {string} path
  * @param {object} body

@@ -1,5 +1,5 @@
 // The ballscrew table of an axis: positions from the reference point with their errors, from and to files.
-import { ApiError, address, get, send } from "../core/api.js";
+import { ApiError, address, get, latest, send } from "../core/api.js";
 import { model, refuse, report } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
@@ -16,6 +16,7 @@ export function showBallscrew(host, endings) {
   /** @type {Kept} */
   let kept;
   let before = "";
+  const newest = latest(endings);
   const axes = h("div.row.wrap.grow", { role: "radiogroup", ariaLabel: t("form.axis") });
   const isOn = h("input", { type: "checkbox", onchange: () => edited() });
   const [first, second] = [h("th.number", {}), h("th.number", {})];
@@ -86,7 +87,8 @@ export function showBallscrew(host, endings) {
 
   /** @param {number} [axis] */
   async function load(axis) {
-    show(await get("ballscrew", { axis }));
+    const now = await newest(get("ballscrew", { axis }));
+    if (now) show(now);
   }
 
   /** The entries of a chosen file, not stored yet. */
@@ -95,7 +97,10 @@ export function showBallscrew(host, endings) {
     file.value = "";
     if (!chosen) return;
     try {
-      list((await send("POST", "ballscrew/check", { axis: kept.axis, text: await chosen.text() })).entries);
+      const own = kept;
+      const { entries } = await send("POST", "ballscrew/check", { axis: own.axis, text: await chosen.text() });
+      if (kept !== own) return; // another axis is shown by now
+      list(entries);
       report(t("ballscrew.imported", { name: chosen.name }));
     } catch (error) {
       refuse(error);
@@ -103,10 +108,11 @@ export function showBallscrew(host, endings) {
   }
 
   async function save() {
-    const table = text();
+    const [table, own] = [text(), kept];
     try {
-      show(await send("PUT", "ballscrew", { axis: kept.axis, is_on: isOn.checked, ...(table || kept.entries.length ? { text: table } : {}) }));
-      report(t("ballscrew.saved", { axis: kept.name }));
+      const now = await send("PUT", "ballscrew", { axis: own.axis, is_on: isOn.checked, ...(table || own.entries.length ? { text: table } : {}) });
+      if (kept === own) show(now); // no other axis is shown by now
+      report(t("ballscrew.saved", { axis: own.name }));
       return true;
     } catch (error) {
       if (!(error instanceof ApiError)) throw error;

@@ -1,5 +1,5 @@
 // Any form of the server: rows with units, limits and help; SAVE keeps refused values in their fields.
-import { ApiError, get, send } from "../core/api.js";
+import { ApiError, get, latest, send } from "../core/api.js";
 import { model, refuse, report } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
@@ -39,6 +39,7 @@ export function showForm(host, name, endings, setTitle = () => {}) {
   let form = null;
   let axis = 0;
   let first = 1;
+  const newest = latest(endings);
   const tools = h("div.row.wrap.form-tools", {});
   const rows = h("div.form-rows.scroll.grow", { tabIndex: -1 });
   const note = h("span.grow.hint", { attr: { "aria-live": "polite" } });
@@ -59,7 +60,9 @@ export function showForm(host, name, endings, setTitle = () => {}) {
 
   /** Draw what is stored. What was typed is dropped. */
   async function load() {
-    form = await stored();
+    const now = await newest(stored());
+    if (!now) return;
+    form = now;
     if (form.per_axis && form.axis !== undefined) axis = form.axis;
     draw(form);
   }

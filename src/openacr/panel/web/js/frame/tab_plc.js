@@ -1,5 +1,5 @@
 // The PLC tab: one PLC of the card as a live ladder with its listing; what cannot be drawn is shown as text.
-import { get } from "../core/api.js";
+import { get, latest } from "../core/api.js";
 import { model, refuse } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
 import { needWords, stateOf, wordsOf } from "../core/flags.js";
@@ -31,7 +31,8 @@ export async function plcTab(panel, endings) {
   const ladder = h("div.ladder.scroll", { tabIndex: 0, role: "region", ariaLabel: t("plc.ladder") });
   const list = h("pre.plc-list.mono.scroll", { tabIndex: 0, role: "region", ariaLabel: t("plc.listing") });
   panel.append(h("div.row.pane-tools", {}, choice, state, listKey, h("button.key", { type: "button", onclick: () => choose(plc) }, t("plc.read"))), h("div.plc-view.grow", {}, ladder, list));
-  const names = await namesOf();
+  const names = namesOf();
+  const newest = latest(endings);
 
   /** @param {boolean} on */
   function showList(on) {
@@ -50,16 +51,19 @@ export async function plcTab(panel, endings) {
     plc = number;
     keepSetting("plc", String(number));
     choice.value = String(number);
-    const found = await get("card/ladder", { plc }).catch((error) => void refuse(error));
-    if (!found || plc !== number || !panel.contains(ladder)) return;
+    const found = await newest(Promise.all([get("card/ladder", { plc }), names])).catch((error) => void refuse(error));
+    if (!found) return;
     own.end();
-    show(found);
+    show(...found);
   }
 
-  /** @param {{ lines: { number: number, text: string }[], rungs: import("../draw/ladder.js").Rung[], why: string }} found */
-  function show({ lines, rungs, why }) {
+  /**
+   * @param {{ lines: { number: number, text: string }[], rungs: import("../draw/ladder.js").Rung[], why: string }} found
+   * @param {Map<number, string>} named
+   */
+  function show({ lines, rungs, why }, named) {
     setText(list, lines.map((line) => `${String(line.number).padStart(5)} ${line.text}`).join("\n"));
-    const drawn = rungs.map((rung) => drawRung(rung, (flag) => names.get(flag) ?? ""));
+    const drawn = rungs.map((rung) => drawRung(rung, (flag) => named.get(flag) ?? ""));
     fill(ladder, ...(drawn.length ? drawn.map((each) => each.element) : [h("p.notice", {}, lines.length ? t("plc.notdrawn", { why: why || t("plc.norung") }) : t("plc.empty"))]));
     showList(lines.length > 0 && (hasList || !drawn.length));
     const symbols = rungs.flatMap((rung) => rung.symbols);

@@ -1,5 +1,5 @@
 // DXF FILE: a drawing becomes a part program; continuous path or drill pattern.
-import { ApiError, get, send } from "../core/api.js";
+import { ApiError, get, latest, send } from "../core/api.js";
 import { refuse, report } from "../core/app.js";
 import { numberIn } from "../core/arithmetic.js";
 import { fill, h } from "../core/dom.js";
@@ -17,6 +17,7 @@ import { fileList } from "./file_list.js";
  */
 export async function dxfSource(host, endings, load) {
   let [path, written] = ["", ""];
+  const [newestLayers, newestPath] = [latest(endings), latest(endings)];
   const fields = createFields();
   const drawing = h("div.preview.grow", {});
   const notes = h("div.scroll.dxf-notes", { role: "status" });
@@ -27,8 +28,9 @@ export async function dxfSource(host, endings, load) {
     path = entry.path;
     convert.disabled = false;
     fields.output.value = entry.path.replace(/\.dxf$/i, "") + ".TXT";
-    const { layers } = await get("dxf/layers", { path }).catch(() => ({ layers: [] }));
-    fill(fields.layer, h("option", { value: "" }, t("dxf.all")), ...layers.map((/** @type {any} */ each) => h("option", { value: each.name ?? each }, each.name ?? each)));
+    fill(fields.layer, h("option", { value: "" }, t("dxf.all")));
+    const found = await newestLayers(get("dxf/layers", { path })).catch(() => undefined);
+    if (found) fields.layer.append(...found.layers.map((/** @type {any} */ each) => h("option", { value: each.name ?? each }, each.name ?? each)));
   } });
   host.append(h("div.load-parts", {}, list.element, fields.element,
     h("div.stack.load-side", {}, drawing, notes, h("div.row.wrap", {}, convert, h("span.grow", {}), edit, go))));
@@ -43,7 +45,8 @@ export async function dxfSource(host, endings, load) {
       report(t("dxf.done", { name: written }));
       fill(notes, ...answer.notes.map((/** @type {string} */ text) => h("div.notice", {}, text)));
       await list.read();
-      picture.setPath(await fetchPath("path", { path: written }));
+      const drawn = await newestPath(fetchPath("path", { path: written }));
+      if (drawn) picture.setPath(drawn);
     } catch (error) {
       const isThere = error instanceof ApiError && error.body?.error?.code === "conflict";
       if (!isThere) refuse(error);

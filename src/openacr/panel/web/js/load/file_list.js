@@ -1,5 +1,5 @@
 // The part folder of the server as a list; files can be dropped on it.
-import { address, call, get } from "../core/api.js";
+import { address, call, get, latest } from "../core/api.js";
 import { model, refuse, report } from "../core/app.js";
 import { fill, h } from "../core/dom.js";
 import { size } from "../core/format.js";
@@ -16,6 +16,7 @@ export function fileList({ kinds, chosen, opened = () => {} }) {
   const input = h("input", { type: "file", hidden: true, multiple: true, onchange: () => void upload([...(input.files ?? [])]) });
   const element = h("section.file-list", {}, h("div.row", {}, place, h("button.key", { type: "button", onclick: () => input.click() }, t("load.upload")), input), rows, h("p.hint", {}, t("load.drop")));
   let folder = "";
+  const newest = latest();
   element.addEventListener("dragover", (event) => {
     event.preventDefault();
     element.classList.add("is-target");
@@ -45,7 +46,8 @@ export function fileList({ kinds, chosen, opened = () => {} }) {
 
   /** @param {string} where */
   async function read(where) {
-    const listed = await get("programs", { folder: where || undefined });
+    const listed = await newest(get("programs", { folder: where || undefined }));
+    if (!listed) return;
     folder = listed.folder ?? where;
     place.textContent = `/${folder}`;
     const up = folder ? [{ name: "..", path: folder.split("/").slice(0, -1).join("/"), kind: "folder", bytes: 0, changed: "", locked: false }] : [];

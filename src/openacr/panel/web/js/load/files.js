@@ -1,5 +1,5 @@
 // USER FILE, BATCH FILE and DRIP FEED as sources of a program.
-import { get } from "../core/api.js";
+import { get, latest } from "../core/api.js";
 import { refuse } from "../core/app.js";
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
@@ -11,20 +11,20 @@ const PREVIEW = 200;
  * @typedef {(cmd: string, values: Record<string, any>) => Promise<void>} Load
  *
  * @param {HTMLElement} host
- * @param {import("../core/signal.js").Endings} _endings
+ * @param {import("../core/signal.js").Endings} endings
  * @param {Load} load
  */
-export function fileSource(host, _endings, load) {
-  source(host, ["program", "other"], (path) => load("program.load", { path }));
+export function fileSource(host, endings, load) {
+  source(host, endings, ["program", "other"], (path) => load("program.load", { path }));
 }
 
 /**
  * @param {HTMLElement} host
- * @param {import("../core/signal.js").Endings} _endings
+ * @param {import("../core/signal.js").Endings} endings
  * @param {Load} load
  */
-export function batchSource(host, _endings, load) {
-  source(host, ["batch", "program", "other"], (path) => load("program.batch", { path }));
+export function batchSource(host, endings, load) {
+  source(host, endings, ["batch", "program", "other"], (path) => load("program.batch", { path }));
 }
 
 /**
@@ -41,11 +41,13 @@ export function dripSource(host, _endings, load) {
 /**
  * A list of files, the text of the chosen one, and LOAD FILE.
  * @param {HTMLElement} host
+ * @param {import("../core/signal.js").Endings} endings
  * @param {string[]} kinds
  * @param {(path: string) => Promise<void>} load
  */
-function source(host, kinds, load) {
+function source(host, endings, kinds, load) {
   let path = "";
+  const newest = latest(endings);
   const text = h("pre.listing-plain.mono.grow.scroll", { tabIndex: 0, role: "region", ariaLabel: t("load.text") });
   const name = h("span.grow.quiet", {}, t("load.choose"));
   const key = h("button.key.main.big", { type: "button", disabled: true, onclick: () => load(path) }, t("load.go"));
@@ -55,8 +57,8 @@ function source(host, kinds, load) {
     fill(name, entry.name);
     fill(text);
     try {
-      const page = await get("programs/text", { path: entry.path, first: 1, lines: PREVIEW });
-      if (path === entry.path) text.textContent = page.lines.join("\n") + (page.total > PREVIEW ? `\n\u2026 ${t("load.more", { count: page.total - PREVIEW })}` : "");
+      const page = await newest(get("programs/text", { path, first: 1, lines: PREVIEW }));
+      if (page) text.textContent = page.lines.join("\n") + (page.total > PREVIEW ? `\n\u2026 ${t("load.more", { count: page.total - PREVIEW })}` : "");
     } catch (error) {
       refuse(error);
     }

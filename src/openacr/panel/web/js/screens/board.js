@@ -1,5 +1,5 @@
 // BOARD PARAMETERS: every parameter of the card, page by page or by a search, with live values.
-import { get } from "../core/api.js";
+import { get, latest } from "../core/api.js";
 import { model, refuse } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
@@ -24,12 +24,12 @@ export const screen = {
     /** @type {HTMLElement[]} */
     let values = [];
     let unsubscribe = () => {};
-    let searches = 0;
+    const newest = latest(endings);
     const search = async () => {
-      const own = ++searches;
       try {
-        const { parameters: shown, total } = await get("card/parameters", { text: field.value.trim() || undefined, first, count: PAGE });
-        if (own !== searches) return; // typed on meanwhile
+        const found = await newest(get("card/parameters", { text: field.value.trim() || undefined, first, count: PAGE }));
+        if (!found) return;
+        const { parameters: shown, total } = found;
         drawPages(total);
         values = shown.map(() => h("strong.live", {}, "\u2013"));
         fill(rows, ...shown.map((/** @type {any} */ each, /** @type {number} */ n) => rowOf(each, values[n])));

@@ -1,5 +1,5 @@
 // EDIT: part programs in an editor with colours and findings; the loaded program cannot be changed while it runs.
-import { ApiError, readFile, send, writeFile } from "../core/api.js";
+import { ApiError, latest, readFile, send, writeFile } from "../core/api.js";
 import { model, refuse, report } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
@@ -16,6 +16,7 @@ export const screen = {
     let [path, saved] = ["", ""];
     /** @type {string | null} */
     let version = null;
+    const newest = latest(endings);
     const host = h("div.editor-host.grow", {});
     const findings = h("div.findings.scroll", { hidden: true });
     const state = h("span.hint.grow", { role: "status" });
@@ -61,7 +62,8 @@ export const screen = {
      */
     async function read(name) {
       try {
-        const file = await readFile(name);
+        const file = await newest(readFile(name));
+        if (!file) return;
         [path, version, saved] = [name, file.version, file.text];
       } catch (error) {
         if (!(error instanceof ApiError) || error.status !== 404) {
@@ -90,6 +92,7 @@ export const screen = {
 
     async function begin() {
       if (!(await mayDrop())) return;
+      void newest(Promise.resolve()); // a file that is still on its way is not shown
       [path, version, saved] = ["", null, ""];
       editor.setText("");
       draw();

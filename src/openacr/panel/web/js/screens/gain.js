@@ -1,5 +1,5 @@
 // GAIN: the gains of one axis; ENTER writes a value to the card at once.
-import { get } from "../core/api.js";
+import { get, latest } from "../core/api.js";
 import { give, model, refuse, report } from "../core/app.js";
 import { evaluate } from "../core/arithmetic.js";
 import { fill, h } from "../core/dom.js";
@@ -8,20 +8,18 @@ import { t } from "../core/texts.js";
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: "gain.title",
-  async show({ body }) {
+  async show({ body, endings }) {
     const axes = h("div.row.wrap", { role: "radiogroup", ariaLabel: t("form.axis") });
     const store = h("input", { type: "checkbox", checked: true });
     const rows = h("div.stack.grow.scroll", {});
     body.append(h("div.notice", {}, t("gain.warning")), axes, rows, h("label.check", {}, store, t("gain.store")));
-    /** @type {import("../core/model.js").Axis | null} */
-    let chosen = null;
+    const newest = latest(endings);
     const show = async (/** @type {import("../core/model.js").Axis} */ axis) => {
-      chosen = axis;
       fill(rows); // until they are read, nothing can be typed
       fill(axes, ...model.axes.map((each) => h("button.key", { type: "button", role: "radio", ariaChecked: String(each === axis), onclick: () => show(each) }, each.name)));
       try {
-        const form = await get("forms/SERVO", { axis: axis.index });
-        if (axis === chosen) fill(rows, ...form.groups.flatMap((/** @type {any} */ group) => group.rows).filter((/** @type {any} */ row) => row.kind === "real").map((/** @type {any} */ row) => rowOf(axis, row, store)));
+        const form = await newest(get("forms/SERVO", { axis: axis.index }));
+        if (form) fill(rows, ...form.groups.flatMap((/** @type {any} */ group) => group.rows).filter((/** @type {any} */ row) => row.kind === "real").map((/** @type {any} */ row) => rowOf(axis, row, store)));
       } catch (error) {
         refuse(error);
       }

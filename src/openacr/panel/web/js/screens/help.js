@@ -1,5 +1,5 @@
 // HELP: a page for every key of every menu.
-import { get } from "../core/api.js";
+import { get, latest } from "../core/api.js";
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { MENUS } from "../frame/menus.js";
@@ -15,15 +15,16 @@ const PAGES = {
 export const screen = {
   title: "help.title",
   area: "full",
-  show({ body }) {
+  show({ body, endings }) {
+    const newest = latest(endings);
     const text = h("article.help-text.scroll", { tabIndex: 0 });
     const list = h("div.form-tabs.scroll", {});
     body.classList.add("is-tabbed");
     body.append(list, text);
     const show = async (/** @type {HTMLElement} */ item, /** @type {string} */ key, /** @type {string} */ label) => {
       for (const each of list.children) each.setAttribute("aria-current", String(each === item));
-      const page = await get(`help/${key}`).catch(() => ({ title: label, text: t("help.none") }));
-      fill(text, h("h2", {}, page.title), ...page.text.split(/\n\s*\n/).map((/** @type {string} */ part) => h("p", {}, part)));
+      const page = await newest(get(`help/${key}`)).catch(() => ({ title: label, text: t("help.none") }));
+      if (page) fill(text, h("h2", {}, page.title), ...page.text.split(/\n\s*\n/).map((/** @type {string} */ part) => h("p", {}, part)));
     };
     const seen = new Set();
     for (const [menu, keys] of Object.entries(MENUS)) {

@@ -1,5 +1,5 @@
 // SYS PARAM: the tabs of the parameters of the machine, with a search over all of them.
-import { get } from "../core/api.js";
+import { get, latest } from "../core/api.js";
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { showFormTabs } from "../frame/form_tabs.js";
@@ -12,11 +12,14 @@ export const screen = {
     const found = h("div.search-results.list", { hidden: true });
     const field = h("input.field", { type: "search", placeholder: t("parameters.search"), ariaLabel: t("parameters.search"), oninput: () => void search() });
     place.head.append(h("div.search", {}, field, found));
+    const newest = latest(place.endings);
     const search = async () => {
       const text = field.value.trim();
       found.hidden = text.length < 2;
       if (found.hidden) return;
-      const { cells } = await get("settings/search", { text }).catch(() => ({ cells: [] }));
+      const answer = await newest(get("settings/search", { text })).catch(() => ({ cells: [] }));
+      if (!answer) return;
+      const { cells } = answer;
       fill(found, ...(cells.length ? cells.slice(0, 30).map(rowOf) : [h("p.hint", {}, t("parameters.nothing"))]));
     };
     const rowOf = (/** @type {any} */ cell) => h("button.key.item", { type: "button", onclick: () => {

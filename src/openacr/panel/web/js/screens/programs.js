@@ -1,5 +1,5 @@
 // PROGRAM/PLC: the programs and PLCs of the card, what each of them does, its text; run, halt, step, listen, edit, clear.
-import { get } from "../core/api.js";
+import { get, latest } from "../core/api.js";
 import { give, link, model, refuse, report } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
 import { needPrograms } from "../core/programs.js";
@@ -28,6 +28,7 @@ export const screen = {
     let lines = [];
     let isRead = false; // `lines` are those of the chosen program
     let listened = "";
+    const newest = latest(endings);
     const items = h("div.list.scroll.program-list", { role: "listbox", ariaLabel: t("programs.list") });
     const title = h("strong", { role: "status" });
     const keys = h("div.program-keys", {});
@@ -87,8 +88,8 @@ export const screen = {
     }
 
     async function readText() {
-      const found = await get("card/listing", which()).catch((error) => void refuse(error));
-      if (!found || found.name !== name) return;
+      const found = await newest(get("card/listing", which())).catch((error) => void refuse(error));
+      if (!found) return;
       isRead = true;
       take(found.lines);
       drawStates();

@@ -1,5 +1,5 @@
 // Editor: controller files and the programs of the card, checked while they are typed, sent, compared, their running lines marked.
-import { get } from "../../core/api.js";
+import { get, latest } from "../../core/api.js";
 import { model, refuse, report } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { CommandError } from "../../core/link.js";
@@ -25,6 +25,7 @@ const HALTED = "halted";
  */
 export async function mount(host, { head, kept, keep, beforeClose }) {
   const endings = new Endings();
+  const newest = latest(endings);
   /** @type {Opened} */
   let opened = { name: "setup.8k", level: "", text: "", version: "", setup: "", isCards: false };
   let saved = "";
@@ -176,17 +177,19 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     return confirm(t("edit.leave"), t("edit.leave.text", { name: opened.level || opened.name }), t("form.drop"));
   }
 
+  /** @param {Opened | Promise<Opened>} reading */
+  const open = (reading) => newest(Promise.resolve(reading)).then((now) => now && show(now), refuse);
+
   async function chooseLevel() {
     const level = choice.value;
     if (!(await mayDrop())) choice.value = opened.level;
-    else if (!level) show({ name: "setup.8k", level: "", text: "", version: "", setup: "", isCards: false });
-    else await fromCard(level).then(show, refuse);
+    else await open(level ? fromCard(level) : { name: "setup.8k", level: "", text: "", version: "", setup: "", isCards: false });
   }
 
   async function chooseFile() {
     const [file] = input.files ?? [];
     input.value = "";
-    if (file && (await mayDrop())) await fromFile(file).then(show, refuse);
+    if (file && (await mayDrop())) await open(fromFile(file));
   }
 
   function save() {

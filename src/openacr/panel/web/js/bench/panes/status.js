@@ -1,5 +1,5 @@
 // Status: one of the panels that the server declares, objects side by side; a chosen value can be watched and changed.
-import { get } from "../../core/api.js";
+import { get, latest } from "../../core/api.js";
 import { model, refuse } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { needWords, wordsOf } from "../../core/flags.js";
@@ -37,14 +37,13 @@ export async function mount(host, { head, kept, keep }) {
   let cells = [];
   /** @type {Map<number, number>} */
   let values = new Map();
-  let choices = 0;
+  const newest = latest(endings);
 
-  /** Replies may arrive in another order than they were asked for: the last choice counts. @param {string} wanted */
+  /** @param {string} wanted */
   async function choose(wanted) {
-    const mine = ++choices;
     /** @type {Panel | undefined} */
-    const panel = await get("card/panel", { name: wanted }).catch((error) => void refuse(error));
-    if (!panel || mine !== choices) return;
+    const panel = await newest(get("card/panel", { name: wanted })).catch((error) => void refuse(error));
+    if (!panel) return;
     name = wanted;
     choice.value = name;
     draw(panel);

@@ -1,5 +1,5 @@
 // Parameters and flags of the card as a tree that can be searched; the card is asked for the values of rows that can be seen.
-import { get } from "../../core/api.js";
+import { get, latest } from "../../core/api.js";
 import { model, refuse } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { needWords, wordsOf } from "../../core/flags.js";
@@ -44,12 +44,11 @@ export async function mount(host, { head }) {
   /** @type {Map<number, number>} */
   let values = new Map();
   let current = 0;
-  let version = 0; // of the search: answers of an earlier one are not shown
+  const newest = latest(endings);
 
   async function search() {
-    const mine = ++version;
-    const found = await get("card/groups", { text: field.value.trim() || undefined }).catch((error) => void refuse(error));
-    if (!found || mine !== version) return;
+    const found = await newest(get("card/groups", { text: field.value.trim() || undefined })).catch((error) => void refuse(error));
+    if (!found) return;
     groups = found.groups;
     items = new Map();
     open = new Set();
@@ -171,11 +170,11 @@ export async function mount(host, { head }) {
    * @param {string} [key] of the row that shows it
    */
   async function unfold(group, key = keyOf(group)) {
-    const mine = version;
+    const searched = groups;
     const query = { object: group.object, index: group.index ?? undefined, text: field.value.trim() || undefined };
     if (!items.has(keyOf(group))) {
       const found = await Promise.all([all("parameters", group.parameters, query), all("flags", group.flags, query)]).catch((error) => void refuse(error));
-      if (!found || mine !== version) return;
+      if (!found || searched !== groups) return; // found by another search
       items.set(keyOf(group), found.flat());
     }
     open.add(key);

@@ -1,5 +1,5 @@
 // Variables: those of a program, the parameters and flags in its text, its flow stack and what it waits for.
-import { get } from "../../core/api.js";
+import { get, latest } from "../../core/api.js";
 import { give, model, refuse, report } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { needWords, wordsOf } from "../../core/flags.js";
@@ -27,6 +27,7 @@ export async function mount(host, { head, kept, keep }) {
   const endings = new Endings();
   const live = new Endings();
   let program = Number(kept.program ?? 0);
+  const [newestOwn, newestUsed] = [latest(endings), latest(endings)];
   let isEnded = false;
   let drawn = "";
   /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -55,10 +56,12 @@ export async function mount(host, { head, kept, keep }) {
 
   async function readOwn() {
     clearTimeout(timer);
-    const asked = program;
     if (host.offsetParent && !document.hidden) {
-      const found = await get("card/variables", { program: asked }).catch((error) => void (drawn || refuse(error)));
-      if (isEnded || asked !== program) return;
+      const found = await newestOwn(get("card/variables", { program })).catch((error) => {
+        if (!drawn) refuse(error);
+        return null;
+      });
+      if (found === undefined) return; // the one that was asked for since goes on
       if (found) draw(found);
     }
     clearTimeout(timer);
@@ -102,9 +105,8 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   async function readUsed() {
-    const asked = program;
-    const found = await get("card/used", { program: asked }).catch(() => null);
-    if (isEnded || asked !== program) return;
+    const found = await newestUsed(get("card/used", { program })).catch(() => null);
+    if (found === undefined) return;
     live.end();
     used = (found?.items ?? []).map((/** @type {Item} */ item) => ({ item, value: h("strong.live", {}) }));
     fill(shared, headOf("vars.used"), ...used.map(({ item, value }) => {

@@ -1,7 +1,8 @@
 // The configuration wizard: dialogs on the left, the code they make on the right; code becomes answers again.
-import { get, send } from "../../core/api.js";
+import { get, latest, send } from "../../core/api.js";
 import { refuse, report } from "../../core/app.js";
 import { fill, h } from "../../core/dom.js";
+import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
 import { changed, valueAt, whereOf, withOneMore } from "../wizard/answers.js";
 import { formOf } from "../wizard/form.js";
@@ -28,7 +29,8 @@ export async function mount(host, { head, kept, keep }) {
   let notes = [];
   /** @type {Code} */
   let code = { errors: [] };
-  let version = 0; // of the answers: code of earlier ones is not shown
+  const endings = new Endings();
+  const newest = latest(endings);
   const nav = h("nav.list.scroll.wizard-nav", { ariaLabel: t("wizard.dialogs") });
   const form = h("div.scroll.wizard-dialog", {});
   const output = h("div.stack.wizard-code", {});
@@ -46,9 +48,8 @@ export async function mount(host, { head, kept, keep }) {
     notes = remarks;
     keep({ answers });
     draw();
-    const mine = ++version;
-    const made = await send("POST", "configure/code", { answers }).catch((error) => void refuse(error));
-    if (!made || mine !== version) return;
+    const made = await newest(send("POST", "configure/code", { answers })).catch((error) => void refuse(error));
+    if (!made) return;
     code = made;
     draw();
   }
@@ -149,7 +150,7 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   await take(answers);
-  return () => { version++; };
+  return () => endings.end();
 }
 
 /**
