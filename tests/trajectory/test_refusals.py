@@ -67,13 +67,13 @@ def test_what_cannot_be_planned_is_an_error_after_a_path_that_ends_at_rest(
 ) -> None:
     segments, start = wave(120.0)
     planner = TrajectoryPlanner(start, limits(), PERIOD_S)
-    keeps, windows = SmoothCourse._samples_keep_limits, []
+    samples, windows = SmoothCourse._samples, []
 
-    def fails(course: SmoothCourse, *, is_first: bool) -> bool:
+    def fails(course: SmoothCourse, *, is_first: bool) -> tuple[float, ...]:
         windows.append(is_first)
-        return len(windows) <= 2 and keeps(course, is_first=is_first)
+        return samples(course, is_first=is_first) if len(windows) <= 2 else (0.9, 1.1, 0.9)
 
-    monkeypatch.setattr(SmoothCourse, "_samples_keep_limits", fails)
+    monkeypatch.setattr(SmoothCourse, "_samples", fails)
     taken = []
     with pytest.raises(TrajectoryError, match=r"line \d+: no speed keeps the limits"):
         for segment in segments:

@@ -1,8 +1,9 @@
-"""What happens between knots: mean acceleration and jerk of every cell.
+"""What happens between knots: the highest speed, mean acceleration and jerk of every cell.
 
 Rows keep the limits at knots only. Setpoints are some milliseconds apart, and their differences
 are means over several of them; so the mean over a cell is what has to be within the limits. In a
-cell that takes longer it is every value.
+cell that takes longer it is every value. Of the speeds the highest counts in every cell: where the
+path turns, q' of an axis is larger between knots than the squared speed at knots allows.
 """
 
 from openacr.cmath import fabs, sqrt
@@ -28,18 +29,19 @@ def boole_weight(n: int) -> float:
 
 def cells_excess(
     C: F64, points: int, axes: int, step: float, origin: float, at: F64, first: int, stop: int,
-    long_s: float, soft: F64, limits: F64, H: F64, Q: F64, N: F64, pushes: F64, jerks: F64,
+    long_s: float, soft: F64, limits: F64, H: F64, Q: F64, N: F64, speeds: F64,
+    pushes: F64, jerks: F64,
 ) -> None:  # fmt: skip
-    """Write acceleration and jerk of the cells first ... stop-1, relative to the limits.
+    """Write squared speed, acceleration and jerk of the cells first ... stop-1 by the limits.
 
     The largest of all axes count. H are h, h' and h'' at the knots (speed_curve_cy.py), `soft` the
-    shares of the jerk limits at knots, of which the larger one counts. Q and N are room for 4
-    numbers of every axis.
+    shares of the jerk limits at knots, of which the larger one counts. Q is room for 4
+    numbers of every axis, N for 5.
     """
     for i in range(first, stop):
         v: int = VALUES * i
         d: float = at[i + 3] - at[i + 2]
-        for k in range(4 * axes):
+        for k in range(5 * axes):
             N[k] = 0.0
         is_low: bool = False
         for n in range(PARTS + 1):
@@ -61,21 +63,28 @@ def cells_excess(
                 )
                 N[k] = N[k] + weight * push
                 N[axes + k] = N[axes + k] + weight * jerk
+                if Q[k] * Q[k] * h > N[4 * axes + k]:
+                    N[4 * axes + k] = Q[k] * Q[k] * h
                 if fabs(push) > N[2 * axes + k]:
                     N[2 * axes + k] = fabs(push)
                 if fabs(jerk) > N[3 * axes + k]:
                     N[3 * axes + k] = fabs(jerk)
         slow: float = H[v] if H[v] < H[v + VALUES] else H[v + VALUES]
         shift: int = 2 * axes if d * d > long_s * long_s * slow else 0
+        fastest: float = 0.0
         most: float = 0.0
         worst: float = 0.0
         for k in range(axes):
-            ratio: float = fabs(N[shift + k]) / limits[axes + k]
+            ratio: float = N[4 * axes + k] / (limits[k] * limits[k])
+            if ratio > fastest:
+                fastest = ratio
+            ratio = fabs(N[shift + k]) / limits[axes + k]
             if ratio > most:
                 most = ratio
             ratio = fabs(N[shift + axes + k]) / limits[2 * axes + k]
             if ratio > worst:
                 worst = ratio
+        speeds[i] = fastest
         pushes[i] = most
         jerks[i] = worst / (soft[i] if soft[i] > soft[i + 1] else soft[i + 1])
         if is_low:

@@ -17,13 +17,13 @@ TURNED_SHARE = 0.9994  # the same for some of the axes: the path turns by TURN_R
 LEAST_ROOM = 0.01  # of the tolerance, for the B-spline in time
 LONG = 0.7  # periods: what takes longer is seen by a single difference of setpoints
 
-Shares = tuple[Reals, Reals, Reals]  # of acceleration and jerk, and the share of both in the tail
+Shares = tuple[Reals, ...]  # of squared speed, acceleration and jerk; of the last two in the tail
 
 
 class KnotRules:
     """The rules at knots; the shares of knots that a window has used before are kept."""
 
-    __slots__ = ("_first", "_last", "_limits", "_period_s", "_push", "_rest_u", "_ruling",
+    __slots__ = ("_fast", "_first", "_last", "_limits", "_period_s", "_push", "_rest_u", "_ruling",
                  "_sections", "_soft", "_tail", "_tube", "ease")  # fmt: skip
 
     def __init__(
@@ -37,7 +37,7 @@ class KnotRules:
         self._sections, self._tube, self._rest_u = sections, tube, rest_u
         self._first = first
         self._last: Soft | None = None
-        self._push = self._soft = self._tail = np.empty(0)
+        self._fast = self._push = self._soft = self._tail = np.empty(0)
         self.ease = 1.0  # share of the jerk of new windows
 
     def close(self, last: Soft) -> None:
@@ -46,17 +46,15 @@ class KnotRules:
 
     def shares(self) -> Shares:
         """The shares of the present knots, to be set again."""
-        return self._push, self._soft, self._tail
+        return self._fast, self._push, self._soft, self._tail
 
     def set_shares(self, shares: Shares) -> None:
         """Return to shares that ruled before."""
-        self._push, self._soft, self._tail = shares
+        self._fast, self._push, self._soft, self._tail = shares
 
     def drop(self, count: int) -> None:
         """Forget the first knots."""
-        self._push, self._soft, self._tail = (
-            each[count:].copy() for each in (self._push, self._soft, self._tail)
-        )
+        self.set_shares(tuple(each[count:].copy() for each in self.shares()))
 
     def fresh(self, knots: Reals) -> Rules:
         """The rules at knots (with two more on each side) that no window has used."""
@@ -71,8 +69,9 @@ class KnotRules:
         room = self._tube.left_u(knots[1:-3], knots[3:-1]) + (WHOLE - self._tube.share) * tolerance
         normal = 6.0 / self._period_s**2 * np.maximum(room, LEAST_ROOM * tolerance)
         push = np.full(len(inner), ACCELERATION_SHARE)
-        return Rules(FEED_SHARE * feed, TURNED_SHARE * tool, push, soft * zone * self.ease, zone,
-                     normal, self._ruling, LONG * self._period_s)  # fmt: skip
+        return Rules(FEED_SHARE * feed, TURNED_SHARE * tool, np.ones(len(inner)), push,
+                     soft * zone * self.ease, zone, normal, self._ruling,
+                     LONG * self._period_s)  # fmt: skip
 
     def next(self, knots: Reals, kept: int, tail_u: float) -> Rules:
         """The rules of the next window; its first `kept` knots keep their shares.
@@ -82,11 +81,12 @@ class KnotRules:
         """
         rules = self.fresh(knots)
         tail = np.where(knots[2:-2] > tail_u, TAIL_SHARE, 1.0)
+        rules.fast[:kept] = self._fast[:kept]
         rules.push[:kept] = self._push[:kept] / self._tail[:kept]
         rules.soft[:kept] = self._soft[:kept] / self._tail[:kept]
         np.multiply(rules.push, tail, out=rules.push)
         np.multiply(rules.soft, tail, out=rules.soft)
-        self._push, self._soft, self._tail = rules.push, rules.soft, tail
+        self.set_shares((rules.fast, rules.push, rules.soft, tail))
         return rules
 
     def _zone(self, s: Reals, soft: Soft | None) -> Reals:

@@ -1,4 +1,4 @@
-"""Whether the setpoints of a course are within the limits of its axes."""
+"""How far the setpoints of a course use the limits of its axes."""
 
 import math
 
@@ -9,15 +9,16 @@ from openacr.trajectory import course_cy
 from openacr.trajectory.arrays import flat
 from openacr.trajectory.course import Course
 from openacr.trajectory.limits import Limits
+from openacr.trajectory.setpoints import Reals
 
 PHASES = 4
 _fill = pick(course_cy.course_fill)
 
 
-def setpoints_keep_limits(
+def setpoints_by_limits(
     course: Course, limits: Limits, period_s: float, since_s: float | None
-) -> bool:
-    """Whether setpoints from a time of the course on keep the limits of acceleration and jerk.
+) -> Reals:
+    """The largest speed, acceleration and jerk of setpoints from a time on, by their limits.
 
     Where the course begins in the stream is not known before its first window is planned; then
     (`since_s` is None) several phases of the grid are examined.
@@ -28,15 +29,18 @@ def setpoints_keep_limits(
         begin = max(since_s - 4.0 * period_s, 0.0)
         grid = math.ceil((course.begin_s + begin) / period_s) * period_s - course.begin_s
         starts = [grid - 4.0 * period_s * (grid < 4.0 * period_s)]
-    return all(_keeps_limits(course, limits, period_s, start) for start in starts)
+    found: Reals = np.max([_by_limits(course, limits, period_s, at) for at in starts], axis=0)
+    return found
 
 
-def _keeps_limits(course: Course, limits: Limits, period_s: float, begin_s: float) -> bool:
+def _by_limits(course: Course, limits: Limits, period_s: float, begin_s: float) -> Reals:
     axes = limits.axes
     count = int((course.duration_s - begin_s) / period_s) + 4
     points, gone = np.empty((count, axes)), np.empty(count)
     _fill(course.H, course.C, course.Z, begin_s, period_s, count, flat(points), flat(gone))
-    push = np.abs(np.diff(points, n=2, axis=0)).max(axis=0) / period_s**2
-    jerk = np.abs(np.diff(points, n=3, axis=0)).max(axis=0) / period_s**3
-    most = np.array(limits.checked())
-    return bool((push <= most[axes : 2 * axes]).all() and (jerk <= most[2 * axes : 3 * axes]).all())
+    most = np.reshape(limits.checked()[: 3 * axes], (3, axes))
+    found, change = np.empty(3), points
+    for order, limit in enumerate(most):
+        change = np.diff(change, axis=0) / period_s
+        found[order] = (np.abs(change).max(axis=0) / limit).max()
+    return found

@@ -24,7 +24,7 @@ from openacr.trajectory.knots import Grid, Rest, closed_knots, first_knots
 from openacr.trajectory.limits import Along, Limits, TrajectoryError
 from openacr.trajectory.sections import Sections
 from openacr.trajectory.segments import Piece
-from openacr.trajectory.setpoint_check import setpoints_keep_limits
+from openacr.trajectory.setpoint_check import setpoints_by_limits
 from openacr.trajectory.setpoints import Reals
 from openacr.trajectory.slow_law import (
     SLOW_JERK,
@@ -45,7 +45,7 @@ PARTS = speed_rows_cy.PARTS
 
 SLOW_STEPS = 2.0  # of time between two knots where the feed is low
 END_ROWS = 8  # control points that shape an end
-MOST_AGAIN, AGAIN_SHARE = 3, 0.96
+MOST_AGAIN, AGAIN_SHARE, SPEED_AGAIN = 3, 0.96, 0.9998
 SLOWER = (0.8, 0.5, 0.2, 0.0)  # shares between the slow law and the fastest
 SLOWDOWN, MOST_SLOWDOWNS = 1.05, 40
 SCALES = np.array(
@@ -273,8 +273,9 @@ class SmoothCourse(Course):
         """Plan the next window.
 
         Its setpoints are checked; where one is above a limit the window is planned again with less
-        of the jerk, and then more slowly. TrajectoryError where nothing keeps the limits: what was
-        committed before still ends at rest.
+        of the jerk, or of the speeds where those are above theirs, and then more slowly.
+        TrajectoryError where nothing keeps the limits: what was committed before still ends at
+        rest.
         """
         self._tube.grow()
         points, origin = self._tube.control_points()
@@ -282,14 +283,18 @@ class SmoothCourse(Course):
         self.set_path(points, self._tube.step, origin)
         state = self._state()
         before = self._knots, self._x, self._kept
-        shares = self._rules.shares()
+        shares, fast = self._rules.shares(), 1.0
         for share in (*(1.0,) * (MOST_AGAIN + 1), *SLOWER):
             self._knots, self._x, self._kept = before
             self._rules.set_shares(shares)
-            self._plan_window(points, origin, share)
-            if self._samples_keep_limits(is_first=is_first):
+            self._plan_window(points, origin, share, fast)
+            speed, push, jerk = self._samples(is_first=is_first)
+            if max(speed, push, jerk) <= 1.0:
                 return
-            self._rules.ease *= AGAIN_SHARE if share == 1.0 else 1.0
+            if speed > 1.0:
+                fast *= (SPEED_AGAIN / speed) ** 2
+            if max(push, jerk) > 1.0 and share == 1.0:
+                self._rules.ease *= AGAIN_SHARE
             if is_first and share < 1.0 and self._slow_down():
                 return
         self._return_to(state)
@@ -304,17 +309,21 @@ class SmoothCourse(Course):
             self._kept = self._kept * SCALES
             self.committed_s *= SLOWDOWN
             self._x = self._x / SLOWDOWN**2
-            if self._samples_keep_limits(is_first=True):
+            if max(self._samples(is_first=True)) <= 1.0:
                 return True
         return False
 
-    def _samples_keep_limits(self, *, is_first: bool) -> bool:
-        """Whether setpoints of the present window are within the limits."""
+    def _samples(self, *, is_first: bool) -> tuple[float, ...]:
+        """The largest speed, acceleration and jerk of the present window's setpoints, by limits."""
         since_s = None if is_first else self._begun_s
-        return setpoints_keep_limits(self, self._limits, self._period_s, since_s)
+        found = setpoints_by_limits(self, self._limits, self._period_s, since_s)
+        return tuple(found.tolist())
 
-    def _plan_window(self, points: Reals, origin: float, share: float) -> None:
-        """Plan the window; `share` 0 is a slow law that keeps the limits, 1 the fastest."""
+    def _plan_window(self, points: Reals, origin: float, share: float, fast: float) -> None:
+        """Plan the window; `share` 0 is a slow law that keeps the limits, 1 the fastest.
+
+        `fast` is the share of the squared speeds that is used between knots.
+        """
         curve = Curve(self.C, len(points), self._limits.axes, self._tube.step, origin)
         is_first = not len(self._knots)
         before = self._new_knots(points, origin)
@@ -330,7 +339,7 @@ class SmoothCourse(Course):
         )  # fmt: skip
         start = self._slow_start(window, level, is_first)
         slowness = 1.0 / math.sqrt(float(window.cap.max()))
-        fastest, steps = window.fit(start, slowness)
+        fastest, steps = window.fit(start, slowness, fast)
         self._x = window.towards(start, fastest, share)
         self.steps += steps
         self._commit(window, is_first)

@@ -26,6 +26,9 @@ REACHES = (1, 2, 4, 8, 16, 32)  # knots on both sides of a cell above a limit
 BLENDS = (1.0, 0.95, 0.9, 0.8, 0.65, 0.5, 0.35, 0.2, 0.1)
 HARDEST = 0.9995  # mean of a cell relative to the limits
 EASED = 0.985  # what is aimed at in a cell that was above
+FASTEST, SLOWED = 1.001, 0.999  # the same for the squared speed
+CELLS = np.array([[FASTEST], [HARDEST], [HARDEST]])
+AIMED = np.array([[SLOWED], [EASED], [EASED]])
 MARGIN = 0.003  # smallest slack to start from
 
 
@@ -44,15 +47,15 @@ class Curve:
 class Rules:
     """What rules at every knot: feeds, shares of the limits, highest normal acceleration.
 
-    `push` and `soft` are the shares of acceleration and jerk that the rows may use, `zone` the
-    share of the
-    jerk that a cell may use. A cell that takes longer than
+    `fast`, `push` and `soft` are the shares of squared speed, acceleration and jerk that the rows
+    may use, `zone` the share of the jerk that a cell may use. A cell that takes longer than
     `long_s` is no mean. `tool` is the feed of the axes that carry the tool; `limits` are
     velocities, accelerations and jerks of the axes, and which carry it (`Limits.planned`).
     """
 
     feed: Reals
     tool: Reals
+    fast: Reals
     push: Reals
     soft: Reals
     zone: Reals
@@ -106,6 +109,7 @@ class Window:
               flat(rules.push), flat(rules.soft), flat(rules.normal),
               flat(rules.limits), flat(np.empty(4 * curve.axes)),
               flat(self.rows), flat(self.cap))  # fmt: skip
+        self.cap *= rules.fast
 
     def tie(self, x: Reals) -> Reals:
         """Set the coefficients that follow from the free one at a start or end at rest."""
@@ -134,37 +138,41 @@ class Window:
         self.tie(x)
         return steps
 
-    def excess(self, x: Reals) -> tuple[Reals, Reals]:
-        """Mean accelerations and jerks of the cells, relative to the limits."""
+    def excess(self, x: Reals, fast: float) -> Reals:
+        """Squared speeds, mean accelerations and jerks of the cells, relative to the limits.
+
+        `fast` is the share of the squared speed that a cell may use.
+        """
         curve, rules, count = self.curve, self.rules, self.count
         _values(flat(x), flat(self.plain), 0, count, flat(self._values), 0)
-        push, jerk = np.zeros(count), np.zeros(count)
+        found = np.zeros((3, count))
         _excess(curve.points, curve.count, curve.axes, curve.step, curve.origin,
                 flat(self.knots), 0, count - 1, rules.long_s,
                 flat(rules.zone), flat(rules.limits), flat(self._values),
-                flat(np.empty(4 * curve.axes)), flat(np.empty(4 * curve.axes)),
-                flat(push), flat(jerk))  # fmt: skip
-        return push, jerk
+                flat(np.empty(4 * curve.axes)), flat(np.empty(5 * curve.axes)),
+                *(flat(each) for each in found))  # fmt: skip
+        found[0] /= fast
+        return found
 
-    def fit(self, start: Reals, slowness: float) -> tuple[Reals, int]:
+    def fit(self, start: Reals, slowness: float, fast: float) -> tuple[Reals, int]:
         """The fastest coefficients, from a start that keeps all limits; `slowness` is 1/feed.
 
-        Where the mean of a cell is above a limit, the rows of the knots around it are tightened,
+        Where a cell is above a limit, the rows of the knots around it are tightened,
         of more knots each time, but never so far that the start would break them. Returns the
         number of steps, too.
         """
         x = start.copy()
         steps = self.solve(x, slowness, FINE * slowness)
         for reach in REACHES:
-            push, jerk = self.excess(x)
-            if max(push.max(), jerk.max()) <= HARDEST:
+            over = self.excess(x, fast)
+            if (over <= CELLS).all():
                 return x, steps
-            self._tighten(start, push, jerk, reach)
+            self._tighten(start, over, reach)
             x = self._between(start, x)
             steps += self.solve(x, AGAIN * slowness, FINE * slowness)
         for share in BLENDS:
             found: Reals = self.tie(start + share * (x - start))
-            if self.slack(found) > 0.0 and max(e.max() for e in self.excess(found)) <= HARDEST:
+            if self.slack(found) > 0.0 and (self.excess(found, fast) <= CELLS).all():
                 return found, steps
         return start, steps
 
@@ -182,13 +190,11 @@ class Window:
                 return found
         return start.copy()
 
-    def _tighten(self, start: Reals, push: Reals, jerk: Reals, reach: int) -> None:
+    def _tighten(self, start: Reals, over: Reals, reach: int) -> None:
         """Lower the shares at the knots up to `reach` from cells above a limit."""
-        used = self._used(start)
-        for share, over, least in zip(
-            (self.rules.push, self.rules.soft), (push, jerk), used, strict=True
-        ):
-            cell = np.where(over > HARDEST, EASED / np.maximum(over, HARDEST), 1.0)
+        cells: Reals = np.where(over > CELLS, AIMED / np.maximum(over, CELLS), 1.0)
+        shares = self.rules.fast, self.rules.push, self.rules.soft
+        for share, cell, least in zip(shares, cells, self._used(start), strict=True):
             knot = cell.copy()
             for shift in range(1, reach + 1):
                 np.minimum(knot[shift:], cell[:-shift], out=knot[shift:])
@@ -198,14 +204,14 @@ class Window:
             share *= np.maximum(knot, np.minimum(1.02 * least, 1.0))
         self.set_rows()
 
-    def _used(self, x: Reals) -> tuple[Reals, Reals]:
-        """The parts of the rows of acceleration and jerk that are used at every knot."""
+    def _used(self, x: Reals) -> tuple[Reals, Reals, Reals]:
+        """The parts of the rows of squared speed, acceleration and jerk used at every knot."""
         self.slack(x)
         h = self._values[:, None, :3]
         push = np.abs(self.rows[:, :, 0] * h[:, :, 0] + self.rows[:, :, 1] * h[:, :, 1])
         jerk = np.abs((self.rows[:, :, 2:5] * h).sum(axis=2)) + self.rows[:, :, 5] * h[:, :, 0]
         jerk *= np.sqrt(np.abs(h[:, :, 0]))
-        return push.max(axis=1), jerk.max(axis=1)
+        return self._values[:, 0] / self.cap, push.max(axis=1), jerk.max(axis=1)
 
     def _between(self, start: Reals, x: Reals) -> Reals:
         """The furthest of some points from the start towards x that keep all rows."""
