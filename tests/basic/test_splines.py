@@ -477,3 +477,23 @@ def test_queries() -> None:
     assert [made.type(line) for line in ("NURB", "NURB RANK", "SPLINE")] == ["OFF", "4", "OFF"]
     made.all("NURB MODE 4", "NURB RANK 3")
     assert [made.type(line) for line in ("NURB", "NURB RANK", "SPLINE")] == ["4", "3", "OFF"]
+
+
+@pytest.mark.parametrize(("mode", "tick"), [(0, 1), (1, 1), (1, 2000)])
+def test_an_inhibit_within_a_curve_lets_it_run_to_its_end(mode: int, tick: int) -> None:
+    """A curve is one move, though each of its pieces waits as one."""
+    made = bench("MBUF ON", "LOOK ON", f"SPLINE MODE {mode}")
+    path = []
+    for line in (*POINTS, "SPLINE END", "X-1 Y3"):
+        made.type(line)
+        while made.is_waiting:
+            path.append(_place(made.ticks(1)))
+    path += [_place(made.ticks(1)) for _ in range(tick)]
+    assert path[-1][1] < 2.9
+    made.all("SET 540")
+    path += [_place(made.ticks(1)) for _ in range(11_000)]
+    assert path[-1] == [0.0, 3.0, 0.0]
+    assert largest_jump(np.array(path)) < 0.1
+    assert not mode or np.abs(np.diff(path, n=2, axis=0)).max() / PERIOD_S**2 <= 50.0 * 1.01
+    made.all("CLR 540")
+    assert sampled(made)[-1] == pytest.approx([-1.0, 3.0, 0.0])

@@ -12,7 +12,7 @@ from tests.kernel.rig import Reals, Rig, T, stride
 from openacr.kernel.path.sync_cy import sync_drop
 from openacr.map import numbers as at
 from openacr.map.words import mf1, mf2
-from openacr.motion.path import moves
+from openacr.motion.path import buffer, moves
 from openacr.motion.path.move_request import Circle, Direction
 
 PATH = chain([(1.0, 0.0), (0.5, 30.0), (0.6, 0.0), (0.6, -40.0), (0.2, 20.0), (0.5, 90.0)])
@@ -108,6 +108,22 @@ def test_a_barred_path_with_curves_at_both_ends_of_a_line_rests_in_front_of_one(
     places = follow(made, [(4.0, 0.0), (6.0, 2.0), (6.0, 8.0)], meanwhile, issue)
     rests = np.flatnonzero(np.all(np.diff(places, axis=0) == 0.0, axis=1))
     assert tuple(places[rests[0]]) == pytest.approx((4.0, 0.0), abs=1e-9)
+
+
+def test_a_move_given_without_look_keeps_its_final_velocity_where_the_next_is_barred() -> None:
+    made = rig(0.1).master(fvel=20.0)
+    buffer.switch_look(made.card, 0, on=False)
+
+    def meanwhile(now: int) -> None:
+        if now == 5:
+            buffer.switch_look(made.card, 0, on=True)
+        if now in (5, REST):
+            inhibit(made, now == 5)
+
+    places = follow(made, [(4.0, 0.0), (8.0, 0.0)], meanwhile)
+    reached = int(np.argmax(places[:, 0] >= 4.0 - 1e-9))
+    assert (places[reached - 1] - places[reached - 2])[0] / T == pytest.approx(20.0, abs=1.0)
+    assert tuple(places[reached + 50]) == (4.0, 0.0)
 
 
 def dropped(made: Rig, points: list[Point], tick: int) -> Reals:

@@ -161,6 +161,14 @@ def test_corners_after_an_interrupted_move_are_those_of_the_lines_which_are_run(
     assert off == pytest.approx(0.1, rel=0.02)
 
 
+@pytest.mark.parametrize("waiting", [2, 3])
+def test_the_last_corner_of_the_moves_that_wait_is_rounded_after_an_interrupt(waiting: int) -> None:
+    points = BESIDE[: waiting + 1]
+    places = interrupted(rig(0.1), points, 60)
+    off = np.min(np.linalg.norm(places - points[-2], axis=1))
+    assert off == pytest.approx(0.1, rel=0.02)
+
+
 def test_look_slows_down_for_the_angle_that_an_interrupted_path_turns_by() -> None:
     """Look Ahead stops at 90 degrees and more, which the corner at (10, 5) has not if planned."""
     made = rig(0.0)

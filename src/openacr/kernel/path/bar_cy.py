@@ -12,7 +12,6 @@ from openacr.kernel.path.keeps_cy import path_keeps
 from openacr.kernel.path.lookahead_cy import (
     STOPS,
     look_beyond,
-    look_plain,
     look_record,
     look_through,
     same_curve,
@@ -61,7 +60,7 @@ def bar_here(F: F64, I: I32, S: F32, m: int, k: int, a: int, b: int) -> bool:
     return False
 
 
-def path_passes(F: F64, I: I32, m: int, velocity_ups: float) -> bool:
+def path_passes(I: I32, m: int, velocity_ups: float) -> bool:
     """Whether the path runs into the move at the head at speed, as it was planned to."""
     if velocity_ups <= 0.0:
         return False
@@ -69,11 +68,11 @@ def path_passes(F: F64, I: I32, m: int, velocity_ups: float) -> bool:
     if before < 0:
         before = I[masters.size[m]] - 1
     before += I[masters.first[m]]
-    record: int = move_record(I, m)
-    if same_curve(I, before, record):
+    if same_curve(I, before, move_record(I, m)):
         return True
-    joined: bool = I[moves.ahead[before]] != STOPS and look_beyond(I, m, before)
-    return joined and look_plain(F, I, record)
+    if is_timed(I, before):  # it is left at rest, whatever its speed in time
+        return False
+    return I[moves.ahead[before]] != STOPS and look_beyond(I, m, before)
 
 
 def skip_waits(I: I32, m: int, k: int, record: int) -> bool:

@@ -366,7 +366,7 @@ def move_enter(F: F64, I: I32, S: F32, m: int, velocity_ups: float, accel_ups2: 
         master_at_rest(F, I, S, m)
         return WAITS
     barred: bool = sync_bars(I, m) or (I[mf1.word[m]] & BARS != 0 and move_barred(I, m))
-    passes: bool = path_passes(F, I, m, velocity_ups)
+    passes: bool = path_passes(I, m, velocity_ups)
     if barred and not passes:
         profile_reset(F, I, m, 0.0, 0.0)
         return WAITS

@@ -35,4 +35,3 @@ def path_relay(F: F64, I: I32, S: F32, m: int) -> None:
             before: int = look_record(I, m, k - 1)
             F[moves.turn_deg[before]] = path_turn_deg(F, before, record)
             round_again(F, I, S, m, before, record)
-    I[masters.look_dirty[m]] = 1
