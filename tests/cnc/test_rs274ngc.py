@@ -7,6 +7,7 @@ import pytest
 from tests.cnc.programs import Bench, Run, errors, run, shown
 
 from openacr.cnc.canonical import Arc, Line, PathMode, Probe
+from openacr.cnc.interpreter.interpreter import Options
 from openacr.cnc.loading.load import Folders
 from openacr.cnc.state.cells import SPIRALS
 
@@ -263,3 +264,49 @@ def test_the_feed_of_inverse_time_belongs_to_its_block() -> None:
     entries = ngc("F10 G1 X1\nG93 X3 F2\nG94 X4\nX5 F20").entries
     feeds = [each.pace.feed_upm for each in entries if isinstance(each, Line)]
     assert feeds == [10, 4, 10, 20]
+
+
+def feed_warnings(text: str, is_metric: bool = False, **more: object) -> list[str]:
+    """The warnings of F beside a change of the unit; the store is in inches or millimetres."""
+    done = ngc(text, {250_001: float(is_metric)}, **more)
+    return [str(each) for each in done.interpreter.warnings if each.code == "W221"]
+
+
+@pytest.mark.parametrize("has_batches", [False, True])
+def test_f_in_a_block_that_changes_the_unit_is_named_as_it_is_read(has_batches: bool) -> None:
+    options = Options(has_batches=has_batches)
+    title = "W221 F in a block that changes the unit: "
+    advice = "(give F in a block of its own)"
+    assert feed_warnings("G21 G1 F3000 X10\nG1 X20\nM2", options=options) == [
+        f"PROGRAM:1:8: {title}F3000 is read in inches/min, as before G21: 76200 mm/min {advice}"
+    ]
+    assert feed_warnings("G21 G1 F3000 X10\nG20 F254 X1\nM2", True, options=options) == [
+        f"PROGRAM:2:5: {title}F254 is read in mm/min, as before G20: 10 inches/min {advice}"
+    ]
+    assert feed_warnings("#1=300\nG21 G1 F[#1*10] X10\nM2", options=options) == [
+        f"PROGRAM:2:8: {title}F3000 is read in inches/min, as before G21: 76200 mm/min {advice}"
+    ]
+
+
+@pytest.mark.parametrize("has_batches", [False, True])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "G20 G1 F100 X1\nM2",  # the unit of the store
+        "G21\nF3000\nG1 X10\nM2",
+        "G21\nG21 G1 F3000 X10\nM2",
+        "F100\nG21 G1 X10\nM2",
+        "G93\nG21 G1 X10 F3\nM2",
+        "G21 G93 G1 X10 F3\nM2",
+    ],
+)
+def test_f_beside_a_unit_that_stays_or_in_inverse_time_is_no_doubt(
+    text: str, has_batches: bool
+) -> None:
+    assert feed_warnings(text, options=Options(has_batches=has_batches)) == []
+
+
+def test_acromill_reads_f_in_the_unit_of_its_own_block() -> None:
+    done = run("G21 G1 F254 X25.4", {250_001: 0.0})
+    assert [move.pace.feed_upm for move in done.of(Line) if isinstance(move, Line)] == [10.0]
+    assert [each for each in done.interpreter.warnings if each.code == "W221"] == []

@@ -140,10 +140,16 @@ def _planned(
         for limit in code.limits:
             if limit.letter in plan.words:
                 body.add(core.STEP_LIMIT, _letter(limit.letter), notes.limit(limit))
-    is_alone = False
+    is_alone = has_feed = False
     for code in acts:
         for form in code.fast or (None,):
-            _act(form, code, plan, body, notes)
+            if isinstance(form, Sets) and form.field == "unit" and has_feed:
+                # Only the handler warns where the unit changes after F of its block was read.
+                value = int(code.number) if form.value is None else form.value
+                body.add(core.STEP_KEEP, FIELDS.index("unit"), value)
+            else:
+                _act(form, code, plan, body, notes)
+            has_feed |= form is Does.TAKES_FEED
             is_alone |= isinstance(form, Sets) and form.is_alone
     if len(body.steps) > core.MOST_STEPS:
         raise NoCodeError

@@ -74,6 +74,7 @@ TEXTS = {
     "W218": "motion with no F and no start feed chosen",
     "W219": "G98 level below R",
     "W220": "reserved parameter assigned",
+    "W221": "F in a block that changes the unit",
     "W230": "arc radii differ",
     "W310": "negative radius",
     "W311": "lead-in shorter than the radius",

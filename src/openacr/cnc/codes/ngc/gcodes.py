@@ -34,6 +34,7 @@ from openacr.cnc.state.cells import (
     RADIUS,
     RADIUS_WEAR,
 )
+from openacr.cnc.state.modal import INCH, INVERSE_TIME, METRIC
 from openacr.sysvar.tabs import CELLS
 
 if TYPE_CHECKING:
@@ -44,10 +45,11 @@ gcode = RS274NGC.gcode
 INCREMENTAL = 91
 TABLE, FIXTURE = 1, 11  # L of G10: as given; read in G59.3 without G92
 LAST_OF_ALL = 9  # work systems
+FEED_UNITS = {INCH: "inches/min", METRIC: "mm/min"}
 REFERENCE_CELLS = {28: CELLS.reference_point_1, 30: CELLS.reference_point_2}
 RS274NGC.include(
     ACROMILL,
-    gcodes=(17, 18, 19, 20, 21, 40, 90, 91, 92, 98, 99, 0, 1, 2, 3),
+    gcodes=(17, 18, 19, 40, 90, 91, 92, 98, 99, 0, 1, 2, 3),
     letters="F S T D MOTION CUSTOM",
 )
 
@@ -231,6 +233,28 @@ def exact_stop(run: Run, b: BlockContext) -> None:
 def blended(run: Run, b: BlockContext) -> None:
     """No slowing at corners; with P they are rounded within it, where the machine can."""
     _path(run, 64, run.path.length(b.get("P")))
+
+
+@gcode(20, step=Step.UNIT, group=Group.UNIT, fast=Sets("unit", INCH, is_alone=True))
+def inch(run: Run, b: BlockContext) -> None:
+    """Words are inches, feeds of later blocks inches per minute."""
+    _unit(run, b, INCH)
+
+
+@gcode(21, step=Step.UNIT, group=Group.UNIT, fast=Sets("unit", METRIC, is_alone=True))
+def metric(run: Run, b: BlockContext) -> None:
+    """Words are millimetres, feeds of later blocks millimetres per minute."""
+    _unit(run, b, METRIC)
+
+
+def _unit(run: Run, b: BlockContext, unit: int) -> None:
+    modal, before = run.modal, run.modal.unit
+    modal.unit = unit
+    run.path.set_unit()
+    if unit != before and "F" in b.words and modal.feed_mode != INVERSE_TIME:
+        is_now = f"{run.path.shown(modal.feed):.6g} {FEED_UNITS[unit]}"
+        read = f"F{b.words['F']:g} is read in {FEED_UNITS[before]}, as before G{unit}: {is_now}"
+        run.warn(b, "W221", "F", read, "give F in a block of its own")
 
 
 def _path(run: Run, mode: int, tolerance_u: float = 0.0) -> None:
