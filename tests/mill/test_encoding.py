@@ -113,7 +113,7 @@ def test_a_position_beyond_32_bits_is_refused() -> None:
     inside, beyond = at((2**31 - 1) / PULSES), at(2**31 / PULSES)
     assert coder.beyond_pulses(coder.job(line(1, inside), at())) is None
     refusal = coder.beyond_pulses(coder.job(line(1, beyond), at()))
-    assert refusal == "axis 0: 214748"
+    assert refusal == "axis X at 214748 inch"
 
 
 def test_an_arc_is_slowed_to_what_the_machine_gives_across() -> None:

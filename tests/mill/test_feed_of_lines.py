@@ -48,5 +48,5 @@ def test_a_probing_move_beyond_what_pulses_can_say_is_refused_before_it_starts()
     shop = Shop(P650_000=6000.0, P600_000=3.0)
     shop.load("G31 X300000 F100\nM2\n")
     shop.until(State.ALARM, State.IDLE)
-    assert "E403 axis 0" in shop.runner.alarms.active[0].detail
+    assert "E403 axis X at 300000 inch" in shop.runner.alarms.active[0].detail
     assert shop.pulses()[0] == 0

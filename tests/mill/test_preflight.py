@@ -81,8 +81,18 @@ def test_axes_that_are_not_homed_are_tested_all_the_same_and_named_once() -> Non
 
 def test_a_position_without_pulses_is_an_error() -> None:
     assert said(Shop(), rapid(1, at(1)), rapid(7, at(2**31 / 10000))) == [
-        "TEST.TXT:7:1: E403 position beyond 32 bits of pulses: axis 0: 214748"
+        "TEST.TXT:7:1: E403 position beyond 32 bits of pulses: axis X at 214748 inch"
     ]
+
+
+def test_a_position_without_pulses_is_in_the_unit_of_the_machine_with_the_letter_of_the_axis() -> (
+    None
+):
+    assert said(Shop(P250_001=1), rapid(7, at(0, 2.5e7)))[0].endswith("axis Y at 2.5e+07 mm")
+    shop = Shop(P203_012=1, P203_003=1000.0)
+    assert said(shop, rapid(7, (0.0, 0.0, 0.0, 1e9, *(0.0,) * 4)))[0].endswith(
+        "axis A at 1e+09 degrees"
+    )
 
 
 def test_a_feed_that_no_move_of_a_path_reaches_is_reported_once() -> None:

@@ -247,9 +247,11 @@ class Encoder:
 
     def beyond_pulses(self, job: Job) -> str | None:
         """The axis and position that exceed the 32 bits of a packet for pulses; None if all fit."""
-        for axis, end in zip(self._axes, job.finish_cnt, strict=True):
+        linear = "mm" if self._settings.is_metric else "inch"
+        for axis, end in zip(self._settings.axes, job.finish_cnt, strict=True):
             if abs(end) > LONG_MAX:
-                return f"axis {axis}: {job.finish[axis]:g}"
+                unit = linear if axis.is_linear else "degrees"
+                return f"axis {axis.name} at {job.finish[axis.index]:g} {unit}"
         return None
 
     # --- forms the card supports ---------------------------------------------------------
