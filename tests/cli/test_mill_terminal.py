@@ -175,9 +175,20 @@ def test_a_killed_card_is_acknowledged_before_anything_runs(card: Controller) ->
     card.bit[8467] = True
     code, text = mill("jog", "X1")
     assert (code, "alarm 14" in text, "`openacr mill acknowledge`" in text) == (2, True, True)
-    assert mill("acknowledge") == (0, "alarm 14: Card killed moves\n")
+    assert mill("acknowledge") == (0, "cleared: alarm 14: Card killed moves\n")
     assert mill("acknowledge") == (0, "no alarms\n")
     assert mill("mdi", "G4 F.1")[0] == 0
+
+
+def test_acknowledge_names_an_alarm_that_stays_once_and_those_it_has_cleared(
+    card: Controller,
+) -> None:
+    with Store(Path(os.environ["OPENACR_STORE"])) as store:
+        store.write(ESTOP, 4)
+    card.set_input(4, True)
+    assert mill("acknowledge") == (1, "alarm 10: Emergency stop\n")
+    card.set_input(4, False)
+    assert mill("acknowledge") == (0, "cleared: alarm 10: Emergency stop\n")
 
 
 def test_a_homing_that_fails_says_that_no_axis_is_homed(

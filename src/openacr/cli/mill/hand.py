@@ -111,12 +111,14 @@ def acknowledge_alarms(host: AtHost, store: AtStore = None) -> None:
     """
     with opened_store(store, is_written=True) as cells, workshop(host, cells) as shop:
         shop.step()
-        for alarm in shop.runner.alarms.active:
-            typer.echo(f"alarm {alarm.kind.code}: {alarm.text}")
-        if not shop.runner.alarms.active:
-            typer.echo("no alarms")
+        found = {(alarm.kind.code, alarm.text) for alarm in shop.runner.alarms.active}
         shop.runner.acknowledge()
         shop.step()
+        stay = {(alarm.kind.code, alarm.text) for alarm in shop.runner.alarms.active}
+        for code, text in sorted(found - stay):
+            typer.echo(f"cleared: alarm {code}: {text}")
+        if not found | stay:
+            typer.echo("no alarms")
         end_with_alarms(shop)
 
 
