@@ -12,7 +12,7 @@ from openacr.controller import Controller
 from openacr.sysvar import Store
 
 ESTOP_INPUT = 4
-AT_REST = "the machine is at rest at X   0.0000 Y   0.0000 Z   0.0000"
+AT_REST = "the machine is at rest at X   0.0000 Y   0.0000 Z   0.0000 inch;"
 
 
 @pytest.fixture
@@ -39,3 +39,13 @@ def test_an_emergency_stop_is_called_by_its_name_by_mill_stop(card: Controller) 
     code, lines = stopped()
     assert (code, lines[0]) == (0, "alarm 10: Emergency stop")
     assert lines[1].startswith(AT_REST)
+
+
+def test_mill_stop_names_the_unit_of_the_position_it_prints(
+    card: Controller, tmp_path: Path
+) -> None:
+    with Store(tmp_path / "sysvar.db") as store:
+        store.write(250_001, 1)  # Default Units
+        store.write(850_030, 21)  # Control Mode
+    code, lines = stopped()
+    assert (code, [" mm; `openacr mill acknowledge`" in line for line in lines]) == (0, [True])

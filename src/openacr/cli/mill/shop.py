@@ -114,8 +114,7 @@ def place_text(shop: "MillSession", place: tuple[float, ...]) -> str:
     from openacr.mill.config.readout import Readout
 
     axes = [axis.index for axis in shop.runner.settings.axes]
-    readout = Readout(shop.cells)
-    return f"{readout.line(axes, place)} {'mm' if readout.is_metric else 'inch'}"
+    return Readout(shop.cells).place(axes, place)
 
 
 def end_with_alarms(shop: "MillSession", *, is_shown: bool = True) -> None:

@@ -14,6 +14,8 @@ def stop_machine(host: AtHost, store: AtStore = None) -> None:
 
     Feed hold, jogs off, then spindle, coolant and beam off; if it does not come to
     rest, its drives go off (exit code 1). Nothing moves before `openacr mill acknowledge`.
+    The position is computed with the pulses per unit of the store, the default ones if
+    there is no store; those of the card are not asked for.
     """
     from openacr.cli.signals import deaf
     from openacr.client import Card, Options
@@ -36,7 +38,7 @@ def stop_machine(host: AtHost, store: AtStore = None) -> None:
         place = [0.0] * 8
         for axis, count in zip(settings.axes, counts, strict=True):
             place[axis.index] = count / axis.pulses_per_unit
-        where = Readout(cells).line([axis.index for axis in settings.axes], tuple(place))
+        where = Readout(cells).place([axis.index for axis in settings.axes], tuple(place))
     if stopped.cause is not None:
         typer.echo(f"alarm {stopped.cause.code}: {stopped.cause.text}")
     for text in stopped.found:

@@ -60,3 +60,7 @@ class Readout:
     def line(self, axes: Sequence[int], place: Sequence[float]) -> str:
         """The positions of several axes on one line."""
         return " ".join(f"{self._names[axis]}{self.text(axis, place[axis])}" for axis in axes)
+
+    def place(self, axes: Sequence[int], place: Sequence[float]) -> str:
+        """The positions of several axes with their unit."""
+        return f"{self.line(axes, place)} {'mm' if self.is_metric else 'inch'}"
