@@ -69,3 +69,20 @@ def test_the_page_of_codes_is_up_to_date_and_complete() -> None:
         for code in (*dialect.table.gcodes.values(), *dialect.table.mcodes.values()):
             assert code.summary in text
             assert code.summary.endswith(".")
+
+
+def test_blocks_of_the_table_of_offsets_are_read_in_the_dialect_they_are_for(
+    tmp_path: Path,
+) -> None:
+    rows = [row for row in TEXT.splitlines() if "`G10 L" in row and row.startswith("| ")]
+    assert len(rows) == 3
+    for row in rows:
+        for part in row.split("|")[3].split(";"):
+            named = [name for name in DIALECTS if f"({name})" in part] or list(DIALECTS)
+            for block in re.findall(r"`(G10 [^`]+)`", part):
+                for name in named:
+                    file = tmp_path / "part.nc"
+                    file.write_text(f"{block}\nM2\n")
+                    words = ["mill", "check", str(file), "--dialect", name]
+                    result = CliRunner().invoke(app, words)
+                    assert result.exit_code == 0, f"{name}: {result.output}"
