@@ -20,6 +20,7 @@ from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 
+ROOT = Path(__file__).parents[2]
 ESTOP, LUBRICATION = 400_004, 400_012
 SPINDLE_CW = 800_005
 
@@ -189,6 +190,22 @@ def test_acknowledge_names_an_alarm_that_stays_once_and_those_it_has_cleared(
     assert mill("acknowledge") == (1, "alarm 10: Emergency stop\n")
     card.set_input(4, False)
     assert mill("acknowledge") == (0, "cleared: alarm 10: Emergency stop\n")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [["jog", "X1"], ["home"], ["mdi", "G4 F.1"], ["run", "PART.NC"], ["run", "PART.NC", "--json"]],
+)
+def test_an_alarm_that_refuses_a_start_ends_with_the_exit_code_of_the_documentation(
+    words: list[str], card: Controller, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    (row,) = [row for row in page.splitlines() if "an alarm that refuses a start" in row]
+    monkeypatch.chdir(tmp_path)
+    Path("PART.NC").write_text("G4 F.1\nM2\n")
+    card.bit[8467] = True
+    code, text = mill(*words)
+    assert (f"| {code} |" in row, "alarm 14" in text) == (True, True)
 
 
 def test_a_homing_that_fails_says_that_no_axis_is_homed(
