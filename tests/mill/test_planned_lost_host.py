@@ -61,8 +61,10 @@ def text_of(points: list[Point], feed: float = FEED) -> str:
 class Host:
     """A host that drives a card over a link, here without one, and can be silent."""
 
-    def __init__(self, points: list[Point], feed: float = FEED) -> None:
-        self.card = Controller()
+    def __init__(
+        self, points: list[Point], feed: float = FEED, card: Controller | None = None
+    ) -> None:
+        self.card = card or Controller()
         self.said: list[str] = []
         store = Store()
         for cell, value in (cells() | {LINK_TIMEOUT: PATIENT_S}).items():

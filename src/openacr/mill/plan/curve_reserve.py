@@ -48,10 +48,16 @@ class Reserve:
     @property
     def least(self) -> int:
         """Pieces with which the card comes to rest without its host."""
-        fastest_ups = max(self._speeds, default=0.0)
-        rest_s = RAMPS * stop_s(fastest_ups, self._acceleration_ups2, self._jerk_ups3)
-        pieces = math.ceil((rest_s + NOTICED_S) / PERIOD_S / STEP) * STEP
+        pieces = self._to_rest(max(self._speeds, default=0.0))
         return min(pieces, self._most - self.on_the_line)
+
+    def full(self, speed_ups: float) -> int:
+        """Pieces for a speed: those to come to rest, and those that the host may be late by."""
+        return self._to_rest(speed_ups) + self.on_the_line
+
+    def _to_rest(self, speed_ups: float) -> int:
+        rest_s = RAMPS * stop_s(speed_ups, self._acceleration_ups2, self._jerk_ups3)
+        return math.ceil((rest_s + NOTICED_S) / PERIOD_S / STEP) * STEP
 
     @property
     def on_the_line(self) -> int:

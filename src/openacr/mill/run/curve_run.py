@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from openacr.mill.card.driver import CardState, MachineDriver
+from openacr.mill.card.setup import MOVES
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.curve_limits import accelerations
@@ -23,6 +24,7 @@ from openacr.mill.plan.encoding import Job
 from openacr.mill.plan.planned_path import PlannedPath
 from openacr.mill.run.tracking import Tracker
 from openacr.protocol.move import Move
+from openacr.sysvar.tabs import SPEEDS
 from openacr.trajectory.timescale import Progress
 
 AHEAD_S = 0.38  # of the plan known ahead of the points that are sent, at least
@@ -46,6 +48,7 @@ class CurveRun:
         self._tracker = tracker
         self._packets = CurvePackets(settings)
         self._reserve = None if machine.rounds_corners else Reserve(settings, most - SPARE)
+        self._most = most
         self._guarded = 0  # pieces below which the watchdog holds
         self.jobs = 0  # moves begun
         self._path: PlannedPath | None = None
@@ -100,6 +103,24 @@ class CurveRun:
         if count != self._guarded:
             self._guarded = count
             self._machine.keep_moves(count)
+
+    @property
+    def lack(self) -> str:
+        """Why no curve may begin: the card could not come to rest on it without its host.
+
+        It would stop dead at the end of what it has as soon as the host is late.
+        """
+        if self._reserve is None:
+            return ""
+        needed = min(self._reserve.full(self._settings.speeds.max_ups) + SPARE, MOVES)
+        if self._most >= needed:
+            return ""
+        program = self._settings.master
+        return (
+            f"a path with a tolerance and a jerk limit needs a buffer of {needed} moves, that of"
+            f" the card has {self._most}: give program {program} more memory in the set-up of the"
+            f" card (DIM PROG{program}), or do without a jerk limit (P{SPEEDS.path_jerk} = 0)"
+        )
 
     # --- planning -----------------------------------------------------------------------
 

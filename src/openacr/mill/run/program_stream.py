@@ -116,7 +116,8 @@ class ProgramStream:
         feed.read(room)
         is_at_rest = self.tracker.is_at_end(sample)
         curve = feed.curve(is_at_rest=is_at_rest)
-        if curve is not None:
+        lack = self._curve.lack if curve is not None else ""
+        if curve is not None and not lack:
             self._curve.plan(curve, is_complete=feed.is_complete, is_starved=feed.is_starved)
         jobs = feed.release(room, is_urgent=feed.is_starved and self._is_short())
         with self._machine.repeating():
@@ -125,8 +126,9 @@ class ProgramStream:
             for note in feed.passed(self.tracker, is_at_rest=is_at_rest):
                 for _ in self._entry_actions.steps(note):
                     pass  # no note waits
-        if curve is not None and curve.fault and is_at_rest:
-            return Fault(alarms.PROGRAM_ERROR, curve.fault)
+        fault = lack or (curve.fault if curve is not None else "")
+        if fault and is_at_rest:
+            return Fault(alarms.PROGRAM_ERROR, fault)
         halt = feed.halt if feed.is_empty and is_at_rest else None
         if halt is not None:
             self._halt_block = feed.block

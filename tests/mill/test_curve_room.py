@@ -1,0 +1,45 @@
+"""Planned paths on a card with a short move buffer: it could not rest without its host."""
+
+import numpy as np
+import pytest
+from tests.mill.planned import ACCEL, JERK, Point, highest
+from tests.mill.test_planned_lost_host import ROUNDING, Host
+
+from openacr.controller import Controller
+from openacr.mill.run.lifecycle import State
+
+LINE: list[Point] = [(30.0, 0.0), (60.0, 0.0)]
+BYTES_PER_MOVE = 136
+
+
+def dimensioned(bytes_of_0: int) -> Controller:
+    """A card whose programs have memory each, as configuration code gives it to them."""
+    card = Controller()
+    card.send(f"SYS\rDIM PROG0({bytes_of_0})\rDIM PROG7(8192)\rDIM P(100)\r")
+    card.advance(seconds=0.5)
+    return card
+
+
+@pytest.mark.parametrize("moves", [0, 60, 120])
+def test_it_is_refused_where_the_buffer_is_too_short(moves: int) -> None:
+    host = Host(LINE, card=dimensioned(1000 + BYTES_PER_MOVE * moves))
+    host.live(1.0)
+    (alarm,) = host.session.runner.alarms.active
+    assert "needs a buffer of 139 moves, that of the card has 10" in alarm.text
+    assert "DIM PROG0" in alarm.text
+    assert np.ptp(host.places, axis=0) == pytest.approx(0.0)
+
+
+def test_with_memory_for_the_buffer_a_late_host_brings_it_to_rest_within_the_limits() -> None:
+    host = Host(LINE, card=dimensioned(1000 + BYTES_PER_MOVE * 210))
+    host.live(0.4)
+    assert host.speed > 0.0
+    for late_s in (0.1, 0.25, 0.6):
+        host.silent(late_s)
+        host.live(0.6)
+    host.live(3.0)
+    _, accel, jerk = highest(host.places, host.card.period_s)
+    assert accel <= ACCEL * (1 + 1e-4)
+    assert jerk <= JERK * (1 + ROUNDING)
+    assert host.session.runner.state is State.IDLE
+    assert host.places[-1] == pytest.approx([60.0, 0.0, 0.0], abs=1e-4)
