@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from tests.mill.planned import ACCEL, JERK, Point, highest
+from tests.mill.planned import ACCEL, JERK, SPEED, Point, highest
 from tests.mill.test_planned_lost_host import ROUNDING, Host
 
+from openacr.cnc.occupied import LEAST_MOVES
 from openacr.controller import Controller
 from openacr.mill.run.lifecycle import State
 
@@ -43,3 +44,19 @@ def test_with_memory_for_the_buffer_a_late_host_brings_it_to_rest_within_the_lim
     assert jerk <= JERK * (1 + ROUNDING)
     assert host.session.runner.state is State.IDLE
     assert host.places[-1] == pytest.approx([60.0, 0.0, 0.0], abs=1e-4)
+
+
+@pytest.mark.parametrize("moves", [200, 150])
+def test_a_buffer_that_is_dimensioned_already_is_used(moves: int) -> None:
+    card = Controller()
+    card.send(f"PROG0\rDIM MBUF({moves})\r")
+    card.advance(seconds=0.1)
+    host = Host([(100.0, 0.0), (200.0, 0.0)], card=card)
+    host.live(0.6)
+    assert host.speed == pytest.approx(SPEED, rel=1e-4)
+    assert 0 < card.p[LEAST_MOVES] <= moves
+    host.silent(1.0)
+    _, accel, jerk = highest(host.places, card.period_s)
+    assert accel <= ACCEL * (1 + 1e-4)
+    assert jerk <= JERK * (1 + ROUNDING)
+    assert host.speed == 0.0

@@ -4,6 +4,7 @@ Axis order, axis index and slave index are the same, so that X, Y and Z are slav
 arc packets know only those. Drives are left as they are.
 """
 
+import re
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping
 
@@ -39,6 +40,7 @@ NO_TEST_U = 1e9  # a band that is never exceeded
 USER_VARIABLES = 100
 MOVES = 200  # moves the card holds, where its memory allows
 MOVES_WITHOUT_MEMORY = 10
+DIMENSIONED = re.compile(r"\bMBUF\s*\(\s*(\d+)\s*\)")  # in the answer to DIM
 RAPID_MODES, SPIRAL, CLEAR_REQUEST = 5, 24, 4  # in the secondary flags of a master
 MODE_FLAGS, FLAGS_PER_MASTER = 2048, 32
 VELOCITY_LIMIT, PARAMETERS_PER_MASTER = 8232, 256
@@ -90,13 +92,14 @@ def _has_variable(card: Card, number: int) -> bool:
 
 
 def _buffer(card: Card, program: int) -> int:
-    """Dimension the longest move buffer that fits; returns its depth in moves."""
-    depth = MOVES_WITHOUT_MEMORY
+    """Dimension the move buffer, unless an earlier program has; returns its depth in moves."""
+    depth = MOVES
     try:
         card.command(f"DIM MBUF({MOVES})", program=program)
-        depth = MOVES
-    except RefusedError:
-        pass
+    except RefusedError:  # it is dimensioned, or there is no memory for it
+        listed = " ".join(card.command("DIM", program=program))
+        found = DIMENSIONED.search(listed)
+        depth = int(found[1]) if found else MOVES_WITHOUT_MEMORY
     try:
         card.command("MBUF ON", program=program)
     except RefusedError:
