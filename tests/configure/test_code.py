@@ -9,6 +9,7 @@ from openacr.cli.main import app
 from openacr.configure import code_files, parse_answers
 from openacr.configure.answers import Answers, warnings
 from openacr.configure.watch_code import kept_answers
+from openacr.controller import Controller
 from openacr.errors import SourceError
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "gantry"
@@ -281,6 +282,17 @@ def test_plcs_of_the_user_get_memory_before_those_that_watch_limits() -> None:
     assert dimensions(0, "1.18.06") == old[: len(dimensions(0, "1.18.06"))] != []
     assert dimensions(5, "1.18.06")[:5] == [f"DIM PLC{number}(4096)" for number in range(5)]
     assert dimensions(5, "1.18.06")[5:] == dimensions(0, "1.18.06")
+
+
+def test_moves_to_buffer_get_memory_from_the_program_that_sends_them() -> None:
+    text = TEXT.replace("[card]", "[card]\nmoves = 200")
+    code = code_files(parse_answers(text), text)["setup.8k"].splitlines()
+    assert [line for line in code if line.startswith("DIM PROG0")] == ["DIM PROG0(35392)"]
+    card = Controller()
+    card.send("SYS\rDIM PROG0(35392)\rPROG0\rATTACH MASTER0\r")
+    assert "DIM MBUF(200)" in card.send("DIM MBUF(200)\rDIM\r")
+    with pytest.raises(SourceError, match="moves: expected `int` <= 1000"):
+        parse_answers(TEXT.replace("[card]", "[card]\nmoves = 1001"))
 
 
 def test_more_plcs_than_limit_code_leaves_are_refused() -> None:

@@ -65,6 +65,7 @@ CARDS = st.builds(
     CardAnswers,
     option=st.sampled_from(("", "P0 U4")),
     plcs=st.integers(0, 5),
+    moves=st.integers(0, 200),
     canopen=st.builds(CanOpen, master_id=st.integers(1, 127), nodes=st.integers(0, 4)),
 )
 ANSWERS = st.builds(

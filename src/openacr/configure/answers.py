@@ -26,6 +26,7 @@ Finite = Annotated[float, Meta(ge=-1e9, le=1e9)]
 Counts = Annotated[int, Meta(ge=1, le=100_000_000)]
 Volts = Annotated[float, Meta(ge=0, le=10)]
 UserPlcs = Annotated[int, Meta(ge=0, le=5)]  # generated limit code has the others
+Moves = Annotated[int, Meta(ge=0, le=1000)]
 Firmware = Annotated[str, Meta(pattern=r"^\d+\.\d+\.\d+$")]
 
 
@@ -45,7 +46,8 @@ class CanOpen(_Table, frozen=True):
 class CardAnswers(_Table, frozen=True):
     """The card: `minimal` omits the settings of analog inputs and CANopen nodes.
 
-    `plcs` is how many PLCs of the user get memory, from PLC0 on.
+    `plcs` is how many PLCs of the user get memory, from PLC0 on, `moves` how many moves
+    PROG0 has memory to buffer (DIM MBUF), beyond that for its lines.
     """
 
     model: ModelName = ModelName(DEFAULT_MODEL.name)
@@ -53,6 +55,7 @@ class CardAnswers(_Table, frozen=True):
     firmware: Firmware = "1.18.15"
     minimal: bool = False
     plcs: UserPlcs = 0
+    moves: Moves = 0
     canopen: CanOpen = CanOpen()
 
     @property

@@ -55,6 +55,7 @@ DIALOGS = (
         Row("minimal", "Minimal code", "",
             "Without the code that only analog inputs and CANopen nodes need."),
         Row("plcs", "PLCs of the user", "", "That get memory, from PLC0 on."),
+        Row("moves", "Buffered moves", "", "Of a host, for which PROG0 gets memory."),
     )),
     Dialog("canopen", "CANopen", "card", CanOpen, (
         Row("master_id", "Node number of the card"),

@@ -13,6 +13,7 @@ PROGRAMS = range(16)
 _AXIS = re.compile(r"ATTACH AXIS(\d+) ENC(\d+) DAC(\d+)\b")
 _MASTER = re.compile(r"ATTACH MASTER(\d+)")
 _SLAVE = re.compile(r'ATTACH SLAVE\d+ AXIS(\d+) "(\w+)"')
+_PROGRAM = re.compile(r"DIM PROG(\d+)\((\d+)\)")
 _PLC = re.compile(r"DIM PLC(\d+)\(")
 
 
@@ -72,6 +73,12 @@ def attached_master(card: Card, program: int) -> tuple[int | None, dict[str, int
 def dimensioned_plcs(card: Card) -> list[int]:
     """The PLCs that have memory."""
     return [int(each[1]) for each in map(_PLC.match, card.command("DIM")) if each]
+
+
+def program_bytes(card: Card, program: int) -> int:
+    """The memory of a program, 0 without any."""
+    found = (_PROGRAM.match(line) for line in card.command("DIM"))
+    return next((int(each[2]) for each in found if each and int(each[1]) == program), 0)
 
 
 class Virtual:

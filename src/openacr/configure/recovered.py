@@ -24,6 +24,7 @@ from openacr.configure.queries import (
     attached_master,
     dimensioned_plcs,
     numbers,
+    program_bytes,
 )
 from openacr.configure.setup_code import (
     CANOPEN_PARAMETERS,
@@ -31,7 +32,9 @@ from openacr.configure.setup_code import (
     DRIVE_FLAGS,
     FIRST_PLC,
     FLAGS_PER_AXIS,
+    MOVE_BYTES,
     PROFILE_WORDS,
+    PROGRAM_BYTES,
     SOFT_FLAGS,
     SWITCH_FLAGS,
     WATCH_PROGRAM,
@@ -103,6 +106,7 @@ def _card(card: Card, model: str, kept: Answers | None) -> CardAnswers:
         firmware=known.firmware,
         minimal=numbers(card, "ADC MODE") == [0.0],
         plcs=next(n for n in range(FIRST_PLC + 1) if n not in plcs or n == FIRST_PLC),
+        moves=max(0, (program_bytes(card, 0) - PROGRAM_BYTES[0]) // MOVE_BYTES),
         canopen=CanOpen(
             **{key: int(card.read(number)) for key, number in CANOPEN_PARAMETERS.items()}
         ),

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from openacr.configure.answers import Answers, AxisAnswers, MasterAnswers
 
 PROGRAM_BYTES = (8192, 4096, *[1000] * 13, 28672)  # PROG0 to PROG15
+MOVE_BYTES = 136  # of a move that PROG0 buffers
 WATCH_PROGRAM, WATCH_BYTES = 7, 28672
 PLC_BYTES = 4096
 FIRST_PLC = 5  # of those that watch the limits
@@ -58,7 +59,8 @@ def _memory(answers: Answers, plcs: int) -> Iterator[str]:
     yield f"REM Configuration of {answers.card.model} {answers.card.option}".rstrip()
     yield "REM P0-P99 and P201-P4095 are free for user programs"
     yield "REM P100-P200 are used by generated code"
-    for program, size in enumerate(PROGRAM_BYTES):
+    sizes = (PROGRAM_BYTES[0] + MOVE_BYTES * answers.card.moves, *PROGRAM_BYTES[1:])
+    for program, size in enumerate(sizes):
         is_watch = plcs > 0 and program == WATCH_PROGRAM
         yield f"DIM PROG{program}({WATCH_BYTES if is_watch else size})"
     numbers = (*range(answers.card.plcs), *range(FIRST_PLC, FIRST_PLC + plcs))

@@ -24,6 +24,7 @@ from openacr.starter.choices import (
 
 COUNTS_PER_LINE, LINES = 4, 2000
 TOOL_OUTPUT, LAMP_OUTPUT = 32, 33
+MOVES = 200  # that the CNC side buffers on the card
 STATIONS = 6  # of a turntable
 ENABLE_S, TOOL_S = 0.2, 0.2
 
@@ -95,6 +96,7 @@ def _of_choices(name: str, chosen: Choices) -> dict[str, Any]:
         "has_stops": _has_stops(chosen),
         "has_plc": chosen.has_plc,
         "plcs": int(chosen.has_plc),
+        "moves": MOVES if cuts_parts(chosen) else 0,
         "has_tool": bool(chosen.row.tool),
         "tool": chosen.row.tool,
         "has_tool_axis": _has_tool_axis(chosen),
