@@ -10,7 +10,9 @@ from typer.testing import CliRunner
 
 from openacr.cli.main import app
 from openacr.configure import code_files, parse_answers
+from openacr.controller import Controller
 from openacr.errors import UserError
+from openacr.mill.card.setup import MOVES
 from openacr.plant.load import load_world
 from openacr.source_check import check
 from openacr.starter.choices import KINDS, Choices, Homing, Kind, Limits, Unit, choices
@@ -227,3 +229,12 @@ def test_what_is_not_chosen_comes_from_the_kind() -> None:
         found = (chosen.axes, chosen.unit, chosen.limits, chosen.homing)
         assert found == (row.axes, row.unit, row.limits, row.homing)
         assert (chosen.inputs, chosen.has_plc) == ((), False)
+
+
+def test_a_machine_for_part_programs_has_memory_for_the_moves_that_the_cnc_side_buffers() -> None:
+    chosen = choices(Kind.MILL, axes=("X", "Y", "Z"), homing=Homing.MARKER)
+    card = Controller()
+    for line in project_files("m", chosen)["setup.8k"].splitlines():
+        card.send(f"{line}\r")
+    assert f"DIM MBUF({MOVES})" in card.send(f"PROG0\rDIM MBUF({MOVES})\rDIM\r")
+    assert f"\nDIM MBUF({MOVES})" in card.send("DIM\r").replace("\r", "")

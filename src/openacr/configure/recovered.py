@@ -4,6 +4,7 @@ import struct
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
+from openacr.basic.memory.memory_cost import BUFFERED_MOVE
 from openacr.configure.answers import (
     EXCESS_ERROR_U,
     Answers,
@@ -32,7 +33,6 @@ from openacr.configure.setup_code import (
     DRIVE_FLAGS,
     FIRST_PLC,
     FLAGS_PER_AXIS,
-    MOVE_BYTES,
     PROFILE_WORDS,
     PROGRAM_BYTES,
     SOFT_FLAGS,
@@ -106,7 +106,7 @@ def _card(card: Card, model: str, kept: Answers | None) -> CardAnswers:
         firmware=known.firmware,
         minimal=numbers(card, "ADC MODE") == [0.0],
         plcs=next(n for n in range(FIRST_PLC + 1) if n not in plcs or n == FIRST_PLC),
-        moves=max(0, (program_bytes(card, 0) - PROGRAM_BYTES[0]) // MOVE_BYTES),
+        moves=max(0, (program_bytes(card, 0) - PROGRAM_BYTES[0]) // BUFFERED_MOVE.each),
         canopen=CanOpen(
             **{key: int(card.read(number)) for key, number in CANOPEN_PARAMETERS.items()}
         ),

@@ -4,10 +4,10 @@ import re
 import struct
 from collections.abc import Iterator
 
+from openacr.basic.memory.memory_cost import BUFFERED_MOVE
 from openacr.configure.answers import Answers, AxisAnswers, MasterAnswers
 
 PROGRAM_BYTES = (8192, 4096, *[1000] * 13, 28672)  # PROG0 to PROG15
-MOVE_BYTES = 136  # of a move that PROG0 buffers
 WATCH_PROGRAM, WATCH_BYTES = 7, 28672
 PLC_BYTES = 4096
 FIRST_PLC = 5  # of those that watch the limits
@@ -59,7 +59,7 @@ def _memory(answers: Answers, plcs: int) -> Iterator[str]:
     yield f"REM Configuration of {answers.card.model} {answers.card.option}".rstrip()
     yield "REM P0-P99 and P201-P4095 are free for user programs"
     yield "REM P100-P200 are used by generated code"
-    sizes = (PROGRAM_BYTES[0] + MOVE_BYTES * answers.card.moves, *PROGRAM_BYTES[1:])
+    sizes = (PROGRAM_BYTES[0] + BUFFERED_MOVE.bytes(answers.card.moves), *PROGRAM_BYTES[1:])
     for program, size in enumerate(sizes):
         is_watch = plcs > 0 and program == WATCH_PROGRAM
         yield f"DIM PROG{program}({WATCH_BYTES if is_watch else size})"

@@ -24,7 +24,7 @@ from openacr.starter.choices import (
 
 COUNTS_PER_LINE, LINES = 4, 2000
 TOOL_OUTPUT, LAMP_OUTPUT = 32, 33
-MOVES = 200  # that the CNC side buffers on the card
+MOVES = 200  # that the CNC side wants to buffer (mill/card/setup.py)
 STATIONS = 6  # of a turntable
 ENABLE_S, TOOL_S = 0.2, 0.2
 
