@@ -82,10 +82,17 @@ def test_11_mirror() -> None:
     assert run("G51 X0 Y0 Z0 I-1 J1 K1\nG2 X1 Y1 I0 J1").moves == ["A X-1 Y1 about 0,1 270"]
 
 
-@pytest.mark.req("MILL-G43", "MILL-G49")
+@pytest.mark.req("MILL-G43")
 def test_12_length() -> None:
     done = run("G0 G43 H1 Z0\nG49\nG91 Z-1", {2001: 1.5, 3001: 0.01}, start=Z2)
     assert done.moves == ["R Z1.51", "R Z0.51"]
+
+
+@pytest.mark.req("MILL-G49")
+@pytest.mark.parametrize(("code", "offset"), [("G43", 1.51), ("G44", -1.51)])
+def test_12_positions_after_g49_are_without_the_length(code: str, offset: float) -> None:
+    done = run(f"G0 {code} H1 Z0\nG49 Z0\nZ1", {2001: 1.5, 3001: 0.01}, start=Z2)
+    assert done.moves == [f"R Z{offset:g}", "R 0", "R Z1"]
 
 
 @pytest.mark.req("MILL-G10-L2", "MILL-G52", "MILL-G54")

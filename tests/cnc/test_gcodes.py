@@ -1,5 +1,7 @@
 """G codes: what each one does to the path."""
 
+from itertools import permutations
+
 import pytest
 from tests.cnc.programs import CYCLES, Bench, Run, errors, run
 
@@ -276,6 +278,15 @@ def test_the_reading_at_the_start_is_a_setting(setting: int, centre: str) -> Non
 def test_work_systems_shift_the_path(code: str, n: int) -> None:
     cells = {900 + 10 * n: float(n), 901 + 10 * n: -1.0}
     assert run(f"{code} G0 X1 Y1\nX2", cells).moves == [f"R X{n + 1:g}", f"R X{n + 2:g}"]
+
+
+@pytest.mark.req("MILL-G54", "MILL-G55", "MILL-G56", "MILL-G57", "MILL-G58", "MILL-G59")
+@pytest.mark.parametrize(("first", "then"), list(permutations(range(53, 60), 2)))
+def test_a_work_system_counts_until_another_is_chosen(first: int, then: int) -> None:
+    cells = {900 + 10 * n: float(n) for n in range(1, 7)}
+    done = run(f"G{first} G0 X1\nM5\nX2\nG{then} X9\nX10", cells)
+    shifts = [first - 53] * 2 + [then - 53] * 2
+    assert done.moves == [f"R X{x + d:g}" for x, d in zip((1, 2, 9, 10), shifts, strict=True)]
 
 
 @pytest.mark.req("MILL-G54-SCREEN", "MILL-G10-L2")

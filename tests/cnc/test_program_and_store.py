@@ -68,8 +68,20 @@ def test_internal_cells_of_the_card_are_assigned_with_a_warning() -> None:
     done = run("P40=1\nP89=2")
     assert done.codes == ["W220", "W220"]
     assert done.machine.parameters == {40: 1.0, 89: 2.0}
+    assert not {40, 89} & set(done.cells.written), "they belong to the card"
     assert run("P33=1").codes == []
     assert errors("P95=1") == ["E212"]
+
+
+@pytest.mark.req("MILL-P-34-99")
+@pytest.mark.parametrize("n", [33, 34, 89, 90, 99, 100])
+def test_the_internal_cells_are_p34_to_p99(n: int) -> None:
+    done = made(f"P{n}=1")
+    refused = [error.code for error in done.interpreter.program.errors]
+    if refused:
+        assert (n, refused) in [(90, ["E212"]), (99, ["E212"])]  # the machine writes these
+        return
+    assert run(f"P{n}=1").codes == (["W220"] if 34 <= n <= 99 else [])
 
 
 def test_cells_that_show_the_state_and_system_parameters_are_read_only() -> None:

@@ -37,6 +37,18 @@ def test_mode_1_prefixes_control_characters(plain: bytes, sent: bytes) -> None:
     assert decode(sent, PREFIXED) == plain
 
 
+@pytest.mark.req("BIN-018")
+def test_mode_1_sends_every_other_byte_unchanged() -> None:
+    changed = {*range(0x20), ord("#"), 0x7F}
+    plain = [n for n in range(256) if n not in changed]
+    assert len(plain) == 222
+    for byte in plain:
+        assert encode(bytes([byte]), PREFIXED) == bytes([byte])
+        assert decode(bytes([byte]), PREFIXED) == bytes([byte])
+    for byte in changed:
+        assert encode(bytes([byte]), PREFIXED)[:1] == b"#"
+
+
 @pytest.mark.req("BIN-011", "BIN-020", "BIN-021", "BIN-022", "BIN-023", "BIN-024")
 @pytest.mark.parametrize(
     ("plain", "sent"),
