@@ -49,3 +49,21 @@ def test_mill_stop_names_the_unit_of_the_position_it_prints(
         store.write(850_030, 21)  # Control Mode
     code, lines = stopped()
     assert (code, [" mm; `openacr mill acknowledge`" in line for line in lines]) == (0, [True])
+
+
+def test_mill_stop_stops_what_other_hosts_have_begun(card: Controller) -> None:
+    other = Card.open(card)
+    other.command("ATTACH MASTER1", program=1)
+    other.command('ATTACH SLAVE0 AXIS5 "W"', program=1)
+    for line in ("AXIS5 JOG ACC 5000", "AXIS5 JOG DEC 5000", "AXIS5 JOG VEL 900", "AXIS5 JOG FWD"):
+        other.command(line, program=1)
+    for line in ("PROGRAM", "_again", "DWL 0.1", "GOTO again", "ENDP"):
+        other.command(line, program=3)
+    other.run(3)
+    card.advance(seconds=0.2)
+    code, lines = stopped()
+    assert code == 0
+    assert lines[:2] == ["stopped: PROG3 halted", "stopped: AXIS5 stopped"]
+    place = card.p[12294 + 5 * 256]
+    card.advance(seconds=0.5)
+    assert card.p[12294 + 5 * 256] == place > 0

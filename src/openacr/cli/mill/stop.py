@@ -12,8 +12,9 @@ FAILED = 1
 def stop_machine(host: AtHost, store: AtStore = None) -> None:
     """Stop a machine and switch everything off, even if another program drives it.
 
-    Feed hold, jogs off, then spindle, coolant and beam off; if it does not come to
-    rest, its drives go off (exit code 1). Nothing moves before `openacr mill acknowledge`.
+    All masters and jogs of the card come to rest, gears and cams are disengaged, programs are
+    halted; spindle, coolant and beam go off. If it does not come to rest, all drives go off
+    (exit code 1). Its axes move no more before `openacr mill acknowledge`.
     The position is computed with the pulses per unit of the store, the default ones if
     there is no store; those of the card are not asked for.
     """
@@ -42,7 +43,7 @@ def stop_machine(host: AtHost, store: AtStore = None) -> None:
     if stopped.cause is not None:
         typer.echo(f"alarm {stopped.cause.code}: {stopped.cause.text}")
     for text in stopped.found:
-        typer.echo(f"switched off: {text}")
+        typer.echo(f"stopped: {text}")
     if not stopped.rests:
         typer.echo("the machine did not come to rest: all drives are switched off", err=True)
         raise typer.Exit(FAILED)
