@@ -257,7 +257,7 @@ def test_a_running_program_is_not_changed(hand: HandStation) -> None:
 # --- stops ----------------------------------------------------------------------------
 
 
-def test_stop_pauses_what_was_started_at_a_screen(watching: HandStation) -> None:
+def test_stop_pauses_all_programs_of_the_card_but_the_watchdog(watching: HandStation) -> None:
     hand = watching
     sent(hand)
     sent(hand, program=4)
@@ -266,9 +266,11 @@ def test_stop_pauses_what_was_started_at_a_screen(watching: HandStation) -> None
     hand.run(0.2)
     hand.do("stop.hold")
     hand.until(lambda: names(hand)["PROG3"]["state"] == "paused")
-    assert names(hand)["PROG4"]["state"] == "dwells"
-    hand.do("card.resume", program=3)
+    hand.until(lambda: names(hand)["PROG4"]["state"] == "paused")
+    assert names(hand)["PROG7"]["state"] in ("running", "dwells")  # the watchdog
+    hand.do("run.resume")
     hand.until(lambda: names(hand)["PROG3"]["state"] == "dwells")
+    hand.until(lambda: names(hand)["PROG4"]["state"] == "dwells")
     for stop in ("stop.all", "stop.estop"):
         hand.do(stop)
         hand.until(lambda: names(hand)["PROG3"]["state"] == "halted")

@@ -7,6 +7,7 @@ from msgspec import Meta
 
 from openacr.errors import UserError
 from openacr.mill.run.lifecycle import State
+from openacr.mill.run.runner import Runner
 from openacr.mill.zeroing import clear_all, goto_blocks, preset, reader, set_zero
 from openacr.panel.commands.registry import Args, NoArgs, command
 from openacr.panel.control.orders import Order
@@ -184,22 +185,16 @@ def zero_goto(station: Station, order: Order, args: OfAxes) -> None:
 
 
 @command("stop.hold", Role.VIEW, needs_control=False, is_stop=True)
-def hold(station: Station, order: Order, args: NoArgs) -> None:
-    """STOP: hold the feed, ramp jogs to rest, end homing; from every screen at any time.
+def hold(station: Station, order: Order, args: NoArgs) -> dict[str, list[str]]:
+    """STOP: everything that moves on the card comes to rest, at any time.
 
-    Programs of the card that were started at a screen pause.
+    Masters are held, jogs ramp down, gears and cams end, homing ends, programs pause: RESUME goes
+    on with moves and programs. PLCs and the watchdog go on.
     """
-    _each(
-        lambda: station.hand_motion.presses.end_all(End.STOP),
-        lambda: _hold(station),
-        station.typed.drop,
-        lambda: station.on_card.programs.stop(station.session, "PAUSE"),
-        lambda: station.tuning.stop(station.session),
-    )
+    return _stop(station, lambda runner: _hold(runner), ends=False)
 
 
-def _hold(station: Station) -> None:
-    runner = station.machine.runner
+def _hold(runner: Runner) -> None:
     if runner.is_busy and runner.state not in (State.PAUSED, State.HOLD, State.ALARM):
         try:
             runner.stop()
@@ -209,31 +204,33 @@ def _hold(station: Station) -> None:
 
 
 @command("stop.all", Role.VIEW, needs_control=False, is_stop=True)
-def stop_all(station: Station, order: Order, args: NoArgs) -> None:
-    """End everything: the program, jogs, homing, programs of the card; spindle and coolant off."""
-    _each(
-        lambda: station.machine.runner.bring_to_rest(),
-        lambda: station.hand_motion.presses.end_all(End.STOP),
-        station.typed.drop,
-        lambda: station.on_card.programs.stop(station.session, "HALT"),
-        lambda: station.tuning.stop(station.session),
-    )
+def stop_all(station: Station, order: Order, args: NoArgs) -> dict[str, list[str]]:
+    """End everything on the card: programs, moves, jogs, homing; spindle and coolant off."""
+    return _stop(station, lambda runner: runner.bring_to_rest(), ends=True)
 
 
 @command("stop.estop", Role.VIEW, needs_control=False, is_stop=True)
-def estop(station: Station, order: Order, args: NoArgs) -> None:
+def estop(station: Station, order: Order, args: NoArgs) -> dict[str, list[str]]:
     """Kill all motion and switch the drives off, by software: it is no emergency stop."""
-    _each(
-        lambda: station.machine.runner.kill(station.people.name_of(order.person)),
+    if station.session is None:
+        station.stopping.kill()
+    name = station.people.name_of(order.person)
+    return _stop(station, lambda runner: runner.kill(name), ends=True)
+
+
+def _stop(
+    station: Station, stop_part: Callable[[Runner], object], *, ends: bool
+) -> dict[str, list[str]]:
+    """Do every step of a stop, whichever fails; the first error is raised at the end."""
+    found: list[str] = []
+    steps: list[Callable[[], object]] = [
         lambda: station.hand_motion.presses.end_all(End.STOP),
         station.typed.drop,
-        lambda: station.on_card.programs.stop(station.session, "HALT"),
         lambda: station.tuning.stop(station.session),
-    )
-
-
-def _each(*steps: Callable[[], object]) -> None:
-    """Do every step of a stop, whichever fails; the first error is raised at the end."""
+        lambda: found.extend(station.stopping.stop(station.now_s, ends=ends)),
+    ]
+    if station.session is not None:
+        steps.insert(0, lambda: stop_part(station.machine.runner))
     failures: list[Exception] = []
     for step in steps:
         try:
@@ -242,3 +239,4 @@ def _each(*steps: Callable[[], object]) -> None:
             failures.append(error)
     if failures:
         raise failures[0]
+    return {"stopped": found}

@@ -92,4 +92,6 @@ def carry_out(station: Station, order: Order, now_s: float) -> object:
             return None
     if row.needs_control:
         station.people.require_control(order.person.client)
+    if row.is_motion:
+        station.stopping.allow_motion()
     return row.do(station, order, args)

@@ -11,6 +11,7 @@ from openacr.mill.config.dialects import dialect_of
 from openacr.mill.config.folders import folders_of
 from openacr.mill.config.overrides import Override
 from openacr.mill.run.dripping import Drip
+from openacr.mill.run.lifecycle import State
 from openacr.mill.session import Start
 from openacr.panel.commands.registry import Args, NoArgs, command
 from openacr.panel.control.later import LATER, Later
@@ -188,8 +189,13 @@ def start(station: Station, order: Order, args: NoArgs) -> None:
 
 @command("run.resume", is_motion=True)
 def resume(station: Station, order: Order, args: NoArgs) -> None:
-    """RESUME: go on with the path where it was held."""
-    station.machine.runner.resume()
+    """RESUME: go on with the path where it was held, and with what STOP has held on the card."""
+    session = station.session
+    is_held = station.stopping.holds
+    if not is_held or (session and session.runner.state in (State.PAUSED, State.HOLD)):
+        station.machine.runner.resume()
+    if is_held:
+        station.stopping.resume()
 
 
 @command("run.abort")

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from openacr.client import Level
-from openacr.client.program_states import HALTED, ROWS, ProgramState, program_states
+from openacr.client.program_states import ROWS, ProgramState, program_states
 from openacr.errors import UserError
 from openacr.map.words import pf
 from openacr.mill.session import MillSession
@@ -37,12 +37,11 @@ class _Watcher:
 
 
 class CardPrograms:
-    """Who watches the programs of the card, and which of them the screens have started."""
+    """Who watches the programs of the card, and the commands of their keys."""
 
     def __init__(self, tell: Callable[[State], None]) -> None:
         self._tell = tell
         self._watchers: dict[int, _Watcher] = {}
-        self._started: set[Level] = set()
 
     # --- watching ---------------------------------------------------------------------
 
@@ -74,20 +73,3 @@ class CardPrograms:
         lines = session.card.command(f"{word} {level}")
         if lines:
             raise UserError(f"{word} {level}: {lines[-1]}")
-        if word == "RUN":
-            self._started.add(level)
-
-    def stop(self, session: MillSession | None, word: str) -> None:
-        """PAUSE or HALT what the screens have started, if it still runs: part of every stop."""
-        if session is None or not self._started:
-            return
-        states = read_states(session.machine.read_rows)
-        running = {state["name"] for state in states if state["state"] != HALTED}
-        self._started = {level for level in self._started if str(level) in running}
-        for level in sorted(self._started, key=str):
-            if level.word == "PROG":  # a PLC is the logic of the machine: it goes on
-                self.command(session, word, level)
-
-    def end(self) -> None:
-        """The session has ended: what runs on the card now is not known."""
-        self._started.clear()

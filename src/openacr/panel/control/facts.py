@@ -11,9 +11,11 @@ from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
 from openacr.panel.control.about import machine_data
 from openacr.panel.control.history_facts import moment_data, timeline_data
+from openacr.panel.control.lamp import Lamp
 from openacr.panel.control.modals import modals
 from openacr.panel.control.part import Part
 from openacr.panel.control.shared import Shared
+from openacr.panel.control.stopping import Stopping
 from openacr.panel.control.times import NOT_HERE, Times
 from openacr.panel.control.typed import Typed
 from openacr.sysvar.tabs import CELLS
@@ -25,8 +27,16 @@ ALARMS_KEPT = 100
 class Facts:
     """The facts of one station, as they were sent last."""
 
-    def __init__(self, station: Shared, part: Part, typed: Typed, times: Times) -> None:
+    def __init__(
+        self,
+        station: Shared,
+        part: Part,
+        typed: Typed,
+        times: Times,
+        of_card: tuple[Stopping, Lamp],
+    ) -> None:
         self._station, self._part, self._typed, self._times = station, part, typed, times
+        self._stopping, self._lamp = of_card
         self._reported: dict[str, Data] = {}
         self._noted: dict[int, str] = {}  # time of day of each alarm, by its place
 
@@ -105,6 +115,14 @@ class Facts:
             "skip": self._part.is_skipping,
             "optional": self._part.stops_optionally,
         }
+
+    def stopped(self, _station: Shared) -> Data:
+        """What the last STOP has found on the card, and what moves in spite of it."""
+        return self._stopping.data()
+
+    def lamp(self, _station: Shared) -> Data:
+        """What moves and runs on the card, by any host."""
+        return self._lamp.data()
 
     def program(self, station: Shared) -> Data:
         """The loaded program and its executing block."""
@@ -243,6 +261,8 @@ def _scope(_facts: Facts, station: Shared) -> Data:
 MAKERS: dict[str, Callable[[Facts, Shared], Data]] = {
     "machine": Facts.machine,
     "state": Facts.state,
+    "stopped": Facts.stopped,
+    "lamp": Facts.lamp,
     "program": Facts.program,
     "modals": Facts.modals,
     "alarms": Facts.alarms,

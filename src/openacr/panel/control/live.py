@@ -22,6 +22,7 @@ from openacr.panel.control.facts import Facts
 from openacr.panel.control.failures import Failures
 from openacr.panel.control.hand_motion import HandMotion
 from openacr.panel.control.installation import Installation
+from openacr.panel.control.lamp import Lamp
 from openacr.panel.control.on_card import OnCard
 from openacr.panel.control.part import Part
 from openacr.panel.control.presses import End
@@ -29,6 +30,7 @@ from openacr.panel.control.reading import Reading
 from openacr.panel.control.scope import Samples
 from openacr.panel.control.shared import Shared, Tell
 from openacr.panel.control.snapshot import Snapshot
+from openacr.panel.control.stopping import Stopping
 from openacr.panel.control.terminal import Terminals
 from openacr.panel.control.times import Around, Times
 from openacr.panel.control.typed import Typed
@@ -52,6 +54,8 @@ class Live(Shared):
         self.on_link: Callable[[str], None] = lambda _why: None  # lost, or found again ("")
         self.on_end: Callable[[], None] = lambda: None  # EXIT: the program is to end
         self.hand_motion = HandMotion(self)
+        self.stopping = Stopping(self)
+        self.lamp = Lamp(self)
         self.typed = Typed(self)
         self.part = Part(self)
         self.terminals = Terminals(installation)
@@ -76,7 +80,7 @@ class Live(Shared):
                 moved=self._moved,
             ),
         )
-        self._facts = Facts(self, self.part, self.typed, self.times)
+        self._facts = Facts(self, self.part, self.typed, self.times, (self.stopping, self.lamp))
         self._failures = Failures(self, partial(self.hand_motion.presses.end_all, End.ALARM))
         self._retry_s = 0.0
         self._poll_at = self._snapshot_at = 0.0  # on the clock of the pace
@@ -94,6 +98,7 @@ class Live(Shared):
     def open(self, now_s: float) -> None:
         """Open the session of the machine; without it the screens say why."""
         self.must_renew = False  # before the settings are read: what is stored then counts
+        self.stopping.end()
         try:
             self.session = self.installation.open(self.say)
         except (OpenacrError, *LINK_ERRORS) as error:
@@ -124,6 +129,8 @@ class Live(Shared):
         self.typed.forget()
         self.terminals.end()
         self.on_card.end()
+        self.stopping.end()
+        self.lamp.end()
         self.captures.stop()
         self.tuning.end()
         if session is not None:
@@ -150,7 +157,9 @@ class Live(Shared):
         if self.session is None:
             if self.installation.history is not None:  # a card lives without its host
                 self.installation.pace.advance(self.installation.history, now_s)
-            if now_s >= self._retry_s:
+            self._guarded(lambda: self.stopping.step(now_s))
+            self._facts.tell()
+            if now_s >= self._retry_s and not self.stopping.is_watching:
                 self.open(now_s)
             return
         if self.session.runner.is_out_of_reach:
@@ -167,6 +176,7 @@ class Live(Shared):
                 self._sample(now_s)
             self.on_card.step(now_s)
             self.tuning.step(now_s)
+            self._guarded(lambda: self.stopping.step(now_s))
         except LINK_ERRORS as lost:
             log.info("%s", lost)
         if self._rests:
@@ -239,6 +249,7 @@ class Live(Shared):
         if self.session is not None or self.times.is_away:
             self.watches.look(self.read, now_s, is_past=self.times.is_away)
             self.on_card.look(self.read, now_s)
+            self.lamp.look(now_s)
         self.world.look(now_s)
 
     @property

@@ -35,7 +35,6 @@ class OnCard:
         self.listening.forget(client)
 
     def end(self) -> None:
-        """The session has ended: close the streams; what runs on the card is not known."""
+        """The session has ended: close the streams."""
         self.aside.end()
         self.listening.end()
-        self.programs.end()

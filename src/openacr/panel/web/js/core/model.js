@@ -29,6 +29,8 @@ export class Model {
     this.state = new Signal(/** @type {any} */ ({
       state: "IDLE", running: false, reason: "", options: {}, asking: null, tool_wanted: false, mode: "auto", estop: { wired: false, on: false }, link: "ok", can: {},
     }));
+    this.stopped = new Signal(/** @type {{ found: string[], holds: boolean, moving: string[], next: string }} */ ({ found: [], holds: false, moving: [], next: "" }));
+    this.lamp = new Signal(/** @type {{ moving: string[], running: string[], drives: string[] }} */ ({ moving: [], running: [], drives: [] }));
     this.program = new Signal(/** @type {{ loaded: Loaded | null, loading: any, line: number, file: string, text: string, batch: any }} */ (
       { loaded: null, loading: null, line: 0, file: "", text: "", batch: null }));
     this.modals = new Signal(/** @type {any} */ ({ codes: [], F: 0, S: 0, T: 0, D: 0, H: 0, spindle: 5, coolant: 0, work: "G54" }));
@@ -107,5 +109,5 @@ export class Model {
 }
 
 const EVENTS = Object.freeze({
-  state: 1, program: 1, modals: 1, alarms: 1, messages: 1, control: 1, overrides: 1, home: 1, mdi: 1, changed: 1, programs: 1, timeline: 1, moment: 1,
+  state: 1, stopped: 1, lamp: 1, program: 1, modals: 1, alarms: 1, messages: 1, control: 1, overrides: 1, home: 1, mdi: 1, changed: 1, programs: 1, timeline: 1, moment: 1,
 });

@@ -2,6 +2,7 @@
 import { give, model, prompt } from "../core/app.js";
 import { byId, fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
+import { mayMove } from "../motion/actions.js";
 import { askNumber } from "./number_pad.js";
 
 export function startPrompt() {
@@ -10,14 +11,20 @@ export function startPrompt() {
   let [before, over] = ["", /** @type {object | undefined} */ (undefined)];
   const draw = () => {
     const { asking, tool_wanted: toolWanted, reason } = model.state.value;
+    const { found, holds, moving, next } = model.stopped.value;
     const last = model.says.value.at(-1);
     const said = last === over ? "" : last?.text ?? "";
-    if (asking) {
+    if (moving.length) {
+      const key = h("button.key.danger", { type: "button", onclick: () => give(next) }, t(next === "stop.all" ? "stopped.all" : "stopped.estop"));
+      show("error", t("stopped.moving", { axes: moving.join(" ") }), key);
+    } else if (asking) {
       const key = h("button.key.main", { type: "button", onclick: () => answer(asking) }, t("ask.answer"));
       const isNew = show("ask", asking.text || t("ask.value"), key);
       if (isNew && !document.activeElement?.closest("dialog, #screen, input")) key.focus(); // Enter answers
     } else if (toolWanted) {
       show("ask", reason || t("tool.wanted"), h("button.key.main", { type: "button", onclick: () => give("run.confirm") }, t("tool.changed")));
+    } else if (holds) {
+      show("ask", t("stopped.held", { what: found.join(", ") }), h("button.key.main", { type: "button", onclick: () => mayMove() && give("run.resume") }, t("menu.resume")));
     } else if (prompt.value.text) show(prompt.value.kind, prompt.value.text);
     else show("say", said);
   };
@@ -45,6 +52,7 @@ export function startPrompt() {
     draw();
   });
   prompt.watch(draw);
+  model.stopped.watch(draw);
 }
 
 /** @param {{ text: string }} asking */

@@ -19,6 +19,7 @@ let show = () => {};
 export function startTop(showTab) {
   show = showTab;
   model.state.watch(drawState);
+  model.lamp.watch(drawState);
   model.alarms.watch(drawAlarms);
   model.messages.watch(drawAlarms);
   model.program.watch(drawAlarms);
@@ -29,10 +30,16 @@ export function startTop(showTab) {
 function drawState() {
   const { state, reason, jogging } = model.state.value;
   const chip = byId("state");
-  chip.dataset.state = state;
-  const name = state === "PAUSED" ? "----PAUSE----" : jogging && state === "IDLE" ? t("state.JOG") : textOr(`state.${state}`, state);
-  fill(chip, h("span.sign", { ariaHidden: "true" }, SIGNS[state] ?? ""), h("span", {}, name),
-    reason ? h("span.reason", { title: reason }, reason) : "");
+  const { moving, running, drives } = model.lamp.value;
+  const ofCard = state === "IDLE" && !jogging && (moving.length > 0 || running.length > 0); // what AcroMill does not know of
+  const shown = ofCard ? "RUN" : state;
+  chip.dataset.state = shown;
+  const name = state === "PAUSED" ? "----PAUSE----" : jogging && state === "IDLE" ? t("state.JOG")
+    : ofCard ? t(moving.length ? "lamp.moves" : "lamp.runs") : textOr(`state.${state}`, state);
+  chip.title = drives.length ? t("lamp.drives", { axes: drives.join(" ") }) : "";
+  const detail = ofCard ? [...moving, ...running].join(" ") : reason;
+  fill(chip, h("span.sign", { ariaHidden: "true" }, SIGNS[shown] ?? ""), h("span", {}, name),
+    detail ? h("span.reason", { title: detail }, detail) : "");
 }
 
 /** The first alarm with its keys, then user messages; without any the name of the loaded program. */

@@ -1,0 +1,141 @@
+"""STOP at the screens: an act on the card, and what it has held.
+
+It needs no session: a card that was just found, is being set up or refuses its set-up is stopped
+over a connection of its own.
+"""
+
+from contextlib import suppress
+from typing import Any
+
+from openacr.client import Card, Options
+from openacr.client.standstill import EVERY_S, Standstill
+from openacr.errors import OpenacrError
+from openacr.mill.card.driver import LINK_ERRORS
+from openacr.mill.card.stopping import watching
+from openacr.mill.config.settings import Settings
+from openacr.panel.control.shared import Shared
+
+HELD_S = 0.5  # between two looks at what is held
+BARE_S = 1.0  # longest wait for a card without a session
+
+
+class Stopping:
+    """The last STOP: it goes on until its watch is over and nothing is held by it."""
+
+    def __init__(self, station: Shared) -> None:
+        self._station = station
+        self._stop: Standstill | None = None
+        self._bare: Card | None = None  # where the session has not given the card
+        self._is_watched = False
+        self._left: set[int] = set()  # axes that moved at the end of the watch
+        self._is_held = False
+        self._due_s = 0.0
+
+    # --- the act ----------------------------------------------------------------------
+
+    def stop(self, now_s: float, *, ends: bool) -> list[str]:
+        """Stop the card and watch it; what was found to move. A link error: it was not reached."""
+        history = self._station.installation.history
+        if history is not None and history.is_still:
+            return []  # no time passes on the card
+        card = self._card()
+        settings = Settings(self._station.installation.store)
+        session = self._station.session
+        is_ours = session is not None and session.runner.is_busy
+        self._stop = Standstill(
+            card,
+            ends=ends,
+            spared=watching(card, settings),
+            of_host={settings.master} if is_ours else (),
+        )
+        self._stop.look()
+        self._is_watched, self._left, self._is_held = False, set(), False
+        self._due_s = now_s + EVERY_S
+        return self._stop.found
+
+    def kill(self) -> None:
+        """Kill all motion and switch all drives off, over any connection (Ctrl-Z)."""
+        self._card().kill_all(disable=True)
+
+    def _card(self) -> Card:
+        session = self._station.session
+        if session is not None:
+            return session.card
+        if self._bare is None:
+            target = self._station.installation.target
+            self._bare = Card.open(target, Options(timeout_s=BARE_S, reconnect_s=0.0))
+        return self._bare
+
+    # --- its course -------------------------------------------------------------------
+
+    def step(self, now_s: float) -> None:
+        """Look again where it is time; never waits longer than the card takes to answer."""
+        stop = self._stop
+        if stop is None or now_s < self._due_s:
+            return
+        try:
+            if not self._is_watched:
+                self._due_s = now_s + EVERY_S
+                stop.look()
+                self._is_watched = stop.is_over
+                self._left = set(stop.moving)
+                return
+            self._due_s = now_s + HELD_S
+            self._is_held = stop.still_held()
+            self._left &= set(stop.moving)
+        except (OpenacrError, *LINK_ERRORS):
+            self.end()
+            raise
+        if not self._is_held and not self._left:
+            self.end()
+
+    def allow_motion(self) -> None:
+        """Motion is commanded at a screen after the stop: the watch would end it again."""
+        stop = self._stop
+        if stop is not None and not self._is_watched:
+            self._is_watched, self._is_held = True, bool(stop.masters or stop.programs)
+
+    @property
+    def is_watching(self) -> bool:
+        """Whether motion that begins now is stopped as well."""
+        return self._stop is not None and not self._is_watched
+
+    @property
+    def holds(self) -> bool:
+        """Whether something waits for RESUME."""
+        stop = self._stop
+        if stop is None or stop.ends:
+            return False
+        return self._is_held or bool(not self._is_watched and (stop.masters or stop.programs))
+
+    def resume(self) -> None:
+        """Go on with the moves and programs of the card that STOP has held."""
+        if self._stop is not None:
+            self._stop.resume()
+        self.end()
+
+    def end(self) -> None:
+        """Forget the last stop; what it holds stays held."""
+        self._stop = None
+        bare, self._bare = self._bare, None
+        if bare is not None:
+            with suppress(*LINK_ERRORS):
+                bare.close()
+
+    def data(self) -> dict[str, Any]:
+        """What was stopped, whether RESUME goes on with it, and what moves in spite of it."""
+        stop = self._stop
+        if stop is None:
+            return {"found": [], "holds": False, "moving": [], "next": ""}
+        left = sorted(self._left) if self._is_watched else []
+        return {
+            "found": stop.found,
+            "holds": self.holds,
+            "moving": [self._name(axis) for axis in left],
+            "next": "stop.estop" if stop.ends else "stop.all",
+        }
+
+    def _name(self, axis: int) -> str:
+        settings = Settings(self._station.installation.store)
+        named = {each.index: each.name for each in settings.axes}
+        return named.get(axis, f"AXIS{axis}")
