@@ -286,7 +286,9 @@ def test_a_launch_that_cannot_be_is_refused(
             b"Content-Length: 16777217\r\n\r\n",
             "Content-Length b'16777217': a number of bytes, at most 16777216",
         ),
-        (b"Other: 1\r\n\r\n", "a message has no Content-Length"),
+        (b"Content-Type: 1\r\n\r\n", "a message has no Content-Length"),
+        (b"Other: 1\r\nContent-Length: 2\r\n\r\n{}", r"b'Other: 1\\r\\n' is not a header"),
+        (b"POST /a:b HTTP/1.1\r\nContent-Length: 2\r\n\r\n{}", r"b'POST .+' is not a header"),
         (b"Content-Length: 2\r\n\r\n[]", "a message is no JSON object"),
         (b"Content-Length: 1\r\n\r\n{", r"a message is no JSON: .+"),
     ],
@@ -335,12 +337,33 @@ def test_the_end_of_a_session_over_tcp_waits_for_no_client_and_no_other_gets_in(
     command = [sys.executable, "-m", "openacr", "debug", "--port", "0"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
+        secret = process.stdout.readline().split('"')[3]
         port = int(process.stdout.readline().rsplit(":", 1)[1])
         with socket.create_connection(("127.0.0.1", port)) as client:
             with cast("IO[bytes]", client.makefile("rwb", buffering=0)) as stream:
                 write_message(stream, {"seq": 1, "type": "request", "command": "initialize"})
                 assert (read_message(stream) or {})["success"]
+                assert (read_message(stream) or {})["event"] == "initialized"
+                for given in (None, "", secret[1:], secret):
+                    named = {"program": "no/such"} | ({} if given is None else {"secret": given})
+                    launch = {"seq": 2, "type": "request", "command": "launch", "arguments": named}
+                    write_message(stream, launch)
+                    answer = read_message(stream) or {}
+                    assert not answer["success"]
+                    assert ("secret" in answer["message"]) == (given != secret)
                 with pytest.raises(ConnectionRefusedError):
                     socket.create_connection(("127.0.0.1", port))
                 write_message(stream, {"seq": 2, "type": "request", "command": last})
                 assert process.wait(LIMIT_S) == 0
+
+
+def test_nothing_is_answered_before_initialize() -> None:
+    incoming, out = BytesIO(), BytesIO()
+    for command in ("launch", "threads"):
+        write_message(incoming, {"seq": 1, "type": "request", "command": command})
+    incoming.seek(0)
+    serve(incoming, out)
+    out.seek(0)
+    for command in ("launch", "threads"):
+        answer = read_message(out) or {}
+        assert answer["message"] == f"{command}: a session begins with initialize"

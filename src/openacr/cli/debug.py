@@ -2,6 +2,7 @@
 
 import socket
 import sys
+from secrets import token_urlsafe
 from typing import IO, Annotated, cast
 
 import typer
@@ -24,7 +25,8 @@ def debug(
 
     Speaks the Debug Adapter Protocol on standard input and output. A launch names a project
     ("program"), a journal of `openacr run` or `openacr serve` ("journal"), a part program
-    ("partProgram") or the address of a card ("host").
+    ("partProgram") or the address of a card ("host"). A program that can reach the port could
+    run the code of any project: with --port a launch has to bring the printed "secret".
     """
     from openacr.debugger.server import serve
 
@@ -38,9 +40,12 @@ def debug(
     from openacr.io.listening import bound_socket
 
     with bound_socket("127.0.0.1", port, socket.SOCK_STREAM, "--port") as listener:
-        typer.echo(f"waiting for a debugger client at 127.0.0.1:{listener.getsockname()[1]}")
+        secret = token_urlsafe(16)
+        place = f"127.0.0.1:{listener.getsockname()[1]}"
+        typer.echo(f'launch with "secret": "{secret}"')
+        typer.echo(f"waiting for a debugger client at {place}")
         connection, _ = listener.accept()  # the first client; no other gets in
     # Unbuffered, as above: to close a buffer in which a thread waits would wait for the client.
     stream = cast("IO[bytes]", connection.makefile("rwb", buffering=0))
     with connection, terminations_as_interrupts():
-        serve(stream, stream, ending=deaf)
+        serve(stream, stream, ending=deaf, secret=secret)

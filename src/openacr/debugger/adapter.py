@@ -7,6 +7,7 @@ a card, or the part program (1). https://microsoft.github.io/debug-adapter-proto
 from __future__ import annotations
 
 from collections.abc import Callable
+from hmac import compare_digest
 from itertools import count
 from typing import Any
 
@@ -59,8 +60,10 @@ def request(form: type[requests.Arguments]) -> Callable[[Handler], Handler]:
 class Adapter:
     """Answers the requests of one client, and reports events by `send`."""
 
-    def __init__(self, send: Callable[[Json], None]) -> None:
+    def __init__(self, send: Callable[[Json], None], secret: str = "") -> None:
         self._send = send
+        self._secret = secret  # a launch has to bring it
+        self._is_begun = False  # `initialize` was answered
         self._sequence = 0
         self._target: Target | None = None
         self.is_running = False
@@ -104,17 +107,24 @@ class Adapter:
             answer["body"] = {"error": {"id": 1, "format": str(error), "showUser": True}}
         self._put(answer)
         if command == "initialize" and answer["success"]:
+            self._is_begun = True
             self.event("initialized")
 
     def _answer(self, command: object, arguments: object) -> Json | None:
         found = _HANDLERS.get(command) if isinstance(command, str) else None
         if found is None:
             raise UserError(f"{command}: this debugger has no such request")
+        if not self._is_begun and command != "initialize":
+            raise UserError(f"{command}: a session begins with initialize")
         form, handler = found
         try:
             read = msgspec.convert(arguments, form)
         except msgspec.ValidationError as error:
             raise UserError(f"{command}: {error}") from None
+        if isinstance(read, requests.Launch) and not compare_digest(read.secret, self._secret):
+            raise UserError(
+                'launch: "secret" is not the one that `openacr debug --port` has printed'
+            )
         return handler(self, read)
 
     def event(self, name: str, **body: object) -> None:

@@ -36,7 +36,7 @@ class Launch(Arguments):
     `devices` is the folder of Python files with devices of a journal; `store` and `dialect` are of
     a part program, `listen` (programs that are followed; those of `run`) of a card over a link.
     `run` names programs that are started; `speed` is the ratio to real time, 0 as
-    fast as it goes.
+    fast as it goes. `secret` is the one that `openacr debug --port` has printed.
     """
 
     program: Text = ""
@@ -50,6 +50,7 @@ class Launch(Arguments):
     run: list[Program] = []
     speed: Annotated[float, Meta(ge=0, le=1e6)] = 1.0
     stop_on_entry: bool = False
+    secret: Text = ""
 
 
 class Source(Arguments):

@@ -27,15 +27,18 @@ def serve(
     incoming: IO[bytes],
     outgoing: IO[bytes],
     ending: Callable[[], AbstractContextManager[None]] = nullcontext,
+    *,
+    secret: str = "",
 ) -> None:
     """Answer requests until the client ends the session or its connection is lost.
 
+    With a `secret` only a launch that brings it is carried out.
     What is debugged is ended within the context of `ending`, which may keep interrupts from it.
     BrokenStreamError if what comes in cannot be separated into messages any more.
     """
     messages: Queue[Message] = Queue(1000)
     threading.Thread(target=_read, args=(incoming, messages), daemon=True).start()
-    adapter = Adapter(lambda message: write_message(outgoing, message))
+    adapter = Adapter(lambda message: write_message(outgoing, message), secret)
     try:
         _answer(adapter, messages)
     except (BrokenPipeError, ConnectionError) as failure:

@@ -10,6 +10,8 @@ from openacr.errors import UserError
 
 LONGEST_BYTES = 1 << 24  # of a message that is read
 _HEADER_BYTES = 1 << 12
+# Any other line is refused: a web page can have a browser send `POST /a:b HTTP/1.1` to this port.
+_HEADERS = (b"content-length", b"content-type")
 
 
 class BrokenStreamError(UserError):
@@ -26,9 +28,10 @@ def read_message(stream: IO[bytes]) -> dict[str, Any] | None:
         if line in (b"\r\n", b"\n"):
             break
         name, colon, value = line.partition(b":")
-        if not colon or not line.endswith(b"\n"):
+        name = name.strip().lower()
+        if not colon or not line.endswith(b"\n") or name not in _HEADERS:
             raise BrokenStreamError(f"{line[:60]!r} is not a header")
-        if name.strip().lower() == b"content-length":
+        if name == b"content-length":
             length = _length(value.strip())
     if length is None:
         raise BrokenStreamError("a message has no Content-Length")
