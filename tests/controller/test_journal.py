@@ -17,7 +17,7 @@ from openacr.controller.journal import Entered, read_journal
 from openacr.controller.recorder import Recorder
 from openacr.controller.replay import Replay
 from openacr.controller.ring import Ring, journals, own_ring
-from openacr.errors import StoreError
+from openacr.errors import OpenacrError, StoreError
 from openacr.plant.network_schema import Canopen, Node
 from openacr.plant.schema import DeviceTable, default_world
 from openacr.protocol.events import ControlKey
@@ -362,3 +362,27 @@ def test_cards_that_have_no_folder_of_their_own_do_not_meet(tmp_path: Path) -> N
     three.close()
     counts = [len(journals(tmp_path / name)) for name in ("1", "2")]
     assert counts == [2, 1]
+
+
+def test_a_journal_with_a_damaged_byte_is_refused_or_replayed_never_a_traceback(
+    tmp_path: Path,
+) -> None:
+    path, damaged = tmp_path / "a.journal", tmp_path / "b.journal"
+    card = Controller()
+    card.recorder = Recorder(card, path)
+    card.send("?P0\r")
+    card.advance(seconds=2.5)
+    card.close()
+    content = path.read_bytes()
+    header = content.index(b"\n", len(content.split(b"\n")[0]) + 1)
+    places = [*range(0, 900, 20), *range(header - 40, len(content), 7)]
+    refused = 0
+    for place in places:
+        for byte in (0xFF, 0x22):
+            damaged.write_bytes(content[:place] + bytes([byte]) + content[place + 1 :])
+            try:
+                Replay(read_journal(damaged)).run()
+            except OpenacrError as error:
+                refused += 1
+                assert "journal" in str(error)
+    assert refused > len(places)

@@ -217,7 +217,7 @@ def read_journal(path: Path) -> Journal:
         raise StoreError(f"{path} ends within its first record: nothing can be replayed")
     try:
         header = msgspec.json.decode(head, type=Header)
-    except (msgspec.MsgspecError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # MsgspecError, UnicodeDecodeError
         raise StoreError(f"{path}: its first record cannot be read: {error}") from None
     _check(path, header)
     entries = tuple(

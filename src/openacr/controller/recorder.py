@@ -12,10 +12,10 @@ import logging
 from base64 import b64encode
 from collections import deque
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from importlib.metadata import version
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol, TypeVar
 
 import msgspec
 
@@ -31,8 +31,38 @@ from openacr.store import private
 log = logging.getLogger(__name__)
 
 DIGEST_EVERY_S = 1.0
+T = TypeVar("T")
+MOST_WORKED_OUT = 8  # records that are being computed; each holds a copy of the state (3 MB)
 TOGETHER_BYTES = 1 << 16
-_WORKER = ThreadPoolExecutor(1, thread_name_prefix="journal")
+
+
+class _Worker:
+    """The thread of all journals of this process, with at most MOST_WORKED_OUT records to compute.
+
+    Each of them holds copies of the state: a card that runs faster than the thread would take all
+    memory.
+    """
+
+    def __init__(self) -> None:
+        self._pool = ThreadPoolExecutor(1, thread_name_prefix="journal")
+        self._open: deque[Future[Any]] = deque()
+
+    @property
+    def is_full(self) -> bool:
+        while self._open and self._open[0].done():
+            self._open.popleft()
+        return len(self._open) >= MOST_WORKED_OUT
+
+    def submit(self, do: Callable[[], T]) -> Future[T]:
+        """Have something done after all that was submitted before; waits while `is_full`."""
+        while self.is_full:
+            wait([self._open[0]])
+        future = self._pool.submit(do)
+        self._open.append(future)
+        return future
+
+
+_WORKER = _Worker()
 
 
 class Records:
@@ -70,7 +100,7 @@ class Records:
             self.flush()
 
     def work_out(self, record: Callable[[], bytes]) -> None:
-        """Append a record that a thread computes."""
+        """Append a record that a thread computes; waits while the thread has too many."""
         self._waiting.append(_WORKER.submit(record))
 
     def flush(self, *, waits: bool = False) -> None:
@@ -136,9 +166,17 @@ class Recorder:
     """Writes the journal of a card from now on, until `close`."""
 
     def __init__(
-        self, card: RecordedCard, path: Path, *, project: str = "", fingerprint: str = ""
+        self,
+        card: RecordedCard,
+        path: Path,
+        *,
+        project: str = "",
+        fingerprint: str = "",
+        waits: bool = True,
     ) -> None:
         self._card = card
+        self._waits = waits  # for the thread; else what it has no time for is left out
+        self.left_out = 0
         self.records = Records(path)
         self.every_tk = max(1, round(DIGEST_EVERY_S / card.period_s))
         self.next_tk = card.lived_tk + self.every_tk
@@ -174,6 +212,11 @@ class Recorder:
         """Length of the file."""
         return self.records.size_bytes
 
+    @property
+    def is_late(self) -> bool:
+        """Whether a fingerprint would have to wait for the thread, and may not."""
+        return not self._waits and _WORKER.is_full
+
     def note(self, entry: JournalEntry) -> None:
         """Record an entry; it is written before time advances."""
         if not self.failure:
@@ -191,8 +234,20 @@ class Recorder:
     def _note_digest(self, what: Entered) -> None:
         if self.failure:
             return
+        if what is Entered.DIGEST and self.is_late:
+            self._leave_out()
+            self.note(JournalEntry(self._card.lived_tk, what))
+            return
         tick, image = self._card.lived_tk, self._card.image()
         self.records.work_out(lambda: record_of(JournalEntry(tick, what, text=digest_of(image))))
+
+    def _leave_out(self) -> None:
+        if not self.left_out:
+            log.warning(
+                "%s: the disk or the computer is too slow for a fingerprint every %g s: some are"
+                " left out; the journal replays all the same", self.records.path, DIGEST_EVERY_S
+            )  # fmt: skip
+        self.left_out += 1
 
     def end(self) -> None:
         """Write the last digest and close the file, as soon as a thread has done so."""

@@ -22,7 +22,7 @@ class Ring:
 
     Every file begins with a snapshot, so each can be replayed without the earlier ones. A
     file also ends early when hosts have sent a large amount. A file that cannot be written
-    is omitted; the card continues.
+    is omitted; the card continues. `waits` as of a `Recorder`: not for a card in real time.
     """
 
     def __init__(
@@ -33,10 +33,11 @@ class Ring:
         file_s: float = 300.0,
         files: int = 3,
         most_bytes: int = 1 << 25,
+        waits: bool = True,
     ) -> None:
         self._card, self._folder, self._files = card, folder, files
         self._file_tk = round(file_s / card.period_s)
-        self._most_bytes = most_bytes
+        self._most_bytes, self._waits = most_bytes, waits
         self._lock = FolderLock(folder)
         self._number = max(map(_number_of, journals(folder)), default=0)
         try:
@@ -64,7 +65,8 @@ class Ring:
         """Write the digest that is due; when the period of a file is over, begin the next."""
         recorder = self._recorder
         is_full = recorder is not None and recorder.size_bytes > self._most_bytes
-        if self._card.lived_tk < self._end_tk and not is_full:
+        is_late = recorder is not None and recorder.is_late  # no time for the state of a new file
+        if is_late or (self._card.lived_tk < self._end_tk and not is_full):
             if recorder is not None:
                 recorder.mark()
             return
@@ -87,14 +89,14 @@ class Ring:
         self._end_tk = self._card.lived_tk + self._file_tk
         for path in journals(self._folder)[: -self._files + 1 or None]:
             path.unlink(missing_ok=True)
-        return Recorder(self._card, self._folder / f"{self._number:06}{SUFFIX}")
+        return Recorder(self._card, self._folder / f"{self._number:06}{SUFFIX}", waits=self._waits)
 
 
 def own_ring(card: RecordedCard, folder: Path) -> Ring:
     """A ring in the first folder `folder/1`, `folder/2`, ... that no other card uses."""
     for place in range(1, PLACES + 1):
         with suppress(InUseError):
-            return Ring(card, folder / str(place))
+            return Ring(card, folder / str(place), waits=False)
     raise StoreError(f"{folder} has no room for another card: {PLACES} cards use it")
 
 
