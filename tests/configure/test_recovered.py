@@ -183,3 +183,13 @@ def test_an_axis_of_phases_cannot_be_described() -> None:
     card = Virtual(Controller.from_project(EXAMPLES / "brushless"))
     with pytest.raises(UserError, match=r"axis 0 \(X\) is not attached to an encoder"):
         recovered(card, "ACR9000")
+
+
+def test_answers_longer_than_a_page_are_read_to_their_end() -> None:
+    """A mill of `openacr new` keeps answers in more lines than a listing prints at once."""
+    controller = Controller()
+    text = "".join(f"{10 * n} REM {n}\r" for n in range(1, 121))
+    controller.send(f"DIM PROG5(9000)\rPROG5\r{text}")
+    controller.advance(seconds=1)
+    listed = Virtual(controller).command("LIST", program=5)
+    assert listed == [f"{10 * n} REM {n}" for n in range(1, 121)]
