@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 from openacr.cli.live import backup as cli
 from openacr.cli.main import app
 from openacr.client import Card, ConnectionLostError, RestoreError
+from openacr.client import backup as reading
 from openacr.controller import Controller
 
 
@@ -56,3 +57,23 @@ def test_contents_that_are_back_need_no_folder(
     assert result.exit_code == 1
     assert result.stderr == "error: noise; the card has its former contents again\n"
     assert [path.name for path in folder.parent.iterdir()] == ["mine"]
+
+
+def test_a_backup_names_what_it_could_not_keep(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    card = Card.open(Controller())
+
+    @contextmanager
+    def connected(target: str, baud: int, silence_s: float) -> Iterator[Card]:
+        yield card
+
+    monkeypatch.setattr(cli, "connected", connected)
+    assert CliRunner().invoke(app, ["backup", "card:1", str(tmp_path / "a")]).exit_code == 0
+    original, remark = reading.write_folder, "REM not understood: AXIS0 JOG SRC: ?\n"
+    monkeypatch.setattr(
+        reading, "write_folder",
+        lambda files, folder: original({"setup.8k": files["setup.8k"] + remark}, folder),
+    )  # fmt: skip
+    result = CliRunner().invoke(app, ["backup", "card:1", str(tmp_path / "b")])
+    assert (result.exit_code, result.stderr) == (1, "not kept: AXIS0 JOG SRC: ?\n")

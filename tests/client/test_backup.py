@@ -254,3 +254,24 @@ def test_a_folder_that_is_no_backup_changes_nothing(tmp_path: Path) -> None:
     with pytest.raises(UserError, match=r"no setup\.8k"):
         card.restore(tmp_path)
     assert card.p["axis0.ppu"] == 5
+
+
+SOURCES = ("JOG SRC ENC3", "GEAR SRC ENC2", "CAM SRC P38912", "BSC SRC ENC7")
+
+
+def test_a_backup_keeps_the_sources_of_axes(tmp_path: Path) -> None:
+    card = Card.open(Controller())
+    load_example(card, "gantry")
+    lines = [f"AXIS{axis} {line}" for axis in (0, 2) for line in (*SOURCES, "HDW SRC ENC4")]
+    for line in lines:
+        card.command(line, program=0)
+    card.backup(tmp_path / "one")
+    kept = texts(tmp_path / "one")["setup.8k"].splitlines()
+    assert set(lines) <= set(kept)
+    assert [line for line in kept if "not understood" in line] == []
+    other = Card.open(Controller())
+    other.restore(tmp_path / "one")
+    for line in lines:
+        query, _, source = line.rpartition(" ")
+        assert other.command(query, program=0) == [source]
+    assert other.command("AXIS1 GEAR SRC", program=0) == ["NONE"]

@@ -33,6 +33,7 @@ Files: TypeAlias = list[tuple[Path, Level, str]]
 
 AXES, PROGRAMS, PLCS = 16, 16, 8
 SETUP_FILE = "setup.8k"
+_LOST = "REM not understood: "
 _HEAD = ("SYS", "HALT ALL", "NEW ALL", "CLEAR", "DETACH ALL")
 # Covered by another row, or not to be written back.
 _LEFT_OUT = frozenset(("F", "MULT", "IP", "CONFIG", "AXIS # ON", "AXIS # OFF", "FOV", "ROV"))
@@ -59,6 +60,8 @@ _FLAGS = (
 )
 _NUMBER = r"-?[\d.]+(?:[Ee][-+]?\d+)?"
 _VALUE = re.compile(rf"{_NUMBER}(?:,{_NUMBER})?")
+_SOURCE = re.compile(r"NONE|CLK|[A-Z]+\d+")  # as the card reports and takes it
+_OWN_SETPOINT = "PSP"  # of a ballscrew without a source, which no line can choose
 _ATTACHED_AXIS = re.compile(r"ATTACH AXIS(\d+) ")
 _SLAVE = re.compile(r"ATTACH SLAVE\d+ AXIS(\d+) ")
 _VARIABLES = re.compile(r"DIM P\((\d+)\)")
@@ -92,8 +95,12 @@ class _Reader:
         """
         command = command or row.name
         for value in (yield from self.ask(command, at=at)):
-            if not _VALUE.fullmatch(value):
-                self.lines.append(f"REM not understood: {command}: {value}")
+            if row.name.endswith(" SRC") and _SOURCE.fullmatch(value):
+                self.lines.append(f"{command} {value}")
+            elif value == _OWN_SETPOINT:
+                continue
+            elif not _VALUE.fullmatch(value):
+                self.lines.append(f"{_LOST}{command}: {value}")
             elif not (row.is_extension and float(value) == float(row.default or 0)):
                 self.lines.append(f"{command} ({value})" if "," in value else f"{command} {value}")
 
@@ -104,7 +111,7 @@ class _Reader:
             if line.startswith(f"{word} "):
                 found.append(line)
             else:
-                self.lines.append(f"REM not understood: {query}: {line}")
+                self.lines.append(f"{_LOST}{query}: {line}")
         return found
 
 
@@ -274,6 +281,12 @@ def write_folder(files: dict[str, str], folder: Path) -> None:
             (folder / name).write_text(text, encoding="latin-1", newline="\n")
     except OSError as failure:
         raise unwritable(folder, failure) from None
+
+
+def not_understood(folder: Path) -> list[str]:
+    """What a backup could not keep: answers of the card that no line would set again."""
+    lines = (folder / SETUP_FILE).read_text(encoding="latin-1").splitlines()
+    return [line.removeprefix(_LOST) for line in lines if line.startswith(_LOST)]
 
 
 def read_folder(folder: Path) -> Files:

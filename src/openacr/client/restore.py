@@ -21,7 +21,9 @@ from openacr.client.transfer import Progress, Report, download
 from openacr.errors import UserError
 from openacr.messages import INVALID_ARGUMENT, NOT_SUPPORTED, SYNTAX_ERROR, UNKNOWN_COMMAND
 
-_SETTING = re.compile(r"(?P<query>.+?) (?:\([^()]*\)|-?[\d.]+(?:[Ee][-+]?\d+)?)")
+_SETTING = re.compile(
+    r"(?P<query>.+?) (?:\([^()]*\)|-?[\d.]+(?:[Ee][-+]?\d+)?|(?<= SRC )[A-Z]+\d*)"
+)
 _AXIS = re.compile(r"AXIS\d+ ")
 _OBJECT = re.compile(r"([A-Z]+)\d+ ")
 _UNKNOWN = (UNKNOWN_COMMAND, SYNTAX_ERROR, INVALID_ARGUMENT, NOT_SUPPORTED)

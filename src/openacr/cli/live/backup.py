@@ -29,11 +29,19 @@ def backup(
     """Store settings, attachments, variables and programs of a card in a folder.
 
     The folder is a project: `openacr run` and `openacr serve` take it as it is. Not kept:
-    network address, passwords, local variables, strings, positions.
+    network address, passwords, local variables, strings, positions. What the card reports in a
+    form that cannot be written back is listed (exit code 1).
     """
+    from openacr.client.backup import not_understood
+
     with connected(target, baud, silence) as card, progress_bar("reading") as progress:
         names = card.backup(folder, progress)
     typer.echo(f"{folder}: {', '.join(names)}")
+    lost = not_understood(folder)
+    for remark in lost:
+        typer.echo(f"not kept: {remark}", err=True)
+    if lost:
+        raise typer.Exit(FAILED)
 
 
 def restore(
