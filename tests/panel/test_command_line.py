@@ -45,6 +45,7 @@ def test_the_panel_starts_without_configuration_and_ends_cleanly_while_it_comput
         (("a:b:c",), "'a:b:c' is neither HOST, HOST:PORT nor a serial port"),
         (("card:70000",), "card:70000: port 70000 is not in 0..65535"),
         (("jobs/mill",), "jobs/mill: there is no such folder, nor such a serial port"),
+        (("nofolder",), "nofolder: there is no such folder, and no host has this name"),
         ((__file__,), "test_command_line.py is a file: a project is a folder"),
         (("--set-password", "boss"), "'boss' is not one of view, operate, setup, service"),
     ],

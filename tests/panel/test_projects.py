@@ -12,6 +12,7 @@ from openacr.map import numbers as n
 from openacr.panel.commands.all import carry_out
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.station import Station
+from openacr.panel.machine import embedded
 from openacr.panel.machine.project import of_project
 from openacr.sysvar.tabs import AXIS
 from openacr.tuning.settings import GAINS
@@ -147,3 +148,21 @@ def test_a_named_store_counts_before_that_of_the_project(
     assert installation.store.path == named
     assert not (project / "sysvar.db").exists()
     installation.close()
+
+
+def test_a_project_that_is_opened_first_leaves_the_virtual_mill_its_sample_parts(
+    tmp_path: Path,
+) -> None:
+    data, shared = tmp_path / "data", tmp_path / "data" / "programs"
+    project = tmp_path / "shop"
+    project.mkdir()
+    (project / "settings.toml").write_text("")
+    (project / "prog0.8k").write_text("REM nothing\n")
+    of_project(project, store=None, programs=None, otherwise=shared).close()
+    assert list(shared.iterdir()) == []
+    embedded(data).close()
+    assert (shared / "plate.nc").is_file()
+    for part in shared.iterdir():
+        part.unlink()
+    embedded(data).close()
+    assert list(shared.iterdir()) == [], "what an operator has deleted stays deleted"

@@ -2,6 +2,7 @@
 
 import asyncio
 import logging
+import socket
 import sys
 import webbrowser
 from pathlib import Path
@@ -124,6 +125,16 @@ def _require_link(machine: str) -> None:
     is_port = place.exists() or machine.startswith("/dev/")
     if "/" in machine and not is_port:
         raise UserError(f"{machine}: there is no such folder, nor such a serial port")
+    if machine.isidentifier() and not machine.upper().startswith("COM") and not _is_host(machine):
+        raise UserError(f"{machine}: there is no such folder, and no host has this name")
+
+
+def _is_host(name: str) -> bool:
+    try:
+        socket.getaddrinfo(name, None)
+    except OSError:
+        return False
+    return True
 
 
 def _set_password(installation: "Installation", word: str) -> None:

@@ -19,10 +19,13 @@ def embedded(
     """The virtual mill; `data` is the folder of its store and programs, filled when it is new."""
     ensure(data)
     programs = programs or data / "programs"
+    store = store or data / "sysvar.db"
     if not programs.exists():
         ensure(programs.parent)
         make_whole(programs, _fill)
-    cells = opened(store or data / "sysvar.db")
+    elif not store.exists() and not any(programs.iterdir()):
+        _fill(programs)  # a project or a card was opened before, and has made the folder
+    cells = opened(store)
     controller = Controller.from_project(FOLDER)
     controller.is_journalled = False  # it may run for months
     sample = SAMPLE if (programs / SAMPLE).is_file() else ""
