@@ -182,3 +182,21 @@ def test_stop_stops_a_branch_that_goes_on_from_the_past(hand: HandStation, other
     hand.run(1.3)
     assert not moves(hand)
     assert stopped(hand)["found"] == ["PROG1 paused", "MASTER1 held"]
+
+
+@pytest.mark.parametrize("pause_s", [0.3, 2.0])
+def test_a_second_stop_keeps_what_the_first_one_has_held(
+    hand: HandStation, other: Card, pause_s: float
+) -> None:
+    by_program(other)
+    hand.run(0.3)
+    hand.do("stop.hold")
+    hand.run(pause_s)
+    by_jog(other)
+    hand.run(0.1)
+    hand.do("stop.hold")
+    hand.run(2.0)
+    assert stopped(hand)["found"] == ["PROG0 paused", "MASTER0 held", "AXIS1 stopped"]
+    hand.do("run.resume")
+    hand.run(0.3)
+    assert moves(hand)

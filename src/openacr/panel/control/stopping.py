@@ -42,12 +42,17 @@ class Stopping:
         settings = Settings(self._station.installation.store)
         session = self._station.session
         is_ours = session is not None and session.runner.is_busy
+        former, was_held = self._stop, self.holds
         self._stop = Standstill(
             card,
             ends=ends,
             spared=watching(card, settings),
             of_host={settings.master} if is_ours else (),
         )
+        if former is not None and was_held and not ends:  # RESUME goes on with both
+            self._stop.masters |= former.masters
+            self._stop.programs |= former.programs
+            self._stop.axes |= former.axes
         self._stop.look()
         self._is_watched, self._left, self._is_held = False, set(), False
         self._due_s = now_s + EVERY_S
