@@ -16,6 +16,17 @@ from openacr.plant.locate import Path as Steps
 from openacr.plant.locate import nearest, places
 
 MOST_MESSAGES = 100
+MOST_DEPTH = 32
+_STRINGS = re.compile(
+    r'"""(?:\\.|[^\\])*?"""'
+    r"|'''.*?'''"
+    r'|"(?:\\.|[^"\\\n])*"'
+    r"|'[^'\n]*'"
+    r"|#[^\n]*",
+    re.DOTALL,
+)
+_DEEP_KEY = re.compile(rf'(?:[\w-]+|")(?:[ \t]*\.[ \t]*(?:[\w-]+|")){{{MOST_DEPTH}}}')
+_BRACKET = re.compile(r"[\[\]{}]")
 Kind = TypeVar("Kind")
 
 # Messages of the converter: a sentence and a path; some sentences are replaced elsewhere.
@@ -39,6 +50,7 @@ def read_text(path: Path) -> str:
 
 def parse(text: str, path: str) -> dict[str, Any]:
     """Parse the tables of a text; SourceError if it is not TOML."""
+    require_shallow(text, path)
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -50,6 +62,25 @@ def parse(text: str, path: str) -> dict[str, Any]:
             line=int(line or text.count("\n") + 1),
             column=int(column or 0),
         ) from None
+
+
+def require_shallow(text: str, path: str) -> None:
+    """SourceError where tables are nested deeper than any file of a user is.
+
+    The parser takes time and memory with the square of the depth of a key (1.6 GB for 40 kB) and
+    ends in a RecursionError for lists, so it is looked at before.
+    """
+    bare = _STRINGS.sub('"', text)
+    found = _DEEP_KEY.search(bare)
+    depth = 0
+    for each in _BRACKET.finditer(bare):
+        depth += 1 if each[0] in "[{" else -1
+        if depth > MOST_DEPTH and (found is None or each.start() < found.start()):
+            found = each
+            break
+    if found is not None:
+        line = text.count("\n", 0, found.start()) + 1 if bare == text else 0
+        raise SourceError(f"tables are nested deeper than {MOST_DEPTH}", path=path, line=line)
 
 
 def wrong(text: str, path: str, steps: Steps, what: str, hint: str = "") -> SourceError:

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from openacr.errors import MapError, UserError, read_bytes
+from openacr.plant.toml_file import require_shallow
 from openacr.sysvar import lookup, password, rules, values
 from openacr.sysvar.held import UNITS
 from openacr.sysvar.schema import CellKind, Parameter
@@ -88,6 +89,7 @@ def imported(store: Store, text: str, place: str = "the file") -> int:
 
     An empty store takes over the unit of the file, any other keeps its own.
     """
+    require_shallow(text, place)
     try:
         document = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
