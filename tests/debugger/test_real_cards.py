@@ -246,6 +246,7 @@ def test_what_a_card_over_a_link_cannot_do_is_refused_with_the_reason(
 
 def test_a_launch_names_a_card_that_answers(client: Client, served: Served, card: Card) -> None:
     card.run(0)
+    client.ask("initialize")
     for command, arguments, text in (
         ("launch", {"host": served.address, "program": "."}, "launch: give either"),
         ("launch", {"host": served.address, "stopOnEntry": True}, "name programs to `run`"),
