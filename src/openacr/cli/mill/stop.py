@@ -42,8 +42,10 @@ def stop_machine(host: AtHost, store: AtStore = None) -> None:
         where = Readout(cells).place([axis.index for axis in settings.axes], tuple(place))
     if stopped.cause is not None:
         typer.echo(f"alarm {stopped.cause.code}: {stopped.cause.text}")
-    for text in stopped.found:
+    for text in stopped.moved:
         typer.echo(f"stopped: {text}")
+    for text in stopped.found:
+        typer.echo(f"switched off: {text}")
     if not stopped.rests:
         typer.echo("the machine did not come to rest: all drives are switched off", err=True)
         raise typer.Exit(FAILED)

@@ -27,7 +27,8 @@ def watching(card: Card, settings: Settings) -> set[int]:
 class Stopped:
     """Result of a stop."""
 
-    found: list[str]  # what moved, and outputs that were on
+    moved: list[str]  # what was held or ended on the card
+    found: list[str]  # outputs that were on
     rests: bool  # at rest without switching the drives off
     cause: Kind | None  # of an earlier kill of all motion, where known
 
@@ -61,4 +62,4 @@ def stop_all(card: Card, settings: Settings) -> Stopped:
     if not rests:
         machine.disable()
     machine.bar()
-    return Stopped(everything.found + found, rests, cause)
+    return Stopped(everything.found, found, rests, cause)
