@@ -58,6 +58,7 @@ class Standstill:
     `ends`: programs are halted and moves are dropped instead of being held. `spared`: programs
     that watch over the card and go on. `of_host`: masters whose own host knows of this stop:
     they are held as well, but it is the host that goes on with them and clears what bars them.
+    `beside`: axes that are left alone, since a spared program brings them to rest.
     """
 
     def __init__(
@@ -67,11 +68,13 @@ class Standstill:
         ends: bool = False,
         spared: Collection[int] = (),
         of_host: Collection[int] = (),
+        beside: Collection[int] = (),
     ) -> None:
         self.card = card
         self.ends = ends
         self._spared = frozenset(spared)
         self._of_host = frozenset(of_host)
+        self._axes = [n for n in AXES if n not in beside]
         self._began_s = card.now_s()
         self._before: list[float] | None = None  # setpoints of the last look
         self._idle: set[int] = set()  # axes that nothing known moved at the last look
@@ -126,7 +129,8 @@ class Standstill:
         if before is None:
             return
         pairs = zip(before, seen.setpoints, strict=True)
-        self.moving = tuple(n for n, (old, new) in enumerate(pairs) if old != new)
+        changed = {n for n, (old, new) in enumerate(pairs) if old != new}
+        self.moving = tuple(n for n in self._axes if n in changed)
 
     # --- stopping ---------------------------------------------------------------------
 
@@ -155,15 +159,16 @@ class Standstill:
 
     def _of_axes(self, seen: _Seen) -> Iterator[Packet]:
         requests = (af1.JOG_FORWARD, af1.JOG_REVERSE, af1.GEAR_ACTIVATE, af1.CAM_ACTIVATE)
-        for n, word in enumerate(seen.axes):
+        for n in self._axes:
             for request in requests:
-                if word & request:
+                if seen.axes[n] & request:
                     self.axes.add(n)
                     yield ClearBit(_flag(af1.word[n], request))
 
     def _end_jogs(self, seen: _Seen) -> None:
         """End what has no flag of its own: jogs to a position, homing, hand wheel, filter."""
-        for n, word in enumerate(seen.axes):
+        for n in self._axes:
+            word = seen.axes[n]
             if word & af1.JOG_ACTIVE and not word & af1.JOG_STOPPING:
                 self._type(n, "JOG OFF")
         is_path = any(word & MOVES for word in seen.masters)

@@ -74,7 +74,7 @@ def test_the_moment_is_dragged_back_and_the_machine_operated_from_there_on_anoth
     page.get_by_role("button", name="OPERATE FROM HERE").click()
     until_model(page, "!model.timeline.value.away && model.timeline.value.branches.length === 2")
     expect(page.locator("[data-branch='1'] strong")).to_contain_text("branch 1")
-    expect(page.locator("#state")).to_contain_text("IDLE")
+    expect(page.locator("#state")).to_contain_text("CARD RUNS")
     page.get_by_label("Parameters to compare").fill("P0")
     page.get_by_role("button", name="COMPARE").click()
     expect(page.locator(".time-chart[data-parameters='1'] canvas")).to_be_visible()

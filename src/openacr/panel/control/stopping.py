@@ -8,6 +8,7 @@ from contextlib import suppress
 from typing import Any
 
 from openacr.client import Card, Options
+from openacr.client.program_states import PROGRAMS
 from openacr.client.standstill import EVERY_S, Standstill
 from openacr.errors import OpenacrError
 from openacr.mill.card.driver import LINK_ERRORS
@@ -30,6 +31,7 @@ class Stopping:
         self._left: set[int] = set()  # axes that moved at the end of the watch
         self._is_held = False
         self._due_s = 0.0
+        self._again: bool | None = None  # the stop after a measurement has ended; its `ends`
 
     # --- the act ----------------------------------------------------------------------
 
@@ -42,12 +44,15 @@ class Stopping:
         settings = Settings(self._station.installation.store)
         session = self._station.session
         is_ours = session is not None and session.runner.is_busy
+        measured = self._station.tuning.moved_axis  # its program ends it, and prints the record
+        self._again = None if measured is None else ends
         former, was_held = self._stop, self.holds
         self._stop = Standstill(
             card,
             ends=ends,
-            spared=watching(card, settings),
+            spared=watching(card, settings) if measured is None else PROGRAMS,
             of_host={settings.master} if is_ours else (),
+            beside=() if measured is None else (measured,),
         )
         if former is not None and was_held and not ends:  # RESUME goes on with both
             self._stop.masters |= former.masters
@@ -75,6 +80,8 @@ class Stopping:
 
     def step(self, now_s: float) -> None:
         """Look again where it is time; never waits longer than the card takes to answer."""
+        if self._again is not None and self._station.tuning.moved_axis is None:
+            self.stop(now_s, ends=self._again)
         stop = self._stop
         if stop is None or now_s < self._due_s:
             return
@@ -96,7 +103,7 @@ class Stopping:
 
     def allow_motion(self) -> None:
         """Motion is commanded at a screen after the stop: the watch would end it again."""
-        stop = self._stop
+        stop, self._again = self._stop, None
         if stop is not None and not self._is_watched:
             self._is_watched, self._is_held = True, bool(stop.masters or stop.programs)
 

@@ -43,11 +43,17 @@ class Tuning:
         self._tell = tell
         self._advice: dict[int, Advised] = {}  # of the present session
         self._client: int | None = None  # who has the axis moved
+        self._axis = 0
 
     @property
     def is_moving(self) -> bool:
         """Whether an axis is excited, or about to be."""
         return self._aside.is_busy
+
+    @property
+    def moved_axis(self) -> int | None:
+        """The axis that is excited, or about to be."""
+        return self._axis if self.is_moving else None
 
     def measure(self, client: int, axis: int, excitation: Excitation, wish: Wish) -> "Future[Data]":
         """Measure an axis and advise; UserError while another one is measured."""
@@ -148,7 +154,7 @@ class Tuning:
                 progress=progress,
             )
         )
-        self._client = client
+        self._client, self._axis = client, axis
         begun.add_done_callback(ended)
         return answer
 
