@@ -9,7 +9,7 @@ from openacr.controller import Controller
 from openacr.map.rows import axes
 from openacr.protocol.bits import SetBit
 
-JOG_FORWARD, IN_MOTION = 796, 516
+JOG_FORWARD, CYCLE_START = 796, 521
 MOVES = ("_again", "X20 Y0", "X0 Y10", "GOTO again")
 
 
@@ -87,6 +87,14 @@ def by_cam(machine: Machine) -> None:
     machine.typed("CAM DIM X1", "CAM SEG X(0,1000000,LA0)", "CAM SRC X CLK", "CAM ON X")
 
 
+def by_hand_wheel(machine: Machine) -> None:
+    machine.typed("HDW SRC X CLK", "HDW VEL X50", "HDW ACC X1000", "HDW ON X")
+
+
+def by_filter(machine: Machine) -> None:
+    machine.typed("FLT SRC Y CLK", "FLT COEF Y4", "FLT ON Y")
+
+
 def by_program(machine: Machine) -> None:
     machine.program(0, *MOVES)
 
@@ -101,7 +109,7 @@ def by_program_that_jogs(machine: Machine) -> None:
 
 EVERY = (
     by_jog, by_jog_backwards, by_jog_to_a_place, by_jog_flag_of_a_packet, by_typed_move, by_gear,
-    by_cam, by_program, by_another_master, by_program_that_jogs,
+    by_cam, by_hand_wheel, by_filter, by_program, by_another_master, by_program_that_jogs,
 )  # fmt: skip
 
 
@@ -137,11 +145,14 @@ def test_moves_and_programs_of_all_masters_go_on_where_they_were_held(machine: M
 
 
 def test_what_was_resumed_elsewhere_is_held_no_more(machine: Machine) -> None:
-    machine.program(1, "Z300", "Z100")
+    by_another_master(machine)
     machine.controller.advance(seconds=1.0)
     stop = machine.stop()
+    assert stop.found == ["PROG1 paused", "MASTER1 held"]
+    machine.other.tell(SetBit(CYCLE_START + 32))
+    machine.controller.advance(seconds=0.5)
+    assert stop.still_held()
     machine.other.command("RESUME PROG1")
-    machine.other.tell(SetBit(521 + 32))
     machine.controller.advance(seconds=0.5)
     assert not stop.still_held()
 
@@ -209,3 +220,23 @@ def test_a_master_of_another_host_is_held_but_left_to_it(machine: Machine) -> No
     stop.resume()
     machine.controller.advance(seconds=10)
     assert (machine.setpoints()[0] < 500_000, machine.setpoints()[2]) == (True, 500_000)
+
+
+def test_the_moves_of_a_master_of_another_host_are_not_dropped(machine: Machine) -> None:
+    machine.typed("X500")
+    machine.typed("Z500", program=1)
+    machine.controller.advance(seconds=0.5)
+    Standstill(machine.host, ends=True, of_host={0}).watch()
+    assert not machine.moves()
+    machine.other.tell(SetBit(CYCLE_START), SetBit(CYCLE_START + 32))
+    machine.controller.advance(seconds=10)
+    assert (machine.setpoints()[0], machine.setpoints()[2] < 500_000) == (500_000, True)
+
+
+def test_axes_that_a_spared_program_brings_to_rest_are_left_alone(machine: Machine) -> None:
+    machine.typed("JOG FWD X Y")
+    machine.controller.advance(seconds=0.3)
+    stop = Standstill(machine.host, beside={0})
+    stop.watch()
+    assert (stop.moving, stop.found) == ((), ["AXIS1 stopped"])
+    assert machine.moves()

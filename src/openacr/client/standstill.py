@@ -8,7 +8,7 @@ Requests go as packets, which no program and no prompt can delay:
     running program        PAUSE before its next statement; `ends`: HALT
     jog                    its request ends, then JOG OFF: it ramps down with JOG DEC
     gear, cam              disengaged; a gear ramps down with GEAR DEC
-    hand wheel, filter     an axis that still moves with all of these at rest: HDW OFF, FLT OFF
+    hand wheel, filter     an axis that moves in spite of all that: HDW OFF, FLT OFF
 
 PLCs are the logic of the machine and go on. An axis moves while its setpoint changes from one
 look to the next.
@@ -34,6 +34,7 @@ MOVES = mf1.IN_MOTION | mf1.MOVE_BUFFERED
 HOLDS = mf1.FEEDHOLDING | mf1.IN_FEEDHOLD | mf1.FEEDHOLD_REQUEST
 DROPS = mf1.STOP_ALL_MOVES_REQUEST | mf1.KILL_ALL_MOVES_REQUEST
 KNOWN = af1.JOG_ACTIVE | af1.GEAR_ACTIVATE | af1.GEAR_ACTIVE | af1.CAM_ACTIVATE
+FOLLOWERS = ("HDW OFF", "FLT OFF")
 REQUESTS = (mf1.STOP_ALL_MOVES_REQUEST, mf1.FEEDHOLD_REQUEST, mf1.KILL_ALL_MOVES_REQUEST)
 
 
@@ -77,6 +78,7 @@ class Standstill:
         self._axes = [n for n in AXES if n not in beside]
         self._began_s = card.now_s()
         self._before: list[float] | None = None  # setpoints of the last look
+        self._jogged: set[int] = set()  # axes whose jogs were ended before
         self._idle: set[int] = set()  # axes that nothing known moved at the last look
         self._dropped: set[int] = set()  # masters whose moves this stop has killed
         self.masters: set[int] = set()
@@ -170,11 +172,14 @@ class Standstill:
         for n in self._axes:
             word = seen.axes[n]
             if word & af1.JOG_ACTIVE and not word & af1.JOG_STOPPING:
-                self._type(n, "JOG OFF")
+                # A hand wheel moves its axis as a jog does, and goes on with the next pulse.
+                words = ("JOG OFF", *FOLLOWERS) if n in self._jogged else ("JOG OFF",)
+                self._type(n, *words)
+                self._jogged.add(n)
         is_path = any(word & MOVES for word in seen.masters)
         idle = [] if is_path else [n for n in AXES if not seen.axes[n] & KNOWN]
         for n in self._idle & set(idle) & set(self.moving):
-            self._type(n, "HDW OFF", "FLT OFF")
+            self._type(n, *FOLLOWERS)
         self._idle = set(idle)
 
     def _type(self, axis: int, *commands: str) -> None:
