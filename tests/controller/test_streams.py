@@ -6,6 +6,7 @@ from tests.controller.hosts import X_AND_Y, Host, connected, store
 from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.errors import NoFreeStreamError
+from openacr.map import numbers as at
 
 DATA = bytes.fromhex("00 30 02 01")
 
@@ -201,3 +202,29 @@ def test_bytes_in_strings_and_remarks_are_kept_as_they_were_sent(host: Host) -> 
     host.send("PROG0\r")
     assert host.send(b"10 REM it\x92s \xe4\r") == "P00>"
     assert host.send("LIST\r") == "10 REM it\x92s \xe4|P00>"
+
+
+@pytest.mark.parametrize("device", [0, 1])
+def test_a_sender_is_held_while_64_kib_wait_for_a_program_and_let_go_at_half(
+    axes: Host, device: int
+) -> None:
+    sender, card = Host(axes.card), axes.card
+    opening = 'OPEN "STREAM3:" AS #1' if device else "REM"
+    axes.type("DIM $V(1,10)")
+    store(axes, opening, "INH 33", "WHILE (1)", f"$V0 = INKEY$({device})", "WEND")
+    axes.type("RUN")
+    if not device:
+        sender.type("PROG0", "LISTEN")
+    card.advance(100)
+    waiting = card.system.devices.row((0, device), at.DQI_CHARACTERS)
+    for size in (*[1024] * 63, 1023):
+        sender.send(b"x" * size)
+    assert card.accepts_input(sender.stream)
+    sender.send(b"x")
+    assert (card.accepts_input(sender.stream), card.memory.I[waiting]) == (False, 1 << 16)
+    assert card.accepts_input(axes.stream)
+    card.bit[33] = True
+    while not card.accepts_input(sender.stream):
+        assert card.memory.I[waiting] >= 1 << 15
+        card.advance(1)
+    assert (1 << 15) - 200 < card.memory.I[waiting] < 1 << 15

@@ -180,6 +180,8 @@ class Streams:
         stream = self.opened(number)
         if stream.moves_of is not None and self.moves.is_full(stream.moves_of):
             return False
+        if stream.session is not None and not stream.session.accepts_input:
+            return False
         return stream.terminal.accepts_input
 
     def is_busy(self, number: int) -> bool:

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from openacr.basic.channels.listeners import Listeners
 
 PER_PROGRAM = 4
+MOST_BYTES = 1 << 16  # received and not read; then the sender is held until half of it is read
+RESUME_BYTES = MOST_BYTES // 2
 BS, LF, CR = 0x08, 0x0A, 0x0D
 
 Key = tuple[int, int]  # program, device number
@@ -42,6 +44,7 @@ class _Queue:
 
     data: bytearray = field(default_factory=bytearray)
     after_cr: bool = False
+    is_full: bool = False  # its sender is held
 
 
 class Devices:
@@ -116,6 +119,10 @@ class Devices:
             queue.data.append(byte)
         self._count(key)
 
+    def is_full(self, key: Key) -> bool:
+        """Whether so much waits to be read that the sender is to be held."""
+        return self._queues[key].is_full
+
     def read_key(self, key: Key) -> str:
         """The oldest character, or an empty string; never waits."""
         queue = self._queues[key]
@@ -183,7 +190,9 @@ class Devices:
         self._count(key)
 
     def _count(self, key: Key) -> None:
-        data = self._queues[key].data
+        queue = self._queues[key]
+        data = queue.data
+        queue.is_full = len(data) >= (RESUME_BYTES if queue.is_full else MOST_BYTES)
         self._memory.I[self.row(key, at.DQI_CHARACTERS)] = len(data)
         self._memory.I[self.row(key, at.DQI_LINES)] = data.count(CR) + data.count(LF)
 

@@ -201,10 +201,21 @@ class Session:
         """One byte for the program or channel that has the attention."""
         if self.is_joined:
             pass_through.type_byte(self, byte)
-        elif self.opened_by is not None:
-            self.system.devices.receive(self.opened_by, byte)
-        elif self.listening_to is not None:
-            self.system.devices.receive((self.listening_to, 0), byte)
+        elif (device := self._device) is not None:
+            self.system.devices.receive(device, byte)
+
+    @property
+    def accepts_input(self) -> bool:
+        """False while so much waits for a program to read it that the sender is to be held."""
+        device = self._device
+        return device is None or not self.system.devices.is_full(device)
+
+    @property
+    def _device(self) -> tuple[int, int] | None:
+        """The device that gets what is typed; None where it is for the channel."""
+        if self.opened_by is not None or self.listening_to is None:
+            return self.opened_by
+        return self.listening_to, 0
 
     def escape(self) -> None:
         """ESC: end listening or talking; one prompt follows without a line."""
