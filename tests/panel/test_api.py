@@ -182,6 +182,27 @@ def test_names_stay_inside_the_folder(web: httpx.Client, panel: Served, path: st
     assert "not allowed" in answer.json()["error"]["text"]
 
 
+@pytest.mark.parametrize(("length", "status"), [(1000, 200), (1001, 422)])
+def test_a_path_has_at_most_1000_bytes(web: httpx.Client, length: int, status: int) -> None:
+    path = ("d/" * 500 + "d.nc")[-length:]
+    answer = web.put("/api/programs/file", params={"path": path}, content="M2")
+    assert answer.status_code == status
+    assert status == 200 or "at most 1000 bytes" in answer.json()["error"]["text"]
+
+
+@pytest.mark.parametrize("age_s", [3500.0, 3700.0])
+def test_what_a_killed_process_left_of_an_upload_is_removed_after_an_hour(
+    web: httpx.Client, panel: Served, age_s: float
+) -> None:
+    left = panel.programs / ".upload-abc"
+    left.write_text("G0")
+    then_s = left.stat().st_mtime - age_s
+    os.utime(left, (then_s, then_s))
+    answer = web.put("/api/programs/file", params={"path": "new.nc"}, content="M2")
+    assert answer.status_code == 200
+    assert left.exists() is (age_s < 3600.0)
+
+
 def test_a_link_out_of_the_folder_is_not_followed(web: httpx.Client, panel: Served) -> None:
     (panel.programs.parent / "outside.nc").write_text("secret")
     (panel.programs / "link.nc").symlink_to(panel.programs.parent / "outside.nc")

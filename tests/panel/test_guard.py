@@ -46,6 +46,7 @@ def test_only_numbers_and_known_names_are_hosts(panel: Served, host: str, is_let
         ({"origin": "http://HOST"}, True),
         ({"origin": "http://evil.example"}, False),
         ({"origin": "null"}, False),
+        ({"origin": "http://["}, False),
         ({"origin": "http://HOST.evil.example"}, False),
         ({"sec-fetch-site": "cross-site"}, False),
         ({"sec-fetch-site": "same-site"}, False),

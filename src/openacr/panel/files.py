@@ -9,6 +9,7 @@ from openacr.errors import UserError
 KINDS = {".dxf": "dxf", ".bat": "batch", ".lst": "batch"}
 PROGRAMS = frozenset({".nc", ".txt", ".ngc", ".tap", ".cnc", ".gcode", ".g", ".mpf", ""})
 RESERVED = frozenset('<>:"|?*\\')
+MOST_PATH_BYTES = 1000  # of a path within the folder: below what every system takes
 REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 
 
@@ -20,6 +21,8 @@ class Folder:
 
     def at(self, path: str) -> Path:
         """The place of a path, whether something is there or not; UserError outside the folder."""
+        if len(path.encode()) > MOST_PATH_BYTES:
+            raise UserError(f"{path[:40]}...: a path has at most {MOST_PATH_BYTES} bytes")
         parts = [part for part in path.split("/") if part]
         for part in parts:
             if part in (".", "..") or part.startswith(".") or not part.isprintable():

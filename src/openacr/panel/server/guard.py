@@ -63,7 +63,7 @@ class Guard:
         if scope["type"] == "http" and scope["method"] in SAFE:
             return ""
         if origin is not None:
-            if urlsplit(origin).netloc != host or origin == "null":
+            if _host_of(origin) != host or origin == "null":
                 return f"the page {origin!r} is not one of this server"
             return ""
         if headers.get("sec-fetch-site", "") not in OWN_SITES:
@@ -82,6 +82,14 @@ class Guard:
         except ValueError:
             return False
         return True
+
+
+def _host_of(origin: str) -> str:
+    """Host and port of a page; empty where it cannot be read."""
+    try:
+        return urlsplit(origin).netloc
+    except ValueError:
+        return ""
 
 
 def _with_headers(send: Send) -> Send:

@@ -2,7 +2,9 @@
 
 import os
 import tempfile
+import time
 from collections.abc import AsyncIterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -23,6 +25,8 @@ from openacr.panel.work.paths import check_text
 MOST_CHECKED = 1 << 20
 MOST_LINES = 2000
 MOST_SHOWN = 32 << 20
+PARTIAL = ".upload-"
+LEFT_OVER_S = 3600.0  # since a part of an upload was written last: its process is gone
 Dialect = Literal["", "auto", "acromill", "rs274ngc"]
 
 
@@ -187,7 +191,8 @@ async def _received(parts: AsyncIterator[bytes], place: Path) -> Path:
     """What comes in, in a file beside the place it is for."""
     try:
         place.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(prefix=".upload-", dir=place.parent)
+        _remove_left_over(place.parent)
+        handle, name = tempfile.mkstemp(prefix=PARTIAL, dir=place.parent)
     except OSError as error:
         raise _unwritable(place, error) from None
     partial, size = Path(name), 0
@@ -207,6 +212,14 @@ async def _received(parts: AsyncIterator[bytes], place: Path) -> Path:
         partial.unlink(missing_ok=True)
         raise
     return partial
+
+
+def _remove_left_over(folder: Path) -> None:
+    """Remove parts of uploads that a process left when it was killed; others are under way."""
+    for partial in folder.glob(f"{PARTIAL}*"):
+        with suppress(OSError):
+            if time.time() - partial.stat().st_mtime > LEFT_OVER_S:
+                partial.unlink()
 
 
 def _note(call: Call, path: str) -> None:
