@@ -217,3 +217,14 @@ def test_a_card_that_was_never_there_is_said_and_what_is_written_is_refused(
             feed.write(GAIN, 1.0, is_flag=False).result(LIMIT_S)
     finally:
         feed.stop()
+
+
+def test_a_thousand_values_wait_to_be_written_and_no_more() -> None:
+    feed = CardFeed("127.0.0.1:1", OnCard())
+    waiting = [feed.write(GAIN, float(k), is_flag=False) for k in range(1001)]
+    with pytest.raises(OpenacrError, match="too many values wait to be written"):
+        waiting.pop().result(0)
+    assert not any(each.done() for each in waiting)
+    feed.stop()
+    with pytest.raises(OpenacrError, match="the bridge ends"):
+        waiting[-1].result(0)

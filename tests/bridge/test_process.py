@@ -11,6 +11,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Iterator
+from concurrent.futures import Future
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
@@ -240,6 +241,36 @@ def test_the_panel_itself_refuses_what_the_file_does_not_allow(
     with pytest.raises(UserError) as caught:
         Life(parse_bridge(METRICS + seen), Path(), feed)._permitted(asked)
     assert (str(caught.value), feed.written) == (said, [])
+
+
+def test_a_process_is_not_read_while_too_many_of_its_writes_are_under_way(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(life, "MOST_WRITES", 3)
+    begun = list[Future[None]]()
+
+    def write(*_asked: object, is_flag: bool) -> Future[None]:
+        begun.append(Future())
+        return begun[-1]
+
+    async def read_on() -> list[int]:
+        feed = Mock(write=write)
+        one = Life(parse_bridge(METRICS), Path(), feed)
+        process = Mock(stdin=None, stdout=asyncio.StreamReader())
+        for number in range(5):
+            process.stdout.feed_data(messages.framed(messages.Write(number, 2, 1.0, True)))
+        process.stdout.feed_eof()
+        reading = asyncio.create_task(one._listen(process, lambda _places: None))
+        counts = []
+        for done in range(3):
+            for _turn in range(100):
+                await asyncio.sleep(0)
+            counts.append(len(begun))
+            begun[done].set_result(None)
+        await reading
+        return counts
+
+    assert asyncio.run(read_on()) == [3, 4, 5]
 
 
 def test_the_screens_show_what_becomes_of_the_process(quiet_panel: Served, tmp_path: Path) -> None:

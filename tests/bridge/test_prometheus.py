@@ -1,5 +1,6 @@
 """Metrics over HTTP, read with the parsers of the Prometheus client."""
 
+import logging
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -9,7 +10,9 @@ from prometheus_client.openmetrics.parser import text_string_to_metric_families 
 from prometheus_client.parser import text_string_to_metric_families
 from tests.bridge.bench import LIMIT_S, VALUES, GivenFeed, bridged, until, url
 
+from openacr.bridge import web
 from openacr.errors import UserError
+from openacr.io.bounded_log import LINES, Bounded
 
 Samples = dict[tuple[str, str], float]
 FILE = 'name = "mill"\nrate_hz = 50\n[prometheus]\nport = 0\n' + VALUES
@@ -221,3 +224,16 @@ def test_one_scraper_that_reads_nothing_does_not_keep_another_one_waiting(metric
     with socket.create_connection((host, int(port))) as silent:
         silent.sendall(b"GET /metrics HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n" * 20)
         until(lambda: scraped(metrics))
+
+
+def test_connections_that_are_refused_do_not_fill_the_log(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr(web, "MOST_CONNECTIONS", 1)
+    server_log = logging.getLogger(web.SERVER_LOG)
+    for each in [one for one in server_log.filters if isinstance(one, Bounded)]:
+        server_log.removeFilter(each)  # it counts what other tests have logged
+    with bridged(FILE, GivenFeed()) as bridge:
+        answers = [httpx.get(url(bridge, "prometheus")).status_code for _ in range(LINES + 3)]
+    assert answers == [503] * (LINES + 3)
+    assert sum("concurrency" in each.getMessage() for each in caplog.records) == LINES

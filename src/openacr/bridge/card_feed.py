@@ -4,7 +4,7 @@ import logging
 import threading
 import time
 from concurrent.futures import Future
-from queue import Empty, SimpleQueue
+from queue import Empty, Full, Queue
 
 from openacr.bridge.moment import MM_PER_INCH, AxisName, Moment
 from openacr.bridge.settings import Length, OnCard
@@ -18,6 +18,7 @@ RETRY_S = 2.0  # between two attempts to reach the card
 SILENCE_S = 2.0  # longest wait for an answer
 END_S = 2.0 * SILENCE_S
 MASTER = 0
+MOST_WRITES = 1000  # that wait for the card
 ROWS = (n.AX_CURRENT_POSITION, n.AX_ACTUAL_POSITION, n.AX_FOLLOWING_ERROR, n.AX_PPU)
 MASTER_ROWS = (n.MF1_WORD + MASTER, n.MA_BASE + MASTER * n.MA_STRIDE + n.MA_VECTOR_VELOCITY)
 
@@ -30,7 +31,7 @@ class CardFeed:
         self._axes = tuple(AxisName(name, name in ROTARY) for name in settings.axes)
         self._mm_per_unit = MM_PER_INCH if settings.unit is Length.INCH else 1.0
         self._moment = Moment(lost=f"{target} is being opened")
-        self._writes: SimpleQueue[tuple[Future[None], int, float, bool]] = SimpleQueue()
+        self._writes: Queue[tuple[Future[None], int, float, bool]] = Queue(MOST_WRITES)
         self._is_over = threading.Event()
         self._numbers: list[int] = []
         self._chosen: list[int] = []
@@ -55,9 +56,12 @@ class CardFeed:
         return self._moment
 
     def write(self, number: int, value: float, *, is_flag: bool) -> "Future[None]":
-        """Have the thread set a parameter or flag."""
+        """Have the thread set a parameter or flag; refused while too many wait."""
         done: Future[None] = Future()
-        self._writes.put((done, number, value, is_flag))
+        try:
+            self._writes.put_nowait((done, number, value, is_flag))
+        except Full:
+            done.set_exception(OpenacrError("too many values wait to be written: try again"))
         return done
 
     def stop(self) -> None:

@@ -1,6 +1,12 @@
-"""Lines of libraries that are left out of the log: nothing is wrong, or it is reported already."""
+"""Lines of libraries in the log: some are left out, some are limited, so that they cannot fill it.
+
+Left out is what is no fault, or is reported already.
+"""
 
 import logging
+import time
+
+from openacr.io.bounded_log import Bounded
 
 
 class LeftOut(logging.Filter):
@@ -22,3 +28,10 @@ def leave_out(logger: str, failure: type[Exception]) -> None:
     found = logging.getLogger(logger)
     if not any(isinstance(each, LeftOut) for each in found.filters):
         found.addFilter(LeftOut(failure))
+
+
+def limit(logger: str) -> None:
+    """Limit the lines of each kind in the log of a library, from now on."""
+    found = logging.getLogger(logger)
+    if not any(isinstance(each, Bounded) for each in found.filters):
+        found.addFilter(Bounded(time.monotonic))

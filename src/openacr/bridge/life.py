@@ -38,6 +38,7 @@ from openacr.errors import OpenacrError, UserError
 log = logging.getLogger(__name__)
 HUNG_S = 20.0  # a process that takes no reading for longer is killed
 END_S = 15.0  # longest end by itself
+MOST_WRITES = 1000  # under way; then the process is not read
 MODULE = "openacr.bridge.child"
 WINDOWS = os.name == "nt"
 Open = Callable[[tuple[str, ...]], None]
@@ -132,6 +133,8 @@ class Life:
                 head = await process.stdout.readexactly(HEAD.size)
                 data = await process.stdout.readexactly(length_of(head))
                 self._take(process, from_process(data), opened)
+                while len(self._writes) >= MOST_WRITES:
+                    await asyncio.wait(self._writes, return_when=asyncio.FIRST_COMPLETED)
 
     def _take(self, process: Process, message: FromProcess, opened: Open) -> None:
         match message:

@@ -16,6 +16,7 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from openacr.bridge.library_logs import limit
 from openacr.bridge.settings import Listening, port_key
 from openacr.panel.server.delays import Delays
 from openacr.panel.server.guard import Guard
@@ -25,6 +26,7 @@ log = logging.getLogger(__name__)
 GRACE_S = 1
 KEPT_S = 10  # a connection that asks nothing
 MOST_CONNECTIONS = 100
+SERVER_LOG = "uvicorn.error"
 
 
 class Locked:
@@ -94,6 +96,7 @@ class WebServer:
         """Listen; the address of the server."""
         settings = self._settings
         socket = bound(settings.address, settings.port, port_key(self._system))
+        limit(SERVER_LOG)  # a line for each connection that is refused
         config = uvicorn.Config(
             self._app,
             log_config=None,

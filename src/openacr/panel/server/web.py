@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 PING_S = 5.0
 MOST_TEXT = 64 << 10
 GRACE_S = 3
+MOST_CONNECTIONS = 500  # browsers keep some six each
 
 
 def app(panel: Panel, names: Collection[str] = ()) -> ASGIApp:
@@ -85,6 +86,7 @@ class PanelServer:
             ws_per_message_deflate=False,
             server_header=False,
             timeout_graceful_shutdown=GRACE_S,
+            limit_concurrency=MOST_CONNECTIONS,
         )
         self.server: Server = QuietServer(config)
         panel.station.on_end = self._end_soon
