@@ -9,7 +9,8 @@ import pytest
 from tests.debugger.client import LIMIT_S, Client, RefusedError
 from tests.debugger.served import Relay, Served, flags, is_moving, is_running, until
 
-from openacr.client import Card
+from openacr.client import Card, Level
+from openacr.debugger.real_cards import followers
 from openacr.map.words import pf
 
 HOLDS = pf.PAUSE_CONTROL | pf.BLOCK_CONTROL
@@ -384,3 +385,28 @@ def test_a_card_that_dies_is_a_stop_and_ends_nothing_else(client: Client, served
     with pytest.raises(RefusedError, match="the card is lost"):
         client.ask("next", threadId=1)
     assert client.end() == 0
+
+
+def test_what_an_editor_does_not_take_waits_on_the_card_and_nothing_is_lost(
+    card: Card, served: Served, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(followers, "MOST_HEARD", 2)
+    lines = ["INH 34", "P9=0", "_NEXT", "P9=P9+1", "PRINT P9", "IF (P9<5000) THEN GOTO NEXT"]
+    card.download("\n".join(["PROGRAM", *lines, "ENDP", ""]), to=Level.program(5))
+    listeners, text = followers.Followers(served.address), ""
+    try:
+        listeners.follow(5)
+        card.run(5)
+        card.write_bit(34, True)
+        until(lambda: float(card.read(9)) == 5000, "the program has printed all")
+        assert listeners._heard.qsize() <= 2
+
+        def is_heard() -> bool:
+            nonlocal text
+            text += "".join(each.text for each in listeners.heard())
+            return text.split()[-1:] == ["5000"]
+
+        until(is_heard, "all is heard")
+    finally:
+        listeners.close()
+    assert text.split() == [str(number) for number in range(1, 5001)]

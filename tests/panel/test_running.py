@@ -246,6 +246,16 @@ def test_mdi_runs_blocks_in_order_and_keeps_their_text(hand: HandStation) -> Non
     assert hand.do("mdi.buffer")["lines"] == ["G21 G90 G0 X5", "G1 X8 F600", "G91 G0 X1", "G0 X1"]
 
 
+def test_mdi_keeps_the_last_blocks_that_it_has_executed(
+    hand: HandStation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("openacr.panel.control.typed.MOST_TEXT", 2)
+    for block in ("G21", "G90", "G91"):
+        hand.do("mdi.execute", line=block)
+        hand.until(lambda: not hand.is_busy)
+    assert hand.do("mdi.buffer")["lines"] == ["G90", "G91"]
+
+
 def test_mdi_keeps_what_it_executes_only_while_its_buffer_is_on(hand: HandStation) -> None:
     hand.do("mdi.execute", line="G21 G90 G0 X5")
     hand.until(lambda: not hand.is_busy)

@@ -90,7 +90,7 @@ class SerialPeer:
         self._loop = loop
         self._port = open_port(path, line)
         self._outgoing: queue.Queue[bytes | None] = queue.Queue()  # None: the end
-        self._urgent: deque[int] = deque()  # XON and XOFF, ahead of all that waits
+        self._urgent: deque[int] = deque(maxlen=1)  # the last XON or XOFF, ahead of all that waits
         self._queued = self._sent = 0  # bytes; one counter per thread, so no lock
         self._unheld = threading.Event()
         self._unheld.set()
@@ -123,7 +123,8 @@ class SerialPeer:
         else:
             self._unheld.set()
         self._urgent.append(XOFF if held else XON)
-        self._outgoing.put(b"")
+        if self._outgoing.empty():  # else the writer comes by: it looks after each piece it takes
+            self._outgoing.put(b"")
 
     def close(self) -> None:
         """Free the stream; both threads end within READ_WAIT_S."""

@@ -8,7 +8,7 @@ import sys
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
-from queue import Empty, SimpleQueue
+from queue import Empty, Queue
 from typing import TYPE_CHECKING, TextIO
 
 import typer
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from openacr.mill.run.runner import Runner
     from openacr.mill.session import MillSession
 
+MOST_LINES = 100  # typed ahead; the rest stays in the terminal or pipe
 NO = frozenset({"n", "no"})
 YES = frozenset({"", "y", "yes"})
 
@@ -27,7 +28,7 @@ class Lines:
     """Lines typed at the terminal, as they arrive."""
 
     def __init__(self, source: TextIO | None = None) -> None:
-        self._lines: SimpleQueue[str] = SimpleQueue()
+        self._lines: Queue[str] = Queue(MOST_LINES)
         self._source = source or sys.stdin
         self._is_left = False
         threading.Thread(target=self._read, name="terminal", daemon=True).start()

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 import threading
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
-from queue import Empty, Queue
+from queue import Empty, Full, Queue
 
 from openacr.client import Card, ClientError
 from openacr.client.errors import message_of
@@ -15,6 +16,8 @@ from openacr.errors import UserError
 
 BEGIN_S = 10.0
 END_S = 5.0
+MOST_HEARD = 1000  # texts that wait for the editor; then the card is not read
+TURN_S = 0.1
 _ERROR = re.compile(r"Error in PROG\d+ line \d+: .*")
 
 
@@ -52,15 +55,22 @@ class Follower:
                     self._take(text)
         except ClientError as failure:
             if not self._is_ended.is_set():
-                self._heard.put(Heard(self._program, f"LISTEN has ended: {failure}\n"))
+                self._report(Heard(self._program, f"LISTEN has ended: {failure}\n"))
 
     def _take(self, text: str) -> None:
         """Report a text, and each error that its lines contain."""
-        self._heard.put(Heard(self._program, text))
+        self._report(Heard(self._program, text))
         *lines, self._line = (self._line + text).split("\n")
         for line in lines:
             if is_error(line):
-                self._heard.put(Heard(self._program, "", line))
+                self._report(Heard(self._program, "", line))
+
+    def _report(self, heard: Heard) -> None:
+        """Hand something on, as soon as there is room for it."""
+        while not self._is_ended.is_set():
+            with suppress(Full):
+                self._heard.put(heard, timeout=TURN_S)
+                return
 
     def close(self) -> None:
         """Stop listening; the program keeps running."""
@@ -80,7 +90,7 @@ class Followers:
 
     def __init__(self, host: str) -> None:
         self._host = host
-        self._heard: Queue[Heard] = Queue()
+        self._heard: Queue[Heard] = Queue(MOST_HEARD)
         self._followers: list[Follower] = []
 
     def follow(self, program: int) -> None:

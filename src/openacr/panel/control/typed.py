@@ -9,6 +9,8 @@ from openacr.errors import OpenacrError, UserError
 from openacr.mill.config.dialects import dialect_of
 from openacr.panel.control.shared import Shared
 
+MOST_TEXT = 1000  # blocks that were executed and are shown
+
 
 class Typed:
     """The MDI of one machine."""
@@ -55,6 +57,7 @@ class Typed:
         session.start_block(self._mdi, block)
         if self._is_shown and self.is_buffer_on:
             self.text.append(block)
+            del self.text[:-MOST_TEXT]
 
     def poll(self) -> None:
         """Start the next block when the one before it has ended; an error drops the rest."""
