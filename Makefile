@@ -6,6 +6,7 @@
 #   make bench   how many simulated seconds per second this machine reaches
 #   make soak    the long-running tests
 #   make lowest  all tests with the oldest versions of the packages that are allowed
+#   make audit   the oldest versions that are allowed against the public list of advisories
 #   make mutate  break changed lines and list what no test notices (WHAT=package, BASE=revision, MOST=n)
 #   make docs    write the reference pages and the grammars of editors anew
 #   make editor-test  the extension in Visual Studio Code in a browser (CODE_SERVER=folder, needs Node)
@@ -20,7 +21,7 @@
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help setup demo test test-pure browser lint bench soak lowest mutate docs editor-test web-lint web-bundle site clean
+.PHONY: help setup demo test test-pure browser lint bench soak lowest audit mutate docs editor-test web-lint web-bundle site clean
 
 VENV := .venv
 PY := $(VENV)/bin/python
@@ -41,7 +42,7 @@ PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc)
 WORKERS ?= 2
 
 help:
-	@sed -n '3,16s/^# *//p' Makefile
+	@sed -n '3,17s/^# *//p' Makefile
 
 setup: $(BUILT)
 
@@ -117,6 +118,14 @@ lowest:
 		--resolution lowest-direct --editable ".[dev,bridge,dxf,lsp,panel,plot,sweep]"
 	$(LOWEST)/bin/python setup.py --quiet build_ext --inplace
 	$(LOWEST)/bin/python -m pytest -n $(WORKERS) -m "not soak" $(TESTS)
+
+# No version with a known fault may be one that pyproject.toml allows; pip-audit asks the public list.
+AUDIT := build/audit
+audit:
+	@test -x $(AUDIT)/bin/python || $(PYTHON) -m venv $(AUDIT)
+	@$(AUDIT)/bin/python -m pip install -qq uv pip-audit
+	$(AUDIT)/bin/uv pip compile -q --resolution lowest-direct --all-extras pyproject.toml -o build/lowest.txt
+	$(AUDIT)/bin/pip-audit --strict --no-deps --disable-pip -r build/lowest.txt
 
 # Of the lines changed since BASE (default: the last commit), or of WHAT="kernel/status/limits_cy.py protocol".
 mutate: $(BUILT)
