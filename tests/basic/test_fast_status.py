@@ -76,8 +76,9 @@ def test_the_report_names_state_period_and_entries(bench: Bench) -> None:
     assert bench.type("FSTAT") == "FSTAT OFF PERIOD 50"
     bench.all("FSTAT2 (48,4,1)", "FSTAT ON")
     assert bench.type("FSTAT") == "FSTAT ON PERIOD 50|FSTAT2 (48,4,1)"
-    bench.all("FSTAT CLEAR")
-    assert bench.type("FSTAT") == "FSTAT ON PERIOD 50"
+    bench.all("FSTAT CLEAR", "FSTAT PERIOD 20")
+    assert bench.type("FSTAT") == "FSTAT ON PERIOD 20"
+    assert bench.type("FSTAT PERIOD") == "20"
 
 
 @pytest.mark.parametrize("line", ["FSTAT10", "FSTAT0 (1,1,0)", "FSTAT0 (48,4,2)",

@@ -151,6 +151,18 @@ def test_a_locked_axis_follows_unit_for_unit() -> None:
     made.all("UNLOCK Y", "Y5").seconds(3)
     assert (made.p(PSP), made.p(PSP + 256)) == (10000, 10000)
     assert made.type("LOCK") == ""
+    made.all("X2").seconds(3)
+    assert (made.p(PSP), made.p(PSP + 256)) == (2000, 10000)
+
+
+@pytest.mark.req("ACR-CMD-UNLOCK")
+def test_unlock_of_the_leader_releases_the_pair_too() -> None:
+    made = bench("ACC 100 DEC 100 STP 100 VEL 10", "LOCK X Y", "UNLOCK X")
+    assert made.type("LOCK") == ""
+    made.all("X1").seconds(3)
+    assert (made.p(PSP), made.p(PSP + 256)) == (1000, 0)
+    made.all("Y2").seconds(3)
+    assert (made.p(PSP), made.p(PSP + 256)) == (1000, 2000)
 
 
 @pytest.mark.parametrize("flag", [788 + 32, 790 + 32, 796 + 32, 797 + 32, 17160 + 32])

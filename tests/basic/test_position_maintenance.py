@@ -40,22 +40,31 @@ class Stepper:
         return self.bench.p(ERROR)
 
 
-def stalled(*lines: str) -> Stepper:
-    """Has made a move and lost 50 steps."""
+def stalled(*lines: str, lost_cnt: int = 50) -> Stepper:
+    """Has made a move and lost steps, or gained some."""
     made = Stepper(*lines).move("X10")
-    made.lost_cnt = 50
+    made.lost_cnt = lost_cnt
     return made.ticks(3)
 
 
 @pytest.mark.req("ACR-CMD-PM")
-def test_lost_steps_are_put_out_again() -> None:
-    made = stalled("PM ON X", "PM DB X0.02")
-    assert made.error_cnt == 50
+@pytest.mark.parametrize("lost_cnt", [50, -50])
+def test_lost_steps_are_put_out_again(lost_cnt: int) -> None:
+    made = stalled("PM ON X", "PM DB X0.02", lost_cnt=lost_cnt)
+    assert made.error_cnt == lost_cnt
     made.ticks(1000)
     assert abs(made.error_cnt) <= 2
-    assert made.bench.memory.I[STEPS] == 1050
+    assert made.bench.memory.I[STEPS] == 1000 + lost_cnt
     assert made.bench.p(JOG_OFFSET) == 0
     assert made.bench.p(12288) == 1000
+
+
+@pytest.mark.req("ACR-CMD-PM")
+@pytest.mark.parametrize("lost_cnt", [50, -50])
+@pytest.mark.parametrize(("band_u", "steps"), [(0.5, 0), (0.49, 1)])
+def test_errors_up_to_the_band_are_left(lost_cnt: int, band_u: float, steps: int) -> None:
+    made = stalled("PM ON X", f"PM DB X{band_u}", lost_cnt=lost_cnt).ticks(2000)
+    assert made.bench.memory.I[STEPS] == 1000 + steps * lost_cnt
 
 
 @pytest.mark.req("ACR-CMD-PM")
@@ -77,9 +86,8 @@ def test_it_waits_for_its_time_and_keeps_its_ramps() -> None:
     assert max(b - a for a, b in zip(steps, steps[10:], strict=False)) == 1  # 100 steps/s
 
 
-def test_errors_inside_the_band_and_short_ones_are_left() -> None:
+def test_short_errors_are_left() -> None:
     made = stalled("PM ON X", "PM DB X0.6").ticks(2000)
-    assert made.error_cnt == 50
     made.bench.all("PM DB X0.1")
     made.ticks(150)
     made.lost_cnt = 0

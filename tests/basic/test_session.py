@@ -305,6 +305,22 @@ def test_listening_shows_output_and_no_prompt_until_escape(bench: Bench) -> None
     assert bench.sent() == ""
 
 
+@pytest.mark.req("ACR-CMD-LISTEN")
+def test_a_program_has_as_many_listeners_as_channels_listen_to_it(bench: Bench) -> None:
+    other = bench.system.sessions["STREAM3"]
+    other.connect()
+    bench.type("PROG 2", "LISTEN")
+    other.feed_line("PROG 2")
+    other.feed_line("LISTEN")
+    other.take_output()
+    bench.system.listeners.print(2, "hello\r\n")
+    assert (bench.sent(), other.take_output()) == ("hello|", b"hello\r\n")
+    bench.session.escape()
+    bench.sent()
+    bench.system.listeners.print(2, "again\r\n")
+    assert (bench.sent(), other.take_output()) == ("", b"again\r\n")
+
+
 @pytest.mark.req("ACR-RUN-06")
 def test_escape_in_lrun_gives_one_prompt_and_leaves_the_program_running(bench: Bench) -> None:
     bench.type("PROG 0", "10 DWL 1")

@@ -213,6 +213,19 @@ def test_hsint_leads_a_distance_beyond_the_capture() -> None:
     assert made.psp(0) == captured + 3000
 
 
+@pytest.mark.parametrize("line", ["HSINT X(11,100,3)", "HSINT X(11,30,3,7,5)"])
+def test_the_new_end_of_hsint_counts_from_the_capture_with_the_offsets_of_the_axis(
+    line: str,
+) -> None:
+    made = bench("JOG VEL X10", "JOG ACC X1000", "JOG DEC X1000", "JOG INC X4").seconds(1.0)
+    made.all(line).ticks(ticks(1.0)).all("SET 113")
+    captured = made.ticks(1).p(at.AX_BASE + at.AX_HARDWARE_CAPTURE)
+    assert made.bit(REGISTERED)
+    made.until_clear(IN_MOTION)
+    assert made.psp(0) == captured + 3000
+    assert made.p(12288) == captured + 3000 - 4000
+
+
 def test_hsint_passes_a_new_end_that_is_too_near_and_returns() -> None:
     made = hsint(bench(), "11,100,0.1", at_s=1.0)
     captured = made.ticks(1).p(at.AX_BASE + at.AX_HARDWARE_CAPTURE)

@@ -101,6 +101,7 @@ def test_the_outputs_say_what_the_spindle_does() -> None:
 def test_bits_1_and_2_wait_for_the_level_of_at_speed(code: int, level: bool) -> None:
     shop = shop_with(code, {f"P{SPINDLE + AT_SPEED}": 11, f"P{SPINDLE + AT_ZERO}": 10})
     shop.controller.set_input(11, not level)
+    shop.controller.set_input(10, True)  # M5 is not to wait for its end
     begin(shop, "S1500 M3\nF600 G1 X1\nM5\nM0\nM2")
     shop.pass_time(0.5)
     assert (shop.runner.state, shop.runner.reason) == (State.WAIT, "spindle at speed")
@@ -123,7 +124,8 @@ def test_without_an_at_zero_input_nothing_waits_for_rest() -> None:
 @pytest.mark.req("MILL-SPINDLE-BIT3", "MILL-SPINDLE-BIT4", "MILL-SYS-SPINDLE-ATZERO")
 @pytest.mark.parametrize(("code", "level"), [(8, False), (24, True)])
 def test_bits_3_and_4_wait_for_the_level_of_at_zero(code: int, level: bool) -> None:
-    shop = shop_with(code, {f"P{SPINDLE + AT_ZERO}": 10})
+    shop = shop_with(code, {f"P{SPINDLE + AT_SPEED}": 11, f"P{SPINDLE + AT_ZERO}": 10})
+    shop.controller.set_input(11, True)  # M3 is not to wait for its end
     shop.controller.set_input(10, not level)
     begin(shop, "S1500 M3\nM5\nF600 G1 X1\nM0\nM2")
     shop.pass_time(0.5)

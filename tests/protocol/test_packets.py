@@ -118,6 +118,14 @@ def test_an_empty_mask_is_answered_by_the_header_alone() -> None:
     assert list(request.parameters()) == []
 
 
+@pytest.mark.req("BIN-078")
+def test_a_peek_has_its_code_before_its_count_and_its_address_low_byte_first() -> None:
+    packet = packets.decode(bytes.fromhex("00 90 01 03 78 56 34 12"))
+    assert isinstance(packet, Peek)
+    assert (packet.code, packet.count, packet.address) == (1, 3, 0x12345678)
+    assert packet.conversion is Conversion(1)
+
+
 @pytest.mark.req("BIN-083")
 def test_a_peek_reply_repeats_eight_bytes() -> None:
     reply = Peek(0, 3, 0x405000).reply([0x13121110, 0x23222120, 0x33323130])

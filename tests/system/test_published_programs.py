@@ -189,6 +189,7 @@ def test_x_or_escape_ends_the_fruit_program_and_gives_the_stream_back(key: bytes
 def test_clear_and_dim_give_one_string_variable_of_ten_characters() -> None:
     fruit = Fruit()
     console = Console()
+    console.type("PROG0", "DIM $V(1,20)")
     console.program(0, "CLEAR", "DIM $V(1,10)", '$V0 = "ABCDEFGHIJKL"', "PRINT $V0", "$V1 = $V0")
     assert console.listen(0, 0.1) == "ABCDEFGHIJ|Error in PROG0 line 60: Undefined variable"
     assert fruit.card.bit[1024]

@@ -318,7 +318,7 @@ def test_two_equal_filters_take_twice_as_many_decibels_at_every_frequency(hz: fl
     assert sine_at_dac(hz, "LOPASS X200", *copies) == pytest.approx(once**2, rel=0.01)
 
 
-@pytest.mark.req("MILL-TUNE-20")
+@pytest.mark.req("MILL-TUNE-20", "ACR-CMD-NOTCH")
 def test_a_notch_as_wide_as_its_centre_takes_a_sine_away() -> None:
     assert sine_at_dac(100, "NOTCH X(100,100)") < 0.01
     assert sine_at_dac(80, "NOTCH X(100,100)") < sine_at_dac(80, "NOTCH X(100,10)")
@@ -343,7 +343,7 @@ def test_a_swept_sine_dips_at_the_notch_and_falls_above_the_low_pass() -> None:
     assert passed[-1] < 0.1
 
 
-@pytest.mark.req("MILL-TUNE-19")
+@pytest.mark.req("MILL-TUNE-19", "ACR-CMD-NOTCH")
 def test_a_notch_has_its_centre_and_width() -> None:
     console = Console()
     console.type("PROG0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"', "PERIOD 0.0002")

@@ -282,6 +282,7 @@ def test_an_input_capture_is_exact_at_any_speed(vel: float, direction: int) -> N
     assert abs(rig.long("hardware_capture") + offset - edge) <= 1
 
 
+@pytest.mark.req("ACR-CMD-INTCAP")
 def test_a_switch_crossed_and_left_within_one_tick_is_captured() -> None:
     text = world_text(4.0).replace("[5.0, 6.0]", "[5.0, 5.01], input = 24")
     for mode, edge_u in ((2, 5.0), (6, 5.01)):
