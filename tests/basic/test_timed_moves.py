@@ -12,6 +12,7 @@ SHORT_TIME, IN_TMOV, TOV = 2054, 2055, 2057
 TMOV_VELOCITY = at.MA_BASE + at.MA_TMOV_VELOCITY
 VELOCITY = at.MA_BASE + at.MA_VECTOR_VELOCITY
 ACCELERATION = at.MA_BASE + at.MA_VECTOR_ACCELERATION
+JERK = at.MA_BASE + at.MA_VECTOR_JERK
 INTERNAL = at.MA_BASE + at.MA_TOV_INTERNAL
 RATE = at.MA_BASE + at.MA_TOV_RATE
 
@@ -109,6 +110,15 @@ def test_tov_one_half_takes_twice_as_long() -> None:
     assert made.p(VELOCITY) == pytest.approx(25 * 0.1)
     assert made.until_clear(IN_MOTION) + 200 == ticks(2 * 1.3)
     assert made.psp(0) == 40000
+
+
+@pytest.mark.req("ACR-CMD-TOV")
+def test_the_acceleration_and_jerk_shown_are_those_of_the_slower_time() -> None:
+    made = bench(f"P{RATE} = 0", "JRK 1000", "TOV 0.5")
+    made.type("X40")
+    made.ticks(100)
+    assert made.p(JERK) == pytest.approx(1000 * 0.5**3)
+    assert made.p(ACCELERATION) == pytest.approx(125 * 0.05, rel=0.02)
 
 
 def test_tov_approaches_its_value_at_its_rate() -> None:

@@ -29,6 +29,31 @@ def test_a_reply_is_one_write_without_echo_or_prompt(axes: Host) -> None:
     assert axes.raw(request) == request + struct.pack("<2i", axes.card.p[12290], 0x23222120)
 
 
+@pytest.mark.req("BIN-049")
+def test_the_group_of_flag_words_gives_their_values(axes: Host) -> None:
+    axes.card.bit[32], axes.card.bit[63] = True, True  # both ends of P4097
+    words = [axes.card.p[4096 + k] for k in range(8)]
+    assert words[1] == -(2**31) + 1
+    for mask in (0x01, 0x02, 0x82, 0xFF):
+        request = bytes((0, 0x10, 0, mask))
+        wanted = [word for k, word in enumerate(words) if mask >> k & 1]
+        assert axes.raw(request) == request + struct.pack(f"<{len(wanted)}i", *wanted)
+    request = bytes.fromhex("00 10 01 01")
+    assert axes.raw(request) == request + struct.pack("<i", axes.card.p[4104])
+
+
+@pytest.mark.req("BIN-062")
+def test_the_group_of_masters_gives_distance_and_move_counter(axes: Host) -> None:
+    axes.type("X10")
+    axes.card.advance(200)
+    counter, distance = (bytes.fromhex(f"00 20 {index} 01") for index in ("10", "00"))
+    into = axes.card.p[8192]
+    assert 0.0 < into < 10.0
+    assert axes.raw(distance) == distance + struct.pack("<f", into)
+    axes.card.p[8208] = 41
+    assert axes.raw(counter) == counter + struct.pack("<i", 41)
+
+
 @pytest.mark.req("BIN-047")
 def test_text_and_packets_alternate_and_a_typed_line_goes_on(axes: Host) -> None:
     request = bytes.fromhex("00 88 00 30")

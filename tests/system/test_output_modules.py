@@ -45,7 +45,7 @@ def test_a_new_card_has_a_configuration(model: str) -> None:
     assert Console(model).type("CONFIG") == DEFAULT
 
 
-@pytest.mark.req("ACR-CFG-03")
+@pytest.mark.req("ACR-CFG-02", "ACR-CFG-03")
 def test_a_new_configuration_is_reported_and_clear_brings_the_old_one_back(card: Console) -> None:
     assert accepts(card, "ENC4 DAC4 STEPPER4 NONE")
     assert card.type("CONFIG CLEAR", "CONFIG") == DEFAULT
