@@ -199,8 +199,8 @@ def test_locals_belong_to_the_program_that_dimensioned_them(card: Machine) -> No
 @pytest.mark.parametrize(
     ("dim", "inside", "outside"),
     [
-        ("", "P99", "P100"), ("LV(5)", "LV4", "LV5"), ("SV(5)", "SV4", "SV5"), ("DV(5)", "DV4", "DV5"),
-        ("$V(5,8)", "$V4", "$V5"), ("LA(2)|LA1(5)", "LA1(4)", "LA1(5)"),
+        ("", "P99", "P100"), ("LV(5)", "LV4", "LV5"), ("SV(5)", "SV4", "SV5"),
+        ("DV(5)", "DV4", "DV5"), ("$V(5,8)", "$V4", "$V5"), ("LA(2)|LA1(5)", "LA1(4)", "LA1(5)"),
         ("LA(2)|LA1(5)", "LA1(4)", "LA0(0)"), ("SA(1)|SA0(5)", "SA0(4)", "SA0(5)"),
         ("DA(1)|DA0(5)", "DA0(4)", "DA0(5)"), ("$A(1)|$A0(5,8)", "$A0(4)", "$A0(5)"),
     ],

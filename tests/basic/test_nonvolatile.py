@@ -16,6 +16,10 @@ from openacr.models import ACR8020, ACR9000
 from openacr.project import find_project
 
 EXAMPLES = sorted(path for path in Path("examples").iterdir() if path.is_dir())
+SOURCES = {
+    "AXIS0 GEAR SRC ENC4": "ENC4", "AXIS5 GEAR SRC ENC3": "ENC3", "AXIS5 CAM SRC ENC2": "ENC2",
+    "AXIS5 BSC SRC P38912": "P38912", "AXIS5 HDW SRC ENC1": "ENC1", "AXIS5 JOG SRC ENC5": "ENC5",
+}  # fmt: skip
 SETTINGS = (
     "PROG 1", "ATTACH MASTER2", 'ATTACH SLAVE0 AXIS0 "X"', 'ATTACH SLAVE3 AXIS5 "Y"',
     "PPU X1000.5", "ACC 55.25", "VEL 0.1", "VECDEF Y0", "NOTCH X(100,20)", "LOPASS Y300",
@@ -24,8 +28,7 @@ SETTINGS = (
     'IP GATE "10.0.0.9"', "MULT X-4", "JOG HOMVF Y3", "HLBIT Y7", "ADC MAX 3",
     "TMOV 2.5", "SRC ENC3", "MASTER5 SRC P38912", "MASTER6 TMOV 3", "MASTER6 TMOV OFF",
     "ENC3 ROTARY 1000", "ENC4 LIMIT 5000", "ENC5 CLOCK 100000", "ENC5 WIDTH 25",
-    "ADC POS 7 2", "ADC NEG 3 1", "AXIS0 GEAR SRC ENC4", "AXIS5 GEAR SRC ENC3", "AXIS5 CAM SRC ENC2",
-    "AXIS5 BSC SRC P38912", "AXIS5 HDW SRC ENC1", "AXIS5 JOG SRC ENC3",
+    "ADC POS 7 2", "ADC NEG 3 1", *SOURCES,
 )  # fmt: skip
 
 
@@ -45,6 +48,8 @@ def test_saved_parameters_make_the_same_card() -> None:
     image = saved.take(first.system)
     assert saved.put(second.system, _through_bytes(image)) == []
     assert saved.take(second.system) == image
+    for line, source in SOURCES.items():
+        assert second.type(line.removesuffix(f" {source}")).removesuffix("|SYS>") == source
     assert image != saved.take(Machine(ACR8020).system)
     for view in ("F", "I"):  # settings, filters, flags: all but the clock of the channels
         mine, other = getattr(first.card.memory, view), getattr(second.card.memory, view)
