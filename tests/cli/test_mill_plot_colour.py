@@ -131,17 +131,6 @@ def test_moves_without_a_plan_are_grey_beside_planned_ones(tmp_path: Path) -> No
     assert len(grey) == 2  # one in each view
 
 
-def test_speeds_that_leave_out_the_jerk_of_the_card_are_noted(tmp_path: Path) -> None:
-    chosen("650015=20000")
-    file = written(tmp_path, PART + "G61 X0 Y30\nM2\n")
-    picture = tmp_path / "part.svg"
-    assert plotted(file, picture, "--colour", "acceleration") == (
-        0,
-        "note: 1 move not planned as a curve: the picture leaves out Path jerk (P650015), the run"
-        f" has longer ramps\n{picture}: 3 moves\n",
-    )
-
-
 def test_a_picture_that_is_full_is_noted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(path_motion, "MOST_POINTS", 3)
     picture = tmp_path / "part.svg"

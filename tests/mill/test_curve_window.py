@@ -11,7 +11,8 @@ from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.curve_window import REST, CurveRows, CurveWindow
 from openacr.mill.plan.encoding import Job
-from openacr.mill.plan.predicting import Phases, Predictor
+from openacr.mill.plan.phases import Phases
+from openacr.mill.plan.predicting import Predictor
 from openacr.trajectory import Setpoints
 from openacr.trajectory.timescale import Progress
 
@@ -85,7 +86,7 @@ class Passed:
     def curve(self, points: Reals) -> None: ...
 
     def passed(self, job: Job, phases: Phases) -> None:
-        self.moves.append((job, sum(length_u for length_u, _, _ in phases)))
+        self.moves.append((job, sum(phase.length_u for phase in phases)))
 
 
 def test_every_curve_of_a_program_counts_its_path_from_its_own_beginning() -> None:

@@ -32,8 +32,9 @@ from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.encoding import Job
 from openacr.mill.plan.geometry import weights
+from openacr.mill.plan.phases import Phases
 from openacr.mill.plan.plan_metric import PlanMetric
-from openacr.mill.plan.predicting import Phases, Predictor
+from openacr.mill.plan.predicting import Predictor
 from openacr.mill.run.lifecycle import Options, State
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import AXIS

@@ -102,15 +102,13 @@ def check_program(
         program, name = loaded(file, cells, dialect)
         survey, prediction = checked(program, cells, name)
     survey.findings = in_folder(survey.findings, file)
-    left_out = _left_out(prediction)
     if as_json:
-        data = {"dialect": name} | _as_data(survey, prediction) | left_out | _planned(prediction)
+        data = {"dialect": name} | _as_data(survey, prediction) | _planned(prediction)
         typer.echo(json_format.dumps(data, indent=1))
     else:
         show_findings(survey.findings)
         _show_survey(survey, prediction)
         if not survey.errors:
-            _note_left_out(left_out)
             _show_planned(prediction)
     if survey.errors:
         raise typer.Exit(FAILED)
@@ -147,13 +145,12 @@ def time_program(
             errors = {"errors": survey.data()["errors"]}
             typer.echo(json_format.dumps({"dialect": name} | errors, indent=1))
         raise typer.Exit(FAILED)
-    record, left_out = _times(prediction), _left_out(prediction)
+    record = _times(prediction)
     if as_json:
-        typer.echo(json_format.dumps({"dialect": name} | record | left_out, indent=1))
+        typer.echo(json_format.dumps({"dialect": name} | record, indent=1))
         return
     moves = counted(prediction.moves, "move")
     typer.echo(f"{clock(prediction.time_s)}  ({prediction.time_s:.2f} s, {moves})")
-    _note_left_out(left_out)
     for key, text in (("feed_s", "cutting"), ("rapid_s", "rapids"), ("dwell_s", "dwells")):
         typer.echo(f"  {text:<8} {record[key]:10.2f} s")
 
@@ -183,14 +180,6 @@ def _times(prediction: "Prediction") -> dict[str, float]:
     }
 
 
-def _left_out(prediction: "Prediction") -> dict[str, list[str]]:
-    """Machine settings that the predicted time does not include."""
-    from openacr.sysvar.tabs import SPEEDS
-
-    jerk = f"Path jerk (P{SPEEDS.path_jerk})"
-    return {"time_without": [jerk] if prediction.without_jerk else []}
-
-
 def _planned(prediction: "Prediction") -> dict[str, dict[str, float]]:
     """What jerk and tolerance cost the planned moves, and the line where they cost most."""
     return {
@@ -210,11 +199,6 @@ def _show_planned(prediction: "Prediction") -> None:
             f" {prediction.lost_s:.2f} s more than at their feeds; most at line"
             f" {prediction.slowest_line} ({prediction.slowest_s:.3f} s)"
         )
-
-
-def _note_left_out(record: dict[str, list[str]]) -> None:
-    for name in record["time_without"]:
-        typer.echo(f"note: the time does not include {name}; the run takes longer", err=True)
 
 
 def _as_data(survey: "Survey", prediction: "Prediction") -> dict[str, Any]:

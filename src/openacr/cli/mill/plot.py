@@ -175,16 +175,7 @@ def _surveyed(
     from openacr.mill.plan.path_motion import PathMotion
 
     reader = PathMotion(Settings(cells), axes, colour)
-    found, prediction = surveyed(
-        program, cells, dialect, options=options, reader=reader, look=path.add
-    )
-    if prediction.without_jerk and colour is not Quantity.JERK:
-        alone = counted(prediction.without_jerk, "move")
-        typer.echo(
-            f"note: {alone} not planned as a curve: the picture leaves out Path jerk"
-            f" (P{SPEEDS.path_jerk}), the run has longer ramps",
-            err=True,
-        )
+    found, _ = surveyed(program, cells, dialect, options=options, reader=reader, look=path.add)
     return found, path, reader.finished()
 
 

@@ -8,10 +8,10 @@ import numpy as np
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.plan.curve_window import REST, CurveRows
 from openacr.mill.plan.encoding import Job
+from openacr.mill.plan.phases import Phases, even
 from openacr.mill.plan.planned_path import PlannedPath, Rows
 from openacr.trajectory import TrajectoryError
 
-Phases = list[tuple[float, float, float]]
 NEAR_U = 1e-12
 
 
@@ -64,10 +64,10 @@ class CurveTimes:
     def _step(self, step_u: float, speed_ups: float) -> Iterator[tuple[Job, Phases]]:
         """One period at a speed; a move that ends in it is done."""
         while len(self._jobs) > 1 and step_u > self._left_u:
-            self._phases.append((self._left_u, speed_ups, speed_ups))
+            self._phases.append(even(self._left_u, speed_ups, speed_ups))
             step_u -= self._left_u
             yield self._done()
-        self._phases.append((step_u, speed_ups, speed_ups))
+        self._phases.append(even(step_u, speed_ups, speed_ups))
         self._left_u -= step_u
 
     def _add(self, job: Job) -> None:

@@ -163,6 +163,13 @@ class Encoder:
             path_tolerance_u=planned_u,
         )
 
+    def sent_length_u(self, job: Job) -> float:
+        """The length of a move between whole pulses; that of an arc as it is programmed."""
+        if isinstance(job.entry, Arc):
+            return job.length_u
+        travel = [b - a for a, b in zip(job.begin_cnt, job.finish_cnt, strict=True)]
+        return self._geometry.line(self._place([0] * len(travel)), self._place(travel)).length_u
+
     def _place(self, counts: Pulses) -> Point:
         """The machine position of whole pulses."""
         point = [0.0] * len(self._scale)

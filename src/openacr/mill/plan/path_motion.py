@@ -2,7 +2,7 @@
 
 Each quantity is the magnitude of a vector of the linear axes. On a planned curve it follows from
 the control points (trajectory/setpoints.py). A move on its own has the position p(s) at the
-distance s, and phases of constant change a of v = ds/dt (see `predicting`):
+distance s, and phases with v = ds/dt and a = dv/dt (see `phases`):
 
     speed  |p'| v        acceleration  |p'' v^2 + p' a|
 
@@ -24,7 +24,7 @@ from openacr.mill.config.settings import S_PER_MIN, Settings
 from openacr.mill.plan.arcs import along
 from openacr.mill.plan.encoding import Job
 from openacr.mill.plan.geometry import linear_axes
-from openacr.mill.plan.predicting import Phases, seconds_of
+from openacr.mill.plan.phases import Phases
 from openacr.mill.plan.quantities import Quantity
 from openacr.mill.plan.tool_path import DRAWN_CNT, MOST_POINTS
 from openacr.trajectory.setpoints import evaluate
@@ -165,19 +165,18 @@ def _parts(
     """Parts of a move: the distances at their middles in time and their ends, speed, ramp."""
     begin_u, entry = 0.0, job.entry
     sweep_rad = abs(entry.sweep_rad) if isinstance(entry, Arc) else 0.0
-    for length_u, v0, v1 in phases:
-        seconds = seconds_of(length_u, v0, v1)
-        if seconds <= 0.0:
+    for phase in phases:
+        if phase.seconds <= 0.0:
             continue
-        a_ups2 = (v1 - v0) / seconds
-        turns = math.ceil(sweep_rad * length_u / job.length_u / TURN_RAD)
-        is_even = v0 == v1 and not shape.is_round(begin_u + 0.5 * length_u)
+        turns = math.ceil(sweep_rad * phase.length_u / job.length_u / TURN_RAD)
+        is_level = phase.begin_ups == phase.end_ups
+        is_even = is_level and not shape.is_round(begin_u + 0.5 * phase.length_u)
         count = max(turns, 1 if is_even else RAMP_PARTS)
         for k in range(count):
-            middle_s, end_s = ((k + n) / count * seconds for n in (0.5, 1.0))
-            middle_u, end_u = (v0 * t + 0.5 * a_ups2 * t * t for t in (middle_s, end_s))
-            yield begin_u + middle_u, begin_u + end_u, v0 + a_ups2 * middle_s, a_ups2
-        begin_u += length_u
+            middle_u, v_ups, a_ups2 = phase.at((k + 0.5) / count * phase.seconds)
+            end_u, _, _ = phase.at((k + 1.0) / count * phase.seconds)
+            yield begin_u + middle_u, begin_u + end_u, v_ups, a_ups2
+        begin_u += phase.length_u
 
 
 class _Shape:

@@ -9,8 +9,9 @@ down to the speed it was sent with, at constant acceleration a. Over a length L
 
 so the sum over all moves is the run time, without the ticks of a card. Corners that the card
 rounds are passed in two halves at a constant acceleration each, the line between two of them
-as above. Paths with a tolerance and a jerk limit take the time of their control points, as in a
-run. Waits for the operator and for signals count as zero.
+as above. With a jerk limit the ramps are S-curves (see `jerk_ramps`), and paths that have a
+tolerance as well take the time of their control points, as in a run. Waits for the operator and
+for signals count as zero.
 """
 
 from __future__ import annotations
@@ -23,18 +24,17 @@ from typing import TYPE_CHECKING, Protocol
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.encoding import Encoder, Job
+from openacr.mill.plan.phases import Phases, duration_s, even
 from openacr.mill.plan.planning import backward_pass
 from openacr.mill.plan.rounding import Corner
 from openacr.mill.plan.route import Route
 
 if TYPE_CHECKING:
     from openacr.mill.plan.curve_times import CurveTimes
+    from openacr.mill.plan.jerk_ramps import JerkRamps
     from openacr.mill.plan.planned_path import PlannedPath, Rows
 
 TOGETHER = 512  # moves planned at once
-# Parts of a move at constant acceleration: length, speed at the begin and at the end. Plain
-# tuples, because every move of a program has three of them.
-Phases = list[tuple[float, float, float]]
 MOTIONS = c.Rapid | c.Line | c.Arc | c.Polyline | c.Probe | c.Moves
 
 
@@ -46,7 +46,6 @@ class Prediction:
     feed_s: float = 0.0
     dwell_s: float = 0.0
     moves: int = 0
-    without_jerk: int = 0  # moves whose prediction leaves the jerk of the card out
     planned: int = 0  # moves of planned curves
     lost_s: float = 0.0  # by these, compared with their programmed feeds
     slowest_line: int = 0  # the line of the move that loses most
@@ -125,7 +124,7 @@ class Predictor(Timing):
         super().__init__(settings, begin, is_dry=is_dry, rounds=rounds)
         self._route = Route(settings)
         self._curve: CurveTimes | None = None
-        self._has_jerk = settings.speeds.jerk_ups3 > 0.0
+        self._ramps = _jerk_ramps(self._encoder) if settings.speeds.jerk_ups3 > 0.0 else None
         self._speed_ups = 0.0
         self._entry_corner: Corner | None = None
         self._reader = reader
@@ -163,9 +162,11 @@ class Predictor(Timing):
 
     def _pass_moves(self, *, is_complete: bool) -> None:
         for job in self._route.release(1 << 30, is_complete=is_complete):
-            phases = travel(job, self._speed_ups, self._entry_corner)
-            self._speed_ups, self._entry_corner = phases[-1][2], job.corner
-            self.found.without_jerk += self._has_jerk
+            if self._ramps is not None:
+                phases = self._ramps.travel(job)
+            else:
+                phases = travel(job, self._speed_ups, self._entry_corner)
+                self._speed_ups, self._entry_corner = phases[-1].end_ups, job.corner
             self._pass(job, phases)
 
     def _pass_curve(self, path: PlannedPath, *, is_complete: bool) -> None:
@@ -184,7 +185,7 @@ class Predictor(Timing):
 
     def _note_loss(self, job: Job, phases: Phases) -> None:
         """Note how much longer than at its programmed feed a planned move takes."""
-        found, seconds = self.found, sum(seconds_of(*phase) for phase in phases)
+        found, seconds = self.found, duration_s(phases)
         lost_s = seconds - job.length_u / job.feed_ups
         found.planned += 1
         found.lost_s += lost_s
@@ -195,12 +196,18 @@ class Predictor(Timing):
         """Count a move that is planned."""
         if self._reader is not None:
             self._reader.passed(job, phases)
-        seconds = sum(seconds_of(*phase) for phase in phases)
+        seconds = duration_s(phases)
         self.found.moves += 1
         if job.is_rapid:
             self.found.rapid_s += seconds
         else:
             self.found.feed_s += seconds
+
+
+def _jerk_ramps(encoder: Encoder) -> JerkRamps:
+    from openacr.mill.plan.jerk_ramps import JerkRamps  # has a card: most machines have no jerk
+
+    return JerkRamps(encoder)
 
 
 def travel(job: Job, begin_ups: float, entry_corner: Corner | None = None) -> Phases:
@@ -211,15 +218,15 @@ def travel(job: Job, begin_ups: float, entry_corner: Corner | None = None) -> Ph
     phases: Phases = []
     if entry_corner is not None:
         line = math.sqrt(entry_corner.pass2(begin * begin, may.line))
-        phases.append((entry_corner.reach_u, begin, line))
+        phases.append(even(entry_corner.reach_u, begin, line))
         begin, rest_u = line, rest_u - entry_corner.reach_u
     if job.corner is None:
         return phases + _straight(rest_u, begin, job.exit_ups, job.feed_ups, a)
     rest_u -= job.corner.reach_u
     phases += _straight(rest_u, begin, math.sqrt(may.ahead), job.feed_ups, a)
-    entry = phases[-1][2]
+    entry = phases[-1].end_ups
     end = math.sqrt(job.corner.pass2(entry * entry, job.exit_ups**2))
-    phases.append((job.corner.reach_u, entry, end))
+    phases.append(even(job.corner.reach_u, entry, end))
     return phases
 
 
@@ -229,9 +236,5 @@ def _straight(length: float, begin: float, end: float, feed: float, a: float) ->
     peak = min(feed, math.sqrt(0.5 * (2.0 * a * length + begin * begin + end * end)))
     up = (peak * peak - begin * begin) / (2.0 * a)
     down = (peak * peak - end * end) / (2.0 * a)
-    return [(up, begin, peak), (max(length - up - down, 0.0), peak, peak), (down, peak, end)]
-
-
-def seconds_of(length: float, begin: float, end: float) -> float:
-    """The time of one phase at constant acceleration."""
-    return 2.0 * length / (begin + end) if length > 0.0 else 0.0
+    return [even(up, begin, peak), even(max(length - up - down, 0.0), peak, peak),
+            even(down, peak, end)]  # fmt: skip

@@ -13,7 +13,7 @@ from openacr.cnc.reading.findings import Finding, found
 from openacr.mill.config.capture import capture_of
 from openacr.mill.config.settings import S_PER_MIN, Settings
 from openacr.mill.plan.encoding import LONG_MAX, Encoder, Job
-from openacr.mill.plan.predicting import Phases
+from openacr.mill.plan.phases import Phases
 from openacr.mill.plan.travel_limits import Excess, excesses, limited
 
 if TYPE_CHECKING:
@@ -150,8 +150,8 @@ class Preflight:
             self._close()
             chain = self._chain = Slow(entry.source, feed_ups)
         chain.cnt += 1
-        for _, begin_ups, end_ups in phases:
-            chain.top_ups = max(chain.top_ups, begin_ups, end_ups)
+        for phase in phases:
+            chain.top_ups = max(chain.top_ups, phase.begin_ups, phase.end_ups)
         chain.is_planned = job.path_tolerance_u > 0.0
         if job.exit_ups == 0.0 and not chain.is_planned:
             self._close()

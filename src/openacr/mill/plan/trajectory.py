@@ -1,12 +1,8 @@
 """Setpoints of a planned program over time, without a card.
 
-A move runs through phases of constant acceleration (see `predicting`): t seconds after the begin
-of one that takes T seconds from speed v0 to v1 the tool has travelled
-
-    s = v0 t + (v1 - v0) t^2 / (2 T)
-
-The shape of the move gives the position; at a rounded corner the path leaves the programmed one
-towards the other move, by the law of the card (kernel/path/corner_cy.py).
+A move runs through phases (see `phases`); its shape gives the position. At a rounded corner the
+path leaves the programmed one towards the other move, by the law of the card
+(kernel/path/corner_cy.py).
 """
 
 import math
@@ -21,7 +17,7 @@ from openacr.mill.config.settings import Settings
 from openacr.mill.plan.arcs import along
 from openacr.mill.plan.encoding import Job
 from openacr.mill.plan.geometry import linear_axes
-from openacr.mill.plan.predicting import Phases, seconds_of
+from openacr.mill.plan.phases import Phases
 from openacr.mill.plan.rounding import Corner
 from openacr.plant import schema
 
@@ -82,17 +78,13 @@ class Trajectory:
         job, phases = self._next
         self._next = None
         begin_s, before = self._time_s, self._before
-        ends_s = np.cumsum([0.0, *(seconds_of(*phase) for phase in phases)])
-        starts_u = np.cumsum([0.0, *(length for length, _, _ in phases)])
+        ends_s = np.cumsum([0.0, *(phase.seconds for phase in phases)])
+        starts_u = np.cumsum([0.0, *(phase.length_u for phase in phases)])
         self._line = job.entry.source.line
 
         def place(now_s: float) -> Point:
             k = min(int(np.searchsorted(ends_s, now_s - begin_s, "right")) - 1, len(phases) - 1)
-            _, v0, v1 = phases[k]
-            t, whole = now_s - begin_s - ends_s[k], ends_s[k + 1] - ends_s[k]
-            travelled = (
-                starts_u[k] + v0 * t + (0.5 * (v1 - v0) * t * t / whole if whole > 0.0 else 0.0)
-            )
+            travelled = starts_u[k] + phases[k].at(now_s - begin_s - ends_s[k])[0]
             return self._at(job, before, following, min(float(travelled), job.length_u))
 
         self._until(begin_s + float(ends_s[-1]), place)
