@@ -7,7 +7,7 @@ from tests.cnc.programs import made
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
-from openacr.mill.config.dialects import choose
+from openacr.mill.config.dialects import choose, choose_for
 from openacr.sysvar import Store
 
 FOLDER = Path(__file__).parents[1] / "data" / "dialects"
@@ -50,6 +50,11 @@ STYLES = {
         f"dialect acromill by its features: parameter P in line 3, statement in line 8 {OTHER}"
     ),
     "guide_tangent": (f"dialect acromill by its features: M595 in line 2, M596 in line 5 {OTHER}"),
+    "gsender_circle": (
+        "dialect acromill, as no feature decides; features of rs274ngc: end M30 in line 7; I and "
+        "J of the whole circle in line 5 are read as positions (radius 150 about X-75 Y0); "
+        "rs274ngc reads distances (radius 75 about X0 Y0) (--dialect rs274ngc)"
+    ),
     "hsmworks_fanuc": (
         f"dialect {NGC} by its features: framed by % in line 1, G94 in line 5, safety line "
         f"with G17, G40 and G80 in line 5, length G43 H in line 14 {OTHER}"
@@ -113,6 +118,16 @@ def test_files_are_read_without_an_error_in_the_dialect_that_is_found(name: str)
     done = made(path, {250_112: 3.0}, axes=4, dialect=choose(path, Store()).name)
     assert [str(each) for each in done.interpreter.program.errors] == []
     list(done.interpreter.entries())
+
+
+def test_a_whole_circle_is_reported_where_nothing_else_is_of_another_dialect() -> None:
+    circle = b"G0 X75 Y0\nG2 X75 Y0 I-75 J0\nM2\n"
+    choice = choose_for(circle, Store())
+    assert choice.is_worth_reporting
+    assert choice.text.startswith("dialect acromill, as no feature decides; I and J of the whole")
+    for known in (b"P200=4\n", b"G200 F2\n", b"G4 F1\n"):
+        assert not choose_for(known + circle, Store()).is_worth_reporting
+    assert not choose_for(circle, Store(), "acromill").is_worth_reporting
 
 
 def test_units_of_mach_are_refused_by_the_codes_to_write() -> None:

@@ -92,6 +92,32 @@ def test_arcs_say_nothing_where_the_reading_is_chosen() -> None:
     assert signs(at_an_expression) == []
 
 
+CIRCLE = (
+    "I and J of the whole circle in line 2 are read as positions (radius 150 about X-75 Y0);"
+    " rs274ngc reads distances (radius 75 about X0 Y0)"
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "circle"),
+    [
+        ("G0 X75 Y0|G2 X75 Y0 I-75 J0|G2 X75 Y0 I-7 J0", CIRCLE),
+        ("G0 X75 Y0|G2 I-75 J0", CIRCLE),
+        ("G0 X0 Y0|G2 I-75 J0", ""),  # both readings are one
+        ("G0 X75 Y0|G2 X70 Y0 I-75 J0", ""),  # no whole circle
+        ("G0 X75|G2 I-75 J0", ""),  # where it begins is not known
+        ("G18|G0 X75 Y0|G2 I-75 J0", ""),
+        ("G200 F1|G0 X75 Y0|G2 I-75 J0", ""),  # the reading is chosen
+    ],
+)
+def test_a_whole_circle_is_round_in_two_readings(text: str, circle: str) -> None:
+    assert likely(text.split("|")).circle == circle
+
+
+def test_a_whole_circle_has_one_reading_where_the_store_reads_distances() -> None:
+    assert likely("G0 X75 Y0|G2 X75 Y0 I-75 J0".split("|"), 1).circle == ""
+
+
 @pytest.mark.parametrize(
     ("text", "dialect"),
     [

@@ -78,6 +78,7 @@ class Likely:
     """The signs of a text, one of each kind."""
 
     signs: list[Sign] = field(default_factory=list)
+    circle: str = ""  # the two readings of the first whole circle that has two
 
     def weight(self, dialect: str) -> int:
         """The sum of the weights for a dialect."""
@@ -122,6 +123,7 @@ def likely(lines: Iterable[str], centres: int = 2) -> Likely:
     codes = {sign.what for sign in result.signs}
     if not codes & {"G90.1", "G91.1", "G200"}:
         result.signs += arcs.signs(centres)
+        result.circle = arcs.circle if centres == 2 else ""
     return result
 
 
@@ -159,6 +161,7 @@ class _Arcs:
         self._is_incremental = False
         self._is_elsewhere = False  # another plane, or places that are not written
         self._fits: dict[int, list[int]] = {1: [], 2: []}  # lines, by reading
+        self.circle = ""  # the first whole circle, which is round in both readings
 
     def read_line(self, line: int, text: str) -> None:
         """Read one line, in capitals."""
@@ -197,15 +200,21 @@ class _Arcs:
         self, line: int, start: list[float | None], end: list[float | None], words: dict[str, float]
     ) -> None:
         (x, y), (u, v) = start, end
-        if x is None or y is None or u is None or v is None or (x, y) == (u, v):
-            return
-        if self._is_elsewhere:
+        if x is None or y is None or u is None or v is None or self._is_elsewhere:
             return
         i, j = words.get("I"), words.get("J")
         centres = {
             1: (x + (i or 0.0), y + (j or 0.0)),
             2: (x if i is None else i, y if j is None else j),
         }
+        if (x, y) == (u, v):
+            if not self.circle and centres[1] != centres[2]:
+                positions, distances = (_circle(centres[k], (x, y)) for k in (2, 1))
+                self.circle = (
+                    f"I and J of the whole circle in line {line} are read as positions"
+                    f" ({positions}); {RS274NGC} reads distances ({distances})"
+                )
+            return
         fit = [
             reading
             for reading, c in centres.items()
@@ -221,6 +230,12 @@ class _Arcs:
             yield Sign(RS274NGC, CLEAR, "I and J from the start of the arc", distances[0])
         if positions and not distances and centres == 2:
             yield Sign(ACROMILL, CLEAR, "I and J as positions", positions[0])
+
+
+def _circle(centre: tuple[float, float], start: tuple[float, float]) -> str:
+    """A whole circle in words."""
+    x, y = centre
+    return f"radius {math.dist(centre, start):.6g} about X{x:.6g} Y{y:.6g}"
 
 
 def _is_round(one: float, other: float) -> bool:

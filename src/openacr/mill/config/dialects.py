@@ -58,6 +58,12 @@ class Choice:
         return tuple(self.found.doubts) if self.by == "signs" else ()
 
     @property
+    def circle(self) -> str:
+        """What a whole circle is, and would be in the other dialect, where no feature decides."""
+        is_open = self.by == "signs" and self.name == ACROMILL and not self.reasons
+        return self.found.circle if is_open else ""
+
+    @property
     def is_doubtful(self) -> bool:
         """Whether the features of the file point to another dialect."""
         return self.likely != self.name and bool(self.reasons)
@@ -66,7 +72,7 @@ class Choice:
     def is_worth_reporting(self) -> bool:
         """Whether to report the choice: unusual, or from the store and contradicted by the file."""
         if self.by == "signs":
-            return self.name != ACROMILL or bool(self.doubts)
+            return self.name != ACROMILL or bool(self.doubts) or bool(self.circle)
         return self.by == "store" and self.is_doubtful
 
     @property
@@ -90,10 +96,11 @@ class Choice:
             )
         if why:
             return f"dialect {self.name} by its features: {why} (--dialect chooses another)"
-        if doubts:
+        if doubts or self.circle:
+            features = f"; features of {other}: {doubts}" if doubts else ""
+            circle = f"; {self.circle}" if self.circle else ""
             return (
-                f"dialect {self.name}, as no feature decides; features of {other}: {doubts}"
-                f" (--dialect {other})"
+                f"dialect {self.name}, as no feature decides{features}{circle} (--dialect {other})"
             )
         return f"dialect {self.name}: nothing in the file points to another one"
 

@@ -1,0 +1,7 @@
+; circle of 150 mm
+G21 G90 G17
+G0 X75 Y0
+G1 Z-1 F300
+G2 X75 Y0 I-75 J0
+G0 Z5
+M30
