@@ -427,3 +427,30 @@ def test_line_numbers_of_other_systems_are_accepted(number: str, rest: str, dial
 def test_only_labels_are_targets(label: int, code: list[str]) -> None:
     assert errors(f"F10\nGOTO {label}\nX5\nN{label} G1 X1") == code
     assert errors("F10\nGOTO 2\nN2.5 G1 X1\nN0 X2") == ["E220"]
+
+
+TEXT = "(remark)\nPost Process Timed at; 32 Min"
+
+
+@pytest.mark.parametrize(
+    ("text", "codes"),
+    [
+        (f"G1 F10 X1\nM30\n{TEXT}\n{TEXT}", ["4 W222"]),  # once
+        (f"G1 F10 X1\nM2\nG1 X2\n{TEXT}", ["5 W222"]),
+        (f"G1 F10 X1\n{TEXT}\nM30", ["3 E104"]),
+        (f"G1 F10 X1\n/M30\n{TEXT}", ["4 E104"]),  # the block may be skipped
+        (f"M98 P5\nM30\nO5\n{TEXT}\nM99", ["5 E104"]),  # what can be called
+        (f"o<s> call\nM30\no<s> sub\n{TEXT}\no<s> endsub", ["5 E104"]),
+    ],
+)
+def test_text_after_the_end_of_a_program_is_doubtful(text: str, codes: list[str]) -> None:
+    found = made(text, dialect="rs274ngc").interpreter.program.findings
+    assert [f"{each.line} {each.code}" for each in found] == codes
+
+
+@pytest.mark.parametrize("lines", ["N100 G1 X2", "N90 G1 X1\nN100 G1 X2", "RET"])
+def test_text_after_what_may_be_called_is_an_error(lines: str) -> None:
+    text = f"N5 G1 F10 X1\nN6 X3 Y1\nN7 X4 Y5\nM2\n{lines}\nPost Process"
+    codes = [each.code for each in made(text).interpreter.program.findings]
+    assert codes == ["E105"]
+    assert run("G1 F10 X1\nM2\nPost Process").codes == ["W222"]

@@ -46,6 +46,7 @@ class Seen:
     codes: set[str] = field(default_factory=set)
     percent_cnt: int = 0
     has_end: bool = False
+    is_over: bool = False  # nothing after the end can be called or jumped to so far
     last: Plan | None = None
     last_place: tuple[int, str] = (0, "")
     asks_for_cycles: bool = False  # by $I, even if the file is missing

@@ -156,6 +156,7 @@ class Loader:
             return 0, offset
         labels = self._skimmer.labels if self._dialect.labels else None
         if labels is not None:
+            self._seen.is_over = False
             labels += (0, line + 1, offset)
             self._targets.make_room(part, len(labels), line + 1)
             part.labels.add_rows(part, labels)
@@ -170,7 +171,7 @@ class Loader:
         self._report.where = (place.part.text.name, place.line, raw)
         asked, settled = self._skimmer.take(), None
         try:
-            block = parse(raw, self._dialect.grammar)
+            block = self._parsed(place, raw)
             if block.is_percent:
                 self._percent(place)
                 return
@@ -190,6 +191,21 @@ class Loader:
         except CodeError as fault:
             self._findings.append(fault.at(*self._report.where))
         self._skimmer.learn(asked, settled)
+
+    def _parsed(self, place: Place, raw: str) -> Block:
+        """The block of a line; a line that can be none is a remark after the end of the program."""
+        seen = self._seen
+        try:
+            block = parse(raw, self._dialect.grammar)
+        except CodeError as fault:
+            if not seen.is_over or place.part is not self._program.main:
+                raise
+            self._report.warn_once("W222", fault.column)
+            return Block()
+        has_label = block.label is not None and self._dialect.labels
+        if has_label or block.statement is not None or block.title:
+            seen.is_over = False  # what follows may be called
+        return block
 
     def _percent(self, place: Place) -> None:
         self._seen.percent_cnt += 1
@@ -211,7 +227,9 @@ class Loader:
         names = {code.name for code in plan.codes}
         self._seen.codes |= names
         if place.part is self._program.main:
-            self._seen.has_end |= any(code.act is self._end for code in plan.codes)
+            is_end = any(code.act is self._end for code in plan.codes)
+            self._seen.has_end |= is_end
+            self._seen.is_over |= is_end and not block.is_skippable
             if not block.is_empty and not self._seen.has_end:
                 self._seen.last, self._seen.last_place = plan, (place.line, self._report.where[2])
         return plan

@@ -75,6 +75,7 @@ TEXTS = {
     "W219": "G98 level below R",
     "W220": "reserved parameter assigned",
     "W221": "F in a block that changes the unit",
+    "W222": "text after the end of the program",
     "W230": "arc radii differ",
     "W310": "negative radius",
     "W311": "lead-in shorter than the radius",
