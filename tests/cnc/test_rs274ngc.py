@@ -66,6 +66,8 @@ def test_assignments_act_after_the_block() -> None:
         ("F10|O4 if [0]|G1 X1|O4 elseif [1]|X2|O4 else|X3|O4 endif|Y1", ["L X2", "L X2 Y1"]),
         ("F10|O4 if [0]|G1 X1|O4 elseif [0]|X2|O4 else|X3|O4 endif|Y1", ["L X3", "L X3 Y1"]),
         ("F10|O4 if [1]|G1 X1|O4 elseif [1]|X2|O4 else|X3|O4 endif|Y1", ["L X1", "L X1 Y1"]),
+        ("F10|O4 i f [0]|G1 X1|O4 else if [1]|X2|o4 el se|X3|O4 end\tif (o)|Y1",
+         ["L X2", "L X2 Y1"]),
         ("O<box> sub|G1 F10 X#1|O<box> return [7]|X99|O<box> endsub|O<box> call [2]|Y#<_value>",
          ["L X2", "L X2 Y7"]),
         ("F10|#1=0|O5 while [1]|#1=[#1+1]|O6 if [#1 GT 2]|O5 break|O6 endif|G1 X#1|O5 endwhile|Y1",

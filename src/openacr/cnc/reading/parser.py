@@ -26,7 +26,7 @@ _FRACTION = re.compile(r"\.\d*")
 _DIGITS = re.compile(r"\d+")
 _TITLE = re.compile(r"O\s*\d+\s*(\(.*\)|;.*)?$")
 _O_NAME = re.compile(r"O\s*(?:(\d+)|<([^<>]*)>)")
-_KEYWORD = re.compile(r"\s*([A-Z]+)")
+_KEYWORD = re.compile(r"(?:\s*[A-Z])+")  # blanks do not count: END IF
 CALL = "CALL"
 _GOES_ON = frozenset(".=0123456789")  # after a word that is more than its number
 _PLAIN_WORD = r"([A-MP-Z])[ \t]*([+-]?)[ \t]*(\d+(?:\.\d*)?|\.\d+)[ \t]*"
@@ -116,7 +116,8 @@ class _Parser(StatementReader):
         at = self.column
         name, number = self._o_name(rest)
         kind = _KEYWORD.match(self.text, self.pos)
-        if kind is None or (number and kind[1] != CALL):
+        word = "".join(kind[0].split()) if kind else ""
+        if kind is None or (number and word != CALL):
             raise self.fault("E108")
         self.pos = kind.end()
         values = []
@@ -125,7 +126,7 @@ class _Parser(StatementReader):
             values.append(self.bracketed())
             self.gap()
         self.end(block)
-        block.statement = OWord(name, kind[1], tuple(values), at, number)
+        block.statement = OWord(name, word, tuple(values), at, number)
         return True
 
     def _o_name(self, rest: str) -> tuple[str, Node | None]:
