@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from ezdxf.entities.insert import Insert
 from tests.cnc.dxf.programs import trace
 from tests.cnc.dxf.test_convert import converted, drawing, square
 
@@ -132,6 +133,51 @@ def test_blocks_within_blocks_are_bounded(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(reading, "MOST", 66)
     with pytest.raises(UserError, match="the drawing has more than 66 entities in its blocks"):
         converted(document, tmp_path)
+
+
+@pytest.mark.parametrize(("deep", "wide", "array"), [(14, 30, 1), (1, 1, 32000), (4, 4, 100)])
+def test_blocks_are_counted_before_they_are_expanded(
+    deep: int, wide: int, array: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    document = drawing()
+    blocks_in_blocks(document, deep, wide)
+    counts = {"row_count": array, "column_count": array, "row_spacing": 9.0, "column_spacing": 9.0}
+    document.modelspace().add_blockref(f"B{deep}", (0, 0), dxfattribs=counts)
+    monkeypatch.setattr(Insert, "virtual_entities", None)
+    with pytest.raises(UserError, match="the drawing has more than 2,000,000 entities in its"):
+        converted(document, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("layer", "frozen", "count"),
+    [("0", "FROZEN", 3), ("FROZEN", "FROZEN", 1), ("OTHER", "FROZEN", 3), ("OTHER", "0", 3)],
+)
+def test_what_is_frozen_is_not_counted(
+    layer: str, frozen: str, count: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    document = drawing()
+    document.layers.add("OTHER")
+    document.layers.add("FROZEN")
+    document.layers.get(frozen).freeze()
+    blocks_in_blocks(document, 1, 1)  # an insertion of an insertion of a line
+    square(document.modelspace())
+    count += len(document.modelspace()) - 1
+    (insert,) = (each for each in document.modelspace() if each.dxftype() == "INSERT")
+    insert.dxf.layer = layer
+    monkeypatch.setattr(reading, "MOST", count)
+    assert converted(document, tmp_path).summary
+    monkeypatch.setattr(reading, "MOST", count - 1)
+    monkeypatch.setattr(Insert, "virtual_entities", None)
+    with pytest.raises(UserError, match="more than"):
+        converted(document, tmp_path)
+
+
+def test_a_block_in_itself_is_too_deep(tmp_path: Path) -> None:
+    document = drawing()
+    square(document.modelspace())
+    blocks_in_blocks(document, 0, 1)
+    document.blocks.get("B0").add_blockref("B0", (0, 1))
+    assert converted(document, tmp_path).notes == ("not used: 1 block nested deeper than 16",)
 
 
 def test_blocks_nested_too_deep_are_reported(tmp_path: Path) -> None:

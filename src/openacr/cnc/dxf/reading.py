@@ -133,6 +133,7 @@ class _Reader:
         self._frozen = {each.dxf.name.casefold() for each in document.layers if each.is_frozen()}
 
     def drawing(self) -> Drawing2D:
+        _require_few(self._count(self._document.modelspace(), 0, {}))
         seen = False
         for entity, layer in self._flat(self._document.modelspace(), None, 0):
             seen = True
@@ -154,14 +155,32 @@ class _Reader:
         name = layer.casefold()
         return name not in self._frozen and (not self._layer or name == self._layer)
 
+    def _count(self, entities: Iterable[Any], depth: int, known: dict[tuple[str, int], int]) -> int:
+        """How many entities `_flat` meets, blocks within blocks by multiplication.
+
+        Inside a block layer 0 is the layer of an insertion that is not frozen.
+        """
+        total = 0
+        for entity in entities:
+            total += 1
+            if entity.dxftype() != "INSERT" or depth >= DEEPEST:
+                continue
+            layer = str(entity.dxf.get("layer", "0"))
+            if layer.casefold() in self._frozen and not (depth and layer == "0"):
+                continue
+            key = entity.dxf.name.casefold(), depth + 1
+            if key not in known:
+                known[key] = self._count(entity.block() or (), depth + 1, known)
+            total += entity.mcount * known[key]
+        return total
+
     def _flat(
         self, entities: Iterable[Any], inherited: str | None, depth: int
     ) -> Iterator[tuple[Any, str]]:
         """All entities with their layers; those of blocks instead of the block."""
         for entity in entities:
             self._cnt += 1
-            if self._cnt > MOST:
-                raise UserError(f"the drawing has more than {MOST:,} entities in its blocks")
+            _require_few(self._cnt)
             layer = str(entity.dxf.get("layer", "0"))
             if inherited is not None and layer == "0":
                 layer = inherited  # layer 0 inside a block is the layer of the insertion
@@ -201,6 +220,11 @@ class _Reader:
         centre = None if segment.centre is None else self._scaled(segment.centre)
         start, end = self._scaled(segment.start), self._scaled(segment.end)
         return Segment(start, end, centre, segment.sweep_rad)
+
+
+def _require_few(count: int) -> None:
+    if count > MOST:
+        raise UserError(f"the drawing has more than {MOST:,} entities in its blocks")
 
 
 # --- entities ---------------------------------------------------------------------------
