@@ -3,6 +3,7 @@ from pathlib import Path
 import pytest
 from tests.client.cards import WrappedLink, load_example, with_axis, wrapped
 
+from openacr.basic.memory import saved
 from openacr.client import (
     Card,
     ConnectionLostError,
@@ -152,7 +153,7 @@ def test_a_backup_with_look_ahead_changes_nothing_on_a_model_without_it(tmp_path
     card.p["axis0.ppu"] = 5
     with pytest.raises(DownloadError) as refused:
         card.restore(backup)
-    assert refused.value.text == "the card does not know LOOK MINVEL: Not supported"
+    assert refused.value.text == "the card does not know LOOK: Not supported"
     assert refused.value.hint == "nothing was changed"
     assert card.p["axis0.ppu"] == 5
 
@@ -226,11 +227,16 @@ def test_what_a_card_does_not_know_is_left_out_with_a_remark(tmp_path: Path) -> 
 def test_what_a_card_reports_in_another_form_is_kept_as_a_remark(tmp_path: Path) -> None:
     card, link = wrapped()
     card.command("DIM P(7)")
-    link.alters = lambda data: data.replace(b"ATTACH AXIS", b"AXIS ").replace(b"DIM P(7)", b"P 7")
+    link.alters = lambda data: (
+        data.replace(b"ATTACH AXIS", b"AXIS ")
+        .replace(b"DIM P(7)", b"P 7")
+        .replace(b"?P32770\r\n1", b"?P32770\r\nUnknown command")
+    )
     card.backup(tmp_path / "backup")
     setup = texts(tmp_path / "backup")["setup.8k"]
     assert "REM not understood: DIM: P 7\n" in setup
     assert "REM not understood: ATTACH: AXIS 0 ENC0 DAC0 ENC0\n" in setup
+    assert "REM not readable: ?P32770: Unknown command\n" in setup
     assert "AXIS7 PPU 1\n" in setup
     card.restore(tmp_path / "backup")
 
@@ -275,3 +281,77 @@ def test_a_backup_keeps_the_sources_of_axes(tmp_path: Path) -> None:
         query, _, source = line.rpartition(" ")
         assert other.command(query, program=0) == [source]
     assert other.command("AXIS1 GEAR SRC", program=0) == ["NONE"]
+
+
+def varied(value: object, index: int = 0) -> object:
+    """Another value of the same kind, that seven digits hold, each object with its own."""
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, list | tuple):
+        return [varied(each, index + place) for place, each in enumerate(value)]
+    return round(value + 1.0 + 0.25 * index, 2) if isinstance(value, float) else value + 1  # type: ignore[operator]
+
+
+# What has few values, or names others: attachments, sources, and the address, which stays.
+CHOSEN = {
+    "PERIOD": 0.001,
+    "ENC # MULT": [[2]] * 20,
+    "ADC POS": [7, 6, 5, 4, 3, 2, 1, 0],
+    "CONFIG": ["ENC8", "DAC4", "NONE", "ADC8"],
+    "BIT8448": [0, 1 << 5, 1 << 16, 1 << 20, 1 << 21, 1 << 22, 1 << 23, 0],
+    "BIT16128": [1 << 16, 1 << 17, 1 << 18, 1 << 24, 1 << 25, 1 << 26, 0, 0],
+    "BIT5632": [1 << 19],
+}
+STAY = {"IP", "ADC MODE", "VECDEF", "CANopen"}
+
+
+def is_left(words: str) -> bool:
+    """Whether the test leaves it as it is, or sets it by commands."""
+    is_source = words.split()[-1] == "SRC" and words != "ENC # SRC"
+    return words in STAY or words.startswith("ATTACH") or is_source
+
+
+def kept_by_esave(controller: Controller) -> dict[str, object]:
+    return saved.take(controller.system)
+
+
+def card_with_masters() -> Controller:
+    """A card whose eight programs have a master and an axis each."""
+    controller = Controller("ACR9000")
+    card = Card.open(controller)
+    for number in range(8):
+        card.command(f"ATTACH MASTER{number}", program=number)
+        card.command(f'ATTACH SLAVE0 AXIS{number} "X"', program=number)
+    return controller
+
+
+def test_a_replacement_card_keeps_everything_that_esave_keeps(tmp_path: Path) -> None:
+    worn = card_with_masters()
+    before = kept_by_esave(worn)
+    for item in saved.all_saved():
+        if not is_left(item.words):
+            item.put(worn.system, CHOSEN.get(item.words) or varied(before[item.words]))
+    card = Card.open(worn)
+    for line in ("AXIS1 VECDEF 3", "TMOV 3", "TMOV OFF"):
+        card.command(line, program=1)
+    for number in (32768, 32769, 32770, 32771, 32772, 33024, 33072, 33282, 33283, 33778, 33779):
+        card.command(f"P{number}={card.ask(f'P{number}') + 1}")
+    wanted = kept_by_esave(worn)
+    assert {words for words in wanted if wanted[words] == before[words]} == {
+        words for words in wanted if is_left(words)
+    } - {"VECDEF", "CANopen"}
+    card.backup(tmp_path / "b")
+    assert kept_by_esave(worn) == wanted  # reading switches nothing
+    other = Controller("ACR9000")
+    Card.open(other).restore(tmp_path / "b")
+    assert kept_by_esave(other) == wanted
+    Card.open(other).backup(tmp_path / "again")
+    assert texts(tmp_path / "again") == texts(tmp_path / "b")
+
+
+def test_a_backup_of_a_card_turns_nothing_on(tmp_path: Path) -> None:
+    controller = Controller.from_project("examples/gantry")
+    before = kept_by_esave(controller)
+    Card.open(controller).backup(tmp_path / "b")
+    assert kept_by_esave(controller) == before
+    assert not any(before["PM ON"])  # type: ignore[arg-type]

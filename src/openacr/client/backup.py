@@ -6,7 +6,7 @@ still succeeds; a remark in the file names what is missing.
 
 Not included, because a terminal cannot read it or must not write it back: the network
 address, passwords, positions and captures, running programs and their local variables,
-strings, and what the drives and the machine store.
+strings, settings of masters that no program has, and what the drives and the machine store.
 """
 
 import re
@@ -17,13 +17,12 @@ from typing import TypeAlias
 
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
 from openacr.basic.language import registry
-from openacr.basic.language.grammar import AxisList, Either, Num
-from openacr.basic.language.registry import INDEX, Command
+from openacr.basic.language.registry import BY_OBJECT, INDEX, Command
 from openacr.basic.memory.storage import Storage
 from openacr.client import values
 from openacr.client.effects import Op
 from openacr.client.errors import RefusedError
-from openacr.client.names import flag_number
+from openacr.client.names import flag_number, parameter_number
 from openacr.client.requests import SYS, Level
 from openacr.client.talk import Talk
 from openacr.client.transfer import Progress, upload
@@ -36,9 +35,18 @@ SETUP_FILE = "setup.8k"
 _LOST = "REM not understood: "
 _HEAD = ("SYS", "HALT ALL", "NEW ALL", "CLEAR", "DETACH ALL")
 # Covered by another row, or not to be written back.
-_LEFT_OUT = frozenset(("F", "MULT", "IP", "CONFIG", "AXIS # ON", "AXIS # OFF", "FOV", "ROV"))
+_LEFT_OUT = frozenset(("F", "MULT", "IP", "CONFIG", "FOV", "ROV"))
 _SYSTEM_ROWS = ("PERIOD", "ADC MODE", "ADC MAX")
+_OF_CHANNEL = ("ADC POS", "ADC NEG")  # their object is the first number after the words
 _OF_MASTER = "VECDEF"  # set per axis, but only while the axis has a master
+# Kept by ESAVE beside the commands. Of the network only what a host may write.
+_AXIS_PARAMETERS = ("rpm factor", "lock feedback gain", "cam velocity smooth", "dgain smooth")
+_MASTER_PARAMETER = "int response period"
+_IN_MOVE_TIME = "master in tmov"
+_LISTS_NUMBERS = "BIT5651"
+_CANOPEN_COUNT = "number of slave nodes"
+_CANOPEN = ("master node id", "bit rate", "alternate digital i/o mapping", "cyclic period")
+_CANOPEN_NODES, _CANOPEN_CHANNELS = 4, 32
 _FLAGS = (
     "drive fault level invert",
     "step direction output",
@@ -59,10 +67,13 @@ _FLAGS = (
     "jog limit check",
 )
 _NUMBER = r"-?[\d.]+(?:[Ee][-+]?\d+)?"
-_VALUE = re.compile(rf"{_NUMBER}(?:,{_NUMBER})?")
+_VALUE = re.compile(rf"{_NUMBER}(?:,{_NUMBER})?|ON|OFF")
 _SOURCE = re.compile(r"NONE|CLK|[A-Z]+\d+")  # as the card reports and takes it
 _OWN_SETPOINT = "PSP"  # of a ballscrew without a source, which no line can choose
 _ATTACHED_AXIS = re.compile(r"ATTACH AXIS(\d+) ")
+_MASTER = re.compile(r"ATTACH MASTER(\d+)")
+_MAINTENANCE = re.compile(r"(\w+) (ON|OFF)")
+_CHANNEL_WORDS = frozenset(("ENC", "DAC", "ADC"))  # of commutators: CMT0 DAC0 DAC1
 _SLAVE = re.compile(r"ATTACH SLAVE\d+ AXIS(\d+) ")
 _VARIABLES = re.compile(r"DIM P\((\d+)\)")
 
@@ -95,14 +106,40 @@ class _Reader:
         """
         command = command or row.name
         for value in (yield from self.ask(command, at=at)):
-            if row.name.endswith(" SRC") and _SOURCE.fullmatch(value):
+            if row.words[-1] == "SRC" and _SOURCE.fullmatch(value):
                 self.lines.append(f"{command} {value}")
             elif value == _OWN_SETPOINT:
                 continue
             elif not _VALUE.fullmatch(value):
                 self.lines.append(f"{_LOST}{command}: {value}")
+            elif row.words[-1] in _CHANNEL_WORDS:
+                first, second = value.split(",")
+                self.lines.append(f"{command}{first} {row.words[-1]}{second}")
             elif not (row.is_extension and float(value) == float(row.default or 0)):
                 self.lines.append(f"{command} ({value})" if "," in value else f"{command} {value}")
+
+    def parameter(self, name: str) -> Op[float]:
+        """Add the assignment of a parameter that no command sets; its value, 0 without one."""
+        number, found = parameter_number(name), 0.0
+        for value in (yield from self.ask(f"?P{number}")):
+            if re.fullmatch(_NUMBER, value):
+                self.lines.append(f"P{number}={value}")
+                found = float(value)
+            else:
+                self.lines.append(f"{_LOST}P{number}: {value}")
+        return found
+
+    def count(self, query: str) -> Op[int]:
+        """How many objects answer a query with `#` in the place of their number."""
+        number = 0
+        while True:
+            try:
+                yield from self.talk.query(query.replace(INDEX, str(number)), at=SYS)
+            except RefusedError as refused:
+                if number == 0:
+                    self.lines.append(f"REM not readable: {refused.line}: {refused.text}")
+                return number
+            number += 1
 
     def commands(self, query: str, word: str, *, at: Level = SYS) -> Op[list[str]]:
         """Return the reported lines that are commands beginning with a word."""
@@ -160,17 +197,38 @@ def _read_system(reader: _Reader) -> Op[None]:
     axes = [int(found[1]) for found in map(_ATTACHED_AXIS.match, attachments) if found]
     if not axes:
         axes = yield from _axes_that_answer(reader)
-    rows = list(_object_rows()), list(_axis_rows()), list(_master_rows())
-    reader.total = 2 * len(axes) + len(axes) * (len(rows[0]) + len(rows[1])) + 3 * PROGRAMS
-    reader.lines += [*sizes, *aliases]
+    modules = yield from reader.commands("CONFIG", "CONFIG")
+    reader.lines += [*modules, *sizes, *aliases]
+    objects = yield from _objects(reader)
+    of_axis = list(_axis_rows())
+    each = len(of_axis) + len(_AXIS_PARAMETERS) + 1
+    reader.total = reader.done + len(objects) + each * len(axes) + 3 * PROGRAMS
     for words in _SYSTEM_ROWS:
         yield from reader.setting(registry.find(words))
+    yield from _read_flags(reader, [_LISTS_NUMBERS])
     reader.lines += attachments
+    for row, query in objects:
+        yield from reader.setting(row, query)
     for axis in axes:
-        yield from _read_axis(reader, axis, rows[0], rows[1])
+        yield from _read_axis(reader, axis, of_axis)
+    yield from _read_network(reader)
     yield from _read_variables(reader, sizes)
+    masters = list(_master_rows())
     for number in range(PROGRAMS):
-        yield from _read_program(reader, Level.program(number), rows[2])
+        yield from _read_program(reader, Level.program(number), masters)
+
+
+def _objects(reader: _Reader) -> Op[list[tuple[Command, str]]]:
+    """Every setting of every encoder, output, input ... that the card has, with its query."""
+    counts: dict[str, int] = {}
+    found = []
+    for row in _object_rows():
+        query = f"{row.name} {INDEX}" if row.name in _OF_CHANNEL else row.name.replace(" #", "#")
+        kind = row.words[0]
+        if kind not in counts:
+            counts[kind] = yield from reader.count(query)
+        found += [(row, query.replace(INDEX, str(each))) for each in range(counts[kind])]
+    return found
 
 
 def _axes_that_answer(reader: _Reader) -> Op[list[int]]:
@@ -183,26 +241,37 @@ def _axes_that_answer(reader: _Reader) -> Op[list[int]]:
     return list(range(AXES))
 
 
-def _read_axis(
-    reader: _Reader, axis: int, objects: list[Command], commands: list[Command]
-) -> Op[None]:
-    for row in objects:
-        yield from reader.setting(row, row.name.replace(f" {INDEX}", str(axis)))
+def _read_axis(reader: _Reader, axis: int, commands: list[Command]) -> Op[None]:
     for row in commands:
         yield from reader.setting(row, f"AXIS{axis} {row.name}")
-    yield from _read_flags(reader, axis)
+    for name in _AXIS_PARAMETERS:
+        yield from reader.parameter(f"axis{axis}.{name}")
+    yield from _read_flags(reader, [f"axis{axis}.{name}" for name in _FLAGS])
     for state in (yield from reader.ask(f"AXIS{axis}")):
         if state in ("ON", "OFF"):
             reader.lines.append(f"AXIS{axis} {state}")
 
 
-def _read_flags(reader: _Reader, axis: int) -> Op[None]:
-    """The flags that configure an axis."""
-    numbers = [flag_number(f"axis{axis}.{name}") for name in _FLAGS]
+def _read_flags(reader: _Reader, names: Iterable[str]) -> Op[None]:
+    """Flags that configure an axis, or how the card lists programs."""
+    numbers = [flag_number(name) for name in names]
     for number, is_set in zip(
         numbers, (yield from values.read_bits(reader.talk, numbers)), strict=True
     ):
         reader.lines.append(f"{'SET' if is_set else 'CLR'} BIT{number}")
+
+
+def _read_network(reader: _Reader) -> Op[None]:
+    """The settings of CANopen; channels have some only where there are nodes."""
+    nodes = yield from reader.parameter(f"can.{_CANOPEN_COUNT}")
+    for name in _CANOPEN:
+        yield from reader.parameter(f"can.{name}")
+    for node in range(_CANOPEN_NODES):
+        yield from reader.parameter(f"cannode{node}.node id")
+    for channel in range(_CANOPEN_CHANNELS * int(nodes)):
+        for kind in ("dac", "adc"):
+            yield from reader.parameter(f"can{kind}{channel}.{kind} gain")
+            yield from reader.parameter(f"can{kind}{channel}.{kind} offset")
 
 
 def _read_variables(reader: _Reader, sizes: Iterable[str]) -> Op[None]:
@@ -221,9 +290,22 @@ def _read_program(reader: _Reader, level: Level, commands: list[Command]) -> Op[
         reader.lines += [str(level), *attachments, *sizes]
     for row in commands if attachments else ():
         yield from reader.setting(row, at=level)
+    if commands:
+        yield from _read_switches(reader, level, attachments)
     for axis in (found[1] for found in map(_SLAVE.match, attachments) if found):
         row = registry.find(_OF_MASTER)
         yield from reader.setting(row, f"AXIS{axis} {_OF_MASTER}", at=level)
+
+
+def _read_switches(reader: _Reader, level: Level, attachments: Iterable[str]) -> Op[None]:
+    """What ON and OFF have set: timed moves of a master, position maintenance of its axes."""
+    for master in (found[1] for found in map(_MASTER.match, attachments) if found):
+        yield from reader.parameter(f"master{master}.{_MASTER_PARAMETER}")
+        yield from _read_flags(reader, [f"master{master}.{_IN_MOVE_TIME}"])
+    if any(map(_SLAVE.match, attachments)):
+        for line in (yield from reader.ask("PM", at=level)):
+            found = _MAINTENANCE.fullmatch(line)
+            reader.lines.append(f"PM {found[2]} {found[1]}" if found else f"{_LOST}PM: {line}")
 
 
 def _levels() -> Iterator[Level]:
@@ -239,33 +321,29 @@ def _file_name(level: Level) -> str:
 
 
 def _saved() -> Iterator[Command]:
-    """Every command whose value is saved and reported."""
+    """Every command whose value is saved and reported; a switch would act if it were asked."""
     for row in registry.commands():
-        if row.saved and row.grammar and row.name not in _LEFT_OUT:
+        is_reported = row.saved and row.grammar and row.words[0] != "ATTACH"
+        if is_reported and not row.is_switch and row.name not in _LEFT_OUT:
             yield row
 
 
 def _axis_rows() -> Iterator[Command]:
     """Commands of one axis; PPU first, since the others count in units."""
-    found = (row for row in _saved() if isinstance(row.grammar[0], AxisList | Either))
-    own = (row for row in found if row.name != _OF_MASTER)
+    own = (row for row in _saved() if row.grammar[0].names_axes and row.name != _OF_MASTER)
     yield from sorted(own, key=lambda row: row.name != "PPU")
 
 
 def _object_rows() -> Iterator[Command]:
     """Commands of encoders, outputs and inputs."""
-    yield from (row for row in _saved() if _is_of_object(row) and isinstance(row.grammar[0], Num))
+    yield from (row for row in _saved() if INDEX in row.words or row.name in _OF_CHANNEL)
 
 
 def _master_rows() -> Iterator[Command]:
+    """Commands of a master, whose time comes before what it switches on."""
     for row in _saved():
-        is_number = isinstance(row.grammar[0], Num)
-        if is_number and row.name not in _SYSTEM_ROWS and not _is_of_object(row):
+        if row.levels == BY_OBJECT and not row.grammar[0].names_axes:
             yield row
-
-
-def _is_of_object(row: Command) -> bool:
-    return INDEX in row.words
 
 
 # --- folders ------------------------------------------------------------------------------

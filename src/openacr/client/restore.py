@@ -22,7 +22,7 @@ from openacr.errors import UserError
 from openacr.messages import INVALID_ARGUMENT, NOT_SUPPORTED, SYNTAX_ERROR, UNKNOWN_COMMAND
 
 _SETTING = re.compile(
-    r"(?P<query>.+?) (?:\([^()]*\)|-?[\d.]+(?:[Ee][-+]?\d+)?|(?<= SRC )[A-Z]+\d*)"
+    r"(?P<query>.+?) (?:\([^()]*\)|-?[\d.]+(?:[Ee][-+]?\d+)?|ON|OFF|(?<=SRC )[A-Z]+\d*)"
 )
 _AXIS = re.compile(r"AXIS\d+ ")
 _OBJECT = re.compile(r"([A-Z]+)\d+ ")
