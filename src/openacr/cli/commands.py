@@ -61,6 +61,7 @@ COMMANDS: dict[str, Entry | Family] = {
     "ip": Entry("explain.ip", "explain_address"),
     "backup": Entry("live.backup", "backup"),
     "restore": Entry("live.backup", "restore"),
+    "compare": Entry("live.compare", "compare"),
     "configure": Entry("configure", "configure"),
     "list": Entry("check", "list_file"),
     "check": Entry("check", "check_file"),

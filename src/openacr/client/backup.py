@@ -32,7 +32,7 @@ Files: TypeAlias = list[tuple[Path, Level, str]]
 
 AXES, PROGRAMS, PLCS = 16, 16, 8
 SETUP_FILE = "setup.8k"
-_LOST = "REM not understood: "
+NOT_UNDERSTOOD, NOT_READABLE = "REM not understood: ", "REM not readable: "
 _HEAD = ("SYS", "HALT ALL", "NEW ALL", "CLEAR", "DETACH ALL")
 # Covered by another row, or not to be written back.
 _LEFT_OUT = frozenset(("F", "MULT", "IP", "CONFIG", "FOV", "ROV"))
@@ -96,7 +96,7 @@ class _Reader:
         try:
             return (yield from self.talk.query(query, at=at))
         except RefusedError as refused:
-            self.lines.append(f"REM not readable: {query}: {refused.text}")
+            self.lines.append(f"{NOT_READABLE}{query}: {refused.text}")
             return ()
 
     def setting(self, row: Command, command: str = "", *, at: Level = SYS) -> Op[None]:
@@ -111,7 +111,7 @@ class _Reader:
             elif value == _OWN_SETPOINT:
                 continue
             elif not _VALUE.fullmatch(value):
-                self.lines.append(f"{_LOST}{command}: {value}")
+                self.lines.append(f"{NOT_UNDERSTOOD}{command}: {value}")
             elif row.words[-1] in _CHANNEL_WORDS:
                 first, second = value.split(",")
                 self.lines.append(f"{command}{first} {row.words[-1]}{second}")
@@ -126,7 +126,7 @@ class _Reader:
                 self.lines.append(f"P{number}={value}")
                 found = float(value)
             else:
-                self.lines.append(f"{_LOST}P{number}: {value}")
+                self.lines.append(f"{NOT_UNDERSTOOD}P{number}: {value}")
         return found
 
     def count(self, query: str) -> Op[int]:
@@ -137,7 +137,7 @@ class _Reader:
                 yield from self.talk.query(query.replace(INDEX, str(number)), at=SYS)
             except RefusedError as refused:
                 if number == 0:
-                    self.lines.append(f"REM not readable: {refused.line}: {refused.text}")
+                    self.lines.append(f"{NOT_READABLE}{refused.line}: {refused.text}")
                 return number
             number += 1
 
@@ -148,7 +148,7 @@ class _Reader:
             if line.startswith(f"{word} "):
                 found.append(line)
             else:
-                self.lines.append(f"{_LOST}{query}: {line}")
+                self.lines.append(f"{NOT_UNDERSTOOD}{query}: {line}")
         return found
 
 
@@ -160,11 +160,11 @@ def backup(talk: Talk, progress: Progress | None = None) -> Op[dict[str, str]]:
     reader.lines += [f"REM Backup of {line}" for line in version[:1]] + list(_HEAD)
     yield from _read_system(reader)
     files = {SETUP_FILE: "".join(f"{line}\n" for line in reader.lines)}
-    for level in _levels():
+    for level in levels():
         try:
             text = yield from upload(talk, level)
         except RefusedError as refused:
-            files[SETUP_FILE] += f"REM not readable: {level}: {refused.text}\n"
+            files[SETUP_FILE] += f"{NOT_READABLE}{level}: {refused.text}\n"
         else:
             files |= {_file_name(level): text} if text else {}
     yield from talk.go(home)
@@ -223,8 +223,9 @@ def _objects(reader: _Reader) -> Op[list[tuple[Command, str]]]:
     counts: dict[str, int] = {}
     found = []
     for row in _object_rows():
-        query = f"{row.name} {INDEX}" if row.name in _OF_CHANNEL else row.name.replace(" #", "#")
-        kind = row.words[0]
+        is_last = row.name in _OF_CHANNEL
+        query = f"{row.name} {INDEX}" if is_last else row.name.replace(" #", "#")
+        kind = row.name if is_last else row.words[0]
         if kind not in counts:
             counts[kind] = yield from reader.count(query)
         found += [(row, query.replace(INDEX, str(each))) for each in range(counts[kind])]
@@ -305,10 +306,13 @@ def _read_switches(reader: _Reader, level: Level, attachments: Iterable[str]) ->
     if any(map(_SLAVE.match, attachments)):
         for line in (yield from reader.ask("PM", at=level)):
             found = _MAINTENANCE.fullmatch(line)
-            reader.lines.append(f"PM {found[2]} {found[1]}" if found else f"{_LOST}PM: {line}")
+            reader.lines.append(
+                f"PM {found[2]} {found[1]}" if found else f"{NOT_UNDERSTOOD}PM: {line}"
+            )
 
 
-def _levels() -> Iterator[Level]:
+def levels() -> Iterator[Level]:
+    """Every program and PLC there can be."""
     yield from map(Level.program, range(PROGRAMS))
     yield from map(Level.plc, range(PLCS))
 
@@ -364,7 +368,7 @@ def write_folder(files: dict[str, str], folder: Path) -> None:
 def not_understood(folder: Path) -> list[str]:
     """What a backup could not keep: answers of the card that no line would set again."""
     lines = (folder / SETUP_FILE).read_text(encoding="latin-1").splitlines()
-    return [line.removeprefix(_LOST) for line in lines if line.startswith(_LOST)]
+    return [line.removeprefix(NOT_UNDERSTOOD) for line in lines if line.startswith(NOT_UNDERSTOOD)]
 
 
 def read_folder(folder: Path) -> Files:
@@ -386,4 +390,4 @@ def files_of(texts: dict[str, str]) -> Files:
 def _file_names() -> Iterator[tuple[str, Level]]:
     """Every file a backup may have, in the order they are sent."""
     yield SETUP_FILE, SYS
-    yield from ((_file_name(level), level) for level in _levels())
+    yield from ((_file_name(level), level) for level in levels())

@@ -257,11 +257,17 @@ class Card(Closing):
         """The memory of every program and PLC that has some."""
         return self._do(stored.rooms(self._talk))
 
+    def read_all(self, progress: Progress | None = None) -> dict[str, str]:
+        """The files of a backup by name, without storing them."""
+        from openacr.client.backup import backup
+
+        return self._do(backup(self._talk, progress))
+
     def backup(self, folder: str | Path, progress: Progress | None = None) -> list[str]:
         """Store everything a terminal can read in a folder; returns the file names."""
-        from openacr.client.backup import backup, write_folder
+        from openacr.client.backup import write_folder
 
-        files = self._do(backup(self._talk, progress))
+        files = self.read_all(progress)
         write_folder(files, Path(folder))
         return list(files)
 

@@ -110,12 +110,12 @@ def _settings(path: Path, level: Level, text: str) -> Iterator[_Setting]:
     for number, line in enumerate(text.splitlines(), start=1):
         level = Level.of_line(line) or level
         found = _SETTING.fullmatch(line)
-        if found is not None and (row := _row(found["query"])) is not None:
+        if found is not None and (row := command_of(found["query"])) is not None:
             yield _Setting(row, found["query"], level, path, number)
 
 
-def _row(query: str) -> Command | None:
-    """The command of a query, if its value is saved."""
+def command_of(query: str) -> Command | None:
+    """The command that a query such as `AXIS0 PGAIN` or `ENC3 MULT` asks for, if it is saved."""
     words = _OBJECT.sub(r"\1 # ", query, count=1)
     for name in (query, _AXIS.sub("", query, count=1), words):
         row = registry.known(name)
