@@ -1,5 +1,6 @@
 """Forms and the editor keep what the operator has typed until it is saved or dropped."""
 
+import pytest
 from playwright.sync_api import Page, Route, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import let_through
@@ -225,3 +226,41 @@ def test_a_new_text_is_saved_under_the_name_that_is_asked_for(page: Page, served
     page.keyboard.press("Enter")
     expect(page.locator("#prompt")).to_have_text("FIRST.TXT is saved")
     assert (served.programs / "FIRST.TXT").read_text() == "G0 X1"
+
+
+@pytest.mark.parametrize("enters", ["click", "tap"])
+def test_a_number_field_entered_by_mouse_or_finger_is_selected_so_that_a_digit_replaces_it(
+    page: Page, enters: str
+) -> None:
+    parameters(page, "Speeds")
+    field = page.locator(f"#cell-{SPEEDS.cut_speed}")
+    field.fill("12")
+    page.locator(f"#cell-{SPEEDS.trial_speed}").focus()
+    getattr(field, enters)()
+    page.keyboard.press("3")
+    expect(field).to_have_value("3")
+    field.press("ArrowLeft")
+    getattr(field, enters)(position={"x": 3, "y": 10})  # in the field already: it places the caret
+    page.keyboard.press("4")
+    assert sorted(field.input_value()) == ["3", "4"]
+    page.locator(f"label[for=cell-{SPEEDS.trial_speed}]").click()
+    page.keyboard.press("7")
+    expect(page.locator(f"#cell-{SPEEDS.trial_speed}")).to_have_value("7")
+    page.get_by_role("button", name="UNDO").click()
+
+
+def test_what_is_marked_with_the_mouse_in_a_number_field_stays_marked(page: Page) -> None:
+    parameters(page, "Speeds")
+    field = page.locator(f"#cell-{SPEEDS.cut_speed}")
+    field.fill("1234")
+    page.locator(f"#cell-{SPEEDS.trial_speed}").focus()
+    box = field.bounding_box()
+    assert box is not None
+    right, middle = box["x"] + box["width"] - 10, box["y"] + box["height"] / 2
+    page.mouse.move(right, middle)
+    page.mouse.down()
+    page.mouse.move(right - 12, middle, steps=4)
+    page.mouse.up()
+    marked = field.evaluate("(each) => each.selectionEnd - each.selectionStart")
+    assert 0 < marked < 4
+    page.get_by_role("button", name="UNDO").click()

@@ -10,6 +10,15 @@ const ROWS = [
 /** @type {Record<string, string>} */
 const FACES = { "*": "\u00d7", "/": "\u00f7", "-": "\u2212", back: "\u232b", clear: "C", sign: "\u00b1" };
 
+// A number field that is entered by mouse or finger is selected, as it is by Tab: the first digit replaces the value.
+/** @type {Element | null} */
+let before = null; // where the focus was when the pointer went down
+window.addEventListener("pointerdown", () => { before = document.activeElement; }, { capture: true });
+window.addEventListener("click", ({ target }) => {
+  if (!(target instanceof HTMLInputElement) || target === before || !target.matches(".number, .pad-value")) return;
+  if (target.selectionStart === target.selectionEnd) target.select(); // what was marked with the mouse stays marked
+});
+
 /**
  * Ask for a number; null when cancelled.
  *
