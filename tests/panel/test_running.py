@@ -1,10 +1,16 @@
 """Programs, homing, zeros and MDI of a panel, on a station whose time passes by hand."""
 
+from math import isnan
+
 import pytest
 from tests.panel.bench import HandStation
 
+from openacr.cnc.loading.load import load
+from openacr.mill.session import Start
 from openacr.panel.control.people import Person
 from openacr.panel.roles import Role
+from openacr.panel.work.paths import read_file
+from openacr.sysvar.tabs import CONTROL, FOV, ROV
 
 SQUARE = "G21 G90 G54\nG0 X10 Y10 Z60\nG1 X20 F1200\nY20\nM0\nX10\nY10\nM2\n"
 
@@ -423,3 +429,115 @@ def test_the_run_time_is_0_before_the_first_run_and_stays_after_its_end(hand: Ha
     hand.press(1)
     hand.keep(1, 0.5)
     assert hand.station.snapshot.run_s == kept_s  # an axis moved by hand is no run
+
+
+def predicted(hand: HandStation, text: str) -> float:
+    """Load a program that is read in full, as the server does; the time it is predicted, s."""
+    loaded(hand, text)
+    store = hand.installation.store.path
+    assert store is not None
+    part = hand.station.part.required
+    found = read_file(part.file, store, part.dialect, has_path=False)
+    hand.station.part.note_facts(part.version, found.facts(), found.findings)
+    assert found.seconds is not None
+    return found.seconds
+
+
+def left_s(hand: HandStation) -> float:
+    """The time left as the screens show it now."""
+    hand.run(0.1)
+    return hand.station.snapshot.left_s
+
+
+def pass_by(hand: HandStation, seconds: float) -> float:
+    """Let time pass; how much less time is left then."""
+    before_s = left_s(hand)
+    hand.run(seconds)
+    return before_s - left_s(hand)
+
+
+TOOLS = "G21 G90 G54\nG1 X20 F600\nG4 P2\nT2 M6\nG1 X0\nM0\nG1 X20\nG0 X200\nM2\n"
+
+
+def test_the_time_left_passes_with_moves_and_dwells_and_waits_with_everything_else(
+    hand: HandStation,
+) -> None:
+    whole_s = predicted(hand, TOOLS)
+    assert isnan(left_s(hand))  # nothing runs
+    hand.do("run.begin")
+    assert left_s(hand) == pytest.approx(whole_s - 0.1, abs=0.06)
+    assert pass_by(hand, 0.5) == pytest.approx(0.6, abs=0.05)
+    hand.do("stop.hold")
+    hand.run(1.0)
+    assert pass_by(hand, 5.0) == 0.0
+    hand.do("run.resume")
+    hand.until(lambda: hand.station.machine.runner.reason.startswith("dwell"))
+    assert pass_by(hand, 0.5) == pytest.approx(0.6, abs=0.05)
+    hand.do("stop.hold")
+    assert pass_by(hand, 5.0) == 0.0
+    hand.do("run.resume")
+    hand.until(lambda: "tool" in hand.station.machine.runner.reason)
+    hand.run(0.5)
+    assert pass_by(hand, 30.0) == 0.0
+    hand.do("run.confirm")
+    hand.until(lambda: hand.state == "HOLD")
+    assert pass_by(hand, 5.0) == 0.0
+    hand.do("run.start")
+    hand.until(lambda: hand.station.machine.runner.pass_s > whole_s - 0.2)
+    hand.until(lambda: not hand.is_busy)
+    assert hand.station.machine.runner.pass_s == pytest.approx(whole_s, abs=0.2)
+    assert isnan(left_s(hand))
+    hand.do("home.start", axes="X")
+    hand.until(lambda: hand.state == "HOMING")
+    assert isnan(left_s(hand))
+
+
+def test_the_time_left_passes_as_the_override_of_the_move_lets_it(hand: HandStation) -> None:
+    read = hand.installation.store.read
+    feed, rapid = read(FOV.percents[5]) / 100.0, read(ROV.percents[2]) / 100.0
+    predicted(hand, "G21 G90 G54\nG1 X100 F600\nG0 X0 Y200 Z-50\nM2\n")
+    hand.do("override.choose", which="feed", click=5)
+    hand.do("override.choose", which="rapid", click=2)
+    hand.do("run.begin")
+    hand.run(0.5)
+    assert pass_by(hand, 1.9) == pytest.approx(2.0 * feed, rel=0.02)
+    tracker = hand.station.machine.runner.stream.tracker
+    hand.until(lambda: tracker.current is not None and tracker.current.is_rapid)
+    assert pass_by(hand, 1.9) == pytest.approx(2.0 * rapid, rel=0.02)
+    assert len({feed, rapid, 1.0}) == 3
+
+
+def test_a_repeated_program_begins_with_its_whole_time(hand: HandStation) -> None:
+    hand.installation.store.write(CONTROL.repeat_forever, 1.0)
+    hand.station.must_renew = True  # as where the store tells that it was written
+    hand.run(0.1)
+    whole_s = predicted(hand, "G21 G90 G54\nG4 P2\nM2\n")
+    hand.do("run.begin")
+    hand.until(lambda: hand.station.machine.runner.passes == 1)
+    assert left_s(hand) == pytest.approx(whole_s - 0.1, abs=0.05)
+    hand.do("run.abort")
+    hand.until(lambda: not hand.is_busy)
+
+
+@pytest.mark.parametrize("how", [{"dry": True}, {"line": 3, "safe_z": 0.0}])
+def test_a_run_without_a_prediction_shows_no_time_left(
+    hand: HandStation, how: dict[str, object]
+) -> None:
+    predicted(hand, "G21 G90 G54\nG1 X20 F600\nG1 X0\nM2\n")
+    answer = hand.do("run.begin", **how)
+    if "rehearsal" in answer:
+        hand.do("run.begin", **how, confirm=answer["rehearsal"]["token"])
+    hand.until(lambda: hand.is_busy)
+    assert isnan(left_s(hand))
+    hand.until(lambda: not hand.is_busy)
+
+
+def test_a_program_over_a_serial_line_has_not_the_time_left_of_the_loaded_one(
+    hand: HandStation,
+) -> None:
+    predicted(hand, "G21 G90 G54\nG1 X20 F600\nM2\n")
+    other = load("G21 G90 G1 X20 F600\nM2\n", hand.installation.store)
+    hand.station.machine.start(other, Start())
+    assert isnan(left_s(hand))
+    assert hand.station.part.executing.is_under_way
+    hand.until(lambda: not hand.is_busy)

@@ -26,6 +26,11 @@ class ActionPlayer:
         return self._until.reason if self._until else ""
 
     @property
+    def is_dwelling(self) -> bool:
+        """Whether the running action is a dwell of the program."""
+        return self._until is not None and self._until.is_dwell
+
+    @property
     def left_s(self) -> float:
         """Time left until the wait times out; infinite without a wait."""
         return max(self._until.limit_s - self._waited_s, 0.0) if self._until else inf

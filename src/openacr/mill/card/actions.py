@@ -35,14 +35,15 @@ class Until:
     is_met: Callable[[CardState], bool]
     limit_s: float = inf
     alarm: Kind | None = None  # None: continue after the limit
+    is_dwell: bool = False  # G4: predicted run times count it
 
 
 Steps: TypeAlias = Generator[Until, None, None]
 
 
-def pause(seconds: float, reason: str) -> Until:
+def pause(seconds: float, reason: str, *, is_dwell: bool = False) -> Until:
     """A wait for a given time."""
-    return Until(reason, lambda _sample: False, seconds)
+    return Until(reason, lambda _sample: False, seconds, is_dwell=is_dwell)
 
 
 class Spindle:

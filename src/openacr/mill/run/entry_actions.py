@@ -65,7 +65,7 @@ class EntryActions:
 
     @steps.register
     def _(self, entry: c.Dwell) -> Steps:
-        yield pause(entry.seconds, f"dwell {entry.seconds:g} s")
+        yield pause(entry.seconds, f"dwell {entry.seconds:g} s", is_dwell=True)
 
     @steps.register
     def _(self, entry: c.Spindle) -> Steps:

@@ -5,19 +5,26 @@ from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.run.console import Console
 from openacr.mill.run.lifecycle import Event, Lifecycle
 from openacr.mill.run.program_stream import Entries, ProgramStream
+from openacr.mill.run.times import Times
 
 
 class Passes:
     """Counts and repeats the passes of a program."""
 
     def __init__(
-        self, io: MachineIo, stream: ProgramStream, console: Console, lifecycle: Lifecycle
+        self,
+        io: MachineIo,
+        stream: ProgramStream,
+        console: Console,
+        lifecycle: Lifecycle,
+        times: Times,
     ) -> None:
         self.count = 0  # ends of programs reached
         self._io = io
         self._stream = stream
         self._console = console
         self._lifecycle = lifecycle
+        self._times = times
         self._entries: Entries | None = None
 
     def load(self, entries: Entries) -> None:
@@ -39,5 +46,6 @@ class Passes:
         """Start a pass at the first block."""
         if self._entries is None:
             raise UserError("no program is loaded")
+        self._times.begin_pass()
         options = self._lifecycle.options
         self._stream.begin(self._entries, is_dry=options.is_dry, is_single=options.is_single)

@@ -19,7 +19,7 @@ from openacr.mill.card.ballscrew import Compensation
 from openacr.mill.card.driver import LINK_ERRORS, CardState, MachineDriver, StepLostError
 from openacr.mill.card.enabling import enable_drives
 from openacr.mill.card.machine_io import MachineIo
-from openacr.mill.config.overrides import Overrides
+from openacr.mill.config.overrides import Override, Overrides
 from openacr.mill.config.settings import Settings, Store
 from openacr.mill.manual.controls import Controls
 from openacr.mill.manual.homing import home
@@ -70,7 +70,8 @@ class Runner:
         self._pausing = pausing = Pausing(io, stream, retrace, player, lifecycle)
         ending = Ending(io, stream, entry_actions, pausing, player, lifecycle)
         self._console = console = Console(io, stream, entry_actions.spindle, store)
-        self._passes = passes = Passes(io, stream, console, lifecycle)
+        self._times = times = Times()
+        self._passes = passes = Passes(io, stream, console, lifecycle, times)
         self._program_stops = ProgramStops(io, stream, entry_actions, passes, lifecycle)
         self._supervision = Supervision(
             io, self.alarms, stream, entry_actions, manual=manual, retrace=retrace,
@@ -81,7 +82,6 @@ class Runner:
         self._switches = Switches(
             io, stream.host, manual=manual, retrace=retrace, lifecycle=lifecycle, say=say
         )
-        self._times = Times()
         self._homing_axes: Sequence[int] = ()
         self.homing: dict[int, str] = {}  # by axis: what it waits for
         self.was_aborted = False
@@ -163,6 +163,15 @@ class Runner:
     def run_s(self) -> float:
         """Card time of the present run, or of the last one, s; 0 before the first."""
         return self._times.run_s
+
+    @property
+    def pass_s(self) -> float:
+        """The part of the predicted time of the program that has passed in this pass, s.
+
+        Moves count as fast as their override lets them pass, dwells in full; waits of any other
+        kind and holds do not count.
+        """
+        return self._times.pass_s
 
     @property
     def wait_left_s(self) -> float:
@@ -374,7 +383,8 @@ class Runner:
             self._supervision.raise_alarm(alarms.STORE_FAILED, error)
 
     def _do(self, sample: CardState) -> None:
-        self._times.advance_to(self.machine.now_s, is_running=not self._lifecycle.is_over)
+        is_running = not self._lifecycle.is_over
+        self._times.advance_to(self.machine.now_s, is_running=is_running, rate=self._rate())
         self.stream.tracker.update(sample.counter)
         with self.machine.repeating():
             soft_limits.update(self.io, sample)
@@ -392,6 +402,14 @@ class Runner:
         with self.machine.repeating():
             self._burner.update(sample, is_cutting=is_cutting and self.stream.has_program)
             self._console.update(sample, self._times, self._facts)
+
+    def _rate(self) -> float:
+        """How much of the predicted time passes per second."""
+        if self._is_reading:
+            job = self.stream.tracker.current
+            which = Override.RAPID if job is not None and job.is_rapid else Override.FEED
+            return self.overrides.factor(which)
+        return 1.0 if self.state is State.WAIT and self._player.is_dwelling else 0.0
 
     @property
     def _is_reading(self) -> bool:

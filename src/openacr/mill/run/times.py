@@ -7,6 +7,7 @@ class Times:
     def __init__(self) -> None:
         self.step_s = 0.0  # between the last two polls
         self.run_s = 0.0  # of the present run, or of the last one; 0 before the first
+        self.pass_s = 0.0  # of the present pass, as its prediction counts it
         self._now_s = self._start_s = 0.0
         self._due: dict[str, float] = {}
 
@@ -14,11 +15,19 @@ class Times:
         """Start the clock of a run."""
         self._start_s, self.run_s = self._now_s, 0.0
 
-    def advance_to(self, now_s: float, *, is_running: bool) -> None:
-        """Advance to the card time of a poll; the time of a run ends with it."""
+    def begin_pass(self) -> None:
+        """Start the clock of a pass of the program."""
+        self.pass_s = 0.0
+
+    def advance_to(self, now_s: float, *, is_running: bool, rate: float) -> None:
+        """Advance to the card time of a poll; the time of a run ends with it.
+
+        `rate` is the predicted time that passes per second.
+        """
         self.step_s, self._now_s = now_s - self._now_s, now_s
         if is_running:
             self.run_s = now_s - self._start_s
+            self.pass_s += rate * self.step_s
 
     def is_due(self, what: str, every_s: float) -> bool:
         """True once in `every_s` seconds for each name, the first time at once."""

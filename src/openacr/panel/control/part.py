@@ -39,6 +39,7 @@ class Part:
         self._batch: _Batch | None = None
         self._rehearsed: tuple[str, Start, Replay] | None = None
         self._tokens = 0
+        self._first_line = 1  # of the run
         self.executing = Executing(station)
         self.is_single = False
         self.is_skipping = False
@@ -171,6 +172,7 @@ class Part:
                 raise UserError(f"line {start.line}: line {rehearsed.line} was confirmed")
         self._rehearsed = None
         self._station.machine.start(loaded.program, start, replay)
+        self._first_line = start.line
         if self._batch is not None:
             self._batch.is_running, self._batch.start = True, start
 
@@ -205,12 +207,19 @@ class Part:
         return executing.line if loaded is not None and loaded.has(executing.file) else 0
 
     def left_s(self) -> float:
-        """The predicted time to the end of the program, without overrides; NaN if unknown."""
+        """The predicted time to the end of the program that runs, without overrides, s.
+
+        NaN if it is unknown: while no program runs, and in a dry run, in a run from a later line
+        and in one over a serial line, which have no prediction.
+        """
         session, loaded = self._station.session, self.loaded
         seconds = loaded.facts.get("seconds") if loaded is not None else None
-        if session is None or seconds is None or session.runner.options.is_mdi:
+        if session is None or loaded is None or seconds is None:
             return nan
-        return max(0.0, float(seconds) - session.runner.run_s)
+        is_whole = session.program is loaded.program and self._first_line == 1
+        if not self.executing.is_under_way or not is_whole or session.runner.options.is_dry:
+            return nan
+        return max(0.0, float(seconds) - session.runner.pass_s)
 
     def data(self) -> dict[str, Any]:
         """The program, and where it is."""

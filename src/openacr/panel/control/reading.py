@@ -53,7 +53,7 @@ class Reading:
             rapid_percent=PERCENT * runner.overrides.factor(Override.RAPID),
             spindle_percent=PERCENT * runner.overrides.factor(Override.SPINDLE),
             run_s=runner.run_s,
-            left_s=left_s if runner.is_busy else nan,
+            left_s=left_s,
             parts=cells.read(CELLS.parts_finished),
             work=self._of_axes(self.work.program(self._point(place.commanded))),
             commanded=place.commanded,
