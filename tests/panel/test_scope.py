@@ -17,8 +17,10 @@ from openacr.client import ConnectionLostError
 from openacr.client.names import named
 from openacr.errors import UserError
 from openacr.panel.control.card_sampler import CardSampler
+from openacr.panel.control.people import Person
 from openacr.panel.control.sampling import Polled
 from openacr.panel.control.scope import Block, Samples, Scope, Trigger
+from openacr.panel.roles import Role
 
 CHANNELS = ("P12288", "P12290", "P6916", "BIT516", "BIT548", "P4096", "P12295", "P8192")
 
@@ -133,6 +135,64 @@ def test_sweeps_follow_each_other_without_overlapping(size: int, mode: str) -> N
     assert scope.capture.triggered_at == expected[-1]
     assert not scope.capture.is_over
     assert size > PERIOD or found == expected
+
+
+def test_the_latest_whole_sweep_is_named_beside_the_one_under_way() -> None:
+    scope = armed(Trigger(1, 0.49, 1, "normal", 0.2), samples=300)
+    capture = scope.capture
+    assert capture is not None
+    seen = []
+    for value in WAVE:
+        feed(scope, np.array([value]), 1)
+        seen.append((capture.triggered_at, capture.swept_at))
+    assert seen[259:261] == [(None, None), (260, None)]  # waits, then a sweep is under way
+    assert seen[498:500] == [(260, None), (260, 260)]  # from sample 200 to 499
+    assert seen[500] == (500, 260)  # the next one
+    assert (seen[739], seen[740]) == ((500, 500), (740, 500))
+
+
+def test_a_sweep_that_a_gap_cuts_is_never_whole() -> None:
+    scope = armed(Trigger(1, 0.3, 1, "normal", 0.0), samples=4)
+    feed(scope, np.array([0.0, 1.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0]), 8)
+    capture = scope.capture
+    assert capture is not None
+    assert (capture.triggered_at, capture.swept_at) == (6, 1)
+    scope.break_off()
+    assert (capture.triggered_at, capture.swept_at) == (1, 1)
+
+
+def test_a_capture_is_replaced_or_ended_by_another_client_only_if_it_takes_it(
+    hand: HandStation,
+) -> None:
+    others = [Person(n, Role.SERVICE, f"10.0.0.{n}", name) for n, name in ((2, "Ann"), (3, ""))]
+    for each in others:
+        hand.station.join(each)
+    ann, third = others
+    mine = hand.do("scope.arm", channels=[12290])
+    assert hand.events("scope")[-1]["owner"] == "service 1"
+    for answer in (hand.send("scope.arm", who=ann, channels=[1]), hand.send("scope.stop", who=ann)):
+        assert answer["error"] == {
+            "code": "taken",
+            "text": "the scope samples for service 1 (127.0.0.1): wait until it stops, or take it",
+        }
+    assert (hand.events("scope")[-1]["first"], hand.station.scope.running is None) == (
+        mine["first"],
+        False,
+    )
+    hand.do("scope.arm", channels=[12290])  # one's own
+    assert hand.send("scope.arm", who=ann, channels=[1], take=True)["ok"]
+    assert hand.events("scope")[-1]["owner"] == "Ann"
+    assert "for Ann (10.0.0.2)" in hand.refused("scope.stop")["text"]
+    profile = "ACC 500\nDEC 500\nSTP 500\nJRK 0\nF500\nRES X\nX15"
+    assert hand.refused("scope.index", profile=profile, channels=[1])["code"] == "taken"
+    assert not hand.is_busy
+    hand.station.leave(ann.client)  # what a client that has gone has begun is free
+    assert hand.send("scope.stop", who=third)["ok"]
+    assert hand.station.scope.running is None
+    hand.do("scope.arm", channels=[12290])
+    assert hand.station.scope.running is not None
+    hand.do("scope.stop")
+    assert hand.send("scope.arm", who=third, channels=[1])["ok"]  # one that is over, too
 
 
 def test_a_value_that_begins_at_the_level_does_not_trigger() -> None:

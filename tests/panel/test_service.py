@@ -116,13 +116,15 @@ def test_a_single_capture_ends_after_its_trigger(hand: HandStation) -> None:
     hand.run(0.3)
     assert hand.events("scope")[-1] == {
         "event": "scope", "running": True, "channels": ["P12290"], "period_s": 0.001,
-        "first": 0, "samples": 100, "trigger": None, "tick": tick,
+        "first": 0, "samples": 100, "trigger": None, "swept": None, "tick": tick,
+        "owner": "service 1",
     }  # fmt: skip
     hand.do("jog.increment", axis="X", direction=1, distance=1.0, tick=hand.tick)
     hand.run(1.0)
     last = hand.events("scope")[-1]
     assert last["running"] is False
     assert last["trigger"] > 300
+    assert last["swept"] == last["trigger"]
 
 
 def test_the_scope_has_eight_channels(hand: HandStation) -> None:

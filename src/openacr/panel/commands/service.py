@@ -72,6 +72,7 @@ class Arm(Args, frozen=True):
 
     A sweep has the time of `sweep_ms` where that is above 0, else `samples`. A card at the end
     of a link records into LA0 to LA7 and SA0 to SA7 of `program` (SAMP); else it is polled.
+    A capture of another client is replaced only with `take`.
     """
 
     channels: tuple[int | str, ...]
@@ -80,6 +81,7 @@ class Arm(Args, frozen=True):
     sweep_ms: Annotated[float, Meta(ge=0.0, le=1e7)] = 0.0
     program: Annotated[int, Meta(ge=0, le=15)] | None = None
     trigger: OfTrigger | None = None
+    take: bool = False
 
 
 class OfIndex(Args, frozen=True):
@@ -91,6 +93,7 @@ class OfIndex(Args, frozen=True):
     samples: Annotated[int, Meta(ge=LEAST_SAMPLES, le=MOST_SAMPLES)] = 5000
     sweep_ms: Annotated[float, Meta(ge=0.0, le=1e7)] = 0.0
     program: Annotated[int, Meta(ge=0, le=15)] | None = None
+    take: bool = False
 
 
 class OfGain(Args, frozen=True):
@@ -190,11 +193,15 @@ def scope_arm(station: Station, order: Order, args: Arm) -> dict[str, object]:
         chosen = Trigger(
             trigger.channel, trigger.level, trigger.slope, trigger.mode, trigger.before
         )
-    return _armed(station, args, chosen).data()
+    return _armed(station, order, args, chosen).data()
 
 
-def _armed(station: Station, args: "Arm | OfIndex", trigger: Trigger | None) -> Capture:
+def _armed(
+    station: Station, order: Order, args: "Arm | OfIndex", trigger: Trigger | None
+) -> Capture:
     """Begin the capture that a command asks for; UserError for a sweep too short or too long."""
+    if not args.take:
+        station.captures.require_free(order.person.client)
     channels = [named(str(each)) for each in args.channels]
     sampling = station.captures.source(args.program)
     period_s = sampling.period_s(args.period_ms / 1000.0)
@@ -206,7 +213,7 @@ def _armed(station: Station, args: "Arm | OfIndex", trigger: Trigger | None) -> 
                 f"a sweep of {args.sweep_ms:g} ms has {samples} samples of {1000 * period_s:g} ms:"
                 f" {LEAST_SAMPLES} to {MOST_SAMPLES} are possible"
             )
-    return station.captures.arm(sampling, channels, period_s, samples, trigger)
+    return station.captures.arm(sampling, channels, period_s, samples, trigger, order.person.client)
 
 
 @command("scope.index", Role.SERVICE, is_motion=True)
@@ -215,7 +222,7 @@ def scope_index(station: Station, order: Order, args: OfIndex) -> dict[str, obje
     runner = station.machine.runner
     found = parse(args.profile, list(runner.settings.names()))
     station.hand_motion.presses.end_all(End.MODE, "an index profile was started")
-    capture = _armed(station, args, None)
+    capture = _armed(station, order, args, None)
     try:
         runner.jog(lambda jogging: jogging.index(found))
     except BaseException:
@@ -226,7 +233,8 @@ def scope_index(station: Station, order: Order, args: OfIndex) -> dict[str, obje
 
 @command("scope.stop", Role.SERVICE, needs_control=False)
 def scope_stop(station: Station, order: Order, args: NoArgs) -> None:
-    """End the capture."""
+    """End the capture, unless it is that of another client."""
+    station.captures.require_free(order.person.client)
     station.captures.stop()
 
 

@@ -7,6 +7,7 @@ from openacr.map import Flag, Parameter
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.mill.session import MillSession
 from openacr.panel.control.card_sampler import CardSampler
+from openacr.panel.control.orders import PanelError
 from openacr.panel.control.sampling import Sampling, source_of
 from openacr.panel.control.scope import Capture, Samples, Trigger
 from openacr.panel.control.shared import Shared
@@ -27,6 +28,16 @@ class Captures:
         is_serial = installation.kind == "serial"
         return CardSampler(self._station.machine, program, is_serial=is_serial)
 
+    def require_free(self, client: int) -> None:
+        """PanelError while the scope samples for another client that is connected."""
+        capture = self._station.scope.running
+        owner = None if capture is None else self._station.people.person(capture.owner)
+        if owner is not None and owner.client != client:
+            who = f"{owner.data()['name']} ({owner.address})"
+            raise PanelError(
+                "taken", f"the scope samples for {who}: wait until it stops, or take it"
+            )
+
     def arm(
         self,
         sampling: Sampling,
@@ -34,11 +45,12 @@ class Captures:
         period_s: float,
         samples: int,
         trigger: Trigger | None,
+        owner: int | None = None,
     ) -> Capture:
         """Begin a capture, in place of the one under way."""
         self.stop()
         self.sampling = sampling
-        capture = self._station.scope.arm(channels, period_s, samples, trigger)
+        capture = self._station.scope.arm(channels, period_s, samples, trigger, owner)
         try:
             sampling.begin(self._station.scope)
         except OpenacrError:

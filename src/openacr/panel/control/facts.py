@@ -255,7 +255,10 @@ def _alarm(alarm: Alarm, when: str) -> Data:
 def _scope(_facts: Facts, station: Shared) -> Data:
     """The capture of the scope; its samples are frames."""
     capture = station.scope.capture
-    return {"running": False} if capture is None else capture.data()
+    if capture is None:
+        return {"running": False}
+    owner = station.people.person(capture.owner)
+    return {**capture.data(), "owner": None if owner is None else owner.data()["name"]}
 
 
 MAKERS: dict[str, Callable[[Facts, Shared], Data]] = {

@@ -58,6 +58,10 @@ class People:
         """Whether a client is connected."""
         return client in self._people
 
+    def person(self, client: int | None) -> Person | None:
+        """A client that is connected."""
+        return None if client is None else self._people.get(client)
+
     def name_of(self, person: Person) -> str:
         """The name of a person, as it is now."""
         return str(self._people.get(person.client, person).data()["name"])

@@ -51,10 +51,12 @@ class Capture:
     period_s: float
     samples: int
     trigger: Trigger | None
+    owner: int | None = None  # the client that began it
     first: int = 0  # number of the first sample
     next: int = 0  # number of the sample that follows
     since: int = 0  # number of the first sample after the last gap
     triggered_at: int | None = None  # the latest trigger
+    swept_at: int | None = None  # the trigger of the latest sweep that is whole
     is_waiting: bool = True  # for a trigger
     is_over: bool = False
     fresh: list[tuple[int, Block]] = field(default_factory=list)  # not sent yet
@@ -75,6 +77,7 @@ class Capture:
             "first": self.first,
             "samples": self.samples,
             "trigger": self.triggered_at,
+            "swept": self.swept_at,
             "tick": self.tick,
         }
 
@@ -115,6 +118,7 @@ class Scope:
         period_s: float,
         samples: int,
         trigger: Trigger | None,
+        owner: int | None = None,
     ) -> Capture:
         """Begin a capture."""
         if not 1 <= len(channels) <= CHANNELS:
@@ -122,7 +126,9 @@ class Scope:
         if trigger is not None and not 0 <= trigger.channel < len(channels):
             raise UserError(f"trigger channel {trigger.channel}: there are {len(channels)}")
         first = 0 if self.capture is None else self.capture.next + 1
-        self.capture = Capture(list(channels), period_s, samples, trigger, first, first, first)
+        self.capture = Capture(
+            list(channels), period_s, samples, trigger, owner, first, first, first
+        )
         return self.capture
 
     def stop(self) -> None:
@@ -158,6 +164,7 @@ class Scope:
             end = (capture.triggered_at or 0) - capture.before + capture.samples
             if end > known:
                 return size
+            capture.swept_at = capture.triggered_at
             if trigger.mode == "single":
                 self.stop()
                 return end - capture.next
@@ -170,6 +177,7 @@ class Scope:
             capture.next += 1
             capture.since = capture.next
             capture.last, capture.is_waiting = None, True
+            capture.triggered_at = capture.swept_at
 
     def follow(self, value: float) -> None:
         """The channel of the trigger had this value before the next sample, after a gap, too."""
