@@ -12,7 +12,7 @@ import typer
 
 from openacr.cli.bridge import begin
 from openacr.cli.signals import stop_on_signals
-from openacr.errors import UserError
+from openacr.errors import OpenacrError, UserError
 
 if TYPE_CHECKING:
     from openacr.bridge.process import BridgeProcess
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 PORT = 5080
+LOOK_S = 30.0  # for what differs from the project, at the end
 MISSING = "the panel needs more packages: pip install 'openacr[panel]'"
 
 
@@ -198,7 +199,7 @@ async def _serve(
         if is_shown and sys.stdout is not None:
             await asyncio.to_thread(webbrowser.open, server.url)
 
-    stop_on_signals(server.stop)
+    stop_on_signals(server.stop, _Leaving(panel, server).interrupted)
     try:
         await server.serve(started)
     finally:
@@ -206,6 +207,43 @@ async def _serve(
             await asyncio.to_thread(bridging.stop)
     if failed:
         raise failed[0]
+
+
+class _Leaving:
+    """Ctrl-C: of programs that differ from the project it says what is lost, and asks once."""
+
+    def __init__(self, panel: "Panel", server: "PanelServer") -> None:
+        self._panel, self._server = panel, server
+        self._asking: asyncio.Task[None] | None = None
+
+    def interrupted(self) -> None:
+        """Look for what would be lost; a second Ctrl-C ends the panel in any case."""
+        if self._asking is not None:
+            self._server.stop()
+            return
+        self._asking = asyncio.create_task(self._ask())
+
+    async def _ask(self) -> None:
+        from openacr.panel.server.calls.project import differences
+
+        try:
+            lost = await asyncio.wait_for(differences(self._panel), LOOK_S)
+        except (OpenacrError, TimeoutError):  # the card is not there, or the past is looked at
+            lost = []
+        is_asked = bool(lost) and sys.stdin is not None and sys.stdin.isatty()
+        if lost:
+            name = self._panel.installation.name
+            what = "differs" if len(lost) == 1 else "differ"
+            print(
+                f"{', '.join(lost)} of the card {what} from the project {name}:"
+                " SAVE INTO PROJECT in the Editor of /bench keeps a program",
+                file=sys.stderr,
+                flush=True,
+            )
+        if is_asked:
+            print("Ctrl-C again ends the panel without it", file=sys.stderr, flush=True)
+        else:
+            self._server.stop()
 
 
 def _report_link(name: str, why: str) -> None:

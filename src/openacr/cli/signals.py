@@ -15,14 +15,20 @@ def endings() -> list[int]:
     return [number for number in known if signal.getsignal(number) is not signal.SIG_IGN]
 
 
-def stop_on_signals(stop: Callable[[], object]) -> None:
-    """Call `stop` in the running loop on Ctrl-C, on SIGTERM, and when the terminal is closed."""
+def stop_on_signals(
+    stop: Callable[[], object], interrupted: Callable[[], object] | None = None
+) -> None:
+    """Call `stop` in the running loop on Ctrl-C, on SIGTERM, and when the terminal is closed.
+
+    `interrupted`: what Ctrl-C calls instead.
+    """
     loop = asyncio.get_running_loop()
     for number in (signal.SIGINT, *endings()):
+        does = interrupted if interrupted and number == signal.SIGINT else stop
         try:
-            loop.add_signal_handler(number, stop)
+            loop.add_signal_handler(number, does)
         except NotImplementedError:  # Windows delivers signals to Python handlers only
-            signal.signal(number, lambda *_: loop.call_soon_threadsafe(stop))
+            signal.signal(number, lambda *_, does=does: loop.call_soon_threadsafe(does))
 
 
 def terminations_as_interrupts() -> AbstractContextManager[None]:

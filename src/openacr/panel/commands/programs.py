@@ -1,6 +1,7 @@
 """Commands for the programs and PLCs of the card: run, halt, step, listen, send, clear."""
 
-from typing import Annotated
+from concurrent.futures import Future
+from typing import Annotated, Any
 
 from msgspec import Meta
 
@@ -206,6 +207,7 @@ def send(station: Station, order: Order, args: OfText) -> Later:
     require_program(text)
     _require_halted(station, level)
     future = station.on_card.aside.begin(lambda talk: replace(talk, level, text, args.version))
+    _then_tell(station, future, str(level))
     answer_with(order, future, lambda report: {"name": str(level), "sent": report.sent})
     return LATER
 
@@ -226,6 +228,7 @@ def download_file(station: Station, order: Order, args: OfFile) -> Later:
     if running:
         raise UserError(f"{', '.join(running)} run: halt them first")
     future = station.on_card.aside.begin(lambda talk: download(talk, text))
+    _then_tell(station, future, "")
     answer_with(
         order,
         future,
@@ -239,7 +242,12 @@ def erase(station: Station, order: Order, args: OfProgram) -> Later:
     """Erase the lines of a program or PLC of the card; its memory stays."""
     level = required(station, args)
     _require_halted(station, level)
-    answer_with(
-        order, station.on_card.aside.begin(lambda talk: clear(talk, level)), lambda _none: None
-    )
+    future = station.on_card.aside.begin(lambda talk: clear(talk, level))
+    _then_tell(station, future, str(level))
+    answer_with(order, future, lambda _none: None)
     return LATER
+
+
+def _then_tell(station: Station, future: "Future[Any]", name: str) -> None:
+    """Tell all screens of a text that was stored, or stored again where it was refused."""
+    future.add_done_callback(lambda _done: station.on_card.programs.texts_changed(name))

@@ -65,6 +65,10 @@ class CardPrograms:
                 each.reported = states
                 self._tell({"event": "programs", "programs": states, "to": client})
 
+    def texts_changed(self, name: str) -> None:
+        """Tell all screens that the text of a program was stored; without a name: of several."""
+        self._tell({"event": "texts", "name": name})
+
     # --- commanding -------------------------------------------------------------------
 
     def command(self, session: MillSession, word: str, level: Level) -> None:

@@ -30,6 +30,7 @@ class Installation:
     pace: Pace
     history: History | None = None  # of a card in this process
     sample: str = ""  # program that is loaded at the start
+    project: Path | None = None  # the folder whose programs the card began with
 
     @classmethod
     def at(cls, target: str, store: Store, programs: Path) -> "Installation":
@@ -47,10 +48,11 @@ class Installation:
         kind: str = "embedded",
         name: str = "virtual machine",
         sample: str = "",
+        project: Path | None = None,
     ) -> "Installation":
         """A card in this process, which the control thread advances."""
         history = History(controller)
-        return cls(kind, name, history, store, programs, Paced(history), history, sample)
+        return cls(kind, name, history, store, programs, Paced(history), history, sample, project)
 
     @property
     def controller(self) -> "Controller | None":

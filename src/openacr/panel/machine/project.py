@@ -29,7 +29,9 @@ def of_project(
         raise
     controller.is_journalled = False  # it may run for months
     name = project.resolve().name
-    return Installation.inside(controller, cells, folder, kind="project", name=name)
+    return Installation.inside(
+        controller, cells, folder, kind="project", name=name, project=project
+    )
 
 
 def _store(project: Path) -> Store:

@@ -19,6 +19,7 @@ from openacr.panel.control.aside import Talks
 from openacr.panel.control.card_programs import State, read_states
 from openacr.panel.control.station import Station
 from openacr.panel.server.api import Call, Query, endpoint
+from openacr.panel.server.panel import Panel
 from openacr.plc.diagram import pictures
 from openacr.plc.reader import PlcLine, read_line
 
@@ -53,10 +54,10 @@ class _NoAliases:
         return False
 
 
-async def talked(call: Call, talks: Talks[T]) -> T:
+async def talked(panel: Panel, talks: Talks[T]) -> T:
     """The result of a conversation beside the session."""
     future: Future[T] = Future()
-    begun = call.panel.control.call(lambda station: station.on_card.aside.begin(talks, future))
+    begun = panel.control.call(lambda station: station.on_card.aside.begin(talks, future))
     await asyncio.wrap_future(begun)
     return await asyncio.wrap_future(future)
 
@@ -75,7 +76,7 @@ async def card_programs(call: Call) -> object:
         return states, {str(level): owner_of(station, level) for level in levels}
 
     states, owners = await asyncio.wrap_future(call.panel.control.call(read))
-    memory = {str(level): room for level, room in (await talked(call, rooms)).items()}
+    memory = {str(level): room for level, room in (await talked(call.panel, rooms)).items()}
     return {
         "programs": [
             {**state, **_memory(memory.get(state["name"])), "owner": owners[state["name"]]}
@@ -94,7 +95,7 @@ def _memory(room: Room | None) -> dict[str, int]:
 async def card_listing(call: Call) -> object:
     """The text of a program or PLC as the card lists it, each line with its number."""
     level = call.query.level
-    lines = await talked(call, lambda talk: listing(talk, level))
+    lines = await talked(call.panel, lambda talk: listing(talk, level))
     return {"name": str(level), "version": version_of(lines), **_listed(lines)}
 
 
@@ -102,7 +103,7 @@ async def card_listing(call: Call) -> object:
 async def card_surroundings(call: Call) -> object:
     """The memory, aliases and axes that a program or PLC finds on the card, as set-up code."""
     level = call.query.level
-    return {"setup": await talked(call, lambda talk: surroundings(talk, level))}
+    return {"setup": await talked(call.panel, lambda talk: surroundings(talk, level))}
 
 
 def _listed(lines: Sequence[ListedLine]) -> dict[str, object]:
@@ -118,7 +119,7 @@ async def card_ladder(call: Call) -> object:
     """
     query: OfPlc = call.query
     level = Level.plc(query.plc)
-    lines = await talked(call, lambda talk: listing(talk, level))
+    lines = await talked(call.panel, lambda talk: listing(talk, level))
     rungs, why = ladder(lines)
     return {"name": str(level), **_listed(lines), "rungs": rungs, "why": why}
 

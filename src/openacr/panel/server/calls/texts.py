@@ -87,7 +87,7 @@ async def compare_text(call: Call) -> object:
     """A text beside what the card holds: lines that mean the same are opposite each other."""
     body: Compared = call.body
     levels = [Level.of_line(name) or Level() for name in body.programs]
-    found = await talked(call, lambda talk: _listings(talk, levels))
+    found = await talked(call.panel, lambda talk: _listings(talk, levels))
     return await call.panel.checks.run(compared, body.state, found)
 
 

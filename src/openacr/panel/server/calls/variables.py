@@ -31,7 +31,7 @@ async def card_variables(call: Call) -> object:
     `levels` and `state` are those of a card in this process; of another card `why` says so.
     """
     number = _program(call)
-    found = await talked(call, lambda talk: variables(talk, number))
+    found = await talked(call.panel, lambda talk: variables(talk, number))
 
     def read(station: Station) -> dict[str, object]:
         card = station.installation.controller
@@ -48,7 +48,7 @@ async def card_variables(call: Call) -> object:
 async def card_used(call: Call) -> object:
     """The parameters and flags that the text of a program names by number."""
     number = _program(call)
-    lines = await talked(call, lambda talk: listing(talk, call.query.level))
+    lines = await talked(call.panel, lambda talk: listing(talk, call.query.level))
     return {"name": f"PROG{number}", "items": await run_in_threadpool(used, lines)}
 
 

@@ -93,7 +93,7 @@ const SERVICE = {
 const ON_CARD = {
   "splitter.label": "Kante zwischen Status- und Anzeigefenster", "message.all": "Alle Meldungen", "message.more": "+{count}",
   "menu.programs": "PROG/\u200bSPS", "programs.title": "Programme und SPS der Karte", "programs.list": "Programme und SPS", "programs.text": "Text, wie ihn die Karte auflistet", "programs.printed": "Ausgaben des Programms", "programs.read": "LESEN",
-  "programs.choose": "Programm wählen", "programs.line": "Zeile {line}", "programs.bytes": "{used} Byte", "programs.nomemory": "kein Speicher", "programs.run": "START", "programs.halt": "HALT", "programs.pause": "PAUSE", "programs.resume": "WEITER",
+  "programs.choose": "Programm wählen", "programs.line": "Zeile {line}", "programs.bytes": "{used} Byte", "programs.differs": "≠ Projekt", "programs.differs.text": "Auf der Karte steht ein anderer Text als im Projekt: er geht mit dem Prozess des Panels verloren, wenn er nicht ins Projekt gespeichert wird (Editor)", "programs.nomemory": "kein Speicher", "programs.run": "START", "programs.halt": "HALT", "programs.pause": "PAUSE", "programs.resume": "WEITER",
   "programs.block": "EINZEL", "programs.step": "SCHRITT", "programs.listen": "MITHÖREN", "programs.edit": "ÄNDERN", "programs.clear": "LÖSCHEN", "programs.send": "SENDEN", "programs.sent": "{name}: {count} {count|Zeile ist|Zeilen sind} auf der Karte gespeichert",
   "programs.run.title": "{name} starten?", "programs.run.text": "Ein Programm der Karte kann sofort Achsen bewegen. STOP hält es an; die Overrides dieser Maschine wirken nicht darauf.",
   "programs.clear.title": "{name} löschen?", "programs.clear.text": "Seine Zeilen werden im Speicher der Karte gelöscht.", "programs.cleared": "{name} ist leer",

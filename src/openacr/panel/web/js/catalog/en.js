@@ -93,7 +93,7 @@ const SERVICE = {
 const ON_CARD = {
   "splitter.label": "Edge between status and display window", "message.all": "All messages", "message.more": "+{count}",
   "menu.programs": "PROG/\u200bPLC", "programs.title": "Programs and PLCs of the card", "programs.list": "Programs and PLCs", "programs.text": "Text as the card lists it", "programs.printed": "What the program prints", "programs.read": "READ",
-  "programs.choose": "Choose a program", "programs.line": "line {line}", "programs.bytes": "{used} bytes", "programs.nomemory": "no memory", "programs.run": "RUN", "programs.halt": "HALT", "programs.pause": "PAUSE", "programs.resume": "RESUME",
+  "programs.choose": "Choose a program", "programs.line": "line {line}", "programs.bytes": "{used} bytes", "programs.differs": "≠ project", "programs.differs.text": "Its text on the card is another one than in the project: it is lost with the process of the panel unless it is saved into the project (Editor)", "programs.nomemory": "no memory", "programs.run": "RUN", "programs.halt": "HALT", "programs.pause": "PAUSE", "programs.resume": "RESUME",
   "programs.block": "BLOCK", "programs.step": "STEP", "programs.listen": "LISTEN", "programs.edit": "EDIT", "programs.clear": "CLEAR", "programs.send": "SEND", "programs.sent": "{name}: {count} {count|line is|lines are} stored on the card",
   "programs.run.title": "Start {name}?", "programs.run.text": "A program of the card can move axes at once. STOP pauses it; it is not held by the overrides of this machine.",
   "programs.clear.title": "Erase {name}?", "programs.clear.text": "Its lines are erased from the memory of the card.", "programs.cleared": "{name} is empty",

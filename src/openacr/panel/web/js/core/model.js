@@ -47,6 +47,8 @@ export class Model {
     this.jogEnded = new Signal(/** @type {{ press: number, ended: string, text: string } | null} */ (null));
     this.term = new Signal(/** @type {{ terminal: number, text: string } | null} */ (null));
     this.programs = new Signal(/** @type {{ programs: any[] }} */ ({ programs: [] }));
+    /** The program whose text was stored last, on the card or in its project; "": several. */
+    this.texts = new Signal(/** @type {{ name: string } | null} */ (null));
     this.listened = new Signal(/** @type {{ program: number, text: string } | null} */ (null));
     this.tuned = new Signal(/** @type {{ done: number, count: number } | null} */ (null));
     this.status = new Signal(/** @type {import("./frames.js").Status | null} */ (null));
@@ -109,5 +111,5 @@ export class Model {
 }
 
 const EVENTS = Object.freeze({
-  state: 1, stopped: 1, lamp: 1, program: 1, modals: 1, alarms: 1, messages: 1, control: 1, overrides: 1, home: 1, mdi: 1, changed: 1, programs: 1, timeline: 1, moment: 1,
+  state: 1, stopped: 1, lamp: 1, program: 1, modals: 1, alarms: 1, messages: 1, control: 1, overrides: 1, home: 1, mdi: 1, changed: 1, programs: 1, texts: 1, timeline: 1, moment: 1,
 });

@@ -1,7 +1,10 @@
 // What the programs of the card do: one subscription for all panes that show it.
 import { link } from "./app.js";
+import { Signal } from "./signal.js";
 
 const HZ = 5;
+/** The program of the card that was chosen last in a pane, e.g. PROG3. */
+export const chosenProgram = new Signal("");
 let count = 0;
 let end = () => {};
 

@@ -2,9 +2,9 @@
 import { get, latest } from "../core/api.js";
 import { give, link, model, refuse, report } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
-import { needPrograms } from "../core/programs.js";
+import { chosenProgram, needPrograms } from "../core/programs.js";
 import { t, textOr } from "../core/texts.js";
-import { confirm } from "../frame/dialog.js";
+import { ask, confirm } from "../frame/dialog.js";
 import { createListing } from "../frame/listing.js";
 
 /**
@@ -28,7 +28,7 @@ export const screen = {
     let lines = [];
     let isRead = false; // `lines` are those of the chosen program
     let listened = "";
-    const newest = latest(endings);
+    const [newest, newestList, newestProject] = [latest(endings), latest(endings), latest(endings)];
     const items = h("div.list.scroll.program-list", { role: "listbox", ariaLabel: t("programs.list") });
     const title = h("strong", { role: "status" });
     const keys = h("div.program-keys", {});
@@ -43,23 +43,34 @@ export const screen = {
     });
     head.append(h("button.key", { type: "button", onclick: () => readList() }, t("programs.read")));
 
+    /** @type {string[]} */
+    let differing = []; // from the project of the card
     const isEdited = () => !text.hidden && text.value !== textOf(lines);
     const which = () => (name.startsWith("PLC") ? { plc: Number(name.slice(3)) } : { program: Number(name.slice(4)) });
     beforeClose(mayDrop);
 
     async function mayDrop() {
       if (!isEdited()) return true;
-      return confirm(t("edit.leave"), t("edit.leave.text", { name }), t("form.drop"));
+      const chosen = await ask({ title: t("edit.leave"), body: [h("p", {}, t("edit.leave.text", { name }))], choices: [
+        { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" }, { text: t("programs.send"), value: "send" }] });
+      return chosen === "drop" || (chosen === "send" && (await send()));
     }
 
     async function readList() {
-      listed = (await get("card/programs").catch((error) => void refuse(error)))?.programs ?? listed;
+      const found = await newestList(get("card/programs")).catch((error) => void refuse(error));
+      if (!found) return;
+      listed = found.programs;
       drawList();
+      void newestProject(get("project")).then((project) => {
+        if (!project) return;
+        differing = project.differs;
+        drawList();
+      }, () => {}); // without it nothing is marked
     }
 
     function drawList() {
       fill(items, ...listed.map((each) => h("button.key.item", { type: "button", role: "option", data: { name: each.name }, attr: { "aria-selected": String(each.name === name) }, onclick: () => choose(each.name) },
-        h("span.name", {}, each.name), h("span.program-state", {}), h("span.quiet.number", {}, each.bytes ? t("programs.bytes", { used: each.used }) : t("programs.nomemory")))));
+        h("span.name", {}, each.name), h("span.program-state", {}), h("span.program-differs", { title: t("programs.differs.text") }, differing.includes(each.name) ? t("programs.differs") : ""), h("span.quiet.number", {}, each.bytes ? t("programs.bytes", { used: each.used }) : t("programs.nomemory")))));
       drawStates();
     }
 
@@ -82,6 +93,7 @@ export const screen = {
       if (chosen !== name) take([]); // the text of another program is never edited under this name
       isRead = false;
       name = chosen;
+      chosenProgram.set(name);
       edit(false);
       for (const item of items.children) item.setAttribute("aria-selected", String(/** @type {HTMLElement} */ (item).dataset.name === name));
       await readText();
@@ -138,7 +150,7 @@ export const screen = {
       if (!(await confirm(t("programs.clear.title", { name }), t("programs.clear.text"), t("programs.clear"), "bad"))) return;
       const cleared = name;
       if (await give("card.clear", which())) report(t("programs.cleared", { name: cleared }));
-      await Promise.all([readText(), readList()]);
+      await readText();
     }
 
     /** @param {boolean} on */
@@ -159,10 +171,11 @@ export const screen = {
     async function send() {
       const sent = name;
       const done = await give("card.send", { ...which(), text: text.value });
-      if (!done) return;
+      if (!done) return false;
       report(t("programs.sent", { name: sent, count: done.sent }));
       if (sent === name) edit(false);
-      await Promise.all([readText(), readList()]);
+      await readText();
+      return true;
     }
 
     async function listen() {
@@ -183,6 +196,11 @@ export const screen = {
       model.programs.watch((event) => {
         states = new Map(event.programs.map((/** @type {State} */ each) => [each.name, each]));
         drawStates();
+      }),
+      model.texts.watch((stored) => {
+        if (!stored) return;
+        void readList();
+        if (["", name].includes(stored.name) && text.hidden) void readText();
       }),
       model.listened.watch((heard) => {
         if (!heard || `PROG${heard.program}` !== listened) return;

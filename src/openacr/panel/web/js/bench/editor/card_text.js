@@ -1,12 +1,13 @@
 // Texts on their way from the card and to it.
 import { get, send } from "../../core/api.js";
-import { link } from "../../core/app.js";
+import { link, model } from "../../core/app.js";
 import { textOf } from "../../screens/programs.js";
 
 const OF_CARD = /^(prog|plc)(\d+)\.8k$/i;
 
 /**
- * @typedef {{ name: string, level: string, text: string, version: string, setup: string, isCards: boolean }} Opened
+ * @typedef {{ file: string, text: string, version: string, is_same: boolean, why_not: string }} InProject how the project of the card has a program
+ * @typedef {{ name: string, level: string, text: string, version: string, setup: string, isCards: boolean, project?: InProject | null }} Opened
  *   `level` is that of a program of the card, empty for a whole file; `version` that of the listing it replaces
  */
 
@@ -16,13 +17,35 @@ export function which(level) {
 }
 
 /**
- * A program as the card lists it.
+ * A program as the card lists it; where its project has the same, as it is written there, with its comments.
  * @param {string} level
  * @returns {Promise<Opened>}
  */
 export async function fromCard(level) {
-  const [listed, around] = await Promise.all([get("card/listing", which(level)), get("card/surroundings", which(level))]);
-  return { name: `${level.toLowerCase()}.8k`, level, text: textOf(listed.lines), version: listed.version, setup: around.setup, isCards: true };
+  const [listed, around, project] = await Promise.all([get("card/listing", which(level)), get("card/surroundings", which(level)), inProject(level)]);
+  const text = project?.is_same && project.text ? project.text : textOf(listed.lines);
+  return { name: `${level.toLowerCase()}.8k`, level, text, version: listed.version, setup: around.setup, isCards: true, project };
+}
+
+/** Whether the card belongs to a project, whose folder has its programs. */
+export const hasProject = () => model.hello.value.machine.kind === "project";
+
+/**
+ * A program as the project of the card has it; null where there is none.
+ * @param {string} level
+ * @returns {Promise<InProject | null>}
+ */
+export async function inProject(level) {
+  return level && hasProject() ? get("project/text", which(level)) : null;
+}
+
+/**
+ * Store a text in the folder of the project.
+ * @param {Opened} opened
+ * @param {string} text
+ */
+export function toProject({ level, project }, text) {
+  return send("POST", "project/text", { name: level, text, version: project?.version ?? "" });
 }
 
 /**

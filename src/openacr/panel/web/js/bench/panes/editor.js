@@ -3,7 +3,7 @@ import { get, latest } from "../../core/api.js";
 import { model, refuse, report } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { CommandError } from "../../core/link.js";
-import { needPrograms } from "../../core/programs.js";
+import { chosenProgram, needPrograms } from "../../core/programs.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
 import { createControllerEditor } from "../../edit/controller_editor.js";
@@ -13,9 +13,9 @@ import { stateText } from "../../screens/programs.js";
 import { fromCard, fromFile, toCard } from "../editor/card_text.js";
 import { comparison } from "../editor/compare.js";
 import { nameActions } from "../editor/name_actions.js";
+import { projectPart } from "../editor/project_part.js";
 
-const SIGNATURE_MS = 150;
-const HALTED = "halted";
+const [SIGNATURE_MS, HALTED] = [150, "halted"];
 
 /** @typedef {import("../editor/card_text.js").Opened} Opened */
 
@@ -45,8 +45,8 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   const choice = h("select.field", { ariaLabel: t("texts.which"), onchange: () => void chooseLevel() });
   const input = h("input", { type: "file", hidden: true, ariaLabel: t("texts.open"), accept: ".8k,.8K,.txt,.prg", onchange: () => void chooseFile() });
   const sendKey = keyOf("texts.send", () => sendNow(), "main");
-  const compareKey = keyOf("texts.compare", () => compare());
-  head.append(choice, keyOf("texts.read", () => chooseLevel()), sendKey, compareKey, keyOf("texts.open", () => input.click()), input, keyOf("texts.save", () => save()),
+  const project = projectPart({ opened: () => opened, text: () => editor.text(), show: (now) => show(now), mayDrop: () => mayDrop(), draw: () => draw() });
+  head.append(choice, keyOf("texts.read", () => chooseLevel()), sendKey, keyOf("texts.compare", () => compare()), keyOf("texts.open", () => input.click()), input, keyOf("texts.save", () => save()), ...project.keys,
     keyOf("texts.rename", actions.rename), keyOf("texts.uses", actions.uses), keyOf("texts.format", actions.format), keyOf("texts.outline", actions.outline));
   const code = h("div.editor-host.grow", {});
   const beside = h("div.stack.scroll.text-beside", { hidden: true, tabIndex: 0, role: "region", ariaLabel: t("texts.beside") });
@@ -72,6 +72,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     closeBeside();
     choice.value = now.level;
     keep({ level: now.level });
+    if (now.level) chosenProgram.set(now.level);
     if (now.isCards) void knowStored([now.level]);
     draw();
   }
@@ -83,7 +84,9 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     const isRunning = state !== undefined && state.state !== HALTED;
     sendKey.disabled = !model.may("service") || isRunning;
     sendKey.title = isRunning ? t("texts.runs", { name: opened.level }) : model.may("service") ? "" : t("role.needed", { role: t("role.service") });
-    const about = [opened.level || opened.name, state ? stateText(state) : "", t("edit.lines", { count: editor.doc().lines }), isChanged() ? t("texts.changed") : ""];
+    project.draw();
+    const about = [opened.level || opened.name, state ? stateText(state) : "", t("edit.lines", { count: editor.doc().lines }), isChanged() ? t("texts.changed") : "",
+      project.differs()];
     setText(status, about.filter(Boolean).join(" \u00b7 "));
     drawMarks();
   }
@@ -174,7 +177,15 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
 
   async function mayDrop() {
     if (!isChanged()) return true;
-    return confirm(t("edit.leave"), t("edit.leave.text", { name: opened.level || opened.name }), t("form.drop"));
+    const chosen = await ask({ title: t("edit.leave"), body: [h("p", {}, t("edit.leave.text", { name: opened.level || opened.name }))], choices: [
+      { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" },
+      ...(project.maySave() ? [{ text: t("texts.project.save"), value: "project" }] : []),
+      ...(!opened.level ? [{ text: t("texts.save"), value: "file" }] : sendKey.disabled ? [] : [{ text: t("texts.send"), value: "send" }])] });
+    if (chosen === "project") return project.save();
+    if (chosen === "file") save();
+    else if (chosen === "send") await sendNow();
+    else return chosen === "drop";
+    return !isChanged();
   }
 
   /** @param {Opened | Promise<Opened>} reading */
@@ -269,6 +280,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
       states = programs;
       draw();
     }),
+    project.watch(),
   );
   const { programs } = await get("card/programs");
   fill(choice, h("option", { value: "" }, t("texts.file")),

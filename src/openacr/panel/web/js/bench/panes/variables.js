@@ -3,7 +3,7 @@ import { get, latest } from "../../core/api.js";
 import { give, model, refuse, report } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { needWords, wordsOf } from "../../core/flags.js";
-import { needPrograms } from "../../core/programs.js";
+import { chosenProgram, needPrograms } from "../../core/programs.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
 import { needValues } from "../../core/values.js";
@@ -26,7 +26,7 @@ const COUNT = 16;
 export async function mount(host, { head, kept, keep }) {
   const endings = new Endings();
   const live = new Endings();
-  let program = Number(kept.program ?? 0);
+  let program = Number(kept.program ?? /^PROG(\d+)$/.exec(chosenProgram.value)?.[1] ?? 0);
   const [newestOwn, newestUsed] = [latest(endings), latest(endings)];
   let isEnded = false;
   let drawn = "";

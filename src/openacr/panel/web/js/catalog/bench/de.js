@@ -38,7 +38,7 @@ const PANELS = {
 const TEXTS = {
   "pane.variables": "Variablen", "vars.program": "Programm", "vars.levels": "Ablaufstapel", "vars.nolevels": "Keine Ebene ist offen", "vars.own": "Variablen des Programms", "vars.none": "Keine ist dimensioniert", "vars.used": "Parameter und Merker in seinem Text", "vars.value": "Wert oder Ausdruck",
   "pane.editor": "Editor", "texts.text": "Text der Steuerungsdatei", "texts.which": "Programm oder Datei", "texts.file": "Datei", "texts.read": "LESEN", "texts.send": "SENDEN",
-  "texts.compare": "VERGLEICHEN", "texts.open": "DATEI \u00d6FFNEN \u2026", "texts.save": "DATEI SPEICHERN", "texts.rename": "UMBENENNEN", "texts.newname": "Neuer Name", "texts.uses": "VERWENDUNG",
+  "texts.compare": "VERGLEICHEN", "texts.open": "DATEI \u00d6FFNEN \u2026", "texts.save": "DATEI SPEICHERN", "texts.project.save": "INS PROJEKT SPEICHERN", "texts.project.open": "TEXT DES PROJEKTS", "texts.project.saved": "{name} steht jetzt in {file} des Projekts", "texts.project.differs": "die Karte weicht von {file} des Projekts ab", "texts.rename": "UMBENENNEN", "texts.newname": "Neuer Name", "texts.uses": "VERWENDUNG",
   "texts.format": "FORMATIEREN", "texts.outline": "GLIEDERUNG", "texts.close": "SCHLIESSEN", "texts.beside": "Neben dem Text", "texts.findings": "Befunde und Stellen", "texts.changed": "ge\u00e4ndert",
   "texts.runs": "{name} l\u00e4uft: erst anhalten", "texts.more": "{count} {count|weiterer Befund|weitere Befunde}", "texts.other": "Dieser Name ist auf der Karte definiert, nicht in diesem Text",
   "texts.fold": "Zeilen einklappen", "texts.unfold": "Zeilen ausklappen", "texts.folded": "Eingeklappte Zeilen", "texts.unfolded": "Ausgeklappte Zeilen", "texts.foldto": "bis",

@@ -39,7 +39,7 @@ const PANELS = {
 const TEXTS = {
   "pane.variables": "Variables", "vars.program": "Program", "vars.levels": "Flow stack", "vars.nolevels": "No level is open", "vars.own": "Variables of the program", "vars.none": "None is dimensioned", "vars.used": "Parameters and flags in its text", "vars.value": "Value or expression",
   "pane.editor": "Editor", "texts.text": "Text of the controller file", "texts.which": "Program or file", "texts.file": "File", "texts.read": "READ", "texts.send": "DOWNLOAD",
-  "texts.compare": "COMPARE", "texts.open": "OPEN FILE \u2026", "texts.save": "SAVE FILE", "texts.rename": "RENAME", "texts.newname": "New name", "texts.uses": "USES", "texts.format": "FORMAT",
+  "texts.compare": "COMPARE", "texts.open": "OPEN FILE \u2026", "texts.save": "SAVE FILE", "texts.project.save": "SAVE INTO PROJECT", "texts.project.open": "PROJECT'S TEXT", "texts.project.saved": "{name} is stored in {file} of the project", "texts.project.differs": "the card differs from {file} of the project", "texts.rename": "RENAME", "texts.newname": "New name", "texts.uses": "USES", "texts.format": "FORMAT",
   "texts.outline": "OUTLINE", "texts.close": "CLOSE", "texts.beside": "Beside the text", "texts.findings": "Findings and places", "texts.changed": "changed", "texts.runs": "{name} runs: halt it first",
   "texts.more": "{count} more {count|finding|findings}", "texts.other": "This name is defined on the card, not in this text", "texts.noname": "There is no name here that this text defines",
   "texts.fold": "Fold these lines", "texts.unfold": "Show the lines again", "texts.folded": "Folded lines", "texts.unfolded": "Lines shown again", "texts.foldto": "to",

@@ -1,0 +1,96 @@
+"""The project of the card: which programs differ from it, their texts, another text stored."""
+
+import asyncio
+from collections.abc import Iterable
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated
+
+from msgspec import Meta
+
+from openacr.client import Level
+from openacr.client.effects import Op
+from openacr.client.stored import ListedLine, listing, rooms
+from openacr.client.talk import Talk
+from openacr.errors import UserError
+from openacr.panel.control.station import Station
+from openacr.panel.roles import Role
+from openacr.panel.server.api import Body, Call, endpoint
+from openacr.panel.server.calls.on_card import OfProgram, talked
+from openacr.panel.server.panel import Panel
+from openacr.panel.work.project_texts import differing, store, text_of
+
+MOST_TEXT = 2_000_000  # characters
+Listings = dict[str, list[ListedLine]]
+
+
+class Stored(Body, frozen=True):
+    """The text a program gets in its project; `version` is that of the file it was made of."""
+
+    name: Annotated[str, Meta(pattern="^(PROG(\\d|1[0-5])|PLC[0-7])$")]
+    text: Annotated[str, Meta(min_length=1, max_length=MOST_TEXT)]
+    version: Annotated[str, Meta(max_length=40)]
+
+
+@endpoint("GET", "/project")
+async def project(call: Call) -> object:
+    """The project in whose folder the card has begun, and the programs that differ from it.
+
+    `name` is empty where there is no project. What differs on the card is lost with its process.
+    """
+    root = call.panel.installation.project
+    if root is None:
+        return {"name": "", "differs": []}
+    return {"name": call.panel.installation.name, "differs": await differences(call.panel)}
+
+
+@endpoint("GET", "/project/text", query=OfProgram)
+async def project_text(call: Call) -> object:
+    """A program as the project has it, with its comments, and whether the card's is the same."""
+    level = call.query.level
+    listed = await talked(call.panel, lambda talk: listing(talk, level))
+    return asdict(await call.panel.checks.run(text_of, _root(call), str(level), listed))
+
+
+@endpoint("POST", "/project/text", Role.SERVICE, body=Stored)
+async def store_project_text(call: Call) -> object:
+    """Store the text of a program in the folder of the project; the card is left as it is.
+
+    What is around the program in its file stays. `conflict` where the file has changed since.
+    """
+    body: Stored = call.body
+    stored = await call.panel.checks.run(store, _root(call), body.name, body.text, body.version)
+    call.panel.control.call(lambda station: station.on_card.programs.texts_changed(body.name))
+    return {"file": stored.file, "version": stored.version}
+
+
+async def differences(panel: Panel) -> list[str]:
+    """The programs of the card that differ from its project; none where it has no project."""
+    root = panel.installation.project
+    if root is None:
+        return []
+
+    def own(station: Station) -> Level | None:
+        """The program that the panel itself stores on the card: it is no part of the project."""
+        if station.session is None:
+            return None
+        return Level.program(station.session.runner.settings.watchdog_program)
+
+    theirs = await asyncio.wrap_future(panel.control.call(own))
+    found = await talked(panel, _listings)
+    return [each for each in await panel.checks.run(differing, root, found) if each != str(theirs)]
+
+
+def _listings(talk: Talk) -> Op[Listings]:
+    levels: Iterable[Level] = yield from rooms(talk)
+    found = {}
+    for level in levels:
+        found[str(level)] = yield from listing(talk, level)
+    return found
+
+
+def _root(call: Call) -> Path:
+    root = call.panel.installation.project
+    if root is None:
+        raise UserError("this card has no project: `openacr panel FOLDER` opens one")
+    return root

@@ -1,0 +1,110 @@
+"""The bench on a project: its texts are kept in its folder."""
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import BrowserContext, Locator, Page, expect
+from tests.panel.bench import Served
+from tests.panel.browser.conftest import open_page, until_model
+from tests.panel.browser.test_bench import open_pane
+
+from openacr.client import Level
+from openacr.panel.machine.project import of_project
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
+ONE = "PROGRAM\n_more\n' as fast as it can\nP5 = P5+1\nGOTO more\nENDP\n"
+
+
+@pytest.fixture(scope="module")
+def gantry(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = shutil.copytree(EXAMPLES / "gantry", tmp_path_factory.mktemp("project") / "gantry")
+    (folder / "prog1.8k").write_text(f"' Z\n{ONE}")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def served(gantry: Path) -> Iterator[Served]:
+    parts = gantry.parent / "parts"
+    installation = of_project(gantry, store=None, programs=None, otherwise=parts)
+    panel = Served(gantry.parent, installation=installation)
+    yield panel
+    panel.close()
+
+
+@pytest.fixture(scope="module")
+def workspace(context: BrowserContext, served: Served) -> Page:
+    context.set_default_timeout(60_000)
+    page = open_page(context, f"{served.url}/bench")
+    page.set_viewport_size({"width": 1366, "height": 768})
+    until_model(page, "model.hello.value.client")
+    return page
+
+
+@pytest.fixture
+def page(workspace: Page) -> Iterator[Page]:
+    yield workspace
+    assert workspace.complaints == []  # type: ignore[attr-defined]
+
+
+def programs(page: Page) -> Locator:
+    return page.locator("[data-pane=programs]")
+
+
+def listed(page: Page, name: str) -> Locator:
+    return programs(page).locator(f"[data-name={name}]")
+
+
+def download(served: Served, text: str) -> None:
+    served.call(lambda station: station.machine.card.download(text, to=Level.program(1)))
+
+
+def test_a_changed_program_is_signed_and_saved_into_the_project(
+    page: Page, served: Served, gantry: Path
+) -> None:
+    size = listed(page, "PROG1").locator(".number")
+    before = size.inner_text()
+    open_pane(page, "Editor")
+    editor = page.locator("[data-pane=editor]")
+    editor.get_by_label("Program or file").select_option("PROG1")
+    expect(editor.locator(".cm-line").nth(2)).to_have_text("' as fast as it can")
+    foot = editor.locator(".text-foot .hint")
+    expect(foot).not_to_contain_text("differs")
+    editor.locator(".cm-line").nth(3).click()
+    page.keyboard.press("End")
+    page.keyboard.insert_text(":P6 = 100000")
+    editor.get_by_role("button", name="DOWNLOAD", exact=True).click()
+    expect(foot).to_contain_text("the card differs from prog1.8k of the project")
+    page.locator(".bench-tab-text", has_text="Programs").click()
+    expect(listed(page, "PROG1").locator(".program-differs")).to_have_text("≠ project")
+    expect(size).not_to_have_text(before)  # without READ
+    page.locator(".bench-tab-text", has_text="Editor").click()
+    editor.get_by_role("button", name="SAVE INTO PROJECT", exact=True).click()
+    expect(foot).not_to_contain_text("differs")
+    text = f"' Z\n{ONE}".replace("P5+1", "P5+1:P6 = 100000")
+    assert (gantry / "prog1.8k").read_text() == text
+    page.locator(".bench-tab-text", has_text="Programs").click()
+    expect(listed(page, "PROG1").locator(".program-differs")).to_be_empty()
+
+
+def test_the_text_of_the_project_is_opened_beside_another_one_of_the_card(
+    page: Page, served: Served, gantry: Path
+) -> None:
+    page.locator(".bench-tab-text", has_text="Editor").click()
+    editor = page.locator("[data-pane=editor]")
+    theirs = editor.get_by_role("button", name="PROJECT'S TEXT")
+    expect(theirs).to_be_hidden()
+    download(served, "PROGRAM\nP5 = 9\nENDP\n")
+    editor.get_by_role("button", name="READ", exact=True).click()
+    expect(editor.locator(".cm-line").nth(1)).to_have_text(" P5 = 9")
+    theirs.click()
+    expect(editor.locator(".cm-line").nth(2)).to_have_text("' as fast as it can")
+    editor.get_by_label("Program or file").select_option("PROG0")
+    dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_role("button")).to_have_text(
+        ["CANCEL", "DROP", "SAVE INTO PROJECT", "DOWNLOAD"]
+    )
+    dialog.get_by_role("button", name="DOWNLOAD").click()
+    expect(editor.locator(".text-foot .hint")).to_contain_text("PROG0")
+    assert "100000" in served.call(lambda station: station.machine.card.upload(Level.program(1)))
