@@ -6,7 +6,8 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tests.mill.shop import Shop, at, end, line, rapid, src
+from tests.mill.planned import ACCEL, JERK, SPEED, SQUARE, follow, highest, path, planned_shop, wave
+from tests.mill.shop import PULSES, Shop, at, end, line, rapid, src
 from tests.mill.test_predicting import some_program
 
 from openacr.cnc import canonical as c
@@ -18,9 +19,11 @@ Reals = NDArray[np.float64]
 PERIOD_S = 0.0005
 
 
-def sampled(entries: Sequence[c.Entry], period_s: float = PERIOD_S) -> tuple[Reals, float]:
+def sampled(
+    entries: Sequence[c.Entry], period_s: float = PERIOD_S, shop: Shop | None = None
+) -> tuple[Reals, float]:
     """Rows of time, position and line of a plan, and its predicted time."""
-    shop = Shop()
+    shop = shop or Shop()
     parts: list[Reals] = []
     trajectory = Trajectory(Settings(shop.store), period_s, parts.append)
     predictor = Predictor(Settings(shop.store), at(), reader=trajectory)
@@ -94,6 +97,41 @@ def test_random_plans_never_jump_and_end_where_the_program_does(seed: int) -> No
     last = next(e for e in reversed(entries) if isinstance(e, c.Line | c.Rapid | c.Arc))
     assert rows[-1, 1:-1].tolist() == list(last.end)[: rows.shape[1] - 2]
     assert (np.diff(rows[:, 0]) > 0).all()
+
+
+def planned(*entries: c.Entry) -> tuple[Reals, float]:
+    """The same on a machine that plans its paths."""
+    return sampled(entries, shop=planned_shop())
+
+
+def test_a_planned_curve_is_sampled_where_the_card_runs_it() -> None:
+    entries: list[c.Entry] = [*path([*SQUARE, *wave(20)]), end()]
+    rows, time_s = planned(*entries)
+    assert rows[-1, 0] == pytest.approx(time_s)
+    assert np.diff(rows[:, 0])[:-1] == pytest.approx(PERIOD_S)
+    assert rows[-1, 1:4] == pytest.approx([*wave(20)[-1]], abs=1e-12)
+    _, acceleration, jerk = highest(rows[:-1, 1:4], PERIOD_S, every=4)
+    assert acceleration < 1.001 * ACCEL and jerk < 1.001 * JERK
+    run = follow(planned_shop(), *entries)
+    moving = np.flatnonzero(np.abs(np.diff(run, axis=0)).max(axis=1) > 0.0)
+    run = run[moving[0] :][: len(rows)]
+    assert np.abs(run - rows[: len(run), 1:4]).max() < 1.0 / PULSES
+
+
+def test_curves_moves_and_dwells_follow_each_other_in_time() -> None:
+    curve, alone = path([(20.0, 0.0), (20.0, 10.0)]), line(7, at(0, 10))
+    _, first_s = planned(*curve, end())
+    last = line(9, at(0, 10))
+    rows, time_s = planned(*curve, alone, *curve, c.Dwell(src(8), 0.5), last, end())
+    assert rows[-1, 0] == pytest.approx(time_s)
+    assert np.diff(rows[:, 0])[:-1] == pytest.approx(PERIOD_S)
+    begins = {number: rows[rows[:, -1] == number][0] for number in (1, 2, 7)}
+    assert begins[7][0] == pytest.approx(first_s, abs=PERIOD_S)
+    assert begins[7][1:3] == pytest.approx([20.0, 10.0], abs=1e-3)
+    assert begins[2][1:3] == pytest.approx([20.0, 0.0], abs=0.05)
+    steps = np.linalg.norm(np.diff(rows[:, 1:4], axis=0), axis=1)
+    assert steps.max() < 1.001 * SPEED * PERIOD_S
+    assert np.count_nonzero(steps == 0.0) >= 0.5 / PERIOD_S - 1
 
 
 def test_nothing_planned_is_one_row_at_rest() -> None:

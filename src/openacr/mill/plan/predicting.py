@@ -70,7 +70,7 @@ class Reader(Protocol):
         """Receive a stop, with the time of its dwell or 0."""
 
     def curve(self, points: Rows) -> None:
-        """Receive all control points of a planned curve, after its moves."""
+        """Receive all control points of a planned curve, after its moves; it ends at rest."""
 
 
 class Timing(ABC):
@@ -179,8 +179,6 @@ class Predictor(Timing):
             self._pass(job, phases)
             self._note_loss(job, phases)
         self.found.feed_s += curve.rest_s
-        if curve.rest_s and self._reader is not None:
-            self._reader.rested(curve.rest_s)
         curve.rest_s = 0.0
 
     def _note_loss(self, job: Job, phases: Phases) -> None:

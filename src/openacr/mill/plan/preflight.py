@@ -134,11 +134,11 @@ class Preflight:
                 del self._unhomed[axis]
 
     def rested(self, seconds: float) -> None:
-        """A planned curve ends at rest."""
-        self._close()
+        """Ignore dwells."""
 
     def curve(self, points: "Rows") -> None:
-        """Ignore control points: the planner keeps their limits."""
+        """A planned curve has ended at rest; the planner keeps the limits of its points."""
+        self._close()
 
     def passed(self, job: Job, phases: Phases) -> None:
         """Check the speed of a planned move."""

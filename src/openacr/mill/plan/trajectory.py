@@ -1,8 +1,8 @@
 """Setpoints of a planned program over time, without a card.
 
-A move runs through phases (see `phases`); its shape gives the position. At a rounded corner the
-path leaves the programmed one towards the other move, by the law of the card
-(kernel/path/corner_cy.py).
+A planned curve is the spline of its control points, as the card runs it. Any other move runs
+through phases (see `phases`); its shape gives the position. At a rounded corner the path leaves the
+programmed one towards the other move, by the law of the card (kernel/path/corner_cy.py).
 """
 
 import math
@@ -13,13 +13,16 @@ from numpy.typing import NDArray
 
 from openacr.cnc.canonical import AXES, Arc, Point
 from openacr.kernel.path.corner_cy import corner_lift
+from openacr.mill.config.curves import PERIOD_S as KNOT_S
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.arcs import along
+from openacr.mill.plan.curve_window import REST
 from openacr.mill.plan.encoding import Job
 from openacr.mill.plan.geometry import linear_axes
-from openacr.mill.plan.phases import Phases
+from openacr.mill.plan.phases import Phases, duration_s
 from openacr.mill.plan.rounding import Corner
 from openacr.plant import schema
+from openacr.trajectory.setpoints import evaluate
 
 Rows = NDArray[np.float64]
 PERIOD_S = schema.Card().period_s  # of the virtual machine
@@ -47,15 +50,32 @@ class Trajectory:
             None  # the last move sampled, where a corner joins it to the next
         )
         self._next: tuple[Job, Phases] | None = None  # waits for the direction of its successor
+        self._in_curve: list[tuple[int, float]] = []  # lines and times of the moves of a curve
 
     def read(self, job: Job) -> None:
         """Ignore a move that is not planned yet."""
 
     def curve(self, points: Rows) -> None:
-        """Ignore control points: the phases of the moves are sampled."""
+        """Sample a planned curve: the spline of its control points, which runs from knot 1 on."""
+        begin_s, self._time_s = self._time_s, self._time_s + (len(points) - REST) * KNOT_S
+        last = math.floor(self._time_s / self._period_s + ROUNDING)
+        now_s = np.arange(self._count, last + 1, dtype=np.float64) * self._period_s
+        self._count = last + 1
+        knots = 1.0 + (now_s - begin_s) / KNOT_S
+        places = evaluate(points, knots)[0]
+        lines, seconds = zip(*self._in_curve, strict=True)
+        move = np.searchsorted(np.cumsum(seconds)[:-1], now_s - begin_s, "right")
+        self._rows += np.column_stack([now_s, places, np.array(lines)[move]]).tolist()
+        self._line, self._in_curve = lines[-1], []
+        self._flush()
 
     def passed(self, job: Job, phases: Phases) -> None:
         """Receive a planned move; the one before it is sampled, because its corner is now known."""
+        if job.is_in_curve:
+            self._sample(None)
+            self._before, self._place = None, job.finish
+            self._in_curve.append((job.entry.source.line, duration_s(phases)))
+            return
         self._sample(job)
         self._next = job, phases
 
