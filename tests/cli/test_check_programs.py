@@ -215,7 +215,7 @@ def test_the_machine_file_may_tell_the_servo_period(tmp_path: Path) -> None:
 def test_a_path_tolerance_is_warned_of_because_real_cards_have_none(tmp_path: Path) -> None:
     text = (
         "an extension of openacr: real cards refuse it"
-        " (it limits corners between straight moves, not the turn of arcs)"
+        " (it limits corners between straight moves, not the turn of arcs, TARC, SINE and TRJ)"
     )
     lines = ("LOOK ON LOOK TOL 0.01", "LOOK ANG (1,2)", "IF (P0) THEN LOOK TOL 0")
     assert faults(tmp_path, *lines) == [f"2:9: warning: {text}", f"4:14: warning: {text}"]

@@ -47,11 +47,11 @@ def time_of(*entries: c.Entry, **cells: float) -> float:
 
 
 def test_a_move_without_a_tolerance_takes_the_s_curves_of_its_ramps() -> None:
-    # L/v for the way, v/a and a/J for both ramps together
+    # L/v for the length, v/a and a/J for both ramps together
     assert time_of(line(1, at(5)), end()) == pytest.approx(0.5 + 0.1 + 0.05)
     # rapids as well
     assert time_of(rapid(1, at(5)), end()) == pytest.approx(0.5 + 0.1 + 0.05)
-    # a quarter of the way in each of four parts of the same jerk: L = 2 J t^3
+    # a quarter of the length in each of four parts of the same jerk: L = 2 J t^3
     assert time_of(line(1, at(0.01)), end()) == pytest.approx(4 * (0.01 / 2 / JERK) ** (1 / 3))
 
 
@@ -120,7 +120,7 @@ def machine() -> Store:
 
 
 @pytest.mark.parametrize("file", FILES)
-def test_programs_take_the_predicted_time_with_jerk_to_one_period_for_each_stretch(
+def test_programs_take_the_predicted_time_with_jerk_to_one_period_for_each_run_of_moves(
     file: str,
 ) -> None:
     cells = machine()
@@ -141,7 +141,7 @@ def test_programs_take_the_predicted_time_with_jerk_to_one_period_for_each_stret
         parts.append(np.column_stack([axes[k].commanded_u for k in range(3)]))
     session.close()
     is_moving = (np.diff(np.concatenate(parts), axis=0) != 0.0).any(axis=1)
-    stretches = np.count_nonzero(np.diff(is_moving.astype(int)) == 1) + int(is_moving[0])
+    runs = np.count_nonzero(np.diff(is_moving.astype(int)) == 1) + int(is_moving[0])
     late = np.count_nonzero(is_moving) - (prediction.feed_s + prediction.rapid_s) / card.period_s
-    # each stretch ends within a period; arcs that end beside whole pulses are a little shorter
-    assert -0.5 < late < stretches + 0.5
+    # each run of moves ends within a period; arcs that end beside whole pulses are a little shorter
+    assert -0.5 < late < runs + 0.5

@@ -42,7 +42,9 @@ from openacr.source_check.tables import Tables
 from openacr.source_check.texts import Finding, Text, TextLine, label_of
 
 EXTENSION_WARNING = "an extension of openacr: real cards refuse it"
-TOLERANCE_HINT = "it limits corners between straight moves, not the turn of arcs"
+TOLERANCE_HINT = (
+    "it limits corners between straight moves, not the turn of arcs, TARC, SINE and TRJ"
+)
 _LEVEL_WORDS = {"SYS": Level.SYS, "PROG": Level.PROG, "PLC": Level.PLC}
 
 

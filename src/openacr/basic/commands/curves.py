@@ -87,7 +87,11 @@ def circcw(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
     move=True,
 )
 def tarc(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
-    """Move three axes on the circular arc through a mid point to a target."""
+    """Move three axes on the circular arc through a mid point to a target.
+
+    VEL, ACC and JRK hold along the arc. As on circles in a plane nothing limits its turn: at speed
+    v on a radius r the axes are accelerated by v^2/r as well.
+    """
     first, second, third = targets
     return (
         SpaceArc(
@@ -123,6 +127,6 @@ def sine(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
     """Move axes on a part of a sine wave, alone or beside straight moves of other axes.
 
     Alone the path is the sweep, so VEL is in degrees/s and ACC in degrees/s^2; beside straight
-    moves only these count, in units.
+    moves only these count, in units. Nothing limits the axis of the wave itself.
     """
     return tuple(Sine(target.axis.number, *target.values) for target in targets)

@@ -57,7 +57,11 @@ def int_(run: Run, bit: BitState, targets: tuple[AxisTarget, ...]) -> tuple[Give
 
 @command("TRJ", group=GROUP, levels=PROG, grammar=(AxisTargets(),), ref=REF, move=True)
 def trj(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
-    """Start a new trajectory at once, in place of the moves under way and waiting."""
+    """Start a new trajectory at once, in place of the moves under way and waiting.
+
+    It keeps the speed of the path where it turns by up to 90 degrees: a step of each axis, which
+    nothing limits.
+    """
     return (MoveOptions(replace=True), *targets)
 
 
