@@ -1,5 +1,8 @@
 """What `mill check` says about the machine: limits, pulses and feeds, without a machine."""
 
+import math
+from typing import Any
+
 import pytest
 from tests.cnc.programs import run
 from tests.mill.shop import Shop, at, line, rapid, src
@@ -127,3 +130,33 @@ def test_limits_are_those_of_the_machine_in_a_rotated_work_system() -> None:
     assert said(Shop(**{**LIMITS, **wide, "P271": 3}), *entries) == [
         "PROGRAM:4:1: E401 target beyond soft limit: axis Y would go to 3, 1 beyond its limit 2"
     ]
+
+
+def corners(jerk: float, turn_deg: float = 90.0, **pace: Any) -> list[str]:
+    """What is said of two corners between lines at 10 units/s."""
+    points, heading = [(0.0, 0.0)], 0.0
+    for _ in range(3):
+        x, y = points[-1]
+        points.append((x + 5.0 * math.cos(heading), y + 5.0 * math.sin(heading)))
+        heading += math.radians(turn_deg)
+    moves = [line(n, at(*point), **pace) for n, point in enumerate(points[1:], start=1)]
+    return [each for each in said(Shop(P650_015=jerk), *moves) if "W407" in each]
+
+
+def test_corners_at_speed_with_a_jerk_limit_and_no_tolerance_are_doubtful() -> None:
+    assert corners(20_000.0) == [
+        "TEST.TXT:2:1: W407 corner passed with a jerk limit and no tolerance: 2 corners"
+        " (with one (G64 P, or P650018) the path keeps its acceleration)"
+    ]
+    assert corners(0.0) == []
+    assert corners(20_000.0, mode=c.PathMode.EXACT) == []
+    assert corners(20_000.0, tolerance_u=0.01) == []
+    assert corners(20_000.0, turn_deg=1.1) != []
+    assert corners(20_000.0, turn_deg=0.9) == []
+
+
+def test_rapids_and_the_first_move_are_no_corners() -> None:
+    jerk = Shop(P650_015=20_000.0)
+    assert (
+        said(jerk, rapid(1, at(5)), rapid(2, at(5, 5)), line(3, at(0, 5)), line(4, at(-5, 5))) == []
+    )

@@ -89,6 +89,7 @@ TEXTS = {
     "W404": "probe not captured by the card",
     "W405": "nothing is wired to the code",
     "W406": "beyond the P0 to P99 that the set-up gives a card",
+    "W407": "corner passed with a jerk limit and no tolerance",
     "A33": "axis not homed",
     "A36": "probe did not trip",
     "A61": "answer missing",

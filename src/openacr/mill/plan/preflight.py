@@ -14,12 +14,17 @@ from openacr.mill.config.capture import capture_of
 from openacr.mill.config.settings import S_PER_MIN, Settings
 from openacr.mill.plan.encoding import LONG_MAX, Encoder, Job
 from openacr.mill.plan.phases import Phases
+from openacr.mill.plan.planning import turn_deg
 from openacr.mill.plan.travel_limits import Excess, excesses, limited
+from openacr.sysvar.tabs import SPEEDS
+from openacr.wording import counted
 
 if TYPE_CHECKING:
     from openacr.mill.plan.planned_path import Rows
 
 REACHED = 1.0 - 1e-6  # of the feed; speeds of the plan are results of square roots
+SMOOTH_DEG = 1.0  # a corner that is none
+NO_TOLERANCE = f"with one (G64 P, or P{SPEEDS.path_tolerance}) the path keeps its acceleration"
 REACHED_PLANNED = 0.99  # a planned path is somewhat shorter than the programmed one
 
 
@@ -84,6 +89,9 @@ class Preflight:
         self._slow: Slow | None = None  # the slowest of all
         self._first_slow: Source | None = None
         self._slow_cnt = 0
+        self._has_jerk = settings.speeds.jerk_ups3 > 0.0
+        self._before: Job | None = None  # the last move planned
+        self._hard: tuple[Source, int] | None = None  # the first hard corner, and their count
 
     # --- moves ------------------------------------------------------------------------
 
@@ -141,8 +149,11 @@ class Preflight:
         self._close()
 
     def passed(self, job: Job, phases: Phases) -> None:
-        """Check the speed of a planned move."""
+        """Check the speed of a planned move, and the corner before it."""
         entry = job.entry
+        if self._has_jerk:
+            self._corner(self._before, job)
+        self._before = job
         if isinstance(entry, Rapid):
             return
         feed_ups, chain = entry.pace.feed_upm / S_PER_MIN, self._chain
@@ -155,6 +166,14 @@ class Preflight:
         chain.is_planned = job.path_tolerance_u > 0.0
         if job.exit_ups == 0.0 and not chain.is_planned:
             self._close()
+
+    def _corner(self, before: Job | None, job: Job) -> None:
+        """Note a corner that is passed at speed: the card makes a step of the velocity there."""
+        if before is None or before.exit_ups <= 0.0 or before.end is None or job.start is None:
+            return
+        if turn_deg(before.end, job.start) > SMOOTH_DEG:
+            first, cnt = self._hard or (job.entry.source, 0)
+            self._hard = first, cnt + 1
 
     def _close(self) -> None:
         """End a chain of moves; note it if it did not reach the feed."""
@@ -188,6 +207,9 @@ class Preflight:
             yield "W403", source, f"{names} not homed", "tested as if homed"
         for reason, source in self._polled.items():
             yield "W404", source, reason, "the probe is polled, which is less accurate"
+        if self._hard is not None:
+            first, cnt = self._hard
+            yield "W407", first, counted(cnt, "corner"), NO_TOLERANCE
         if self._first_slow is not None and self._slow is not None:
             slow = self._slow
             worst = f"line {slow.source.line} reaches {100.0 * slow.share:.3g} % of F"
