@@ -63,6 +63,9 @@ class FakeMachine:
     def time_s(self) -> float:
         return self.tick * self.period_s
 
+    def closed_switches(self) -> dict[int, list[int]]:
+        return {}
+
     def digest(self) -> str:
         return self.memory.digest()
 

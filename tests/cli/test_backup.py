@@ -70,10 +70,34 @@ def test_a_backup_names_what_it_could_not_keep(
 
     monkeypatch.setattr(cli, "connected", connected)
     assert CliRunner().invoke(app, ["backup", "card:1", str(tmp_path / "a")]).exit_code == 0
+    assert "guess" in (tmp_path / "a" / "machine.toml").read_text()
     original, remark = reading.write_folder, "REM not understood: AXIS0 JOG SRC: ?\n"
     monkeypatch.setattr(
         reading, "write_folder",
         lambda files, folder: original({"setup.8k": files["setup.8k"] + remark}, folder),
     )  # fmt: skip
     result = CliRunner().invoke(app, ["backup", "card:1", str(tmp_path / "b")])
-    assert (result.exit_code, result.stderr) == (1, "not kept: AXIS0 JOG SRC: ?\n")
+    assert result.exit_code == 1
+    assert result.stderr.endswith("not kept: AXIS0 JOG SRC: ?\n")
+
+
+def test_a_backup_guesses_the_machine_of_its_model_and_keeps_one_that_is_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    card = Card.open(Controller("ACR8020"))
+
+    @contextmanager
+    def connected(target: str, baud: int, silence_s: float) -> Iterator[Card]:
+        yield card
+
+    monkeypatch.setattr(cli, "connected", connected)
+    result = CliRunner().invoke(app, ["backup", "card:1", str(tmp_path / "a")])
+    machine = tmp_path / "a" / "machine.toml"
+    assert result.stdout == f"{tmp_path / 'a'}: setup.8k, machine.toml\n"
+    assert result.stderr == f"{machine} is a guess: look for the word in it\n"
+    assert 'model = "ACR8020"' in machine.read_text()
+    (tmp_path / "b").mkdir()
+    (tmp_path / "b" / "machine.toml").write_text("# mine\n")
+    result = CliRunner().invoke(app, ["backup", "card:1", str(tmp_path / "b")])
+    assert (result.stdout, result.stderr) == (f"{tmp_path / 'b'}: setup.8k\n", "")
+    assert (tmp_path / "b" / "machine.toml").read_text() == "# mine\n"

@@ -11,6 +11,7 @@ from openacr.client import Card, Options
 from openacr.client.identity import Identity, identify
 from openacr.configure import parse_answers
 from openacr.controller import Controller
+from openacr.plant.load import parse_world
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 GANTRY = EXAMPLES / "gantry"
@@ -80,3 +81,15 @@ def test_options_of_generation_do_not_go_with_recovery(other: tuple[str, ...]) -
     result = recover(GANTRY, *other)
     assert result.exit_code == 2
     assert "--recover prints answers" in result.stderr
+
+
+def test_a_first_machine_of_a_project_is_printed(tmp_path: Path) -> None:
+    result = CliRunner().invoke(app, ["configure", "--machine", str(GANTRY)])
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert [axis.name for axis in parse_world(result.stdout).axis] == ["X", "Y", "Z"]
+
+
+def test_a_first_machine_goes_with_no_other_option() -> None:
+    result = CliRunner().invoke(app, ["configure", "--machine", "--recover", str(GANTRY)])
+    assert result.exit_code == 2
+    assert "--machine prints a file: it takes neither a folder nor other options" in result.stderr

@@ -378,3 +378,24 @@ def test_a_run_lasts_more_than_nothing_and_at_most_ten_million_seconds(
 
 def test_a_run_may_be_as_long_as_the_limit() -> None:
     assert limit_s(MOST_S, None) == 10_000_000.0
+
+
+GANTRY = Path(__file__).parents[2] / "examples" / "gantry"
+
+
+def test_a_run_without_a_machine_names_the_switches_that_stop_it(tmp_path: Path) -> None:
+    for name in ("setup.8k", "prog0.8k"):
+        (tmp_path / name).write_text((GANTRY / name).read_text())
+    note = (
+        f"note: {tmp_path} has no machine.toml, so inputs 0, 1, 3, 4, 6, 7 are open: to the set-up"
+        " these are limit switches that have been reached (axes 0, 1, 2), and nothing moves"
+        f" (`openacr configure --machine {tmp_path}` prints a first machine.toml)\n"
+    )
+    assert note in CliRunner().invoke(app, ["run", str(tmp_path), "--for", "0.1"]).stderr
+    setup = tmp_path / "setup.8k"
+    setup.write_text(setup.read_text() + "SYS\nAXIS0 HLIM 0\nAXIS1 HLIM 2\nCLR BIT16209\n")
+    stderr = CliRunner().invoke(app, ["run", str(tmp_path), "--for", "0.1"]).stderr
+    assert "so inputs 4, 6 are open" in stderr
+    (tmp_path / "machine.toml").write_text("")
+    stderr = CliRunner().invoke(app, ["run", str(tmp_path), "--for", "0.1"]).stderr
+    assert "no machine.toml" not in stderr

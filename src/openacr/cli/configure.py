@@ -41,6 +41,14 @@ def configure(
             " files (.8k), HOST, HOST:PORT or a serial port. What answers cannot hold is noted.",
         ),
     ] = False,
+    is_machine: Annotated[
+        bool,
+        typer.Option(
+            "--machine",
+            help="Print a first machine.toml for a card, its motors and switches guessed from its"
+            " set-up: ANSWERS is as with --recover.",
+        ),
+    ] = False,
     baud: Baud = BAUD,
     silence: Silence = SILENCE_S,
 ) -> None:
@@ -48,11 +56,17 @@ def configure(
 
     A set-up file and, for older firmware, limit code; a program keeps the answers on the card.
     """
-    if is_recovered:
-        if folder is not None or is_forced or is_explained:
-            raise UserError("--recover prints answers: it takes neither a folder nor other options")
+    if is_recovered or is_machine:
+        if folder is not None or is_forced or is_explained or (is_recovered and is_machine):
+            word, what = ("--machine", "a file") if is_machine else ("--recover", "answers")
+            raise UserError(f"{word} prints {what}: it takes neither a folder nor other options")
         with _opened(answers, baud, silence) as (card, model):
-            _recover(card, model)
+            if is_machine:
+                from openacr.configure.guessed import first_machine
+
+                typer.echo(first_machine(card, model), nl=False)
+            else:
+                _recover(card, model)
     else:
         _generate(answers, folder, is_forced=is_forced, is_explained=is_explained)
 

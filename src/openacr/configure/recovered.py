@@ -119,7 +119,7 @@ def _axis(card: Card, number: int, name: str, kept: Answers | None) -> AxisAnswe
         raise UserError(f"axis {number} ({name}) is not attached to an encoder and an output")
     encoder, dac = attached[number]
     ppu = card.read(AX_BASE + AX_STRIDE * number + AX_PPU)
-    units_per_rev, counts_per_rev = _turn(ppu, number, kept)
+    units_per_rev, counts_per_rev = turn_of(ppu, number, kept)
     words = Gains.__struct_fields__
     return AxisAnswers(
         number=number,
@@ -135,7 +135,7 @@ def _axis(card: Card, number: int, name: str, kept: Answers | None) -> AxisAnswe
     )
 
 
-def _turn(ppu: float, number: int, kept: Answers | None) -> tuple[float, int]:
+def turn_of(ppu: float, number: int, kept: Answers | None = None) -> tuple[float, int]:
     """Units and counts of a turn that have a ratio; preferred are counts as encoders have them."""
     known = [
         (axis.units_per_rev, axis.counts_per_rev)

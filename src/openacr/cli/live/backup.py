@@ -17,7 +17,7 @@ from openacr.cli.live.online import (
     connected,
     progress_bar,
 )
-from openacr.errors import UserError
+from openacr.errors import UserError, unwritable
 
 
 def backup(
@@ -28,20 +28,48 @@ def backup(
 ) -> None:
     """Store settings, attachments, variables and programs of a card in a folder.
 
-    The folder is a project: `openacr run` and `openacr serve` take it as it is. Not kept:
-    network address, passwords, local variables, strings, positions. What the card reports in a
-    form that cannot be written back is listed (exit code 1).
+    The folder is a project: `openacr run` and `openacr serve` take it as it is. Its machine.toml
+    is a first guess of motors and switches, made of the set-up. Not kept: network address,
+    passwords, local variables, strings, positions. What the card reports in a form that cannot be
+    written back is listed (exit code 1).
     """
     from openacr.client.backup import not_understood
 
     with connected(target, baud, silence) as card, progress_bar("reading") as progress:
         names = card.backup(folder, progress)
-    typer.echo(f"{folder}: {', '.join(names)}")
+        made = _guess_machine(folder, card.command("VER"))
+    typer.echo(f"{folder}: {', '.join([*names, *made])}")
+    if made:
+        typer.echo(f"{folder / made[0]} is a guess: look for the word in it", err=True)
     lost = not_understood(folder)
     for remark in lost:
         typer.echo(f"not kept: {remark}", err=True)
     if lost:
         raise typer.Exit(FAILED)
+
+
+def _guess_machine(folder: Path, version: list[str]) -> list[str]:
+    """Write a first machine.toml beside a backup, from a virtual card that has it."""
+    from openacr.client.identity import VERSION
+    from openacr.configure.guessed import first_machine
+    from openacr.configure.queries import Virtual
+    from openacr.controller import Controller
+    from openacr.models import DEFAULT_MODEL, MODELS
+    from openacr.plant.schema import default_world
+    from openacr.project import find_project
+
+    path = folder / "machine.toml"
+    if path.exists():
+        return []
+    found = VERSION.match(" ".join(version))
+    model = MODELS.get(found["model"] if found else "", DEFAULT_MODEL)
+    controller, _ = Controller.load(find_project(folder), world=default_world(model))
+    text = first_machine(Virtual(controller), model.name)
+    try:
+        path.write_text(text, encoding="utf-8", newline="\n")
+    except OSError as failure:
+        raise unwritable(path, failure) from None
+    return [path.name]
 
 
 def restore(

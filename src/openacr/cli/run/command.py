@@ -127,10 +127,25 @@ def run(
         if as_json:
             typer.echo(failed_json(refused))
         raise typer.Exit(BAD_INPUT)
+    if found.machine is None:
+        _note_open_inputs(project, machine.closed_switches())
     session = Session(options, machine, story)
     with machine.journalled(journal, found) if journal else nullcontext():
         code = session.run()
     raise typer.Exit(code)
+
+
+def _note_open_inputs(project: Path, switches: dict[int, list[int]]) -> None:
+    """Say that without a machine nothing closes the limit switches that the set-up expects."""
+    if switches:
+        axes = ", ".join(map(str, switches))
+        inputs = ", ".join(str(number) for each in switches.values() for number in each)
+        typer.echo(
+            f"note: {project} has no machine.toml, so inputs {inputs} are open: to the set-up these"
+            f" are limit switches that have been reached (axes {axes}), and nothing moves"
+            f" (`openacr configure --machine {project}` prints a first machine.toml)",
+            err=True,
+        )
 
 
 def show_refused(refused: "Sequence[SourceError]", word: str) -> None:

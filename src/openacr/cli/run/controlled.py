@@ -9,10 +9,12 @@ import numpy as np
 from openacr.cli.plots import AxisCurves, BitCurve, Curves, ValueCurve
 from openacr.cli.results import AxisReport, Event, Watched
 from openacr.cli.run.events import EventLog
+from openacr.configure.setup_code import CONTACT_FLAGS, FLAGS_PER_AXIS, SWITCH_FLAGS
 from openacr.controller import Controller
 from openacr.controller.recorder import Recorder
 from openacr.engine.watches import Watch
 from openacr.errors import SourceError
+from openacr.map.numbers import AXI_BASE, AXI_HLBIT, AXI_STRIDE
 from openacr.project import Project
 from openacr.scenario import Condition, card_view
 from openacr.scenario.played import PlayedCard
@@ -38,6 +40,17 @@ class ControlledMachine(PlayedCard):
         self._events = EventLog(
             controller.memory, controller.model.axes, self._titles(), self.failure
         )
+
+    def closed_switches(self) -> dict[int, list[int]]:
+        """Inputs of normally closed limit switches that are enabled, by axis."""
+        found: dict[int, list[int]] = {}
+        for axis in range(self._controller.model.axes):
+            first = self.memory.I[AXI_BASE + axis * AXI_STRIDE + AXI_HLBIT]
+            for side in range(2):
+                flags = (CONTACT_FLAGS[side], SWITCH_FLAGS[side])
+                if all(self._controller.bit[flag + FLAGS_PER_AXIS * axis] for flag in flags):
+                    found.setdefault(axis, []).append(first + side)
+        return found
 
     def digest(self) -> str:
         """Fingerprint of the whole state."""

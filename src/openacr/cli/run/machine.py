@@ -20,6 +20,9 @@ class Machine(Played, Protocol):
     def digest(self) -> str:
         """Fingerprint of the whole state."""
 
+    def closed_switches(self) -> dict[int, list[int]]:
+        """Inputs of normally closed limit switches that are enabled, by axis."""
+
     def events(self) -> Sequence[Event]:
         """What happened to the machine since the last call."""
 
