@@ -524,6 +524,9 @@ def test_a_record_becomes_a_parquet_file_with_its_time(served: Served) -> None:
         "time_s": [0.0, 0.0005, 0.001], "CH1 [mm]": [1.5, None, -2.0], "M": [0.1, 1e300, 3.0],
     }  # fmt: skip
     assert [str(kind) for kind in table.schema.types] == ["double"] * 3
+    answer = post(served.url, bytes(16), names='["a"]', period_s=0.5, begin_s=-0.5)
+    table = parquet.read_table(io.BytesIO(answer.content))
+    assert table.column("time_s").to_pylist() == [-0.5, 0.0]
 
 
 @pytest.mark.parametrize(

@@ -23,10 +23,11 @@ TIME = "time_s"
 
 
 class OfRecord(Query, frozen=True):
-    """Names of the columns as a JSON list, and the time between two samples."""
+    """Names of the columns as a JSON list, the time between two samples and of the first one."""
 
     names: Annotated[str, Meta(max_length=2000)]
     period_s: Annotated[float, Meta(gt=0.0, le=1e6)]
+    begin_s: Annotated[float, Meta(ge=-1e9, le=1e9)] = 0.0
 
 
 @endpoint(
@@ -41,7 +42,7 @@ async def parquet(call: Call) -> object:
     if len(data) % (8 * len(names)):
         raise PanelError("bad", f"{len(data)} bytes are no {len(names)} columns of equal length")
     columns = np.frombuffer(data, "<f8").reshape(len(names), -1)
-    content = await run_in_threadpool(_file, names, columns, query.period_s)
+    content = await run_in_threadpool(_file, names, columns, query)
     return Response(content, media_type=TYPE)
 
 
@@ -57,14 +58,14 @@ def _names(text: str) -> list[str]:
     return names
 
 
-def _file(names: list[str], columns: NDArray[np.float64], period_s: float) -> bytes:
+def _file(names: list[str], columns: NDArray[np.float64], time: OfRecord) -> bytes:
     """A Parquet file; missing samples (NaN) are null. UserError without pyarrow."""
     try:
         import pyarrow
         import pyarrow.parquet
     except ImportError:
         raise UserError("Parquet needs pyarrow: pip install 'openacr[sweep]'") from None
-    arrays = {TIME: pyarrow.array(np.arange(columns.shape[1]) * period_s)}
+    arrays = {TIME: pyarrow.array(time.begin_s + np.arange(columns.shape[1]) * time.period_s)}
     for name, values in zip(names, columns, strict=True):
         arrays[name] = pyarrow.array(values, mask=np.isnan(values))
     target = io.BytesIO()
