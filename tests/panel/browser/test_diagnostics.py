@@ -127,6 +127,8 @@ def test_the_scope_shows_four_channels_while_the_machine_moves(running: Page) ->
             f"Source of channel {n}": source, f"Scale of channel {n}, units/div": scale,
             f"Offset of channel {n}": offset,
         })  # fmt: skip
+    heads = page.locator("#screen .scope-channel .hint")
+    expect(heads).to_have_text(["source", "units/div", "offset"])
     fill(page, {"Sweep, ms/div": "50", "Sampling, ms": "5"})
     page.locator("#screen").get_by_role("button", name="START", exact=True).click()
     expect(page.locator("#screen .scope-chart .u-series")).to_have_count(5)

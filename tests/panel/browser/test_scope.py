@@ -1,15 +1,19 @@
 """The scope of the workspace: its arithmetic against NumPy and SciPy, its pane on a card."""
 
+import re
+import time
+from collections.abc import Callable
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
-from playwright.sync_api import BrowserContext, Page, expect
+from playwright.sync_api import BrowserContext, Locator, Page, expect
 from pyarrow import parquet
 from scipy import integrate, signal
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import open_page, until_model
+from tests.panel.browser.conftest import LONGEST_MS, open_page, until_model
 
 from openacr.panel.control.station import Station
 
@@ -124,8 +128,240 @@ def test_missing_samples_are_not_measured(page: Page) -> None:
 def test_autoscale_shows_the_whole_in_steps_of_1_2_and_5(
     page: Page, values: list[float], scale: float, offset: float
 ) -> None:
-    assert call(page, "screen", "fitting", values) == {"scale": scale, "offset": offset}
-    assert call(page, "screen", "fitting", []) is None
+    assert call(page, "scales", "fitting", values) == {"scale": scale, "offset": offset}
+    assert call(page, "scales", "fitting", []) is None
+
+
+# --- what is on the screen ------------------------------------------------------------
+
+STEPS = """([samples, trigger, run, steps]) => import('/js/scope/recording.js').then((m) => {
+  const recording = new m.Recording();
+  recording.begin(1, { first: 100, samples, period_s: 0.001 }, trigger, run);
+  const plain = (each) => each && [each.first, each.zero, [...each.channels[0]]];
+  return steps.map((each) => {
+    if (Array.isArray(each)) recording.add({ first: each[0], period: 0.001, channels: [Float64Array.from(each[1])] });
+    else recording.note(each);
+    return [plain(recording.window()), plain(recording.underWay()), recording.isTaken];
+  });
+})"""  # noqa: E501
+Step = tuple[int, list[int]] | dict[str, Any]  # samples from a number on, or a state
+
+
+def lived(page: Page, trigger: dict[str, Any] | None, steps: list[Step], run: str = "sweep") -> Any:
+    """Windows, sweeps under way and whether it was taken, of sweeps of 4, after each step."""
+    return page.evaluate(STEPS, [4, trigger, run, steps])
+
+
+def numbered(first: int, count: int) -> tuple[int, list[int]]:
+    """Samples that are their own numbers."""
+    return first, [*range(first, first + count)]
+
+
+def state(trigger: int | None = None, swept: int | None = None, first: int = 100) -> Step:
+    return {"running": True, "first": first, "trigger": trigger, "swept": swept}
+
+
+@pytest.mark.parametrize("mode", ["normal", "single"])
+def test_nothing_is_shown_before_a_trigger_then_a_whole_sweep_until_the_next_one_is_whole(
+    page: Page, mode: str
+) -> None:
+    steps: list[Step] = [
+        numbered(100, 7), state(), state(105), numbered(107, 1), state(105, 105),
+        numbered(108, 20), state(120, 105), state(123, 120), state(126, 123), numbered(128, 1),
+    ]  # fmt: skip
+    found = lived(page, {"mode": mode, "before": 0.25}, steps)
+    windows = [each[0] for each in found]
+    assert windows[:2] == [[107, 108, []]] * 2  # its left edge is before the trigger to come
+    assert windows[2:4] == [[104, 105, [104, 105, 106]], [104, 105, [104, 105, 106, 107]]]
+    assert windows[4:7] == [[104, 105, [104, 105, 106, 107]]] * 3  # whole; it stays
+    assert windows[7] == [119, 120, [119, 120, 121, 122]]
+    assert windows[8:] == [[122, 123, [122, 123, 124, 125]]] * 2
+    coming = [each[1] for each in found]
+    assert coming[:4] == [None] * 4
+    assert coming[8:] == [[125, 126, [125, 126, 127]], [125, 126, [125, 126, 127, 128]]]
+
+
+def test_a_whole_sweep_is_shown_once_its_samples_have_come_and_kept_when_they_are_old(
+    page: Page,
+) -> None:
+    trigger = {"mode": "normal", "before": 0.0}
+    steps: list[Step] = [
+        numbered(100, 2), state(101, 101), numbered(102, 2), state(104, 104), numbered(104, 1),
+        numbered(105, 3), numbered(108, 25_000), numbered(25_108, 100),
+    ]  # fmt: skip
+    windows = [each[0] for each in lived(page, trigger, steps)]
+    assert windows[1] == [101, 101, [101]]
+    assert windows[4] == [101, 101, [101, 102, 103, 104]]
+    assert windows[5:] == [[104, 104, [104, 105, 106, 107]]] * 3
+
+
+def test_without_a_trigger_the_last_whole_sweep_is_shown(page: Page) -> None:
+    steps: list[Step] = [numbered(100, 3), numbered(103, 2), numbered(105, 6), numbered(111, 1)]
+    found = lived(page, None, steps)
+    assert [each[0] for each in found] == [
+        [100, 100, [100, 101, 102]],
+        [100, 100, [100, 101, 102, 103]],
+        [104, 104, [104, 105, 106, 107]],
+        [108, 108, [108, 109, 110, 111]],
+    ]
+    coming = [None, [104, 104, [104]], [108, 108, [108, 109, 110]], [112, 112, []]]
+    assert [each[1] for each in found] == coming
+    rolled = [each[0] for each in lived(page, None, steps[:3], "roll")]
+    assert rolled[1:] == [[101, 101, [101, 102, 103, 104]], [107, 107, [107, 108, 109, 110]]]
+    once = [each[0] for each in lived(page, None, steps[:3], "once")]
+    assert once[2] == [100, 100, [100, 101, 102, 103]]
+
+
+def test_an_automatic_sweep_is_that_of_a_trigger_until_two_sweeps_bring_none(page: Page) -> None:
+    steps: list[Step] = [
+        numbered(100, 5), state(106), numbered(105, 5), state(106, 106), numbered(110, 8),
+        numbered(118, 1),
+    ]  # fmt: skip
+    windows = [each[0] for each in lived(page, {"mode": "auto", "before": 0.0}, steps)]
+    assert windows[0] == [100, 100, [100, 101, 102, 103]]
+    assert windows[3:5] == [[106, 106, [106, 107, 108, 109]]] * 2
+    assert windows[5] == [114, 114, [114, 115, 116, 117]]
+
+
+def test_samples_of_another_browsers_capture_are_not_added(page: Page) -> None:
+    steps: list[Step] = [numbered(100, 4), state(first=300), numbered(300, 4), state(first=100)]
+    found = lived(page, None, steps)
+    assert [each[2] for each in found] == [False, True, True, True]
+    assert found[3][0] == [100, 100, [100, 101, 102, 103]]
+
+
+@pytest.mark.parametrize(
+    ("capture", "recording", "expected"),
+    [
+        ({"running": True}, None, "idle"),
+        ({"running": True}, {"trigger": None, "isTaken": True}, "taken"),
+        ({"running": False, "trigger": 4}, {"trigger": {}, "isTaken": False}, "stopped"),
+        ({"running": True}, {"trigger": None, "isTaken": False}, "running"),
+        ({"running": True, "trigger": None}, {"trigger": {}, "isTaken": False}, "waiting"),
+        ({"running": True, "trigger": 4, "swept": None}, {"trigger": {}, "isTaken": False},
+         "triggered"),
+        ({"running": True, "trigger": 9, "swept": 4}, {"trigger": {}, "isTaken": False},
+         "triggered"),
+        ({"running": True, "trigger": 9, "swept": 9}, {"trigger": {}, "isTaken": False},
+         "waiting"),
+    ],
+)  # fmt: skip
+def test_the_state_of_the_scope_follows_from_its_triggers(
+    page: Page, capture: dict[str, Any], recording: dict[str, Any] | None, expected: str
+) -> None:
+    found = page.evaluate(
+        "([a, b]) => import('/js/scope/state.js').then((m) => m.stateOf(a, b))",
+        [capture, recording],
+    )
+    assert found == expected
+
+
+def drawn(fit: dict[str, float], value: float) -> float:
+    """Where a value is drawn, in divisions."""
+    return (value - fit["offset"]) / fit["scale"]
+
+
+@pytest.mark.parametrize(("flags", "curves"), [(1, 1), (2, 1), (3, 0), (8, 0), (7, 1), (0, 2)])
+def test_autoscale_gives_every_flag_a_lane_and_curves_the_rest(
+    page: Page, flags: int, curves: int
+) -> None:
+    traces = [{"values": [n % 2], "isFlag": True} for n in range(flags)]
+    traces += [{"values": [-3.0, 5.0], "isFlag": False}] * curves
+    found = page.evaluate(
+        "(traces) => import('/js/scope/scales.js').then((m) => m.laidOut(traces))", traces
+    )
+    lanes = [(drawn(fit, 0), drawn(fit, 1)) for fit in found[:flags]]
+    heights = [high - low for low, high in lanes]
+    assert all(height > 0.6 for height in heights)
+    for (low, _), (_, high) in pairwise(lanes):  # the first one is the uppermost
+        assert low > high
+    for fit in found[flags:]:
+        assert drawn(fit, 5.0) <= 5.0
+        assert drawn(fit, -3.0) > (lanes[0][1] if lanes else -5.0)
+    if lanes:
+        assert lanes[-1][0] > -5.0
+        assert lanes[0][1] < 5.0
+
+
+@pytest.mark.parametrize(
+    ("start", "step", "lines"),
+    [(0, 100, range(0, 1001, 100)), (-25, 10, range(-20, 71, 10)), (-10, 5, range(-10, 41, 5))],
+)
+def test_lines_of_the_grid_are_multiples_of_a_division(
+    page: Page, start: float, step: float, lines: range
+) -> None:
+    assert call(page, "scales", "gridOf", start, step) == [*lines]
+
+
+def test_labels_are_left_out_where_they_would_overlap_and_zero_has_one(page: Page) -> None:
+    wide, narrow, tiny = (
+        page.evaluate(
+            "([lines, room]) => import('/js/scope/scales.js')"
+            ".then((m) => m.labelsOf(lines, 100, room))",
+            [[*range(-200, 801, 100)], room],
+        )
+        for room in (60, 21, 4)
+    )
+    assert wide == ["\u2212200", "\u2212100", *map(str, range(0, 801, 100))]
+    assert narrow == ["\u2212200", "", "0", "", "200", "", "400", "", "600", "", "800"]
+    assert [text for text in tiny if text] == ["0"]
+
+
+@pytest.mark.parametrize(
+    ("step", "finer", "coarser"), [(1, 0.5, 2), (2, 1, 5), (5, 2, 10), (0.2, 0.1, 0.5), (3, 2, 5)]
+)
+def test_zoom_goes_by_steps_of_1_2_and_5_about_the_pointer(
+    page: Page, step: float, finer: float, coarser: float
+) -> None:
+    for is_finer, expected in ((True, finer), (False, coarser)):
+        view = {"from": 100.0, "step": step}
+        found = page.evaluate(
+            "([view, isFiner]) => import('/js/scope/view.js')"
+            ".then((m) => m.zoomed(view, isFiner, view.from + 4 * view.step, [-1000, 1000], 0.05))",
+            [view, is_finer],
+        )
+        assert found["step"] == expected
+        assert found["from"] + 4 * expected == pytest.approx(100 + 4 * step)
+
+
+@pytest.mark.parametrize(
+    ("view", "is_finer", "expected"),
+    [
+        ((0, 100), False, (0, 100)),  # the whole record is shown
+        ((0, 1), True, (0, 1)),  # a sample in a division
+        ((900, 20), False, (500, 50)),  # not beyond the end
+        ((0, 20), False, (0, 50)),  # nor before the beginning
+    ],
+)
+def test_zoom_stays_within_the_record(
+    page: Page, view: tuple[float, float], is_finer: bool, expected: tuple[float, float]
+) -> None:
+    found = page.evaluate(
+        "([[from, step], isFiner]) => import('/js/scope/view.js')"
+        ".then((m) => m.zoomed({ from, step }, isFiner, from, [0, 1000], 1))",
+        [list(view), is_finer],
+    )
+    assert (found["from"], found["step"]) == expected
+
+
+def test_a_file_is_named_after_its_second(page: Page) -> None:
+    assert (
+        page.evaluate(
+            "import('/js/scope/export.js')"
+            ".then((m) => m.fileName('csv', new Date(2026, 0, 7, 9, 5, 3)))"
+        )
+        == "scope-2026-01-07-090503.csv"
+    )
+
+
+def test_scales_of_xy_are_in_the_unit_of_their_trace(page: Page) -> None:
+    trace = {"scale": 0.5, "offset": 3}
+    found = page.evaluate(
+        "(trace) => import('/js/scope/xy.js')"
+        ".then((m) => [-5, 0, 4].map((n) => m.valueAt(trace, n)))",
+        trace,
+    )
+    assert found == ["0.5", "3", "5"]
 
 
 # --- maths ----------------------------------------------------------------------------
@@ -190,7 +426,15 @@ RECORD = """() => import('/js/scope/screen.js').then(({ shown }) => shown.value)
 @pytest.fixture(scope="module")
 def bench(context: BrowserContext, served: Served) -> Page:
     """The scope alone in its place, for the tests of the pane."""
+    return open_scope(context, served)
+
+
+def open_scope(
+    context: BrowserContext, served: Served, size: tuple[int, int] | None = None
+) -> Page:
     page = open_page(context, f"{served.url}/bench")
+    if size:
+        page.set_viewport_size({"width": size[0], "height": size[1]})
     page.evaluate("import('/js/bench/workspace.js').then((each) => each.openPane('scope'))")
     expect(page.locator("[data-pane=scope] .scope-rows")).to_be_visible()
     return page
@@ -232,10 +476,11 @@ def test_a_single_sweep_of_a_flag_and_a_parameter_is_measured_and_exported(
     row = page.locator("[data-trace=CH1] td")
     expect(row).to_have_text(["3.5", "3.5", "3.5", "3.5", "3.5", "3.5", "0", "\u2013"])
     expect(page.locator("[data-cursors]")).to_have_text(
-        "t1 12.5 ms, t2 37.5 ms, \u0394t 25 ms, 1/\u0394t 40 Hz"
+        "t1 2.5 ms, t2 27.5 ms, \u0394t 25 ms, 1/\u0394t 40 Hz"
     )
     shown = page.evaluate(RECORD)
-    assert len(shown["times"]) == 100
+    assert shown["times"] == pytest.approx([0.5 * (n - 20) for n in range(100)], abs=1e-9)
+    assert shown["x"] == [-10, 40]
     assert shown["channels"][0] == [0.0] * 20 + [1.75] * 80  # 20 % before it: at the sample
     assert shown["channels"][3] == [float(7 * (n >= 20)) + 1.0 for n in range(100)]
     ticks = shown["channels"][2]
@@ -245,18 +490,222 @@ def test_a_single_sweep_of_a_flag_and_a_parameter_is_measured_and_exported(
         press(page, "EXPORT")
         page.get_by_role("dialog").get_by_role("button", name="CSV").click()
     lines = saved.value.path().read_text().splitlines()
-    assert lines[0].startswith("time_s,CH1 [mm],CH2,CH8")
+    assert lines[0] == (
+        "time_s,CH1 P7 USER User Variable [mm],CH2 BIT1920 USER4 User Defined,"
+        "CH8 P6916 SYSTEM Global System Clock [ms],M 2*CH1 + CH2"
+    )
+    assert [lines[1][:6], lines[21][:2]] == ["-0.01,", "0,"]
     assert [line.split(",")[1] for line in lines[1:]] == ["0"] * 20 + ["3.5"] * 80
     with page.expect_download() as saved:
         press(page, "EXPORT")
         page.get_by_role("dialog").get_by_role("button", name="PARQUET").click()
     table = parquet.read_table(saved.value.path())
-    assert table.column("CH1 [mm]").to_pylist() == [0.0] * 20 + [3.5] * 80
+    assert table.column("CH1 P7 USER User Variable [mm]").to_pylist() == [0.0] * 20 + [3.5] * 80
     with page.expect_download() as saved:
         press(page, "EXPORT")
         page.get_by_role("dialog").get_by_role("button", name="PNG").click()
     assert saved.value.path().read_bytes().startswith(b"\x89PNG")
     assert page.complaints == []  # type: ignore[attr-defined]
+
+
+def status(page: Page) -> Locator:
+    return page.locator("[data-pane=scope] [role=status]")
+
+
+def switch(station: Station, flag: int, on: bool) -> None:
+    station.machine.card.write_bit(flag, on)
+
+
+def arm_on_flag(page: Page, flag: int, mode: str, **more: str) -> None:
+    """START with P7 and a flag, which triggers with its rising edge."""
+    fill(page, {
+        "CH1 source": "P7", "CH2 source": f"BIT{flag}", "CH3 source": "", "CH8 source": "",
+        "M source": "", "Sweep, ms/div": "5", "Sampling, ms": "0.5", "Trigger level": "0.5",
+        "Pre-trigger, %": "20", **more,
+    })  # fmt: skip
+    page.get_by_label("Trigger", exact=True).select_option(mode)
+    page.get_by_label("Trigger source", exact=True).select_option("CH2")
+    press(page, "START")
+    until_model(
+        page, f"model.capture.value.running && model.capture.value.channels[1] === 'BIT{flag}'"
+    )
+
+
+@pytest.mark.parametrize("mode", ["normal", "single"])
+def test_a_sweep_without_a_trigger_is_not_shown_and_the_pane_says_that_it_waits(
+    bench: Page, served: Served, mode: str
+) -> None:
+    page = bench
+    served.call(partial(switch, flag=1922, on=False))
+    arm_on_flag(page, 1922, mode)
+    expect(status(page)).to_have_text(re.compile(r"^WAITING for a trigger, [1-9]\d{2,} samples$"))
+    shown = page.evaluate(RECORD)
+    assert (shown["times"], shown["x"]) == ([], [-10, 40])  # 0 is where the trigger will be
+    press(page, "STOP SCOPE")
+    expect(status(page)).to_contain_text("Stopped at")
+
+
+def test_the_last_whole_sweep_stays_with_its_measures_until_the_next_one_is_whole(
+    bench: Page, served: Served
+) -> None:
+    page = bench
+    served.call(partial(write, value=1.0))
+    served.call(partial(switch, flag=1922, on=False))
+    arm_on_flag(page, 1922, "normal")
+    cells = page.locator("[data-trace=CH1] td")
+    whole = [0.0] * 20 + [1.0] * 80
+    for value in (1.0, 2.0):
+        served.call(partial(write, value=value))
+        served.call(lambda station: station.machine.card.pause(0.1))
+        served.call(partial(switch, flag=1922, on=True))
+        until(page, lambda: page.evaluate(RECORD)["channels"][1], lambda found: found == whole)
+        expect(cells.nth(1)).to_have_text(f"{value:g}")
+        served.call(partial(switch, flag=1922, on=False))
+        expect(status(page)).to_contain_text("WAITING")
+        served.call(lambda station: station.machine.card.pause(0.2))
+        assert page.evaluate(RECORD)["channels"][1] == whole
+    press(page, "REFERENCE")
+    press(page, "STOP SCOPE")
+    expect(cells.last).to_have_text("0")  # it kept the whole sweep
+    press(page, "REFERENCE")
+
+
+def test_a_second_browser_asks_before_it_takes_the_scope_and_the_first_one_says_so(
+    bench: Page, context: BrowserContext, served: Served
+) -> None:
+    page = bench
+    arm_on_flag(page, 1922, "auto")
+    expect(status(page)).to_contain_text("samples")
+    other = open_scope(context, served)
+    fill(other, {"CH1 source": "P7", "CH2 source": "BIT1921", "CH3 source": ""})
+    press(other, "START")
+    dialog = other.get_by_role("dialog", name="TAKE THE SCOPE")
+    expect(dialog).to_contain_text(re.compile(r"the scope samples for service \d+ \(127.0.0.1\)"))
+    other.keyboard.press("Escape")
+    expect(other.locator("#prompt")).to_contain_text("wait until it stops, or take it")
+    assert page.evaluate(FIRST_NAME) == "BIT1922"
+    press(other, "START")
+    dialog.get_by_role("button", name="TAKE THE SCOPE").click()
+    expect(status(page)).to_contain_text(
+        re.compile(r"^TAKEN: the scope samples for service \d+ now")
+    )
+    expect(status(other)).to_contain_text("samples")
+    shown = page.evaluate(RECORD)
+    served.call(lambda station: station.machine.card.pause(0.1))
+    expect(status(other)).not_to_have_text(str(status(other).text_content()))
+    assert page.evaluate(RECORD) == shown  # nothing of the other capture
+    other.close()
+    press(page, "START")  # the one that took it has gone
+    expect(status(page)).to_contain_text(re.compile("^(WAITING|TRIGGERED)"))
+    press(page, "STOP SCOPE")
+
+
+FIRST_NAME = "import('/js/core/app.js').then(({ model }) => model.capture.value.channels[1])"
+
+
+@pytest.mark.parametrize("size", [(1366, 768), (1920, 1080), (390, 844)])
+def test_numbers_of_a_channel_are_shown_whole_and_the_plot_has_room(
+    context: BrowserContext, served: Served, size: tuple[int, int]
+) -> None:
+    page = open_scope(context, served, size)
+    fill(page, {
+        "CH1 units/div": "200000", "CH2 units/div": "0.000125", "CH1 offset": "-1234567",
+        "CH2 offset": "40000.25", "Trigger level": "-1234567",
+    })  # fmt: skip
+    cut = page.evaluate("""() => [...document.querySelectorAll('.scope-side input.number')]
+      .filter((each) => each.scrollWidth > each.clientWidth).map((each) => each.value)""")
+    assert cut == []
+    box = page.locator("[data-view=time] .u-over").bounding_box()
+    assert box is not None
+    least = {1366: (550, 170), 1920: (800, 400), 390: (250, 120)}[size[0]]
+    assert (box["width"] >= least[0], box["height"] >= least[1]) == (True, True), box
+    page.close()
+
+
+def until(page: Page, look: Callable[[], Any], holds: Callable[[Any], bool]) -> Any:
+    """What a look finds once it holds."""
+    end_s = time.monotonic() + LONGEST_MS / 1000.0
+    while not holds(found := look()):
+        assert time.monotonic() < end_s, found
+        page.wait_for_timeout(20)
+    return found
+
+
+def until_shown(page: Page, first_ms: float, last_ms: float) -> None:
+    """Wait until the screen shows a part of the record."""
+    expected = pytest.approx([first_ms, last_ms], abs=0.1)
+    until(page, lambda: page.evaluate(RECORD)["x"], lambda found: bool(found == expected))
+
+
+def test_a_record_at_rest_is_zoomed_by_the_wheel_and_dragged(bench: Page, served: Served) -> None:
+    page = bench
+    served.call(partial(switch, flag=1922, on=False))
+    arm_on_flag(page, 1922, "single")
+    served.call(lambda station: station.machine.card.pause(0.1))
+    served.call(partial(switch, flag=1922, on=True))
+    expect(status(page)).to_contain_text("Stopped at")
+    over = page.locator("[data-view=time] .u-over")
+    over.scroll_into_view_if_needed()
+    box = over.bounding_box()
+    assert box is not None
+    x, y = box["x"] + 0.2 * box["width"], box["y"] + 0.3 * box["height"]
+    page.mouse.move(x, y)
+    page.mouse.wheel(0, -100)
+    until_shown(page, -4, 16)  # about the trigger
+    assert len(page.evaluate(RECORD)["times"]) in range(40, 46)
+    page.mouse.down()
+    page.mouse.move(x + 0.5 * box["width"], y)
+    page.mouse.up()
+    until_shown(page, -14, 6)
+    expect(page.locator("[data-trace=CH2] td").nth(1)).to_have_text("1")
+    page.mouse.move(x, y)
+    for _ in range(12):
+        page.mouse.wheel(0, 100)
+    shown = until(page, lambda: page.evaluate(RECORD), lambda found: found["times"][0] < -60.0)
+    assert shown["times"][-1] == pytest.approx(39.5)  # all that was sampled
+    over.dblclick()
+    until_shown(page, -10, 40)
+    page.locator("[data-view=time]").press("+")
+    until_shown(page, 5, 25)
+    page.locator("[data-view=time]").press("ArrowRight")
+    until_shown(page, 7, 27)
+    page.locator("[data-view=time]").press("0")
+    until_shown(page, -10, 40)
+
+
+def test_the_level_of_the_trigger_is_dragged_and_acts_at_once(bench: Page, served: Served) -> None:
+    page = bench
+    served.call(partial(write, value=1.0))
+    arm_on_flag(page, 1922, "normal", **{"CH1 units/div": "1", "CH1 offset": "0"})
+    page.get_by_label("Trigger source", exact=True).select_option("CH1")
+    press(page, "START")
+    expect(status(page)).to_contain_text("WAITING")
+    over = page.locator("[data-view=time] .u-over")
+    over.scroll_into_view_if_needed()
+    box = over.bounding_box()
+    assert box is not None
+    division = box["height"] / 10.0
+    x, middle = box["x"] + 5.0, box["y"] + 5.0 * division
+    page.mouse.move(x, middle - 0.5 * division)  # the level is 0.5
+    page.mouse.down()
+    page.mouse.move(x, middle - 3.0 * division)
+    page.mouse.up()
+    level = float(page.get_by_label("Trigger level", exact=True).input_value())
+    assert level == pytest.approx(3.0, abs=0.05)
+    until(page, lambda: served.call(trigger_level), lambda found: found == level)
+    served.call(lambda station: station.machine.card.pause(0.1))
+    served.call(partial(write, value=2.9))
+    served.call(lambda station: station.machine.card.pause(0.1))
+    assert served.call(lambda station: station.scope.capture.triggered_at) is None  # type: ignore[union-attr]
+    served.call(partial(write, value=3.1))
+    until_model(page, "model.capture.value.swept !== null")
+    press(page, "STOP SCOPE")
+
+
+def trigger_level(station: Station) -> float | None:
+    """The level at which the scope triggers."""
+    capture = station.scope.capture
+    return None if capture is None or capture.trigger is None else capture.trigger.level
 
 
 def test_a_reference_is_compared_with_the_next_record(bench: Page, served: Served) -> None:

@@ -4,10 +4,11 @@ import { refuse } from "../core/app.js";
 import { h } from "../core/dom.js";
 import { ExpressionError } from "../core/expression.js";
 import { t } from "../core/texts.js";
-import { FORMATS } from "../frame/card_value.js";
+import { FORMATS, fullName, isFlag } from "../frame/card_value.js";
 import { numberField, numberOf, selectField, textField } from "./fields.js";
 import { computed } from "./maths.js";
-import { COLORS, fitting } from "./screen.js";
+import { laidOut } from "./scales.js";
+import { COLORS } from "./screen.js";
 
 export const CHANNELS = 8;
 const MATHS = CHANNELS; // place of the maths channel
@@ -15,7 +16,7 @@ const FIRST = ["P12291", "P12290", "P12295"];
 const MATHS_COLOR = "#7f7f7f";
 
 /**
- * @typedef {import("./screen.js").Trace & { unit: string, format: string }} Channel
+ * @typedef {import("./screen.js").Trace & { unit: string, format: string, id: string, name: string, isFlag: boolean }} Channel `id`: P12290, BIT516, or the expression; `name`: of the parameter or flag
  * @typedef {{ source: string, color: string, scale: string, offset: string, unit: string, format: string }} Kept
  * @typedef {Record<"source" | "color" | "scale" | "offset" | "unit", HTMLInputElement> & { format: HTMLSelectElement }} Fields
  */
@@ -30,6 +31,8 @@ export class Channels {
     this.rows = Array.from({ length: CHANNELS + 1 }, (_each, n) => fieldsOf(n, kept[n] ?? { source: FIRST[n] ?? "" }, changed));
     /** Places of the channels of the present capture. @type {number[]} */
     this.asked = [];
+    /** What they are, by place. @type {import("../frame/card_value.js").Item[]} */
+    this.items = [];
     this.maths = ""; // the expression that is wrong, whose error has been shown
   }
 
@@ -50,12 +53,15 @@ export class Channels {
     return this.asked.map((n) => this.rows[n].source.value.trim());
   }
 
-  /** Units of the sources, where none is given. */
+  /** Names and units of the sources. */
   async nameUnits() {
     const names = this.sources();
-    if (!names.length) return;
-    const { items } = await get("card/named", { names: names.join(";") });
-    this.asked.forEach((place, n) => { this.rows[place].unit.placeholder = items[n]?.unit ?? ""; });
+    const { items } = names.length ? await get("card/named", { names: names.join(";") }) : { items: [] };
+    this.items = [];
+    this.asked.forEach((place, n) => {
+      this.items[place] = items[n];
+      this.rows[place].unit.placeholder = items[n]?.unit ?? "";
+    });
   }
 
   /**
@@ -90,20 +96,44 @@ export class Channels {
   trace(place, values) {
     const row = this.rows[place];
     const unit = row.unit.value.trim() || row.unit.placeholder;
-    return { label: nameOf(place), color: row.color.value, values, scale: numberOf(row.scale) || 1, offset: numberOf(row.offset) || 0, unit, format: row.format.value };
+    const item = this.items[place];
+    const [id, name] = item ? [item.id, fullName(item)] : [row.source.value.trim(), ""];
+    return { label: nameOf(place), id, name, isFlag: Boolean(item && isFlag(item)), color: row.color.value, values, scale: numberOf(row.scale) || 1, offset: numberOf(row.offset) || 0, unit, format: row.format.value };
   }
 
   /**
-   * Give each trace the scale and offset that show it whole.
+   * Give each trace the scale and offset that show it whole, flags in lanes of their own.
    * @param {Channel[]} traces
    */
   fit(traces) {
-    for (const { label, values } of traces) {
-      const row = this.rows[this.rows.findIndex((_each, n) => nameOf(n) === label)];
-      const fit = fitting(values);
+    laidOut(traces).forEach((fit, n) => {
+      const row = this.rows[this.rows.findIndex((_each, place) => nameOf(place) === traces[n].label)];
       if (fit) [row.scale.value, row.offset.value] = [String(fit.scale), String(fit.offset)];
-    }
+    });
+    this.title();
   }
+
+  /**
+   * How a channel with a source is drawn; null for one without.
+   * @param {string} label
+   */
+  scaleOf(label) {
+    const row = this.rows.find((each, n) => nameOf(n) === label && each.source.value.trim());
+    return row ? { scale: numberOf(row.scale) || 1, offset: numberOf(row.offset) || 0, color: row.color.value } : null;
+  }
+
+  /** Every field says its whole value when the pointer rests on it. */
+  title() {
+    for (const row of this.rows) for (const field of Object.values(row)) if (field.type === "text") field.title = [field.ariaLabel, field.value].filter(Boolean).join(": ");
+  }
+}
+
+/**
+ * What a trace is called in tables and files: its channel, what it shows, and its unit.
+ * @param {Channel} trace
+ */
+export function fullLabel({ label, id, name, unit }) {
+  return `${label} ${id} ${name} ${unit && `[${unit}]`}`.trim().replace(/ +/g, " ");
 }
 
 /** @param {number} place */

@@ -12,7 +12,7 @@ export function cursorPlugin(cursors) {
       /** @param {any} plot */
       init(plot) {
         let held = -1;
-        const time = (/** @type {PointerEvent} */ event) => Math.max(0, plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x"));
+        const time = (/** @type {PointerEvent} */ event) => plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x");
         const move = (/** @type {PointerEvent} */ event) => {
           const both = cursors.value;
           if (both && held >= 0) cursors.set(held ? [both[0], time(event)] : [time(event), both[1]]);

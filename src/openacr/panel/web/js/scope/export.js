@@ -1,26 +1,23 @@
 // Records of the scope as files: CSV and PNG are made here, Parquet by the server.
 import { address, call } from "../core/api.js";
 import { h } from "../core/dom.js";
+import { fullLabel } from "./channels.js";
 
 /**
  * @typedef {import("./channels.js").Channel} Channel
  */
 
-/** @param {Channel} trace */
-function columnOf({ label, unit }) {
-  return unit ? `${label} [${unit}]` : label;
-}
-
 /**
  * Traces as CSV: time in s, then every trace in full precision; a missing sample is empty.
  * @param {Channel[]} traces
  * @param {number} period s
+ * @param {number} begin s of the first sample
  */
-export function csvOf(traces, period) {
+export function csvOf(traces, period, begin) {
   const quoted = (/** @type {string} */ text) => (/[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
-  const lines = [["time_s", ...traces.map(columnOf)].map(quoted).join(",")];
+  const lines = [["time_s", ...traces.map(fullLabel)].map(quoted).join(",")];
   for (let n = 0; n < (traces[0]?.values.length ?? 0); n++) {
-    lines.push([Number((n * period).toPrecision(12)), ...traces.map(({ values }) => (Number.isNaN(values[n]) ? "" : values[n]))].join(","));
+    lines.push([Number((begin + n * period).toPrecision(12)), ...traces.map(({ values }) => (Number.isNaN(values[n]) ? "" : values[n]))].join(","));
   }
   return `${lines.join("\n")}\n`;
 }
@@ -29,27 +26,57 @@ export function csvOf(traces, period) {
  * Traces as Parquet; the server's refusal is thrown.
  * @param {Channel[]} traces
  * @param {number} period s
+ * @param {number} begin s of the first sample
  */
-export async function parquetOf(traces, period) {
+export async function parquetOf(traces, period, begin) {
   const samples = traces[0]?.values.length ?? 0;
   const body = new Float64Array(samples * traces.length);
   traces.forEach(({ values }, n) => body.set(values, n * samples));
-  const query = { names: JSON.stringify(traces.map(columnOf)), period_s: period };
+  const query = { names: JSON.stringify(traces.map(fullLabel)), period_s: period, begin_s: begin };
   return (await call(address("scope/parquet", query), { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body })).blob();
 }
 
 /**
- * A picture of a canvas on the colour it lies on.
+ * A picture of a canvas on the colour it lies on, with lines of text below it.
  * @param {HTMLCanvasElement} canvas
+ * @param {{ text: string, color?: string }[]} lines a colour is a key of the text
  * @returns {Promise<Blob>}
  */
-export function pngOf(canvas) {
-  const copy = h("canvas", { width: canvas.width, height: canvas.height });
+export function pngOf(canvas, lines) {
+  const size = 13 * devicePixelRatio;
+  const row = 1.5 * size;
+  const copy = h("canvas", {});
   const ctx = /** @type {CanvasRenderingContext2D} */ (copy.getContext("2d"));
-  ctx.fillStyle = getComputedStyle(document.body).getPropertyValue("background-color");
+  const font = `${size}px sans-serif`;
+  ctx.font = font;
+  copy.width = Math.max(canvas.width, ...lines.map(({ text }) => ctx.measureText(text).width + 3 * size));
+  copy.height = canvas.height + (lines.length + 0.5) * row;
+  const style = getComputedStyle(document.body);
+  ctx.fillStyle = style.backgroundColor;
   ctx.fillRect(0, 0, copy.width, copy.height);
   ctx.drawImage(canvas, 0, 0);
+  ctx.font = font; // a canvas forgets it with its size
+  lines.forEach(({ text, color }, n) => {
+    const y = canvas.height + (n + 1) * row;
+    if (color) {
+      ctx.fillStyle = color;
+      ctx.fillRect(size / 2, y - 0.8 * size, size, 0.9 * size);
+    }
+    ctx.fillStyle = style.color;
+    ctx.fillText(text, 2 * size, y);
+  });
   return new Promise((resolve, reject) => copy.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/png"));
+}
+
+/**
+ * The name of a file with its time: two records of different days can be told apart.
+ * @param {string} kind
+ * @param {Date} now
+ */
+export function fileName(kind, now) {
+  const two = (/** @type {number} */ n) => String(n).padStart(2, "0");
+  const day = [now.getFullYear(), two(now.getMonth() + 1), two(now.getDate())].join("-");
+  return `scope-${day}-${two(now.getHours())}${two(now.getMinutes())}${two(now.getSeconds())}.${kind}`;
 }
 
 /**

@@ -2,18 +2,20 @@
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { numberText } from "../frame/card_value.js";
+import { fullLabel } from "./channels.js";
 import { deviation, measured } from "./measures.js";
 
 const COLUMNS = ["min", "max", "mean", "rms", "span", "deviation"];
 
 /**
- * Sample numbers of two times, the earlier first.
+ * Places of two times among samples, the earlier first.
  * @param {[number, number]} times ms
  * @param {number} period s
+ * @param {number} begin s of the first sample
  * @returns {[number, number]}
  */
-export function samplesAt(times, period) {
-  const [a, b] = times.map((time) => Math.round(time / (1000 * period)));
+export function samplesAt(times, period, begin) {
+  const [a, b] = times.map((time) => Math.round((time / 1000 - begin) / period));
   return a <= b ? [a, b] : [b, a];
 }
 
@@ -31,20 +33,20 @@ export function distanceText([t1, t2]) {
  * Fill the table; without cursors the measures are those of the whole screen.
  * @param {HTMLTableElement} table
  * @param {import("./channels.js").Channel[]} traces
- * @param {number} period s
+ * @param {{ period: number, begin: number }} time s between two samples, s of the first one
  * @param {[number, number] | null} times
  * @param {Map<string, ArrayLike<number>>} reference by label
  */
-export function showMeasures(table, traces, period, times, reference) {
-  const [from, to] = times && period ? samplesAt(times, period) : [0, Infinity];
-  const at = times && period ? times.map((time) => Math.round(time / (1000 * period))) : [];
+export function showMeasures(table, traces, { period, begin }, times, reference) {
+  const [from, to] = times && period ? samplesAt(times, period, begin) : [0, Infinity];
+  const at = times && period ? times.map((time) => Math.round((time / 1000 - begin) / period)) : [];
   const heads = ["", ...at.map((_each, n) => `t${n + 1}`), ...COLUMNS.map((each) => t(/** @type {any} */ (`scope.measure.${each}`)))];
   fill(table, h("thead", {}, h("tr", {}, ...heads.map((each) => (each ? h("th.number", {}, each) : h("td", {}))))), h("tbody", {}, ...traces.map((trace) => {
     const text = (/** @type {number | null | undefined} */ value, format = trace.format) => (value === null || value === undefined || !Number.isFinite(value) ? "\u2013" : numberText(value, format));
     const found = measured(trace.values, from, to);
     const other = reference.get(trace.label);
     const values = [found?.min, found?.max, found?.mean, found?.rms, found?.span, other && deviation(trace.values, other)];
-    return h("tr", { data: { trace: trace.label } }, h("th", { attr: { scope: "row" } }, h("span.scope-key", { style: `--channel: ${trace.color}` }), `${trace.label} ${trace.unit}`.trim()),
+    return h("tr", { data: { trace: trace.label } }, h("th", { attr: { scope: "row" }, title: fullLabel(trace) }, h("span.scope-key", { style: `--channel: ${trace.color}` }), h("span.scope-name", {}, fullLabel(trace))),
       ...at.map((n) => h("td.number", {}, text(trace.values[n]))), ...values.map((value) => h("td.number", {}, text(value, trace.format === "fixed" ? "fixed" : "plain"))));
   })));
 }

@@ -4,7 +4,7 @@ import { h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { CHANNELS } from "./channels.js";
 import { numberField, numberOf, selectField } from "./fields.js";
-import { DIVISIONS } from "./screen.js";
+import { DIVISIONS } from "./scales.js";
 import { WINDOWS } from "./spectrum.js";
 
 const SLOPES = /** @type {Record<string, number>} */ ({ rising: 1, falling: -1, either: 0 });
@@ -56,6 +56,17 @@ export class Settings {
     return traces.find(({ label }) => label === this.fields[axis].value);
   }
 
+  /** The channel that triggers and its level; null where none does. */
+  get trigger() {
+    const mode = this.fields.mode.value;
+    return mode === "free" || mode === "roll" ? null : { channel: this.fields.trigger.value, level: this.number("level"), slope: this.fields.slope.value, mode, before: this.number("before") };
+  }
+
+  /** @param {number} level in the unit of the channel that triggers */
+  setLevel(level) {
+    this.fields.level.value = String(level);
+  }
+
   get spectrum() {
     return { window: this.fields.window.value, isDecibel: this.fields.amplitude.value === "decibel" };
   }
@@ -70,12 +81,10 @@ export class Settings {
    * @param {number[]} places of the channels that are sampled
    */
   asked(places) {
-    const mode = this.fields.mode.value;
-    const isFree = mode === "free" || mode === "roll";
-    const source = this.fields.trigger.value;
-    const channel = places.indexOf(Number(source.slice(2)) - 1);
-    if (!isFree && channel < 0) throw new Error(t("scope.trigger.none", { channel: source }));
-    const trigger = isFree ? null : { channel, level: this.number("level"), slope: SLOPES[this.fields.slope.value], mode, before: this.number("before") / 100 };
+    const chosen = this.trigger;
+    const channel = chosen ? places.indexOf(Number(chosen.channel.slice(2)) - 1) : 0;
+    if (channel < 0) throw new Error(t("scope.trigger.none", { channel: chosen?.channel ?? "" }));
+    const trigger = chosen && { ...chosen, channel, slope: SLOPES[chosen.slope], before: chosen.before / 100 };
     const program = this.fields.program.value.trim() ? this.number("program") : null;
     return { period_ms: this.number("period"), sweep_ms: DIVISIONS * this.sweepMs, trigger, program };
   }

@@ -6,8 +6,11 @@ import { Endings } from "../core/signal.js";
 import { t } from "../core/texts.js";
 import { confirm } from "../frame/dialog.js";
 import { mayMove } from "../motion/actions.js";
+import { arm as armed } from "../scope/arm.js";
 import { Recording } from "../scope/recording.js";
-import { COLORS, createScreen, DIVISIONS, fitting } from "../scope/screen.js";
+import { DIVISIONS, fitting } from "../scope/scales.js";
+import { COLORS, createScreen } from "../scope/screen.js";
+import { stateOf, stateText } from "../scope/state.js";
 
 const CHANNELS = 4;
 const PROFILE = "ACC 500\nDEC 500\nSTP 500\nJRK 0\nF500\nRES X\nX15";
@@ -37,26 +40,31 @@ export const screen = {
     endings.add(() => run.end(), () => void (link.isOpen.value && link.command("scope.stop").catch(() => {})));
     head.append(key("scope.start", () => arm(null), "main"), key("scope.index", index, "danger"), key("scope.stop", stop), key("scope.autoscale", autoscale));
     body.append(h("div.scope-side.scroll", {},
+      h("div.scope-channel", {}, h("span", {}), ...["scope.head.source", "scope.head.scale", "scope.head.offset"].map((each) => h("span.hint", {}, t(/** @type {any} */ (each))))),
       ...channels.map((each, n) => h("div.scope-channel", { data: { channel: String(n + 1) } }, h("strong", {}, String(n + 1)), each.source, each.scale, each.offset)),
       h("div.scope-settings", {}, row(t("scope.sweep"), sweep), row(t("scope.period"), period), row(t("scope.mode"), mode), row(t("scope.slope"), slope), row(t("scope.level"), level)),
       h("label.stack", {}, t("scope.profile"), profile)), h("div.stack.grow", {}, chart, state));
     body.classList.add("is-scope");
     const screenOf = createScreen(chart, endings);
     const draw = () => {
-      const { channels: records, period: every } = recording.window();
-      screenOf.draw(records.map((values, n) => ({ label: String(n + 1), color: COLORS[n], values, scale: numberOf(channels[n].scale) || 1, offset: numberOf(channels[n].offset) })), every, numberOf(sweep));
+      const { channels: records, period: every, first, zero } = recording.window();
+      const start = (first - zero) * every * 1000;
+      screenOf.draw(records.map((values, n) => ({ label: String(n + 1), color: COLORS[n], values, scale: numberOf(channels[n].scale) || 1, offset: numberOf(channels[n].offset) })), { start, period: every, from: start, step: numberOf(sweep) });
     };
+    const tell = () => setText(state, stateText(stateOf(model.capture.value, run.list.length ? recording : null), model.capture.value, recording.count));
     for (const { scale, offset } of channels) for (const field of [scale, offset]) field.addEventListener("input", draw);
     endings.add(
       model.scope.watch((piece) => {
         if (!piece || !run.list.length) return;
         recording.add(piece);
-        setText(state, t("scope.read", { count: recording.count }));
+        tell();
         draw();
       }),
       model.capture.watch((capture) => {
+        if (!run.list.length) return;
         recording.note(capture);
-        if (run.list.length) draw();
+        tell();
+        draw();
       }),
     );
     draw();
@@ -80,9 +88,9 @@ export const screen = {
       const free = text !== null || mode.value === "free";
       const trigger = free ? null : { channel: 0, level: numberOf(level), slope: slope.value === "rising" ? 1 : -1, mode: mode.value, before: 0.1 };
       run.add(link.subscribe({ topic: "scope", hz: 10 }));
-      const armed = text === null ? await give("scope.arm", { ...chosen, trigger }) : await give("scope.index", { ...chosen, profile: text });
-      if (armed) recording.begin(armed.channels.length, armed, trigger, text === null ? "sweep" : "once");
-      setText(state, armed ? t("scope.armed") : "");
+      const begun = text === null ? await armed("scope.arm", { ...chosen, trigger }) : await armed("scope.index", { ...chosen, profile: text });
+      if (begun) recording.begin(begun.channels.length, begun, trigger, text === null ? "sweep" : "once");
+      tell();
       draw();
     }
 

@@ -4,24 +4,33 @@ import { fill, h, setText } from "../../core/dom.js";
 import { Endings, Signal } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
 import { ask } from "../../frame/dialog.js";
+import { arm } from "../../scope/arm.js";
 import { samplesOf } from "../../scope/branch.js";
-import { Channels } from "../../scope/channels.js";
+import { Channels, fullLabel } from "../../scope/channels.js";
 import { cursorPlugin } from "../../scope/cursors.js";
-import { csvOf, keepFile, parquetOf, pngOf } from "../../scope/export.js";
+import { csvOf, fileName, keepFile, parquetOf, pngOf } from "../../scope/export.js";
 import { distanceText, samplesAt, showMeasures } from "../../scope/measure_table.js";
-import { Recording } from "../../scope/recording.js";
-import { createScreen, DIVISIONS } from "../../scope/screen.js";
+import { panningPlugin } from "../../scope/panning.js";
+import { moved, Recording } from "../../scope/recording.js";
+import { DIVISIONS } from "../../scope/scales.js";
+import { createScreen } from "../../scope/screen.js";
 import { peaks } from "../../scope/spectrum.js";
 import { createSpectrum } from "../../scope/spectrum_view.js";
 import { Settings } from "../../scope/settings.js";
+import { stateOf, stateText } from "../../scope/state.js";
+import { triggerPlugin } from "../../scope/trigger_mark.js";
+import { within, zoomed } from "../../scope/view.js";
 import { createXy } from "../../scope/xy.js";
 
 const VIEWS = /** @type {const} */ (["time", "xy", "spectrum"]);
 const PEAKS = 6;
+const SLOW_S = 0.5; // a sweep of this time and more is also drawn while it comes
+const KEYS = /** @type {Record<string, number>} */ ({ "+": 1, "-": -1 }); // zoom
+const PANS = /** @type {Record<string, number>} */ ({ ArrowLeft: -1, ArrowRight: 1 }); // divisions
 
 /**
  * @typedef {import("../../scope/channels.js").Channel} Channel
- * @typedef {{ traces: Channel[], period: number }} Reference
+ * @typedef {{ traces: Channel[], period: number, start: number }} Reference `start`: ms of the first sample
  */
 
 /**
@@ -37,6 +46,8 @@ export async function mount(host, { head, kept, keep }) {
   let reference = null;
   /** @type {typeof VIEWS[number]} */
   let view = "time";
+  /** The part of a record at rest that is shown, null: its sweep. @type {import("../../scope/view.js").View | null} */
+  let part = null;
   const changed = () => {
     keep({ channels: channels.kept(), ...settings.kept(), isFull: side.hidden });
     draw();
@@ -44,7 +55,9 @@ export async function mount(host, { head, kept, keep }) {
   const channels = new Channels(kept.channels ?? [], changed);
   const settings = new Settings(kept, changed);
   const hosts = VIEWS.map((each) => h("div.scope-chart.grow", { hidden: each !== view, data: { view: each } }));
-  const state = h("span.hint.grow", { role: "status" });
+  Object.assign(hosts[0], { tabIndex: 0, ariaLabel: t("scope.zoom.label"), onkeydown: zoomByKey });
+  const state = h("span.scope-state.grow", { role: "status" });
+  const zooming = h("span.hint", {}, t("scope.zoom"));
   const distance = h("span.hint", { data: { cursors: "" } });
   const table = h("table.grid.scope-measures", {});
   const keys = VIEWS.map((each) => key(/** @type {any} */ (`scope.view.${each}`), () => show(each)));
@@ -52,49 +65,142 @@ export async function mount(host, { head, kept, keep }) {
   const sideKey = key("scope.settings", () => {
     side.hidden = !side.hidden;
     sideKey.ariaPressed = String(!side.hidden);
+    side.scrollIntoView();
     changed();
   });
   sideKey.ariaPressed = String(!side.hidden);
   const cursorKey = key("scope.cursors", toggleCursors);
   const referenceKey = key("scope.reference", toggleReference);
   head.append(key("scope.start", () => void start().catch(refuse), "main"), key("scope.stop", () => void give("scope.stop")), key("scope.autoscale", () => {
-    channels.fit(traces());
+    channels.fit(shownNow().traces);
     changed();
   }), ...keys, cursorKey, referenceKey, key("scope.branch", () => void referToBranch().catch(refuse)), sideKey, key("scope.export", choose));
+  head.classList.add("is-full");
   host.classList.add("is-scope", "is-wide");
-  host.append(side, h("div.stack.grow.scope-right", {}, ...hosts, h("div.row.wrap", {}, state, distance), h("div.scroll.scope-table", { tabIndex: 0 }, table)));
-  const screen = createScreen(hosts[0], endings, [cursorPlugin(cursors)]);
-  const xy = createXy(hosts[1], endings);
+  host.append(side, h("div.stack.grow.scope-right", {}, ...hosts, h("div.row.wrap.scope-line", {}, state, zooming, distance), h("div.scroll.scope-table", { tabIndex: 0 }, table)));
+  const panning = panningPlugin({ isAsked: () => isAtRest() && !cursors.value, zoom, pan, reset: () => showPart(null) });
+  const screen = createScreen(hosts[0], endings, [triggerPlugin(mark, moveLevel), cursorPlugin(cursors), panning]);
+  const xy = createXy(hosts[1], endings, fullLabel);
   const spectra = createSpectrum(hosts[2], endings);
   channels.sources();
   await channels.nameUnits().catch(refuse);
 
-  function traces() {
-    const { channels: records, period } = recording.window();
-    return channels.traces(records, period);
+  /** The state of the scope for this pane. */
+  function stateNow() {
+    return stateOf(model.capture.value, live.list.length ? recording : null);
+  }
+
+  /** Whether there is a record that no sample is added to. */
+  function isAtRest() {
+    return recording.count > 0 && ["stopped", "taken"].includes(stateNow());
+  }
+
+  /** The part of the record that is shown: its traces, ms of the first sample and of the left edge, ms of a division. */
+  function shownNow() {
+    const period = recording.period;
+    const ms = 1000 * period;
+    let shown = recording.window();
+    if (part && ms) {
+      const [from, to] = [part.from, part.from + DIVISIONS * part.step].map((each) => Math.round(each / ms) + shown.zero);
+      const first = Math.max(recording.kept[0], from - 1);
+      shown = { ...shown, first, channels: shown.channels.map((_each, channel) => recording.part(channel, first, Math.min(recording.kept[1], to + 2))) };
+    }
+    const start = (shown.first - shown.zero) * ms;
+    return { traces: channels.traces(shown.channels, period), start, period, from: part?.from ?? start, step: part?.step ?? settings.sweepMs };
+  }
+
+  /** What has come of the next sweep, where it takes its time. */
+  function coming() {
+    const next = recording.samples * recording.period >= SLOW_S && !isAtRest() ? recording.underWay() : null;
+    return { traces: next ? channels.traces(next.channels, recording.period) : [], start: next ? (next.first - next.zero) * 1000 * recording.period : 0 };
   }
 
   function draw() {
-    const present = traces();
-    const period = recording.period;
-    const other = reference?.traces.map((each) => ({ ...each, label: `${each.label} ${t("scope.reference.short")}`, isReference: true })) ?? [];
-    if (view === "time") screen.draw([...present, ...other], period, settings.sweepMs);
-    else if (view === "xy") xy.draw(settings.traceOf(present, "x"), settings.traceOf(present, "y"));
-    else drawSpectrum(present, period);
-    if (view !== "spectrum") showMeasures(table, present, period, cursors.value, new Map(reference?.traces.map(({ label, values }) => [label, values])));
+    zooming.hidden = view !== "time" || !isAtRest();
+    const { traces: present, ...frame } = shownNow();
+    const { start, period } = frame;
+    const length = present[0]?.values.length ?? 0;
+    const at = (/** @type {Channel[]} */ traces, /** @type {number} */ begin) => traces.map((each) => ({ ...each, values: moved(each.values, Math.round((begin - start) / (1000 * period)), length) }));
+    const other = reference ? at(reference.traces, reference.start) : [];
+    if (view === "time") {
+      const next = coming();
+      const named = other.map((each) => ({ ...each, label: `${each.label} ${t("scope.reference.short")}`, isReference: true }));
+      screen.draw([...present, ...named, ...at(next.traces, next.start).map((each) => ({ ...each, isFaint: true }))], frame);
+    } else if (view === "xy") xy.draw(settings.traceOf(present, "x"), settings.traceOf(present, "y"));
+    else drawSpectrum(present, period, start / 1000);
+    if (view !== "spectrum") showMeasures(table, present, { period, begin: start / 1000 }, cursors.value, new Map(other.map(({ label, values }) => [label, values])));
     setText(distance, cursors.value ? distanceText(cursors.value) : "");
+  }
+
+  /** @param {import("../../scope/view.js").View | null} chosen */
+  function showPart(chosen) {
+    if (!isAtRest()) return;
+    part = chosen;
+    draw();
+  }
+
+  /** Times of the first and last sample that are kept, ms. */
+  function ends() {
+    const { zero } = recording.window();
+    return /** @type {import("../../scope/view.js").Ends} */ (recording.kept.map((each) => (each - zero) * 1000 * recording.period));
+  }
+
+  /**
+   * @param {boolean} isFiner
+   * @param {number} at
+   */
+  function zoom(isFiner, at) {
+    showPart(zoomed(shownNow(), isFiner, at, ends(), 1000 * recording.period));
+  }
+
+  /** @param {number} by */
+  function pan(by) {
+    const { from, step } = shownNow();
+    showPart(within({ from: from + by, step }, ends()));
+  }
+
+  /** @param {KeyboardEvent} event */
+  function zoomByKey(event) {
+    const { from, step } = shownNow();
+    if (event.key in KEYS) zoom(KEYS[event.key] > 0, from + (DIVISIONS / 2) * step);
+    else if (event.key in PANS) pan(PANS[event.key] * step);
+    else if (event.key === "0") showPart(null);
+    else return;
+    event.preventDefault();
+  }
+
+  /** The trigger that is set, on the screen. */
+  function mark() {
+    const trigger = settings.trigger;
+    const scale = trigger && channels.scaleOf(trigger.channel);
+    return trigger && scale ? { level: (trigger.level - scale.offset) / scale.scale, color: scale.color } : null;
+  }
+
+  /**
+   * @param {number} level in divisions
+   * @param {boolean} isDone
+   */
+  function moveLevel(level, isDone) {
+    const scale = settings.trigger && channels.scaleOf(settings.trigger.channel);
+    if (!scale) return;
+    settings.setLevel(Number((level * scale.scale + scale.offset).toPrecision(4)));
+    screen.redraw();
+    if (!isDone) return;
+    changed();
+    if (["waiting", "triggered"].includes(stateNow())) void start().catch(refuse);
   }
 
   /**
    * The spectra of what is between the cursors, else of the whole screen, with the peaks of each.
    * @param {Channel[]} present
    * @param {number} period
+   * @param {number} begin s of the first sample
    */
-  function drawSpectrum(present, period) {
-    const [from, to] = cursors.value && period ? samplesAt(cursors.value, period) : [0, Infinity];
-    const parts = present.map((each) => ({ ...each, values: Float64Array.from(each.values).subarray(from, to + 1) }));
+  function drawSpectrum(present, period, begin) {
+    const [from, to] = cursors.value && period ? samplesAt(cursors.value, period, begin) : [0, Infinity];
+    const parts = present.map((each) => ({ ...each, values: Float64Array.from(each.values).subarray(Math.max(0, from), to + 1) }));
     const found = spectra.draw(parts, period, settings.spectrum);
-    fill(table, h("tbody", {}, ...present.map(({ label, unit }, n) => h("tr", { data: { trace: label } }, h("th", { attr: { scope: "row" } }, label), ...peaksOf(found[n], unit)))));
+    fill(table, h("tbody", {}, ...present.map((each, n) => h("tr", { data: { trace: each.label } }, h("th", { attr: { scope: "row" } }, fullLabel(each)), ...peaksOf(found[n], each.unit)))));
   }
 
   /** @param {typeof VIEWS[number]} chosen */
@@ -108,12 +214,14 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   function toggleCursors() {
-    cursors.set(cursors.value ? null : [0.25 * DIVISIONS * settings.sweepMs, 0.75 * DIVISIONS * settings.sweepMs]);
+    const { from, step } = shownNow();
+    cursors.set(cursors.value ? null : [from + 0.25 * DIVISIONS * step, from + 0.75 * DIVISIONS * step]);
   }
 
   /** The traces that are shown now are kept beside the next ones. */
   function toggleReference() {
-    refer(reference ? null : traces().map((each) => ({ ...each, values: Float64Array.from(each.values) })));
+    const { traces, start } = shownNow();
+    refer(reference ? null : traces.map((each) => ({ ...each, values: Float64Array.from(each.values) })), start);
   }
 
   /** What another branch did at the ticks that are shown is the reference. */
@@ -122,12 +230,16 @@ export async function mount(host, { head, kept, keep }) {
     const others = branches.flatMap((each) => (each.number === present || each.last === null ? [] : { ...each, last: each.last }));
     if (why || !others.length) throw new Error(why || t("time.noother"));
     const chosen = await ask({ title: t("scope.branch"), body: [h("p", {}, t("scope.branch.text"))], choices: others.map((each) => ({ text: each.name, value: each })) });
-    if (chosen) refer(channels.traces(await samplesOf(chosen, recording, tickTime), recording.period));
+    const { first, zero, period } = recording.window();
+    if (chosen) refer(channels.traces(await samplesOf(chosen, recording, tickTime), period), (first - zero) * 1000 * period);
   }
 
-  /** @param {Channel[] | null} chosen */
-  function refer(chosen) {
-    reference = chosen && { traces: chosen, period: recording.period };
+  /**
+   * @param {Channel[] | null} chosen
+   * @param {number} begin ms of their first sample
+   */
+  function refer(chosen, begin) {
+    reference = chosen && { traces: chosen, period: recording.period, start: begin };
     referenceKey.ariaPressed = String(reference !== null);
     draw();
   }
@@ -137,15 +249,17 @@ export async function mount(host, { head, kept, keep }) {
     await channels.nameUnits();
     live.end();
     live.add(link.subscribe({ topic: "scope", hz: 10 }));
-    const armed = await give("scope.arm", asked);
-    if (armed) recording.begin(armed.channels.length, armed, asked.trigger, settings.run);
-    setText(state, armed ? t("scope.armed") : "");
-    draw();
+    const armed = await arm("scope.arm", asked);
+    if (!armed) return;
+    recording.begin(armed.channels.length, armed, asked.trigger, settings.run);
+    part = null;
+    update();
   }
 
   function update() {
-    const text = model.capture.value.running ? "scope.read" : "scope.stopped";
-    setText(state, recording.count ? t(text, { count: recording.count }) : t("scope.armed"));
+    const now = stateNow();
+    state.dataset.state = now;
+    setText(state, stateText(now, model.capture.value, recording.count));
     draw();
   }
 
@@ -156,16 +270,29 @@ export async function mount(host, { head, kept, keep }) {
 
   /** @param {string} kind */
   async function save(kind) {
-    const [present, period] = [traces(), recording.period];
+    const { traces: present, period, start } = shownNow();
+    const now = new Date();
     if (kind !== "png" && !present.length) throw new Error(t("scope.export.none"));
     const canvas = { time: screen.canvas, xy: xy.canvas, spectrum: spectra.canvas() }[view];
-    if (kind === "csv") keepFile("scope.csv", new Blob([csvOf(present, period)], { type: "text/csv" }));
-    else if (kind === "parquet") keepFile("scope.parquet", await parquetOf(present, period));
-    else if (canvas) keepFile("scope.png", await pngOf(canvas));
+    if (kind === "csv") keepFile(fileName(kind, now), new Blob([csvOf(present, period, start / 1000)], { type: "text/csv" }));
+    else if (kind === "parquet") keepFile(fileName(kind, now), await parquetOf(present, period, start / 1000));
+    else if (canvas) keepFile(fileName(kind, now), await pngOf(canvas, legendOf(present, period, now)));
+  }
+
+  /**
+   * What a picture shows, in words.
+   * @param {Channel[]} present
+   * @param {number} period s
+   * @param {Date} now
+   */
+  function legendOf(present, period, now) {
+    const trigger = settings.trigger;
+    const title = [`${model.hello.value.machine.name} ${model.hello.value.machine.card}`.trim(), now.toLocaleString(), `${t("scope.period")} ${1000 * period}`, ...(trigger ? [`T: ${trigger.channel} ${trigger.level} ${t(/** @type {any} */ (`scope.${trigger.slope}`))}`] : [])];
+    return [{ text: title.join(", ") }, ...present.map((each) => ({ text: t("scope.legend", { name: fullLabel(each), scale: each.scale, offset: each.offset }), color: each.color }))];
   }
 
   endings.add(
-    () => live.end(), () => void (link.isOpen.value && live.list.length && link.command("scope.stop").catch(() => {})),
+    () => live.end(), () => void (link.isOpen.value && live.list.length && !recording.isTaken && link.command("scope.stop").catch(() => {})),
     cursors.watch((both) => {
       cursorKey.ariaPressed = String(both !== null);
       screen.redraw();
@@ -177,8 +304,9 @@ export async function mount(host, { head, kept, keep }) {
       update();
     }),
     model.capture.watch((capture) => {
+      if (!live.list.length) return;
       recording.note(capture);
-      if (live.list.length) update();
+      update();
     }),
   );
   show(view);
