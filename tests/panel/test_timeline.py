@@ -496,6 +496,9 @@ def test_samples_differences_and_a_journal_come_over_http(quiet_panel: Served) -
                 "names": ["P1"],
                 "channels": [[value] * 5],
             }
+        for names in ("P1, BIT81", "p1;bit81", " P1 ,; BIT81,"):
+            several = get("/samples", branch=0, **{**query, "parameters": names}).json()
+            assert (several["names"], len(several["channels"])) == (["P1", "BIT81"], 2)
         found = get("/differences", branch=0, other=1, tick=tick).json()
         assert found == {
             "count": 1,

@@ -75,8 +75,47 @@ def test_the_moment_is_dragged_back_and_the_machine_operated_from_there_on_anoth
     until_model(page, "!model.timeline.value.away && model.timeline.value.branches.length === 2")
     expect(page.locator("[data-branch='1'] strong")).to_contain_text("branch 1")
     expect(page.locator("#state")).to_contain_text("CARD RUNS")
-    page.get_by_label("Parameters to compare").fill("P0")
-    page.get_by_role("button", name="COMPARE").click()
-    expect(page.locator(".time-chart[data-parameters='1'] canvas")).to_be_visible()
-    expect(page.locator(".time-found [data-count]")).to_be_visible()
     assert page.complaints == []  # type: ignore[attr-defined]
+
+
+def compare(page: Page, parameters: str) -> None:
+    page.get_by_label("Parameters to compare").fill(parameters)
+    page.get_by_role("button", name="COMPARE").click()
+
+
+def test_every_parameter_is_compared_on_a_scale_of_its_own(page: Page) -> None:
+    compare(page, "P0, BIT81; system.global system clock")
+    charts = page.locator(".time-chart[data-parameters='3'] [data-parameter]")
+    expect(charts).to_have_count(3)
+    names = charts.evaluate_all("(all) => all.map((each) => each.dataset.parameter)")
+    assert names == ["P0", "BIT81", "P6916"]
+    expect(charts.first).to_contain_text("branch 1")
+    expect(charts.first).to_contain_text("first")
+    expect(page.locator(".time-found [data-count]")).to_contain_text("differ")
+    pane = page.locator("[data-pane=timeline] .scroll").first
+    wide = page.evaluate("""() => [...document.querySelectorAll('[data-pane=timeline] .scroll, .time-chart, .time-legend')]
+      .filter((each) => each.scrollWidth > each.clientWidth + 1).map((each) => each.className)""")  # noqa: E501
+    assert wide == []
+    expect(pane).to_be_visible()
+
+
+def test_a_comparison_that_is_refused_says_why_in_the_pane(page: Page) -> None:
+    refused = page.locator(".time-found [role=alert]")
+    for parameters, why in (
+        ("P0, nonsense", "no parameter and no flag is named 'nonsense'"),
+        (",".join(f"P{n}" for n in range(9)), "9 parameters: 1 to 8 are sampled"),
+    ):
+        compare(page, parameters)
+        expect(refused).to_have_text(why)
+        expect(page.locator(".time-chart canvas")).to_have_count(0)
+    compare(page, "P0")
+    expect(refused).to_have_count(0)
+    page.complaints.clear()  # type: ignore[attr-defined]  # the browser names the refusals
+
+
+def test_labels_of_an_axis_have_room_and_a_curve_that_is_constant_a_height(page: Page) -> None:
+    found = page.evaluate("""() => import('/js/bench/charts.js').then((m) => [
+      m.axisSize(['100000', '0']) - m.axisSize(['0', '1']), m.axisSize(null), m.valueText(-75000),
+      m.valueText(null), m.endsOf([[1, 1], [1]]), m.endsOf([[0, 100], [-100]]), m.endsOf([[NaN], []]),
+    ])""")  # noqa: E501
+    assert found == [37, 18, "\u221275000", "\u2013", [0.5, 1.5], [-116, 116], [0, 1]]

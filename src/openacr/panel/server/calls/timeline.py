@@ -27,7 +27,7 @@ Tick = Annotated[int, Meta(ge=0, lt=1 << 62)]
 
 
 class Samples(Query, frozen=True):
-    """Parameters or flags by name or number, with semicolons; an interval of a branch in ticks."""
+    """Parameters or flags by name or number, with commas; an interval of a branch in ticks."""
 
     branch: Number
     parameters: Annotated[str, Meta(max_length=1000)]
@@ -132,4 +132,5 @@ async def _course(call: Call, branch: int, first_tk: int | None, last_tk: int | 
 
 
 def _words(text: str) -> list[str]:
-    return [word.strip() for word in text.split(";") if word.strip()]
+    """Names with commas or semicolons between them: no name has either."""
+    return [word.strip() for word in text.replace(";", ",").split(",") if word.strip()]
