@@ -145,8 +145,8 @@ def test_an_axis_of_a_card_moves_only_after_a_yes(card: Card) -> None:
     code, text, problems = called("measure", "mill:1", 0)
     assert (code, text) == (2, "")
     assert problems == (
-        "error: axis 0 of mill:1 will move by 100 pulses to both sides, 2 to 60 Hz, for 1.5 s:"
-        " say --yes\n"
+        "error: axis 0 of mill:1 will move by 100 pulses to both sides, 2 to 60 Hz, for 1.5 s"
+        " at most: say --yes\n"
     )
     assert card.read("axis0.jog offset") == 0
 
@@ -236,3 +236,18 @@ def test_what_cannot_be_done_is_said_before_anything_moves(
 ) -> None:
     code, text, problems = called(*words)
     assert (code, text, problems) == (2, "", f"error: {problem}\n")
+
+
+def test_a_sweep_is_as_long_as_a_program_has_room_for_and_worse_steps_are_said() -> None:
+    gantry = Path(__file__).parents[2] / "examples" / "gantry"
+    code, text, problems = called("propose", gantry, 0)
+    assert (code, problems) == (0, "")
+    lines = text.splitlines()
+    assert lines[1] == "  a sweep of 0.55 s: no empty program has room for 1.5 s"
+    hint = "(--phase, --bandwidth ask for calmer ones)"
+    assert [line for line in lines if line.startswith("worse")] == [
+        f"worse than the present gains: overshoot [%] of a step 22.0 instead of 19.0 {hint}",
+        f"worse than the present gains: settling [ms] of a step 23.5 instead of 18.5 {hint}",
+    ]
+    code, text, problems = called("measure", gantry, 0, "--time", "1.5")
+    assert (code, "less time (0.55 s fit), or DIM PROG" in problems) == (2, True)

@@ -12,6 +12,7 @@ MADE = (
     "alarm.", "block.", "board.", "graphics.", "home.state.", "load.", "override.", "pad.",
     "role.", "scope.", "state.", "card.", "programs.state.",
     "watch.format.", "panels.", "time.kind.", "time.step.", "world.fault.", "world.input.",
+    "tune.worse.",
 )  # fmt: skip
 
 

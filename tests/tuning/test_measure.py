@@ -105,7 +105,7 @@ def test_gains_that_swing_within_the_bounds_are_taken_back_too(card: Card) -> No
         ({"travel_cnt": 100.0}, "the axis went further than 100 pulses"),
     ],
 )
-def test_a_bound_ends_the_excitation(card: Card, bounds: dict[str, float], reason: str) -> None:
+def test_a_bound_ends_the_excitation(card: Card, bounds: dict[str, Any], reason: str) -> None:
     card.command("AXIS1 DGAIN 0")  # it overshoots
     with pytest.raises(UserError, match=f"axis 1: ended, because {reason}"):
         measure(card, 1, Excitation("step", 100.0, duration_s=0.3, **bounds))
@@ -209,15 +209,37 @@ def test_a_measurement_needs_an_empty_program_with_memory(card: Card) -> None:
     with pytest.raises(UserError) as refused:
         measure(card, 1, Excitation(duration_s=5.0))
     assert str(refused.value) == (
-        "no empty program has 135392 bytes (the largest has 65536): less time, or"
-        " DIM PROG15(135392)"
+        "no empty program has 135392 bytes (the largest has 65536): less time (2.05 s fit), or"
+        " DIM PROG7(135392)"
     )
     card.command("10 REM mine", program=7)
     card.go(Level())
-    with pytest.raises(UserError, match="PROG7 does not have, empty, 27392 bytes"):
+    with pytest.raises(UserError, match="PROG7 of the card is not empty: NEW erases one"):
         measure(card, 1, SHORT, program=7)
+    with pytest.raises(UserError, match=r"the largest has 65536.*DIM PROG6\("):
+        measure(card, 1, Excitation(duration_s=5.0))
     measure(card, 1, SHORT)  # PROG6
     assert [line.text for line in card.listing(Level.program(7))] == ["REM mine"]
+
+
+def test_a_program_that_no_time_fits_is_named_with_the_memory_it_needs(card: Card) -> None:
+    with pytest.raises(UserError) as refused:
+        measure(card, 1, Excitation(is_shortened=True), program=15)
+    text = "PROG15 does not have 51392 bytes (the largest has 0): DIM PROG15(51392)"
+    assert str(refused.value) == text
+
+
+def test_a_sweep_takes_the_time_that_an_empty_program_has_room_for(card: Card) -> None:
+    long = Excitation(duration_s=5.0, is_shortened=True)
+    found = measure(card, 1, long)
+    assert found.excitation.duration_s == 2.05
+    assert len(found.record.setpoint_cnt) == 4700  # 2.05 s and 0.3 s of rest at 2 kHz
+    assert found.excitation.memory_bytes(0.0005) <= 65536
+    assert long.fitting(64592, 0.0005).duration_s == 2.05  # what it needs, to the byte
+    assert long.fitting(64591, 0.0005).duration_s == 2.0
+    assert Excitation(is_shortened=True).fitting(20192, 0.0005).duration_s == 0.2
+    short = Excitation(is_shortened=True)
+    assert short.fitting(20191, 0.0005) is short
 
 
 @pytest.mark.parametrize(

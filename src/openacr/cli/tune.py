@@ -103,6 +103,7 @@ def ask_to_move(is_sure: bool, target: str, axis: int, excitation: "Excitation")
     text = (
         f"axis {axis} of {target} will move by {excitation.height_cnt:g} pulses"
         f"{sweep if excitation.kind == 'sine' else ' and back,'} for {excitation.duration_s:g} s"
+        f"{' at most' if excitation.is_shortened else ''}"
     )
     if not sys.stdin.isatty():
         raise UserError(f"{text}: say --yes")

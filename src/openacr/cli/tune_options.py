@@ -28,7 +28,10 @@ Amplitude = Annotated[float, typer.Option(help="Amplitude of the excitation [pul
 Band = Annotated[
     tuple[float, float], typer.Option(metavar="LOW HIGH", help="Frequencies of the sweep [Hz].")
 ]
-Duration = Annotated[float, typer.Option("--time", help="Time of the excitation [s].")]
+Duration = Annotated[
+    float | None,
+    typer.Option("--time", help="Time of the excitation [s]; else 1.5, or what a program holds."),
+]
 StepTime = Annotated[float, typer.Option("--time", help="Time until the step back [s].")]
 MostError = Annotated[
     float, typer.Option("--max-error", help="Following error that ends it [pulses]; 0: 4 x.")
@@ -88,14 +91,21 @@ class SweptAxis(MovedAxis):
     """An axis that is excited by a sine sweep."""
 
     band: Band = BAND_HZ
-    duration: Duration = SWEEP_S
+    duration: Duration = None
 
     def excitation(self) -> "Excitation":
         """The sweep with the bounds that end it; UserError for one that is refused."""
         from openacr.tuning.excitation import Excitation
 
-        bounds = (self.max_error, self.max_travel)
-        return Excitation("sine", self.amplitude, *self.band, self.duration, *bounds).checked()
+        return Excitation(
+            "sine",
+            self.amplitude,
+            *self.band,
+            SWEEP_S if self.duration is None else self.duration,
+            self.max_error,
+            self.max_travel,
+            is_shortened=self.duration is None,
+        ).checked()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from openacr.cli.tune_options import SWEEP_S
+
 if TYPE_CHECKING:
     from openacr.tuning.advice import Advice, Outlook
     from openacr.tuning.filters import Filters
@@ -22,6 +24,10 @@ def lines(advice: "Advice", *, with_proposal: bool) -> Iterator[str]:
         f" {1.0 / measurement.settings.period_s:g} Hz, amplitude {excitation.height_cnt:g} pulses,"
         f" {excitation.low_hz:g} to {excitation.high_hz:g} Hz"
     )
+    if excitation.is_shortened and excitation.duration_s < SWEEP_S:
+        yield (
+            f"  a sweep of {excitation.duration_s:g} s: no empty program has room for {SWEEP_S:g} s"
+        )
     spread = 100.0 * found.deviations["accel_per_volt"] / volts
     yield f"motor: {volts:.4g} pulses/s2 per V (+-{spread:.1g} %), rate {motor.rate_per_s:.3g} /s,"
     yield (
@@ -42,6 +48,7 @@ def lines(advice: "Advice", *, with_proposal: bool) -> Iterator[str]:
     if with_proposal and advice.proposal is not None:
         if advice.proposal.limited_by:
             yield f"faster is barred: {advice.proposal.limited_by}"
+        yield from _worse(advice)
         yield from _setting(advice, advice.proposal)
 
 
@@ -54,6 +61,23 @@ def _setting(advice: "Advice", proposal: "Proposal") -> Iterator[str]:
         yield from filters.lines(axis)
     gains = " ".join(f"{word} {value:.7G}" for word, value in proposal.gains.items())
     yield f"AXIS{axis} {gains}"
+
+
+def _worse(advice: "Advice") -> Iterator[str]:
+    """What the proposed gains make worse in a step, so that no one sets them unread."""
+    from openacr.tuning.advice import worse
+
+    names = {
+        "overshoot_percent": "overshoot [%]",
+        "rise_s": "rise [ms]",
+        "settling_s": "settling [ms]",
+    }
+    for name, (before, after) in worse(advice).items():
+        shown = [_ms(each) if name.endswith("_s") else f"{each:.1f}" for each in (before, after)]
+        yield (
+            f"worse than the present gains: {names[name]} of a step {shown[1]} instead of"
+            f" {shown[0]} (--phase, --bandwidth ask for calmer ones)"
+        )
 
 
 def _resonance(found: "Resonance") -> str:

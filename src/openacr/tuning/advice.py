@@ -27,6 +27,9 @@ BODE_POINTS = 160
 PEAK_POINTS = 41  # beside, for each peak of a shaft
 BODE_SHARE = 0.45  # of the servo rate: at half of it the response is 0, its phase nothing
 NO_FEEDFORWARD = {"ffvel": 0.0, "ffacc": 0.0}  # a step of the setpoint only saturates it
+# A figure of a step is worse from these differences on, or from a share of it.
+WORSE_BY = {"overshoot_percent": 1.0, "rise_s": 0.0005, "settling_s": 0.002}
+WORSE_SHARE = 0.05
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +90,23 @@ def new_filters(advice: Advice) -> Filters | None:
     return proposal.filters
 
 
+def worse(advice: Advice) -> dict[str, tuple[float | None, float | None]]:
+    """Figures of the predicted step that are worse with the proposed gains than with the present.
+
+    By name, present and proposed [% or s]; None: it does not get there.
+    """
+    if advice.proposed is None:
+        return {}
+    found = {}
+    for name, noise in WORSE_BY.items():
+        before = getattr(advice.present.figures, name)
+        after = getattr(advice.proposed.figures, name)
+        least = math.inf if before is None else before + max(noise, WORSE_SHARE * before)
+        if (math.inf if after is None else after) > least:
+            found[name] = (before, after)
+    return found
+
+
 def outlook(
     measurement: Measurement, found: Identified, settings: LoopSettings, move: Move | None
 ) -> Outlook:
@@ -127,6 +147,8 @@ def advice_data(advice: Advice) -> dict[str, Any]:
         "measured_to_hz": found.measured_to_hz,
         "limited_by": advice.proposal.limited_by if advice.proposal else "",
         "refusal": advice.refusal,
+        "time_s": measurement.excitation.duration_s,
+        "worse": worse(advice),
         "measured": measured,
         "modelled": modelled,
         "bode": _bode(advice),

@@ -9,7 +9,7 @@ changes nothing: the program ends by itself within its time, with the axis where
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from openacr.errors import UserError
@@ -32,6 +32,7 @@ RATE_SHARE = 0.4  # of the servo rate: the highest frequency of a cam
 BYTES_PER_POINT = 4
 LEAST_CNT, MOST_CNT = 5.0, 100_000.0
 LEAST_S, MOST_S = 0.2, 10.0
+SHORTER_S = 0.05  # steps in which an excitation is shortened
 ENDS = {
     1: "the following error exceeded {error:g} pulses",
     2: "the axis went further than {travel:g} pulses",
@@ -62,7 +63,10 @@ class FilterChange:
 
 @dataclass(frozen=True, slots=True)
 class Excitation:
-    """A sine sweep or a step, with the bounds that end it; counts, Hz and seconds."""
+    """A sine sweep or a step, with the bounds that end it; counts, Hz and seconds.
+
+    `is_shortened`: it takes less time where no empty program of the card has room for all of it.
+    """
 
     kind: Literal["sine", "step"] = "sine"
     height_cnt: float = 100.0
@@ -71,6 +75,7 @@ class Excitation:
     duration_s: float = 1.5
     error_cnt: float = 0.0  # 0: four times the height
     travel_cnt: float = 0.0  # 0: four times the height
+    is_shortened: bool = False
 
     def checked(self) -> "Excitation":
         """The same with its bounds; UserError where a value is out of range."""
@@ -88,9 +93,17 @@ class Excitation:
             raise UserError(
                 f"bounds below the amplitude of {self.height_cnt:g} pulses end it early"
             )
-        return Excitation(
-            self.kind, self.height_cnt, self.low_hz, self.high_hz, self.duration_s, error, travel
-        )
+        return replace(self, error_cnt=error, travel_cnt=travel)
+
+    def fitting(self, room_bytes: int, period_s: float) -> "Excitation":
+        """The same, shortened to what a program of the card has room for; itself where none is."""
+        fits = self
+        while fits.memory_bytes(period_s) > room_bytes:
+            shorter_s = round(fits.duration_s - SHORTER_S, 3)
+            if shorter_s < LEAST_S:
+                return self
+            fits = replace(fits, duration_s=shorter_s)
+        return fits
 
     @property
     def is_cam(self) -> bool:

@@ -142,7 +142,8 @@ def measure(
 ) -> Op[Measurement]:
     """Excite an axis at rest and record it; UserError where a bound was exceeded.
 
-    The card does it in a program that is empty (or `program`), which is erased afterwards.
+    The card does it in a program that is empty (or `program`), which is erased afterwards. The
+    excitation of the measurement is the one that was made: it may have been shortened.
     `gains` and `filters` are set before; they stay, unless a bound is exceeded or the axis does
     not come to rest: then the former ones are set again. `stop` ends it from another connection.
     """
@@ -154,8 +155,9 @@ def measure(
     yield from require_rest(talk, axis, excitation.error_cnt / 4.0)
     if (yield from values.read_bit(talk, ARMED)):
         raise UserError("the sampler of the card is in use: SAMP CLEAR frees it")
-    period_s, count = former.period_s, excitation.samples(former.period_s)
-    level = yield from _room(talk, excitation.memory_bytes(period_s), program)
+    period_s = former.period_s
+    level, excitation = yield from _room(talk, excitation, period_s, program)
+    count = excitation.samples(period_s)
     if excitation.is_cam:
         yield from _require_no_cam(talk, axis)
     changed = None if filters is None else _change(former, filters)
@@ -211,26 +213,35 @@ def write_gains(
         yield from talk.order(line)
 
 
-def _room(talk: Talk, needed: int, program: int | None) -> Op[Level]:
-    """A program without text that has the memory; UserError if there is none."""
+def _room(
+    talk: Talk, excitation: Excitation, period_s: float, program: int | None
+) -> Op[tuple[Level, Excitation]]:
+    """A program without text that has the memory, and what fits; UserError if there is none."""
     rooms = yield from stored.rooms(talk)
     numbers = range(PROGRAMS - 1, -1, -1) if program is None else (program,)
-    most = 0
-    for number in numbers:
-        level = Level.program(number)
-        if level not in rooms:
-            continue
-        lines = yield from stored.listing(talk, level)
+    needed = excitation.memory_bytes(period_s)
+    empty: dict[Level, int] = {}  # with its memory [bytes]
+    for level in map(Level.program, numbers):
+        lines = (yield from stored.listing(talk, level)) if level in rooms else []
         if any(line.text.strip().startswith(TITLE) for line in lines):  # of a host that was lost
             yield from _clear(talk, level)
         elif lines:
             continue
-        most = max(most, rooms[level].total)
-        if rooms[level].total >= needed:
-            return level
-    where = "no empty program has" if program is None else f"PROG{program} does not have, empty,"
+        empty[level] = rooms[level].total if level in rooms else 0
+        if empty[level] >= needed:
+            return level, excitation
+    if not empty:
+        which = "no program of the card" if program is None else f"PROG{program} of the card"
+        verb = "is empty" if program is None else "is not empty"
+        raise UserError(f"{which} {verb}: NEW erases one")
+    level = max(empty, key=lambda each: empty[each])
+    fits = excitation.fitting(empty[level], period_s)
+    if excitation.is_shortened and fits is not excitation:
+        return level, fits
+    where = "no empty program has" if program is None else f"PROG{program} does not have"
+    less = f"less time ({fits.duration_s:g} s fit), or " if fits is not excitation else ""
     raise UserError(
-        f"{where} {needed} bytes (the largest has {most}): less time, or DIM PROG15({needed})"
+        f"{where} {needed} bytes (the largest has {empty[level]}): {less}DIM {level}({needed})"
     )
 
 

@@ -108,3 +108,17 @@ def test_the_text_of_the_project_is_opened_beside_another_one_of_the_card(
     dialog.get_by_role("button", name="DOWNLOAD").click()
     expect(editor.locator(".text-foot .hint")).to_contain_text("PROG0")
     assert "100000" in served.call(lambda station: station.machine.card.upload(Level.program(1)))
+
+
+def test_an_axis_is_measured_with_the_fields_as_they_are(page: Page, served: Served) -> None:
+    served.call(lambda station: station.machine.card.command("AXIS0 DRIVE ON"))
+    open_pane(page, "Tuning")
+    page.get_by_role("button", name="MEASURE").click()
+    dialog = page.get_by_role("dialog", name="MEASURE")
+    expect(dialog).to_contain_text("for 1.5 s at most")
+    dialog.get_by_role("button", name="MEASURE").click()
+    expect(page.locator(".tune-chart canvas")).to_have_count(5)
+    tune = page.locator("[data-pane=tune]")
+    expect(tune).to_contain_text("Measured for 0.55 s")
+    worse = tune.locator("[data-worse=overshoot_percent]")
+    expect(worse).to_contain_text("overshoot of a step, % 22")

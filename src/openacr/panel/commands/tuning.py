@@ -1,5 +1,6 @@
 """Commands of servo tuning: measure an axis, set what was proposed."""
 
+from dataclasses import replace
 from typing import Annotated
 
 from msgspec import Meta
@@ -34,7 +35,7 @@ class OfMeasurement(OfAxis, frozen=True, kw_only=True):
     amplitude: Positive = 100.0
     low_hz: Positive = 2.0
     high_hz: Positive = 60.0
-    time_s: Positive = 1.5
+    time_s: Positive | None = None  # None: 1.5, or what an empty program has room for
     bandwidth_hz: Positive | None = None
     phase_deg: Positive = 55.0
     integral: bool = True
@@ -76,7 +77,12 @@ def tune_gains(station: Station, order: Order, args: OfAxis) -> dict[str, float]
 def tune_measure(station: Station, order: Order, args: OfMeasurement) -> Later:
     """Move an axis by a small sine sweep; its motor, its margins, and gains that are proposed."""
     axis = _resting(station, args.axis)
-    excitation = Excitation("sine", args.amplitude, args.low_hz, args.high_hz, args.time_s)
+    is_shortened = args.time_s is None
+    excitation = Excitation(
+        "sine", args.amplitude, args.low_hz, args.high_hz, is_shortened=is_shortened
+    )
+    if args.time_s is not None:
+        excitation = replace(excitation, duration_s=args.time_s)
     wish = Wish(args.bandwidth_hz, args.phase_deg, args.integral)
     measuring = station.tuning.measure(order.person.client, axis, excitation, wish)
     answer_with(order, measuring, lambda found: found)

@@ -9,9 +9,10 @@ import { chart, drawTuning } from "../tuning/charts.js";
 import { gainSliders } from "../tuning/sliders.js";
 
 const FIELDS = /** @type {const} */ ([
-  ["amplitude", "tune.amplitude", "100"], ["low_hz", "tune.lowest", "2"], ["high_hz", "tune.highest", "60"], ["time_s", "tune.time", "1.5"],
+  ["amplitude", "tune.amplitude", "100"], ["low_hz", "tune.lowest", "2"], ["high_hz", "tune.highest", "60"], ["time_s", "tune.time", ""],
   ["phase_deg", "tune.margin", "55"], ["bandwidth_hz", "tune.wanted", ""],
 ]);
+const LONGEST_S = 1.5; // of a sweep without a given time
 const GAINS = ["PGAIN", "IGAIN", "ILIMIT", "DGAIN", "FFVEL", "FFACC"];
 
 /**
@@ -101,7 +102,7 @@ export async function mount(host, { head, kept, keep }) {
 
   async function onMeasure() {
     const given = args();
-    const text = t("tune.measure.text", { axis: axis.name, amplitude: given.amplitude ?? 100, time: given.time_s ?? 1.5 });
+    const text = t("tune.measure.text", { axis: axis.name, amplitude: given.amplitude ?? 100, time: given.time_s ?? LONGEST_S });
     if (!mayMove() || !(await confirm(t("tune.measure"), text, t("tune.measure")))) return;
     const advice = await moved("tune.measure", given);
     if (!advice) return;
@@ -177,6 +178,8 @@ function table(advice) {
     h("p.tune-motor", {}, t("tune.facts", { accel: shown(motor.accel_per_volt), rate: shown(motor.rate_per_s), friction: shown(motor.coulomb_accel / motor.accel_per_volt), offset: shown(motor.offset_v), delay: shown(motor.delay_tk) })),
     h("p.tune-resonance", {}, resonance(advice.resonance)),
     h("p", { className: advice.is_sure ? "hint" : "notice" }, t(advice.is_sure ? "tune.sure" : "tune.unsure", { error: shown(advice.error_percent), coherence: shown(advice.coherence) })),
+    ...Object.entries(advice.worse).map(([name, [before, after]]) => h("p.notice", { data: { worse: name } }, t("tune.worse", { name: t(/** @type {any} */ (`tune.worse.${name}`)), before: name.endsWith("_s") ? inMs(before) : shown(before), after: name.endsWith("_s") ? inMs(after) : shown(after) }))),
+    advice.time_s < LONGEST_S ? h("p.hint", {}, t("tune.swept", { time: advice.time_s })) : null,
     advice.refusal || advice.limited_by ? h("p.hint", {}, advice.refusal || t("tune.limited", { why: advice.limited_by })) : null,
     h("table.grid.tune-table", {},
       h("thead", {}, h("tr", {}, h("th", {}), ...loops.map((_loop, n) => h("th.number", {}, t(n ? "tune.proposed" : "tune.present"))))),

@@ -4,7 +4,8 @@ import { t } from "../../core/texts.js";
 import { h } from "../../core/dom.js";
 import { uPlot } from "../../../vendor/uplot.js";
 
-const HEIGHT = 220;
+const [LOWEST, HIGHEST] = [130, 220]; // pixels
+const BESIDE = 64; // title and legend of a chart
 const INK = { measured: "#1f77b4", modelled: "#d62758", setpoint: "#8a8a8a", present: "#e07b00", proposed: "#2ca02c" };
 const FULL_DEG = 180;
 const SPACE = 22; // pixels from one line of the grid to the next, at least
@@ -68,6 +69,7 @@ export function drawTuning(host, found) {
 export function chart(host, title, unit, curves, { log, range, incrs, level, marks = [] } = {}) {
   const place = h("figure.tune-chart", { role: "img", ariaLabel: title }, h("figcaption", {}, title));
   host.append(place);
+  const size = () => ({ width: Math.max(200, place.clientWidth), height: Math.max(LOWEST, Math.min(HIGHEST, (host.parentElement?.clientHeight ?? 0) / 2 - BESIDE)) });
   const style = getComputedStyle(place);
   const axis = { stroke: style.color, grid: { stroke: style.borderColor, width: 1 }, ticks: { stroke: style.borderColor } };
   const value = (/** @type {any} */ _plot, /** @type {any} */ number) => (number === null || number === undefined ? "\u2013" : plain(number, 3));
@@ -78,7 +80,7 @@ export function chart(host, title, unit, curves, { log, range, incrs, level, mar
   const ends = [data[0][0], data[0].at(-1)];
   const whole = (/** @type {any} */ _plot, /** @type {number} */ min, /** @type {number} */ max) => (min === ends[0] && max === ends[1] ? log : [min, max]); // else dragged over
   const plot = new uPlot(/** @type {any} */ ({
-    width: Math.max(240, place.clientWidth), height: HEIGHT, cursor: { drag: { x: true, y: false } },
+    ...size(), cursor: { drag: { x: true, y: false } },
     scales: { x: { time: false, distr: log ? 3 : 1, range: log && whole }, y: { range } },
     axes: [{ ...axis, label: unit, labelSize: 18, size: 32 }, { ...axis, size: 54, space: SPACE, incrs }],
     series: [{ label: unit, value }, ...series],
@@ -87,7 +89,7 @@ export function chart(host, title, unit, curves, { log, range, incrs, level, mar
       draw: [(/** @type {any} */ one) => marks.forEach((mark) => drawMark(one, mark))],
     },
   }), data, place);
-  const sizes = new ResizeObserver(() => plot.setSize({ width: Math.max(240, place.clientWidth), height: HEIGHT }));
+  const sizes = new ResizeObserver(() => plot.setSize(size()));
   sizes.observe(place);
   return () => {
     sizes.disconnect();
