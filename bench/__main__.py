@@ -24,6 +24,7 @@ ORDER = (
     "language_server",
     "terminal_latency",
     "packets",
+    "bursts",
     "pollers",
     "compensate",
     "sysvar",

@@ -2,12 +2,15 @@
 
 import struct
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from tests.controller.hosts import Host, connected
 
 from openacr.basic.commands.program_control import SHOWN_LINE_WORK, WORK_PER_SLICE
 from openacr.controller import Controller
+from openacr.protocol.events import ControlKey
+from openacr.protocol.segment import Segment
 
 LINES = 230
 SLICE_TICKS = 2
@@ -46,7 +49,7 @@ def test_a_range_of_a_list_keeps_the_depth_of_its_blocks(long: Host) -> None:
     assert "".join(slices(long, "LIST 2010-2020")) == wanted
     assert long.type("LIST 2010-2020") == wanted, "what is known is passed over at once"
     number = 10 * len(SHOWN)
-    assert long.type(f"LIST {number}") == f"{SHOWN[-1]}|P00>"
+    assert "".join(slices(long, f"LIST {number}")) == f"{SHOWN[-1]}|P00>"
 
 
 def test_another_host_is_answered_while_a_list_goes_on(long: Host) -> None:
@@ -54,7 +57,7 @@ def test_another_host_is_answered_while_a_list_goes_on(long: Host) -> None:
     long.send("LIST\rVER\r")
     assert other.ask("?BIT1") == "0"
     assert other.send("\x18") == ""
-    heard = long.after(SLICE_TICKS * 20)
+    heard = long.after(SLICE_TICKS * 40)
     assert heard.count("P00>") == 2, "the next line follows the list"
 
 
@@ -93,6 +96,81 @@ def test_what_arrives_together_is_dealt_with_turn_by_turn(host: Host) -> None:
     debt = cost * first - 5000
     assert waited == -(-(cost * (asked - first - 1) + debt + 1) // one_tick)
     assert host.send("?1\r" * first) == answer * first, "what arrives anew has a turn of its own"
+
+
+def test_what_arrives_while_lines_wait_gets_no_turn_of_its_own(host: Host) -> None:
+    answer, cost = "?1|1|SYS>", 150 + 30 * 2
+    first = -(-5000 // cost)
+    assert host.send("?1\r" * (first + 1)) == answer * first
+    assert host.send("?1\r" * first) == "", "a host that floods waits as if it had sent at once"
+    assert host.after(first * cost // 250 + 8) == answer * (first + 1)
+    assert host.send("?1\r" * first) == answer * first
+
+
+class Counted(bytes):
+    """Received bytes that count those copied out of them."""
+
+    copied = 0
+
+    def __getitem__(self, place: Any) -> Any:
+        found = super().__getitem__(place)
+        if isinstance(found, int):
+            return found
+        Counted.copied += len(found)
+        return Counted(found)
+
+
+@pytest.mark.parametrize("piece", [1 << 20, 1024, 7])
+@pytest.mark.parametrize("begin", [b"", b"\x1c\x80\x00"])
+def test_a_line_costs_the_same_however_many_wait_after_it(
+    host: Host, monkeypatch: pytest.MonkeyPatch, piece: int, begin: bytes
+) -> None:
+    looks = 0
+    take_keys = Segment.take_keys
+
+    def counted(segment: Segment) -> tuple[list[ControlKey], bool]:
+        nonlocal looks
+        looks += 1
+        return take_keys(segment)
+
+    monkeypatch.setattr(Segment, "take_keys", counted)
+    spent = {}
+    for lines in (100, 800):
+        data = begin + b"?1\r" * lines
+        Counted.copied = looks = 0
+        for at in range(0, len(data), piece):
+            host.card.receive(host.stream, Counted(data[at : at + piece]))
+        heard, ticks = host.heard(), 0
+        while len(heard) < lines * len("?1|1|SYS>"):
+            heard, ticks = heard + host.after(1), ticks + 1
+        segments = -(-len(data) // piece)
+        assert looks <= 2 * segments + ticks + 1
+        spent[lines] = Counted.copied / len(data)
+    assert spent[800] <= 3.0
+    assert spent[800] <= spent[100] + 1.0
+
+
+def test_many_keys_are_dealt_with_in_turns_and_the_last_of_each_acts_at_once(
+    host: Host, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pressed: list[ControlKey] = []
+    press = host.card.streams._press
+
+    def noted(key: ControlKey) -> None:
+        pressed.append(key)
+        press(key)
+
+    monkeypatch.setattr(host.card.streams, "_press", noted)
+    kill, clear = ControlKey.CTRL_X, ControlKey.CTRL_Y
+    begun = -(-5000 // 30)
+    host.send("\x18" * begun + "\x19\x18\x19\x18" * 100)
+    assert pressed == [kill] * begun + [clear, kill]
+    assert host.card.memory.bit(8467), "the last key was a Ctrl-X"
+    pressed.clear()
+    host.after(1)
+    host.send("?1\r" * 40 + "\x18\x19")
+    assert pressed == [kill, clear]
+    assert not host.card.memory.bit(8467)
 
 
 def test_packets_that_ask_for_much_are_answered_turn_by_turn(host: Host) -> None:

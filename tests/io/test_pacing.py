@@ -135,6 +135,29 @@ def test_no_clock_that_can_be_set_reaches_card_time(monkeypatch: pytest.MonkeyPa
     assert reads * 0.001 / PERIOD_S - 10 <= card.tick <= reads * 0.001 / PERIOD_S
 
 
+def test_a_card_with_much_to_compute_is_left_for_the_sockets() -> None:
+    """Ten milliseconds are due, and each tick computes for one: the hosts wait for three."""
+    spent_s = 0.0
+
+    class Slow(FakeCard):
+        def advance(self, ticks: int) -> None:
+            nonlocal spent_s
+            super().advance(ticks)
+            spent_s += 0.001 * ticks
+
+    card = Slow()
+    server = CardServer(card)
+    server._now, server._work_s = (lambda: 1.01), (lambda: spent_s)
+    server._pacer.start(1.0)
+    server._catch_up()
+    assert card.tick == 4, "steps of a millisecond of the card, of two ticks each"
+    server._catch_up()
+    assert card.tick == 4, "a host that is read meanwhile does not advance it again"
+    server._worked_s = 0.0
+    server._catch_up()
+    assert card.tick == 8, "what is due is not lost"
+
+
 def test_only_the_stamps_of_files_and_alarms_read_the_date() -> None:
     """Pacing, deadlines and time-outs take clocks that cannot be set."""
     source = Path(openacr.__file__).parent

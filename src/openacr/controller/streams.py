@@ -32,6 +32,7 @@ from openacr.protocol.terminal import Terminal, TerminalState
 CONSOLE = "STREAM1"  # the stream of a caller in this process
 LINE_WORK = 150  # to read one line, in the units of a LIST: 2.5 units are a microsecond
 CHARACTER_WORK = 30  # added for each of its characters
+KEY_WORK = 30  # to act on a control key
 PACKET_WORK = 12  # to act on a packet
 VALUE_WORK = 8  # added for each value it reads or pokes
 WALK_WORK = 2  # added for each array that is walked in search of another, or to add up memory
@@ -133,7 +134,8 @@ class Streams:
     def receive(self, number: int, data: bytes, tick: int) -> None:
         """Process bytes that arrived together at `tick`; UserError if the stream is not open."""
         stream = self.opened(number)
-        stream.credit = WORK_PER_TURN
+        if not stream.is_overdue:  # a host that floods gets no turn with each of its writes
+            stream.credit = WORK_PER_TURN
         self._settle(stream)  # a program may have opened or closed the stream meanwhile
         name = stream.session.name if stream.session else ""
         stream.terminal.timeout_tk = self._host.timeout_tk(name)
@@ -307,11 +309,13 @@ class Streams:
 
 
 def _work(event: Event) -> int:
-    """The work an event may cause; keys cost nothing."""
+    """The work an event may cause."""
     if isinstance(event, ReceivedLine):
         return LINE_WORK + CHARACTER_WORK * len(event.text)
     if isinstance(event, Received):
         packet = event.packet
         values = packet.count if isinstance(packet, Poke) else packet.reply_words()
         return PACKET_WORK + VALUE_WORK * values
+    if isinstance(event, Control):
+        return KEY_WORK
     return LINE_WORK if isinstance(event, LineTooLong) else 0

@@ -2,7 +2,8 @@
 
 Card time follows the wall clock in steps of at most a millisecond. A query does not wait
 for the next step: when bytes arrive, the card is advanced to now, given the bytes, and
-advanced on, at most AHEAD_S before the clock, until the answer is there.
+advanced on, at most AHEAD_S before the clock, until the answer is there. A card that has much to
+compute is left after WORK_S, so that the other hosts are read, Ctrl-X first of all.
 """
 
 import asyncio
@@ -25,6 +26,7 @@ from openacr.io.status_port import StatusPort, open_status_port
 from openacr.protocol import terminal
 
 STEP_S = 0.001
+WORK_S = 0.003  # computing of the card between two looks at the sockets
 CONNECTIONS = 16  # hosts at a time
 
 log = logging.getLogger(__name__)
@@ -100,6 +102,9 @@ class CardServer:
         self._listeners: list[asyncio.Server] = []
         self._status: StatusPort | None = None
         self._now = time.monotonic
+        self._work_s = time.thread_time
+        self._worked_s = 0.0  # since the sockets were looked at
+        self._step_tk = max(1, round(STEP_S / card.period_s))
 
     # --- set-up and end ---------------------------------------------------------------
 
@@ -133,6 +138,7 @@ class CardServer:
     async def _run(self, stop: asyncio.Event) -> None:
         try:
             while not stop.is_set():
+                self._worked_s = 0.0
                 self._catch_up()
                 self._serve_all()
                 if self._status is not None:
@@ -162,13 +168,18 @@ class CardServer:
     # --- time -------------------------------------------------------------------------
 
     def _catch_up(self) -> None:
-        """Advance the card to now."""
-        self._advance(self._pacer.due_tk(self._now()))
+        """Advance the card to now, or as far as it comes while no host waits for long."""
+        due_tk = self._pacer.due_tk(self._now())
+        while due_tk > 0 and self._worked_s < WORK_S:
+            step_tk = min(due_tk, self._step_tk)
+            self._advance(step_tk)
+            due_tk -= step_tk
 
     def _advance(self, ticks: int) -> None:
-        if ticks:
-            self._card.advance(ticks)
-            self._pacer.advanced(ticks)
+        began_s = self._work_s()
+        self._card.advance(ticks)
+        self._pacer.advanced(ticks)
+        self._worked_s += self._work_s() - began_s
 
     def _serve_all(self) -> None:
         for peer in list(self._peers):

@@ -95,7 +95,8 @@ class Terminal:
         self.echo_line_end = True  # `INPUT;` turns this off for the line it reads
         self.timeout_tk = timeout_tk
         self.output = Output()
-        self._segments: deque[Segment] = deque()
+        self._looked: deque[Segment] = deque()  # segments whose control keys have been taken,
+        self._fresh: deque[Segment] = deque()  # and those that follow
         self._lines: deque[ReceivedLine | LineTooLong] = deque()
         self._backlog = 0
         self._is_full = False
@@ -123,14 +124,14 @@ class Terminal:
     def receive_data(self, data: bytes, tick: int) -> None:
         """Take bytes that arrived together at `tick`."""
         if data:
-            self._segments.append(Segment(data, tick))
+            self._fresh.append(Segment(data, tick))
             self._backlog += len(data)
 
     def next_event(self) -> Event | NeedData:
         """The next event, or NEED_DATA when everything received has been processed."""
         if self._lines and not self.busy and self.attention is Attention.COMMANDS:
             return self._dequeue()
-        while self._segments:
+        while self._looked or self._fresh:
             event = self._scan()
             if isinstance(event, ReceivedLine | LineTooLong) and (self.busy or self._lines):
                 self._enqueue(event)
@@ -146,25 +147,28 @@ class Terminal:
     def has_next(self) -> bool:
         """Whether `next_event` could continue with received bytes."""
         takes_lines = not self.busy and self.attention is Attention.COMMANDS
-        return bool(self._segments) or (takes_lines and bool(self._lines))
+        return bool(self._looked or self._fresh) or (takes_lines and bool(self._lines))
 
     def pause(self) -> list[ControlKey]:
         """Stop pulling events for now; returns the control keys in the bytes not scanned yet.
 
-        They act at once, whatever was typed before them. After the start of a packet a byte
-        may be anything: no keys are taken from there.
+        They act at once, whatever was typed before them; of equal ones the last, as no time
+        passes between them. After the start of a packet a byte
+        may be anything: no keys are taken from there. What has been looked through is not looked
+        through again, so that a pause costs the same however much waits.
         """
         self._note_backlog()
         keys: list[ControlKey] = []
         is_packet = self._reader.reading or self.kind is StreamKind.PACKETS
-        for segment in self._segments:
-            if is_packet:
-                break
-            found, is_packet = segment.take_keys()
+        while self._fresh and not is_packet:
+            found, is_packet = self._fresh[0].take_keys()
             self._backlog -= len(found)
             keys += found
-        self._segments = deque(each for each in self._segments if not each.is_scanned)
-        return keys
+            if not is_packet:
+                segment = self._fresh.popleft()
+                if not segment.is_scanned:
+                    self._looked.append(segment)
+        return list(dict.fromkeys(reversed(keys)))[::-1]
 
     def _enqueue(self, line: ReceivedLine | LineTooLong) -> None:
         self._lines.append(line)
@@ -192,13 +196,14 @@ class Terminal:
 
     def _scan(self) -> Event | None:
         """Use up the next byte."""
-        segment = self._segments[0]
+        waiting = self._looked or self._fresh
+        segment = waiting[0]
         byte = segment.data[segment.at]
         segment.at += 1
         self._backlog -= 1
         event = self._byte(byte, segment)
         if segment.is_scanned:
-            self._segments.popleft()
+            waiting.popleft()
         return event
 
     def _byte(self, byte: int, segment: Segment) -> Event | None:
@@ -252,7 +257,7 @@ class Terminal:
             if rest is not None:
                 self._refuse_override(packet, rest, segment)
                 return None
-        if packet.HEADER in (b"\x1c", b"\x1d") and segment.rest == b"\0":
+        if packet.HEADER in (b"\x1c", b"\x1d") and segment.left == 1 and segment.rest == b"\0":
             self._skip(segment, 1)  # padding of one host, see `bits`
         return Received(packet)
 
@@ -260,7 +265,7 @@ class Terminal:
         """Read again the bytes that a packet of the first edition has taken from the next one."""
         if rest and not self._reader.short_overrides:
             again = encode_packet(rest, self.mode)
-            segment.data, segment.at = again + segment.rest, 0
+            segment.data, segment.at, segment.looked = again + segment.rest, 0, 0
             self._backlog += len(again)
         if not self._has_refused_override:
             self._has_refused_override = True
@@ -372,7 +377,10 @@ class Terminal:
             echo_line_end=self.echo_line_end,
             timeout_tk=self.timeout_tk,
             output=self.output.state(),
-            segments=[(segment.rest, segment.tick, segment.at == 0) for segment in self._segments],
+            segments=[
+                (segment.rest, segment.tick, segment.at == 0)
+                for segment in (*self._looked, *self._fresh)
+            ],
             lines=[
                 bytes_of(line.text) if isinstance(line, ReceivedLine) else None
                 for line in self._lines
@@ -390,11 +398,12 @@ class Terminal:
         self.attention, self.busy = state.attention, state.busy
         self.echo_line_end, self.timeout_tk = state.echo_line_end, state.timeout_tk
         self.output.restore(state.output)
-        self._segments = deque(_segment(*each) for each in state.segments if each[0])
+        self._looked.clear()
+        self._fresh = deque(_segment(*each) for each in state.segments if each[0])
         self._lines = deque(
             LineTooLong() if line is None else ReceivedLine(text_of(line)) for line in state.lines
         )
-        self._backlog = sum(len(segment.rest) for segment in self._segments)
+        self._backlog = sum(segment.left for segment in self._fresh)
         self._backlog += sum(map(_size, self._lines))
         self._is_full, self._after_cr = state.is_full, state.after_cr
         self._typing = TypedLine(bytearray(state.typed), state.typed_excess)

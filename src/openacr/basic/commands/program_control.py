@@ -31,7 +31,7 @@ GROUP = "Program Control"
 FORCE_LINE_NUMBERS = 5651
 SHOWN_LINE_WORK = 100  # to cut a line into words and write it
 KNOWN_LINE_WORK = 1  # to pass over a line whose depth is known
-WORK_PER_SLICE = 50 * SHOWN_LINE_WORK  # some 2 ms of the computer
+WORK_PER_SLICE = 20 * SHOWN_LINE_WORK  # some 0.8 ms of the computer
 
 
 @command(
