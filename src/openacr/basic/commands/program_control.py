@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from openacr.basic.commands import targets
-from openacr.basic.language.grammar import Form, Int, ObjectRef, Target
+from openacr.basic.language.grammar import Form, Int, Object, ObjectRef, Target
 from openacr.basic.language.lister import Lister, depth_after, opens_free_form
 from openacr.basic.language.nodes import Expr
 from openacr.basic.language.registry import (
@@ -233,26 +233,27 @@ def _list_on(run: Run, text: dict[int, StoredLine], first: int, last: int) -> bo
 @command(
     "LISTEN",
     group=GROUP,
-    levels=PROG,
+    levels=BY_TARGET,
     use=IMMEDIATE,
+    grammar=(Object("PROG", optional=True),),
     ref="PG Starting, Pausing, and Halting Programs",
 )
-def listen(run: Run) -> None:
+def listen(run: Run, target: ObjectRef | None) -> None:
     """Show what the program prints, and its errors, until ESC."""
-    run.channel.listen(run.needed_program())
+    run.channel.listen(targets.program(run, target))
 
 
 @command(
     "LRUN",
     group=GROUP,
-    levels=PROG,
+    levels=BY_TARGET,
     use=IMMEDIATE,
-    grammar=(Int("line", 1, HIGHEST_LINE_NUMBER, optional=True),),
+    grammar=(Int("line", 1, HIGHEST_LINE_NUMBER, optional=True), Object("PROG", optional=True)),
     ref="PG Starting, Pausing, and Halting Programs",
 )
-def lrun(run: Run, line: int | None) -> None:
+def lrun(run: Run, line: int | None, target: ObjectRef | None) -> None:
     """Start the program and listen to it until ESC or its end."""
-    program = run.needed_program()
+    program = targets.program(run, target)
     if run.system.control.is_running(program):
         raise CardError(PROGRAM_IS_RUNNING)
     if not run.system.programs.is_empty(program):

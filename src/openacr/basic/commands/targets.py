@@ -33,6 +33,11 @@ def named(target: ObjectRef) -> int:
     return target.number if is_program else PROGRAMS + target.number
 
 
+def program(run: Run, target: ObjectRef | None) -> int:
+    """The one program a command acts on: the one named, else that of the prompt."""
+    return run.needed_program() if target is None else named(target)
+
+
 def owners(run: Run, target: ObjectRef | None) -> tuple[int, ...]:
     """All programs and PLCs a command acts on, lowest number first."""
     if target is None:
