@@ -41,8 +41,14 @@ def is_alive(process: int) -> bool:
 class HandStation:
     """A station whose time passes only in `run`; what it sends is kept."""
 
-    def __init__(self, folder: Path, *, role: Role = Role.SERVICE) -> None:
-        self.installation = embedded(folder)
+    def __init__(
+        self,
+        folder: Path,
+        *,
+        role: Role = Role.SERVICE,
+        installation: Installation | None = None,
+    ) -> None:
+        self.installation = installation or embedded(folder)
         self.now_s = 100.0
         self.station = Station(self.installation, carry_out)
         self.events_sent: list[dict[str, Any]] = []
@@ -107,7 +113,7 @@ class HandStation:
 
     @property
     def state(self) -> str:
-        return self.station.machine.runner.state.name
+        return self.station.link.runner.state.name
 
     @property
     def is_busy(self) -> bool:

@@ -21,11 +21,12 @@ ME = Person(1, Role.SERVICE, "127.0.0.1")
 class Remote:
     """The station of a card at the end of a link, in its control thread."""
 
-    def __init__(self, address: str, folder: Path) -> None:
+    def __init__(self, address: str, folder: Path, *, is_agreed: bool = True) -> None:
         (folder / "programs").mkdir(exist_ok=True)
         self.installation = Installation.at(
             address, opened(folder / "sysvar.db"), folder / "programs"
         )
+        self.installation.is_agreed = is_agreed
         self.station = Station(self.installation, carry_out)
         self.events: list[dict[str, Any]] = []
         self.station.tell = self.events.append

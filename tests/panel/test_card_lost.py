@@ -88,9 +88,10 @@ def test_another_panel_on_one_machine_is_refused_with_the_reason(
     (tmp_path / "second").mkdir()
     second = Remote(served, tmp_path / "second")
     try:
-        until(lambda: first.station.lost == "" or second.station.lost == "")
-        loser = second if first.station.lost == "" else first
-        until(lambda: "another program drives this machine" in loser.station.lost)
+        both = (first, second)
+        until(lambda: all(each.station.lost == "" for each in both))
+        (loser,) = [each for each in both if each.installation.lacks]
+        assert loser.installation.lacks.startswith("another program drives this machine")
         assert not loser.send("run.begin")["ok"]
     finally:
         first.close()

@@ -7,9 +7,10 @@ import httpx
 import pytest
 from tests.panel.bench import LIMIT_S, HandStation, Served
 
-from openacr.client import ConnectionLostError, Level
+from openacr.client import Card, ConnectionLostError, Level
 from openacr.client.stored import listing, rooms
 from openacr.errors import UserError
+from openacr.panel.control.card_programs import read_states
 from openacr.panel.control.people import Person
 from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
@@ -196,12 +197,88 @@ def test_commands_to_programs_need_the_role_service_and_control(
 
 
 @pytest.mark.parametrize("word", CHANGES)
-@pytest.mark.parametrize("program", [0, 7])
-def test_programs_that_this_machine_needs_are_not_touched(
-    hand: HandStation, word: str, program: int
+def test_the_watchdog_of_this_machine_is_not_touched(hand: HandStation, word: str) -> None:
+    error = hand.refused(f"card.{word}", program=7)
+    assert error["text"] == "PROG7 of the card belongs to this machine"
+
+
+@pytest.mark.parametrize("word", CHANGES)
+def test_the_program_of_the_axes_is_not_touched_while_the_machine_uses_it(
+    hand: HandStation, word: str
 ) -> None:
-    error = hand.refused(f"card.{word}", program=program)
-    assert error["text"] == f"PROG{program} of the card belongs to this machine"
+    hand.do("mdi.execute", line="G21 G91 G1 X50 F600")
+    hand.run(0.2)
+    assert hand.refused(f"card.{word}", program=0)["text"] == (
+        "PROG0 of the card is used by this machine now (state RUN): ABORT, or wait until it has"
+        " ended"
+    )
+    assert hand.is_busy
+
+
+MAIN = "PROGRAM\n_again\nX1\nX0\nGOTO again\nENDP\n"
+
+
+def test_the_main_program_is_an_ordinary_one_until_acromill_is_set_up_again(
+    hand: HandStation,
+) -> None:
+    sent(hand, MAIN, program=0)
+    lacks = "PROG0 is an ordinary program of the card now"
+    hand.run(0.1)
+    assert hand.events("machine")[-1]["lacks"] == lacks
+    assert hand.refused("home.start", axes="X")["text"] == lacks
+    for word, does in (
+        ("run", "running"),
+        ("pause", "paused"),
+        ("resume", "running"),
+        ("halt", "halted"),
+    ):
+        hand.do(f"card.{word}", program=0)
+        hand.run(0.3)
+        state = hand.do("card.query", line="?P0") and states_now(hand)["PROG0"]
+        assert state.startswith(does) or (does, state) == ("running", "waits for room"), word
+    hand.do("card.clear", program=0)
+    hand.do("card.setup")
+    hand.run(0.1)
+    assert hand.events("machine")[-1]["lacks"] == ""
+    hand.do("mdi.execute", line="G21 G91 G1 X1 F600")
+    hand.until(lambda: not hand.is_busy)
+
+
+def states_now(hand: HandStation) -> dict[str, str]:
+    return {each["name"]: each["state"] for each in read_states(hand.station.read)}
+
+
+@pytest.mark.parametrize(
+    ("name", "args"),
+    [
+        ("home.start", {"axes": "X"}),
+        ("mdi.execute", {"line": "G21 G91 G1 X1 F600"}),
+        ("jog.increment", {"axis": "X", "direction": 1, "distance": 1.0}),
+    ],
+)
+def test_the_machine_is_not_moved_while_the_program_of_its_axes_runs(
+    hand: HandStation, name: str, args: dict[str, Any]
+) -> None:
+    controller = hand.installation.controller
+    assert controller is not None
+    with Card.open(controller) as other:
+        for line in ("PROGRAM", "_wait", "DWL 1", "GOTO wait", "ENDP"):
+            other.command(line, program=0)
+        other.run(0)
+    hand.run(0.1)
+    more = {"tick": hand.tick} if name == "jog.increment" else {}
+    assert hand.refused(name, **args, **more)["text"] == (
+        "PROG0 runs on the card, and the machine needs its axes: halt it first (HALT PROG0)"
+    )
+
+
+@pytest.mark.parametrize(("line", "is_taken"), [("ATTACH MASTER1", True), ("P0=1", False)])
+def test_a_file_that_attaches_axes_takes_them_from_the_machine(
+    hand: HandStation, line: str, is_taken: bool
+) -> None:
+    mark = hand.station.on_card.parked.put(f"PROG1\n{line}\n")
+    hand.do("card.download", parked=mark)
+    assert bool(hand.installation.lacks) is is_taken
 
 
 def test_a_command_names_one_program_or_one_plc(hand: HandStation) -> None:

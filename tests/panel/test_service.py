@@ -158,9 +158,8 @@ def test_a_gain_acts_on_the_card_and_is_stored(hand: HandStation) -> None:
     assert "cannot be -1" in hand.refused("gain.set", axis="Y", gain="P Gain", value=-1.0)["text"]
 
 
-def test_programs_of_this_machine_on_the_card_are_not_ended(hand: HandStation) -> None:
-    for program in (0, 7):
-        assert "belongs to this machine" in hand.refused("card.halt", program=program)["text"]
+def test_the_watchdog_of_this_machine_on_the_card_is_not_ended(hand: HandStation) -> None:
+    assert "belongs to this machine" in hand.refused("card.halt", program=7)["text"]
     assert "name a program" in hand.refused("card.run")["text"]
     hand.do("card.halt", program=3)
 

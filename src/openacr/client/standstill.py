@@ -86,6 +86,10 @@ class Standstill:
         self.axes: set[int] = set()
         self.moving: tuple[int, ...] = ()
 
+    def spare(self, programs: Collection[int]) -> None:
+        """Let these programs go on, and no others: the next look pauses what was spared before."""
+        self._spared = frozenset(programs)
+
     # --- looking ----------------------------------------------------------------------
 
     def look(self) -> None:

@@ -38,7 +38,7 @@ from openacr.mill.card.enabling import rest_outputs
 from openacr.mill.card.leftovers import has_tripped, tidy
 from openacr.mill.card.messages import Message, Messages, definitions
 from openacr.mill.card.owner import BEAT_S, LISTEN_S, Owner
-from openacr.mill.card.setup import prepare, user_variables
+from openacr.mill.card.setup import MOVES, prepare, user_variables
 from openacr.mill.card.watchdog import NO_WATCHDOG, Watchdog
 from openacr.mill.config.folders import folders_of
 from openacr.mill.config.settings import HOMED, NONE, Settings
@@ -119,8 +119,10 @@ class MillSession:
         is_virtual: bool,
         folder: Path | None = None,  # of the store, for its files
         owner: Owner | None = None,
+        is_set_up: bool = True,
     ) -> None:
         self._owner = owner
+        self.is_set_up = is_set_up  # else the card is only read: nothing runs, jogs or homes
         self._folder = folder
         self.cells = cells
         self.card = card
@@ -130,13 +132,16 @@ class MillSession:
         self.typed: list[str] = []  # blocks run in MDI: the text of a program
         self.reader: Reader | None = None  # follows programs that are started
         self.reading: Interpreter | None = None  # of the last program, or of MDI
-        with cells.transaction():
-            for number, value in AT_START.items():
-                cells.write(number, value)
         settings = Settings(cells)
-        self._limits_found = [] if is_virtual else soft_limits.found(card, settings)
-        tables = tables_of(cells, settings, folder)
-        depth = prepare(card, settings, tables, has_extensions=is_virtual)
+        depth, tables = MOVES, {}
+        self._limits_found: list[str] = []
+        if is_set_up:
+            with cells.transaction():
+                for number, value in AT_START.items():
+                    cells.write(number, value)
+            self._limits_found = [] if is_virtual else soft_limits.found(card, settings)
+            tables = tables_of(cells, settings, folder)
+            depth = prepare(card, settings, tables, has_extensions=is_virtual)
         axes = [axis.index for axis in settings.axes]
         self.machine = MachineDriver(card, axes, settings.master, rounds_corners=is_virtual)
         alarm_list = Alarms(None if is_virtual else _error_log(cells, folder))
@@ -148,7 +153,8 @@ class MillSession:
         self._drip: Drip | None = None
         self.show_message: Callable[[Message, bool], None] = partial(_say_message, say)
         io = self.runner.io
-        rest_outputs(io)
+        if is_set_up:
+            rest_outputs(io)
         defined = [
             each for each in definitions(cells) if not (is_virtual and io.has_input(each.bit))
         ]
@@ -191,14 +197,19 @@ class MillSession:
         cls, target: str | Host, store: Store, say: Callable[[str], None] = print
     ) -> "MillSession":
         """Open a real card over a link; drives are left as they are."""
-        settings = Settings(store)
-        timeout_s = settings.link_timeout_s
+        timeout_s = Settings(store).link_timeout_s
         card = Card.open(target, Talking(timeout_s=timeout_s, reconnect_s=timeout_s))
+        return cls.on(card, store, say)
+
+    @classmethod
+    def on(cls, card: Card, store: Store, say: Callable[[str], None]) -> "MillSession":
+        """Set a connected card up for the machine; refused, its connection is closed."""
+        settings = Settings(store)
         try:
             require_wiring(store)
             check_firmware(card)
             user_variables(card)
-            listen_s = max(LISTEN_S, timeout_s + BEAT_S)
+            listen_s = max(LISTEN_S, settings.link_timeout_s + BEAT_S)
             owner = Owner(card, store.path, program=settings.master, listen_s=listen_s)
         except BaseException:
             card.close()
@@ -213,6 +224,11 @@ class MillSession:
                 owner.release(left=owner.found)  # the value that an installed watchdog still polls
             card.close()
             raise
+
+    @classmethod
+    def bare(cls, card: Card, store: Store, say: Callable[[str], None]) -> "MillSession":
+        """A connected card as it is: nothing is set up or claimed, and the machine cannot run."""
+        return cls(card, store, say, is_virtual=False, folder=_folder_of(store), is_set_up=False)
 
     def close(self) -> None:
         """Close the link and release the machine."""
@@ -233,6 +249,16 @@ class MillSession:
             if owner.is_ours():
                 soft_limits.restore(self.card, self.runner.settings, self._limits_found)
             owner.release()
+
+    def hand_over(self) -> None:
+        """Leave the card to others as it is, at rest; what was set up is not in use any more."""
+        if self.runner.is_busy:
+            raise UserError(f"the machine is in use: the state is {self.runner.state.name}")
+        if self._owner is not None:
+            self._release(self._owner)
+        self._owner = self._watchdog = None
+        self.machine.watch_program(None)
+        self.is_set_up = False
 
     @property
     def cells_unit(self) -> str:
@@ -376,6 +402,9 @@ class MillSession:
 
     def poll(self) -> None:
         """Do what is due now; the caller lets `poll_in_s` pass between two calls."""
+        if not self.is_set_up:
+            self.machine.poll()
+            return
         if self._drip is not None:
             self._drip.poll()
         self._keep_ownership()

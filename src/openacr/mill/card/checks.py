@@ -11,6 +11,10 @@ from openacr.models import Model
 OLDEST_FIRMWARE = 11800
 
 
+class MovingError(UserError):
+    """The machine moves: its set-up has to wait."""
+
+
 def check_firmware(card: Card) -> None:
     """Refuse a card whose firmware is too old for move packets."""
     version = int(card.read(n.P_FIRMWARE_VERSION))
@@ -32,4 +36,4 @@ def check_rest(card: Card, settings: Settings) -> None:
     master, *axes = map(int, card.read_many(words))
     is_moving = master & (n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED)
     if is_moving or any(word & n.AF1_JOG_ACTIVE for word in axes):
-        raise UserError("the machine is moving: another program runs it; wait or stop it")
+        raise MovingError("the machine is moving: another program runs it; wait or stop it")

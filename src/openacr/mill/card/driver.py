@@ -140,8 +140,8 @@ class MachineDriver:
         self._modules = count
         self.__dict__.pop("_watched", None)
 
-    def watch_program(self, program: int) -> None:
-        """Include the watchdog in this program of the card in the poll."""
+    def watch_program(self, program: int | None) -> None:
+        """Include the watchdog in this program of the card in the poll; None: there is none."""
         self._watchdog = program
         self.__dict__.pop("_watched", None)
 

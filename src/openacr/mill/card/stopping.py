@@ -13,13 +13,15 @@ from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.card.watchdog import NAME as WATCHDOG
 from openacr.mill.config.settings import NONE, Settings
 
+FIRST_LINES = "LIST -20"  # where its name is; a long program takes seconds over a slow line
+
 
 def watching(card: Card, settings: Settings) -> set[int]:
     """Programs of the card that watch over its host: no stop ends them."""
     program = settings.watchdog_program
     if program == NONE:
         return set()
-    listed = card.command("LIST", program=program)
+    listed = card.command(FIRST_LINES, program=program)
     return {program} if listed and WATCHDOG in listed[0] else set()
 
 

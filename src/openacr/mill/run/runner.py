@@ -11,6 +11,7 @@ from functools import partial
 
 from openacr.cnc import canonical as c
 from openacr.errors import StoreError, UserError
+from openacr.map import numbers as n
 from openacr.mill.card import alarms, soft_limits
 from openacr.mill.card.action_player import ActionPlayer
 from openacr.mill.card.actions import Steps
@@ -323,12 +324,23 @@ class Runner:
     def _make_ready(self, event: Event) -> None:
         """Enable the drives for a program or homing, if it may start."""
         self._require_idle(event)
+        self._require_free_program()
         enable_drives(self.io)
 
     def _make_free(self, what: str) -> None:
         """Enable the drives for manual motion, if it is allowed."""
         self._require_free(what)
+        self._require_free_program()
         enable_drives(self.io)
+
+    def _require_free_program(self) -> None:
+        """Require that the program of the master is not run by itself: its channel is needed."""
+        number = self.machine.master
+        if int(self.machine.read(n.PF_WORD + number)) & n.PF_PROGRAM_RUNNING:
+            raise UserError(
+                f"PROG{number} runs on the card, and the machine needs its axes: halt it first"
+                f" (HALT PROG{number})"
+            )
 
     def _require_idle(self, event: Event) -> None:
         """Require that no alarm is active and nothing runs."""

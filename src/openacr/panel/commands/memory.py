@@ -28,7 +28,7 @@ class Division(Args, frozen=True):
 
 
 def _names(station: Station) -> list[str]:
-    model = station.machine.runner.settings.model
+    model = station.link.runner.settings.model
     programs = [f"PROG{number}" for number in range(model.programs)]
     return programs + [f"PLC{number}" for number in range(model.plcs)]
 
@@ -40,7 +40,7 @@ def _require_rest(station: Station) -> None:
 
 def _running(station: Station) -> list[str]:
     """What runs on the card beside the programs of this machine."""
-    session = station.machine
+    session = station.link
     settings = session.runner.settings
     own = {f"PROG{settings.master}", f"PROG{settings.watchdog_program}"}
     model = settings.model
@@ -70,7 +70,7 @@ class Found:
 
 def _found(station: Station) -> Found:
     _require_rest(station)
-    card = station.machine.card
+    card = station.link.card
     card.go(Level())
     found = _divided(card)
     free = int(card.command("MEM")[0])

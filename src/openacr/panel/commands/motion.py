@@ -181,6 +181,24 @@ def zero_goto(station: Station, order: Order, args: OfAxes) -> None:
     station.typed.put(goto_blocks(station.machine, indices(station, args.axes)), is_shown=False)
 
 
+# --- set-up ---------------------------------------------------------------------------
+
+
+@command("card.setup")
+def set_up(station: Station, order: Order, args: NoArgs) -> None:
+    """Set the card up for AcroMill: it attaches its axes and sends its settings.
+
+    Until this is agreed on, a card at the end of a link stays as it was found.
+    """
+    session = station.link
+    if session.is_set_up:
+        raise UserError("AcroMill has set this card up already")
+    station.require_unmeasured()
+    station.set_up(station.now_s)
+    if station.installation.lacks or station.session is None:
+        raise UserError(station.installation.lacks or station.lost)
+
+
 # --- stops ----------------------------------------------------------------------------
 
 
@@ -212,7 +230,7 @@ def stop_all(station: Station, order: Order, args: NoArgs) -> dict[str, list[str
 @command("stop.estop", Role.VIEW, needs_control=False, is_stop=True)
 def estop(station: Station, order: Order, args: NoArgs) -> dict[str, list[str]]:
     """Kill all motion and switch the drives off, by software: it is no emergency stop."""
-    if station.session is None:
+    if station.session is None or not station.session.is_set_up:
         station.stopping.kill()
     name = station.people.name_of(order.person)
     return _stop(station, lambda runner: runner.kill(name), ends=True)
@@ -229,7 +247,7 @@ def _stop(
         lambda: station.tuning.stop(station.session),
         lambda: found.extend(station.stopping.stop(station.now_s, ends=ends)),
     ]
-    if station.session is not None:
+    if station.session is not None and station.session.is_set_up:
         steps.insert(0, lambda: stop_part(station.machine.runner))
     failures: list[Exception] = []
     for step in steps:

@@ -1,5 +1,6 @@
 """Commands for the programs and PLCs of the card: run, halt, step, listen, send, clear."""
 
+import re
 from concurrent.futures import Future
 from typing import Annotated, Any
 
@@ -23,6 +24,7 @@ from openacr.panel.roles import Role
 Program = Annotated[int, Meta(ge=0, lt=len(PROGRAMS))]
 Plc = Annotated[int, Meta(ge=0, lt=len(PLCS))]
 Parked = Annotated[str, Meta(max_length=40)]
+ATTACHES = re.compile(r"^\s*(\d+\s+)?(ATTACH|DETACH|CONFIG|CLEAR)\b", re.I | re.M)
 MOST_TEXT = 60_000  # characters; a message of the socket has at most 64 KiB
 
 
@@ -83,11 +85,26 @@ class OfListened(Args, frozen=True):
 
 
 def owner_of(station: Station, level: Level) -> str:
-    """Why a program is not for the screens; empty if it is."""
-    settings = station.machine.runner.settings
-    if level in map(Level.program, (settings.master, settings.watchdog_program)):
+    """Why a program is not for the screens now; empty if it is."""
+    session = station.link
+    settings = session.runner.settings
+    if not session.is_set_up:
+        return ""
+    if level == Level.program(settings.watchdog_program):
         return f"{level} of the card belongs to this machine"
+    if level == Level.program(settings.master) and session.runner.is_busy:
+        return (
+            f"{level} of the card is used by this machine now (state"
+            f" {session.runner.state.name}): ABORT, or wait until it has ended"
+        )
     return ""
+
+
+def _take(station: Station, level: Level) -> None:
+    """Take a program from AcroMill, which needs it and its axes: `card.setup` gives it back."""
+    session = station.link
+    if session.is_set_up and level == Level.program(session.runner.settings.master):
+        station.hand_over(f"{level} is an ordinary program of the card now")
 
 
 def required(station: Station, args: OfProgram) -> Level:
@@ -100,7 +117,7 @@ def required(station: Station, args: OfProgram) -> Level:
 
 def _require_rest(station: Station, level: Level, what: str) -> None:
     """Refuse while this machine moves; a program also while an alarm bars every start."""
-    runner = station.machine.runner
+    runner = station.link.runner
     if station.is_moved:
         raise UserError(f"the machine moves: {what}")
     if level.word == "PROG":
@@ -109,15 +126,17 @@ def _require_rest(station: Station, level: Level, what: str) -> None:
 
 def _begin(station: Station, word: str, level: Level) -> None:
     _require_rest(station, level, "no program of the card is started")
-    station.on_card.programs.command(station.machine, word, level)
+    _take(station, level)
+    station.on_card.programs.command(station.link, word, level)
 
 
 def _require_halted(station: Station, level: Level) -> None:
     _require_rest(station, Level.plc(0), "no program of the card is changed")
-    read = station.machine.machine.read_rows
+    read = station.link.machine.read_rows
     states = {state["name"]: state["state"] for state in read_states(read)}
     if states[str(level)] != HALTED:
         raise UserError(f"{level} runs: halt it first")
+    _take(station, level)
 
 
 # --- running --------------------------------------------------------------------------
@@ -146,7 +165,7 @@ def block(station: Station, order: Order, args: OfBlock) -> None:
     """Let a program wait for STEP before every line (BLK), or go on by itself (AUT)."""
     level = required(station, args)
     if args.on:
-        station.on_card.programs.command(station.machine, "BLK", level)
+        station.on_card.programs.command(station.link, "BLK", level)
     else:
         _begin(station, "AUT", level)
 
@@ -154,13 +173,13 @@ def block(station: Station, order: Order, args: OfBlock) -> None:
 @command("card.pause", Role.SERVICE)
 def pause(station: Station, order: Order, args: OfProgram) -> None:
     """Hold a program and its motion."""
-    station.on_card.programs.command(station.machine, "PAUSE", required(station, args))
+    station.on_card.programs.command(station.link, "PAUSE", required(station, args))
 
 
 @command("card.halt", Role.SERVICE)
 def halt(station: Station, order: Order, args: OfProgram) -> None:
     """End a program or a PLC of the card, and the motion of its master."""
-    station.on_card.programs.command(station.machine, "HALT", required(station, args))
+    station.on_card.programs.command(station.link, "HALT", required(station, args))
 
 
 # --- listening ------------------------------------------------------------------------
@@ -218,6 +237,7 @@ def download_file(station: Station, order: Order, args: OfFile) -> Later:
 
     Lines outside of programs are carried out. The error of a line that is refused names it.
     """
+    session = station.link
     text = station.on_card.parked.text(args.parked)
     _require_rest(station, Level.program(0), "no file is sent to the card")
     running = [
@@ -227,6 +247,8 @@ def download_file(station: Station, order: Order, args: OfFile) -> Later:
     ]
     if running:
         raise UserError(f"{', '.join(running)} run: halt them first")
+    if session.is_set_up and ATTACHES.search(text):
+        station.hand_over("a file that attaches axes was sent to the card")
     future = station.on_card.aside.begin(lambda talk: download(talk, text))
     _then_tell(station, future, "")
     answer_with(

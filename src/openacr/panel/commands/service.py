@@ -168,7 +168,7 @@ def query(station: Station, order: Order, args: Query) -> dict[str, list[str]]:
     line = args.line.strip().upper()
     if line not in QUERIES and not line.startswith("?"):
         raise UserError(f"{args.line}: only {', '.join(sorted(QUERIES))} and lines with ? are sent")
-    session = station.machine
+    session = station.link
     if line in OF_ANY_LEVEL:
         return {"lines": session.card.command(line)}
     if station.is_moved and not line.startswith("?"):
@@ -241,8 +241,8 @@ def scope_stop(station: Station, order: Order, args: NoArgs) -> None:
 @command("gain.set", Role.SERVICE)
 def gain(station: Station, order: Order, args: OfGain) -> dict[str, float | bool]:
     """Set a gain on the card at once, and store it; while the machine moves, once it rests."""
-    session = station.machine
-    axis = session.runner.settings.named(args.axis.upper()).index
+    session = station.link
+    axis = station.installation.axis(args.axis)
     names = {known(cells[axis]).name.lower(): k for k, cells in enumerate(GAINS)}
     place = names.get(args.gain.lower())
     if place is None:
@@ -250,7 +250,7 @@ def gain(station: Station, order: Order, args: OfGain) -> dict[str, float | bool
     store, cell = station.installation.store, known(GAINS[place][axis])
     checked(cell, args.value, store.is_metric, store.letter_of(cell))
     session.machine.type([f"AXIS{axis} {GAIN_WORDS[place]} {number_text(args.value)}"])
-    if args.store:
+    if args.store and session.is_set_up:  # else the axis is not that of the parameters
         station.store_at_rest(cell.number, args.value)
     return {"value": args.value, "is_stored": store.read(cell.number) == args.value}
 
@@ -261,7 +261,7 @@ def card_write(station: Station, order: Order, args: Written) -> dict[str, float
     if station.times.is_away:
         station.times.write(args.parameter, args.value, is_flag=False)
         return {"value": station.read([args.parameter])[0]}
-    session = station.machine
+    session = station.link
     session.machine.write(args.parameter, args.value)
     return {"value": session.machine.read(args.parameter)}
 
@@ -272,7 +272,7 @@ def card_flag(station: Station, order: Order, args: Switched) -> dict[str, bool]
     if station.times.is_away:
         station.times.write(args.flag, args.on, is_flag=True)
         return {"on": args.on}
-    card = station.machine.card
+    card = station.link.card
     card.write_bit(args.flag, args.on)
     return {"on": card.read_bit(args.flag)}
 

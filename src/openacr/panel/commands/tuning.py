@@ -55,16 +55,17 @@ class OfProposal(OfAxis, frozen=True, kw_only=True):
 
 def _resting(station: Station, name: str) -> int:
     """The number of an axis of a machine that may be moved."""
-    runner = station.machine.runner
-    runner.require_start()
-    return runner.settings.named(name.upper()).index
+    session = station.link
+    if session.is_set_up:
+        session.runner.require_start()
+    return station.installation.axis(name)
 
 
 @command("tune.gains", Role.SERVICE, needs_control=False)
 def tune_gains(station: Station, order: Order, args: OfAxis) -> dict[str, float]:
     """The gains of an axis as the card has them now, by their names on the SERVO page."""
-    session = station.machine
-    axis = session.runner.settings.named(args.axis.upper()).index
+    session = station.link
+    axis = station.installation.axis(args.axis)
     first = at.AX_BASE + axis * at.AX_STRIDE
     values = session.machine.read_rows([first + row for row in tuned.GAINS.values()])
     return {

@@ -20,6 +20,11 @@ def machine_data(installation: Installation) -> dict[str, Any]:
         "is_small": bool(installation.store.read(CONTROL.position_display)),
         "is_virtual": installation.is_virtual,
         "axes": axes(installation.store),
+        "lacks": installation.lacks,
+        "attached": [
+            {"name": each.name, "index": each.axis, "master": each.master}
+            for each in installation.attached
+        ],
     }
 
 

@@ -26,7 +26,7 @@ class Captures:
         if program is None or installation.is_virtual:
             return source_of(installation)
         is_serial = installation.kind == "serial"
-        return CardSampler(self._station.machine, program, is_serial=is_serial)
+        return CardSampler(self._station.link, program, is_serial=is_serial)
 
     def require_free(self, client: int) -> None:
         """PanelError while the scope samples for another client that is connected."""

@@ -28,7 +28,8 @@ class Executing:
 
     def follow(self, text_of: Callable[[Source], str]) -> None:
         """Note the executing block, and its text when it is another one than before."""
-        source = self._station.machine.runner.source if self.is_under_way else None
+        session = self._station.session
+        source = session.runner.source if session is not None and self.is_under_way else None
         file, line = (source.file, source.line) if source is not None else ("", 0)
         if (file, line) == (self.file, self.line):
             return

@@ -39,7 +39,7 @@ class Failures:
 
     def _end_run(self, cause: str, now_s: float) -> None:
         session = self._station.session
-        if session is None:
+        if session is None or not session.is_set_up:
             return
         if session.runner.is_busy:
             self._cut_s = now_s + session.runner.settings.rest_s

@@ -2,13 +2,20 @@
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from openacr.client import Card, Options
 from openacr.client.links import Host
+from openacr.errors import OpenacrError, UserError
+from openacr.mill.card.attached import Attached, attached, lacking
+from openacr.mill.card.checks import MovingError, check_rest
+from openacr.mill.card.driver import LINK_ERRORS
+from openacr.mill.config.settings import Settings
 from openacr.mill.session import MillSession
 from openacr.panel.control.history import History
+from openacr.panel.control.opening import StopWaitsError, connected
 from openacr.panel.control.pace import OwnTime, Pace, Paced
 from openacr.sysvar import Store
 
@@ -16,6 +23,7 @@ if TYPE_CHECKING:
     from openacr.controller import Controller
 
 Say = Callable[[str], None]
+Make = Callable[[Card, Store, Say], MillSession]
 
 
 @dataclass(slots=True)
@@ -31,6 +39,10 @@ class Installation:
     history: History | None = None  # of a card in this process
     sample: str = ""  # program that is loaded at the start
     project: Path | None = None  # the folder whose programs the card began with
+    is_agreed: bool = False  # that AcroMill sets the card up
+    lacks: str = field(default="", init=False)  # why the session of the card is not set up
+    attached: list[Attached] = field(default_factory=list, init=False)  # axes of the card
+    waits_for_rest: bool = field(default=False, init=False)  # it is set up once the card rests
 
     @classmethod
     def at(cls, target: str, store: Store, programs: Path) -> "Installation":
@@ -52,7 +64,10 @@ class Installation:
     ) -> "Installation":
         """A card in this process, which the control thread advances."""
         history = History(controller)
-        return cls(kind, name, history, store, programs, Paced(history), history, sample, project)
+        return cls(
+            kind, name, history, store, programs, Paced(history), history, sample, project,
+            is_agreed=True,
+        )  # fmt: skip
 
     @property
     def controller(self) -> "Controller | None":
@@ -64,9 +79,62 @@ class Installation:
         """Whether the card is in this process."""
         return self.history is not None
 
-    def open(self, say: Say) -> MillSession:
-        """Open the session of the machine."""
-        return MillSession.real(self.target, self.store, say)
+    def open(self, say: Say, is_awaited: Callable[[], bool]) -> MillSession:
+        """Open the session of the machine; StopWaitsError, or a link error.
+
+        The card is set up where that was agreed on. Else, and where it is refused, its session
+        is bare and `lacks` says why: the card stays as it is.
+        """
+        self.lacks, self.waits_for_rest = "", False
+        if self.is_agreed:
+            try:
+                return self._noted(self._opened(MillSession.on, say, is_awaited))
+            except (StopWaitsError, *LINK_ERRORS):
+                raise
+            except OpenacrError as error:
+                self.lacks, self.waits_for_rest = str(error), isinstance(error, MovingError)
+                self.is_agreed = self.is_virtual or self.waits_for_rest
+        session = self._noted(self._opened(MillSession.bare, say, is_awaited))
+        self.lacks = self.lacks or lacking(self.attached, session.runner.settings)
+        return session
+
+    def _noted(self, session: MillSession) -> MillSession:
+        self.attached = attached(session.card)
+        return session
+
+    def axis(self, name: str) -> int:
+        """An axis of the card by the name that AcroMill or one of its masters gives it, or AXISn.
+
+        UserError for another name.
+        """
+        known = {f"AXIS{each.axis}": each.axis for each in self.attached}
+        known |= {each.name: each.axis for each in reversed(self.attached)}
+        known |= {each.name: each.index for each in Settings(self.store).axes}
+        if name.upper() not in known:
+            raise UserError(f"no axis {name}: there are {', '.join(sorted(known))}")
+        return known[name.upper()]
+
+    def rests(self, session: MillSession) -> bool:
+        """Whether a set-up that waits for the card to rest may be tried again."""
+        try:
+            check_rest(session.card, session.runner.settings)
+        except MovingError:
+            return False
+        return True
+
+    def _opened(self, make: Make, say: Say, is_awaited: Callable[[], bool]) -> MillSession:
+        timeout_s = Settings(self.store).link_timeout_s
+        reconnect_s = timeout_s if make == MillSession.on else 0.0
+        options = Options(timeout_s=timeout_s, reconnect_s=reconnect_s)
+        card, settle = connected(self.target, options, is_awaited)
+        try:
+            session = make(card, self.store, say)
+        except BaseException:
+            with suppress(*LINK_ERRORS):
+                card.close()
+            raise
+        settle()
+        return session
 
     def close(self) -> None:
         """Release the store and a card in this process."""

@@ -29,8 +29,10 @@ class Lamp:
             return
         self._due_s = now_s + EVERY_S
         values = self._station.read(ROWS)
+        session = self._station.session
         settings = Settings(self._station.installation.store)
         names = {each.index: each.name for each in settings.axes}
+        is_watched = session is None or session.is_set_up  # by a program of AcroMill
         count = len(PROGRAMS)
         programs, drives = values[:count], values[count : count + len(AXES)]
         setpoints = values[count + len(AXES) :]
@@ -41,7 +43,8 @@ class Lamp:
             "running": [
                 f"PROG{n}"
                 for n, word in enumerate(programs)
-                if int(word) & pf.PROGRAM_RUNNING and n != settings.watchdog_program
+                if int(word) & pf.PROGRAM_RUNNING
+                and not (is_watched and n == settings.watchdog_program)
             ],
             "drives": [
                 names.get(n, f"AXIS{n}")

@@ -24,6 +24,7 @@ from openacr.panel.control.hand_motion import HandMotion
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.lamp import Lamp
 from openacr.panel.control.on_card import OnCard
+from openacr.panel.control.opening import StopWaitsError
 from openacr.panel.control.part import Part
 from openacr.panel.control.presses import End
 from openacr.panel.control.reading import Reading
@@ -41,6 +42,7 @@ from openacr.timeline import Kind
 log = logging.getLogger(__name__)
 SNAPSHOT_S = 0.04
 RETRY_S = 2.0  # between two attempts to reach a card
+BROKEN_OFF = "a stop came first: the card is opened when it is over"
 LINES_KEPT = 200  # of the print window
 
 
@@ -53,6 +55,7 @@ class Live(Shared):
         self.on_snapshot: Callable[[], None] = lambda: None  # a new snapshot is there
         self.on_link: Callable[[str], None] = lambda _why: None  # lost, or found again ("")
         self.on_end: Callable[[], None] = lambda: None  # EXIT: the program is to end
+        self.is_awaited: Callable[[], bool] = lambda: False  # a stop or the end waits
         self.hand_motion = HandMotion(self)
         self.stopping = Stopping(self)
         self.lamp = Lamp(self)
@@ -96,11 +99,20 @@ class Live(Shared):
     # --- the session ------------------------------------------------------------------
 
     def open(self, now_s: float) -> None:
-        """Open the session of the machine; without it the screens say why."""
+        """Open the session of the machine, set up or bare; without it the screens say why.
+
+        A stop that waits breaks it off: it is tried again once the stop is over.
+        """
         self.must_renew = False  # before the settings are read: what is stored then counts
-        self.stopping.end()
+        self.stopping.leave()
         try:
-            self.session = self.installation.open(self.say)
+            self.session = self.installation.open(self.say, self.is_awaited)
+        except StopWaitsError:
+            self.installation.is_agreed = self.installation.is_virtual
+            self._retry_s = now_s
+            self._note_link(BROKEN_OFF)
+            self._facts.tell()
+            return
         except (OpenacrError, *LINK_ERRORS) as error:
             self._note_link(_why(error))
             self._retry_s = now_s + RETRY_S
@@ -108,6 +120,8 @@ class Live(Shared):
             self._facts.tell()
             return
         self._note_link("")
+        if self.session.is_set_up:
+            self.stopping.end()
         self.times.watch_own()
         self._reading = Reading(self.session, self.read)
         self._poll_at = self._snapshot_at = 0.0
@@ -136,6 +150,19 @@ class Live(Shared):
         if session is not None:
             with suppress(*LINK_ERRORS):
                 session.close()
+
+    def set_up(self, now_s: float) -> None:
+        """AcroMill may set the card up, and does."""
+        self.installation.is_agreed = True
+        self.renew(now_s)
+
+    def hand_over(self, why: str) -> None:
+        """AcroMill leaves its axes to a program of the card, at rest, until `set_up`."""
+        self.hand_motion.presses.end_all(End.MODE, why)
+        self.link.hand_over()
+        self.typed.forget()
+        self.installation.is_agreed, self.installation.lacks = False, why
+        self.say(f"{why}: SET UP gives the axes back to AcroMill")
 
     def renew(self, now_s: float) -> None:
         """Open the session again, with the settings as they are stored now."""
@@ -179,10 +206,21 @@ class Live(Shared):
             self._guarded(lambda: self.stopping.step(now_s))
         except LINK_ERRORS as lost:
             log.info("%s", lost)
+        if self.installation.waits_for_rest and now_s >= self._retry_s:
+            self._retry_s = now_s + RETRY_S
+            self._guarded(self._set_up_at_rest)
         if self._rests:
             self._store_kept()
             if self.must_renew:
                 self.renew(now_s)
+
+    def _set_up_at_rest(self) -> None:
+        """Set a card up that moved when it was opened; a stop has to be over, and nothing held."""
+        session = self.session
+        if session is None or self.stopping.is_watching or self.stopping.holds:
+            return
+        if self.installation.rests(session):
+            self.renew(self.now_s)
 
     def _stand(self, now_s: float) -> None:
         """Show the card while it is not operated: its time is still, or it is in the past."""
@@ -206,7 +244,7 @@ class Live(Shared):
         self.installation.pace.begin(self.now_s)
 
     def _poll(self, now_s: float) -> None:
-        session, was_under_way = self.machine, self.part.executing.is_under_way
+        session, was_under_way = self.link, self.part.executing.is_under_way
         try:
             session.poll()
             self._guarded(self.typed.poll)
@@ -217,6 +255,11 @@ class Live(Shared):
         except AlarmError as error:  # another program has taken the machine
             self._lose(str(error), now_s)
             return
+        except LINK_ERRORS as error:
+            if not session.is_set_up:  # else the runner counts what is lost
+                self._lose(_why(error), now_s)
+                return
+            raise
         self._tick_ms = self._tick_base_ms + 1000.0 * session.machine.now_s
         if len(session.runner.alarms.history) != self._alarms:
             self._alarms = len(session.runner.alarms.history)
@@ -225,7 +268,7 @@ class Live(Shared):
         self._failures.forget()
 
     def _last_alarm(self) -> str:
-        history = self.machine.runner.alarms.history
+        history = self.link.runner.alarms.history
         return history[-1].text if history else ""
 
     def _print(self) -> None:

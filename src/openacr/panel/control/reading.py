@@ -32,6 +32,12 @@ class Reading:
         `left_s` is the predicted time to the end of the program, `line` the one it executes.
         """
         session, runner = self._session, self._session.runner
+        if not session.is_set_up:  # positions in units that are not those of the card
+            none = (nan,) * len(runner.settings.axes)
+            return Snapshot(
+                number=number, tick_ms=tick_ms, read_s=now_s, lights=Light.BARRED, work=none,
+                commanded=none, actual=none, following=none, to_go=none, following_end=none,
+            )  # fmt: skip
         place = read_place(runner.settings, self._read)
         to_go, following_end = self._ahead(place)
         cells = session.cells

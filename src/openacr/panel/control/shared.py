@@ -37,14 +37,25 @@ class Shared:
         self._reading: Reading | None = None
 
     @property
-    def machine(self) -> MillSession:
-        """The session of the machine; UserError where the card cannot be reached or is still."""
+    def link(self) -> MillSession:
+        """The session of the card, set up by AcroMill or not.
+
+        UserError where the card cannot be reached or is still.
+        """
         if self.session is None:
             raise UserError(self.lost)
         history = self.installation.history
         if history is not None and history.is_still:
             raise UserError(STILL)
         return self.session
+
+    @property
+    def machine(self) -> MillSession:
+        """The session of the machine; UserError where there is none or AcroMill is not set up."""
+        session = self.link
+        if not session.is_set_up:
+            raise UserError(self.installation.lacks)
+        return session
 
     @property
     def is_moved(self) -> bool:
@@ -72,7 +83,7 @@ class Shared:
     def read(self) -> Rows:
         """What reads parameters; of a card in this process without time or bytes. UserError."""
         history = self.installation.history
-        return self.machine.machine.read_rows if history is None else history.read_rows
+        return self.link.machine.read_rows if history is None else history.read_rows
 
     @property
     def reading(self) -> Reading:

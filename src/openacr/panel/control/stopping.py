@@ -14,6 +14,7 @@ from openacr.errors import OpenacrError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.mill.card.stopping import watching
 from openacr.mill.config.settings import Settings
+from openacr.panel.control.opening import connected
 from openacr.panel.control.shared import Shared
 
 HELD_S = 0.5  # between two looks at what is held
@@ -50,7 +51,7 @@ class Stopping:
         self._stop = Standstill(
             card,
             ends=ends,
-            spared=watching(card, settings) if measured is None else PROGRAMS,
+            spared=PROGRAMS if measured is not None else {settings.watchdog_program},
             of_host={settings.master} if is_ours else (),
             beside=() if measured is None else (measured,),
         )
@@ -59,6 +60,9 @@ class Stopping:
             self._stop.programs |= former.programs
             self._stop.axes |= former.axes
         self._stop.look()
+        if measured is None:  # asked by a line, which may take its time: after the act
+            self._stop.spare(watching(card, settings))
+            self._stop.look()
         self._is_watched, self._left, self._is_held = False, set(), False
         self._due_s = now_s + EVERY_S
         return self._stop.found
@@ -72,8 +76,8 @@ class Stopping:
         if session is not None:
             return session.card
         if self._bare is None:
-            target = self._station.installation.target
-            self._bare = Card.open(target, Options(timeout_s=BARE_S, reconnect_s=0.0))
+            options = Options(timeout_s=BARE_S, reconnect_s=0.0)
+            self._bare, _ = connected(self._station.installation.target, options, limit_s=BARE_S)
         return self._bare
 
     # --- its course -------------------------------------------------------------------
@@ -86,6 +90,7 @@ class Stopping:
         if stop is None or now_s < self._due_s:
             return
         try:
+            stop.card = self._card()
             if not self._is_watched:
                 self._due_s = now_s + EVERY_S
                 stop.look()
@@ -123,16 +128,21 @@ class Stopping:
     def resume(self) -> None:
         """Go on with the moves and programs of the card that STOP has held."""
         if self._stop is not None:
+            self._stop.card = self._card()
             self._stop.resume()
         self.end()
 
-    def end(self) -> None:
-        """Forget the last stop; what it holds stays held."""
-        self._stop = None
+    def leave(self) -> None:
+        """Close the connection of its own: a serial line has only one."""
         bare, self._bare = self._bare, None
         if bare is not None:
             with suppress(*LINK_ERRORS):
                 bare.close()
+
+    def end(self) -> None:
+        """Forget the last stop; what it holds stays held."""
+        self._stop = None
+        self.leave()
 
     def data(self) -> dict[str, Any]:
         """What was stopped, whether RESUME goes on with it, and what moves in spite of it."""

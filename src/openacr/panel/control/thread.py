@@ -35,6 +35,7 @@ class ControlThread:
         self.station = station
         self._clock = clock
         self._orders: Waiting[Order | Work] = Waiting()
+        station.is_awaited = lambda: self._orders.is_urgent or self._is_over.is_set()
         self._failure, self._failure_s = "", 0.0  # cause of the last one, and when it was said
         self._is_over = threading.Event()
         self._thread = threading.Thread(target=self._run, name="control", daemon=True)
@@ -137,13 +138,13 @@ class ControlThread:
         session = station.session
         try:
             station.times.wake(self._clock())
-            if session is not None:
+            if session is not None and session.is_set_up:
                 _to_rest(session)
         except (OpenacrError, *LINK_ERRORS) as error:
             log.warning("%s", error)
         except Exception:  # what has failed is not known: the axes must not go on
             log.exception("the machine cannot be brought to rest: its power is cut")
-            if session is not None:
+            if session is not None and session.is_set_up:
                 with suppress(Exception):
                     session.runner.cut_power()
         finally:

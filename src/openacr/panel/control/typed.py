@@ -61,8 +61,10 @@ class Typed:
 
     def poll(self) -> None:
         """Start the next block when the one before it has ended; an error drops the rest."""
+        if not self._queue:
+            return
         runner = self._station.machine.runner
-        if not self._queue or runner.is_busy:
+        if runner.is_busy:
             return
         if runner.alarms.bars_start or runner.was_aborted:
             self._queue.clear()

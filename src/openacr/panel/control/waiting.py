@@ -18,6 +18,11 @@ class Waiting(Generic[T]):
     def __len__(self) -> int:
         return len(self._urgent) + len(self._others)
 
+    @property
+    def is_urgent(self) -> bool:
+        """Whether an urgent item waits."""
+        return bool(self._urgent)
+
     def put(self, item: T, *, is_urgent: bool = False) -> None:
         """Add an item; an urgent one is taken before all that are not."""
         with self._ready:
