@@ -21,7 +21,7 @@ from openacr.cnc import canonical as c
 from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.cnc.interpreter.interpreter import Options as Reading
 from openacr.cnc.interpreter.mdi import Mdi
-from openacr.cnc.interpreter.replay import Replay, start_at
+from openacr.cnc.interpreter.replay import Rehearsal, Replay, rehearsal, start_at
 from openacr.cnc.loading.load import load_blank
 from openacr.cnc.program.program import Node, Program
 from openacr.cnc.state.hosts import Cells
@@ -279,6 +279,10 @@ class MillSession:
     def rehearse(self, program: Program, start: Start) -> Replay:
         """Replay the lines before a start line: nothing moves, nothing is written."""
         return start_at(self._interpreter(program, start), start.line, start.safe_z)
+
+    def rehearsal(self, program: Program, start: Start) -> Rehearsal:
+        """The same step by step: a long program takes its time."""
+        return rehearsal(self._interpreter(program, start), start.line, start.safe_z)
 
     def start(self, program: Program, start: Start, replay: Replay | None = None) -> None:
         """Start a program; at a later line after its replay, which the operator has accepted."""

@@ -12,8 +12,9 @@ the operator names. The tool axis is Z in every plane, as it is for the tool len
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from dataclasses import dataclass, field
+from typing import cast
 
 from openacr.cnc.canonical import (
     AXES,
@@ -184,8 +185,21 @@ def _at_level(point: Point, level: float) -> Point:
     return (*point[:TOOL_AXIS], level, *point[TOOL_AXIS + 1 :])
 
 
+Rehearsal = Generator[None, None, "Replay"]
+
+
 def start_at(run: Interpreter, line: int, level: float | None = None) -> Replay:
-    """Replay everything before a line; StartError if it is never reached.
+    """Replay everything before a line at once, as `rehearsal` does piece by piece."""
+    replaying = rehearsal(run, line, level)
+    while True:
+        try:
+            next(replaying)
+        except StopIteration as done:
+            return cast(Replay, done.value)
+
+
+def rehearsal(run: Interpreter, line: int, level: float | None = None) -> Rehearsal:
+    """Replay everything before a line, step by step; StartError if it is never reached.
 
     `level`: the machine position of the tool axis at which the tool is free, in default units;
     StartError where the approach needs one and neither it nor the lines name it.
@@ -199,14 +213,14 @@ def start_at(run: Interpreter, line: int, level: float | None = None) -> Replay:
     machine = run.machine
     present = machine.position() or run.path.target
     before = {n: run.cells.read(n) for n in (TOOL_IN_SPINDLE, SPEED, SPIN, COOLANT)}
-    rehearsal = _Rehearsal(machine)
-    run.machine = rehearsal
-    replay = Replay(run, line, present, run.cells, variables=rehearsal.written, level=level)
+    host = _Rehearsal(machine)
+    run.machine = host
+    replay = Replay(run, line, present, run.cells, variables=host.written, level=level)
     try:
-        _rehearse(replay, line)
+        yield from _rehearse(replay, line)
     finally:
         run.machine = machine
-    if rehearsal.has_read_card:
+    if host.has_read_card:
         replay.warnings.append(LIVE)
     if replay.reached.by_increments:
         replay.warnings.append(_increments(replay))
@@ -215,9 +229,10 @@ def start_at(run: Interpreter, line: int, level: float | None = None) -> Replay:
     return replay
 
 
-def _rehearse(replay: Replay, line: int) -> None:
+def _rehearse(replay: Replay, line: int) -> Iterator[None]:
     run, place = replay.run, replay.present
     for count, entry in enumerate(run.entries_until(line)):
+        yield
         if count > MOST_BLOCKS:
             raise StartError(f"line {line} is not reached within {MOST_BLOCKS} steps")
         match entry:

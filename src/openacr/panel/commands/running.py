@@ -156,7 +156,7 @@ def close(station: Station, order: Order, args: NoArgs) -> None:
 
 
 @command("run.begin", is_motion=True)
-def begin(station: Station, order: Order, args: Begin) -> dict[str, object]:
+def begin(station: Station, order: Order, args: Begin) -> dict[str, object] | Later:
     """RUN: start the loaded program; a later line is rehearsed first and confirmed then."""
     part = station.part
     if args.skip is not None:
@@ -175,7 +175,8 @@ def begin(station: Station, order: Order, args: Begin) -> dict[str, object]:
     )
     station.hand_motion.presses.end_all(End.MODE, "a program was started")
     if args.line > 1 and not args.confirm:
-        return {"rehearsal": part.rehearse(start)}
+        part.rehearse(start, order)
+        return LATER
     station.typed.drop()
     part.begin(start, args.confirm)
     return {}

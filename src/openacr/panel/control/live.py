@@ -178,6 +178,7 @@ class Live(Shared):
         self.now_s = now_s
         self._guarded(lambda: self.hand_motion.expire(now_s))
         self.jobs.poll()
+        self.part.rehearse_on(self.is_awaited)
         if self.times.is_away or (self.times.is_still and self.session is not None):
             self._stand(now_s)
             return

@@ -7,7 +7,7 @@ from math import nan
 from pathlib import Path
 from typing import Any
 
-from openacr.cnc.interpreter.replay import Replay
+from openacr.cnc.interpreter.replay import Rehearsal, Replay
 from openacr.cnc.loading.batch import Entry, read_batch
 from openacr.errors import OpenacrError, UserError
 from openacr.mill.session import Start
@@ -15,6 +15,8 @@ from openacr.panel.control.executing import Executing
 from openacr.panel.control.loaded import Loaded
 from openacr.panel.control.orders import Order, failure
 from openacr.panel.control.shared import Shared
+
+AT_ONCE = 100  # moves and outputs of a rehearsal between two steps of the machine
 
 
 @dataclass(slots=True)
@@ -29,6 +31,16 @@ class _Batch:
     start: Start = field(default_factory=Start)
 
 
+@dataclass(slots=True)
+class _Rehearsing:
+    """The lines before a start line while they are read, and who waits for what differs."""
+
+    steps: Rehearsal
+    loaded: Loaded
+    start: Start
+    order: Order
+
+
 class Part:
     """The program of one machine."""
 
@@ -38,6 +50,7 @@ class Part:
         self.loading = ""
         self._batch: _Batch | None = None
         self._rehearsed: tuple[str, Start, Replay] | None = None
+        self._rehearsing: _Rehearsing | None = None
         self._tokens = 0
         self._first_line = 1  # of the run
         self.executing = Executing(station)
@@ -138,12 +151,44 @@ class Part:
 
     # --- running ----------------------------------------------------------------------
 
-    def rehearse(self, start: Start) -> dict[str, Any]:
-        """Read the lines before a start line; what differs is confirmed by the operator."""
+    def rehearse(self, start: Start, order: Order) -> None:
+        """Read the lines before a start line; what differs is confirmed by the operator.
+
+        They are read between the steps of the control thread; the order is answered at the end.
+        """
         loaded = self.required
         _require_sound(loaded)
-        self._station.machine.runner.alarms.require_none()
-        replay = self._station.machine.rehearse(loaded.program, start)
+        session = self._station.machine
+        session.runner.require_start()
+        if self._rehearsing is not None:
+            raise UserError("the lines before a start line are being read: wait")
+        self._rehearsing = _Rehearsing(
+            session.rehearsal(loaded.program, start), loaded, start, order
+        )
+
+    def rehearse_on(self, is_awaited: Callable[[], bool]) -> None:
+        """Go on reading the lines before a start line, for AT_ONCE steps or until a stop waits."""
+        under_way = self._rehearsing
+        if under_way is None:
+            return
+        try:
+            self._station.machine.runner.require_start()  # the machine is where it was
+            if self.loaded is not under_way.loaded:
+                raise UserError("another program was loaded")
+            for _ in range(AT_ONCE):
+                if is_awaited():
+                    return
+                next(under_way.steps)
+        except StopIteration as done:
+            self._rehearsing = None
+            result = self._confirmable(done.value, under_way)
+            under_way.order.answer({"ok": True, "result": {"rehearsal": result}})
+        except Exception as error:
+            self._rehearsing = None
+            under_way.order.answer({"ok": False, "error": failure(error)})
+
+    def _confirmable(self, replay: Replay, under_way: _Rehearsing) -> dict[str, Any]:
+        loaded, start = under_way.loaded, under_way.start
         self._tokens += 1
         token = f"{loaded.version[:8]}-{self._tokens}"
         self._rehearsed = (token, start, replay)
@@ -178,10 +223,12 @@ class Part:
 
     def poll(self) -> None:
         """Start the next program of a batch; follow the executing block."""
-        session = self._station.machine
         self._follow()
         batch = self._batch
-        if batch is None or not batch.is_running or session.runner.is_busy:
+        if batch is None or not batch.is_running:
+            return
+        session = self._station.machine
+        if session.runner.is_busy:
             return
         if session.runner.was_aborted or session.runner.alarms.bars_start:
             batch.is_running = False

@@ -1,11 +1,11 @@
 """The table of HTTP calls under `/api`: path, role, what comes in, what goes out."""
 
-import json
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any
 
 import msgspec
+from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import BaseRoute, Route
@@ -17,6 +17,7 @@ from openacr.panel.roles import Role
 from openacr.panel.server.panel import Panel
 
 MOST_JSON = 4 << 20
+JSON = "application/json"
 STATUS = {
     "role": 403,
     "login": 401,
@@ -69,7 +70,7 @@ class Endpoint:
     query: type[Query] | None = None
     body: type[Body] | None = None
     takes: str = ""  # media type of a raw body
-    gives: str = "application/json"
+    gives: str = JSON
     is_open: bool = False  # also without a log-in
 
     @property
@@ -89,7 +90,7 @@ def endpoint(
     query: type[Query] | None = None,
     body: type[Body] | None = None,
     takes: str = "",
-    gives: str = "application/json",
+    gives: str = JSON,
     is_open: bool = False,
 ) -> Callable[[Handler], Handler]:
     """Declare a call."""
@@ -131,9 +132,16 @@ def _served(panel: Panel, row: Endpoint) -> Callable[[Request], Awaitable[Respon
             result = await row.handler(call)
         except (OpenacrError, ConnectionLostError) as error:
             return refused(error)
-        return result if isinstance(result, Response) else JSONResponse(result)
+        if isinstance(result, Response):
+            return result
+        # Long answers take a while; the loop carries the stops of all browsers meanwhile.
+        return Response(await run_in_threadpool(_encoded, result), media_type=JSON)
 
     return serve
+
+
+def _encoded(result: object) -> bytes:
+    return msgspec.json.encode(result, enc_hook=float)  # numbers of arrays are no plain floats
 
 
 def refused(error: Exception) -> Response:
@@ -156,7 +164,7 @@ async def _body(request: Request, kind: type[Body] | None) -> Any:
         return None
     data = await limited(request, MOST_JSON)
     try:
-        return msgspec.convert(json.loads(data or b"{}"), kind, strict=True)
+        return msgspec.json.decode(data or b"{}", type=kind, strict=True)
     except (ValueError, RecursionError) as error:
         raise PanelError("bad", f"{request.url.path}: {error}") from None
 

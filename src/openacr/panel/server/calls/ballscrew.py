@@ -63,7 +63,8 @@ async def export_table(call: Call) -> Response:
 async def check_table(call: Call) -> object:
     """Check a table that is imported or edited, and give its positions in order."""
     name = _name(call.panel.installation.store, call.body.axis)
-    return {"entries": parse(call.body.text, name).entries}
+    table = await run_in_threadpool(lambda: parse(call.body.text, name))
+    return {"entries": table.entries}
 
 
 @endpoint("PUT", "/ballscrew", Role.SERVICE, body=Kept)

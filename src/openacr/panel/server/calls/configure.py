@@ -74,9 +74,12 @@ async def configure_read(call: Call) -> object:
     Set-up code is tried on a virtual card.
     """
     body: Text = call.body
-    if body.name.lower().endswith(".toml"):
-        return {"answers": to_builtins(parse_answers(body.text, body.name)), "notes": []}
-    return await run_in_threadpool(_recovered, body)
+    is_toml = body.name.lower().endswith(".toml")
+    return await run_in_threadpool(_answers if is_toml else _recovered, body)
+
+
+def _answers(body: Text) -> object:
+    return {"answers": to_builtins(parse_answers(body.text, body.name)), "notes": []}
 
 
 def _recovered(body: Text) -> object:

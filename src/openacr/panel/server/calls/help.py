@@ -1,5 +1,7 @@
 """Help texts, and the description of this interface."""
 
+from starlette.concurrency import run_in_threadpool
+
 from openacr.errors import MapError
 from openacr.panel.commands.all import COMMANDS
 from openacr.panel.control.orders import PanelError
@@ -39,4 +41,4 @@ async def help_text(call: Call) -> object:
 @endpoint("GET", "/openapi.json", is_open=True)
 async def openapi(call: Call) -> object:
     """The interface as an OpenAPI document, made from the handlers."""
-    return document(ENDPOINTS, COMMANDS.values())
+    return await run_in_threadpool(lambda: document(ENDPOINTS, COMMANDS.values()))

@@ -7,6 +7,7 @@ from dataclasses import asdict
 from typing import Annotated, TypeVar
 
 from msgspec import Meta
+from starlette.concurrency import run_in_threadpool
 
 from openacr.client import Level
 from openacr.client.backup import surroundings
@@ -96,7 +97,9 @@ async def card_listing(call: Call) -> object:
     """The text of a program or PLC as the card lists it, each line with its number."""
     level = call.query.level
     lines = await talked(call.panel, lambda talk: listing(talk, level))
-    return {"name": str(level), "version": version_of(lines), **_listed(lines)}
+    return await run_in_threadpool(
+        lambda: {"name": str(level), "version": version_of(lines), **_listed(lines)}
+    )
 
 
 @endpoint("GET", "/card/surroundings", query=OfProgram)
@@ -120,8 +123,12 @@ async def card_ladder(call: Call) -> object:
     query: OfPlc = call.query
     level = Level.plc(query.plc)
     lines = await talked(call.panel, lambda talk: listing(talk, level))
-    rungs, why = ladder(lines)
-    return {"name": str(level), **_listed(lines), "rungs": rungs, "why": why}
+
+    def drawn() -> object:
+        rungs, why = ladder(lines)
+        return {"name": str(level), **_listed(lines), "rungs": rungs, "why": why}
+
+    return await run_in_threadpool(drawn)
 
 
 def ladder(lines: Sequence[ListedLine]) -> tuple[list[dict[str, object]], str]:

@@ -6,7 +6,7 @@ import time
 from collections.abc import AsyncIterator
 from contextlib import suppress
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import IO, Annotated, Literal
 
 from msgspec import Meta
 from starlette.concurrency import run_in_threadpool
@@ -202,9 +202,8 @@ async def _received(parts: AsyncIterator[bytes], place: Path) -> Path:
                 size += len(part)
                 if size > MOST_UPLOAD:
                     raise PanelError("too_big", f"more than {MOST_UPLOAD} bytes are not taken")
-                file.write(part)
-            file.flush()
-            await run_in_threadpool(os.fsync, file.fileno())
+                await run_in_threadpool(file.write, part)
+            await run_in_threadpool(_settle, file)
     except OSError as error:
         partial.unlink(missing_ok=True)
         raise _unwritable(place, error) from None
@@ -220,6 +219,11 @@ def _remove_left_over(folder: Path) -> None:
         with suppress(OSError):
             if time.time() - partial.stat().st_mtime > LEFT_OVER_S:
                 partial.unlink()
+
+
+def _settle(file: IO[bytes]) -> None:
+    file.flush()
+    os.fsync(file.fileno())
 
 
 def _note(call: Call, path: str) -> None:
@@ -300,7 +304,7 @@ async def program(call: Call) -> object:
     loaded = call.panel.station.part.loaded
     if loaded is None:
         return None
-    return {**loaded.data(), "findings": loaded.findings()}
+    return await run_in_threadpool(lambda: {**loaded.data(), "findings": loaded.findings()})
 
 
 @endpoint("GET", "/program/listing", query=OfLines)
