@@ -144,7 +144,10 @@ def test_screens_show_the_moment_and_move_nothing_until_the_machine_is_operated_
     assert hand.station.lost == AWAY
     assert hand.now_s - hand.station.snapshot.read_s < 0.1
     state = fact(hand, "state")
-    assert (state["reason"], state["link"]) == (AWAY, "ok")
+    assert (state["reason"], state["link"]) == ("", "ok")
+    assert fact(hand, "alarms") == {
+        "active": [], "history": [], "bars_start": True,
+    }  # fmt: skip
     assert AWAY in hand.refused("mdi.execute", line="G0 X1")["text"]
     assert AWAY in hand.refused("term.open")["text"]
     hand.do("timeline.operate")
@@ -158,6 +161,25 @@ def test_screens_show_the_moment_and_move_nothing_until_the_machine_is_operated_
     hand.run(1.0)
     assert history(hand).card.p[0] > before
     assert hand.station.machine.runner.alarms.active == []
+
+
+def test_moves_of_the_panel_are_held_where_it_is_operated_from_and_no_alarm_comes(
+    hand: HandStation,
+) -> None:
+    hand.do("mdi.execute", line="G21 G91 G1 X50 F600")
+    hand.run(1.0)
+    tick = history(hand).lived_tk
+    assert hand.station.snapshot.speed_upm > 0.0
+    hand.do("stop.all")
+    hand.until(lambda: not hand.is_busy)
+    hand.do("timeline.seek", tick=tick)
+    hand.do("timeline.operate")
+    place = history(hand).card.p[12288]
+    hand.run(3.0)  # longer than the watchdog waits for its host
+    assert hand.station.machine.runner.alarms.history == []
+    assert history(hand).card.p[12288] == place
+    hand.do("mdi.execute", line="G21 G91 G1 X1 F600")
+    hand.until(lambda: not hand.is_busy)
 
 
 def test_what_is_recorded_runs_again_up_to_its_end_and_is_still_there(hand: HandStation) -> None:

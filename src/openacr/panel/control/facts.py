@@ -66,7 +66,7 @@ class Facts:
         if session is None:
             return {
                 "state": State.IDLE.name,
-                "reason": station.lost,
+                "reason": "" if self._times.is_away else station.lost,
                 "busy": False,
                 "running": False,
                 "jogging": False,
@@ -137,7 +137,7 @@ class Facts:
     def alarms(self, station: Shared) -> Data:
         """Alarms that are active, and those that were."""
         if station.session is None:
-            text = station.lost
+            text = "" if self._times.is_away else station.lost  # a mode, no alarm
             lost = {"code": 1, "text": text, "effect": "REFUSE", "at_s": 0.0, "time": ""}
             return {"active": [lost] if text else [], "history": [], "bars_start": True}
         alarms = station.session.runner.alarms
@@ -151,7 +151,7 @@ class Facts:
         return {
             "active": [_alarm(each, when.get(id(each), "")) for each in alarms.active],
             "history": [_alarm(each, when[id(each)]) for each in history[-ALARMS_KEPT:]],
-            "bars_start": alarms.bars_start,
+            "bars_start": alarms.bars_start or not station.session.is_set_up,
         }
 
     def messages(self, station: Shared) -> Data:

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 from openacr.debugger.calls import is_running
 from openacr.errors import UserError
+from openacr.map.words import mf1
+from openacr.mill.card.watchdog import FEED_HOLD_REQUEST, FLAGS_PER_MASTER
 from openacr.mill.config.settings import Settings
 from openacr.panel.control.history import AWAY, STILL, History
 from openacr.panel.control.pace import OwnTime, Paced
@@ -21,6 +23,7 @@ from openacr.panel.control.stepping import step_back, step_line, step_move, step
 from openacr.timeline import Kind
 
 SLOWEST, FASTEST = 0.01, 100.0
+LONGEST_HOLD_S, HOLD_STEP_S = 10.0, 0.01  # of moves that the panel had under way
 NOT_HERE = "the time of this card is its own: only that of a virtual card in the panel can be moved"
 
 
@@ -187,13 +190,28 @@ class Times:
         self._around.enter()
 
     def _end_watchdog(self) -> None:
-        """End the watchdog of the panel at rest: it would report a host that was lost."""
+        """End the watchdog of the panel: it would report a host that was lost.
+
+        Moves that the panel had under way are held before, as the watchdog would hold them.
+        """
         history = self.history
-        if self._settings is None or read_place(self._settings, history.read_rows).is_moving:
+        running = [each for each in history.unmarked if is_running(history.card, each)]
+        if self._settings is None or not running:
             return
-        for program in history.unmarked:
-            if is_running(history.card, program):
-                history.card.send(f"SYS\rHALT PROG{program}\r")
+        if read_place(self._settings, history.read_rows).is_moving:
+            self._hold(self._settings.master)
+        for program in running:
+            history.card.send(f"SYS\rHALT PROG{program}\r")
+
+    def _hold(self, master: int) -> None:
+        """Bring a master to rest on its path by a feed hold, within LONGEST_HOLD_S."""
+        history = self.history
+        history.card.bit[FEED_HOLD_REQUEST + FLAGS_PER_MASTER * master] = True
+        for _ in range(round(LONGEST_HOLD_S / HOLD_STEP_S)):
+            history.advance(round(HOLD_STEP_S / history.period_s))
+            word = history.card.memory.I[mf1.word[master]]
+            if word & mf1.IN_FEEDHOLD or not word & mf1.IN_MOTION:
+                return
 
     def _go_away(self) -> None:
         """Leave the card, and let its time be still; UserError while the panel moves it."""

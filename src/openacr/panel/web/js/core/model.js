@@ -4,7 +4,8 @@ import { Signal } from "./signal.js";
 
 /**
  * @typedef {{ name: string, index: number, unit: string, decimals: { mm: number, inch: number }, low: number | null, high: number | null, home_required: boolean }} Axis
- * @typedef {{ kind: string, name: string, card: string, unit: string, shown: string, is_small: boolean, is_virtual: boolean, axes: Axis[] }} Machine
+ * @typedef {{ kind: string, name: string, card: string, unit: string, shown: string, is_small: boolean, is_virtual: boolean, axes: Axis[], lacks: string,
+ *   attached: { name: string, index: number, master: number }[] }} Machine
  * @typedef {{ name: string, path: string, kind: string, lines: number, errors: number, warnings: number, seconds: number | null,
  *   extents: Record<string, [number, number]> | null, tools: number[], id: string, drawn: boolean }} Loaded
  */
@@ -23,7 +24,7 @@ export class Model {
   constructor() {
     this.hello = new Signal({
       version: "", client: 0, role: "view", login: false, local: false,
-      machine: /** @type {Machine} */ ({ kind: "", name: "", card: "", unit: "mm", shown: "mm", is_small: false, is_virtual: true, axes: [] }),
+      machine: /** @type {Machine} */ ({ kind: "", name: "", card: "", unit: "mm", shown: "mm", is_small: false, is_virtual: true, axes: [], lacks: "", attached: [] }),
       limits: { tick_ms: 200, keep_ms: 50, dead_man_ms: 200, stale_ms: 500, upload: 268435456 },
     });
     this.state = new Signal(/** @type {any} */ ({

@@ -1,10 +1,10 @@
 // The top of the main screen: state, alarms and user messages, who has control, appearance.
-import { give, model } from "../core/app.js";
+import { give, model, report } from "../core/app.js";
 import { byId, fill, h } from "../core/dom.js";
 import { applyTheme, keepSetting, setting } from "../core/settings.js";
 import { LANGUAGES, t, textOr } from "../core/texts.js";
 import { PLAIN } from "../draw/colors.js";
-import { ask } from "./dialog.js";
+import { ask, confirm } from "./dialog.js";
 
 /** @type {Record<string, string>} */
 const SIGNS = { IDLE: "\u25cb", RUN: "\u25b6", WAIT: "\u25d4", HOMING: "\u2302", PAUSED: "\u2016", HOLD: "\u25a0", ALARM: "\u26a0" };
@@ -23,6 +23,9 @@ export function startTop(showTab) {
   model.alarms.watch(drawAlarms);
   model.messages.watch(drawAlarms);
   model.program.watch(drawAlarms);
+  model.timeline.watch(drawAlarms);
+  model.moment.watch(drawAlarms);
+  model.hello.watch(drawAlarms);
   model.hello.watch(drawTools);
   model.control.watch(drawTools);
 }
@@ -42,19 +45,44 @@ function drawState() {
     detail ? h("span.reason", { title: detail }, detail) : "");
 }
 
-/** The first alarm with its keys, then user messages; without any the name of the loaded program. */
+/** The first alarm with its keys, then user messages; without any the mode, or the name of the loaded program. */
 function drawAlarms() {
   const area = byId("alarms");
   const { active } = model.alarms.value;
   area.classList.toggle("has-alarm", active.length > 0);
+  const mode = active.length ? [] : modeParts();
+  area.classList.toggle("has-mode", mode.length > 0);
   const messages = model.messages.value.shown.map(messageOf);
   const few = messages.slice(0, active.length ? MOST_BESIDE_ALARM : MOST_MESSAGES);
   const more = messages.length - few.length;
   const loaded = model.program.value.loaded;
+  const looks = mode.map((each) => each.textContent).join("|");
+  if (mode.length && looks === area.dataset.mode && !messages.length) return; // a key stays under the finger
+  area.dataset.mode = looks;
   const none = h("span.none", { title: loaded?.path ?? "" }, loaded ? loaded.name : t("alarm.noprogram"));
-  fill(area, ...(active.length ? alarmParts(active) : []), ...few,
+  fill(area, ...(active.length ? alarmParts(active) : mode), ...few,
     more > 0 ? h("button.key", { type: "button", title: t("message.all"), onclick: showMessages }, t("message.more", { count: more })) : "",
-    active.length || messages.length ? "" : none);
+    active.length || messages.length || mode.length ? "" : none);
+}
+
+/** What is unlike a machine that is operated: the card is at a moment of its past, or AcroMill has not set it up. */
+function modeParts() {
+  const { away, still, period_s: period } = model.timeline.value;
+  const { tick, last } = model.moment.value;
+  if (away) {
+    const text = t("mode.past", { at: (tick * period).toFixed(1), before: ((last - tick) * period).toFixed(1) });
+    return [h("span.text", { title: t("mode.past.title") }, text)];
+  }
+  if (still) return [h("span.text", {}, t("mode.still"))];
+  const { lacks } = model.hello.value.machine;
+  if (!lacks) return [];
+  return [h("span.text", { title: lacks }, lacks), h("button.key", { type: "button", onclick: () => setUp(lacks) }, t("mode.setup"))];
+}
+
+/** @param {string} lacks */
+async function setUp(lacks) {
+  if (!(await confirm(t("mode.setup"), `${lacks}. ${t("mode.setup.text")}`, t("mode.setup")))) return;
+  if (await give("card.setup") !== null) report(t("mode.setup.done"));
 }
 
 /** @param {any[]} active */
