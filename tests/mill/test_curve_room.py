@@ -5,9 +5,11 @@ import pytest
 from tests.mill.planned import ACCEL, JERK, SPEED, Point, highest
 from tests.mill.test_planned_lost_host import ROUNDING, Host
 
-from openacr.cnc.occupied import LEAST_MOVES
+from openacr.cnc.occupied import HOLD_AT, RAN_SHORT
 from openacr.controller import Controller
+from openacr.map import numbers as n
 from openacr.mill.run.lifecycle import State
+from openacr.sysvar.tabs import SPEEDS
 
 LINE: list[Point] = [(30.0, 0.0), (60.0, 0.0)]
 BYTES_PER_MOVE = 136
@@ -26,7 +28,7 @@ def test_it_is_refused_where_the_buffer_is_too_short(moves: int) -> None:
     host = Host(LINE, card=dimensioned(1000 + BYTES_PER_MOVE * moves))
     host.live(1.0)
     (alarm,) = host.session.runner.alarms.active
-    assert "needs a buffer of 139 moves, that of the card has 10" in alarm.text
+    assert "needs a buffer of 135 moves, that of the card has 10" in alarm.text
     assert "DIM PROG0" in alarm.text
     assert np.ptp(host.places, axis=0) == pytest.approx(0.0)
 
@@ -54,9 +56,35 @@ def test_a_buffer_that_is_dimensioned_already_is_used(moves: int) -> None:
     host = Host([(100.0, 0.0), (200.0, 0.0)], card=card)
     host.live(0.6)
     assert host.speed == pytest.approx(SPEED, rel=1e-4)
-    assert 0 < card.p[LEAST_MOVES] <= moves
+    ahead = card.p[HOLD_AT] - card.p[n.MA_BASE + n.MA_MOVE_COUNTER]
+    assert 15 < ahead <= 25
     host.silent(1.0)
     _, accel, jerk = highest(host.places, card.period_s)
     assert accel <= ACCEL * (1 + 1e-4)
     assert jerk <= JERK * (1 + ROUNDING)
     assert host.speed == 0.0
+
+
+def test_a_machine_that_is_faster_gets_a_longer_buffer_and_rests_without_its_host() -> None:
+    fast: dict[int, float] = {SPEEDS.max_machine_speed: 60 * 300.0}
+    card = dimensioned(100_000)
+    host = Host([(400.0, 0.0), (800.0, 0.0)], 60 * 300.0, card, fast)
+    assert card.send("PROG0\rDIM\r").count("MBUF(255)") == 1
+    host.live(0.8)
+    assert host.speed == pytest.approx(300.0, rel=1e-4)
+    host.silent(1.5)
+    _, accel, jerk = highest(host.places, card.period_s)
+    assert (host.speed, card.bit[RAN_SHORT]) == (0.0, True)
+    assert accel <= ACCEL * (1 + 1e-4)
+    assert jerk <= JERK * (1 + ROUNDING)
+
+
+def test_a_faster_machine_is_refused_where_only_the_usual_buffer_has_room() -> None:
+    fast: dict[int, float] = {SPEEDS.max_machine_speed: 60 * 300.0}
+    card = dimensioned(1000 + BYTES_PER_MOVE * 210)
+    host = Host(LINE, card=card, own=fast)
+    host.live(1.0)
+    (alarm,) = host.session.runner.alarms.active
+    assert "needs a buffer of 255 moves, that of the card has 200" in alarm.text
+    assert "lower the highest speed (P650000)" in alarm.text
+    assert np.ptp(host.places, axis=0) == pytest.approx(0.0)

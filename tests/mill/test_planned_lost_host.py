@@ -18,7 +18,7 @@ from tests.mill.planned import (
 )
 
 from openacr.cnc.loading.load import load
-from openacr.cnc.occupied import LEAST_MOVES, RAN_SHORT
+from openacr.cnc.occupied import HOLD_AT, RAN_SHORT
 from openacr.controller import Controller
 from openacr.engine.samples import Sample
 from openacr.engine.watches import Watched
@@ -62,12 +62,16 @@ class Host:
     """A host that drives a card over a link, here without one, and can be silent."""
 
     def __init__(
-        self, points: list[Point], feed: float = FEED, card: Controller | None = None
+        self,
+        points: list[Point],
+        feed: float = FEED,
+        card: Controller | None = None,
+        own: dict[int, float] | None = None,
     ) -> None:
         self.card = card or Controller()
         self.said: list[str] = []
         store = Store()
-        for cell, value in (cells() | {LINK_TIMEOUT: PATIENT_S}).items():
+        for cell, value in (cells() | {LINK_TIMEOUT: PATIENT_S} | (own or {})).items():
             store.write(cell, value)
         self.session = MillSession.real(self.card, store, self.said.append)
         self.session.card.command("DRIVE ON X Y Z", program=0)
@@ -154,10 +158,21 @@ def test_a_host_that_is_a_little_late_is_not_noticed(points: list[Point]) -> Non
     host.require_limits(points)
 
 
+def test_a_host_that_is_late_again_and_again_has_sent_more_ahead(points: list[Point]) -> None:
+    host = Host(points)
+    for _ in range(40):
+        host.live(0.02)
+        host.silent(0.12)
+    host.live(3.0)
+    assert host.session.runner.state is State.IDLE
+    assert len(host.said) == 1  # the first time, when it was not known
+    host.require_limits(points, 3 * TOLERANCE)  # it went on from beside chords
+
+
 def test_the_end_of_a_path_is_no_lack_of_it(points: list[Point]) -> None:
     host = Host(points)
     host.live(8.0)
     assert (host.session.runner.state, host.said) == (State.IDLE, [])
-    assert host.card.p[LEAST_MOVES] == 0
+    assert host.card.p[HOLD_AT] == 0
     assert host.places[-1] == pytest.approx([*(*points[-1], 0.0)[:3]], abs=0.5 / PULSES)
     host.require_limits(points)

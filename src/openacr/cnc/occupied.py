@@ -71,15 +71,15 @@ HEARTBEAT = TABLE.reserve(
 KILL_CAUSE = TABLE.reserve(
     _P, 97, "cause of a kill", "the alarm that killed all motion, until the kill is taken back"
 )
-LEAST_MOVES = TABLE.reserve(
-    _P, 98, "least moves", "waiting moves of a planned path below which the watchdog holds the feed"
+HOLD_AT = TABLE.reserve(
+    _P, 98, "hold at", "the move of a planned path at which the watchdog holds the feed; 0: none"
 )
 RELAYS = 100
 FIRST_RELAY = TABLE.reserve(
     _BIT, 128, "relays", "what M100 to M199 wait for to be on, M200 to M299 to be off", RELAYS
 )
 RAN_SHORT = TABLE.reserve(
-    _BIT, 245, "ran short", "the watchdog has held the feed because P98 moves were not left"
+    _BIT, 245, "ran short", "the watchdog has held the feed of a planned path at move P98"
 )
 OUTPUTS_AT_REST = TABLE.reserve(
     _BIT, 246, "outputs at rest", "inverted outputs were put to rest since the card came on"

@@ -40,9 +40,11 @@ from openacr.mill.card.messages import Message, Messages, definitions
 from openacr.mill.card.owner import BEAT_S, LISTEN_S, Owner
 from openacr.mill.card.setup import MOVES, prepare, user_variables
 from openacr.mill.card.watchdog import NO_WATCHDOG, Watchdog
+from openacr.mill.config.curves import can_plan
 from openacr.mill.config.folders import folders_of
 from openacr.mill.config.settings import HOMED, NONE, Settings
 from openacr.mill.manual.jogging import Jogging
+from openacr.mill.plan.curve_limits import moves_needed
 from openacr.mill.run.dripping import Drip
 from openacr.mill.run.lifecycle import Options, State
 from openacr.mill.run.run_host import RunHost
@@ -141,7 +143,10 @@ class MillSession:
                     cells.write(number, value)
             self._limits_found = [] if is_virtual else soft_limits.found(card, settings)
             tables = tables_of(cells, settings, folder)
-            depth = prepare(card, settings, tables, has_extensions=is_virtual)
+            moves = MOVES
+            if can_plan(settings) and not is_virtual:
+                moves = max(moves, moves_needed(settings))
+            depth = prepare(card, settings, tables, has_extensions=is_virtual, moves=moves)
         axes = [axis.index for axis in settings.axes]
         self.machine = MachineDriver(card, axes, settings.master, rounds_corners=is_virtual)
         alarm_list = Alarms(None if is_virtual else _error_log(cells, folder))

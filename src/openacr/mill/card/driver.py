@@ -12,13 +12,13 @@ from functools import cached_property
 from openacr.client import Card, ConnectionLostError
 from openacr.client.errors import GarbledError, NoReplyError
 from openacr.client.values import Number, number_text
-from openacr.cnc.occupied import LEAST_MOVES, RAN_SHORT, TRIPPED
+from openacr.cnc.occupied import HOLD_AT, RAN_SHORT, TRIPPED
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.protocol.bits import ClearBit, SetBit
-from openacr.protocol.move import Move
 from openacr.protocol.override import FeedrateOverride, RapidOverride
 from openacr.protocol.packets import Packet
+from openacr.protocol.parameter import SetLong
 
 LINK_ERRORS = (ConnectionLostError, NoReplyError, GarbledError)
 CLEAR_S = 2.0  # longest time the card needs to clear a kill
@@ -239,14 +239,15 @@ class MachineDriver:
         """Clear `may_have_lost`: what was lost is sent again or no longer needed."""
         self._has_lost = False
 
-    def send(self, moves: Iterable[Move]) -> None:
+    def send(self, packets: Iterable[Packet]) -> None:
         """Send moves to the buffer of the master, only on the connection of the last poll.
 
-        On a newer connection they could follow moves that were lost.
+        On a newer connection they could follow moves that were lost; so could what tells how far
+        these may be run.
         """
         if self._has_lost or self.card.connections != self._connections:
             raise ConnectionLostError(f"{self.card.name}: connected again since the last poll")
-        self._transmit(*moves)
+        self._transmit(*packets)
 
     def limit_jerk(self, jerk_ups3: float) -> None:
         """Limit the jerk of the moves to come (JRK), 0 = not at all."""
@@ -288,8 +289,9 @@ class MachineDriver:
         """Clear the kill of the moves of the master.
 
         A stop or feed hold requested while moves were killed is still pending on the card and
-        would act on the next moves: both are withdrawn first.
+        would act on the next moves: both are withdrawn first. So is what bars their start.
         """
+        self._transmit(self.barring(False))
         self._request(n.MF1_STOP_ALL_MOVES_REQUEST, False)
         self._request(n.MF1_FEEDHOLD_REQUEST, False)
         self.is_dropping, self._clear_by_s = True, self.now_s + CLEAR_S
@@ -341,9 +343,18 @@ class MachineDriver:
         self._transmit(FeedrateOverride.of([self.master], feed))
         self._transmit(RapidOverride.of([self.master], rapid))
 
-    def keep_moves(self, count: int) -> None:
-        """Let the watchdog hold the feed as soon as fewer than `count` moves wait."""
-        self.write(LEAST_MOVES, count)
+    def barring(self, on: bool) -> Packet:
+        """The packet that keeps moves which wait from beginning, or lets them begin."""
+        flag = flag_of(n.MF1_WORD + self.master, n.MF1_START_MOVE_INHIBIT)
+        return SetBit(flag) if on else ClearBit(flag)
+
+    def holding_at(self, move: int) -> Packet:
+        """The packet that lets the watchdog hold the feed when this move begins; 0: at none."""
+        return SetLong(HOLD_AT, move)
+
+    def let_run(self) -> None:
+        """Let the watchdog hold the feed at no move."""
+        self._transmit(self.holding_at(0))
 
     def reset_counter(self) -> None:
         """Reset the packet counter to zero."""

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from openacr.client import Card
 from openacr.client.errors import RefusedError
 from openacr.client.values import number_text
-from openacr.cnc.occupied import LEAST_MOVES, RAN_SHORT
+from openacr.cnc.occupied import HOLD_AT, RAN_SHORT
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.mill.card import soft_limits
@@ -38,7 +38,7 @@ GAIN_WORDS = (
 DAC_GAIN = 3276.8  # counts per volt
 NO_TEST_U = 1e9  # a band that is never exceeded
 USER_VARIABLES = 100
-MOVES = 200  # moves the card holds, where its memory allows
+MOVES = 200  # moves the card holds at least, where its memory allows
 MOVES_WITHOUT_MEMORY = 10
 DIMENSIONED = re.compile(r"\bMBUF\s*\(\s*(\d+)\s*\)")  # in the answer to DIM
 RAPID_MODES, SPIRAL, CLEAR_REQUEST = 5, 24, 4  # in the secondary flags of a master
@@ -52,9 +52,11 @@ def prepare(
     tables: Mapping[int, Table] | None = None,
     *,
     has_extensions: bool = False,
+    moves: int = MOVES,
 ) -> int:
     """Set the card up for the machine, with ballscrew tables; how many moves its buffer holds.
 
+    `moves`: those it is to hold where the card has memory for them and it is not dimensioned yet.
     `has_extensions`: a card of openacr itself, which takes up backlash at every reversal.
     """
     user_variables(card)
@@ -65,7 +67,7 @@ def prepare(
         for axis in settings.axes:
             card.command(f"AXIS{axis.index} BKL DIR 1", program=program)
     install(card, settings, tables or {})
-    return _buffer(card, program)
+    return _buffer(card, program, moves)
 
 
 def user_variables(card: Card) -> None:
@@ -91,12 +93,15 @@ def _has_variable(card: Card, number: int) -> bool:
     return True
 
 
-def _buffer(card: Card, program: int) -> int:
+def _buffer(card: Card, program: int, moves: int) -> int:
     """Dimension the move buffer, unless an earlier program has; returns its depth in moves."""
-    depth = MOVES
-    try:
-        card.command(f"DIM MBUF({MOVES})", program=program)
-    except RefusedError:  # it is dimensioned, or there is no memory for it
+    for depth in dict.fromkeys((moves, MOVES)):
+        try:
+            card.command(f"DIM MBUF({depth})", program=program)
+            break
+        except RefusedError:  # it is dimensioned, or there is no memory for it
+            continue
+    else:
         listed = " ".join(card.command("DIM", program=program))
         found = DIMENSIONED.search(listed)
         depth = int(found[1]) if found else MOVES_WITHOUT_MEMORY
@@ -135,7 +140,7 @@ def _curves(settings: Settings) -> Iterator[str]:
     yield f"NURB RANK {RANK}"
     yield f"P{base + n.MA_NURB_TIME_FACTOR}={_number(PERIOD_S)}"
     yield f"P{base + n.MA_NURB_START_TIME}=0"
-    yield f"P{LEAST_MOVES}=0"
+    yield f"P{HOLD_AT}=0"
     yield f"CLR {RAN_SHORT}"
 
 

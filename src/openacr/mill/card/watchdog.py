@@ -2,16 +2,16 @@
 
 The host increments a variable of the card. When that has not changed for the link timeout the
 card sets feed hold, stops jogs, and switches spindle, coolant and beam off, repeatedly until
-an acknowledgement clears its flag. A planned path leaves no time for that: it holds the feed as
-soon as fewer moves wait than the path needs to come to rest. It is plain AcroBASIC in one of the
-programs 0 to 7, which have time slices of their own.
+an acknowledgement clears its flag. A planned path leaves no time for that: it holds the feed at
+the move from which the path can still come to rest on what has arrived of it. It is plain
+AcroBASIC in one of the programs 0 to 7, which have time slices of their own.
 """
 
 from collections.abc import Iterator
 
 from openacr.client import Card
 from openacr.client.errors import RefusedError
-from openacr.cnc.occupied import HEARTBEAT, LEAST_MOVES, RAN_SHORT, TRIPPED
+from openacr.cnc.occupied import HEARTBEAT, HOLD_AT, RAN_SHORT, TRIPPED
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.mill.card.actions import DAC_STRIDE, DAC_VALUE
@@ -115,7 +115,7 @@ class Watchdog:
         """The program lines, without their numbers 10, 20, 30 ..."""
         timeout_s = self._settings.link_timeout_s
         clock = f"P{n.P_GLOBAL_SYSTEM_CLOCK}"
-        waiting = n.MA_BASE + n.MA_STRIDE * self._settings.master + n.MA_MBUF_FILLED
+        begun = n.MA_BASE + n.MA_STRIDE * self._settings.master + n.MA_MOVE_COUNTER
         hold = f"SET {FEED_HOLD_REQUEST + FLAGS_PER_MASTER * self._settings.master}"
         begin = [
             NAME,
@@ -126,7 +126,9 @@ class Watchdog:
         first = [f"LV0=P{HEARTBEAT}", f"LV1={clock}"]
         wait = [
             f"DWL {QUICK_S if can_plan(self._settings) else LOOK_S:g}",
-            f"IF (P{waiting}<P{LEAST_MOVES}) THEN GOTO {{short}}",
+            f"IF ((P{HOLD_AT}>0) AND (P{begun}>=P{HOLD_AT})) THEN GOTO {{short}}",
+        ]
+        look = [
             f"IF (BIT{TRIPPED}) THEN GOTO {{trip}}",
             f"IF (P{HEARTBEAT}<>LV0) THEN GOTO {{first}}",
             f"LV2={clock}-LV1",
@@ -137,9 +139,10 @@ class Watchdog:
         ]
         trip = [hold, *self._stop()]
         trip += [f"DWL {LOOK_S:g}", f"IF (BIT{TRIPPED}) THEN GOTO {{trip}}", "GOTO {first}"]
-        short = [hold, f"SET {RAN_SHORT}", f"P{LEAST_MOVES}=0", "GOTO {wait}"]
+        short = [hold, f"SET {RAN_SHORT}", "GOTO {look}"]  # until the host takes P98 back
+        parts = {"first": first, "wait": wait, "look": look, "trip": trip, "short": short}
         places, lines = {}, begin
-        for name, part in (("first", first), ("wait", wait), ("trip", trip), ("short", short)):
+        for name, part in parts.items():
             places[name] = LINE_STEP * (len(lines) + 1)
             lines = lines + part
         return [line.format(**places) for line in lines]

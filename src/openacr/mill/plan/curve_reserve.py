@@ -1,4 +1,4 @@
-"""How much of a planned curve has to wait on a card over a link.
+"""How far a card over a link may run on what it has of a planned curve.
 
 A card that loses its host holds the feed along what it has of the curve (kernel
 `timed_stop_cy.py`), and so does a feed hold. From the speed v that takes
@@ -6,60 +6,80 @@ A card that loses its host holds the feed along what it has of the curve (kernel
     T = v/A + A/J    or    2 sqrt(v/J) where A is not reached,
 
 at the quickest; where the plan itself uses the limits up, the ramp has to wait for a place that has
-room for it. RAMPS times T is measured, not proved: with 0.3 s of path known at 100 mm/s, 1000 mm/s2
-and 20,000 mm/s3, 3 of 60 random holds of a square, corners and a surface found no ramp; with the
-reserve, 0.45 s there, none of 15 did. To this comes the time until the card has
-noticed, and the packets on their way.
+room for it, so that a multiple of T is set aside, and the time until the card has begun it. A hold
+at piece k finds its rest on the pieces k to k + n if n of them last that long at the highest speed
+of any of them. The card has to hold at the last piece of which that is true: `hold_at`. It only
+grows as points are added, so that it can follow them on the line, and whatever is lost there leaves
+the card with a number that is too low, never with one that is too high.
 """
 
-import math
 from collections import deque
 
 import numpy as np
 from numpy.typing import NDArray
 
-from openacr.mill.config.curves import PERIOD_S
+from openacr.mill.config.curves import PERIOD_S, RANK
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.curve_limits import accelerations, stop_s
+from openacr.mill.plan.curve_limits import accelerations, pieces_to_rest
+from openacr.mill.plan.curve_packets import COUNTED
 
 Rows = NDArray[np.float64]
-RAMPS = 2.4
-NOTICED_S = 0.07  # the cycle of the watchdog, and that in which the card serves a hold
-ON_THE_LINE_S = 0.1
-STEP = 8  # pieces: smaller changes are not sent to the watchdog
+KEPT = 512  # speeds of pieces that were passed are dropped this many at a time
 
 
 class Reserve:
-    """Follows the control points that are sent: how many pieces have to wait on the card."""
+    """Follows the control points of one curve that are sent: where the card has to hold."""
 
-    def __init__(self, settings: Settings, most: int) -> None:
+    def __init__(self, settings: Settings) -> None:
         self._acceleration_ups2 = min(accelerations(settings))
         self._jerk_ups3 = settings.lowest_jerk_ups3
-        self._most = most
-        self._speeds: deque[float] = deque(maxlen=most)
+        self.begin()
+
+    def begin(self) -> None:
+        """Begin another curve."""
+        self._points = 0
         self._last: Rows | None = None
+        self._steps: deque[float] = deque(maxlen=COUNTED - 1)  # speeds between the last points
+        self._speeds: list[float] = []  # of the pieces from `_first` on
+        self._first = 1
+        self._hold_at = 0
 
     def note(self, point: Rows) -> None:
-        """Note a control point that is sent."""
+        """Note a control point that is sent; from the seventh on each completes a piece."""
         last = point if self._last is None else self._last
-        self._speeds.append(float(np.abs(point - last).max()) / PERIOD_S)
+        self._steps.append(float(np.abs(point - last).max()) / PERIOD_S)
         self._last = point
+        self._points += 1
+        if self._points >= COUNTED:  # the piece lies between the first of the points
+            self._speeds.append(max(list(self._steps)[: RANK - 1]))
 
     @property
-    def least(self) -> int:
-        """Pieces with which the card comes to rest without its host."""
-        pieces = self._to_rest(max(self._speeds, default=0.0))
-        return min(pieces, self._most - self.on_the_line)
+    def pieces(self) -> int:
+        """Pieces of the curve that are sent."""
+        return self._first - 1 + len(self._speeds)
 
-    def full(self, speed_ups: float) -> int:
-        """Pieces for a speed: those to come to rest, and those that the host may be late by."""
-        return self._to_rest(speed_ups) + self.on_the_line
+    @property
+    def hold_at(self) -> int:
+        """The piece at whose beginning the card has to hold, counted from 1; 0: it may not begin.
+
+        It can come to rest on what follows that piece, and on what follows any earlier one.
+        """
+        while self._rests_from(self._hold_at + 1):
+            self._hold_at += 1
+        if self._hold_at - self._first >= KEPT:
+            del self._speeds[: self._hold_at - self._first]
+            self._first = self._hold_at
+        return self._hold_at
+
+    def _rests_from(self, piece: int) -> bool:
+        """Whether a card that holds at a piece comes to rest on what is sent."""
+        begin, count = piece - self._first, self._to_rest(0.0)
+        while begin + count < len(self._speeds):
+            needed = self._to_rest(max(self._speeds[begin : begin + count + 1]))
+            if needed <= count:
+                return True
+            count = needed
+        return False
 
     def _to_rest(self, speed_ups: float) -> int:
-        rest_s = RAMPS * stop_s(speed_ups, self._acceleration_ups2, self._jerk_ups3)
-        return math.ceil((rest_s + NOTICED_S) / PERIOD_S / STEP) * STEP
-
-    @property
-    def on_the_line(self) -> int:
-        """Pieces that the host may be late by."""
-        return math.ceil(ON_THE_LINE_S / PERIOD_S)
+        return pieces_to_rest(speed_ups, self._acceleration_ups2, self._jerk_ups3)

@@ -2,28 +2,35 @@
 
 Overrides act here, on the time of the plan, because the card only runs through its curve. On the
 virtual machine, which cannot lose its host, so do feed holds, and little is sent ahead: it is what
-they have to wait for. Over a link the card holds the feed itself, and has as much of the curve as
-it needs to come to rest without its host (`Reserve`); its watchdog holds when it has less. After a
-hold the path continues from where it rests, as after any other hold.
+they have to wait for. Over a link the card holds the feed itself, and its watchdog holds it at the
+last piece from which the card comes to rest on what it has (`Reserve`). That number follows the
+points it belongs to on the same line, so it is never ahead of them; before the first one the curve
+is barred from beginning. After a hold the path continues from where it rests, as after any other.
 """
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
 from openacr.mill.card.driver import CardState, MachineDriver
-from openacr.mill.card.setup import MOVES
-from openacr.mill.config.curves import PERIOD_S
+from openacr.mill.config.curves import PERIOD_S, can_plan
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.curve_limits import accelerations
+from openacr.mill.plan.curve_limits import (
+    ON_THE_LINE,
+    RAMPS,
+    SPARE,
+    accelerations,
+    moves_needed,
+)
 from openacr.mill.plan.curve_packets import COUNTED, LEAD, CurvePackets
-from openacr.mill.plan.curve_reserve import RAMPS, Reserve
+from openacr.mill.plan.curve_reserve import Reserve
 from openacr.mill.plan.curve_window import CurveWindow
 from openacr.mill.plan.encoding import Job
 from openacr.mill.plan.planned_path import PlannedPath
 from openacr.mill.run.tracking import Tracker
-from openacr.protocol.move import Move
+from openacr.protocol.packets import Packet
 from openacr.sysvar.tabs import SPEEDS
 from openacr.trajectory.timescale import Progress
 
@@ -32,8 +39,9 @@ AHEAD_LINK_S = 1.0  # planned ahead over a link, where the host may be late
 SENT_NEXT_S = 0.06  # of it taken ahead of what has room on the card, while nothing slows down
 SHORT = 0.6  # of what is wanted ahead left when a path that does not arrive is brought to rest
 TAKEN = 4  # points of the plan at once: what is taken is not planned again
+LATER = 1.5  # times the longest time between two polls that the host may be late by
+FADES = 0.995  # of that time in every poll
 BUFFERED_S = 0.04  # of the curve on the virtual machine
-SPARE = 2  # places of the move buffer that stay free
 Rows = NDArray[np.float64]
 
 
@@ -47,9 +55,14 @@ class CurveRun:
         self._settings = settings
         self._tracker = tracker
         self._packets = CurvePackets(settings)
-        self._reserve = None if machine.rounds_corners else Reserve(settings, most - SPARE)
+        guards = can_plan(settings) and not machine.rounds_corners
+        self._reserve = Reserve(settings) if guards else None
         self._most = most
-        self._guarded = 0  # pieces below which the watchdog holds
+        self._before = 0  # packets sent before the curve
+        self._hold_at = 0  # the move at which the watchdog holds
+        self._is_barred = False  # the curve is on the card and may not begin
+        self._polled_s = machine.now_s
+        self._late_s = 0.0  # the longest time between two polls, fading
         self.jobs = 0  # moves begun
         self._path: PlannedPath | None = None
         self._window: CurveWindow | None = None
@@ -79,16 +92,17 @@ class CurveRun:
             return False
         self._holds = True
         if self._reserve is not None:
-            self._guard(0)
             self._machine.hold()
+            self._let_run()
         return True
 
     def drop(self) -> None:
         """Forget the curve: the card holds none of it, or has dropped it."""
         self._path = self._window = self._job = None
-        self._is_begun = self._holds = False
+        self._is_begun = self._holds = self._is_barred = False
         self._planned_factor = 1.0
-        self._guard(0)
+        if self._reserve is not None:
+            self._let_run()
         self._packets = CurvePackets(self._settings)
 
     @property
@@ -96,13 +110,20 @@ class CurveRun:
         """Pieces of the curve that are to wait on the card."""
         if self._reserve is None:
             return math.ceil(BUFFERED_S / PERIOD_S)
-        return self._reserve.least + self._reserve.on_the_line
+        if not self._is_begun:
+            return self._on_the_line
+        reserved = self._tracker.sent - self._before - self._reserve.hold_at
+        return min(reserved + self._on_the_line, self._most - SPARE)
 
-    def _guard(self, count: int) -> None:
-        """Let the watchdog hold the feed when fewer than `count` pieces wait."""
-        if count != self._guarded:
-            self._guarded = count
-            self._machine.keep_moves(count)
+    @property
+    def _on_the_line(self) -> int:
+        """Pieces that the card may run before the host sends more: more where it has been late."""
+        return max(ON_THE_LINE, math.ceil(LATER * self._late_s / PERIOD_S))
+
+    def _let_run(self) -> None:
+        """Let the watchdog hold at no move: the card holds already, or has nothing to hold."""
+        self._hold_at = 0
+        self._machine.let_run()
 
     @property
     def lack(self) -> str:
@@ -112,14 +133,15 @@ class CurveRun:
         """
         if self._reserve is None:
             return ""
-        needed = min(self._reserve.full(self._settings.speeds.max_ups) + SPARE, MOVES)
+        needed = moves_needed(self._settings)
         if self._most >= needed:
             return ""
         program = self._settings.master
         return (
             f"a path with a tolerance and a jerk limit needs a buffer of {needed} moves, that of"
             f" the card has {self._most}: give program {program} more memory in the set-up of the"
-            f" card (DIM PROG{program}), or do without a jerk limit (P{SPEEDS.path_jerk} = 0)"
+            f" card (DIM PROG{program}), lower the highest speed (P{SPEEDS.max_machine_speed}), or"
+            f" do without a jerk limit (P{SPEEDS.path_jerk} = 0)"
         )
 
     # --- planning -----------------------------------------------------------------------
@@ -133,7 +155,8 @@ class CurveRun:
             path.stop()
         self._take(path)
         if self._reserve is not None:
-            while path.prepare(AHEAD_LINK_S - self._ahead_s) and not self._is_begun:
+            is_at_rest = not self._is_begun or self._is_barred
+            while path.prepare(AHEAD_LINK_S - self._ahead_s) and is_at_rest:
                 pass
 
     def _take(self, path: PlannedPath) -> None:
@@ -176,27 +199,49 @@ class CurveRun:
 
     def poll(self, sample: CardState) -> None:
         """Send what the card has room for; hold it where a hold has come to rest."""
+        now_s = self._machine.now_s
+        self._late_s = max(FADES * self._late_s, now_s - self._polled_s)
+        self._polled_s = now_s
         if self._is_begun and (sample.is_killed or sample.may_have_lost):
-            self.drop()  # a curve with missing points is not continued
             self._machine.hold()
+            self.drop()  # a curve with missing points is not continued
         if self._holds and self._reserve is not None and self._is_begun:
             return  # the card holds; what it has of the curve is dropped and planned again
         if self._window is not None and (self._is_begun or self._tracker.is_at_end(sample)):
-            if self._path is not None and not self._holds and not self._window.scale.is_complete:
-                self._take(self._path)
-            packets = self._next_packets(self._window)
+            packets = list(self._due())
             if packets:
                 self._machine.send(packets)
-            if self._is_begun and self._reserve is not None:
-                least = self._reserve.least
-                if self._tracker.waiting > least + self._reserve.on_the_line // 2:
-                    self._guard(least)
         elif self._holds and self._tracker.is_at_end(sample):
             self._holds = False
             self._machine.hold()
 
-    def _next_packets(self, window: CurveWindow) -> list[Move]:
-        packets: list[Move] = []
+    def _due(self) -> Iterator[Packet]:
+        """What is to be sent now; over a link what a point needs may be further ones."""
+        while (window := self._window) is not None:
+            if self._path is not None and not self._holds and not window.scale.is_complete:
+                self._take(self._path)
+            packets = self._next_packets(window)
+            yield from packets
+            if self._reserve is None or not packets:
+                break
+        if self._reserve is not None:
+            yield from self._released(self._reserve)
+
+    def _released(self, reserve: Reserve) -> Iterator[Packet]:
+        """How far the card may run on what it has got before; 0 where that ends at rest."""
+        hold_at = self._before + max(reserve.hold_at, 1) if self._is_begun else 0
+        is_enough = self._tracker.waiting >= self.depth or not self._is_begun
+        if self._is_barred and not is_enough:
+            return
+        if hold_at != self._hold_at:
+            self._hold_at = hold_at
+            yield self._machine.holding_at(hold_at)
+        if self._is_barred:
+            self._is_barred = False
+            yield self._machine.barring(False)
+
+    def _next_packets(self, window: CurveWindow) -> list[Packet]:
+        packets: list[Packet] = []
         progress = Progress.MOVES
         while progress is Progress.MOVES and self._tracker.waiting < self.depth:
             window.scale.want = self._want(window)
@@ -222,14 +267,19 @@ class CurveRun:
         factor = rapid if job.is_rapid else feed / window.factor
         return min(max(factor, 0.0), 1.0)
 
-    def _begin(self, packets: list[Move]) -> None:
+    def _begin(self, packets: list[Packet]) -> None:
         """Begin the curve where the machine rests."""
         self._is_begun = True
+        if self._reserve is not None:
+            self._before = self._tracker.sent
+            self._reserve.begin()
+            self._is_barred = True
+            packets.append(self._machine.barring(True))
         if self._path is not None:
             for _ in range(LEAD):
                 self._append(packets, self._path.start)
 
-    def _append(self, packets: list[Move], point: Rows) -> None:
+    def _append(self, packets: list[Packet], point: Rows) -> None:
         packets.append(self._packets.point(point.tolist(), self._ramp_ups2))
         if self._reserve is not None:
             self._reserve.note(point)
@@ -255,9 +305,8 @@ class CurveRun:
             self._job = job
             self.jobs += 1
 
-    def _finish(self, packets: list[Move], point: Rows, *, has_ended: bool) -> None:
+    def _finish(self, packets: list[Packet], point: Rows, *, has_ended: bool) -> None:
         """End the curve at rest, at a point that was sent three times."""
-        self._guard(0)
         while self._packets.count < COUNTED:
             self._append(packets, point)
         path = self._path

@@ -91,6 +91,7 @@ class Supervision:
 
     def _go_on_after_rest(self) -> None:
         """The watchdog has held a planned path of which too little had arrived: plan it again."""
+        self._stream.hold()  # takes back the move at which the watchdog holds
         self._io.machine.set_flag(RAN_SHORT, False)
         self._say("the card had too little of the path and rests on it; it goes on from there")
         if self._lifecycle.state is State.RUN and not self._player.is_active:
