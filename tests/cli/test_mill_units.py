@@ -1,12 +1,16 @@
 """Reports name the unit of their lengths."""
 
 import json
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner, Result
 
+from openacr.cli.live import online
 from openacr.cli.main import app
+from openacr.cli.mill import check
 from openacr.sysvar import Store
 
 
@@ -80,3 +84,27 @@ def test_a_planned_path_is_timed_with_its_jerk_and_names_the_line_that_costs_mos
     assert "planned with tolerance and jerk: 4 moves" in mill("check", "b.ngc").stdout
     run = json.loads(mill("run", "b.ngc", "--json").stdout)
     assert run["time_s"] == pytest.approx(data["time_s"], abs=0.002)
+
+
+@pytest.mark.parametrize("command", ["check", "time"])
+def test_a_terminal_gets_an_estimate_and_the_lines_while_a_path_is_planned(
+    command: str, store: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown: list[tuple[int, int | None]] = []
+
+    @contextmanager
+    def bar(title: str) -> Iterator[Callable[[int, int | None], None]]:
+        assert title == "b.ngc"
+        yield lambda line, total: shown.append((line, total))
+
+    (store / "b.ngc").write_bytes(b"G21 G90 G94 G17\nF3000 G64 P0.02\nG1 X10\nX10 Y10\nX0\nM2\n")
+    monkeypatch.setattr(online, "progress_bar", bar)
+    cases = ((False, 400.0, ""), (True, 0.0, ""), (True, 400.0, "about 0:0"))
+    for is_attended, jerk, said in cases:
+        monkeypatch.setattr(check, "is_attended", lambda answer=is_attended: answer)
+        with Store(store / "sysvar.db") as cells:
+            cells.write(650_015, jerk)
+        error = mill(command, "b.ngc").stderr.replace("b.ngc: dialect", "dialect")
+        about = [line for line in error.splitlines() if not line.startswith("dialect")]
+        assert [line[: len(said)] for line in about] == [said] * bool(said)
+        assert shown == ([(3, 6), (4, 6), (5, 6)] if said else [])

@@ -1,6 +1,7 @@
 """`openacr mill check` and `time`: analysis of a part program without a machine."""
 
 import json as json_format
+import sys
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -11,8 +12,9 @@ from openacr.cli.mill.trace import Every, ToTrace, require_trace, trace_file
 from openacr.wording import counted
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
+    from openacr.cnc.interpreter.interpreter import Options
     from openacr.cnc.interpreter.survey import Survey
     from openacr.cnc.program.program import Program
     from openacr.cnc.reading.findings import Finding
@@ -100,7 +102,8 @@ def check_program(
 
     with opened_store(store) as cells:
         program, name = loaded(file, cells, dialect)
-        survey, prediction = checked(program, cells, name)
+        with _shown(program, cells, name) as progress:
+            survey, prediction = checked(program, cells, name, progress=progress)
     survey.findings = in_folder(survey.findings, file)
     if as_json:
         data = {"dialect": name} | _as_data(survey, prediction) | _planned(prediction)
@@ -133,11 +136,15 @@ def time_program(
     require_trace(trace, every_s)
     with opened_store(store) as cells:
         program, name = loaded(file, cells, dialect)
-        with _sampled(cells, trace, every_s) as reader:
-            options = Options(is_dry=is_dry)
+        options = Options(is_dry=is_dry)
+        with (
+            _sampled(cells, trace, every_s) as reader,
+            _shown(program, cells, name, options) as progress,
+        ):
             survey, prediction = surveyed(
-                program, cells, name, options=options, rounds=not is_exact, reader=reader
-            )
+                program, cells, name, options=options, rounds=not is_exact, reader=reader,
+                progress=progress,
+            )  # fmt: skip
     survey.findings = in_folder(survey.findings, file)
     if survey.errors:
         show_findings(survey.errors)
@@ -153,6 +160,36 @@ def time_program(
     typer.echo(f"{clock(prediction.time_s)}  ({prediction.time_s:.2f} s, {moves})")
     for key, text in (("feed_s", "cutting"), ("rapid_s", "rapids"), ("dwell_s", "dwells")):
         typer.echo(f"  {text:<8} {record[key]:10.2f} s")
+
+
+@contextmanager
+def _shown(
+    program: "Program", cells: "Store", dialect: str, options: "Options | None" = None
+) -> "Iterator[Callable[[int], None] | None]":
+    """Where paths are planned, a terminal gets an estimate at once and a bar by lines."""
+    from openacr.cli.live import online
+    from openacr.mill.plan.checking import estimated
+
+    seconds = estimated(program, cells, dialect, options=options) if is_attended() else None
+    if seconds is None:
+        yield None
+        return
+    typer.echo(f"about {clock(seconds)} without jerk; its path is planned now", err=True)
+    with online.progress_bar(program.main.text.name) as show:
+        last = 0
+
+        def progress(line: int) -> None:
+            nonlocal last
+            if line != last:  # many moves have the same
+                last = line
+                show(line, program.line_cnt)
+
+        yield progress
+
+
+def is_attended() -> bool:
+    """Whether standard error is a terminal."""
+    return sys.stderr.isatty()
 
 
 @contextmanager

@@ -75,25 +75,47 @@ def surveyed(
     reader: Reader | None = None,
     desk: Desk | None = None,
     look: Callable[[Entry], None] | None = None,
+    progress: Callable[[int], None] | None = None,
     limit_s: float = math.inf,
 ) -> tuple[Survey, Prediction]:
     """Read a program; `reader` gets every move as it is planned, `desk` those that may be refused.
 
-    `look` gets every canonical entry; `rounds`: as on the virtual machine, which supports path
-    tolerances. TooLongError as soon as it takes more than `limit_s` of machine time.
+    `look` gets every canonical entry, `progress` the line of every move that is planned;
+    `rounds`: as on the virtual machine, which supports path tolerances. TooLongError as soon as it
+    takes more than `limit_s` of machine time.
     """
     options = options or Options()
     settings = Settings(cells)
     timing: Forecast | Predictor
     if reader is not None or can_plan(settings):  # every move is read, or curves are planned
         either = reader or (desk if isinstance(desk, Preflight) else None)
-        timing = Predictor(settings, BEGIN, is_dry=options.is_dry, rounds=rounds, reader=either)
+        timing = Predictor(
+            settings, BEGIN, is_dry=options.is_dry, rounds=rounds, reader=either, progress=progress
+        )
     else:
         timing = Forecast(settings, BEGIN, is_dry=options.is_dry, rounds=rounds, desk=desk)
     machine = VirtualMachine(is_probed=settings.wiring.probe != NONE)
     found = survey(program, cells, dialect, options, machine, _both(timing, look, limit_s))
     timing.close()
     return found, timing.found
+
+
+def estimated(
+    program: Program, cells: Store, dialect: str, *, options: Options | None = None
+) -> float | None:
+    """The time of a program without the jerk and the tolerance of its path [s], known at once.
+
+    None where it takes no planning of paths, or has errors.
+    """
+    settings = Settings(cells)
+    if program.errors or not can_plan(settings):
+        return None
+    options = options or Options()
+    timing = Forecast(settings, BEGIN, is_dry=options.is_dry)
+    machine = VirtualMachine(is_probed=settings.wiring.probe != NONE)
+    found = survey(program, cells, dialect, options, machine, timing.add)
+    timing.close()
+    return None if found.errors else timing.found.time_s
 
 
 def checked(
@@ -104,6 +126,7 @@ def checked(
     options: Options | None = None,
     rounds: bool = True,
     look: Callable[[Entry], None] | None = None,
+    progress: Callable[[int], None] | None = None,
     limit_s: float = math.inf,
 ) -> tuple[Survey, Prediction]:
     """Read a program, with findings about moves that the machine refuses or makes slower."""
@@ -116,6 +139,7 @@ def checked(
         rounds=rounds,
         desk=preflight,
         look=look,
+        progress=progress,
         limit_s=limit_s,
     )
     found.add(preflight.findings(program.text_of))

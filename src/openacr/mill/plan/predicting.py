@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
@@ -119,15 +120,19 @@ class Predictor(Timing):
         is_dry: bool = False,
         rounds: bool = True,
         reader: Reader | None = None,
+        progress: Callable[[int], None] | None = None,
     ) -> None:
-        """`rounds`: as on the virtual machine, which supports path tolerances."""
+        """`rounds`: as on the virtual machine, which supports path tolerances.
+
+        `progress` gets the line of every move that is planned.
+        """
         super().__init__(settings, begin, is_dry=is_dry, rounds=rounds)
         self._route = Route(settings)
         self._curve: CurveTimes | None = None
         self._ramps = _jerk_ramps(self._encoder) if settings.speeds.jerk_ups3 > 0.0 else None
         self._speed_ups = 0.0
         self._entry_corner: Corner | None = None
-        self._reader = reader
+        self._reader, self._progress = reader, progress
         self.found = Prediction()
 
     def _move(self, job: Job) -> None:
@@ -192,6 +197,8 @@ class Predictor(Timing):
 
     def _pass(self, job: Job, phases: Phases) -> None:
         """Count a move that is planned."""
+        if self._progress is not None:
+            self._progress(job.entry.source.line)
         if self._reader is not None:
             self._reader.passed(job, phases)
         seconds = duration_s(phases)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from openacr.mill.plan.planned_path import Rows
 
 REACHED = 1.0 - 1e-6  # of the feed; speeds of the plan are results of square roots
-SMOOTH_DEG = 1.0  # a corner that is none
+SMOOTH_DEG = 1.0  # less is no corner
 NO_TOLERANCE = f"with one (G64 P, or P{SPEEDS.path_tolerance}) the path keeps its acceleration"
 REACHED_PLANNED = 0.99  # a planned path is somewhat shorter than the programmed one
 
