@@ -272,6 +272,16 @@ def test_the_reading_at_the_start_is_a_setting(setting: int, centre: str) -> Non
 
 
 @pytest.mark.req("MILL-G54", "MILL-G55", "MILL-G56", "MILL-G57", "MILL-G58", "MILL-G59")
+@pytest.mark.parametrize("first", range(54, 60))
+@pytest.mark.parametrize("then", range(54, 60))
+def test_a_work_system_acts_until_the_next_one(first: int, then: int) -> None:
+    zeros = {910 + 10 * k: float(k + 1) for k in range(6)}
+    done = run(f"G{first} G0 X0\nX10\nG{then} X0\nG53 X0\nX10\nG{first} X0", zeros)
+    shift, other = (zeros[910 + 10 * (code - 54)] for code in (first, then))
+    assert [x for x, *_ in done.ends] == [shift, shift + 10, other, 0, 10, shift]
+
+
+@pytest.mark.req("MILL-G54", "MILL-G55", "MILL-G56", "MILL-G57", "MILL-G58", "MILL-G59")
 @pytest.mark.parametrize(
     ("code", "n"), [*((f"G{53 + n}", n) for n in range(1, 7)), ("G59.1", 7), ("G59.2", 8)]
 )

@@ -30,6 +30,21 @@ def test_nothing_is_written_before_the_start_is_confirmed() -> None:
     assert replay.shadow.written[150] == 7
 
 
+@pytest.mark.parametrize(("is_on", "x"), [(False, 1.0), (True, 2.0)])
+@pytest.mark.parametrize("state", ["INP(5)", "OUT(40)", "BIT(777)"])
+def test_states_of_the_card_are_read_as_they_are_now(state: str, is_on: bool, x: float) -> None:
+    machine = Bench()
+    if is_on:
+        machine.bits.add(int(state.strip("INPOUTB()")))
+    done = made(
+        f"F10 G0 Z1\nIF {state}=1 THEN GOTO 5\nX1\nGOTO 9\nN5 X2\nN9 Y1\nM2", machine=machine
+    )
+    replay = start_at(done.interpreter, 6)
+    assert replay.run.path.program[0] == x
+    assert replay.warnings == ["values of the card were read as they are now"]
+    assert start_at(made("F10 G0 Z1\nX1\nY1\nM2").interpreter, 3).warnings == []
+
+
 @pytest.mark.req("MILL-RUN-STARTLINE-BAD")
 @pytest.mark.parametrize("line", [0, 10, 1000])
 def test_a_line_the_program_does_not_have_is_refused(line: int) -> None:

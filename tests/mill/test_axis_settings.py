@@ -6,10 +6,12 @@ from tests.mill.test_spindle_settings import begin
 
 from openacr.map import numbers as n
 from openacr.mill.run.lifecycle import State
+from openacr.sysvar import Store
 
 AXES, SERVO, HOMED = 200_000, 150_000, 271
 PLUS, MINUS, IS_OFF, IN_POSITION, EXCESS = range(5)
 HOME_REQUIRED, MULTIPLIER = 7, 11
+DEFAULT_UNITS = 250_001
 
 
 def codes(shop: Shop) -> list[int]:
@@ -63,6 +65,18 @@ def test_an_error_outside_its_band_stops_the_machine(band: float, state: State) 
     if state is State.ALARM:
         place = float(shop.controller.p[n.AX_BASE + n.AX_ACTUAL_POSITION])
         assert place < 50_000
+
+
+@pytest.mark.req("MILL-SYS-AXES-INPOS")
+def test_the_in_position_band_is_0_by_default_and_in_the_unit_of_the_machine() -> None:
+    store = Store()
+    bands = [AXES + 1000 * axis + IN_POSITION for axis in range(8)]
+    assert [store.read(band) for band in bands] == [0.0] * 8
+    store.write(bands[2], 0.001)
+    store.write(DEFAULT_UNITS, 1.0)
+    assert store.read(bands[2]) == pytest.approx(0.0254)
+    shop = Shop(**{f"P{AXES + IN_POSITION}": 0.001})
+    assert shop.card.command("AXIS0 IPB", program=0) == ["0.001,-0.001"]
 
 
 @pytest.mark.req("MILL-SYS-AXES-INPOS")

@@ -282,7 +282,7 @@ def test_g31_stops_goes_back_to_the_trip_and_drops_the_rest() -> None:
     assert shop.pulses() == (0, 0, 0)
 
 
-@pytest.mark.req("MILL-G31-STORE-DECEL", "MILL-G31-INTCAP")
+@pytest.mark.req("MILL-G31-STORE-DECEL")
 def test_what_g31_stores_does_not_depend_on_the_feed() -> None:
     def found(feed: int) -> float:
         shop = touched("F?\nG31 X5\nM2\n", 2.0, feed=feed)
@@ -314,6 +314,16 @@ def test_p0_to_p33_are_variables_of_the_card_and_go_with_its_power() -> None:
     shop.controller.send("SYS\rREBOOT\r")
     again = Shop.on(shop.controller, {})
     assert [again.controller.p[k] for k in (0, 33)] == [0.0, 0.0]
+
+
+@pytest.mark.req("MILL-P-34-99", "MILL-P-NONPERSIST")
+def test_p34_to_p89_go_with_the_power_of_the_card() -> None:
+    shop = Shop()
+    shop.run_text("P34=1.5\nP89=P34*2\nM2\n")
+    assert [shop.controller.p[k] for k in (34, 89)] == [1.5, 3.0]
+    shop.controller.send("SYS\rREBOOT\r")
+    again = Shop.on(shop.controller, {})
+    assert [again.controller.p[k] for k in (34, 89)] == [0.0, 0.0]
 
 
 @pytest.mark.req("MILL-P-4096-20487")
