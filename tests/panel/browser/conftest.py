@@ -190,7 +190,7 @@ def load_file(page: Page, name: str) -> None:
     page.keyboard.press("F3")
     page.get_by_role("option", name=name).click()
     page.get_by_role("button", name="LOAD FILE").click()
-    expect(page.locator("#alarms")).to_have_text(name)
+    expect(page.locator("#alarms .none")).to_have_text(name)
     expect(page.locator("#screen")).to_be_hidden()
     expect(page.locator("#menu")).to_have_attribute("data-shown", "run")
 

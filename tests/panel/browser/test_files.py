@@ -102,14 +102,14 @@ def test_a_file_dropped_on_the_list_is_uploaded_and_can_be_loaded(
     page.get_by_role("option", name="dropped.nc").click()
     expect(page.get_by_role("region", name="Text of the file")).to_have_text("G0 X2\nM2")
     page.get_by_role("button", name="LOAD FILE").click()
-    expect(page.locator("#alarms")).to_have_text("dropped.nc")
+    expect(page.locator("#alarms .none")).to_have_text("dropped.nc")
     expect(page.locator("#screen")).to_be_hidden()
     assert (served.programs / "dropped.nc").read_text() == "G0 X2\nM2\n"
     to_main_menu(page)
     load_screen(page)
     page.get_by_role("option", name="plate.nc").click()
     page.get_by_role("button", name="LOAD FILE").click()
-    expect(page.locator("#alarms")).to_have_text("plate.nc")
+    expect(page.locator("#alarms .none")).to_have_text("plate.nc")
     expect(page.locator("#screen")).to_be_hidden()
 
 

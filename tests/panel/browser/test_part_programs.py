@@ -84,7 +84,7 @@ def test_a_user_file_is_shown_loaded_and_leads_to_run_prog(page: Page, served: S
     expect(page.get_by_role("region", name="Text of the file")).to_have_text(SQUARE.rstrip("\n"))
     page.get_by_role("button", name="LOAD FILE").click()
     expect(page.locator("#menu")).to_have_attribute("data-shown", "run")
-    expect(page.locator("#alarms")).to_have_text("USER.TXT")
+    expect(page.locator("#alarms .none")).to_have_text("USER.TXT")
     assert served.call(lambda station: station.part.data()["loaded"]["name"]) == "USER.TXT"
 
 
@@ -110,7 +110,7 @@ def test_what_was_saved_is_loaded_and_what_was_not_is_dropped_after_a_warning(
     page.keyboard.press("F3")
     page.get_by_role("option", name="PART.TXT").click()
     page.get_by_role("button", name="LOAD FILE").click()
-    expect(page.locator("#alarms")).to_have_text("PART.TXT")
+    expect(page.locator("#alarms .none")).to_have_text("PART.TXT")
     page.click("#display-tab-program")
     rows = page.locator("#display .listing-text")
     expect(rows.nth(0)).to_have_text("G0 X3")
@@ -127,7 +127,7 @@ def test_the_running_program_cannot_be_edited_but_others_can(page: Page, served:
     page.keyboard.press("F3")
     page.get_by_role("option", name="LONG.TXT").click()
     page.get_by_role("button", name="LOAD FILE").click()
-    expect(page.locator("#alarms")).to_have_text("LONG.TXT")
+    expect(page.locator("#alarms .none")).to_have_text("LONG.TXT")
     page.keyboard.press("F3")
     page.get_by_role("dialog").get_by_role("button", name="START").click()
     expect(page.locator("#state")).to_contain_text("WAIT")

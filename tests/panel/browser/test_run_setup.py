@@ -285,6 +285,6 @@ def test_a_program_received_by_link_is_shown_as_it_arrives_and_loaded(
     expect(screen.get_by_role("status")).to_contain_text("LINKED.TXT is kept: 3 lines")
     assert file.read_text() == "%\nG0 X1\nM2\n%\n"
     screen.get_by_role("button", name="LOAD FILE").click()
-    expect(page.locator("#alarms")).to_have_text("LINKED.TXT")
+    expect(page.locator("#alarms .none")).to_have_text("LINKED.TXT")
     expect(page.locator("#menu")).to_have_attribute("data-shown", "run")
     sender.close()

@@ -80,6 +80,7 @@ class Facts:
                 "parts": 0,
                 "homed": [],
                 "aborted": False,
+                "can": {},
             }
         runner = session.runner
         ask = runner.asking
@@ -105,6 +106,7 @@ class Facts:
             "parts": int(session.cells.read(CELLS.parts_finished)),
             "homed": [axis.name for axis in settings.axes if settings.is_homed(axis.index)],
             "aborted": runner.was_aborted,
+            "can": {"run.begin": self._part.bar if runner.state is State.IDLE else ""},
         }
 
     def _options(self, station: Shared) -> Data:

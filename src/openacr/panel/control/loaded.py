@@ -75,6 +75,7 @@ class Loaded:
             "lines": self.listing.total,
             "errors": len(errors),
             "warnings": len(findings) - len(errors),
+            "checked": self.found is not None,
             "stale": self.is_stale,
             "id": self.version,
             "drawn": self.is_drawn,

@@ -15,6 +15,7 @@ from openacr.panel.control.executing import Executing
 from openacr.panel.control.loaded import Loaded
 from openacr.panel.control.orders import Order, failure
 from openacr.panel.control.shared import Shared
+from openacr.wording import counted
 
 AT_ONCE = 100  # moves and outputs of a rehearsal between two steps of the machine
 
@@ -70,6 +71,11 @@ class Part:
     def name(self) -> str:
         """The name of the loaded program; that of a program over a serial line is not known."""
         return self.loaded.name if self.loaded is not None else "the part program"
+
+    @property
+    def bar(self) -> str:
+        """Why the loaded program cannot be started; empty if it can."""
+        return "" if self.loaded is None else _errors(self.loaded)
 
     # --- loading ----------------------------------------------------------------------
 
@@ -289,10 +295,17 @@ class Part:
 
 
 def _require_sound(loaded: Loaded) -> None:
+    if bar := _errors(loaded):
+        raise UserError(bar)
+
+
+def _errors(loaded: Loaded) -> str:
+    """Why a program with errors is not started; empty without any."""
     errors = loaded.program.errors
-    if errors:
-        more = f" and {len(errors) - 1} more errors" if len(errors) > 1 else ""
-        raise UserError(f"{loaded.name} cannot be started: {errors[0]}{more}")
+    if not errors:
+        return ""
+    more = f" and {counted(len(errors) - 1, 'more error')}" if len(errors) > 1 else ""
+    return f"{loaded.name} cannot be started: {errors[0]}{more}"
 
 
 def _explained(error: Exception) -> Exception:

@@ -34,6 +34,7 @@ from openacr.cnc.program.program import Program
 from openacr.cnc.reading.findings import Finding
 from openacr.cnc.state.hosts import VirtualMachine
 from openacr.cnc.state.shadow import Shadow
+from openacr.mill.card.alarms import ANSWER_MISSING
 from openacr.mill.config.dialects import choose
 from openacr.mill.config.folders import folders_of
 from openacr.mill.plan.blank import blank_of, has_sizes, heights_of_zero
@@ -47,6 +48,7 @@ HEAD = struct.Struct("<4sIII6fd9fI")
 DRAWN = "XYZ"
 PACKED = 1  # level of gzip: the path of 200,000 points in some tens of ms
 MOST_FINDINGS = 500
+UNANSWERED = f"A{ANSWER_MISSING.code}"  # a reading without operator ends there
 
 
 @dataclass(slots=True)
@@ -65,11 +67,12 @@ class Found:
 
 
 def finding_data(finding: Finding) -> dict[str, Any]:
-    """A finding as JSON."""
+    """A finding as JSON; a question of the program is no error: an operator answers it."""
+    is_error = finding.is_error and finding.code != UNANSWERED
     return {
         "line": finding.line,
         "column": finding.column,
-        "severity": "error" if finding.is_error else "warning",
+        "severity": "error" if is_error else "warning",
         "code": finding.code,
         "text": finding.text,
         "hint": finding.hint,

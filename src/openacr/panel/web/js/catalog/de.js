@@ -50,7 +50,8 @@ const BLOCKS = {
 };
 
 const RUN = {
-  "run.none": "Kein Programm geladen: EINRICHTEN, LADEN", "run.line": "Startzeile", "run.lines": "{count} {count|Zeile|Zeilen}", "run.seconds": "etwa {time}", "run.dry": "Probelauf: Trial Speed, ohne M-Funktionen.", "run.skip": "Sätze ausblenden", "run.optional": "Wahlweiser Halt",
+  "run.none": "Kein Programm geladen: EINRICHTEN, LADEN", "run.wrong": "Diese Fehler wurden beim Laden gefunden, so wie die Maschine da eingestellt war. Der Lauf endet beim ersten davon.", "run.anyway": "TROTZDEM STARTEN", "findings.errors": "{count} Fehler", "findings.warnings": "{count} {count|Warnung|Warnungen}", "findings.title": "Was am Programm nicht stimmt",
+  "run.line": "Startzeile", "run.lines": "{count} {count|Zeile|Zeilen}", "run.seconds": "etwa {time}", "run.dry": "Probelauf: Trial Speed, ohne M-Funktionen.", "run.skip": "Sätze ausblenden", "run.optional": "Wahlweiser Halt",
   "run.safez": "Sicheres Z (Maschine)", "run.safez.hint": "Wo das Werkzeug frei ist, wenn keine Zeile davor es im Eilgang dorthin bringt", "run.range": "Das Programm hat die Zeilen 1 bis {last}", "run.begin": "START", "begin.title": "Start bei Zeile {line}", "begin.text": "Die Zeilen davor wurden ohne Bewegung durchlaufen. Das unterscheidet sich vom jetzigen Zustand der Maschine:",
   "begin.tool": "In der Spindel ist ein anderes Werkzeug", "begin.present": "Jetzt", "begin.wanted": "Verlangt", "begin.go": "ANFAHREN UND STARTEN", "start.title": "Weiter", "start.covered": "Die Maschine fährt weiter ({state} {reason}). Dieser Bildschirm verdeckt die Positionen.",
   "clrzero.title": "Null löschen", "clrzero.text": "Der Nullpunkt aus G92 wird für alle Achsen gelöscht: Es gilt wieder das Werkstück-Koordinatensystem.", "clrzero.done": "Der Nullpunkt ist gelöscht",

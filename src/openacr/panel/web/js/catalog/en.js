@@ -50,7 +50,8 @@ const BLOCKS = {
 };
 
 const RUN = {
-  "run.none": "No program is loaded: RUN SETUP, LOAD PROG", "run.line": "Start line", "run.lines": "{count} {count|line|lines}", "run.seconds": "about {time}", "run.dry": "Dry run: Trial Speed, M codes off.", "run.skip": "Block skip", "run.optional": "Optional stop",
+  "run.none": "No program is loaded: RUN SETUP, LOAD PROG", "run.wrong": "These errors were found when the program was loaded, with the machine as it was set then. The run ends at the first of them.", "run.anyway": "START ANYWAY", "findings.errors": "{count} {count|error|errors}", "findings.warnings": "{count} {count|warning|warnings}", "findings.title": "What is wrong with the program",
+  "run.line": "Start line", "run.lines": "{count} {count|line|lines}", "run.seconds": "about {time}", "run.dry": "Dry run: Trial Speed, M codes off.", "run.skip": "Block skip", "run.optional": "Optional stop",
   "run.safez": "Safe Z (machine)", "run.safez.hint": "Where the tool is free, if no line before brings it there at rapid", "run.range": "The program has the lines 1 to {last}", "run.begin": "START", "begin.title": "Start at line {line}", "begin.text": "The lines before it were run through without motion. This differs from what the machine has now:",
   "begin.tool": "Another tool is in the spindle", "begin.present": "Present", "begin.wanted": "Wanted", "begin.go": "MOVE AND START", "start.title": "Go on", "start.covered": "The machine goes on moving ({state} {reason}). The positions are covered by this screen.",
   "clrzero.title": "Clear zero", "clrzero.text": "The floating zero (G92) of all axes is cleared: positions read as in the work coordinate system.", "clrzero.done": "The floating zero is cleared",

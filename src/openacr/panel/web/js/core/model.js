@@ -6,7 +6,7 @@ import { Signal } from "./signal.js";
  * @typedef {{ name: string, index: number, unit: string, decimals: { mm: number, inch: number }, low: number | null, high: number | null, home_required: boolean }} Axis
  * @typedef {{ kind: string, name: string, card: string, unit: string, shown: string, is_small: boolean, is_virtual: boolean, axes: Axis[], lacks: string,
  *   attached: { name: string, index: number, master: number }[] }} Machine
- * @typedef {{ name: string, path: string, kind: string, lines: number, errors: number, warnings: number, seconds: number | null,
+ * @typedef {{ name: string, path: string, kind: string, lines: number, errors: number, warnings: number, checked: boolean, seconds: number | null,
  *   extents: Record<string, [number, number]> | null, tools: number[], id: string, drawn: boolean }} Loaded
  */
 

@@ -41,7 +41,7 @@ export const MENUS = {
   ],
   run: [
     { key: 1, label: "menu.stop", action: "stop", style: "is-stop" },
-    { key: 2, label: "menu.start", action: "start", role: "operate", style: "danger" },
+    { key: 2, label: "menu.start", action: "start", role: "operate", can: "run.begin", style: "danger" },
     { key: 3, label: "menu.runline", action: "runLine", role: "operate", can: "run.begin" },
     { key: 4, label: "menu.dryrun", action: "dryRun", role: "operate", can: "run.begin", pressed: "dry" },
     { key: 5, label: "menu.feedrate", ...form("FEEDRATE") },

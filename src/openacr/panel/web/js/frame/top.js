@@ -60,9 +60,12 @@ function drawAlarms() {
   if (mode.length && looks === area.dataset.mode && !messages.length) return; // a key stays under the finger
   area.dataset.mode = looks;
   const none = h("span.none", { title: loaded?.path ?? "" }, loaded ? loaded.name : t("alarm.noprogram"));
+  const count = loaded ? loaded.errors || loaded.warnings : 0;
+  const found = count ? h("button.key", { type: "button", className: loaded?.errors ? "key bad" : "key", title: t("findings.title"),
+    onclick: async () => (await import("./findings.js")).showFindings() }, t(loaded?.errors ? "findings.errors" : "findings.warnings", { count })) : "";
   fill(area, ...(active.length ? alarmParts(active) : mode), ...few,
     more > 0 ? h("button.key", { type: "button", title: t("message.all"), onclick: showMessages }, t("message.more", { count: more })) : "",
-    active.length || messages.length || mode.length ? "" : none);
+    ...(active.length || messages.length || mode.length ? [] : [none, found]));
 }
 
 /** What is unlike a machine that is operated: the card is at a moment of its past, or AcroMill has not set it up. */

@@ -1,4 +1,5 @@
 // RUN and DRY RUN: the start line, what a start in the middle would change, and the confirmation.
+import { get } from "../core/api.js";
 import { give, model, refuse } from "../core/app.js";
 import { numberIn } from "../core/arithmetic.js";
 import { h } from "../core/dom.js";
@@ -16,6 +17,12 @@ export async function beginRun({ dry, line = 1 }) {
     refuse(t("run.none"));
     return;
   }
+  const bar = model.state.value.can?.["run.begin"];
+  if (bar) {
+    refuse(bar);
+    return;
+  }
+  const wrong = loaded.errors ? await errorsOf() : []; // found by reading it, with the machine as it was then
   const field = h("input.field.number", { value: String(line), inputMode: "numeric", ariaLabel: t("run.line"), autocomplete: "off" });
   const [skip, optional] = [checkBox(t("run.skip"), model.is("skip")), checkBox(t("run.optional"), model.is("optional"))];
   const safe = h("input.field.number", { inputMode: "decimal", ariaLabel: t("run.safez"), autocomplete: "off" });
@@ -41,16 +48,22 @@ export async function beginRun({ dry, line = 1 }) {
   const rows = [
     h("div.row.wrap", {}, h("strong.mono", {}, loaded.name), h("span.quiet", {}, t("run.lines", { count: loaded.lines })),
       loaded.seconds === null ? "" : h("span.quiet", {}, t("run.seconds", { time: duration(loaded.seconds) }))),
-    dry ? h("div.notice", {}, t("run.dry")) : "",
+    dry ? h("div.notice", {}, t("run.dry")) : "", ...wrong,
     h("label.row", {}, h("span.grow", {}, t("run.line")), field), note, safeRow, h("div.row.wrap", {}, skip, optional),
   ];
   const chosen = await ask({ title: dry ? t("menu.dryrun") : t("menu.runline"), body: rows, first: field, choices: [
-    { text: t("key.cancel"), value: null }, { text: t("run.begin"), kind: "main", isSubmit: true, value: first },
+    { text: t("key.cancel"), value: null }, wrong.length ? { text: t("run.anyway"), kind: "bad", value: first } : { text: t("run.begin"), kind: "main", isSubmit: true, value: first },
   ] });
   if (chosen === null) return;
   const args = { ...chosen, dry, skip: skip.querySelector("input")?.checked, optional: optional.querySelector("input")?.checked };
   const answer = await give("run.begin", args);
   if (answer?.rehearsal && (await accepts(chosen.line, answer.rehearsal))) await give("run.begin", { ...args, confirm: answer.rehearsal.token });
+}
+
+/** The errors of the loaded program, as parts of a dialog. */
+async function errorsOf() {
+  const [{ findingList }, found] = await Promise.all([import("../frame/findings.js"), get("program")]);
+  return [h("div.notice.bad", {}, t("run.wrong")), findingList(found, true)];
 }
 
 /**

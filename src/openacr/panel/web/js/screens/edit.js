@@ -4,6 +4,7 @@ import { model, refuse, report } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { ask, askText } from "../frame/dialog.js";
+import { findingItems } from "../frame/findings.js";
 import { openScreen } from "../frame/screen_host.js";
 import { fileList } from "../load/file_list.js";
 
@@ -30,8 +31,7 @@ export const screen = {
       check: async (text) => (await send("POST", "check", { text, dialect: "", path }).catch(() => ({ findings: [] }))).findings,
       found: (list) => {
         findings.hidden = list.length === 0;
-        findings.replaceChildren(...list.map((each) => h("button.key.item", { type: "button", onclick: () => editor.goTo(each.line, each.column), className: `key item ${each.severity}` },
-          h("span", {}, each.severity === "error" ? "\u26a0" : "\u2139"), h("span.number", {}, `${each.line}:${each.column}`), h("span.name", {}, `${each.code} ${each.text}`))));
+        findings.replaceChildren(...findingItems(list, (each) => editor.goTo(each.line, each.column)));
       },
       changed: () => draw(),
     });
@@ -133,7 +133,7 @@ export const screen = {
 
     draw();
     const { loaded } = model.program.value;
-    if (args.path) void read(args.path);
+    if (args.path) void read(args.path).then(() => args.line && editor.goTo(args.line, args.column));
     else void open(!args.other && loaded?.kind === "file" ? loaded.path : "");
   },
 };

@@ -4,6 +4,7 @@ import { Endings } from "../core/signal.js";
 import { give } from "../core/app.js";
 import { t } from "../core/texts.js";
 import { showTab } from "../frame/display.js";
+import { sayFindings, showFindings } from "../frame/findings.js";
 import { openMenu } from "../frame/menu_bar.js";
 import { batchSource, dripSource, fileSource } from "../load/files.js";
 import { dxfSource } from "../load/dxf.js";
@@ -34,13 +35,19 @@ export const screen = {
 };
 
 /**
- * Load a program, then go to RUN PROG; the graphics of a program that is drawn are put up.
+ * Load a program, then go to RUN PROG; the graphics of a program that is drawn are put up. One with errors is not
+ * offered to be run: what is wrong with it is shown over the list.
  * @param {string} cmd
  * @param {Record<string, any>} values
  */
 async function load(cmd, values) {
   const loaded = await give(cmd, values);
   if (!loaded) return;
+  if (loaded.errors) {
+    await showFindings();
+    return;
+  }
   openMenu("run");
+  sayFindings(loaded.id);
   if (loaded.drawn) await showTab("graphics");
 }
