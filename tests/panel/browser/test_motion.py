@@ -258,3 +258,52 @@ def test_a_step_moves_by_its_increment_and_no_further(jog: Page, served: Served)
     step = served.call(lambda station: station.machine.runner.settings.real(JOG.increments[0][0]))
     assert rest_of(served, jog) - before == pytest.approx(step)
     continuous.click()
+
+
+# The contrast of the text of an element with its own ground, as WCAG computes it.
+CONTRAST = """(element) => {
+  const canvas = document.createElement('canvas').getContext('2d', { willReadFrequently: true });
+  const light = (color) => {
+    canvas.fillStyle = color;
+    canvas.fillRect(0, 0, 1, 1);
+    const [r, g, b] = [...canvas.getImageData(0, 0, 1, 1).data].map((each) => each / 255)
+      .map((each) => each <= 0.04045 ? each / 12.92 : ((each + 0.055) / 1.055) ** 2.4);
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
+  const { color, backgroundColor } = getComputedStyle(element);
+  const [dark, bright] = [light(color), light(backgroundColor)].sort((a, b) => a - b);
+  return (bright + 0.05) / (dark + 0.05);
+}"""
+READABLE = 4.5
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_a_key_that_is_held_or_pressed_with_the_mouse_can_be_read(
+    jog: Page, served: Served, theme: str
+) -> None:
+    jog.evaluate("(theme) => { document.documentElement.dataset.theme = theme; }", theme)
+    place = centre(jog, "X plus")
+
+    def press() -> None:
+        jog.mouse.move(place["x"], place["y"])
+        jog.mouse.down()
+
+    hold(jog, served, press, jog.mouse.up)
+    assert jog.locator(".jog-key.is-held").evaluate(CONTRAST) >= READABLE
+    jog.mouse.up()
+    jog.mouse.move(1, 1)
+    until(lambda: not is_jogging(served), jog)
+    jog.keyboard.press("Escape")
+    jog.keyboard.press("F1")
+    inspector = jog.context.new_cdp_session(jog)  # a finger presses a key without being over it
+    inspector.send("DOM.enable")
+    inspector.send("CSS.enable")
+    root = inspector.send("DOM.getDocument")["root"]["nodeId"]
+    asked = {"nodeId": root, "selector": "#screen .key.main"}
+    found = inspector.send("DOM.querySelector", asked)
+    inspector.send("CSS.forcePseudoState", {**found, "forcedPseudoClasses": ["active"]})
+    key = jog.locator("#screen .key.main")
+    assert key.evaluate("(each) => each.matches(':active:not(:hover)')")
+    assert key.evaluate(CONTRAST) >= READABLE
+    inspector.detach()
+    jog.evaluate("() => { delete document.documentElement.dataset.theme; }")
