@@ -541,3 +541,26 @@ def test_a_program_over_a_serial_line_has_not_the_time_left_of_the_loaded_one(
     assert isnan(left_s(hand))
     assert hand.station.part.executing.is_under_way
     hand.until(lambda: not hand.is_busy)
+
+
+def test_a_block_that_an_alarm_refuses_is_no_line_of_the_mdi_buffer(hand: HandStation) -> None:
+    hand.do("home.start", axes="XYZ")
+    hand.until(lambda: not hand.is_busy)
+    for line in ("G21 G90 G54 G0 X1", "G0 X2"):
+        hand.do("mdi.execute", line=line)
+        hand.until(lambda: not hand.is_busy)
+    hand.do("mdi.execute", line="G0 X9999")
+    hand.until(lambda: hand.station.machine.runner.alarms.bars_start)
+    hand.run(0.1)
+    assert hand.do("mdi.buffer")["lines"] == ["G21 G90 G54 G0 X1", "G0 X2"]
+    assert hand.events("mdi")[-1]["buffer"] == ["G21 G90 G54 G0 X1", "G0 X2"]
+    hand.do("alarm.acknowledge")
+
+
+def test_a_block_that_was_begun_and_then_stopped_stays_in_the_mdi_buffer(hand: HandStation) -> None:
+    hand.do("mdi.execute", line="G21 G90 G54 G1 X100 F600")
+    hand.run(0.5)
+    hand.station.machine.runner.fail("a test")
+    hand.until(lambda: not hand.is_busy)
+    hand.run(0.1)
+    assert hand.do("mdi.buffer")["lines"] == ["G21 G90 G54 G1 X100 F600"]

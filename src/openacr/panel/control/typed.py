@@ -6,10 +6,12 @@ from typing import Any
 
 from openacr.cnc.interpreter.mdi import Mdi
 from openacr.errors import OpenacrError, UserError
+from openacr.mill.card import alarms
 from openacr.mill.config.dialects import dialect_of
 from openacr.panel.control.shared import Shared
 
 MOST_TEXT = 1000  # blocks that were executed and are shown
+REFUSALS = frozenset({alarms.NOT_HOMED, alarms.TARGET_BEYOND, alarms.PROGRAM_ERROR})
 
 
 class Typed:
@@ -20,12 +22,13 @@ class Typed:
         self._mdi: Mdi | None = None
         self._queue: deque[str] = deque()
         self._is_shown = True
+        self._kept: tuple[str, int] | None = None  # what runs, and the count of alarms before it
         self.text: list[str] = []  # what was executed, as the operator may edit it
         self.is_buffer_on = True  # whether what is executed becomes part of the text
 
     def forget(self) -> None:
         """Forget the modal state and what waits: the session is another one."""
-        self._mdi = None
+        self._mdi = self._kept = None
         self._queue.clear()
 
     def put(self, blocks: Iterable[str], *, dialect: str = "", is_shown: bool = True) -> None:
@@ -58,13 +61,17 @@ class Typed:
         if self._is_shown and self.is_buffer_on:
             self.text.append(block)
             del self.text[:-MOST_TEXT]
+            self._kept = block, len(session.runner.alarms.history)
 
     def poll(self) -> None:
         """Start the next block when the one before it has ended; an error drops the rest."""
-        if not self._queue:
+        if not self._queue and self._kept is None:
             return
         runner = self._station.machine.runner
         if runner.is_busy:
+            return
+        self._take_back(runner.alarms.history)
+        if not self._queue:
             return
         if runner.alarms.bars_start or runner.was_aborted:
             self._queue.clear()
@@ -74,6 +81,15 @@ class Typed:
         except OpenacrError:
             self._queue.clear()
             raise
+
+    def _take_back(self, history: list[alarms.Alarm]) -> None:
+        """Take the last block out of the text if an alarm has refused it."""
+        if self._kept is None:
+            return
+        (block, before), self._kept = self._kept, None
+        is_refused = any(alarm.kind in REFUSALS for alarm in history[before:])
+        if is_refused and self.text[-1:] == [block]:
+            self.text.pop()
 
     def drop(self) -> None:
         """Drop the blocks that wait: the operator has stopped."""
