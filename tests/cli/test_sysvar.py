@@ -34,6 +34,17 @@ def test_a_parameter_changed_by_its_name_is_readable_through_its_number(path: Pa
     assert "P650002 Cut Speed = 12.5 in/min" in run("get", "650002").output
 
 
+def test_a_name_that_begins_with_a_dash_is_taken_as_it_is_written(path: Path) -> None:
+    result = run("set", "-soft limit x=-1", "--unit", "inch")
+    assert (result.exit_code, "P200001 -Soft Limit (axis 0) = -1 in" in result.output) == (0, True)
+    with Store(path) as store:
+        assert store.read(200_001) == -1.0
+    assert "P200001 -Soft Limit (axis 0) = -1 in" in run("get", "-soft limit x").output
+    wrong = run("set", "cut speed=3", "--unti", "mm")
+    assert wrong.exit_code == 2
+    assert "--unti" in wrong.output
+
+
 def test_get_explains_one_parameter_and_tabulates_several(path: Path) -> None:
     output = run("get", "P650002").output
     assert "P650002 Cut Speed = 10 in/min" in output

@@ -9,6 +9,7 @@ class Entry(NamedTuple):
 
     module: str
     function: str
+    takes_dashes: bool = False  # arguments may begin with a dash: "-soft limit x=-1"
 
     @property
     def summary(self) -> str:
@@ -121,8 +122,8 @@ COMMANDS: dict[str, Entry | Family] = {
     "sysvar": Family(
         "System parameters, offsets and variables of the CNC side (the SYSVAR store).",
         {
-            "get": Entry("sysvar.read", "get"),
-            "set": Entry("sysvar.change", "set_values"),
+            "get": Entry("sysvar.read", "get", takes_dashes=True),
+            "set": Entry("sysvar.change", "set_values", takes_dashes=True),
             "list": Entry("sysvar.read", "list_values"),
             "export": Entry("sysvar.change", "export_values"),
             "import": Entry("sysvar.change", "import_values"),

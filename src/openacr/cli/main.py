@@ -118,7 +118,8 @@ class LazyGroup(TyperGroup):
             return None
         if isinstance(entry, Family):
             return _group(cmd_name, entry)
-        single = typer.Typer(add_completion=False, rich_markup_mode=None, context_settings=HELP)
+        settings = {**HELP, "ignore_unknown_options": entry.takes_dashes}
+        single = typer.Typer(add_completion=False, rich_markup_mode=None, context_settings=settings)
         module = import_module(f"openacr.cli.{entry.module}")
         single.command(cmd_name, cls=SubCommand)(getattr(module, entry.function))
         return typer.main.get_command(single)
