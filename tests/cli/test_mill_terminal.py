@@ -280,7 +280,7 @@ def test_a_start_in_the_cut_retracts_and_comes_down_with_the_spindle_on(
     seen = states(card, monkeypatch)
     code, text = mill("run", part, "--line", "7", "--yes", "--quiet")
     assert (code, seen[-1][:2]) == (0, (5.0, -1.0))
-    assert "spindle: now 5, at the line 3" in text
+    assert "spindle: now off, at the line clockwise" in text
     assert "position: now 4 0 -1 0 0 0 0 0, at the line 3 0 -1 0 0 0 0 0" in text
     over = [(x, z) for x, z, *_ in seen if 3.0 < x < 4.0]
     assert over[0][1] == 1.0  # on the way back all of it above the part
@@ -294,7 +294,7 @@ def test_a_start_at_a_line_is_not_agreed_to_without_an_operator(
 ) -> None:
     code, text = mill("run", part, "--line", "7")
     assert (code, card.p[12288], card.p[12800]) == (2, 40000, -10000)
-    assert "spindle: now 5, at the line 3" in text
+    assert "spindle: now off, at the line clockwise" in text
     assert "no operator at a terminal to confirm; use --yes" in text
 
 

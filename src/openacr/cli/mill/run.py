@@ -233,26 +233,21 @@ def _rehearsed(
     shop: "MillSession", program: "Program", start: "Start", terminal: Attendant | None
 ) -> "Replay":
     """Rehearse the lines before a start line, show differences, and ask on a real machine."""
+    from openacr.cnc.interpreter.replay import number
+
     replay = shop.rehearse(program, start)
     for warning in replay.warnings:
         typer.echo(f"warning: {warning}", err=True)
     for each in replay.differences:
-        now, then = _numbers(each.present), _numbers(each.wanted)
+        now, then = each.shown(each.present), each.shown(each.wanted)
         typer.echo(f"{each.name}: now {now}, at the line {then}", err=True)
     if replay.needs_tool and not start.accepts_tool:
         raise UserError("another tool is in the spindle; --any-tool starts anyway")
     if terminal is not None and not shop.is_virtual:
-        level = _numbers(replay.safe_level())
+        level = number(replay.safe_level())
         text = f"line {start.line}: Z to {level}, across, then down at feed: start?"
         require_yes(shop, terminal, text, "no operator at a terminal to confirm; use --yes")
     return replay
-
-
-def _numbers(value: object) -> str:
-    """Numbers without trailing zeros; those of axes on one line."""
-    if isinstance(value, tuple):
-        return " ".join(map(_numbers, value))
-    return f"{value + 0.0:.4f}".rstrip("0").rstrip(".") if isinstance(value, float) else str(value)
 
 
 # --- reports ------------------------------------------------------------------------------

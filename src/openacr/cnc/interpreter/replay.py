@@ -33,6 +33,7 @@ from openacr.cnc.canonical import (
     Spindle,
     Transfer,
 )
+from openacr.cnc.canonical.actions import Spin
 from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.cnc.state.cells import COOLANT, SPEED, SPIN, TOOL_IN_SPINDLE
 from openacr.cnc.state.hosts import Machine
@@ -50,6 +51,18 @@ class StartError(UserError):
     """A line at which the program cannot be started."""
 
 
+WORDS: dict[str, dict[float, str]] = {
+    "spindle": {spin.value: spin.name.lower().replace("_", "-") for spin in Spin},
+    "coolant": {0.0: "off", 1.0: "mist", 2.0: "flood", 3.0: "mist and flood"},
+    "output": {0.0: "off", 1.0: "on"},
+}
+
+
+def number(value: float) -> str:
+    """A number without trailing zeros."""
+    return f"{value + 0.0:.4f}".rstrip("0").rstrip(".")
+
+
 @dataclass(frozen=True, slots=True)
 class Difference:
     """Something that is not as the program needs it at line N."""
@@ -57,6 +70,12 @@ class Difference:
     name: str
     present: float | Point
     wanted: float | Point
+
+    def shown(self, value: float | Point) -> str:
+        """The present or wanted value in words where there are any, else in numbers."""
+        if isinstance(value, tuple):
+            return " ".join(map(number, value))
+        return WORDS.get(self.name.split()[0], {}).get(value) or number(value)
 
 
 class _Rehearsal:

@@ -202,7 +202,11 @@ class Part:
             "token": token,
             "line": start.line,
             "differences": [
-                {"name": each.name, "present": each.present, "wanted": each.wanted}
+                {
+                    "name": each.name,
+                    "present": each.shown(each.present),
+                    "wanted": each.shown(each.wanted),
+                }
                 for each in replay.differences
             ],
             "warnings": [str(each) for each in replay.warnings],

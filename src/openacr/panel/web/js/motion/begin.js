@@ -73,7 +73,7 @@ async function errorsOf() {
  */
 function accepts(line, rehearsal) {
   const rows = (rehearsal.differences ?? []).map((/** @type {any} */ each) =>
-    h("tr", {}, h("td", {}, each.name), h("td.number", {}, String(each.present)), h("td.number", {}, String(each.wanted))));
+    h("tr", {}, h("td", {}, each.name), h("td.number", {}, each.present), h("td.number", {}, each.wanted)));
   return ask({ comes: true, title: t("begin.title", { line }), body: [
     h("p", {}, rehearsal.text || t("begin.text")),
     ...(rehearsal.warnings ?? []).map((/** @type {string} */ text) => h("div.notice", {}, text)),
