@@ -93,7 +93,7 @@ def test_an_svg_names_what_is_drawn(part: Path, tmp_path: Path) -> None:
 def test_the_compensated_path_is_dashed_beside_the_programmed_one(part: Path) -> None:
     lines = lines_of(scene_of(part))
     dashed = [each for each in lines if each.is_dashed() and each.get_color() != RAPID]
-    assert len(dashed) == 3  # one in each view
+    assert len(dashed) == 6  # its moves and those that are inserted, in each of three views
     top = build_figure(scene_of(part)).axes[1]
     contour = next(each for each in top.get_lines() if each.get_color() == "#444444")
     assert not contour.is_dashed()

@@ -9,6 +9,7 @@ from openacr.mill.plan.tool_path import Drawing, Kind
 if TYPE_CHECKING:
     from openacr.mill.plan.path_motion import Motion
 
+COMPENSATED = (5.0, 2.0)  # dash and gap
 RAPID, INSERTED, CONTOUR = "#999999", "#D5007F", "#444444"
 DENSE_CNT = 5000  # from this number of moves on they are drawn thin, shaded by their height
 BANDS = 16
@@ -52,15 +53,15 @@ class LineStyle:
 
 
 def style_of(kind: Kind, tool: int, view: View) -> LineStyle:
-    """Rapid moves are grey and dotted, compensated ones dashed; the view has the colours."""
+    """Rapids are grey and dotted, compensated and inserted moves dashed; the view has colours."""
     if kind is Kind.RAPID:
         return LineStyle("rapid", RAPID, 0.8, (1.5, 2.5))
     if kind is Kind.INSERTED:
-        return LineStyle("inserted at corners", INSERTED, 1.7)
+        return LineStyle("inserted at corners", INSERTED, 1.7, COMPENSATED)
     color = view.color(tool)
     name = f" T{tool}" if tool else ""
     if kind is Kind.COMPENSATED:
-        return LineStyle(f"compensated{name}", color, 1.3, (5.0, 2.0))
+        return LineStyle(f"compensated{name}", color, 1.3, COMPENSATED)
     return LineStyle(f"feed{name}", color, 1.2)
 
 

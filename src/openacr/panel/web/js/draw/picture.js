@@ -179,7 +179,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
 }
 
 /**
- * Rapids are thin and dotted, compensated paths dashed.
+ * Rapids are thin and dotted, compensated paths dashed, with the moves that compensation inserts.
  * @param {number} kind
  * @param {string} color
  * @param {string} rapid
@@ -187,7 +187,7 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
  */
 function lookOf(kind, color, rapid) {
   if (kind === KIND.rapid) return { color: rapid, width: 0.8, dashes: [4, 4] };
-  return { color, width: 1.25, dashes: kind === KIND.compensated ? [8, 3] : [] };
+  return { color, width: 1.25, dashes: kind === KIND.compensated || kind === KIND.inserted ? [8, 3] : [] };
 }
 
 function toolCursor() {
