@@ -208,3 +208,19 @@ def test_the_browser_has_nothing_to_complain_about(page: Page) -> None:
     # text that is typed over by an inline style: the policy blocks that, and the editor needs none.
     known = ("404", "409", "Applying inline style")
     assert [each for each in complaints if not any(n in each for n in known)] == []
+
+
+def test_save_as_gives_a_name_without_an_ending_that_of_part_programs(
+    page: Page, served: Served
+) -> None:
+    in_editor(page, "FIRST.TXT")
+    typed(page, "G0 X1\nM2\n")
+    page.get_by_role("button", name="SAVE AS").click()
+    dialog = page.get_by_role("dialog", name="SAVE AS")
+    dialog.get_by_role("textbox").fill("JOB")
+    page.keyboard.press("Enter")
+    expect(page.locator("#prompt")).to_have_text("JOB.TXT is saved")
+    assert (served.programs / "JOB.TXT").read_text() == "G0 X1\nM2\n"
+    page.get_by_role("button", name="SAVE AS").click()
+    page.keyboard.press("Escape")
+    expect(page.locator("#screen-title")).to_have_text("Edit: JOB.TXT")

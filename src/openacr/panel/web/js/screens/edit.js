@@ -100,7 +100,7 @@ export const screen = {
     }
 
     async function saveAs() {
-      const name = await askText(t("edit.saveas"), t("edit.name"), path || "NEW.TXT");
+      const name = withEnding((await askText(t("edit.saveas"), t("edit.name"), path || "NEW.TXT")) ?? "");
       if (!name) return false;
       if (name !== path) [path, version] = [name, null];
       return save();
