@@ -61,6 +61,12 @@ def test_limits_of_lengths_are_in_the_unit_of_the_machine(web: httpx.Client) -> 
     assert epsilon["low_open"]
 
 
+def test_typical_lengths_are_in_the_unit_of_the_machine(web: httpx.Client) -> None:
+    rows = web.get("/api/forms/JOG").json()["groups"][0]["rows"]
+    feed = next(row for row in rows if row["name"] == "Jog Feedrate")
+    assert (feed["unit"], feed["typical"], feed["default"]) == ("mm/min", "254", "254")
+
+
 def test_every_form_can_be_read(web: httpx.Client) -> None:
     names = [form["name"] for form in web.get("/api/forms").json()["forms"]]
     assert {"SERVO", "AXES", "WORK", "MODALS", "MESSAGES", "H-WEAR", "IONAMES"} <= set(names)

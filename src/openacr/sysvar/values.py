@@ -96,6 +96,18 @@ def limits(parameter: Parameter, is_metric: bool, letter: str) -> tuple[float, f
     return parameter.row.low * scale, parameter.row.high * scale
 
 
+def typical(parameter: Parameter, is_metric: bool, letter: str) -> str:
+    """The typical value; lengths are written in inches in the tables."""
+    text = parameter.row.typical
+    if not parameter.is_length:
+        return text
+    try:
+        inches = float(text)
+    except ValueError:  # words
+        return text
+    return shown(parameter, scaled(parameter, inches, MM_PER_INCH if is_metric else 1.0, letter))
+
+
 def accepted(parameter: Parameter, is_metric: bool = False, letter: str = "") -> str:
     """The values a cell accepts, in words."""
     row = parameter.row

@@ -169,20 +169,9 @@ def _about(cells: "Store", parameter: "Parameter", unit: str | None) -> str:
 
 
 def _typical(cells: "Store", parameter: "Parameter", unit: str | None) -> str:
-    """The typical value; lengths are written in inches in the tables."""
-    from openacr.sysvar.values import scaled, shown
-    from openacr.units import MM_PER_INCH
+    from openacr.sysvar.values import typical
 
-    text = parameter.row.typical
-    if not parameter.is_length:
-        return text
-    try:
-        inches = float(text)
-    except ValueError:  # words
-        return text
-    letter = cells.letter_of(parameter)
-    stored = scaled(parameter, inches, MM_PER_INCH if cells.is_metric else 1.0, letter)
-    return shown(parameter, _in_unit(cells, parameter, stored, unit))
+    return typical(parameter, is_metric_in(cells, unit), cells.letter_of(parameter))
 
 
 def _print_table(cells: "Store", found: list["Parameter"], unit: str | None) -> None:

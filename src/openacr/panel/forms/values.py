@@ -18,6 +18,7 @@ from openacr.sysvar.values import (
     parsed,
     plain,
     rounded,
+    typical,
     unit_of,
 )
 
@@ -96,7 +97,7 @@ def row_data(store: Store, found: Parameter) -> dict[str, Any]:
         "low_open": row.is_low_open,
         "words": {str(key): word for key, word in row.words.items()} or None,
         "noun": row.noun,
-        "typical": row.typical,
+        "typical": typical(found, store.is_metric, letter),
         "help": row.doc,
         "motion": row.is_motion,
         "fixed": row.is_fixed,
