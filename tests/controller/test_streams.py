@@ -42,7 +42,6 @@ def test_four_network_hosts_at_once_then_no_stream_is_free(host: Host) -> None:
 def test_packet_connections_take_no_stream(host: Host) -> None:
     packets = [Host(host.card, StreamKind.PACKETS) for _ in range(6)]
     assert [each.raw(DATA) for each in packets] == [DATA + bytes(4)] * 6
-    assert packets[0].send("?1\r\x18") == ""
     assert not host.card.bit[8467]
     assert Host(host.card).ask("?1") == "1"
 

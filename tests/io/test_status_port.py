@@ -7,6 +7,7 @@ import struct
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from unittest.mock import Mock
 
 import pytest
 from tests.io.fake_card import FakeCard
@@ -16,6 +17,7 @@ from openacr.client import Card, ConnectionLostError, NoReplyError
 from openacr.client.status_feed import StatusFeed
 from openacr.errors import UserError
 from openacr.io.server import CardServer, Guests
+from openacr.io.status_port import StatusPort
 
 ON = bytes.fromhex("00000001 0000000A")
 WAIT_S = 5.0
@@ -128,6 +130,37 @@ def test_a_host_that_is_gone_disturbs_no_other() -> None:
         await asyncio.wait_for(running, WAIT_S)
 
     asyncio.run(body())
+
+
+class Here:
+    """A server to which a host is connected, or not."""
+
+    def __init__(self, connected: set[str]) -> None:
+        self.connected = connected
+
+    def admits(self, host: str) -> bool:
+        return True
+
+    def hosts(self) -> set[str]:
+        return self.connected
+
+
+@pytest.mark.parametrize(("age_s", "is_connected", "is_ended"), [
+    (60.0, False, False), (60.5, False, True), (60.5, True, False),
+])  # fmt: skip
+def test_a_listener_without_connection_is_cut_off_after_a_minute_with_one_line_in_the_log(
+    caplog: pytest.LogCaptureFixture, age_s: float, is_connected: bool, is_ended: bool
+) -> None:
+    now_s, board = 0.0, Here({"10.0.0.7"} if is_connected else set())
+    port = StatusPort(board, lambda: now_s)
+    port.connection_made(Mock())
+    port.datagram_received(ON, ("10.0.0.7", 4711))
+    now_s = age_s
+    for _ in range(2):
+        port.send_due(lambda: b"")
+    assert [record.message for record in caplog.records] == [
+        "10.0.0.7:4711 gets no status any more: it asked 60 s ago and has no TCP connection"
+    ] * is_ended
 
 
 def test_too_many_subscribers_are_refused_with_one_warning(

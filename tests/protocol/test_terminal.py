@@ -349,7 +349,7 @@ def test_xon_inside_a_prefixed_packet_is_flow_control() -> None:
     assert list(events(stream)) == [Received(GetLong(12288))]
 
 
-def test_the_binary_port_ignores_everything_but_packets() -> None:
+def test_the_binary_port_ignores_everything_but_packets_where_it_takes_no_text() -> None:
     stream = terminal(StreamKind.PACKETS)
     stream.receive_data(b"?P0\r\x18" + GET + b"\x1bX", 0)
     assert list(events(stream)) == [Received(DataRequest(0x30, 2, 0x2C))]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -61,7 +62,7 @@ class StreamsState(Struct, frozen=True):
 
 @dataclass(slots=True)
 class Stream:
-    """One connection: its line discipline and, unless it carries packets only, its session."""
+    """One connection: its line discipline and, unless it has carried packets only, its session."""
 
     terminal: Terminal
     session: Session | None
@@ -101,16 +102,25 @@ class Streams:
 
     def open(self, kind: StreamKind, name: str | None = None) -> int:
         """Open a stream for a new connection; NoFreeStreamError if all are in use."""
-        session = None
-        if kind is not StreamKind.PACKETS:
-            session = self._free(kind, name)
-            session.connect()
-            session.mode = kind.startup_mode
+        session = None if kind is StreamKind.PACKETS else self._taken(kind, name)
         number, self._next = self._next, self._next + 1
         terminal = Terminal(kind, timeout_tk=1, short_overrides=self._host.short_overrides)
         self._open[number] = Stream(terminal, session)
         self._settle(self._open[number])
         return number
+
+    def _taken(self, kind: StreamKind, name: str | None = None) -> Session:
+        """A free channel, connected."""
+        session = self._free(kind, name)
+        session.connect()
+        session.mode = kind.startup_mode
+        return session
+
+    def _take_text(self, stream: Stream) -> None:
+        """Give a connection for packets a channel for its text, which is passed over without."""
+        with suppress(NoFreeStreamError):
+            stream.session = self._taken(StreamKind.TERMINAL)
+            stream.terminal.takes_text = True
 
     def _free(self, kind: StreamKind, name: str | None) -> Session:
         for candidate in (name,) if name else CHANNELS[kind]:
@@ -136,6 +146,8 @@ class Streams:
         stream = self.opened(number)
         if not stream.is_overdue:  # a host that floods gets no turn with each of its writes
             stream.credit = WORK_PER_TURN
+        if stream.session is None and stream.terminal.begins_text(data):
+            self._take_text(stream)
         self._settle(stream)  # a program may have opened or closed the stream meanwhile
         name = stream.session.name if stream.session else ""
         stream.terminal.timeout_tk = self._host.timeout_tk(name)
@@ -241,14 +253,15 @@ class Streams:
             kind = kept.terminal.kind
             terminal = Terminal(kind, timeout_tk=1, short_overrides=self._host.short_overrides)
             terminal.restore(kept.terminal)
-            session = None if kept.channel is None else self._restored(kept.channel, kind)
+            session = None if kept.channel is None else self._restored(kept.channel)
+            terminal.takes_text = session is not None
             self._open[number] = Stream(terminal, session, kept.moves_of, kept.credit)
         self._next = max(state.next, *(number + 1 for number in state.open), 1)
 
-    def _restored(self, name: str, kind: StreamKind) -> Session:
+    def _restored(self, name: str) -> Session:
         session = self._sessions.get(name)
-        if session is None or session.is_connected or kind is StreamKind.PACKETS:
-            raise StoreError(f"the snapshot connects {name} to two streams or a packet stream")
+        if session is None or session.is_connected:
+            raise StoreError(f"the snapshot connects {name} to two streams")
         session.is_connected = True
         return session
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from openacr.channels import StreamKind
 from openacr.errors import NoFreeStreamError, UserError
-from openacr.io import peers
+from openacr.io import peers, status_port
 from openacr.io.bounded_log import bounded
 from openacr.io.host import CardHost
 from openacr.io.listening import bound_socket
@@ -31,7 +31,7 @@ CONNECTIONS = 16  # hosts at a time
 
 log = logging.getLogger(__name__)
 # Loggers a host can make write as often as it connects.
-OF_HOSTS = (log, *map(logging.getLogger, (peers.__name__, terminal.__name__)))
+OF_HOSTS = (log, *map(logging.getLogger, (peers.__name__, status_port.__name__, terminal.__name__)))
 
 
 @dataclass(frozen=True, slots=True)

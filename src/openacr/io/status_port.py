@@ -6,7 +6,7 @@ import socket
 from collections.abc import Callable
 from typing import Protocol, cast
 
-from openacr.protocol.status import Endpoint, StatusRequest, Subscribers
+from openacr.protocol.status import LIFE_S, Endpoint, StatusRequest, Subscribers
 
 log = logging.getLogger(__name__)
 
@@ -57,6 +57,11 @@ class StatusPort(asyncio.DatagramProtocol):
             return
         for endpoint in self._subscribers.due(self._now_s(), self._board.hosts()):
             self._transport.sendto(status(), endpoint)
+        for endpoint in self._subscribers.take_expired():
+            log.warning(
+                "%s:%d gets no status any more: it asked %d s ago and has no TCP connection",
+                endpoint[0], endpoint[1], LIFE_S,
+            )  # fmt: skip
 
     def close(self) -> None:
         """Release the port."""

@@ -86,6 +86,7 @@ class Subscribers:
     """
 
     _found: dict[Endpoint, _Subscription] = field(default_factory=dict)
+    _expired: list[Endpoint] = field(default_factory=list)
 
     def __len__(self) -> int:
         return len(self._found)
@@ -112,7 +113,13 @@ class Subscribers:
                 each.asked_s = now_s
             if now_s - each.asked_s > LIFE_S:
                 del self._found[endpoint]
+                self._expired.append(endpoint)
             elif now_s >= each.due_s:
                 missed = (now_s - each.due_s) // each.interval_s
                 each.due_s += (missed + 1) * each.interval_s
                 yield endpoint
+
+    def take_expired(self) -> list[Endpoint]:
+        """The hosts whose subscriptions have expired since the last call."""
+        expired, self._expired = self._expired, []
+        return expired

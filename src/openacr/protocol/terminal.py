@@ -18,6 +18,9 @@ What the bytes mean (for TERMINAL and SERIAL streams):
     XON, XOFF             serial only: resume, hold output
     00 04 07 1C 1D 1F     start of a binary packet; a typed line continues after it
     other controls        ignored, except TAB
+
+On the port for packets the same holds once `takes_text` is set. Hosts pad a text there with zeros
+to a multiple of TEXT_UNIT bytes: after the end of a line these begin no packet.
 """
 
 import logging
@@ -58,8 +61,10 @@ RESUME_BYTES = (
 )  # hysteresis: senders are not held and released all the time
 BS, TAB, LF, CR, XON, XOFF, ESC, DEL = 0x08, 0x09, 0x0A, 0x0D, 0x11, 0x13, 0x1B, 0x7F
 CRLF = b"\r\n"
+TEXT_UNIT = 4  # bytes of which texts on the port for packets are multiples
 ECHO_CHARACTERS = EchoMode.CHARACTERS.value  # an enum would cost more than the echo itself
 ERASE = b"\b \b"
+_HEADERS = {b"", *(bytes((byte,)) for byte in HEADER_IDS)}
 LineBytes: TypeAlias = Annotated[bytes, Meta(max_length=LINE_LIMIT)]
 
 
@@ -81,6 +86,7 @@ class TerminalState(Struct, frozen=True):
     typed_excess: Annotated[int, Meta(ge=0)]
     after_cr: bool
     reader: ReaderState
+    odd: Annotated[int, Meta(ge=0, lt=TEXT_UNIT)] = 0
 
 
 class Terminal:
@@ -92,6 +98,7 @@ class Terminal:
         self.mode: BinaryMode = kind.startup_mode
         self.attention = Attention.COMMANDS
         self.busy = False
+        self.takes_text = kind is not StreamKind.PACKETS
         self.echo_line_end = True  # `INPUT;` turns this off for the line it reads
         self.timeout_tk = timeout_tk
         self.output = Output()
@@ -102,6 +109,7 @@ class Terminal:
         self._is_full = False
         self._typing = TypedLine()
         self._after_cr = False
+        self._odd = 0  # count of the characters on the port for packets, in its last unit
         self._has_refused_override = False
         self._reader = PacketReader(kind is StreamKind.DPCB, short_overrides)
         self._keys = self._key_table()
@@ -120,6 +128,11 @@ class Terminal:
         return keys
 
     # --- input ------------------------------------------------------------------------
+
+    def begins_text(self, data: bytes) -> bool:
+        """Whether bytes that arrive now begin with a character, not with a packet."""
+        is_idle = not (self._reader.reading or self._looked or self._fresh)
+        return is_idle and data[:1] not in _HEADERS
 
     def receive_data(self, data: bytes, tick: int) -> None:
         """Take bytes that arrived together at `tick`."""
@@ -212,10 +225,16 @@ class Terminal:
             return self._packet_byte(byte, segment)
         if self.attention is Attention.OPEN:
             return Control(ControlKey(byte)) if _is_control(byte) else Typed(byte)
+        if self.kind is StreamKind.PACKETS:
+            if self._after_cr and self._odd and byte == 0:
+                self._odd = (self._odd + 1) % TEXT_UNIT
+                return None
+            if byte not in HEADER_IDS:
+                if not self.takes_text:
+                    return None
+                self._odd = (self._odd + 1) % TEXT_UNIT
         if byte in HEADER_IDS:
             return self._packet_start(byte, segment)
-        if self.kind is StreamKind.PACKETS:
-            return None
         if _is_control(byte):
             return Control(ControlKey(byte))
         return self._character(byte)
@@ -390,6 +409,7 @@ class Terminal:
             typed_excess=self._typing.excess,
             after_cr=self._after_cr,
             reader=self._reader.state(),
+            odd=self._odd,
         )
 
     def restore(self, state: TerminalState) -> None:
@@ -405,7 +425,7 @@ class Terminal:
         )
         self._backlog = sum(segment.left for segment in self._fresh)
         self._backlog += sum(map(_size, self._lines))
-        self._is_full, self._after_cr = state.is_full, state.after_cr
+        self._is_full, self._after_cr, self._odd = state.is_full, state.after_cr, state.odd
         self._typing = TypedLine(bytearray(state.typed), state.typed_excess)
         self._reader.restore(state.reader)
 
