@@ -54,7 +54,7 @@ class Model:
     lines: int = 32  # digital inputs on the board, and as many outputs
     streams: tuple[str, ...]
     has_fixed_adc_mode: bool = False  # 16-bit analog inputs only
-    has_digits_in_names: bool = False  # of aliases
+    has_digits_in_names: bool = False  # of aliases: the successors; see `digits_in_names`
     has_battery: bool = False  # keeps programs and variables without power
     has_canopen: bool = False
     lacks: Feature = Feature.NONE
@@ -114,11 +114,6 @@ ACR9000 = Model(
 )  # fmt: skip
 ACR9030 = Model(name="ACR9030", streams=_BOX_STREAMS, has_fixed_adc_mode=True, has_canopen=True)
 ACR9040 = Model(name="ACR9040", streams=_BOX_STREAMS, has_fixed_adc_mode=True, has_canopen=True)
-
-ACR7000 = Model(
-    name="ACR7000", axes=8, streams=_BOX_STREAMS, has_fixed_adc_mode=True,
-    has_digits_in_names=True,
-)  # fmt: skip
 
 _ROWS = [row for row in globals().values() if isinstance(row, Model)]
 MODELS = {row.name: row for row in sorted(_ROWS, key=lambda row: row.name)}

@@ -9,8 +9,9 @@ from openacr.basic.language.nodes import Flag, Number, Parameter
 from openacr.basic.language.scope import join_names
 from openacr.errors import CardError
 from openacr.lang.lexer import tokens
-from openacr.models import ACR7000
+from openacr.plant.schema import Card
 
+SUCCESSOR = Card(digits_in_names=True).board
 P0 = Parameter(Number(0))
 P1 = Parameter(Number(1))
 
@@ -62,7 +63,7 @@ def test_definitions_are_listed_as_typed(aliases: Aliases) -> None:
 
 @pytest.mark.parametrize("name", ["Count1", "a2b3", "Stn12x", "x" * 22 + "24"])
 def test_newer_models_allow_digits_after_the_first_letter(name: str) -> None:
-    bench = Bench(ACR7000)
+    bench = Bench(SUCCESSOR)
     bench.type("DIM P(10)", "DIM DEF(5)")
     assert bench.type(f"#DEFINE {name} P5") == "SYS>"
     assert bench.type(f"#DEFINE {name}") == f"#DEFINE {name} P5|SYS>"
@@ -70,13 +71,13 @@ def test_newer_models_allow_digits_after_the_first_letter(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["P12", "SET32", "LV0", "1st", "Len2", "a_1", "x" * 24 + "5"])
 def test_names_that_read_as_a_word_and_its_number_are_refused(name: str) -> None:
-    bench = Bench(ACR7000)
+    bench = Bench(SUCCESSOR)
     bench.type("DIM P(10)", "DIM DEF(5)")
     assert bench.type(f"#DEFINE {name} P5") == "Illegal name|SYS>"
 
 
 def test_names_with_digits_are_used_listed_and_distinguished_from_numbers() -> None:
-    rig = Bench(ACR7000)
+    rig = Bench(SUCCESSOR)
     rig.type("DIM PROG0(1000)", "DIM P(10)", "DIM DEF(5)", "PROG0")
     rig.type("#DEFINE Part1 P1", "#DEFINE Part1b P2", "#DEFINE Part BIT33")
     rig.type("10 Part1=5:Part1b=Part1*2", "20 SET Part 32", "30 PRINT Part1;Part1b")

@@ -238,7 +238,9 @@ def test_pboot_starts_a_program_at_power_up() -> None:
 
 
 def test_a_plc_reads_names_with_digits() -> None:
-    host = connected("DIM PLC0(500)", "DIM DEF(4)", "#DEFINE Valve1 BIT32", "PLC0", model="ACR7000")
+    model = schema.Card(digits_in_names=True).board
+    host = Host(Controller(model))
+    host.type("DIM PLC0(500)", "DIM DEF(4)", "#DEFINE Valve1 BIT32", "PLC0")
     host.type("#DEFINE Door2 BIT128", "10 LD Door2", "20 OUT Valve1")
     assert host.type("LIST") == "10 LD Door2|20 OUT Valve1|PLC0>"
     host.type("RUN", "SET 128")

@@ -167,9 +167,7 @@ def test_programs_and_lines_of_several_hosts_run_side_by_side_after_a_reboot(axe
     assert float(axes.ask("?P0")) > 20
 
 
-@pytest.mark.parametrize(
-    "model", ["ACR1505", "ACR8020", "ACR7000", "ACR9000", "ACR9030", "ACR9040"]
-)
+@pytest.mark.parametrize("model", ["ACR1505", "ACR8020", "ACR9000", "ACR9030", "ACR9040"])
 def test_every_model_can_be_talked_to(model: str) -> None:
     card = Controller(model)
     assert card.send("?1\r") == "?1\r\n1\r\nSYS>"

@@ -51,7 +51,7 @@ def test_every_wrong_value_of_a_machine_is_reported_with_its_line() -> None:
     ]
     assert found[0] == (
         '3:1: card.model is "ACR90"; it must be one of "ACR1200", "ACR1500", "ACR1505", "ACR2000",'
-        ' "ACR7000", "ACR8000", "ACR8010", "ACR8020", "ACR9000", "ACR9030", "ACR9040"'
+        ' "ACR8000", "ACR8010", "ACR8020", "ACR9000", "ACR9030", "ACR9040"'
     )
     assert found[2] == "5:1: unknown key 'speed' in [card]"
     assert found[5] == "12:3: [axis] lacks the key 'number'"

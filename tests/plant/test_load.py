@@ -17,7 +17,7 @@ MOTOR = "motor = { inertia_kgm2 = 1e-5, torque_nm_per_a = 0.5 }\n"
 FAULTS = {
     "[card]\nmodel = 'ACR90'\n":
         'machine.toml:2:1: card.model is "ACR90"; it must be one of "ACR1200", "ACR1500", '
-        '"ACR1505", "ACR2000", "ACR7000", "ACR8000", "ACR8010", "ACR8020", "ACR9000", "ACR9030", '
+        '"ACR1505", "ACR2000", "ACR8000", "ACR8010", "ACR8020", "ACR9000", "ACR9030", '
         '"ACR9040"',
     "[card]\nperiod_s = 0.5\n":
         "machine.toml:2:1: card.period_s is 0.5; it must be a number from 0.0001 to 0.005",
@@ -27,7 +27,7 @@ FAULTS = {
         "machine.toml:2:1: unknown key 'periode_s' in [card] (did you mean 'period_s'?)",
     "[card]\nxyz = 1\n":
         "machine.toml:2:1: unknown key 'xyz' in [card]"
-        " (known keys: model, period_s, dac_bits, short_override_packets)",
+        " (known keys: model, period_s, dac_bits, short_override_packets, digits_in_names)",
     "card = 1\n": "machine.toml:1:1: card is 1; it must be a table",
     "[[axes]]\n": "machine.toml:1:3: unknown key 'axes' in the file (did you mean 'axis'?)",
     "[axis]\nnumber = 1\n": "machine.toml:1:2: axis is a table; it must be a list of tables",

@@ -92,7 +92,7 @@ class Controller:
         if world is None and project.machine:
             world = load.load_world(project.machine)
         controller = cls(
-            world.card.model if world else DEFAULT_MODEL,
+            world.card.board if world else DEFAULT_MODEL,
             world=world,
             data=data,
             device_folder=project.root,

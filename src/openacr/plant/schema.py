@@ -5,7 +5,7 @@ counted from the machine's own zero), everything about motors and drives is in S
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Annotated
 
@@ -87,6 +87,12 @@ class Card(_Table, frozen=True):
     period_s: Period = 0.0005
     dac_bits: DacBits = 16
     short_override_packets: bool = False  # FOV and ROV packets as in the first edition
+    digits_in_names: bool = False  # names of aliases as in programs for the successors
+
+    @property
+    def board(self) -> Model:
+        """The model, with what the machine says of its language."""
+        return replace(MODELS[self.model], has_digits_in_names=self.digits_in_names)
 
 
 class Motor(_Table, frozen=True):

@@ -6,7 +6,6 @@ from pathlib import Path
 from openacr.basic.memory.storage import Storage
 from openacr.errors import SourceError, UserError
 from openacr.map.memory import Memory
-from openacr.models import MODELS
 from openacr.plant.load import load_world
 from openacr.plant.schema import Card
 from openacr.project import (
@@ -96,7 +95,7 @@ def table_faults(project: Project) -> Iterator[Fault]:
 def _reader(home: Project) -> Reader:
     """A reader for the card of a project."""
     card = _card(home)
-    model = MODELS[card.model]
+    model = card.board
     return Reader(
         room=Room(Storage(Memory(), streams=model.streams)),
         model=model,
