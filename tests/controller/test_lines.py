@@ -5,6 +5,9 @@ import random
 import pytest
 from tests.controller.hosts import Host, at_axes, connected
 
+from openacr.controller import Controller
+from openacr.errors import UserError
+
 
 def test_nothing_is_sent_before_the_host_says_something(host: Host) -> None:
     assert host.after(2000) == ""
@@ -215,3 +218,29 @@ def test_a_number_sign_is_no_object_number(host: Host, line: str) -> None:
     answer = host.type("PROG0", line).removeprefix("P00>")
     assert answer.endswith("|P00>")
     assert answer.count("|") == 1
+
+
+def test_ask_returns_the_whole_of_a_long_list_and_leaves_nothing() -> None:
+    card = Controller()
+    body = "".join(f"PRINT {number}\r" for number in range(230))
+    card.send(f"PROG0\rPROGRAM\r{body}ENDP\r")
+    shown = [*(f" PRINT {number}" for number in range(230)), "ENDP"]
+    assert card.ask("LIST\r").split("\r\n") == ["LIST", "PROGRAM", *shown, "P00>"]
+    assert card.ask("?1\r") == "?1\r\n1\r\nP00>"
+    assert len(card.send("LIST\r").split("\r\n")) == 1 + 20 + 1, "what `send` returns of it"
+
+
+def test_ask_waits_for_every_line_and_for_the_end_of_a_followed_program() -> None:
+    card = Controller()
+    assert card.ask("DWL 0.2\r?1\r") == "DWL 0.2\r\n?1\r\nSYS>1\r\nSYS>"
+    card.send("PROG0\r10 PRINT 7\r20 DWL 0.5\r30 PRINT 8\r")
+    assert card.ask("LRUN\r") == "LRUN\r\n7\r\n8\r\nP00>"
+    assert card.ask("RUN\r") == "RUN\r\nP00>", "RUN does not wait"
+
+
+def test_ask_gives_up_after_its_time_of_the_card() -> None:
+    card = Controller()
+    card.send("PROG0\r")
+    with pytest.raises(UserError, match=r"within 0\.5 s of the card: 'DWL 9"):
+        card.ask("DWL 9\r", timeout_s=0.5)
+    assert card.time_s == pytest.approx(0.5)

@@ -345,10 +345,29 @@ class Controller:
     def send(self, text: str) -> str:
         """Type text on the console and return what the card has answered so far.
 
-        Longer actions need card time (a LIST of more than 50 lines, a wait): call `advance`,
-        then `send("")` for the rest of the answer.
+        Longer actions need card time (a LIST of more than 20 lines, a wait): use `ask`, or call
+        `advance`, then `send("")` for the rest of the answer.
         """
         self.type_lines(self.console, as_typed(text))
+        return self._heard()
+
+    def ask(self, text: str, *, timeout_s: float = 60.0) -> str:
+        """Type text on the console and let time pass until all of it is answered.
+
+        Returns the whole answer, of LRUN up to the end of its program. UserError when `timeout_s`
+        seconds of card time do not suffice; what was heard until then is in its text.
+        """
+        heard = self.send(text)
+        end_tk = self.tick + round(timeout_s / self.period_s)
+        while not self.streams.is_answered(self.console):
+            if self.tick >= end_tk:
+                raise UserError(f"not answered within {timeout_s:g} s of the card: {heard!r}")
+            self.advance(1)
+            heard += self._heard()
+        return heard
+
+    def _heard(self) -> str:
+        """What the console has been sent since it was last read."""
         return b"".join(iter(lambda: self.take_output(self.console), b"")).decode("latin-1")
 
     def press(self, key: ControlKey) -> None:

@@ -203,6 +203,12 @@ class Streams:
         session = self.opened(number).session
         return session is not None and session.busy
 
+    def is_answered(self, number: int) -> bool:
+        """Whether every line of the stream is answered, and the program it follows has ended."""
+        stream = self.opened(number)
+        follows = stream.session is not None and stream.session.until_end
+        return not (self.is_busy(number) or stream.is_overdue or follows)
+
     def session(self, number: int) -> Session | None:
         """The session of a stream."""
         return self.opened(number).session
