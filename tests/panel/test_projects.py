@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from tests.panel.bench import HandStation
 
 from openacr.errors import UserError
 from openacr.map import numbers as n
@@ -166,3 +167,42 @@ def test_a_project_that_is_opened_first_leaves_the_virtual_mill_its_sample_parts
         part.unlink()
     embedded(data).close()
     assert list(shared.iterdir()) == [], "what an operator has deleted stays deleted"
+
+
+def test_an_axis_without_its_drive_is_not_jogged_and_with_it_fast_jog_trips_nothing(
+    tmp_path: Path, open_project: Open
+) -> None:
+    folder = shutil.copytree(EXAMPLES / "gantry", tmp_path / "gantry")
+    hand = HandStation(tmp_path, installation=open_project(folder))
+    text = "the drive of axis X is off: DRIVE ON X switches it on"
+    assert hand.press(1, fast=True)["error"]["text"] == text
+    increment = hand.refused("jog.increment", axis="X", direction=1, preset=1, tick=hand.tick)
+    assert increment["text"] == text
+    assert hand.speeds() == (0.0, 0.0)
+    hand.station.machine.card.command("AXIS0 DRIVE ON")
+    hand.run(0.2)
+    assert hand.press(2, fast=True)["ok"]
+    hand.keep(2, 1.0)
+    assert hand.places()[0] > 1.0
+    assert hand.station.machine.runner.alarms.active == []
+    hand.station.close()
+
+
+def test_an_acknowledged_alarm_that_stays_says_what_ends_its_cause(
+    tmp_path: Path, open_project: Open
+) -> None:
+    folder = shutil.copytree(EXAMPLES / "gantry", tmp_path / "gantry")
+    hand = HandStation(tmp_path, installation=open_project(folder))
+    card = hand.station.machine.card
+    hand.station.machine.runner.jog(lambda jogging: jogging.increment(0, 1, 1, fast=True))
+    hand.until(lambda: hand.state == "ALARM", limit_s=10.0)
+    hand.run(1.0)
+    (left,) = hand.do("alarm.acknowledge")["left"]
+    assert left == (
+        "Excess following error axis X: its drive has to be on (DRIVE ON X);"
+        " REN X takes its position over"
+    )
+    card.command("AXIS0 DRIVE ON")
+    hand.run(0.5)
+    assert hand.do("alarm.acknowledge")["left"] == []
+    hand.station.close()

@@ -1,6 +1,6 @@
 """The options of `openacr tune`, and what they are where they are not given."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 AXES = 16
 AMPLITUDE_CNT = 100.0
 BAND_HZ = (2.0, 60.0)
-SWEEP_S = 1.5
 STEP_S = 0.3  # also of the trial of `apply`
 PHASE_DEG = 55.0
 BY_AMPLITUDE = 0.0  # a bound of four times the amplitude
@@ -97,15 +96,17 @@ class SweptAxis(MovedAxis):
         """The sweep with the bounds that end it; UserError for one that is refused."""
         from openacr.tuning.excitation import Excitation
 
-        return Excitation(
+        sweep = Excitation(
             "sine",
             self.amplitude,
             *self.band,
-            SWEEP_S if self.duration is None else self.duration,
-            self.max_error,
-            self.max_travel,
+            error_cnt=self.max_error,
+            travel_cnt=self.max_travel,
             is_shortened=self.duration is None,
-        ).checked()
+        )
+        if self.duration is not None:
+            sweep = replace(sweep, duration_s=self.duration)
+        return sweep.checked()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,8 +3,6 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from openacr.cli.tune_options import SWEEP_S
-
 if TYPE_CHECKING:
     from openacr.tuning.advice import Advice, Outlook
     from openacr.tuning.filters import Filters
@@ -16,6 +14,8 @@ if TYPE_CHECKING:
 
 def lines(advice: "Advice", *, with_proposal: bool) -> Iterator[str]:
     """The advice as text."""
+    from openacr.tuning.excitation import SWEEP_S
+
     found, measurement = advice.identified, advice.measurement
     motor, volts = found.motor, found.motor.accel_per_volt
     excitation = measurement.excitation

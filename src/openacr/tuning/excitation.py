@@ -32,6 +32,7 @@ RATE_SHARE = 0.4  # of the servo rate: the highest frequency of a cam
 BYTES_PER_POINT = 4
 LEAST_CNT, MOST_CNT = 5.0, 100_000.0
 LEAST_S, MOST_S = 0.2, 10.0
+SWEEP_S = 1.5  # of a sweep, where no time is given and there is room for it
 SHORTER_S = 0.05  # steps in which an excitation is shortened
 ENDS = {
     1: "the following error exceeded {error:g} pulses",
@@ -72,7 +73,7 @@ class Excitation:
     height_cnt: float = 100.0
     low_hz: float = 2.0
     high_hz: float = 60.0
-    duration_s: float = 1.5
+    duration_s: float = SWEEP_S
     error_cnt: float = 0.0  # 0: four times the height
     travel_cnt: float = 0.0  # 0: four times the height
     is_shortened: bool = False

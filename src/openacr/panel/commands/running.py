@@ -6,6 +6,13 @@ from typing import Annotated, Literal
 from msgspec import Meta, field
 
 from openacr.errors import UserError
+from openacr.mill.card.alarms import (
+    DRIVE_FAULT,
+    EMERGENCY_STOP,
+    EXCESS_ERROR,
+    HARDWARE_LIMIT,
+    Alarm,
+)
 from openacr.mill.config.communications import Line
 from openacr.mill.config.dialects import dialect_of
 from openacr.mill.config.folders import folders_of
@@ -23,6 +30,13 @@ from openacr.panel.library import ready
 from openacr.panel.roles import Role
 
 PARTS = ".parts"  # folder of library parts that were made, inside that of programs
+# What ends the cause of an alarm that stays; {} is its axis.
+MENDS = {
+    EMERGENCY_STOP: "release the emergency stop",
+    EXCESS_ERROR: "its drive has to be on (DRIVE ON {0}); REN {0} takes its position over",
+    DRIVE_FAULT: "the drive itself has to be reset",
+    HARDWARE_LIMIT: "it has to leave its limit switch",
+}
 Finite = Annotated[float, Meta(ge=-1e12, le=1e12)]
 
 
@@ -261,5 +275,12 @@ def override(station: Station, order: Order, args: Click) -> None:
 
 @command("alarm.acknowledge", Role.OPERATE)
 def acknowledge(station: Station, order: Order, args: NoArgs) -> dict[str, list[str]]:
-    """Clear the alarms whose cause is gone."""
-    return {"left": [alarm.text for alarm in station.machine.runner.acknowledge()]}
+    """Clear the alarms whose cause is gone; those that stay, with what ends their cause."""
+    left = station.machine.runner.acknowledge()
+    return {"left": [_with_mend(alarm) for alarm in left]}
+
+
+def _with_mend(alarm: Alarm) -> str:
+    """An alarm that stays, and what ends its cause."""
+    mend = MENDS.get(alarm.kind, "")
+    return f"{alarm.text}: {mend.format(alarm.detail)}" if mend else alarm.text

@@ -3,6 +3,8 @@
 import math
 
 from openacr.errors import UserError
+from openacr.map.words import af4
+from openacr.mill.session import MillSession
 from openacr.panel.control.orders import PanelError
 from openacr.panel.control.presses import End, Key, Presses
 from openacr.panel.control.shared import Shared
@@ -45,6 +47,7 @@ class HandMotion:
         if session.runner.jogging.is_active and not self.presses.are_held:
             session.runner.stop()  # an increment is under way, or a jog ramps down
             raise UserError("an axis is still moving: press again when it rests")
+        self._require_drive(session, axis)
         session.runner.controls.press(_holder(key.client), axis, direction, fast=fast)
         self.presses.begin(key, axis, received_s)
 
@@ -72,6 +75,13 @@ class HandMotion:
             shown = "unknown" if age_s is None else f"{1000.0 * age_s:.0f} ms old"
             raise PanelError("stale", f"the positions on this screen are {shown}: nothing moves")
 
+    def _require_drive(self, session: MillSession, axis: int) -> None:
+        """Refuse an axis whose drive the card has switched off: its setpoint alone would move."""
+        (word,) = session.machine.read_rows([af4.word[axis]])
+        if int(word) & af4.DRIVE_I_O_ENABLE and not int(word) & af4.DRIVE_ENABLED:
+            name = session.runner.settings.axis(axis).name
+            raise UserError(f"the drive of axis {name} is off: DRIVE ON {name} switches it on")
+
     def _drop(self, client: int, axis: int) -> None:
         session = self._station.session
         if session is not None:
@@ -91,6 +101,7 @@ class HandMotion:
         if self.presses.are_held:
             self.presses.end_all(End.STOP, "an increment was commanded")
             raise UserError("a key is held: the axes stop, no increment is made")
+        self._require_drive(self._station.machine, axis)
         if preset:
             runner.jog(lambda jogging: jogging.increment(axis, direction, preset, fast=fast))
         else:

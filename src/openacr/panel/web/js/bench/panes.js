@@ -22,6 +22,7 @@ export const PANES = {
   variables: { title: "pane.variables", most: 4, load: modulePane(() => import("./panes/variables.js")) },
   plc: { title: "pane.plc", load: tabPane(async () => (await import("../frame/tab_plc.js")).plcTab) },
   servo: { title: "servo.title", load: screenPane(() => import("../screens/servo.js")) },
+  jog: { title: "jog.title", role: "operate", load: screenPane(() => import("../screens/jog.js")) },
   gain: { title: "pane.gain", role: "service", load: screenPane(() => import("../screens/gain.js")) },
   tune: { title: "pane.tune", role: "service", load: modulePane(() => import("./panes/tune.js")) },
   scope: { title: "scope.title", role: "service", load: modulePane(() => import("./panes/scope.js")) },

@@ -25,7 +25,7 @@ const FRAME = {
   "mode.setup.text": "EINRICHTEN löst die Achsen ihres Programms, ordnet die von AcroMill zu und sendet deren Einstellungen: was dort zugeordnet und eingestellt war, geht verloren. Gespeicherte Programme bleiben.",
   "lamp.moves": "KARTE BEWEGT", "lamp.runs": "KARTE LÄUFT", "lamp.drives": "Antriebe ein: {axes}",
   "prompt.label": "Meldungen der Steuerung und der Programme", "ask.value": "Ein Wert wird verlangt", "ask.answer": "ANTWORTEN", "tool.wanted": "Werkzeug wechseln", "tool.changed": "GEWECHSELT",
-  "alarm.acknowledge": "QUITTIEREN", "alarm.show": "ALARME", "alarm.more": "+{count}", "alarm.count": "Anstehende Alarme: {count}", "alarm.none": "Kein Alarm steht an", "alarm.noprogram": "Kein Programm geladen",
+  "alarm.acknowledge": "QUITTIEREN", "alarm.left": "Die Ursache besteht noch: {what}", "alarm.show": "ALARME", "alarm.more": "+{count}", "alarm.count": "Anstehende Alarme: {count}", "alarm.none": "Kein Alarm steht an", "alarm.noprogram": "Kein Programm geladen",
   "alarm.time": "Zeit", "alarm.code": "Alarm", "alarm.text": "Text",
   "control.title": "Wer die Maschine bedient", "control.you": "Sie bedienen", "control.other": "{name} bedient", "control.free": "Nur Anzeige", "control.has": "bedient",
   "control.text": "Nur ein Bildschirm bewegt die Maschine. STOP wirkt jederzeit von jedem Bildschirm.", "control.take": "ÜBERNEHMEN", "control.ask": "UM BEDIENUNG BITTEN", "control.force": "SOFORT ÜBERNEHMEN", "control.give": "AN {name} GEBEN",
@@ -97,6 +97,7 @@ const SERVICE = {
 
 const ON_CARD = {
   "splitter.label": "Kante zwischen Status- und Anzeigefenster", "message.all": "Alle Meldungen", "message.more": "+{count}",
+  "find.find": "Suchen", "find.by": "Ersetzen durch", "find.next": "WEITER", "find.previous": "ZURÜCK", "find.all": "ALLE", "find.case": "Groß/klein", "find.regexp": "regulärer Ausdruck", "find.word": "ganze Wörter", "find.replace": "ERSETZEN", "find.replaceall": "ALLE ERSETZEN", "find.current": "jetziger Treffer", "find.online": "in Zeile", "find.replaced": "in Zeile $ ersetzt", "find.replacedall": "$ ersetzt", "find.goto": "Zu Zeile", "find.go": "LOS",
   "menu.programs": "PROG/\u200bSPS", "programs.title": "Programme und SPS der Karte", "programs.list": "Programme und SPS", "programs.text": "Text, wie ihn die Karte auflistet", "programs.printed": "Ausgaben des Programms", "programs.read": "LESEN",
   "programs.choose": "Programm wählen", "programs.line": "Zeile {line}", "programs.bytes": "{used} Byte", "programs.differs": "≠ Projekt", "programs.differs.text": "Auf der Karte steht ein anderer Text als im Projekt: er geht mit dem Prozess des Panels verloren, wenn er nicht ins Projekt gespeichert wird (Editor)", "programs.nomemory": "kein Speicher", "programs.run": "START", "programs.halt": "HALT", "programs.pause": "PAUSE", "programs.resume": "WEITER",
   "programs.block": "EINZEL", "programs.step": "SCHRITT", "programs.listen": "MITHÖREN", "programs.edit": "ÄNDERN", "programs.clear": "LÖSCHEN", "programs.send": "SENDEN", "programs.sent": "{name}: {count} {count|Zeile ist|Zeilen sind} auf der Karte gespeichert",

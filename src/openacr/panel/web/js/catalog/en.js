@@ -25,7 +25,7 @@ const FRAME = {
   "mode.setup.text": "SET UP detaches the axes of its program, attaches those of AcroMill, and sends their settings: what was attached and set there is lost. Stored programs stay.",
   "lamp.moves": "CARD MOVES", "lamp.runs": "CARD RUNS", "lamp.drives": "Drives on: {axes}",
   "prompt.label": "Messages of the control and of programs", "ask.value": "A value is asked for", "ask.answer": "ANSWER", "tool.wanted": "Change the tool", "tool.changed": "TOOL CHANGED",
-  "alarm.acknowledge": "ACKNOWLEDGE", "alarm.show": "ALARMS", "alarm.more": "+{count}", "alarm.count": "Active alarms: {count}", "alarm.none": "No alarm is active", "alarm.noprogram": "No program is loaded",
+  "alarm.acknowledge": "ACKNOWLEDGE", "alarm.left": "Its cause is still there: {what}", "alarm.show": "ALARMS", "alarm.more": "+{count}", "alarm.count": "Active alarms: {count}", "alarm.none": "No alarm is active", "alarm.noprogram": "No program is loaded",
   "alarm.time": "Time", "alarm.code": "Alarm", "alarm.text": "Text",
   "control.title": "Who operates the machine", "control.you": "You operate", "control.other": "{name} operates", "control.free": "View only", "control.has": "operates",
   "control.text": "One screen at a time moves the machine. STOP works on every screen at any time.", "control.take": "TAKE CONTROL", "control.ask": "ASK FOR CONTROL", "control.force": "TAKE IT NOW", "control.give": "GIVE TO {name}",
@@ -97,6 +97,7 @@ const SERVICE = {
 
 const ON_CARD = {
   "splitter.label": "Edge between status and display window", "message.all": "All messages", "message.more": "+{count}",
+  "find.find": "Find", "find.by": "Replace by", "find.next": "NEXT", "find.previous": "PREVIOUS", "find.all": "ALL", "find.case": "match case", "find.regexp": "regular expression", "find.word": "whole words", "find.replace": "REPLACE", "find.replaceall": "REPLACE ALL", "find.current": "present match", "find.online": "on line", "find.replaced": "replaced on line $", "find.replacedall": "$ replaced", "find.goto": "Go to line", "find.go": "GO",
   "menu.programs": "PROG/\u200bPLC", "programs.title": "Programs and PLCs of the card", "programs.list": "Programs and PLCs", "programs.text": "Text as the card lists it", "programs.printed": "What the program prints", "programs.read": "READ",
   "programs.choose": "Choose a program", "programs.line": "line {line}", "programs.bytes": "{used} bytes", "programs.differs": "≠ project", "programs.differs.text": "Its text on the card is another one than in the project: it is lost with the process of the panel unless it is saved into the project (Editor)", "programs.nomemory": "no memory", "programs.run": "RUN", "programs.halt": "HALT", "programs.pause": "PAUSE", "programs.resume": "RESUME",
   "programs.block": "BLOCK", "programs.step": "STEP", "programs.listen": "LISTEN", "programs.edit": "EDIT", "programs.clear": "CLEAR", "programs.send": "SEND", "programs.sent": "{name}: {count} {count|line is|lines are} stored on the card",

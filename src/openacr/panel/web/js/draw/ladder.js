@@ -3,7 +3,8 @@ import { h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { svg } from "./svg.js";
 
-const [WIDE, HIGH, MARGIN, TOP] = [86, 62, 14, 8];
+const [WIDE, HIGH, MARGIN, TOP] = [92, 70, 14, 8];
+const [ACROSS, MOST_LINES, LINE] = [16, 2, 11]; // of a name under its symbol: characters, lines, pixels
 const RAIL = 0;
 
 /**
@@ -147,7 +148,24 @@ function textsOf(symbol, nameOf) {
   if (symbol.flag === null || symbol.number !== null) return [];
   const [x, y] = [atColumn(symbol.column) + WIDE / 2, atRow(symbol.row)];
   const name = nameOf(symbol.flag);
-  return [textAt(x, y - 18, symbol.text, "flag"), ...(name ? [textAt(x, y + 27, name.length > 13 ? `${name.slice(0, 12)}\u2026` : name, "small")] : [])];
+  return [textAt(x, y - 18, symbol.text, "flag"), ...linesOf(name).map((line, n) => textAt(x, y + 24 + LINE * n, line, "small"))];
+}
+
+/**
+ * A name in as many lines as there is room for under a symbol.
+ * @param {string} name
+ */
+function linesOf(name) {
+  /** @type {string[]} */
+  const lines = [];
+  for (const word of name.split(/\s+/).filter(Boolean)) {
+    const longer = lines.length ? `${lines[lines.length - 1]} ${word}` : word;
+    if (lines.length && longer.length <= ACROSS) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  const shown = lines.slice(0, MOST_LINES);
+  if (lines.length > MOST_LINES) shown[MOST_LINES - 1] += "\u2026";
+  return shown.map((line) => (line.length > ACROSS ? `${line.slice(0, ACROSS - 1)}\u2026` : line));
 }
 
 /**

@@ -7,7 +7,7 @@ import {
 } from "../../vendor/codemirror.js";
 import { applyEdits, language } from "./language.js";
 import { lineMarks, setLineMarks } from "./line_marks.js";
-import { LOOKS } from "./looks.js";
+import { LOOKS, findTexts } from "./looks.js";
 import { SyncedText, offsetsOf, placeOf } from "./synced.js";
 
 const ABOUT = EditorView.theme({
@@ -36,7 +36,7 @@ export function createControllerEditor(host, { name, setup, text, found, changed
   const state = EditorState.create({ doc: text });
   const synced = new SyncedText(name, setup, state.doc);
   const view = new EditorView({ root, parent: root, state: EditorState.create({ doc: state.doc, extensions: [
-    lineNumbers(), history(), drawSelection(), highlightActiveLine(), highlightActiveLineGutter(), search({ top: true }), LOOKS, ABOUT, tooltips({ position: "absolute" }),
+    lineNumbers(), history(), drawSelection(), highlightActiveLine(), highlightActiveLineGutter(), search({ top: true }), LOOKS, ABOUT, tooltips({ position: "absolute", tooltipSpace: () => host.getBoundingClientRect() }), findTexts(),
     EditorView.updateListener.of((update) => {
       if (update.docChanged) {
         synced.changed(update.changes, update.state.doc);

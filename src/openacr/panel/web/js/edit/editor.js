@@ -6,7 +6,7 @@ import {
   keymap, lineNumbers, lintGutter, linter, search, searchKeymap, syntaxHighlighting, tags,
 } from "../../vendor/codemirror.js";
 import { gcode } from "./gcode.js";
-import { LOOKS } from "./looks.js";
+import { LOOKS, findTexts } from "./looks.js";
 
 const CHECK_MS = 400;
 const MOST_CHECKED = 1 << 20; // characters
@@ -48,7 +48,7 @@ export function createEditor(host, { check, found, changed }) {
     });
   }, { delay: CHECK_MS });
   const extensions = [
-    lineNumbers(), lintGutter(), history(), drawSelection(), highlightActiveLine(), highlightActiveLineGutter(), search({ top: true }), gcode, syntaxHighlighting(COLORS), LOOKS, findings,
+    lineNumbers(), lintGutter(), history(), drawSelection(), highlightActiveLine(), highlightActiveLineGutter(), search({ top: true }), findTexts(), gcode, syntaxHighlighting(COLORS), LOOKS, findings,
     keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap]), readOnly.of(EditorState.readOnly.of(false)), EditorView.updateListener.of((update) => update.docChanged && changed()),
     EditorView.contentAttributes.of({ "aria-label": t("edit.text"), spellcheck: "false", autocapitalize: "characters" }),
   ];

@@ -51,6 +51,14 @@ export function startPrompt() {
     if (lines.length && prompt.value.kind !== "error") prompt.value = { kind: "say", text: "" };
     draw();
   });
+  /** @type {any[]} */
+  let alarms = [];
+  model.alarms.watch(({ active }) => {
+    const gone = alarms.filter((each) => !active.some((other) => other.code === each.code && other.text === each.text));
+    alarms = active;
+    const isOver = (/** @type {any} */ { code, text }) => prompt.value.text.includes(text) || prompt.value.text.includes(`alarm ${code}`);
+    if (prompt.value.kind === "error" && gone.some(isOver)) prompt.set({ kind: "say", text: "" });
+  });
   prompt.watch(draw);
   model.stopped.watch(draw);
 }

@@ -8,6 +8,7 @@ import { Endings } from "../core/signal.js";
 import { t } from "../core/texts.js";
 import { needValues } from "../core/values.js";
 import { drawRung } from "../draw/ladder.js";
+import { fullName } from "./card_value.js";
 
 const COUNT = 8;
 const WIDE = 560; // room for ladder and listing side by side
@@ -51,7 +52,7 @@ export async function plcTab(panel, endings) {
     plc = number;
     keepSetting("plc", String(number));
     choice.value = String(number);
-    const found = await newest(Promise.all([get("card/ladder", { plc }), names])).catch((error) => void refuse(error));
+    const found = await newest(meant(get("card/ladder", { plc }), names)).catch((error) => void refuse(error));
     if (!found) return;
     own.end();
     show(...found);
@@ -87,6 +88,20 @@ export async function plcTab(panel, endings) {
     }));
   }
   await choose(Math.min(COUNT - 1, Math.max(0, plc || 0)));
+}
+
+/**
+ * A ladder with what its flags mean: the names of inputs and outputs, else those of the card.
+ * @param {Promise<{ lines: { number: number, text: string }[], rungs: import("../draw/ladder.js").Rung[], why: string }>} reading
+ * @param {Promise<Map<number, string>>} names
+ * @returns {Promise<[any, Map<number, string>]>}
+ */
+async function meant(reading, names) {
+  const [ladder, named] = await Promise.all([reading, names]);
+  const flags = new Set(ladder.rungs.flatMap((rung) => rung.symbols).filter((symbol) => symbol.number === null).flatMap((symbol) => symbol.flag ?? []).filter((flag) => !named.has(flag)));
+  if (!flags.size) return [ladder, named];
+  const { items } = await get("card/named", { names: [...flags].map((flag) => `BIT${flag}`).join(";") }).catch(() => ({ items: [] }));
+  return [ladder, new Map([...named, ...items.map((/** @type {import("./card_value.js").Item} */ each) => /** @type {[number, string]} */ ([each.number, fullName(each)]))])];
 }
 
 /**

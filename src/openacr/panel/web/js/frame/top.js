@@ -1,5 +1,5 @@
 // The top of the main screen: state, alarms and user messages, who has control, appearance.
-import { give, model, report } from "../core/app.js";
+import { give, model, refuse, report } from "../core/app.js";
 import { byId, fill, h } from "../core/dom.js";
 import { applyTheme, keepSetting, setting } from "../core/settings.js";
 import { LANGUAGES, t, textOr } from "../core/texts.js";
@@ -92,8 +92,14 @@ async function setUp(lacks) {
 function alarmParts([first, ...others]) {
   return [h("span", { ariaHidden: "true" }, "\u26a0"), h("span.text", { title: first.text }, `${first.code} ${first.text}`),
     others.length ? h("span", {}, t("alarm.more", { count: others.length })) : "",
-    h("button.key.bad", { type: "button", onclick: () => give("alarm.acknowledge") }, t("alarm.acknowledge")),
+    h("button.key.bad", { type: "button", onclick: acknowledge }, t("alarm.acknowledge")),
     h("button.key", { type: "button", onclick: () => show("alarms") }, t("alarm.show"))];
+}
+
+/** Acknowledge the alarms; of those that stay, what has to be done is in the prompt line. */
+async function acknowledge() {
+  const answer = await give("alarm.acknowledge");
+  if (answer?.left.length) refuse(t("alarm.left", { what: answer.left.join("; ") }));
 }
 
 /** @param {any} message */

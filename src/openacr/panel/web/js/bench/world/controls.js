@@ -29,10 +29,11 @@ export function inputTable(inputs) {
     const keys = { on: key("on"), off: key("off"), released: key("released") };
     const element = h("div.world-input", { data: { input: String(input) } }, lamp, h("span.number", {}, String(input)), h("span.world-source", { title: what }, what || t("world.by.hand")), state,
       h("span.row", {}, keys.on, keys.off, isDriven ? keys.released : ""));
-    return { input, lamp, state, keys, element };
+    return { input, isDriven, lamp, state, keys, element };
   });
+  const [driven, others] = [rows.filter(({ isDriven }) => isDriven), rows.filter(({ isDriven }) => !isDriven)];
   return {
-    elements: rows.map(({ element }) => element),
+    elements: [...driven.map(({ element }) => element), ...(others.length ? [h("details.world-others", { open: !driven.length }, h("summary.key", {}, t("world.others", { count: others.length })), ...others.map(({ element }) => element))] : [])],
     /** @param {World} world */
     show({ on, forced }) {
       for (const { input, lamp, state, keys, element } of rows) {

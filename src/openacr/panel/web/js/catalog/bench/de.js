@@ -22,7 +22,7 @@ const BENCH = {
 };
 
 const WORLD = {
-  "pane.world": "Welt", "world.label": "Maschine", "world.controls": "Eing\u00e4nge, Fehler und Ger\u00e4te", "world.inputs": "Eing\u00e4nge", "world.faults": "Fehler", "world.devices": "Ger\u00e4te", "world.by.hand": "von Hand geschaltet",
+  "pane.world": "Welt", "world.label": "Maschine", "world.controls": "Eing\u00e4nge, Fehler und Ger\u00e4te", "world.inputs": "Eing\u00e4nge", "world.faults": "Fehler", "world.devices": "Ger\u00e4te", "world.others": "{count} {count|weiterer Eingang|weitere Eingänge}, von Hand geschaltet", "world.by.hand": "von Hand geschaltet",
   "world.input.on": "EIN", "world.input.off": "AUS", "world.input.released": "FREIGEBEN", "world.input.on.of": "Eingang {input} ein", "world.input.off.of": "Eingang {input} aus", "world.input.released.of": "Eingang {input} freigeben",
   "world.forced.on": "ein, erzwungen", "world.forced.off": "aus, erzwungen", "world.fault.axis": "Achse des Fehlers", "world.fault.kind": "Art des Fehlers", "world.fault.cause": "AUSL\u00d6SEN", "world.mend": "BEHEBEN", "world.mend.of": "{name} beheben",
   "world.fault.encoder-lost": "Geberleitung unterbrochen", "world.fault.encoder-noise": "Gebersignale gest\u00f6rt", "world.fault.drive": "Antriebsfehler", "world.fault.motor-cable": "Motorkabel unterbrochen", "world.fault.jam": "blockiert",

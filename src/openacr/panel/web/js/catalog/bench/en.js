@@ -22,7 +22,7 @@ const BENCH = {
 };
 
 const WORLD = {
-  "pane.world": "World", "world.label": "Machine", "world.controls": "Inputs, faults and devices", "world.inputs": "Inputs", "world.faults": "Faults", "world.devices": "Devices", "world.by.hand": "switched by hand",
+  "pane.world": "World", "world.label": "Machine", "world.controls": "Inputs, faults and devices", "world.inputs": "Inputs", "world.faults": "Faults", "world.devices": "Devices", "world.others": "{count} more {count|input|inputs}, switched by hand", "world.by.hand": "switched by hand",
   "world.input.on": "ON", "world.input.off": "OFF", "world.input.released": "RELEASE", "world.input.on.of": "Input {input} on", "world.input.off.of": "Input {input} off", "world.input.released.of": "Release input {input}",
   "world.forced.on": "forced on", "world.forced.off": "forced off", "world.fault.axis": "Axis of the fault", "world.fault.kind": "Kind of the fault", "world.fault.cause": "CAUSE", "world.mend": "MEND", "world.mend.of": "Mend {name}",
   "world.fault.encoder-lost": "encoder line cut", "world.fault.encoder-noise": "encoder signals disturbed", "world.fault.drive": "drive fault", "world.fault.motor-cable": "motor cable cut", "world.fault.jam": "jammed",
