@@ -23,6 +23,7 @@ from openacr.map.numbers import (
     MF1_WORD,
 )
 from openacr.panel.control.history import AWAY, MOST_BRANCHES, STILL, History
+from openacr.panel.control.lanes import MOST_CHANGES, Lanes, _Course
 from openacr.panel.control.scope import Samples
 from openacr.panel.control.station import Station
 from openacr.panel.control.stepping import step_move
@@ -373,6 +374,78 @@ def test_bookmarks_are_set_at_the_tick_in_which_programs_end_and_errors_come(
     assert history(hand).bookmarks.of(0) == marks  # the watchdog has ended without one
 
 
+def lanes(hand: HandStation, branch: int, first: int, last: int) -> dict[tuple[str, int], Any]:
+    found = history(hand).lanes.between(branch, first, last, history(hand).unmarked)
+    return {(each.kind, each.number): each.spans for each in found}
+
+
+def test_lanes_have_the_times_in_which_axes_moved_and_programs_ran(hand: HandStation) -> None:
+    start, tick_s = history(hand).lived_tk, history(hand).period_s
+    hand.run(0.5)
+    assert lanes(hand, 0, 0, history(hand).lived_tk) == {}  # not of the panel's own watchdog
+    begin = history(hand).lived_tk
+    for line in ("10 DWL 0.4", "RUN"):
+        hand.station.machine.card.command(line, program=5)
+    hand.do("jog.increment", axis="Y", direction=1, distance=1.0, tick=hand.tick)
+    hand.until(lambda: not hand.is_busy)
+    end = history(hand).lived_tk
+    hand.run(1.0)
+    found = lanes(hand, 0, start, history(hand).lived_tk)
+    assert sorted(found) == [("axis", 1), ("program", 5)]
+    ((first, last),) = found["axis", 1]
+    look_tk = 0.02 / tick_s
+    assert begin - look_tk <= first <= begin + 4 * look_tk
+    assert end - 4 * look_tk <= last <= end + look_tk
+    ((first, last),) = found["program", 5]
+    assert (last - first) * tick_s == pytest.approx(0.4, abs=0.05)
+    middle = (first + last) // 2
+    assert lanes(hand, 0, middle, middle + 100)["program", 5] == [(middle, middle + 100)]
+    assert lanes(hand, 0, last, history(hand).lived_tk).keys() <= {("axis", 1)}
+    assert lanes(hand, 1, 0, end) == {}
+
+
+def test_a_branch_has_the_lanes_of_what_was_before_it_and_its_own(hand: HandStation) -> None:
+    count(hand)
+    hand.run(0.5)
+    fork = history(hand).lived_tk - 200
+    hand.do("timeline.seek", tick=fork)
+    before = lanes(hand, 0, 0, history(hand).last_tk)["program", 5]
+    hand.do("timeline.run", speed=1.0)  # what is lived through again is not noted twice
+    hand.until(lambda: history(hand).is_still)
+    assert lanes(hand, 0, 0, history(hand).last_tk)["program", 5] == before
+    hand.do("timeline.seek", tick=fork)
+    hand.do("timeline.branch")
+    history(hand).card.send("PROG5\rHALT\r")
+    hand.do("timeline.run", speed=1.0)
+    hand.run(0.5)
+    ((first, last),) = lanes(hand, 1, 0, history(hand).last_tk)["program", 5]
+    assert first == before[0][0]
+    assert fork <= last <= fork + 100
+    hand.do("timeline.switch", number=0)
+    hand.do("timeline.forget", number=1)
+    assert lanes(hand, 1, 0, 1 << 40) == {}
+
+
+def test_spans_that_are_nearer_than_a_thousandth_are_one_and_old_ones_are_forgotten() -> None:
+    host = connected(*X_AND_Y)
+    course = Lanes(host.card)
+    noted = [(100 * k, k % 2, 100 * k + 100) for k in range(1, MOST_CHANGES + 3)]
+    own = course._courses.setdefault(0, _Course())
+    for since, mask, tick in noted[:6]:
+        own.note(since, mask, tick)
+    (lane,) = course.between(0, 0, 99_000)
+    assert lane.spans == [(100, 200), (300, 400), (500, 600)]
+    (lane,) = course.between(0, 0, 100_000)
+    assert lane.spans == [(100, 600)]
+    own.note(900, 1, 1000)  # nothing is known from 700 on
+    (lane,) = course.between(0, 500, 1000)
+    assert lane.spans == [(500, 600), (900, 1000)]
+    for since, mask, tick in noted[10:]:
+        own.note(since, mask, tick)
+    assert len(own.ticks) <= MOST_CHANGES
+    assert own.ticks[-1] == noted[-1][0]
+
+
 def test_a_branch_is_saved_as_a_journal_that_replays_to_equal_digests(
     hand: HandStation, tmp_path: Path
 ) -> None:
@@ -521,6 +594,8 @@ def test_samples_differences_and_a_journal_come_over_http(quiet_panel: Served) -
         for names in ("P1, BIT81", "p1;bit81", " P1 ,; BIT81,"):
             several = get("/samples", branch=0, **{**query, "parameters": names}).json()
             assert (several["names"], len(several["channels"])) == (["P1", "BIT81"], 2)
+        drawn = get("/lanes", branch=0, first=0, last=tick).json()
+        assert drawn == {"lanes": []}
         found = get("/differences", branch=0, other=1, tick=tick).json()
         assert found == {
             "count": 1,

@@ -9,6 +9,7 @@ from openacr.controller import Controller
 from openacr.debugger.breakpoints import MASTERS, kill_watch, running_watch
 from openacr.debugger.calls import PROGRAMS, is_running, name_of
 from openacr.errors import UserError
+from openacr.panel.control.lanes import Lanes
 from openacr.timeline import Bookmark, Bookmarks, Branch, Kind, Timeline
 
 MOST_BYTES = 1 << 27  # of memory, for an hour of a machine that is used and some branches
@@ -26,6 +27,7 @@ class History:
         self.timeline.on_fork = self._forked
         self.most_bytes = most_bytes
         self.bookmarks = Bookmarks()
+        self.lanes = Lanes(card)
         self.names = {0: "first"}
         self.is_still = False
         self.is_away = False  # from its links: none is opened
@@ -84,6 +86,8 @@ class History:
         while self.lived_tk < end_tk:
             if self.timeline.advance(end_tk - self.lived_tk):
                 self._mark_events()
+        if not self.timeline.is_past:
+            self.lanes.look(self.timeline.branch.number)
 
     def pause(self, seconds: float) -> None:
         """Let card time pass [s]; at the end of what has happened it becomes still."""
@@ -135,6 +139,7 @@ class History:
     def _forked(self, parent: Branch, branch: Branch) -> None:
         """Another branch has begun: it shares bookmarks; of too many, the oldest is forgotten."""
         self.bookmarks.fork(parent.number, branch.number, self.lived_tk)
+        self.lanes.fork(parent.number, branch.number, self.lived_tk)
         self.names[branch.number] = f"branch {branch.number}"
         if len(self.timeline.branches) > MOST_BRANCHES:
             others = (each for each in self.timeline.branches if each not in (parent, branch))
@@ -144,4 +149,5 @@ class History:
         """Forget a branch with its bookmarks; UserError for the present one."""
         self.timeline.drop(number)
         self.bookmarks.forget(number)
+        self.lanes.forget(number)
         self.names.pop(number, None)

@@ -12,8 +12,10 @@ from starlette.responses import FileResponse
 from openacr.client.names import named
 from openacr.errors import UserError
 from openacr.map import parameters
+from openacr.mill.config.settings import Settings
 from openacr.panel.control.sampling import row_of, value_in
 from openacr.panel.control.scope import name_of
+from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Call, Query, endpoint
 from openacr.timeline import Course
@@ -34,6 +36,14 @@ class Samples(Query, frozen=True):
     first: Tick
     last: Tick
     count: Annotated[int, Meta(ge=2, le=MOST_SAMPLES)] = 1000
+
+
+class Interval(Query, frozen=True):
+    """An interval of a branch in ticks."""
+
+    branch: Number
+    first: Tick
+    last: Tick
 
 
 class Compared(Query, frozen=True):
@@ -78,6 +88,29 @@ async def samples(call: Call) -> object:
             for each, values in zip(chosen, rows, strict=True)
         ],
     }
+
+
+@endpoint("GET", "/timeline/lanes", query=Interval)
+async def lanes(call: Call) -> object:
+    """When axes moved and programs ran, as spans in ticks; as seen every 20 ms of card time."""
+    query: Interval = call.query
+
+    def look(station: Station) -> list[dict[str, object]]:
+        history = station.times.history
+        names = {each.index: each.name for each in Settings(station.installation.store).axes}
+        found = history.lanes.between(query.branch, query.first, query.last, history.unmarked)
+        return [
+            {
+                "name": names.get(each.number, f"AXIS{each.number}")
+                if each.kind == "axis"
+                else f"PROG{each.number}",
+                "kind": each.kind,
+                "spans": each.spans,
+            }
+            for each in found
+        ]
+
+    return {"lanes": await asyncio.wrap_future(call.panel.control.call(look))}
 
 
 @endpoint("GET", "/timeline/differences", query=Compared)
