@@ -1,9 +1,10 @@
 """The timeline of the workspace: dragged back, on as another branch, STOP while time is still."""
 
+import re
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import BrowserContext, Page, expect
+from playwright.sync_api import BrowserContext, Locator, Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import open_page, until_model
 
@@ -76,6 +77,165 @@ def test_the_moment_is_dragged_back_and_the_machine_operated_from_there_on_anoth
     expect(page.locator("[data-branch='1'] strong")).to_contain_text("branch 1")
     expect(page.locator("#state")).to_contain_text("CARD RUNS")
     assert page.complaints == []  # type: ignore[attr-defined]
+
+
+def pane(page: Page) -> Locator:
+    return page.locator("[data-pane=timeline]")
+
+
+def moment(page: Page) -> int:
+    found: int = page.evaluate(
+        "import('/js/core/app.js').then(({ model }) => model.moment.value.tick)"
+    )
+    return found
+
+
+def go_to(page: Page, text: str) -> None:
+    field = pane(page).get_by_label("Time, s")
+    field.fill(text)
+    field.press("Enter")
+
+
+def test_a_typed_time_is_shown_and_keys_go_by_seconds(page: Page, served: Served) -> None:
+    period_s = served.call(lambda station: station.times.history.period_s)
+    until_model(page, f"model.moment.value.last > {round(4.5 / period_s)}")
+    go_to(page, "2,5")
+    until_model(page, f"model.moment.value.tick === {round(2.5 / period_s)}")
+    assert served.call(lived) == round(2.5 / period_s)
+    for name, seconds in (("+1 s", 3.5), ("\u22121 s", 2.5), ("\u221220 s", 0.0)):
+        pane(page).get_by_role("button", name=name).click()
+        first = served.call(lambda station: station.times.history.timeline.branch.first.tick)
+        tick = max(first, round(seconds / period_s))
+        until_model(page, f"model.moment.value.tick === {tick}")
+    pane(page).get_by_role("button", name="+20 s").click()
+    until_model(page, "model.moment.value.tick === model.moment.value.last")
+
+
+def test_a_time_that_is_not_known_is_refused_with_those_that_are(page: Page) -> None:
+    before = moment(page)
+    prompt = page.locator("#prompt")
+    go_to(page, "99999")
+    expect(prompt).to_have_text(
+        re.compile(r"99999\.0000 s is not known on this branch: from [\d.]+ to [\d.]+ s are")
+    )
+    go_to(page, "soon")
+    expect(prompt).to_contain_text("soon is no time: 885.8 or 14:45.8")
+    assert moment(page) == before
+
+
+def test_a_step_is_a_tick_or_a_line_of_a_program(page: Page, served: Served) -> None:
+    go_to(page, "2")
+    tick = served.call(lambda station: round(2.0 / station.times.history.period_s))
+    until_model(page, f"model.moment.value.tick === {tick}")
+    step = pane(page).get_by_role("button", name="STEP")
+    what = pane(page).get_by_label("What a step is")
+    step.click()
+    until_model(page, f"model.moment.value.tick === {tick + 1}")
+    what.select_option("back")
+    step.click()
+    until_model(page, f"model.moment.value.tick === {tick}")
+    what.select_option("line")
+    pane(page).get_by_label("Number of the program or master").fill("6")
+    step.click()
+    expect(page.locator("#prompt")).to_contain_text("PROG6 does not run")
+    pane(page).get_by_label("Number of the program or master").fill("5")
+    count = served.call(counted)
+    for _ in range(3):  # once round
+        now = served.call(lambda station: station.times.history.timeline.now)
+        step.click()
+        shown = (
+            f"model.moment.value.tick === {now.tick} && model.moment.value.within === {now.within}"
+        )
+        until_model(page, f"!({shown})")
+    assert served.call(counted) == count + 1
+    what.select_option("tick")
+
+
+def test_a_bookmark_is_a_tick_on_the_ruler_and_leads_to_its_moment(
+    page: Page, served: Served
+) -> None:
+    go_to(page, "1.5")
+    tick = served.call(lambda station: round(1.5 / station.times.history.period_s))
+    until_model(page, f"model.moment.value.tick === {tick}")
+    pane(page).get_by_label("Text of a bookmark").fill("before the cut")
+    pane(page).get_by_role("button", name="MARK", exact=True).click()
+    mark = pane(page).get_by_role("button", name="before the cut")
+    expect(mark).to_have_count(2)  # on the ruler and in the list
+    for each in (mark.first, mark.last):
+        go_to(page, "2")
+        until_model(page, f"model.moment.value.tick !== {tick}")
+        each.click()
+        until_model(page, f"model.moment.value.tick === {tick}")
+    assert served.call(lived) == tick
+
+
+def test_programs_have_lanes_a_click_goes_to_its_moment_and_the_wheel_zooms(page: Page) -> None:
+    lane = pane(page).locator("[data-lane=PROG5] .time-span")
+    expect(lane.first).to_be_visible()
+    slider = pane(page).get_by_role("slider", name="Moment")
+    ruler = pane(page).locator(".time-ruler")
+    ruler.scroll_into_view_if_needed()
+    box = ruler.bounding_box()
+    assert box is not None
+    whole = [int(slider.get_attribute(name) or 0) for name in ("min", "max")]
+    x, y = box["x"] + 0.25 * box["width"], box["y"] + 4.0
+    page.mouse.click(x, y)
+    expected = whole[0] + 0.25 * (whole[1] - whole[0])
+    near = 2.0 * (whole[1] - whole[0]) / box["width"]
+    until_model(page, f"Math.abs(model.moment.value.tick - {expected}) < {near}")
+    page.mouse.wheel(0, -100)
+    part = round((whole[1] - whole[0]) / 1.6)
+    expect(slider).not_to_have_attribute("max", str(whole[1]))
+    low, high = (int(slider.get_attribute(name) or 0) for name in ("min", "max"))
+    assert abs(high - low - part) <= 1
+    assert abs(low + 0.25 * part - expected) <= near  # what is below the pointer stays
+    pane(page).get_by_role("button", name="ALL", exact=True).click()
+    expect(slider).to_have_attribute("max", str(whole[1]))
+
+
+def test_a_new_branch_here_keeps_what_followed_on_its_own(page: Page, served: Served) -> None:
+    before = served.call(lambda station: station.times.history.timeline.branch.number)
+    pane(page).get_by_role("button", name="NEW BRANCH HERE").click()
+    until_model(page, "model.timeline.value.branches.length === 3")
+    expect(pane(page).locator("[data-branch='2'] strong")).to_contain_text("branch 2")
+    expect(pane(page).get_by_role("button", name="NEW BRANCH HERE")).to_be_disabled()
+    row = pane(page).locator(f"[data-branch='{before}']")
+    row.get_by_role("button", name="CHANGE TO").click()
+    until_model(page, f"model.timeline.value.branch === {before}")
+    pane(page).locator("[data-branch='2']").get_by_role("button", name="FORGET").click()
+    expect(pane(page).locator("[data-branch='2']")).to_have_count(0)
+    assert page.complaints == []  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize(
+    ("text", "seconds"),
+    [("885.8", 885.8), ("885,8", 885.8), ("14:45.5", 885.5), ("1:00:01", 3601), (" 0 ", 0)],
+)
+def test_times_are_typed_as_seconds_or_with_minutes_and_hours(
+    page: Page, text: str, seconds: float
+) -> None:
+    assert page.evaluate(TIME_VIEW + "secondsOf(text))", text) == seconds
+
+
+@pytest.mark.parametrize("text", ["", "soon", "-1", "1:2:3:4", "1e3", ":5"])
+def test_what_is_no_time_is_none(page: Page, text: str) -> None:
+    assert page.evaluate(TIME_VIEW + "secondsOf(text))", text) is None
+
+
+TIME_VIEW = "(text) => import('/js/bench/time_view.js').then((m) => m."
+
+
+def test_the_shown_part_stays_within_the_history_and_the_ruler_has_round_times(page: Page) -> None:
+    found = page.evaluate("""() => import('/js/bench/time_view.js').then((m) => [
+      m.within([-50, 50], [0, 1000]), m.within([950, 1050], [0, 1000]), m.within([0, 5000], [10, 1000]),
+      m.zoomed([0, 1600], true, 400, [0, 1600]), m.zoomed([0, 1000], false, 1000, [0, 1600]),
+      m.zoomed([100, 120], true, 110, [0, 1600]), m.placeOf(150, [100, 200]),
+      m.rulerOf([0, 2000], 0.0005, 6), m.rulerOf([500, 1500], 0.001, 4), m.rulerOf([7, 7], 1, 4),
+    ])""")  # noqa: E501
+    assert found == [
+        [0, 100], [900, 1000], [10, 1000], [150, 1150], [0, 1600], [100, 120], 50,
+        [0, 0.2, 0.4, 0.6, 0.8, 1], [0.5, 1, 1.5], [],
+    ]  # fmt: skip
 
 
 def compare(page: Page, parameters: str) -> None:

@@ -1,14 +1,19 @@
 // The timeline of a virtual card: time that is still, fast or slow, back, in branches, and two of them compared.
-import { give, model } from "../../core/app.js";
+import { get, latest } from "../../core/api.js";
+import { give, model, refuse } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { plain } from "../../core/format.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
 import { ask } from "../../frame/dialog.js";
 import { compare } from "../compared.js";
+import { createLanes } from "../lanes.js";
+import { secondsOf, within, zoomed } from "../time_view.js";
 
 const SPEEDS = [0.01, 0.1, 0.5, 1, 2, 5, 10, 100, 0]; // 0: as fast as it goes
 const STEPS = ["tick", "back", "line", "move"];
+const JUMPS = [-20, -1, 1, 20]; // s
+const LOOK_MS = 1000; // from one look at the lanes to the next
 const MEGA = 1e6;
 
 /**
@@ -46,7 +51,23 @@ export async function mount(host, { head, kept, keep }) {
     void give("timeline.mark", { text: text.value.trim() }).then((done) => { if (done) text.value = ""; });
   } }, text, h("button.key", { type: "submit" }, t("time.mark")));
   const comparing = compare({ kept, keep, seconds });
-  parts.append(h("div.row", {}, slider, shown), used, marking, marks, h("table.grid", {}, h("thead", {}, h("tr", {}, ...["time.branches", "time.from", "time.to", "time.do"].map((each) => h("th", {}, t(/** @type {any} */ (each)))))), rows), comparing.element);
+  const at = h("input.field.time-at", { ariaLabel: t("time.at"), placeholder: t("time.at"), inputMode: "decimal", autocomplete: "off" });
+  const going = h("form.row.wrap", { onsubmit: (/** @type {Event} */ event) => {
+    event.preventDefault();
+    const seconds = secondsOf(at.value);
+    if (seconds === null) refuse(t("time.at.wrong", { text: at.value }));
+    else void seek(Math.round(seconds / model.timeline.value.period_s));
+  } }, ...JUMPS.map((each) => h("button.key", { type: "button", onclick: () => void jump(each) }, `${each < 0 ? "\u2212" : "+"}${Math.abs(each)} s`)), at, h("button.key", { type: "submit" }, t("time.go")), key("time.whole", () => look(null)), shown);
+  /** The part that is shown; null: all of the branch. @type {import("../time_view.js").Part | null} */
+  let part = null;
+  /** @type {import("../lanes.js").Lane[]} */
+  let lanes = [];
+  const newest = latest();
+  const picture = createLanes({
+    seconds, seek: (tick) => void seek(tick), zoom: (isFiner, tick) => look(zoomed(partNow(), isFiner, tick, whole())),
+    pan: (by) => look(within([partNow()[0] + by, partNow()[1] + by], whole())),
+  });
+  parts.append(h("div.row", {}, slider), picture.element, going, used, marking, marks, h("table.grid", {}, h("thead", {}, h("tr", {}, ...["time.branches", "time.from", "time.to", "time.do"].map((each) => h("th", {}, t(/** @type {any} */ (each)))))), rows), comparing.element);
   host.append(notHere, parts);
 
   let isAsking = false; // a moment is on its way
@@ -62,6 +83,52 @@ export async function mount(host, { head, kept, keep }) {
     }
     isAsking = false;
     draw();
+  }
+
+  /** First and last tick of the branch. @returns {import("../time_view.js").Part} */
+  function whole() {
+    const { branch: present, branches } = model.timeline.value;
+    return [branches.find((each) => each.number === present)?.first ?? 0, model.moment.value.last];
+  }
+
+  function partNow() {
+    return part ? within(part, whole()) : whole();
+  }
+
+  /** @param {import("../time_view.js").Part | null} chosen */
+  function look(chosen) {
+    part = chosen && (chosen[1] - chosen[0] < whole()[1] - whole()[0] ? chosen : null);
+    draw();
+    void readLanes().catch(refuse);
+  }
+
+  async function readLanes() {
+    const { why, branch: present, branches } = model.timeline.value;
+    if (why || !branches.length || !picture.element.offsetParent) return;
+    const [first, last] = partNow();
+    const found = await newest(get("timeline/lanes", { branch: present, first, last }));
+    if (!found) return;
+    lanes = found.lanes;
+    drawLanes();
+  }
+
+  function drawLanes() {
+    const { period_s: period, bookmarks } = model.timeline.value;
+    picture.draw(partNow(), period, lanes, bookmarks);
+    picture.mark(model.moment.value.tick);
+  }
+
+  /** @param {number} tick */
+  async function seek(tick) {
+    const [first, last] = whole();
+    if (tick < first || tick > last) refuse(t("time.unknown", { time: seconds(tick), first: seconds(first), last: seconds(last) }));
+    else await give("timeline.seek", { tick });
+  }
+
+  /** @param {number} by s; it ends at the end of the branch */
+  async function jump(by) {
+    const [first, last] = whole();
+    await seek(Math.max(first, Math.min(last, model.moment.value.tick + Math.round(by / model.timeline.value.period_s))));
   }
 
   /** @param {number} tick */
@@ -83,8 +150,10 @@ export async function mount(host, { head, kept, keep }) {
     branch.disabled = !away || tick >= last;
     setText(used, t("time.memory", { used: plain(bytes / MEGA, 1), most: plain(most / MEGA, 0) }));
     if (isAsking || !own) return;
-    [slider.min, slider.max] = [String(own.first), String(last)];
+    const [from, to] = partNow();
+    [slider.min, slider.max] = [String(from), String(to)];
     slider.value = String(tick);
+    drawLanes();
     showMoment(tick);
   }
 
@@ -109,6 +178,7 @@ export async function mount(host, { head, kept, keep }) {
     if (name) await give("timeline.name", { number: branchOf.number, name });
   }
 
-  endings.add(model.timeline.watch(list), model.moment.watch(draw), () => comparing.end());
+  const timer = setInterval(() => void readLanes().catch(() => {}), LOOK_MS); // a link that is lost says so elsewhere
+  endings.add(model.timeline.watch(list), model.timeline.watch(() => void readLanes().catch(() => {})), model.moment.watch(draw), () => comparing.end(), () => clearInterval(timer));
   return () => endings.end();
 }
