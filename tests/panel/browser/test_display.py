@@ -210,7 +210,12 @@ def messages(page: Page, served: Served, count: int) -> None:
             )
 
     served.call(write)
-    page.wait_for_timeout(300)
+    until(page, lambda: len(served.call(defined)) == count)
+
+
+def defined(station: Station) -> list[str]:
+    """The texts of the messages that the machine shows when their bits are set."""
+    return [each.text for each in station.machine.messages.defined]
 
 
 @pytest.mark.req("MILL-MSG-PLACE")
@@ -252,7 +257,7 @@ def test_the_alarm_screen_lists_alarms_with_time_and_text_and_those_of_the_user(
         )
 
     served.call(write)
-    page.wait_for_timeout(300)
+    until(page, lambda: "Oil is low" in served.call(defined))
     set_bit(served, 163, True)
     expect(rows).to_have_count(1)
     cells = rows.first.locator("td")

@@ -7,18 +7,30 @@ from playwright.sync_api import Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import load_file
 
-# How many pixels of the picture of the material have a colour, and how many are red.
+# How many pixels of the picture of the material have a colour, how many are red, and a sum that no
+# two pictures share.
 PIXELS = """() => {
   const canvas = document.querySelector('#display .picture [data-layer=material]');
   const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-  let [shown, red] = [0, 0];
+  let [shown, red, sum] = [0, 0, 0];
   for (let n = 0; n < data.length; n += 4) {
     if (data[n + 3]) shown += 1;
+    sum = (31 * sum + data[n] + data[n + 3]) | 0;
     if (data[n] > 180 && data[n + 1] < 60 && data[n + 2] < 60) red += 1;
   }
-  return { shown, red, all: data.length / 4 };
+  return { shown, red, sum, all: data.length / 4 };
 }"""
 BAD = "G21 F600\nG10 L12 P1 R4\nD1\nG0 X1 Y1 Z5\nX0 Y0\nG1 Z-6\nX60\nG0 Y40\nZ5\nM2\n"
+
+
+def show_view(page: Page, name: str, holds: str) -> None:
+    """Press the key of a view and wait until it is drawn and something holds of its pixels."""
+    before = page.evaluate(PIXELS)["sum"]
+    page.get_by_role("button", name=name, exact=True).click()
+    page.wait_for_function(
+        f"() => {{ const {{ shown, red, sum }} = ({PIXELS})();"
+        f" return sum !== {before} && {holds}; }}"
+    )
 
 
 def load(page: Page, name: str) -> None:
@@ -40,10 +52,8 @@ def test_the_stock_is_shown_instead_of_the_path_until_its_key_is_pressed_again(
     )
     assert page.evaluate(PIXELS)["red"] == 0
     for view in ("3D", "FRONT", "TOP"):
-        page.get_by_role("button", name=view, exact=True).click()
-        page.wait_for_timeout(300)
+        show_view(page, view, "shown > 1000")
         page.screenshot(path=pictures / f"stock-{view.lower()}.png")
-        assert page.evaluate(PIXELS)["shown"] > 1000, view
     expect(page.locator(".picture [data-layer=strokes]")).to_be_hidden()
     key.click()
     expect(key).to_have_attribute("aria-pressed", "false")
@@ -63,10 +73,8 @@ def test_a_rapid_in_material_is_red_and_its_line_is_named(
     note = page.locator(".stock-note")
     expect(note).to_have_text(re.compile("Rapid in material: line 8"), timeout=60_000)
     page.wait_for_function(f"() => ({PIXELS})().red > 10")
-    page.get_by_role("button", name="3D", exact=True).click()
-    page.wait_for_timeout(300)
+    show_view(page, "3D", "red > 10")
     page.screenshot(path=pictures / "stock-rapid.png")
-    assert page.evaluate(PIXELS)["red"] > 10
     key.click()
 
 
