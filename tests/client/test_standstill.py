@@ -9,7 +9,7 @@ from openacr.controller import Controller
 from openacr.map.rows import axes
 from openacr.protocol.bits import SetBit
 
-JOG_FORWARD, CYCLE_START = 796, 521
+JOG_FORWARD, CYCLE_START, KILL_ALL_MOVES = 796, 521, 522
 MOVES = ("_again", "X20 Y0", "X0 Y10", "GOTO again")
 
 
@@ -208,6 +208,24 @@ def test_a_host_that_begins_again_is_stopped_again(machine: Machine) -> None:
     stop.watch()
     assert stop.found == ["AXIS0 stopped"]
     assert not machine.moves()
+
+
+def test_moves_that_a_host_sends_after_an_end_are_barred(machine: Machine) -> None:
+    machine.typed("X900")
+    machine.controller.advance(seconds=0.3)
+    stop = Standstill(machine.host, ends=True)
+    for _ in range(8):
+        stop.look()
+        machine.controller.advance(seconds=0.05)
+    assert (stop.found, stop.barred) == (["MASTER0 stopped"], set())
+    machine.typed("X0")  # its host goes on
+    stop.watch()
+    assert stop.found == ["MASTER0 stopped and barred (its host sent more moves)"]
+    assert stop.barred == {0}
+    assert machine.controller.bit[KILL_ALL_MOVES]
+    place = machine.setpoints()
+    machine.controller.advance(seconds=0.5)
+    assert machine.setpoints() == place
 
 
 def test_a_master_of_another_host_is_held_but_left_to_it(machine: Machine) -> None:

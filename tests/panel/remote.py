@@ -21,7 +21,9 @@ ME = Person(1, Role.SERVICE, "127.0.0.1")
 class Remote:
     """The station of a card at the end of a link, in its control thread."""
 
-    def __init__(self, address: str, folder: Path, *, is_agreed: bool = True) -> None:
+    def __init__(
+        self, address: str, folder: Path, *, is_agreed: bool = True, is_awaited: bool = True
+    ) -> None:
         (folder / "programs").mkdir(exist_ok=True)
         self.installation = Installation.at(
             address, opened(folder / "sysvar.db"), folder / "programs"
@@ -32,7 +34,9 @@ class Remote:
         self.station.tell = self.events.append
         self.control = ControlThread(self.station)
         self.control.start()
-        self.call(lambda station: station.join(ME))
+        joined = self.control.call(lambda station: station.join(ME))
+        if is_awaited:
+            joined.result(60.0)
 
     def call(self, work: Callable[[Station], Any]) -> Any:
         return self.control.call(work).result(60.0)

@@ -4,7 +4,8 @@ Nothing here knows who commands the motion. A look reads masters, axes and progr
 what is found to move is stopped, and again at the next look if a host or a PLC begins anew.
 Requests go as packets, which no program and no prompt can delay:
 
-    master in motion       feed hold: it ramps down on its path; `ends`: its moves are dropped
+    master in motion       feed hold: it ramps down on its path; `ends`: its moves are dropped,
+                           and where its host sends more, all that follow: the kill stays
     running program        PAUSE before its next statement; `ends`: HALT
     jog                    its request ends, then JOG OFF: it ramps down with JOG DEC
     gear, cam              disengaged; a gear ramps down with GEAR DEC
@@ -81,6 +82,8 @@ class Standstill:
         self._jogged: set[int] = set()  # axes whose jogs were ended before
         self._idle: set[int] = set()  # axes that nothing known moved at the last look
         self._dropped: set[int] = set()  # masters whose moves this stop has killed
+        self._free: set[int] = set()  # those whose next moves may begin
+        self.barred: set[int] = set()  # those whose host has sent more: no moves begin any more
         self.masters: set[int] = set()
         self.programs: set[int] = set()
         self.axes: set[int] = set()
@@ -119,9 +122,14 @@ class Standstill:
         verb = "halted" if self.ends else "paused"
         return [
             *(f"PROG{n} {verb}" for n in sorted(self.programs)),
-            *(f"MASTER{n} {'stopped' if self.ends else 'held'}" for n in sorted(self.masters)),
+            *(f"MASTER{n} {self._done(n)}" for n in sorted(self.masters)),
             *(f"AXIS{n} stopped" for n in sorted(self.axes)),
         ]
+
+    def _done(self, master: int) -> str:
+        if master in self.barred:
+            return "stopped and barred (its host sent more moves)"
+        return "stopped" if self.ends else "held"
 
     def _read(self) -> _Seen:
         values = iter(self.card.read_many(ROWS))
@@ -151,13 +159,17 @@ class Standstill:
     def _of_masters(self, seen: _Seen) -> Iterator[Packet]:
         for n, word in enumerate(seen.masters):
             if n in self._dropped and not word & MOVES:
+                if n in self.barred:
+                    continue  # what its host still sends must not begin
                 self._dropped.discard(n)
+                self._free.add(n)
                 for request in REQUESTS:  # the next moves may begin
                     yield ClearBit(_flag(mf1.word[n], request))
             elif self.ends and n not in self._of_host:
                 if word & MOVES and not word & DROPS:
                     self.masters.add(n)
                     self._dropped.add(n)
+                    self.barred |= {n} & self._free
                     yield SetBit(_flag(mf1.word[n], mf1.STOP_ALL_MOVES_REQUEST))
             elif word & MOVES and not word & (HOLDS | DROPS):
                 self.masters |= {n} - self._of_host
