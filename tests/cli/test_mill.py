@@ -42,11 +42,15 @@ def as_json(*words: str) -> Any:
     return json.loads(result.stdout)
 
 
-def test_numbers_of_a_difference_are_short() -> None:
-    from openacr.cli.mill.run import _numbers
+def test_a_difference_is_shown_in_words_or_short_numbers() -> None:
+    from openacr.cnc.interpreter.replay import Difference
 
-    assert _numbers((0.0, -0.7874015748031497, 12.0)) == "0 -0.7874 12"
-    assert _numbers(3000.0) == "3000"
+    def shown(name: str, value: float | tuple[float, ...]) -> str:
+        return Difference(name, 0.0, 0.0).shown(value)
+
+    assert shown("position", (0.0, -0.7874015748031497, 12.0)) == "0 -0.7874 12"
+    assert (shown("spindle speed", 3000.0), shown("spindle", 4.0)) == ("3000", "counter-clockwise")
+    assert (shown("coolant", 3.0), shown("output 32", 1.0)) == ("mist and flood", "on")
 
 
 def test_check_counts_moves_lengths_and_extents(tmp_path: Path) -> None:
