@@ -66,6 +66,7 @@ COMMANDS: dict[str, Entry | Family] = {
     "configure": Entry("configure", "configure"),
     "list": Entry("check", "list_file"),
     "check": Entry("check", "check_file"),
+    "dxf": Entry("drawing", "convert_drawing"),
     "lsp": Entry("lsp", "lsp"),
     "schema": Entry("explain.schema", "show_schema"),
     "packet": Entry("explain.packet", "explain_packet"),

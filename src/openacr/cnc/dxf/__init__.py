@@ -1,14 +1,15 @@
-"""DXF drawings as part programs: a path that is cut, or holes that are drilled."""
+"""DXF drawings as programs: a path that is cut, holes that are drilled, moves in AcroBASIC."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
-from openacr.cnc.dxf.chains import Joiner, directed
+from openacr.cnc.dxf.chains import Chain, Joiner, directed
 from openacr.cnc.dxf.doubles import without_doubles
+from openacr.cnc.dxf.motion import MotionMachine, motion_program
 from openacr.cnc.dxf.reading import Drawing2D, read
-from openacr.cnc.dxf.routing import Tool, routed
+from openacr.cnc.dxf.routing import CutPath, Tool, routed
 from openacr.cnc.dxf.writing import Numbers, drill_program, nearest_first, path_program
 from openacr.errors import UserError
 from openacr.units import MM_PER_INCH
@@ -58,15 +59,19 @@ class Conversion:
 
 def convert(path: Path, options: Options) -> Conversion:
     """Convert a drawing to a part program; UserError if it has nothing to convert."""
-    drawing = read(
+    drawing = _read(path, options)
+    made = _path if options.pattern is Pattern.PATH else _holes
+    text, summary = made(path, drawing, options)
+    return Conversion(text, drawing.is_metric, tuple(_notes(drawing, options.pattern)), summary)
+
+
+def _read(path: Path, options: Options) -> Drawing2D:
+    return read(
         path,
         layer=options.layer,
         is_metric=options.is_metric,
         chord=lambda is_metric: CHORD_R * _in_unit(options.epsilon, options, is_metric),
     )
-    made = _path if options.pattern is Pattern.PATH else _holes
-    text, summary = made(path, drawing, options)
-    return Conversion(text, drawing.is_metric, tuple(_notes(drawing, options.pattern)), summary)
 
 
 def _in_unit(value: float, options: Options, is_metric: bool) -> float:
@@ -75,7 +80,42 @@ def _in_unit(value: float, options: Options, is_metric: bool) -> float:
     return value * MM_PER_INCH if is_metric else value / MM_PER_INCH
 
 
+def convert_to_moves(path: Path, options: Options, machine: MotionMachine) -> Conversion:
+    """Convert a drawing to an AcroBASIC program; UserError if there is nothing to cut."""
+    drawing = _read(path, options)
+    paths, summary = _paths(path, drawing, options)
+    unit = "mm" if drawing.is_metric else "inch"
+    text = motion_program(
+        [each for each in paths if isinstance(each, Chain)],
+        Numbers(drawing.is_metric),
+        machine,
+        title=f"{_printable(path.name)}: {summary}, in {unit}",
+        straight=STRAIGHT_R * _in_unit(options.epsilon, options, drawing.is_metric),
+    )
+    return Conversion(text, drawing.is_metric, tuple(_notes(drawing, Pattern.PATH)), summary)
+
+
 def _path(path: Path, drawing: Drawing2D, options: Options) -> tuple[str, str]:
+    def unit(value: float) -> float:
+        return _in_unit(value, options, drawing.is_metric)
+
+    paths, summary = _paths(path, drawing, options)
+    text = path_program(
+        paths,
+        Numbers(drawing.is_metric),
+        title=f"{_printable(path.name)}: {summary}",
+        safe_height=unit(options.safe_height),
+        feed=None if options.feed is None else unit(options.feed),
+        cut_z=unit(options.cut_z),
+        straight=STRAIGHT_R * unit(options.epsilon),
+        d_number=options.d_number,
+    )
+    return text, summary
+
+
+def _paths(path: Path, drawing: Drawing2D, options: Options) -> tuple[list[CutPath], str]:
+    """The paths of a drawing in their order, and how many there are in words."""
+
     def unit(value: float) -> float:
         return _in_unit(value, options, drawing.is_metric)
 
@@ -97,17 +137,7 @@ def _path(path: Path, drawing: Drawing2D, options: Options) -> tuple[str, str]:
     summary = (
         f"{counted(len(chains), 'chain')} ({closed} closed) of {counted(len(pieces), 'entity')}"
     )
-    text = path_program(
-        route.paths,
-        Numbers(drawing.is_metric),
-        title=f"{_printable(path.name)}: {summary}",
-        safe_height=unit(options.safe_height),
-        feed=None if options.feed is None else unit(options.feed),
-        cut_z=unit(options.cut_z),
-        straight=STRAIGHT_R * unit(options.epsilon),
-        d_number=options.d_number,
-    )
-    return text, summary
+    return route.paths, summary
 
 
 def _tool(options: Options, unit: Callable[[float], float]) -> Tool | None:

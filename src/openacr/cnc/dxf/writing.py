@@ -56,7 +56,7 @@ def path_program(
         lines.append(numbers.words("F", [feed]))
     for number, path in enumerate(chains, 1):
         chain = path.chain if isinstance(path, Led) else path
-        lines += [f"; chain {number}: {_described(chain, numbers)}", up]
+        lines += [f"; chain {number}: {described(chain, numbers)}", up]
         if isinstance(path, Led):
             lines += _compensated(path, numbers, straight, d_number, down)
         else:
@@ -69,7 +69,8 @@ def _head(title: str, numbers: Numbers) -> list[str]:
     return [f"; {title}", "G90 G17", UNIT_CODES[numbers.is_metric]]
 
 
-def _described(chain: Chain, numbers: Numbers) -> str:
+def described(chain: Chain, numbers: Numbers) -> str:
+    """A chain in words."""
     if chain.is_closed:
         kind = "closed, " + ("counter-clockwise" if chain.area > 0 else "clockwise")
     else:
@@ -92,25 +93,25 @@ def _compensated(
 
 
 def _moves(chain: Chain, numbers: Numbers, straight: float) -> Iterator[str]:
+    for segment in written(chain, numbers, straight):
+        end = numbers.words("XY", segment.end)
+        if segment.centre is None:
+            yield f"G1 {end}"
+        else:
+            code = "G3" if segment.sweep_rad > 0 else "G2"
+            yield f"{code} {end} {numbers.words('IJ', segment.centre)}"
+
+
+def written(chain: Chain, numbers: Numbers, straight: float) -> Iterator[Segment]:
+    """The segments of a chain that are written; arcs flatter than `straight` are lines."""
     here = chain.start
     for segment in chain.segments:
-        block = _block(segment, here, numbers, straight)
-        if block:
-            yield block
-            here = segment.end
-
-
-def _block(segment: Segment, here: Point, numbers: Numbers, straight: float) -> str | None:
-    """The block of a segment; None when it is too short to be written."""
-    is_same = numbers.same(here, segment.end)
-    is_full = segment.centre is not None and abs(segment.sweep_rad) > math.pi
-    if is_same and not is_full:
-        return None  # an arc that ended where it starts would be a full circle
-    end = numbers.words("XY", segment.end)
-    if segment.centre is None or (segment.height < straight and not is_full):
-        return f"G1 {end}"
-    code = "G3" if segment.sweep_rad > 0 else "G2"
-    return f"{code} {end} {numbers.words('IJ', segment.centre)}"
+        is_full = segment.centre is not None and abs(segment.sweep_rad) > math.pi
+        if numbers.same(here, segment.end) and not is_full:
+            continue  # an arc that ended where it starts would be a full circle
+        is_line = segment.centre is None or (segment.height < straight and not is_full)
+        yield Segment(here, segment.end) if is_line else segment
+        here = segment.end
 
 
 def drill_program(
