@@ -10,7 +10,7 @@ from tests.controller.hosts import Host, connected, store
 
 from openacr.controller import Controller
 from openacr.controller.recorder import Recorder
-from openacr.errors import StoreError
+from openacr.errors import StoreError, UserError
 from openacr.project import find_project
 
 SETTINGS = (
@@ -561,3 +561,21 @@ def test_a_card_with_programs_keeps_them_when_a_project_is_loaded(tmp_path: Path
     assert "keeps them" in " ".join(second.nonvolatile.notices)
     assert Host(second).type("PROG0", "LIST") == "P00>10 PRINT 2|P00>"
     second.close()
+
+
+@pytest.mark.parametrize("kind", [str, Path])
+def test_folder_and_machine_are_given_as_text_or_path(
+    tmp_path: Path, kind: type[str] | type[Path]
+) -> None:
+    machine = tmp_path / "machine.toml"
+    machine.write_text("[card]\nperiod_s = 0.001\n")
+    card = Controller(world=kind(machine), data=kind(tmp_path / "data"))
+    assert card.period_s == 0.001
+    assert card.device_folder == tmp_path
+    card.send('IP "192.168.10.47"\rESAVE\r')
+    card.close()
+    again = Controller(data=kind(tmp_path / "data"))
+    assert "192.168.10.47" in again.send("IP\r")
+    again.close()
+    with pytest.raises(UserError, match=r"none\.toml"):
+        Controller(world=kind(tmp_path / "none.toml"))

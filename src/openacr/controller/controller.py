@@ -47,11 +47,26 @@ class Controller:
         self,
         model: str | Model = DEFAULT_MODEL,
         *,
-        world: schema.World | None = None,
-        data: Path | None = None,
-        device_folder: Path | None = None,
+        world: schema.World | str | Path | None = None,
+        data: str | Path | None = None,
+        device_folder: str | Path | None = None,
     ) -> None:
-        parts = self._parts = CardParts(model, world=world, data=data, device_folder=device_folder)
+        """A card that is new, or found in the folder `data`.
+
+        `world` is the machine around it, or its machine.toml, whose folder is then the one of
+        `device_folder`. SourceError for a machine.toml with mistakes, UserError for files that
+        cannot be read.
+        """
+        if isinstance(world, str | Path):
+            device_folder = device_folder or Path(world).parent
+            world = load.load_world(world)
+        device_folder = None if device_folder is None else Path(device_folder)
+        parts = self._parts = CardParts(
+            model,
+            world=world,
+            data=None if data is None else Path(data),
+            device_folder=device_folder,
+        )
         self.device_folder = device_folder  # of Python files with devices of the world
         self.model, self.world, self.card, self.memory = (
             parts.model, parts.world, parts.card, parts.memory
