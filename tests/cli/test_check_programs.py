@@ -390,3 +390,103 @@ def test_a_program_for_which_no_set_up_is_known_has_its_memory(tmp_path: Path) -
     path = tmp_path / "prog9.8k"
     path.write_text("PROGRAM\nP12288=1\nENDP\n")
     assert check(path).exit_code == 0
+
+
+@pytest.mark.parametrize(("line", "hint"), [
+    ("CONFIG ENC8 STEPPER8 NONE NONE", "STEPPER8 for module 0: known are NONE, DAC2,"),
+    ("CONFIG ENC5 DAC4 NONE NONE", "ENC5 for the encoders: known are NONE, ENC2,"),
+    ("CONFIG ENC8 DAC4 DACSTEP2 NONE", "DACSTEP2 for module 1: known are NONE, DAC2,"),
+    ("CONFIG ENC8 DAC4 NONE ADC4", "ADC4 for module 2: known are NONE, ADC8"),
+])  # fmt: skip
+def test_config_words_that_the_card_refuses_are_found(tmp_path: Path, line: str, hint: str) -> None:
+    assert Controller().send(f"{line}\r").endswith("Invalid argument\r\nSYS>")
+    (tmp_path / "setup.8k").write_text(f"{line}\n")
+    shown = check(tmp_path)
+    assert shown.exit_code == 1
+    assert f"setup.8k:1:1: Invalid argument ({hint}" in shown.stdout
+    for right in ("CONFIG ENC2 DACSTEP4 NONE NONE", "CONFIG CLEAR", "CONFIG"):
+        (tmp_path / "setup.8k").write_text(f"{right}\n")
+        assert "Invalid argument" not in check(tmp_path).stdout
+
+
+@pytest.mark.parametrize(("line", "hint"), [
+    ("IF (P0=1) THENP12544=0", "letters without a blank are one word: write THEN P"),
+    ("GOTOP", "letters without a blank are one word: write GOTO P"),
+    ("STARTP", "no command, alias or axis of this program has this name"),
+    ("FSTATT", "did you mean FSTAT?"),
+    ("VELL 5", "did you mean VEL?"),
+])  # fmt: skip
+def test_a_wrong_word_is_hinted_at_where_there_is_one_like_it(
+    tmp_path: Path, line: str, hint: str
+) -> None:
+    (found,) = faults(tmp_path, line)
+    assert f"({hint})" in found
+
+
+def test_digits_end_a_word_and_letters_do_not(tmp_path: Path) -> None:
+    assert faults(tmp_path, "IF (BIT0OR BIT1) THEN P1=2") == []
+
+
+AT_ONCE = "warning: an output right after a move is set when the move begins"
+
+
+@pytest.mark.parametrize(("lines", "places"), [
+    (("X10", "SET 32"), [(3, 1)]),
+    (("X10", "CLR 63"), [(3, 1)]),
+    (("X/10", "BIT34=1"), [(3, 1)]),
+    (("X10 : SET 33", "SET 34"), [(2, 7)]),
+    (("X10", "REM then", "SET 35"), [(4, 1)]),
+    (("X10", "INH -516", "SET 36"), []),
+    (("X10", "P0=1", "SET 37"), []),
+    (("X10", "SET 64"), []),
+    (("X10", "SET 31"), []),
+    (("SET 38", "X10"), []),
+    (("JOG ABS X10", "SET 39"), []),
+])  # fmt: skip
+def test_an_output_right_after_a_move_is_warned_of(
+    tmp_path: Path, lines: tuple[str, ...], places: list[tuple[int, int]]
+) -> None:
+    found = [text for text in faults(tmp_path, *lines) if AT_ONCE in text]
+    assert [text.split(": ")[0] for text in found] == [f"{y}:{x}" for y, x in places]
+
+
+@pytest.mark.parametrize(("programs", "warned"), [
+    ((8, 9), [8]), ((14, 15), [14]), ((8,), []), ((7, 8), []), ((0, 7), []),
+])  # fmt: skip
+@pytest.mark.parametrize("wait", ["DWL 1", "INH 24"])
+def test_a_wait_in_programs_that_share_a_slice_is_warned_of_once(
+    tmp_path: Path, programs: tuple[int, ...], warned: list[int], wait: str
+) -> None:
+    setup = "".join(f"DIM PROG{n}(2000)\n" for n in programs if n > 7)
+    (tmp_path / "setup.8k").write_text(setup)
+    for n in programs:
+        body = f"{wait}\n{wait}\n" if n == programs[0] else "P1=1\n"
+        (tmp_path / f"prog{n}.8k").write_text(f"PROGRAM\n{body}ENDP\n")
+    shown = [line for line in check(tmp_path).stdout.splitlines() if "share a time slice" in line]
+    assert [line.split(":")[0] for line in shown] == [f"{tmp_path}/prog{n}.8k" for n in warned]
+
+
+@pytest.mark.parametrize(("lines", "text"), [
+    (("AXIS0 JOG VEL 35", "AXIS0 JOG DEC 0.1"), "a stop from JOG VEL 35 takes 350 s"),
+    (("AXIS0 JOG DEC 0.5", "AXIS0 JOG VEL 31"), "a stop from JOG VEL 31 takes 62 s"),
+    (("AXIS0 JOG VEL 30", "AXIS0 JOG DEC 0.5"), None),
+    (("AXIS0 JOG VEL 35", "AXIS1 JOG DEC 0.1"), None),
+    (("AXIS0 DZL 0.1",), "DZL is in whole pulses: 0.1 is 0"),
+    (("AXIS1 DZU -2.5",), "DZU is in whole pulses: -2.5 is -2"),
+    (("AXIS0 DZL 3",), None),
+])  # fmt: skip
+def test_settings_that_are_hardly_meant_are_warned_of(
+    tmp_path: Path, lines: tuple[str, ...], text: str | None
+) -> None:
+    (tmp_path / "setup.8k").write_text("".join(f"{line}\n" for line in lines))
+    shown = check(tmp_path)
+    assert shown.exit_code == 0
+    assert ("warning" in shown.stdout) is (text is not None)
+    assert text is None or text in shown.stdout
+
+
+def test_the_axis_of_a_name_and_of_a_number_is_the_same(tmp_path: Path) -> None:
+    found = faults(tmp_path, "JOG VEL X35", "AXIS0 JOG DEC 0.1")
+    assert [text.split(" (")[0] for text in found] == [
+        "3:7: warning: a stop from JOG VEL 35 takes 350 s"
+    ]

@@ -22,6 +22,7 @@ from openacr.messages import (
 )
 
 MOST_NAMES = 5
+NEAR = 0.7  # how like two words are, of 1
 WORDS = 4096  # whose hints are kept: a wrong word comes again and again
 AFTER_A_TARGET = "after a target come other axes, a command or `:`"
 NO_ALIASES = "DIM DEF(n) at SYS, before it, makes space for n aliases; a new card has none"
@@ -39,6 +40,8 @@ def hint_for(
     word = plain(text)[span.column - 1 :][: span.length] if span else first
     if message is UNKNOWN_COMMAND and level is Level.SYS and _belongs_to_language(word, first):
         return "not valid at the system level; `PROG n` goes to a program"
+    if message in _WORDS and (apart := _run_together(word.upper())):
+        return f"letters without a blank are one word: write {apart}"
     if message in _WORDS and (close := _close_word(word, names)):
         return _MEANT.format(close)
     if message in (UNKNOWN_COMMAND, UNDEFINED_SYMBOL) and level is Level.PROG:
@@ -71,7 +74,17 @@ def _close_word(word: str, names: Collection[str]) -> str:
 
 @lru_cache(WORDS)
 def _close_keywords(word: str) -> list[str]:
-    return get_close_matches(word, registry.keywords(), n=1)
+    """The command that is meant: the first letter is seldom the wrong one."""
+    same_first = [known for known in registry.keywords() if known[0] == word[0]]
+    return get_close_matches(word, same_first, n=1, cutoff=NEAR)
+
+
+@lru_cache(WORDS)
+def _run_together(word: str) -> str:
+    """Two words of the language that are written as one, apart."""
+    known = {*registry.keywords(), "P", "BIT"}
+    ends = (end for end in range(len(word) - 1, 1, -1) if word[:end] in known)
+    return next((f"{word[:end]} {word[end:]}" for end in ends if word[end:] in known), "")
 
 
 def _usage(text: str, span: Span, names: Collection[str]) -> str:

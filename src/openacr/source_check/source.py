@@ -22,16 +22,18 @@ from openacr.basic.language.registry import Level
 from openacr.basic.language.scope import Scope, join_names
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.program_store import line_number, opens_capture
+from openacr.basic.memory.setup import wrong_module
 from openacr.basic.vm.outline import Outline, outline
 from openacr.errors import CardError
 from openacr.lang.lexer import Token, TokenKind, tokens
 from openacr.lang.source import Span
-from openacr.messages import NOT_SUPPORTED, UNKNOWN_COMMAND
+from openacr.messages import INVALID_ARGUMENT, NOT_SUPPORTED, UNKNOWN_COMMAND
 from openacr.models import ACR8020, Model
 from openacr.plc.compile import PlcCompileError, compile_plc
 from openacr.plc.reader import read_line
 from openacr.project import PROGRAM_COUNT, Place, SourceFile
 from openacr.source_check import numbers
+from openacr.source_check.advice import NAMED, Advice, after_moves
 from openacr.source_check.cutoffs import Cutoffs, statements
 from openacr.source_check.faults import Fault, place_of
 from openacr.source_check.hints import hint_for
@@ -67,6 +69,7 @@ class Reader:
     room: Room = field(default_factory=Room)
     tables: Tables = field(default_factory=Tables)
     cutoffs: Cutoffs = field(default_factory=Cutoffs)
+    advice: Advice = field(default_factory=Advice)
     texts: dict[tuple[Level, int], Text] = field(default_factory=dict)
     parts: list[Text | Immediate] = field(default_factory=list)  # in the order of a listing
     level: Level = Level.SYS
@@ -100,6 +103,9 @@ class Reader:
             for key in self._begun:
                 self._check(*key)
         for finding in self.cutoffs.findings():
+            self._report(finding)
+        programs = [number for level, number in self.texts if level is Level.PROG]
+        for finding in self.advice.findings(programs):
             self._report(finding)
         self.faults.sort(key=lambda fault: (self._order[fault.path], fault.line, fault.column))
 
@@ -213,6 +219,7 @@ class Reader:
             self.parts.append(Immediate(line, tuple(found)))
         self.sizes.note(self.number, tree.blocks)
         self._judge(line, found, tree.blocks)
+        self._advise(line, self.level, self.number, tree.blocks)
         axes = self._axes()
         for refused in (
             self.room.note(self.level, self.number, tree.blocks),
@@ -265,7 +272,11 @@ class Reader:
                 self._report(finding)
             for finding in undimensioned(text, number, self.sizes, self.aliases):
                 self._report(finding)
+            for finding in after_moves(text.in_order(), self._tree_of):
+                self._report(finding)
             for line in text.in_order():
+                if NAMED.search(line.place.text):
+                    self._advise(line.place, level, number, self._tree_of(line))
                 is_doubtful = numbers.is_doubtful(line.place.text, self.model)
                 if line.outline.is_judged or is_doubtful:
                     self._judge(line.place, line.tokens, self._tree_of(line))
@@ -289,6 +300,11 @@ class Reader:
             self._report(finding)
         self._warn(line, blocks)
 
+    def _advise(self, line: FileLine, level: Level, number: int, blocks: tuple[Block, ...]) -> None:
+        axes = self.axes.get(number, {}) if level is Level.PROG else {}
+        for finding in self.advice.note(line, level, number, blocks, axes):
+            self._report(finding)
+
     @staticmethod
     def _tree_of(line: TextLine) -> tuple[Block, ...]:
         return Parser(list(line.tokens), line.scope).line().blocks
@@ -298,8 +314,11 @@ class Reader:
         for statement in statements(blocks):
             command = statement.command
             warning = EXTENSION_WARNING if command.is_extension else command.lacks
-            if command.name == "CONFIG" and statement.arguments != (None,):
+            if command.name == "CONFIG" and isinstance(statement.arguments[0], tuple):
                 warning = CONFIG_NOTICE
+                if hint := wrong_module(statement.arguments[0]):
+                    self._fault(line, CardError(INVALID_ARGUMENT), hint)
+                    continue
             if warning:
                 span = Span(1, statement.column, len(command.name))
                 hint = TOLERANCE_HINT if command.words == ("LOOK", "TOL") else ""

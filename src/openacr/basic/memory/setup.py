@@ -10,6 +10,15 @@ DEFAULT_CONFIG = ("ENC8", "DAC4", "DAC4", "ADC8")
 _ENCODERS = ("NONE", *(f"ENC{count}" for count in (2, 3, 4, 6, 8, 10)))
 _OUTPUTS = ("NONE", "DAC2", "DAC4", "STEPPER2", "STEPPER4")
 _MODULES = (_ENCODERS, (*_OUTPUTS, "DACSTEP2", "DACSTEP4"), _OUTPUTS, ("NONE", "ADC8"))
+_PLACES = ("the encoders", "module 0", "module 1", "module 2")
+
+
+def wrong_module(modules: tuple[str, ...]) -> str:
+    """The first module that its place does not take, and those it takes; empty if all fit."""
+    for module, allowed, place in zip(modules, _MODULES, _PLACES, strict=True):
+        if module not in allowed:
+            return f"{module} for {place}: known are {', '.join(allowed)}"
+    return ""
 
 
 @dataclass(slots=True)
@@ -23,9 +32,8 @@ class Setup:
 
     def configure(self, modules: tuple[str, ...]) -> None:
         """CONFIG enc mod0 mod1 mod2."""
-        for module, allowed in zip(modules, _MODULES, strict=True):
-            if module not in allowed:
-                raise CardError(INVALID_ARGUMENT)
+        if wrong_module(modules):
+            raise CardError(INVALID_ARGUMENT)
         self.config = modules
 
     def set_address(self, name: str, text: str) -> None:
