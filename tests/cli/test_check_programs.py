@@ -331,7 +331,7 @@ def test_programs_larger_than_their_memory_are_found(tmp_path: Path) -> None:
         hint = f"the text takes {whole} bytes, there is room for {short}"
         assert lines == [f"prog9.8k:5:1: Out of memory ({hint})"]
     (first,) = room(tmp_path, "DIM P(1)", prog9=program)
-    assert first.startswith("prog9.8k:1:1: Out of memory (the text takes")
+    assert first.startswith("prog9.8k:1:1: Out of memory (PROG9 has no memory yet: DIM PROG9(200)")
 
 
 def test_a_text_takes_the_place_of_the_one_before_it(tmp_path: Path) -> None:
@@ -490,3 +490,50 @@ def test_the_axis_of_a_name_and_of_a_number_is_the_same(tmp_path: Path) -> None:
     assert [text.split(" (")[0] for text in found] == [
         "3:7: warning: a stop from JOG VEL 35 takes 350 s"
     ]
+
+
+def test_a_part_of_a_program_gets_one_hint_that_axes_are_not_attached(tmp_path: Path) -> None:
+    path = tmp_path / "part.8k"
+    path.write_text("PROG0\nX10 Y5\nY3\nACC 100\nX/20\n")
+    shown = [line for line in check(path).stdout.splitlines() if "part.8k:" in line]
+    assert len(shown) == 1
+    assert shown[0].startswith(f"{path}:2:1: Unknown command (no axis is attached: ATTACH")
+    path.write_text("X10 Y5\nSP3\nACC 100\n")
+    assert check(path, "--axes", "X,Y,SP").exit_code == 0
+    assert "2:1: Unknown command" in check(path, "--axes", "XY").stdout
+    wrong = check(path, "--axes", "X1")
+    assert wrong.exit_code == 2
+    assert "'1' is no name of an axis" in str(wrong.exception) + wrong.output
+
+
+def test_a_text_without_memory_is_refused_with_its_cure(tmp_path: Path) -> None:
+    path = tmp_path / "prog9.8k"
+    path.write_text("PROGRAM\nSET 128\nENDP\n")
+    text = "prog9.8k:1:1: Out of memory (PROG9 has no memory yet: DIM PROG9("
+    shown = check(tmp_path).stdout
+    assert text in shown
+    cure = shown.split(": DIM ")[1].split(" at SYS")[0]
+    (tmp_path / "setup.8k").write_text(f"DIM {cure}\n")
+    assert "no errors" in check(tmp_path).stdout
+    (tmp_path / "setup.8k").write_text("DIM PROG9(10)\n")
+    assert "there is room for 10)" in check(tmp_path).stdout
+
+
+@pytest.mark.parametrize(("setup", "text"), [
+    ("RUN PROG3", "PROG3 is empty here: nothing is started"),
+    ("PROG3\nRUN", "PROG3 is empty here: nothing is started"),
+    ("LRUN PROG3", "PROG3 is empty here: nothing is started"),
+    ("RUN PLC1", "PLC1 is empty here: nothing is started"),
+    ("RUN ALL", None),
+    ("PROG3\n10 SET 128\nRUN", None),
+    ("PROG3\n10 SET 128\nNEW\nRUN", "PROG3 is empty here: nothing is started"),
+])  # fmt: skip
+def test_a_start_of_an_empty_program_is_warned_of(
+    tmp_path: Path, setup: str, text: str | None
+) -> None:
+    (tmp_path / "setup.8k").write_text(f"{setup}\n")
+    (tmp_path / "prog3.8k").write_text("PROGRAM\nSET 128\nENDP\n")
+    shown = check(tmp_path)
+    assert shown.exit_code == 0
+    assert ("is empty here" in shown.stdout) is (text is not None)
+    assert text is None or f"warning: {text}" in shown.stdout

@@ -457,7 +457,7 @@ def test_a_program_file_alone_has_the_memory_that_the_set_up_gives_it(tmp_path: 
     (tmp_path / "setup.8k").write_text("SYS\nDIM P(1)\n")
     (tmp_path / "prog9.8k").write_text("PROGRAM\nP0=1\nENDP\n")
     found = [(each.line, each.message, each.hint) for each in check(tmp_path / "prog9.8k")]
-    assert found == [(1, "Out of memory", "the text takes 36 bytes, there is room for 0")]
+    assert found == [(1, "Out of memory", "PROG9 has no memory yet: DIM PROG9(100) at SYS")]
 
 
 def test_a_text_with_a_lost_line_is_not_counted(tmp_path: Path) -> None:

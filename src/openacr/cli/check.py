@@ -10,7 +10,7 @@ import typer
 from openacr.cli.live.online import Plc, Program
 from openacr.errors import UserError
 from openacr.lang.characters import readable, shown
-from openacr.project import Place, find_project
+from openacr.project import Place, find_project, place_of
 
 if TYPE_CHECKING:
     from openacr.source_check import Fault
@@ -41,6 +41,9 @@ def check_file(
     file: File,
     program: Program = None,
     plc: Plc = None,
+    axes: Annotated[
+        str, typer.Option(help="Axes of a part of a program without ATTACH: XYZ, or X,Y,SP.")
+    ] = "",
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the errors as a JSON array.")
     ] = False,
@@ -48,12 +51,15 @@ def check_file(
     """Find all errors in a controller file.
 
     A project folder is checked as a whole: machine file, scenario and all controller files.
-    --program and --plc say for which one a file is whose name does not, as for download.
+    --program and --plc say for which one a file is whose name does not, as for download;
+    with --axes it is for a program.
     Exit code 1: there are errors; 2: the input cannot be read at all. Warnings leave it 0.
     """
     from openacr.source_check import check
 
-    faults = check(file, _place(file, program, plc))
+    if axes and program is plc is None and not file.is_dir():
+        program = place_of(file)[1] if place_of(file)[0] is Place.PROGRAM else 0
+    faults = check(file, _place(file, program, plc), axes=_names(axes))
     if as_json:
         records = [asdict(fault) for fault in faults]
         typer.echo(json.dumps(records, indent=2, ensure_ascii=False))
@@ -63,6 +69,14 @@ def check_file(
         typer.echo(f"{file}: no errors")
     if not all(fault.is_warning for fault in faults):
         raise typer.Exit(HAS_ERRORS)
+
+
+def _names(axes: str) -> list[str]:
+    """The names of axes 0, 1 ... as given with --axes; UserError if one is no name."""
+    names = axes.split(",") if "," in axes else list(axes)
+    if wrong := [name for name in names if not name.isalpha()]:
+        raise UserError(f"--axes {axes}: {wrong[0]!r} is no name of an axis; write XYZ or X,Y,SP")
+    return names
 
 
 def _place(file: Path, program: int | None, plc: int | None) -> tuple[Place, int] | None:

@@ -1,6 +1,6 @@
 """Files, texts and projects checked: which card they are for, and what is read before them."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from openacr.basic.memory.storage import Storage
@@ -9,6 +9,7 @@ from openacr.map.memory import Memory
 from openacr.plant.load import load_world
 from openacr.plant.schema import Card
 from openacr.project import (
+    PROGRAM_COUNT,
     Place,
     Project,
     SourceFile,
@@ -29,16 +30,20 @@ _NOTHING: Mapping[Path, bytes] = {}
 
 
 def check(
-    path: Path, at: Level | None = None, unsaved: Mapping[Path, bytes] = _NOTHING
+    path: Path,
+    at: Level | None = None,
+    unsaved: Mapping[Path, bytes] = _NOTHING,
+    axes: Sequence[str] = (),
 ) -> list[Fault]:
     """Every fault of a controller file, or of all files of a project folder.
 
     `at` is the level of a file whose name does not say it, `unsaved` are controller files as an
-    editor holds them. SourceError or UserError where the input cannot be read at all.
+    editor holds them, `axes` the names of axes 0, 1 ... that all programs have without ATTACH.
+    SourceError or UserError where the input cannot be read at all.
     """
     project = find_project(path, unsaved)
     tables = [*table_faults(project), *device_faults(project)]
-    return [*tables, *read(path, project, at, unsaved).faults]
+    return [*tables, *read(path, project, at, unsaved, axes).faults]
 
 
 def check_text(text: str, path: Path, at: Level | None = None) -> list[Fault]:
@@ -59,16 +64,20 @@ def read(
     project: Project,
     at: Level | None = None,
     unsaved: Mapping[Path, bytes] = _NOTHING,
+    axes: Sequence[str] = (),
 ) -> Reader:
     """Read all files of a project; one alone is read after the set-up beside it.
 
-    `at` is the level of a file whose name does not say it.
+    `at` is the level of a file whose name does not say it, `axes` the names of axes 0, 1 ...
     """
     place, number = place_of(file) if at is None else at
     is_all = is_folder(file, unsaved)
     is_whole = is_all or place is Place.SETUP
     home = project if is_whole else _home(file.parent, unsaved, is_needed=at is None)
     reader = _reader(home)
+    if axes:
+        named = {name.upper(): number for number, name in enumerate(axes)}
+        reader.axes = {program: dict(named) for program in range(PROGRAM_COUNT)}
     if is_whole:
         reader.sizes.is_complete = reader.room.is_complete = is_all
         for source in project.sources:

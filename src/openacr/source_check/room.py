@@ -114,6 +114,9 @@ class Room:
             if used + cost > free:
                 whole = sum(map(_bytes, lines))
                 hint = f"the text takes {whole} bytes, there is room for {free}"
+                if not self.storage.size(owner):
+                    name = f"{level.name}{number}"
+                    hint = f"{name} has no memory yet: DIM {name}({_ample(whole)}) at SYS"
                 yield Finding(line.place, CardError(OUT_OF_MEMORY), hint=hint)
                 break
             used += cost
@@ -140,6 +143,11 @@ def _named(target: Any) -> ObjectRef | None:
         return None
     word, number = target[0], literal(target[1])
     return None if number is None else ObjectRef(word, number)
+
+
+def _ample(size: int) -> int:
+    """A size for a text that may grow, in whole hundreds."""
+    return -(-2 * size // 100) * 100
 
 
 def _bytes(line: TextLine) -> int:

@@ -47,6 +47,14 @@ EXTENSION_WARNING = "an extension of openacr: real cards refuse it"
 TOLERANCE_HINT = (
     "it limits corners between straight moves, not the turn of arcs, TARC, SINE and TRJ"
 )
+NOT_ATTACHED = (
+    'no axis is attached: ATTACH MASTER0 : ATTACH SLAVE0 AXIS0 "X" at its program, or --axes X for'
+    " a part of a program; further moves are not listed"
+)
+EMPTY_HINT = (
+    "the card says nothing; files of programs are loaded after setup.8k (PBOOT starts them)"
+)
+_MOVES = re.compile(r"\s*(?:\d+\s+)?[A-Z]\s*[-+/.(\d]", re.IGNORECASE)
 _LEVEL_WORDS = {"SYS": Level.SYS, "PROG": Level.PROG, "PLC": Level.PLC}
 
 
@@ -75,6 +83,7 @@ class Reader:
     level: Level = Level.SYS
     number: int = 0
     is_capturing: bool = False
+    _is_hinted: bool = False  # that axes are not attached
     model: Model = ACR8020  # of the card; this one has the most axes
     _file: FileText = field(default_factory=lambda: FileText("", []))  # being read
     _order: dict[str, int] = field(default_factory=dict)  # of the files
@@ -231,13 +240,26 @@ class Reader:
             for block in tree.blocks:
                 for statement in block:
                     if not isinstance(statement, Move):
-                        self._note(statement)
+                        self._note(line, statement)
         finally:
             self._scope_changed()
         if rest:
             self._immediate(line, rest)
 
-    def _note(self, statement: Statement) -> None:
+    def _needs_text(self, line: FileLine, statement: Statement) -> None:
+        """Warn of a program that is started and has no text so far: nothing runs, silently."""
+        target = statement.arguments[1]
+        if isinstance(target, tuple) and target[0] == "ALL":
+            return
+        for owner in owners(self.level, self.number, target):
+            is_plc = owner >= PROGRAMS
+            key = (Level.PLC, owner - PROGRAMS) if is_plc else (Level.PROG, owner)
+            if key not in self.texts or not self.texts[key].lines:
+                text = f"{key[0].name}{key[1]} is empty here: nothing is started"
+                span = Span(1, statement.column, len(statement.command.name))
+                self._report(Finding(line, None, span, text, EMPTY_HINT))
+
+    def _note(self, line: FileLine, statement: Statement) -> None:
         words, arguments = statement.command.words, statement.arguments
         if words[0] in _LEVEL_WORDS and len(words) == 1:
             self.level = _LEVEL_WORDS[words[0]]
@@ -249,6 +271,8 @@ class Reader:
                 is_plc = owner >= PROGRAMS
                 level = Level.PLC if is_plc else Level.PROG
                 self._forget(level, owner - PROGRAMS if is_plc else owner)
+        elif words in (("RUN",), ("LRUN",)) and self.room.is_complete:
+            self._needs_text(line, statement)
         for item in arguments:
             if isinstance(item, Definition) and item.target is not None:
                 check_name(item.name, has_digits=self.model.has_digits_in_names)
@@ -335,6 +359,10 @@ class Reader:
         names = {*self.axes.get(self.number, ()), *self.aliases}
         if error.message is NOT_SUPPORTED and not hint:
             hint = f"the {self.model.name} has {self.model.lacks}"
+        if error.message is UNKNOWN_COMMAND and not self.axes and _MOVES.match(line.text):
+            if self._is_hinted:
+                return  # one finding says it for all
+            self._is_hinted, hint = True, NOT_ATTACHED
         hint = hint or hint_for(error.message, line.text, span, self.level, names)
         self._add(line, span, error.text, hint, "error")
 
