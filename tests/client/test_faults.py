@@ -98,6 +98,23 @@ def test_reconnecting_is_tried_for_some_time_only() -> None:
     assert card.read(4097) == 0
 
 
+@pytest.mark.parametrize(
+    ("reconnect_s", "cut_s"), [(2.0, 0.7), (2.0, 1.2), (2.0, 1.7), (30.0, 9.0)]
+)
+def test_a_connection_is_back_soon_after_the_link(reconnect_s: float, cut_s: float) -> None:
+    """Within a tenth of the time for which it is tried, and of 2 s at most."""
+    card, link = wrapped(Options(reconnect_s=reconnect_s))
+    begin_s, opens = card.now_s(), link.open
+
+    def opened() -> None:
+        link.is_reachable = card.now_s() - begin_s >= cut_s
+        opens()
+
+    link.breaks_at, link.open = ["write"], opened  # type: ignore[method-assign]
+    assert card.read(4097) == 0
+    assert cut_s <= card.now_s() - begin_s <= cut_s + min(reconnect_s / 10, 2.0) + 0.1
+
+
 def test_a_first_connection_that_fails_is_reported_at_once() -> None:
     card, link = wrapped()
     card.close()

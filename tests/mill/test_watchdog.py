@@ -130,9 +130,9 @@ def test_it_trips_when_the_heartbeat_stays_for_the_link_timeout(
     shop = opened(controller, P250126=timeout_s)
     for _ in range(30):
         shop.step()
-    controller.advance(seconds=timeout_s - 0.6)  # the host counts every half second
+    controller.advance(seconds=timeout_s - 0.01)  # cut off right after half a second without a beat
     assert not controller.bit[247]
-    controller.advance(seconds=0.8)
+    controller.advance(seconds=0.6)
     assert controller.bit[247]
     assert shop.card.command("?$V0", program=7) == [
         f"host silent for {text}: feed hold, spindle, coolant, beam off"

@@ -37,6 +37,7 @@ from openacr.protocol.packets import Packet
 
 QUIET_S = 0.15
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.1, 2.0
+RETRIES = 10  # of a connection that stays broken, at least
 LONGEST_REPLY_BYTES = 1 << 22  # longer than a listing of the entire memory of a card
 
 
@@ -203,6 +204,7 @@ class Talk:
         """Open the link; retry if it has been open before."""
         end_s = self.now_s() + (self.options.reconnect_s if self._was_open else 0.0)
         pause_s = FIRST_PAUSE_S
+        longest_s = min(LONGEST_PAUSE_S, self.options.reconnect_s / RETRIES)
         while True:
             try:
                 yield Open()
@@ -210,7 +212,7 @@ class Talk:
                 if self.now_s() >= end_s:
                     raise
                 yield Pause(pause_s)
-                pause_s = min(2 * pause_s, LONGEST_PAUSE_S)
+                pause_s = min(2 * pause_s, longest_s)
             else:
                 self._is_open = self._was_open = True
                 self.connections += 1

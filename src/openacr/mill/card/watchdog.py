@@ -1,10 +1,11 @@
 """Watchdog: a program on the card that stops the machine when its host is lost.
 
-The host increments a variable of the card. When that has not changed for the link timeout the
-card sets feed hold, stops jogs, and switches spindle, coolant and beam off, repeatedly until
-an acknowledgement clears its flag. A planned path leaves no time for that: it holds the feed at
-the move from which the path can still come to rest on what has arrived of it. It is plain
-AcroBASIC in one of the programs 0 to 7, which have time slices of their own.
+The host increments a variable of the card. When that has not changed for the link timeout and as
+long as it takes between two beats, so that a link may be cut for the link timeout, the card sets
+feed hold, stops jogs, and switches spindle, coolant and beam off, repeatedly until an
+acknowledgement clears its flag. A planned path leaves no time for that: it holds the feed at the
+move from which the path can still come to rest on what has arrived of it. It is plain AcroBASIC in
+one of the programs 0 to 7, which have time slices of their own.
 """
 
 from collections.abc import Iterator
@@ -16,6 +17,7 @@ from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.mill.card.actions import DAC_STRIDE, DAC_VALUE
 from openacr.mill.card.machine_io import MachineIo
+from openacr.mill.card.owner import BEAT_S
 from openacr.mill.config.curves import can_plan
 from openacr.mill.config.settings import NONE
 from openacr.sysvar.tabs import CONTROL
@@ -133,7 +135,7 @@ class Watchdog:
             f"IF (P{HEARTBEAT}<>LV0) THEN GOTO {{first}}",
             f"LV2={clock}-LV1",
             "IF (LV2<0) THEN GOTO {first}",  # the clock has wrapped
-            f"IF (LV2<{round(timeout_s * MS_PER_S)}) THEN GOTO {{wait}}",
+            f"IF (LV2<{round((timeout_s + BEAT_S) * MS_PER_S)}) THEN GOTO {{wait}}",
             f"SET {TRIPPED}",
             f'$V0="host silent for {timeout_s:g} s: feed hold, spindle, coolant, beam off"',
         ]
