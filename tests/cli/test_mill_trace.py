@@ -133,6 +133,7 @@ def test_a_card_at_a_link_is_not_traced(file: str, tmp_path: Path) -> None:
     code, output = mill("run", file, "--host", "localhost:1", "--trace", tmp_path / "t.csv")
     assert code == 2
     assert "--trace: only the virtual machine records the setpoints" in output
+    assert "openacr replay JOURNAL --trace" in output
 
 
 def test_parquet_without_its_package_is_refused(

@@ -47,6 +47,48 @@ def test_check_says_one_line(journal: Path) -> None:
     assert result.output == "1.5 s replayed, 0 entries: 2 digests equal\n"
 
 
+def moved(folder: Path) -> Path:
+    """The journal of a card whose axis X has moved by 0.02 units."""
+    path, program = folder / "m.journal", folder / "move.prg"
+    program.write_text(
+        'PROG0\nATTACH MASTER0\nATTACH SLAVE0 AXIS0 "X"\nPPU X1000\nACC 0 DEC 0 STP 0 VEL 10\n'
+        "10 X.02\n"
+    )
+    assert openacr("run", program, "--for", 0.2, "--journal", path, "--quiet").exit_code == 0
+    return path
+
+
+@pytest.mark.parametrize(("every", "rows"), [((), 400), (("--trace-every", 4), 100)])
+def test_the_motion_in_a_journal_is_written_tick_by_tick(
+    tmp_path: Path, every: tuple[object, ...], rows: int
+) -> None:
+    trace = tmp_path / "t.csv"
+    result = openacr("replay", moved(tmp_path), "--check", "--trace", trace, *every)
+    assert (result.exit_code, result.output.count("digests equal")) == (0, 1)
+    head, *lines = trace.read_text().splitlines()
+    names = head.split(",")
+    assert names[:2] == ["time_s", "axis_0_commanded"]
+    assert len(lines) == rows
+    x = [float(line.split(",")[1]) for line in lines]
+    assert (x[0], x[-1], x == sorted(x)) == (0.0, 0.02, True)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--trace", "t.csv"), "--trace is for one journal: name it"),
+        (("a.journal", "--trace", "t.xls"), "t.xls: traces end in .csv or .parquet"),
+        (("a.journal", "--trace", "no/t.csv"), "there is no folder no"),
+    ],
+)
+def test_a_trace_that_cannot_be_written_is_refused(
+    journal: Path, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...], message: str
+) -> None:
+    monkeypatch.chdir(journal.parent)
+    result = openacr("replay", *words)
+    assert (result.exit_code, message in result.output) == (2, True)
+
+
 def test_the_journal_changes_nothing(blink: Path, journal: Path, tmp_path: Path) -> None:
     summary = tmp_path / "summary.json"
     openacr("run", blink, "--for", 1.5, "--summary", summary, "--quiet")

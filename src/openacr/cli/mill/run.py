@@ -88,8 +88,9 @@ def run_program(
     require_trace(trace, every_s)
     if trace is not None and host is not None:
         raise UserError(
-            "--trace: only the virtual machine records the setpoints of every servo period; "
-            "on a card use SAMP"
+            "--trace: only the virtual machine records the setpoints of every servo period; those"
+            " of a card of `openacr serve` come from its journal (openacr replay JOURNAL --trace),"
+            " on another card use SAMP"
         )
     start = Start(
         line=line,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.errors import UserError
-from openacr.lang.characters import readable
+from openacr.lang.characters import readable, shown
 
 if TYPE_CHECKING:
     from openacr.controller.replay import Replay
@@ -41,12 +41,21 @@ def replay(
     as_json: Annotated[
         bool, typer.Option("--json", help="Of a recording: print the first difference as JSON.")
     ] = False,
+    trace: Annotated[
+        Path | None,
+        typer.Option(help="Of a journal: write the motion of all axes (.csv, .parquet)."),
+    ] = None,
+    trace_every: Annotated[
+        int,
+        typer.Option(metavar="TICKS", min=1, help="Ticks between two rows of the trace."),
+    ] = 1,
 ) -> None:
     """Replay a journal: the same inputs at the same ticks, the same states.
 
     Shows what programs print and, at the end, the state of the card. With --check it only
     says whether every digest of the journal was met again. Without a name it lists the
-    journals that served cards have left.
+    journals that served cards have left. With --trace it writes what the axes did, tick by tick:
+    of a part program that was run on a served card, too.
 
     A recording of `openacr record` is given to a virtual card, and the first answer that differs
     is reported; exit code 1 if there is one.
@@ -55,26 +64,38 @@ def replay(
         raise UserError(f"--until {until:g}: give a number of seconds, 0 or more")
     if journal is None:
         _refuse(RECORDINGS, {"--json": as_json})
+        _refuse("for one journal: name it", {"--trace": trace is not None})
         from openacr.cli.run.journals import listing
 
         typer.echo(listing())
         return
     if _is_recording(journal):
-        _refuse("for journals", {"--until": until is not None, "--check": check})
+        options = {"--until": until is not None, "--check": check, "--trace": trace is not None}
+        _refuse("for journals", options)
         from openacr.cli.run.recorded import replay_recording
 
         replay_recording(journal, project, as_json=as_json)
         return
     _refuse(RECORDINGS, {"--json": as_json})
+    from openacr.cli.run import output
+    from openacr.cli.run.controlled import ControlledMachine
     from openacr.controller.journal import read_journal
     from openacr.controller.replay import Replay
 
+    if trace is not None:
+        output.require_trace(trace)
+        output.require_writable(trace)
     read = read_journal(journal)
     again = Replay(read, project)
     if not check:
         again.card.listen(_show_text)
+    if trace is not None:
+        machine = ControlledMachine(again.card)
+        machine.record(trace_every, keep_peaks=False, watched=())
     started_s = time.perf_counter()
     again.run(until)
+    if trace is not None:
+        output.write_trace(trace, machine.curves(shown(journal.stem)))
     if not check:
         _show_state(again, time.perf_counter() - started_s)
     if not read.is_whole:
