@@ -2,7 +2,9 @@
 
 import re
 import signal
+import socket
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from pathlib import Path
 
 import httpx
@@ -88,3 +90,36 @@ def test_a_card_that_cannot_be_reached_is_said_in_the_terminal(tmp_path: Path) -
         assert process.ended() == 0
     finally:
         process.close()
+
+
+def test_the_panel_ends_in_one_line_while_it_opens_a_card_that_does_not_answer(
+    tmp_path: Path,
+) -> None:
+    with ExitStack() as sockets:
+        server = sockets.enter_context(socket.socket())
+        server.bind(("127.0.0.1", 0))
+        server.listen(0)  # and the queue of its connections is full
+        address, port = server.getsockname()
+        for _ in range(20):
+            caller = sockets.enter_context(socket.socket())
+            caller.setblocking(False)
+            caller.connect_ex((address, port))
+        words = ("--no-browser", "--port", "0", "--store", str(tmp_path / "sysvar.db"))
+        process = Process("panel", f"{address}:{port}", *words, store=tmp_path / "other.db")
+        try:
+            until(lambda: "panel http" in process.text, about="the panel listens")
+            found = re.search(r"panel (http://127\.0\.0\.1:\d+/)", process.text)
+            assert found is not None
+            with ThreadPoolExecutor() as waiting:
+                calls = [
+                    waiting.submit(httpx.get, f"{found[1]}api/{path}", timeout=LIMIT_S)
+                    for path in ("pparm", "card/programs")
+                ]
+                assert httpx.get(f"{found[1]}api/me", timeout=LIMIT_S).status_code == 200
+                process.signal(signal.SIGTERM)
+                assert process.ended() == 0
+                assert {call.result().status_code for call in calls} <= {422, 503}
+            assert "Traceback" not in process.text
+            assert "Exception" not in process.text
+        finally:
+            process.close()

@@ -71,6 +71,7 @@ class Live(Shared):
         self.snapshot = Snapshot(number=0, tick_ms=0.0, read_s=0.0)
         self._kept: dict[int, float] = {}  # settings of motion that are stored at rest
         self._link = ""  # as `on_link` was called last
+        self.is_ending = False  # the panel ends: no card is opened any more
         self.now_s = 0.0  # of the present step or order
         self.stopped_s = 0.0  # when the last stop was received
         self.must_renew = False  # settings were stored that count from the next session
@@ -109,9 +110,10 @@ class Live(Shared):
             self.session = self.installation.open(self.say, self.is_awaited)
         except StopWaitsError:
             self.installation.is_agreed = self.installation.is_virtual
-            self._retry_s = now_s
-            self._note_link(BROKEN_OFF)
-            self._facts.tell()
+            self._retry_s = now_s + RETRY_S
+            if not self.is_ending:
+                self._note_link(BROKEN_OFF)
+                self._facts.tell()
             return
         except (OpenacrError, *LINK_ERRORS) as error:
             self._note_link(_why(error))
@@ -187,7 +189,7 @@ class Live(Shared):
                 self.installation.pace.advance(self.installation.history, now_s)
             self._guarded(lambda: self.stopping.step(now_s))
             self._facts.tell()
-            if now_s >= self._retry_s and not self.stopping.is_watching:
+            if now_s >= self._retry_s and not self.stopping.is_watching and not self.is_ending:
                 self.open(now_s)
             return
         if self.session.runner.is_out_of_reach:

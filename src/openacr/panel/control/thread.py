@@ -35,7 +35,7 @@ class ControlThread:
         self.station = station
         self._clock = clock
         self._orders: Waiting[Order | Work] = Waiting()
-        station.is_awaited = lambda: self._orders.is_urgent or self._is_over.is_set()
+        station.is_awaited = lambda: self._orders.is_urgent or station.is_ending
         self._failure, self._failure_s = "", 0.0  # cause of the last one, and when it was said
         self._is_over = threading.Event()
         self._thread = threading.Thread(target=self._run, name="control", daemon=True)
@@ -75,8 +75,13 @@ class ControlThread:
         self._orders.put(run)
         return future
 
+    def end_soon(self) -> None:
+        """Open no card any more: what waits for the thread is answered before it ends."""
+        self.station.is_ending = True
+
     def stop(self) -> None:
         """Bring the machine to rest and end the thread."""
+        self.end_soon()
         self._is_over.set()
         self._orders.put(lambda: None)
         if self._thread.is_alive():

@@ -1,5 +1,6 @@
 """The table of HTTP calls under `/api`: path, role, what comes in, what goes out."""
 
+import asyncio
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any
@@ -14,7 +15,7 @@ from openacr.client import ConnectionLostError
 from openacr.errors import OpenacrError
 from openacr.panel.control.orders import PanelError, failure
 from openacr.panel.roles import Role
-from openacr.panel.server.panel import Panel
+from openacr.panel.server.panel import ENDS, Panel
 
 MOST_JSON = 4 << 20
 JSON = "application/json"
@@ -130,6 +131,8 @@ def _served(panel: Panel, row: Endpoint) -> Callable[[Request], Awaitable[Respon
                 await _body(request, row.body),
             )
             result = await row.handler(call)
+        except asyncio.CancelledError:  # at its end the server waits for no card
+            return refused(PanelError("busy", ENDS))
         except (OpenacrError, ConnectionLostError) as error:
             return refused(error)
         if isinstance(result, Response):

@@ -23,6 +23,8 @@ from openacr.panel.server.stocks import Stocks
 from openacr.panel.wire.hub import Hub
 from openacr.panel.work.pool import Pool
 
+ENDS = "the server ends"
+
 
 class Connected(Protocol):
     """A browser that is connected."""
@@ -113,11 +115,12 @@ class Panel:
 
     async def end(self) -> None:
         """Say goodbye to all browsers, and end what is computed for them."""
+        self.control.end_soon()
         self._end_work()
-        self.hub.broadcast({"event": "bye", "text": "the server ends"})
+        self.hub.broadcast({"event": "bye", "text": ENDS})
         await asyncio.sleep(0.05)
         for connection in list(self.connections):
-            connection.drop(1012, "the server ends")
+            connection.drop(1012, ENDS)
 
 
 def require_password(panel: Panel, address: str, *, is_loopback: bool) -> None:
