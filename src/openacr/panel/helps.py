@@ -113,8 +113,10 @@ HELPS: dict[str, tuple[str, str]] = {
         " it on the card and compares the listing. What the card refuses leaves the former text."
         " ESAVE keeps programs without power. CLEAR erases the lines. Programs that this machine"
         " needs, one that runs, and all of them while the machine moves cannot be changed.\n\n"
-        "STOP pauses a program that was started here. A program of the card knows no limits and"
-        " overrides of this machine: only service personnel should start one.\n\nThe tab PLC draws"
+        "STOP pauses programs of the card, also those that no screen has started. They know no"
+        " limits and overrides of this machine: only service personnel should start one. PROG0 and"
+        " its axes are taken from AcroMill where it is started or changed here: SET UP at the top"
+        " gives them back.\n\nThe tab PLC draws"
         " a PLC as a ladder. Closed contacts and outputs that are set are filled; wires that carry"
         " power are thick. The flags are read ten times a second: a pulse of one scan is not seen.",
     ),
