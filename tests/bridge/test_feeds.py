@@ -228,3 +228,13 @@ def test_a_thousand_values_wait_to_be_written_and_no_more() -> None:
     feed.stop()
     with pytest.raises(OpenacrError, match="the bridge ends"):
         waiting[-1].result(0)
+
+
+def test_a_card_that_acromill_has_not_set_up_has_no_values(quiet_panel: Served) -> None:
+    feed = StationFeed(quiet_panel.panel.control)
+    quiet_panel.step(0.1)
+    assert values(feed)["available"] is True
+    quiet_panel.station.hand_over("PROG0 is an ordinary program of the card now")
+    quiet_panel.step(0.1)
+    assert feed.newest().lost == "PROG0 is an ordinary program of the card now"
+    assert values(feed)["line"] is None

@@ -85,6 +85,8 @@ class StationFeed:
         station, run = self._station, self._station.snapshot
         if station.session is None or not run.number:
             return station.lost or "the machine is being opened"
+        if station.installation.lacks:  # a card that AcroMill has not set up has no positions
+            return station.installation.lacks
         age_s = self._control.now_s() - run.read_s
         return f"the last reading is {age_s:.1f} s old" if age_s > STALE_S else ""
 
