@@ -440,7 +440,14 @@ def test_spans_that_are_nearer_than_a_thousandth_are_one_and_old_ones_are_forgot
     own.note(900, 1, 1000)  # nothing is known from 700 on
     (lane,) = course.between(0, 500, 1000)
     assert lane.spans == [(500, 600), (900, 1000)]
-    for since, mask, tick in noted[10:]:
+    own.note(1000, 1, 1100)
+    assert own.ticks[-2:] == [600, 900]  # only changes are kept
+    (lane,) = course.between(0, 500, 2000)
+    assert lane.spans == [(500, 600), (900, 1100)]  # nothing is known from 1100 on
+    assert course.between(0, 1100, 2000) == []
+    shared = own.until(300)
+    assert (shared.ticks, shared.masks, shared.end) == ([100, 200], [1, 0], 300)
+    for since, mask, tick in noted[11:]:
         own.note(since, mask, tick)
     assert len(own.ticks) <= MOST_CHANGES
     assert own.ticks[-1] == noted[-1][0]

@@ -66,11 +66,11 @@ class Lanes:
         """Note what has moved since the last look, and what runs; where it is time for it."""
         tick = self._card.lived_tk
         before, since, places = self._seen
-        if before == branch and 0 <= tick - since < self._every_tk:
+        if before == branch and tick - since < self._every_tk:
             return
         setpoints = self._setpoints()
         self._seen = branch, tick, setpoints
-        if before != branch or tick < since:
+        if before != branch:
             return
         mask = 0
         for axis in AXES:
