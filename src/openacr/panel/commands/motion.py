@@ -175,6 +175,12 @@ def zero_clear(station: Station, order: Order, args: NoArgs) -> dict[str, dict[s
     return _position(station, clear_all(station.machine))
 
 
+@command("zero.blocks", Role.VIEW, needs_control=False)
+def zero_blocks(station: Station, order: Order, args: OfAxes) -> dict[str, list[str]]:
+    """The blocks of GOTO ZERO in the order they would be run; nothing moves."""
+    return {"blocks": goto_blocks(station.machine, indices(station, args.axes))}
+
+
 @command("zero.goto", is_motion=True)
 def zero_goto(station: Station, order: Order, args: OfAxes) -> None:
     """GOTO ZERO: rapids to the floating zero, Z first where that is upward, else last."""

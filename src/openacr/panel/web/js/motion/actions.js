@@ -50,7 +50,10 @@ export const ACTIONS = {
     if (!mayMove()) return;
     const status = model.status.value;
     const places = model.axes.map((axis, n) => `${axis.name} ${position((status?.work[n] ?? Number.NaN) * viewOf(axis).factor, viewOf(axis).decimals).trim()}`);
-    const text = t("gotozero.text", { places: places.join("   ") });
+    const planned = await give("zero.blocks", { axes: "" });
+    if (!planned) return;
+    const steps = planned.blocks.map((/** @type {string} */ block) => block.replace("G90 G0 ", "")).join(t("gotozero.then"));
+    const text = t("gotozero.text", { places: places.join("   "), steps, work: model.modals.value.work });
     if (await confirm(t("gotozero.title"), text, t("menu.gotozero"))) await give("zero.goto", { axes: "" });
   },
   exit,
