@@ -6,7 +6,14 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import begin_run, give, load_file, to_main_menu, until_model
+from tests.panel.browser.conftest import (
+    READY,
+    begin_run,
+    give,
+    load_file,
+    to_main_menu,
+    until_model,
+)
 
 from openacr.sysvar.tabs import AXIS
 
@@ -290,3 +297,35 @@ def test_every_configured_axis_has_a_plus_and_a_minus_key(page: Page, served: Se
 def test_the_browser_has_nothing_to_complain_about(page: Page) -> None:
     complaints: list[str] = page.complaints  # type: ignore[attr-defined]
     assert [each for each in complaints if "Applying inline style" not in each] == []
+
+
+def test_goto_zero_says_where_the_axes_go_and_in_which_order(placed: Page, served: Served) -> None:
+    page = placed
+    for z, order in ((-5.0, "Z0, then X0 Y0"), (5.0, "X0 Y0, then Z0")):
+        give(page, "zero.preset", values={"X": 1.5, "Y": -2.0, "Z": z})
+        reads(page, 1.5, -2.0, z)
+        to_main_menu(page)
+        page.keyboard.press("F7")
+        page.keyboard.press("F8")
+        dialog = page.get_by_role("dialog", name="Go to zero")
+        expect(dialog).to_contain_text(
+            f"Rapids to program zero (G54 with the floating zero): {order}. From: X 1.5"
+        )
+        page.keyboard.press("Escape")
+    assert served.call(lambda station: station.machine.runner.is_busy) is False
+
+
+def test_steps_of_a_homing_that_is_over_are_not_shown_after_a_reload_either(
+    page: Page, served: Served
+) -> None:
+    give(page, "home.start", axes="Z")
+    until_model(page, "model.state.value.state === 'HOMING'")
+    until_model(page, "model.says.value.at(-1)?.homing")
+    until_model(page, "model.state.value.state === 'IDLE'")
+    expect(page.locator("#prompt")).to_have_text("")
+    page.reload()
+    page.wait_for_function(READY)
+    until_model(page, "model.says.value.at(-1)?.homing")
+    expect(page.locator("#prompt")).to_have_text("")
+    served.call(lambda station: station.say("printed"))
+    expect(page.locator("#prompt")).to_have_text("printed")

@@ -338,7 +338,8 @@ class Live(Shared):
 
     def say(self, text: str) -> None:
         """A line of the machine or of a program, for the print window."""
-        event = {"text": text, "at_s": round(self._tick_ms / 1000.0, 3)}
+        is_homing = self.session is not None and self.session.runner.state is State.HOMING
+        event = {"text": text, "at_s": round(self._tick_ms / 1000.0, 3), "homing": is_homing}
         self.said.append(event)
         self.tell({"event": "say", **event})
 

@@ -43,7 +43,7 @@ export class Model {
     this.mdi = new Signal(/** @type {{ buffer: string[], on: boolean, running: boolean, queue: string[] }} */ ({ buffer: [], on: true, running: false, queue: [] }));
     this.timeline = new Signal(/** @type {Times} */ ({ why: "", period_s: 0, still: false, away: false, speed: 1, branch: 0, most_bytes: 0, branches: [], bookmarks: [] }));
     this.moment = new Signal(/** @type {{ tick: number, within: number, last: number, bytes: number }} */ ({ tick: 0, within: 0, last: 0, bytes: 0 }));
-    this.says = new Signal(/** @type {{ text: string, at_s: number }[]} */ ([]));
+    this.says = new Signal(/** @type {{ text: string, at_s: number, homing: boolean }[]} */ ([]));
     this.changed = new Signal(/** @type {{ what: string, cells: number[] }} */ ({ what: "", cells: [] }));
     this.jogEnded = new Signal(/** @type {{ press: number, ended: string, text: string } | null} */ (null));
     this.term = new Signal(/** @type {{ terminal: number, text: string } | null} */ (null));

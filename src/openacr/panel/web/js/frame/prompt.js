@@ -8,12 +8,11 @@ import { askNumber } from "./number_pad.js";
 export function startPrompt() {
   const line = byId("prompt");
   line.ariaLabel = t("prompt.label");
-  let [before, over] = ["", /** @type {object | undefined} */ (undefined)];
   const draw = () => {
-    const { asking, tool_wanted: toolWanted, reason } = model.state.value;
+    const { state, asking, tool_wanted: toolWanted, reason } = model.state.value;
     const { found, holds, moving, next } = model.stopped.value;
     const last = model.says.value.at(-1);
-    const said = last === over ? "" : last?.text ?? "";
+    const said = !last || (last.homing && state !== "HOMING") ? "" : last.text; // no step of a homing that is over
     if (moving.length) {
       const key = h("button.key.danger", { type: "button", onclick: () => give(next) }, t(next === "stop.all" ? "stopped.all" : "stopped.estop"));
       show("error", t("stopped.moving", { axes: moving.join(" ") }), key);
@@ -42,11 +41,7 @@ export function startPrompt() {
     fill(line, h("span.text", { title: text }, kind === "error" ? `\u26a0 ${text}` : text), key);
     return true;
   }
-  model.state.watch(({ state }) => {
-    if (before === "HOMING" && state !== before) over = model.says.value.at(-1); // steps of a homing that is over
-    before = state;
-    draw();
-  });
+  model.state.watch(draw);
   model.says.watch((lines) => {
     if (lines.length && prompt.value.kind !== "error") prompt.value = { kind: "say", text: "" };
     draw();
