@@ -8,9 +8,10 @@ from tests.panel.bench import HandStation
 from openacr.cnc.loading.load import load
 from openacr.mill.session import Start
 from openacr.panel.control.people import Person
+from openacr.panel.control.snapshot import Light
 from openacr.panel.roles import Role
 from openacr.panel.work.paths import read_file
-from openacr.sysvar.tabs import CONTROL, FOV, ROV
+from openacr.sysvar.tabs import CONTROL, FOV, ROV, SPINDLE
 
 SQUARE = "G21 G90 G54\nG0 X10 Y10 Z60\nG1 X20 F1200\nY20\nM0\nX10\nY10\nM2\n"
 
@@ -564,3 +565,37 @@ def test_a_block_that_was_begun_and_then_stopped_stays_in_the_mdi_buffer(hand: H
     hand.until(lambda: not hand.is_busy)
     hand.run(0.1)
     assert hand.do("mdi.buffer")["lines"] == ["G21 G90 G54 G1 X100 F600"]
+
+
+def test_the_virtual_mill_has_a_spindle_that_turns_both_ways_and_the_screens_show_it(
+    hand: HandStation,
+) -> None:
+    read = hand.installation.store.read
+    wired = [int(read(cell)) for cell in (SPINDLE.cw_output, SPINDLE.ccw_output)]
+    for block, state, outputs, rpm in (
+        ("M3 S1200", 3, [True, False], 1200.0),
+        ("M4", 4, [False, True], 1200.0),
+        ("M5", 5, [False, False], 0.0),
+    ):
+        hand.do("mdi.execute", line=block)
+        hand.run(0.5)
+        assert [hand.station.machine.card.read_bit(output) for output in wired] == outputs
+        snapshot = hand.station.snapshot
+        assert (snapshot.spindle_rpm, bool(snapshot.lights & Light.SPINDLE)) == (rpm, rpm > 0.0)
+        assert hand.events("modals")[-1]["spindle"] == state
+    loaded(hand, "G21 G90\nM3 S100\nG4 P1\nM5\nM2\n")
+    assert [each["code"] for each in hand.station.part.required.findings()] == []
+
+
+def test_the_screens_show_mist_and_flood_as_they_are_switched(hand: HandStation) -> None:
+    for block, mist, flood in (
+        ("M8", False, True),
+        ("M7", True, True),
+        ("M9", False, False),
+        ("M7", True, False),
+    ):
+        hand.do("mdi.execute", line=block)
+        hand.run(0.5)
+        lights = hand.station.snapshot.lights
+        assert (bool(lights & Light.MIST), bool(lights & Light.FLOOD)) == (mist, flood), block
+        assert hand.events("modals")[-1]["coolant"] == mist + 2 * flood

@@ -5,12 +5,11 @@ from typing import Any
 from openacr.cnc.canonical import Spin
 from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.mill.session import MillSession
-from openacr.sysvar.tabs import CELLS
 
 
 def modals(session: MillSession, run: Interpreter) -> dict[str, Any]:
     """Codes and words in force in the block that is read."""
-    modal, read = run.modal, session.cells.read
+    modal, actions = run.modal, session.runner.entry_actions
     return {
         "codes": modal.codes,
         "F": modal.feed,
@@ -18,8 +17,8 @@ def modals(session: MillSession, run: Interpreter) -> dict[str, Any]:
         "T": modal.tool,
         "D": modal.radius_number,
         "H": modal.length_number,
-        "spindle": int(read(CELLS.spindle_state)),
-        "coolant": int(read(CELLS.coolant_state)),
+        "spindle": actions.spindle.state,
+        "coolant": actions.coolant.has_mist + 2 * actions.coolant.has_flood,
         "is_spinning": modal.spin is not Spin.OFF,
         "work": modal.work_code,
     }

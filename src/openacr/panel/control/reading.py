@@ -4,6 +4,7 @@ from collections.abc import Callable
 from math import nan
 
 from openacr.cnc.canonical import Point
+from openacr.mill.card.actions import OFF
 from openacr.mill.config.overrides import Override
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
@@ -54,7 +55,7 @@ class Reading:
             tool=int(cells.read(CELLS.tool_in_spindle)),
             feed_upm=self.work.run.modal.feed,
             speed_upm=place.speed_upm,
-            spindle_rpm=cells.read(CELLS.spindle_speed) if self._spins else 0.0,
+            spindle_rpm=runner.entry_actions.spindle.rpm if self._spins else 0.0,
             feed_percent=PERCENT * runner.overrides.factor(Override.FEED),
             rapid_percent=PERCENT * runner.overrides.factor(Override.RAPID),
             spindle_percent=PERCENT * runner.overrides.factor(Override.SPINDLE),
@@ -71,12 +72,12 @@ class Reading:
 
     @property
     def _spins(self) -> bool:
-        return self._session.cells.read(CELLS.spindle_state) != 5.0
+        return self._session.runner.entry_actions.spindle.state != OFF
 
     def _lights(self, place: Place) -> int:
-        runner, cells = self._session.runner, self._session.cells
+        runner = self._session.runner
         options, host = runner.options, runner.stream.host
-        coolant = int(cells.read(CELLS.coolant_state))
+        coolant = runner.entry_actions.coolant
         lit = {
             Light.BUSY: runner.is_busy,
             Light.MOVING: place.is_moving,
@@ -86,8 +87,8 @@ class Reading:
             Light.SKIP: host.is_block_skip_on(),
             Light.OPTIONAL: options.stops_optionally,
             Light.SPINDLE: self._spins,
-            Light.FLOOD: bool(coolant & 2),
-            Light.MIST: bool(coolant & 1),
+            Light.FLOOD: coolant.has_flood,
+            Light.MIST: coolant.has_mist,
             Light.TOOL: runner.entry_actions.changer.wants_confirmation,
             Light.QUESTION: runner.asking is not None,
             Light.HELD: runner.state is State.PAUSED and not place.is_moving,
