@@ -27,7 +27,7 @@ const FRAME = {
   "prompt.label": "Meldungen der Steuerung und der Programme", "ask.value": "Ein Wert wird verlangt", "ask.answer": "ANTWORTEN", "tool.wanted": "Werkzeug wechseln", "tool.changed": "GEWECHSELT",
   "alarm.acknowledge": "QUITTIEREN", "alarm.left": "Die Ursache besteht noch: {what}", "alarm.show": "ALARME", "alarm.more": "+{count}", "alarm.count": "Anstehende Alarme: {count}", "alarm.none": "Kein Alarm steht an", "alarm.noprogram": "Kein Programm geladen",
   "alarm.time": "Zeit", "alarm.code": "Alarm", "alarm.text": "Text",
-  "control.title": "Wer die Maschine bedient", "control.you": "Sie bedienen", "control.other": "{name} bedient", "control.free": "Nur Anzeige", "control.has": "bedient",
+  "control.title": "Wer die Maschine bedient", "control.you": "Sie bedienen", "control.other": "{name} bedient", "control.free": "Nur Anzeige", "control.first": "Erste Taste übernimmt", "control.has": "bedient",
   "control.text": "Nur ein Bildschirm bewegt die Maschine. STOP wirkt jederzeit von jedem Bildschirm.", "control.take": "ÜBERNEHMEN", "control.ask": "UM BEDIENUNG BITTEN", "control.force": "SOFORT ÜBERNEHMEN", "control.give": "AN {name} GEBEN",
   "control.release": "ABGEBEN", "settings.title": "Darstellung", "settings.bench": "Arbeitsplatz des Ingenieurs", "settings.operator": "Arbeitsplatz des Bedieners", "settings.theme": "Farben", "settings.language": "Sprache", "theme.auto": "wie das System", "theme.light": "hell", "theme.dark": "dunkel",
   "role.view": "Zuschauer", "role.operate": "Bediener", "role.setup": "Einrichter", "role.service": "Service", "role.needed": "Dafür ist die Rolle {role} nötig: anmelden",

@@ -27,7 +27,7 @@ const FRAME = {
   "prompt.label": "Messages of the control and of programs", "ask.value": "A value is asked for", "ask.answer": "ANSWER", "tool.wanted": "Change the tool", "tool.changed": "TOOL CHANGED",
   "alarm.acknowledge": "ACKNOWLEDGE", "alarm.left": "Its cause is still there: {what}", "alarm.show": "ALARMS", "alarm.more": "+{count}", "alarm.count": "Active alarms: {count}", "alarm.none": "No alarm is active", "alarm.noprogram": "No program is loaded",
   "alarm.time": "Time", "alarm.code": "Alarm", "alarm.text": "Text",
-  "control.title": "Who operates the machine", "control.you": "You operate", "control.other": "{name} operates", "control.free": "View only", "control.has": "operates",
+  "control.title": "Who operates the machine", "control.you": "You operate", "control.other": "{name} operates", "control.free": "View only", "control.first": "First key takes control", "control.has": "operates",
   "control.text": "One screen at a time moves the machine. STOP works on every screen at any time.", "control.take": "TAKE CONTROL", "control.ask": "ASK FOR CONTROL", "control.force": "TAKE IT NOW", "control.give": "GIVE TO {name}",
   "control.release": "GIVE UP CONTROL", "settings.title": "Appearance", "settings.bench": "Workspace of the engineer", "settings.operator": "Workspace of the operator", "settings.theme": "Colours", "settings.language": "Language", "theme.auto": "as the system", "theme.light": "light", "theme.dark": "dark",
   "role.view": "viewer", "role.operate": "operator", "role.setup": "set-up", "role.service": "service", "role.needed": "This needs the role {role}: log in",

@@ -117,7 +117,7 @@ function showMessages() {
 
 function drawTools() {
   const { holder, you, asking } = model.control.value;
-  const label = you ? t("control.you") : holder ? t("control.other", { name: holder.name || holder.client }) : t("control.free");
+  const label = you ? t("control.you") : holder ? t("control.other", { name: holder.name || holder.client }) : t(model.may("operate") ? "control.first" : "control.free");
   fill(byId("tools"),
     h("button.key", { type: "button", onclick: askControl, className: asking?.length ? "key danger" : "key", title: t("control.title") },
       h("span", { ariaHidden: "true" }, you ? "\u25cf" : "\u25cb"), label),
