@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 from openacr.cli.main import app
 from openacr.errors import UserError
 from openacr.panel.roles import Role
+from openacr.panel.server import delays
 from openacr.panel.server.accounts import Accounts, file_of
 from openacr.panel.server.panel import require_password
 from openacr.sysvar import Store, password
@@ -105,7 +106,10 @@ def test_a_log_in_gives_its_role_and_no_more(panel: Served) -> None:
         assert web.get("/api/forms").status_code == 401
 
 
-def test_wrong_passwords_make_the_next_try_wait(panel: Served) -> None:
+def test_wrong_passwords_make_the_next_try_wait(
+    panel: Served, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(delays, "FIRST_DELAY_S", delays.LONGEST_DELAY_S)  # longer than the test
     with guarded(panel) as web:
         wrong = {"role": "service", "password": "secret operate"}
         codes = [web.post("/api/login", json=wrong).status_code for _ in range(4)]
