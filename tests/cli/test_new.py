@@ -62,7 +62,7 @@ def test_questions_take_defaults_and_ask_again_after_a_wrong_answer() -> None:
     assert result.exit_code == 0, result.output
     assert "--axes: X is there twice" in result.stderr
     assert "--travel: 1 mm; give 20 to 10000 mm" in result.stderr
-    assert "--travel: 'far' is no number" in result.stderr
+    assert "--travel far: give a number, with or without a unit" in result.stderr
     machine = Path("mine/machine.toml").read_text()
     assert "travel = [-12.5, 312.5]" in machine and "positive_limit" not in machine
     assert "MSEEK" in Path("mine/prog0.8k").read_text()  # the homing of a gantry by default
@@ -164,3 +164,22 @@ def test_the_words_of_an_option_are_completed() -> None:
 def test_a_folder_with_a_space_is_shown_in_quotes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(wording, "WINDOWS", False)
     assert new("my mill").stderr == "run it: openacr run 'my mill'\n"
+
+
+def test_a_travel_is_written_with_any_unit_of_its_kind(tmp_path: Path) -> None:
+    def made(*options: str) -> Result:
+        words = ["new", str(tmp_path / "m"), "--no-ask", "--json", *options]
+        return CliRunner().invoke(app, words)
+
+    assert json.loads(made("--travel", "10cm").stdout)["travel"] == 100
+    refused = made("--travel", "10s")
+    assert refused.exit_code == 2
+    refused = CliRunner().invoke(
+        app, ["new", str(tmp_path / "n"), "--no-ask", "--units", "in", "--travel", "10s"]
+    )
+    assert refused.stderr == (
+        "error: --travel 10s: give a number, with or without a unit"
+        " (um, mm, cm, m, in, inch), such as 8 or 5cm\n"
+    )
+    two = ["new", str(tmp_path / "o"), "--no-ask", "--json", "--units", "in", "--travel", "25.4cm"]
+    assert json.loads(CliRunner().invoke(app, two).stdout)["travel"] == pytest.approx(10)

@@ -20,6 +20,7 @@ from openacr.cli.run.command import MOST_S, limit_s
 from openacr.errors import SourceError
 from openacr.map import numbers as at
 from openacr.messages import DIVIDE_BY_ZERO
+from openacr.units import quantity
 
 Run = Callable[..., Result]
 
@@ -365,13 +366,13 @@ def test_a_picture_alone_is_recorded_sparsely_with_its_peaks(
     assert (machine.recorded_every_tk, machine.keeps_peaks) == (1, False)
 
 
-@pytest.mark.parametrize("seconds", ["0", "1e300", "10000001", "nan", "inf"])
+@pytest.mark.parametrize("seconds", ["0", "1e300", "10000001", "1e9h"])
 def test_a_run_lasts_more_than_nothing_and_at_most_ten_million_seconds(
     run: Run, seconds: str
 ) -> None:
     refused = run("--for", seconds)
     assert refused.exit_code == 2
-    number = f"{float(seconds):g}"
+    number = f"{quantity(seconds, 's'):g}"
     text = f"--for {number}: give a number of seconds above 0, at most 10000000"
     assert text in " ".join(refused.stderr.split())
 
@@ -399,3 +400,30 @@ def test_a_run_without_a_machine_names_the_switches_that_stop_it(tmp_path: Path)
     (tmp_path / "machine.toml").write_text("")
     stderr = CliRunner().invoke(app, ["run", str(tmp_path), "--for", "0.1"]).stderr
     assert "no machine.toml" not in stderr
+
+
+def test_the_limit_of_a_run_is_a_time_with_or_without_a_unit() -> None:
+    def lived(text: str) -> Result:
+        return CliRunner().invoke(app, ["run", str(GANTRY), "--for", text, "--json"])
+
+    assert json.loads(lived("250ms").stdout)["time_s"] == 0.25
+    refused = lived("ten")
+    assert refused.exit_code == 2
+    assert refused.stderr == (
+        "error: --for ten: give a number, with or without a unit"
+        " (us, ms, s, sec, min, h), such as 90 or 10min\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"), [('"ten"', '"ten"'), ("0", "0"), ("1.1e7", "11000000.0"), ("true", "true")]
+)
+def test_a_duration_that_is_none_is_named_with_unit_and_range(
+    tmp_path: Path, value: str, shown: str
+) -> None:
+    (tmp_path / "s.toml").write_text(f"duration_s = {value}\n")
+    command = ["run", str(GANTRY), "--scenario", str(tmp_path / "s.toml")]
+    assert CliRunner().invoke(app, command).stderr == (
+        f"error: {tmp_path}/s.toml:1:1: duration_s is {shown};"
+        " it must be a number above 0 to 1e+07 (seconds)\n"
+    )

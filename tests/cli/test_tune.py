@@ -251,3 +251,11 @@ def test_a_sweep_is_as_long_as_a_program_has_room_for_and_worse_steps_are_said()
     ]
     code, text, problems = called("measure", gantry, 0, "--time", "1.5")
     assert (code, "less time (0.55 s fit), or DIM PROG" in problems) == (2, True)
+
+
+def test_an_axis_is_named_by_its_number_or_as_programs_call_it(project: Path) -> None:
+    code, text, _ = called("step", project, "x", "--json")
+    assert (code, json.loads(text)["axis"]) == (0, 0)
+    code, text, problems = called("step", project, "Y")
+    assert (code, problems) == (2, "error: AXIS Y: give a number from 0 to 15 or X\n")
+    assert called("step", project, "16")[2] == "error: AXIS 16: give a number from 0 to 15 or X\n"

@@ -1,5 +1,6 @@
 """The debugger as editors use it: a process that speaks the protocol."""
 
+import re
 import socket
 import subprocess
 import sys
@@ -132,7 +133,7 @@ def test_a_wrong_request_is_answered_with_a_sentence_and_ends_nothing(begun: Cli
     for command, arguments, text in (
         ("fly", {}, "fly: this debugger has no such request"),
         ("stackTrace", {}, "missing required field `threadId`"),
-        ("stackTrace", {"threadId": 99}, "Expected `int` <= 24"),
+        ("stackTrace", {"threadId": 99}, "threadId is 99; it must be a whole number from 1 to 24"),
         ("variables", {"variablesReference": 77}, "these values are of an earlier stop"),
         ("next", {"threadId": 2}, "PROG1 does not run"),
         ("evaluate", {"expression": "LV9"}, r"\?LV9: Undefined variable"),
@@ -262,14 +263,14 @@ def test_a_journal_is_debugged_after_the_fact(client: Client, tmp_path: Path) ->
         ({"program": ""}, "give either `program`"),
         ({"program": "/nowhere"}, "no such file or folder"),
         ({"journal": "x", "program": ""}, "x cannot be read"),
-        ({"speed": -1}, "Expected `float` >= 0"),
-        ({"run": [16]}, "Expected `int` <= 15"),
+        ({"speed": -1}, "speed is -1; it must be a number from 0 to 1e+06"),
+        ({"run": [16]}, "run[0] is 16; it must be a whole number from 0 to 15"),
     ],
 )
 def test_a_launch_that_cannot_be_is_refused(
     client: Client, tmp_path: Path, arguments: dict[str, object], text: str
 ) -> None:
-    with pytest.raises(RefusedError, match=text):
+    with pytest.raises(RefusedError, match=re.escape(text)):
         client.launch(write(tmp_path), **arguments)
     with pytest.raises(RefusedError, match="no card is debugged yet"):
         client.ask("threads")

@@ -378,10 +378,10 @@ def test_a_step_skipped_over_its_moment_is_made_up_for() -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("duration_s = 'x'", "s.toml:1:1: duration_s: expected `float`, got `str`"),
+        ("duration_s = 'x'", 's.toml:1:1: duration_s is "x"; it must be a number above 0'),
         (
             "duration_s = 0\n",
-            "s.toml:1:1: duration_s: expected `float` > 0.0",
+            "s.toml:1:1: duration_s is 0; it must be a number above 0",
         ),
         (
             "[[at]]\ntime_s = 1\nsets = [1]",

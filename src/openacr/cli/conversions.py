@@ -8,10 +8,15 @@ import os
 from pathlib import Path
 from typing import Any
 
+from openacr.errors import UserError
+from openacr.units import quantity
+
 # Rules of typer for a text or a path. With any of them the conversion is left to it.
 RULES = (
     "parser", "click_type", "exists", "resolve_path", "writable", "path_type", "allow_dash",
 )  # fmt: skip
+EXAMPLES = {"s": "90 or 10min", "mm": "200 or 5cm", "in": "8 or 5cm", "deg": "360 or 2rev",
+            "rev": "40 or 720deg"}  # fmt: skip
 CONVERSION = "_runtime_param"  # the attribute of a parameter that typer converts by, if it is set
 
 
@@ -43,3 +48,11 @@ def quick(parameters: list[Any]) -> list[Any]:
         if getattr(parameter, CONVERSION, "") is None:
             setattr(parameter, CONVERSION, Quick(parameter))
     return parameters
+
+
+def given_quantity(option: str, text: str, unit: str) -> float:
+    """The value of an option with a unit, such as `--for 10min`, in `unit`; UserError."""
+    try:
+        return quantity(text, unit)
+    except ValueError as error:
+        raise UserError(f"{option} {text}: give {error}, such as {EXAMPLES[unit]}") from None

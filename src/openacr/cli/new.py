@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
+from openacr.cli.conversions import given_quantity
 from openacr.errors import UserError
 from openacr.starter.choices import KINDS, UNITS, Homing, Kind, Limits, Unit, choices
 from openacr.wording import as_typed
@@ -27,7 +28,8 @@ def new(
     ] = None,
     units: Annotated[Unit | None, typer.Option(help="Unit of all positions.")] = None,
     travel: Annotated[
-        float | None, typer.Option(metavar="LENGTH", help="Travel of every axis, in units.")
+        str | None,
+        typer.Option(metavar="LENGTH", help="Travel of every axis, in units or as 5cm, 2rev."),
     ] = None,
     limits: Annotated[Limits | None, typer.Option(help="What ends the travel.")] = None,
     homing: Annotated[
@@ -89,7 +91,11 @@ def _is_terminal() -> bool:
 
 
 def _choices(kind: Kind, given: dict[str, Any]) -> "Choices":
-    return choices(kind, **{key: value for key, value in given.items() if value is not None})
+    values = {key: value for key, value in given.items() if value is not None}
+    if "travel_u" in values:
+        unit = values.get("unit") or KINDS[kind].unit
+        values["travel_u"] = given_quantity("--travel", values["travel_u"], unit)
+    return choices(kind, **values)
 
 
 def _names(text: str) -> list[str]:
@@ -120,7 +126,7 @@ def _questions(kind: Kind, given: dict[str, Any]) -> list[_Question]:
     return [
         _Question("axes", "Axes", lambda: ",".join(row.axes), _names),
         _Question("unit", "Unit", lambda: row.unit, Unit, _words(Unit)),
-        _Question("travel_u", "Travel", lambda: f"{UNITS[given['unit']].travel_u:g}", _number),
+        _Question("travel_u", "Travel", lambda: f"{UNITS[given['unit']].travel_u:g}", str),
         _Question("limits", "Limits", lambda: row.limits, Limits, _words(Limits)),
         _Question("homing", "Homing", lambda: row.homing, Homing, _words(Homing)),
         _Question("inputs", "Inputs: start button, conditions", lambda: "", _listed),
@@ -141,13 +147,6 @@ def _asked(kind: Kind, given: dict[str, Any]) -> "Choices":
             else:
                 given[question.key] = found
     return _choices(kind, given)
-
-
-def _number(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise UserError(f"--travel: {text!r} is no number") from None
 
 
 def _answer(title: str, default: str, allowed: list[str] | None) -> str:

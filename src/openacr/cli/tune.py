@@ -31,8 +31,9 @@ def measure_axis(asked: MeasureOptions) -> None:
     excitation = asked.excitation()
     require_picture(asked.plot)
     with card_of(asked.target, asked.baud, asked.silence) as card:
-        ask_to_move(asked.is_sure, asked.target, asked.axis, excitation)
-        advice = advised(card, asked.axis, excitation, asked.program, None, None)
+        axis = axis_number(card, asked.axis)
+        ask_to_move(asked.is_sure, asked.target, axis, excitation)
+        advice = advised(card, axis, excitation, asked.program, None, None)
     report(advice, asked.plot, as_json=asked.as_json, with_proposal=False)
 
 
@@ -42,9 +43,10 @@ def propose_gains(asked: ProposeOptions) -> None:
     excitation = asked.excitation()
     require_picture(asked.plot)
     with card_of(asked.target, asked.baud, asked.silence) as card:
-        ask_to_move(asked.is_sure, asked.target, asked.axis, excitation)
-        wanted = _move(card, asked.axis, asked.move)
-        advice = advised(card, asked.axis, excitation, asked.program, asked.wish(), wanted)
+        axis = axis_number(card, asked.axis)
+        ask_to_move(asked.is_sure, asked.target, axis, excitation)
+        wanted = _move(card, axis, asked.move)
+        advice = advised(card, axis, excitation, asked.program, asked.wish(), wanted)
     report(advice, asked.plot, as_json=asked.as_json, with_proposal=True)
 
 
@@ -91,6 +93,23 @@ def card_of(target: str, baud: int, silence_s: float) -> "Iterator[Card]":
             yield card
     finally:
         host.close()
+
+
+def axis_number(card: "Card", text: str) -> int:
+    """The axis of a number, or of the name by which a program of the card calls it."""
+    from openacr.configure.queries import PROGRAMS, attached_master
+
+    if text.isdecimal() and int(text) < AXES:
+        return int(text)
+    names = {
+        name.upper(): axis
+        for program in reversed(PROGRAMS)
+        for name, axis in attached_master(card, program)[1].items()
+    }
+    if text.upper() not in names:
+        known = f" or {', '.join(sorted(names))}" if names else ""
+        raise UserError(f"AXIS {text}: give a number from 0 to {AXES - 1}{known}")
+    return names[text.upper()]
 
 
 def ask_to_move(is_sure: bool, target: str, axis: int, excitation: "Excitation") -> None:

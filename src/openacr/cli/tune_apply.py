@@ -9,7 +9,7 @@ import typer
 
 from openacr.cli.live.online import BAUD, FAILED, SILENCE_S, Baud, Silence
 from openacr.cli.option_groups import takes
-from openacr.cli.tune import advised, ask_to_move, card_of, report
+from openacr.cli.tune import advised, ask_to_move, axis_number, card_of, report
 from openacr.cli.tune_options import STEP_S, ApplyOptions, Where
 from openacr.errors import UserError
 
@@ -26,7 +26,7 @@ def apply_gains(asked: ApplyOptions) -> None:
     from openacr.tuning.excitation import Excitation
     from openacr.tuning.measure import measure
 
-    target, axis, keep = asked.target, asked.axis, asked.keep
+    target, keep = asked.target, asked.keep
     if Path(target).exists():
         raise UserError(
             f"{target} is a project: put the lines that `propose` prints into its files"
@@ -35,6 +35,7 @@ def apply_gains(asked: ApplyOptions) -> None:
         raise UserError(f"{keep} exists: choose another file for the former gains (--keep)")
     excitation = asked.excitation()
     with card_of(target, asked.baud, asked.silence) as card:
+        axis = axis_number(card, asked.axis)
         ask_to_move(asked.is_sure, target, axis, excitation)
         advice = advised(card, axis, excitation, asked.program, asked.wish(), None)
         report(advice, None, as_json=False, with_proposal=True)

@@ -22,7 +22,7 @@ BY_AMPLITUDE = 0.0  # a bound of four times the amplitude
 Where = Annotated[
     str, typer.Argument(metavar="HOST|PROJECT", help="HOST, HOST:PORT, serial port, or project.")
 ]
-AxisNumber = Annotated[int, typer.Argument(metavar="AXIS", min=0, max=AXES - 1, help="The axis.")]
+AxisName = Annotated[str, typer.Argument(metavar="AXIS", help="Number of the axis, or its name.")]
 Amplitude = Annotated[float, typer.Option(help="Amplitude of the excitation [pulses].")]
 Band = Annotated[
     tuple[float, float], typer.Option(metavar="LOW HIGH", help="Frequencies of the sweep [Hz].")
@@ -61,7 +61,7 @@ class MovedAxis:
     """An axis that is excited, and the bounds that end it."""
 
     target: Where
-    axis: AxisNumber
+    axis: AxisName
     amplitude: Amplitude = AMPLITUDE_CNT
     max_error: MostError = BY_AMPLITUDE
     max_travel: MostTravel = BY_AMPLITUDE

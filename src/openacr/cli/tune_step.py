@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from openacr.cli.option_groups import takes
-from openacr.cli.tune import ask_to_move, card_of, recorded, require_picture
+from openacr.cli.tune import ask_to_move, axis_number, card_of, recorded, require_picture
 from openacr.cli.tune_options import StepOptions
 from openacr.cli.tune_report import step_lines
 
@@ -25,8 +25,9 @@ def record_step(asked: StepOptions) -> None:
     excitation = asked.excitation()
     require_picture(asked.plot)
     with card_of(asked.target, asked.baud, asked.silence) as card:
-        ask_to_move(asked.is_sure, asked.target, asked.axis, excitation)
-        found = recorded(card, asked.axis, excitation, asked.program)
+        axis = axis_number(card, asked.axis)
+        ask_to_move(asked.is_sure, asked.target, axis, excitation)
+        found = recorded(card, axis, excitation, asked.program)
     _report(found, asked.plot, as_json=asked.as_json)
 
 

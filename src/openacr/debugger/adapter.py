@@ -19,6 +19,8 @@ from openacr.debugger.breakpoints import Fault, LineBreakpoint
 from openacr.debugger.stops import Reason, Stop
 from openacr.debugger.target import Target
 from openacr.errors import OpenacrError, UserError
+from openacr.plant.explaining import explain
+from openacr.plant.toml_file import complaint_of
 
 Json = dict[str, Any]
 Handler = Callable[["Adapter", Any], Json | None]
@@ -55,6 +57,13 @@ def request(form: type[requests.Arguments]) -> Callable[[Handler], Handler]:
         return handler
 
     return registered
+
+
+def _wrong(message: str, arguments: object, form: type) -> str:
+    """What is wrong with the arguments of a request: name, value and what is allowed."""
+    if not isinstance(arguments, dict) or not complaint_of(message)[1]:
+        return message
+    return explain(message, arguments, form).text
 
 
 class Adapter:
@@ -120,7 +129,7 @@ class Adapter:
         try:
             read = msgspec.convert(arguments, form)
         except msgspec.ValidationError as error:
-            raise UserError(f"{command}: {error}") from None
+            raise UserError(f"{command}: {_wrong(str(error), arguments, form)}") from None
         if isinstance(read, requests.Launch) and not compare_digest(read.secret, self._secret):
             raise UserError(
                 'launch: "secret" is not the one that `openacr debug --port` has printed'

@@ -92,7 +92,7 @@ def _type_at(path: locate.Path, raw: Any, root: type) -> inspect.Type:
 def _inner(kind: inspect.Type, part: str | int) -> inspect.Type:
     if isinstance(kind, inspect.StructType):
         return next((f.type for f in kind.fields if f.encode_name == part), inspect.StrType())
-    if isinstance(kind, inspect.VarTupleType):
+    if isinstance(kind, inspect.VarTupleType | inspect.ListType):
         return kind.item_type
     if isinstance(kind, inspect.TupleType) and isinstance(part, int):
         return kind.item_types[part]
@@ -122,7 +122,9 @@ def _words(kind: inspect.Type) -> str:
         return f"a whole number from {kind.ge} to {kind.le}" if kind.le is not None else "a number"
     if isinstance(kind, inspect.FloatType):
         if kind.le is None:
-            return "a number"
+            bound = kind.gt if kind.ge is None else kind.ge
+            low = "from" if kind.gt is None else "above"
+            return "a number" if bound is None else f"a number {low} {bound:g}"
         low = f"above {kind.gt:g}" if kind.gt is not None else f"from {kind.ge:g}"
         return f"a number {low} to {kind.le:g}"
     if isinstance(kind, inspect.EnumType):
@@ -133,7 +135,7 @@ def _words(kind: inspect.Type) -> str:
         return f"a text in quotes{_form(kind)}"
     if isinstance(kind, inspect.TupleType):
         return f"a list of {len(kind.item_types)} values, each {_words(kind.item_types[0])}"
-    if isinstance(kind, inspect.VarTupleType):
+    if isinstance(kind, inspect.VarTupleType | inspect.ListType):
         if isinstance(kind.item_type, inspect.StructType):
             return "a list of tables"
         size = f" of {kind.min_length} to {kind.max_length}" if kind.max_length else " of"

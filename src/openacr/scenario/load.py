@@ -2,12 +2,16 @@
 
 from enum import Enum
 from pathlib import Path
+from typing import Any
 
 from openacr.errors import SourceError
 from openacr.plant import toml_file
+from openacr.plant.explaining import explain
 from openacr.plant.fault_kinds import MachineFault
 from openacr.scenario.rules import STRUCT_OF_KEY, allowed_keys, problems
 from openacr.scenario.schema import Key, Scenario, State
+
+SECONDS = "_s"  # in names of times
 
 
 def load_scenario(path: Path) -> Scenario:
@@ -23,7 +27,7 @@ def parse_scenario(text: str, path: str = "scenario.toml") -> Scenario:
         toml_file.wrong(text, path, where, "numbers have to be finite")
         for where in toml_file.not_finite(raw)
     ]
-    found += [_wrong(message, text, path) for message in messages]
+    found += [_wrong(message, raw, text, path) for message in messages]
     if scenario is not None and not found:
         found += [
             toml_file.wrong(text, path, each.steps, each.text, each.hint)
@@ -35,7 +39,7 @@ def parse_scenario(text: str, path: str = "scenario.toml") -> Scenario:
     return scenario
 
 
-def _wrong(message: str, text: str, path: str) -> SourceError:
+def _wrong(message: str, raw: dict[str, Any], text: str, path: str) -> SourceError:
     """Turn the converter's sentence about a path into one about a line."""
     what, where = toml_file.complaint_of(message)
     if unknown := toml_file.UNKNOWN.fullmatch(what):
@@ -44,6 +48,9 @@ def _wrong(message: str, text: str, path: str) -> SourceError:
     if missing := toml_file.MISSING.fullmatch(what):
         return toml_file.wrong(text, path, where, f"`{missing[1]}` is missing")
     name = next((step for step in reversed(where) if isinstance(step, str)), "")
+    if name.endswith(SECONDS):
+        found = explain(message, raw, Scenario)
+        return toml_file.wrong(text, path, where, f"{found.text} (seconds)")
     what = (what[:1].lower() + what[1:]).replace(" | null", "")  # TOML has no null
     return toml_file.wrong(text, path, where, f"{name}: {what}" if name else what, _choices(name))
 

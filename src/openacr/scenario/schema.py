@@ -159,6 +159,6 @@ class Expectation(Struct, frozen=True, forbid_unknown_fields=True, rename={"is_"
 class Scenario(Struct, frozen=True, forbid_unknown_fields=True):
     """A whole scenario file."""
 
-    duration_s: Annotated[float, Meta(gt=0.0)] | None = None
+    duration_s: Annotated[float, Meta(gt=0.0, le=1e7)] | None = None
     at: tuple[Action, ...] = ()
     expect: tuple[Expectation, ...] = ()

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from openacr.cli.conversions import given_quantity
 from openacr.cli.live.online import BAUD, SILENCE_S, Baud, Silence, Target, connected
 from openacr.errors import UserError
 
@@ -28,8 +29,8 @@ def monitor(
     ] = None,
     axis: Annotated[list[int] | None, typer.Option(min=0, max=AXES - 1, help="An axis.")] = None,
     every: Annotated[float, typer.Option(min=0.0, help="Time between samples [s].")] = 0.2,
-    duration: Annotated[
-        float | None, typer.Option("--for", metavar="SECONDS", help="End after this time [s].")
+    duration_text: Annotated[
+        str | None, typer.Option("--for", metavar="TIME", help="End after this time: 5, 10min.")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object per sample.")] = False,
     baud: Baud = BAUD,
@@ -39,6 +40,7 @@ def monitor(
 
     Without items and axes all axes that are on are shown. Positions of axes are in units.
     """
+    duration = given_quantity("--for", duration_text, "s") if duration_text is not None else None
     if duration is not None and not 0.0 <= duration < float("inf"):
         raise UserError(f"--for {duration:g}: give a number of seconds, 0 for one sample")
     with connected(target, baud, silence) as card:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from openacr.cli.conversions import given_quantity
 from openacr.cli.refusals import failed_json
 from openacr.cli.run.watched import watched
 from openacr.errors import UserError
@@ -31,8 +32,9 @@ def run(
     project: Annotated[
         Path, typer.Argument(metavar="PROJECT", help="Project folder or controller file (.8k).")
     ],
-    for_s: Annotated[
-        float | None, typer.Option("--for", metavar="SECONDS", help="Limit of the simulated time.")
+    for_text: Annotated[
+        str | None,
+        typer.Option("--for", metavar="TIME", help="Limit of the simulated time: 90, 10min, 2h."),
     ] = None,
     until: Annotated[
         str | None,
@@ -90,6 +92,7 @@ def run(
     600 simulated seconds. Exit code 1: a program ended in an error or an expectation
     failed; 2: something about the input is wrong.
     """
+    for_s = None if for_text is None else given_quantity("--for", for_text, "s")
     found = find_project(project)
     wanted = parse_until(until)
     check_outputs(trace, plot, summary, journal)
