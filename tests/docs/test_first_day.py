@@ -3,43 +3,17 @@
 import os
 import re
 import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import IO
 
 import pytest
+from tests.docs.conversation import ANY, BLOCK, OPENACR, conversations, matches
 
 from openacr.cli.commands import COMMANDS
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGE = (DOCS / "first-day.md").read_text(encoding="utf-8")
-OPENACR = (sys.executable, "-u", "-m", "openacr")
-BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-ANY = "..."
-
-
-def conversations() -> list[tuple[str, list[str]]]:
-    """Every command of the page with the lines that it shows of the output."""
-    found: list[tuple[str, list[str]]] = []
-    for language, text in BLOCK.findall(PAGE):
-        for line in text.splitlines() if not language else ():
-            if line.startswith("$ "):
-                found.append((line[2:], []))
-            else:
-                found[-1][1].append(line)
-    return found
-
-
-def matches(shown: list[str], printed: str) -> bool:
-    """Whether this was printed: `...` is any lines, at the end of a line any rest of it."""
-    pattern = ""
-    for line in shown:
-        if line == ANY:
-            pattern += r"(?:.*\n)*?"
-        else:
-            pattern += re.escape(line.rstrip()).replace(re.escape(ANY), ".*") + r" *\n"
-    return re.fullmatch(pattern, printed) is not None
 
 
 class Folder:
@@ -98,7 +72,7 @@ def folder(tmp_path: Path) -> Iterator[Folder]:
 def test_every_command_of_the_tutorial_prints_what_the_page_shows(folder: Folder) -> None:
     files = [text for language, text in BLOCK.findall(PAGE) if language == "toml"]
     (folder.path / "jam.toml").write_text(files[0])
-    for command, shown in conversations():
+    for command, shown in conversations(PAGE):
         printed = folder.run(command, shown)
         assert matches(shown, printed), f"$ {command}\n{printed}"
     assert os.path.getsize(folder.path / "plate" / "motion.html") > 1000

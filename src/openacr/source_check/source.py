@@ -22,7 +22,7 @@ from openacr.basic.language.registry import Level
 from openacr.basic.language.scope import Scope, join_names
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.program_store import line_number, opens_capture
-from openacr.basic.memory.setup import wrong_module
+from openacr.basic.memory.setup import DEFAULT_CONFIG, wrong_module
 from openacr.basic.vm.outline import Outline, outline
 from openacr.errors import CardError
 from openacr.lang.lexer import Token, TokenKind, tokens
@@ -338,9 +338,10 @@ class Reader:
         for statement in statements(blocks):
             command = statement.command
             warning = EXTENSION_WARNING if command.is_extension else command.lacks
-            if command.name == "CONFIG" and isinstance(statement.arguments[0], tuple):
+            modules = statement.arguments[0] if command.name == "CONFIG" else None
+            if isinstance(modules, tuple) and modules != DEFAULT_CONFIG:
                 warning = CONFIG_NOTICE
-                if hint := wrong_module(statement.arguments[0]):
+                if hint := wrong_module(modules):
                     self._fault(line, CardError(INVALID_ARGUMENT), hint)
                     continue
             if warning:
