@@ -24,6 +24,7 @@ from openacr.sysvar.tabs import SPEEDS
 LIVES_S, REST_S = 2.5, 1.5
 KILLS = 12
 SHORT = 500  # bytes: no batch of points
+INHIBIT = 540
 
 
 @dataclass(frozen=True)
@@ -149,3 +150,19 @@ def test_a_curve_whose_first_points_arrive_in_part_does_not_begin(kept: int) -> 
     assert len(batches[0]) > 2600
     rest = alone(Controller(), slow.card.snapshot(), REST_S)
     assert (rest == 0.0).all()
+
+
+def test_what_a_host_left_that_was_lost_before_its_curve_began_does_not_bar_the_next_one() -> None:
+    card = Controller()
+    card.send("SYS\rDIM P(100)\r")
+    for flag in (INHIBIT, RAN_SHORT):
+        card.bit[flag] = True
+    card.p[HOLD_AT] = 1
+    host = Host(PATHS["square"], card=card)
+    assert not card.bit[INHIBIT]  # the first move may be none of a curve
+    host.live(2.2)
+    assert host.session.runner.state is State.IDLE
+    assert host.said == []
+    Limits().require(host.places * PULSES, card.period_s, "to its end")
+    assert (host.places[-1] == 0.0).all()
+    assert float(np.ptp(host.places[:, 0])) == pytest.approx(30.0, abs=0.05)

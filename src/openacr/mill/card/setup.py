@@ -43,6 +43,7 @@ MOVES_WITHOUT_MEMORY = 10
 DIMENSIONED = re.compile(r"\bMBUF\s*\(\s*(\d+)\s*\)")  # in the answer to DIM
 RAPID_MODES, SPIRAL, CLEAR_REQUEST = 5, 24, 4  # in the secondary flags of a master
 MODE_FLAGS, FLAGS_PER_MASTER = 2048, 32
+START_MOVE_INHIBIT = 540  # of master 0: left by a host that was lost before a curve began
 VELOCITY_LIMIT, PARAMETERS_PER_MASTER = 8232, 256
 
 
@@ -142,6 +143,7 @@ def _curves(settings: Settings) -> Iterator[str]:
     yield f"P{base + n.MA_NURB_START_TIME}=0"
     yield f"P{HOLD_AT}=0"
     yield f"CLR {RAN_SHORT}"
+    yield f"CLR {START_MOVE_INHIBIT + FLAGS_PER_MASTER * settings.master}"
 
 
 def _axis(axis: AxisSettings) -> Iterator[str]:
