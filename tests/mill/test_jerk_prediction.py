@@ -1,12 +1,13 @@
 """Predicted times on a machine with a jerk limit: closed forms, and runs on the virtual card."""
 
+import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 from tests.mill.planned import follow, motion_s
 from tests.mill.prediction import predicted
-from tests.mill.shop import Shop, at, end, line, rapid
+from tests.mill.shop import Shop, at, end, line, rapid, src
 from tests.mill.test_path_motion import motion
 
 from openacr.cnc import canonical as c
@@ -33,6 +34,7 @@ PROGRAMS = {
     ),
 }
 FILES = [f"{folder}/{name}" for folder, names in PROGRAMS.items() for name in names.split()]
+PERIOD_S = 0.0005
 SPEED, RAMP, JERK = 10.0, 100.0, 2000.0
 
 
@@ -100,6 +102,19 @@ def test_pieces_of_a_ramp_pass_speed_and_acceleration_on(
     assert motion_s(places, period_s) == pytest.approx(expected, abs=1.1 * period_s)
 
 
+@pytest.mark.parametrize("pulses", [10_000.0, 787.0])
+@pytest.mark.parametrize("sweep", [math.pi / 2, -math.pi, -1.9 * math.pi, 2 * math.pi])
+def test_arcs_are_as_long_as_between_whole_pulses(pulses: float, sweep: float) -> None:
+    start = math.radians(17.0)
+    x, y = -math.cos(start), -math.sin(start)
+    finish = at(x + math.cos(start + sweep), y + math.sin(start + sweep))
+    turn = c.Arc(src(1), finish, c.Plane.XY, (x, y), sweep, 1.0, 1.0, c.Pace(300.0))
+    scale = {f"P{AXIS.pulses_per_unit[axis]}": pulses for axis in range(3)}
+    shop = jerk_shop(**scale)
+    late_s = motion_s(follow(shop, turn, end()), PERIOD_S) - time_of(turn, end(), **scale)
+    assert 0.0 < late_s < PERIOD_S
+
+
 def test_a_move_within_a_pulse_takes_no_time() -> None:
     assert time_of(line(1, at(4e-5)), end()) == 0.0
     assert time_of(line(1, at(6e-5)), end()) == pytest.approx(4 * (1e-4 / 2 / JERK) ** (1 / 3))
@@ -143,5 +158,4 @@ def test_programs_take_the_predicted_time_with_jerk_to_one_period_for_each_run_o
     is_moving = (np.diff(np.concatenate(parts), axis=0) != 0.0).any(axis=1)
     runs = np.count_nonzero(np.diff(is_moving.astype(int)) == 1) + int(is_moving[0])
     late = np.count_nonzero(is_moving) - (prediction.feed_s + prediction.rapid_s) / card.period_s
-    # each run of moves ends within a period; arcs that end beside whole pulses are a little shorter
-    assert -0.5 < late < runs + 0.5
+    assert 0.0 < late < runs + 0.02  # each run of moves ends within a period

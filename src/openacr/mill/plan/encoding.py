@@ -164,11 +164,20 @@ class Encoder:
         )
 
     def sent_length_u(self, job: Job) -> float:
-        """The length of a move between whole pulses; that of an arc as it is programmed."""
-        if isinstance(job.entry, Arc):
-            return job.length_u
-        travel = [b - a for a, b in zip(job.begin_cnt, job.finish_cnt, strict=True)]
-        return self._geometry.line(self._place([0] * len(travel)), self._place(travel)).length_u
+        """The length of a move between whole pulses, and of an arc about a centre on them."""
+        if not isinstance(job.entry, Arc):
+            travel = [b - a for a, b in zip(job.begin_cnt, job.finish_cnt, strict=True)]
+            return self._geometry.line(self._place([0] * len(travel)), self._place(travel)).length_u
+        begin, end = self._place(job.begin_cnt), self._place(job.finish_cnt)
+        plane = (job.entry.plane.first, job.entry.plane.second)
+        pairs = zip(plane, job.entry.centre, strict=True)
+        x, y = (self._pulse(axis, at_u) / self._scale[axis] for axis, at_u in pairs)
+        from_rad, to_rad = (
+            math.atan2(point[plane[1]] - y, point[plane[0]] - x) for point in (begin, end)
+        )
+        turns = round((job.entry.sweep_rad - (to_rad - from_rad)) / math.tau)
+        sweep_rad = to_rad - from_rad + math.tau * turns
+        return self._geometry.arc(begin, end, plane, (x, y), sweep_rad).length_u
 
     def _place(self, counts: Pulses) -> Point:
         """The machine position of whole pulses."""
