@@ -119,7 +119,7 @@ function drawTools() {
   const { holder, you, asking } = model.control.value;
   const label = you ? t("control.you") : holder ? t("control.other", { name: holder.name || holder.client }) : t(model.may("operate") ? "control.first" : "control.free");
   fill(byId("tools"),
-    h("button.key", { type: "button", onclick: askControl, className: asking?.length ? "key danger" : "key", title: t("control.title") },
+    h("button.key", { type: "button", onclick: askControl, className: asking?.length ? "key danger" : "key", title: holder ? t("control.title") : t("control.text") },
       h("span", { ariaHidden: "true" }, you ? "\u25cf" : "\u25cb"), label),
     h("button.key", { type: "button", onclick: askSettings, ariaLabel: t("settings.title"), title: t("settings.title") }, "\u2699"));
 }
