@@ -259,6 +259,9 @@ def test_board_parameters_lists_every_parameter_with_its_value(page: Page, serve
     total = len(known)
     listed: dict[str, str] = {}
     numbers = list(known)
+    marked = {1: 11.5, 40: -3.0, 59: 4.25}  # variables of the first page, which nothing changes
+    for number, value in marked.items():
+        served.call(partial(_command, line=f"P{number}={value}"))
     for first in (0, 60, (total - 1) // 60 * 60):
         expect(place).to_have_text(f"{first + 1}\u2013{min(total, first + 60)} of {total}")
         expect(page.locator("#screen tbody strong").first).not_to_have_text("\u2013")
@@ -266,6 +269,12 @@ def test_board_parameters_lists_every_parameter_with_its_value(page: Page, serve
         assert [number for number, _, _ in rows] == numbers[first : first + 60]
         listed.update({number: name for number, name, _ in rows})
         if first == 0:
+            for number, value in marked.items():
+                shown = page.locator("#screen tbody strong").nth(numbers.index(f"P{number}"))
+                expect(shown).to_have_text(f"{value:g}")
+            served.call(partial(_command, line="P40=7"))
+            shown = page.locator("#screen tbody strong").nth(numbers.index("P40"))
+            expect(shown).to_have_text("7")
             page.get_by_role("button", name="NEXT", exact=True).click()
         elif first == 60:
             place.click()
@@ -277,6 +286,18 @@ def test_board_parameters_lists_every_parameter_with_its_value(page: Page, serve
     value = page.locator("#screen tbody strong")
     place_x = served.call(lambda station: station.machine.card.read(12288))
     expect(value).to_have_text(str(int(place_x)))
+    page.get_by_label("Name or number").fill("P12304")  # the gain P of axis 0
+    gain = served.call(lambda station: station.machine.card.read(12304))
+    expect(value).to_have_text(f"{gain:.6g}")
+    assert 0.0 < gain < 1.0
+
+
+ANOTHER_LOAD = """() => import('/js/core/app.js').then(({ link }) => {
+  const { command } = link;
+  link.command = (name, args) => args?.line === 'CPU'
+    ? Promise.resolve({ lines: ['Foreground 12.3%', 'Background 87.7%'] }) : command.call(link, name, args);
+})"""  # noqa: E501
+AS_IT_IS = "() => import('/js/core/app.js').then(({ link }) => { delete link.command; })"
 
 
 @pytest.mark.req("MILL-DIAG-CPU")
@@ -293,6 +314,11 @@ def test_cpu_load_is_shown_in_per_cent_also_while_a_program_runs(
     assert page.locator("#prompt").get_attribute("data-kind") != "error"
     meters = page.locator("#screen meter").evaluate_all("(all) => all.map((each) => each.value)")
     assert sum(meters) == pytest.approx(100.0)
+    page.evaluate(ANOTHER_LOAD)
+    expect(shares).to_have_text(["12.3 %", "87.7 %"])  # it is asked for again
+    meters = page.locator("#screen meter").evaluate_all("(all) => all.map((each) => each.value)")
+    assert meters == [12.3, 87.7]
+    page.evaluate(AS_IT_IS)
 
 
 @pytest.mark.req("MILL-DIAG-FSTAT")
