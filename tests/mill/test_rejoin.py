@@ -9,6 +9,7 @@ from tests.mill.shop import Shop, at, end, line, rapid, src
 from openacr.cnc import canonical as c
 from openacr.errors import UserError
 from openacr.mill.run.lifecycle import State
+from openacr.mill.run.rejoin import apart_u
 
 RADIUS = 0.25
 
@@ -187,6 +188,20 @@ def test_the_rest_of_an_arc_keeps_its_centre() -> None:
     later = [p for p in shop.path if angle + 0.05 < math.atan2(p[1], p[0]) % (2 * math.pi) < 6.2]
     assert len(later) > 10
     assert all(math.hypot(x, y) == pytest.approx(2.0, abs=3e-4) for x, y, _ in later)
+
+
+@pytest.mark.parametrize("turn", [1.0, -1.0])
+@pytest.mark.parametrize(("radius", "apart"), [(2.0, 0.0), (2.3, 0.3), (1.9, 0.1)])
+def test_a_point_is_as_far_from_an_arc_as_from_its_circle(
+    turn: float, radius: float, apart: float
+) -> None:
+    """From (2, 0) to (0, 2) or (0, -2) about 0: a point at a third of it."""
+    sweep_rad = turn * math.pi / 2
+    finish = at(0.0, 2.0 * turn)
+    arc = c.Arc(src(1), finish, c.Plane.XY, (0.0, 0.0), sweep_rad, 2.0, 2.0, c.Pace(10.0))
+    angle = turn * math.pi / 6
+    here = at(radius * math.cos(angle), radius * math.sin(angle))
+    assert apart_u(arc, at(2.0, 0.0), here, [1.0] * c.AXES) == pytest.approx(apart, abs=1e-12)
 
 
 def test_in_a_rapid_it_comes_back_straight() -> None:

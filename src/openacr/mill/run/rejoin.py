@@ -71,7 +71,7 @@ def apart_u(entry: Motion, begin: Point, here: Point, weights: Sequence[float]) 
     """The distance of a point from a move; `weights` are lengths of a unit of each axis."""
     end = entry.end
     if isinstance(entry, Arc):
-        share = _turned(entry, begin, here) / abs(entry.sweep_rad)
+        share = _turned(entry, begin, here) / entry.sweep_rad
     else:
         along = _vector(begin, end, weights)
         square = sum(part * part for part in along)
