@@ -1,5 +1,7 @@
 """The motion after a host is lost is bounded, and what others do to a machine is noticed."""
 
+import re
+
 import pytest
 from tests.mill.shop import PULSES, Shop
 
@@ -11,6 +13,7 @@ from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
 from openacr.protocol.move import Move
 from openacr.sysvar import Store
+from openacr.sysvar.tabs import SPEEDS
 
 
 def codes(shop: Shop) -> list[int]:
@@ -104,14 +107,47 @@ def test_a_long_move_has_none_but_one_after_it() -> None:
     assert (shop.runner.stream.tracker.waiting, shop.runner.stream.moves) == (1, 2)
 
 
+def test_a_move_typed_by_another_host_ends_a_run_under_way() -> None:
+    shop = Shop()
+    shop.load("F60\nG1 X2\nX0\nX2\nX0\n" + "X2\nX0\n" * 20 + "M2\n")
+    shop.pass_time(0.3)
+    shop.card.command("VEL 5 X9", program=0)  # comes after what waits, four moves of 2 s
+    shop.until(State.ALARM)
+    assert codes(shop) == [16]
+    assert re.fullmatch(
+        r"Machine was moved by another program: it is at X2\.\d+ Y0 Z0, off the path of line \d",
+        details(shop)[0],
+    )
+    place = shop.pulses()[0]
+    assert 20_200 < place < 40_000
+    shop.pass_time(2.0)
+    assert shop.pulses()[0] == place
+
+
+@pytest.mark.parametrize("planned", [False, True])
+def test_corners_arcs_and_pauses_are_no_motion_of_others(planned: bool) -> None:
+    cells = {f"P{SPEEDS.path_jerk}": 2_000.0, f"P{SPEEDS.path_tolerance}": 0.05}
+    shop = Shop(**cells if planned else {})
+    shop.load(
+        "F600\nG1 X2\nG2 X4 Y2 I4 J0\nG1 Y0\nG3 X2 Y0 I3 J0\n"
+        "G0 Z1\nG1 X0 Y0 Z0\nG4 F1\nX.2\nX0\nM2\n"
+    )
+    shop.pass_time(0.31)
+    shop.runner.stop()
+    shop.pass_time(1.0)
+    shop.runner.resume()
+    shop.until(State.IDLE)
+    assert (shop.pulses(), codes(shop)) == ((0, 0, 0), [])
+
+
 def test_moves_typed_by_another_host_are_noticed_at_the_end() -> None:
     shop = Shop()
     shop.load("F600\nG1 X.5\nX.9\nG4 F1\nM2\n")
     shop.pass_time(0.3)
-    shop.card.command("X9", program=0)
+    shop.card.command("X.91", program=0)
     shop.until(State.ALARM)
     assert details(shop)[0] == (
-        "Machine was moved by another program: axis X is at 9, its program position is 0.9"
+        "Machine was moved by another program: axis X is at 0.91, its program position is 0.9"
     )
     assert codes(shop)[0] == 16
 

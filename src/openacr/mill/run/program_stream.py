@@ -35,6 +35,8 @@ from openacr.mill.run.tracking import Tracker, time_s
 
 SHORT_S = 0.3  # motion left on the card at which a starved program is brought to rest
 KILL_S = 0.5  # longest reaction time of a card at rest
+NEAR_TOLERANCES = 4.0  # path tolerances that the tool may be off a move under way
+NEAR_MM, NEAR_INCH = 0.5, 0.02  # and this
 PULSES_OFF = 2.0  # larger deviations mean that the machine was moved
 Entries = Callable[[RunHost], Iterator[c.Entry | Starved]]
 
@@ -181,6 +183,23 @@ class ProgramStream:
                 return f"axis {axis.name} is at {at_u:.6g}, its program position is {end_u:.6g}"
         return ""
 
+    def strayed(self) -> str:
+        """Where the machine is if it is on none of the moves it was sent, as text; else empty."""
+        current = self.tracker.current
+        if current is None or current is self._excused:
+            return ""
+        here = self.host.position()
+        if any(self._is_near(job, here) for job in self.tracker.near()):
+            return ""
+        places = " ".join(f"{axis.name}{here[axis.index]:.6g}" for axis in self.settings.axes)
+        return f"it is at {places}, off the path of line {current.entry.source.line}"
+
+    def _is_near(self, job: Job, here: c.Point) -> bool:
+        """Whether a machine is as near to a move as corners, holds and rounding explain."""
+        tolerance_u = max(job.path_tolerance_u, job.tolerance_u)
+        near_u = NEAR_TOLERANCES * tolerance_u + (NEAR_MM if self.settings.is_metric else NEAR_INCH)
+        return apart_u(job.entry, job.begin, here, self._weights) <= near_u
+
     def _is_short(self) -> bool:
         """Whether the card soon runs out of moves."""
         following = self.tracker.jobs()[1:]
@@ -317,6 +336,7 @@ class ProgramStream:
         """Insert straight moves back to a point where the machine rested."""
         jobs = self._straight_back(self.host.position(), target)
         if self._feed is not None and jobs:
+            self.excuse()
             self._feed.replace(jobs)
 
     def _straight_back(self, here: c.Point, target: c.Point) -> list[Job]:

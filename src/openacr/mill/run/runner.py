@@ -41,6 +41,8 @@ from openacr.mill.run.supervision import Supervision
 from openacr.mill.run.switches import Switches
 from openacr.mill.run.times import Times
 
+PLACE_S = 0.1  # between two looks at where the axes are
+
 
 class Runner:
     """Runs programs on one machine."""
@@ -408,6 +410,8 @@ class Runner:
         if self.state is not State.PAUSED:
             self._supervision.play(sample, self._times.step_s)
         if self._is_reading:
+            self._check_place()
+        if self._is_reading:
             self._advance(sample)
         self.stream.poll(sample)
         is_cutting = not self.options.is_dry and not self.retrace.is_active
@@ -427,6 +431,14 @@ class Runner:
     def _is_reading(self) -> bool:
         """Whether the program itself runs, not one of its actions."""
         return self.state is State.RUN and not self._player.is_active
+
+    def _check_place(self) -> None:
+        """Require that the machine is on the moves it was sent: others can move its axes, too."""
+        if self._times.is_due("place", PLACE_S):
+            with self.machine.repeating():
+                strayed = self.stream.strayed()
+            if strayed:
+                self._supervision.raise_alarm(alarms.NOT_IN_PLACE, strayed)
 
     def _advance(self, sample: CardState) -> None:
         """Read, send, and start halts that are reached."""

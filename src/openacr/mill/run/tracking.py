@@ -13,6 +13,7 @@ from openacr.mill.card.driver import CardState
 from openacr.mill.plan.encoding import Job
 
 MOST_TRAILED = 10_000
+MOST_PASSED = 200
 STALL_S = 3.0  # longer than a kill and its clearing, which also delay moves
 
 
@@ -52,6 +53,7 @@ class Tracker:
         self.started = 0
         self._jobs: deque[Job] = deque()  # sent and not known to be finished
         self._sent_s = 0.0  # how long these take at their feeds
+        self._passed: deque[Job] = deque(maxlen=MOST_PASSED)
         self.trail = Trail()  # done
 
     @property
@@ -108,7 +110,13 @@ class Tracker:
         jobs = self._jobs
         while len(jobs) > 1 and jobs[1].count <= counter:
             self._sent_s -= time_s(jobs[0])
+            self._passed.append(jobs[0])
             self.trail.add(jobs.popleft())
+
+    def near(self) -> Iterator[Job]:
+        """The moves on one of which the tool is: a curve counts some on before they are reached."""
+        yield from self._jobs
+        yield from reversed(self._passed)
 
     def is_at_end(self, sample: CardState) -> bool:
         """Whether all sent moves are finished."""
@@ -144,6 +152,7 @@ class Tracker:
 
     def _clear(self) -> None:
         self._jobs.clear()
+        self._passed.clear()
         self._sent_s = 0.0
 
 
