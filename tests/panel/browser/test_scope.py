@@ -195,6 +195,27 @@ def test_a_whole_sweep_is_shown_once_its_samples_have_come_and_kept_when_they_ar
     assert windows[5:] == [[104, 104, [104, 105, 106, 107]]] * 3
 
 
+def test_the_record_holds_its_whole_sweep_also_where_newer_samples_have_taken_its_place(
+    page: Page,
+) -> None:
+    found = page.evaluate("""import('/js/scope/recording.js').then((m) => {
+      const recording = new m.Recording();
+      recording.begin(1, { first: 0, samples: 4, period_s: 0.001 }, { mode: "normal", before: 0 });
+      const add = (first, count) => recording.add({ first, period: 0.001, channels: [Float64Array.from({ length: count }, (_, n) => first + n)] });
+      add(0, 20);
+      recording.note({ running: true, first: 0, trigger: 10, swept: 10 });
+      add(20, 30_000);
+      const part = (from, to) => [...recording.part(0, from, to)].map((each) => Number.isNaN(each) ? null : each);
+      return [recording.kept, part(9, 16), part(10_006, 10_010), part(30_018, 30_022)];
+    })""")  # noqa: E501
+    assert found == [
+        [10, 30_020],
+        [None, 10, 11, 12, 13, None, None],
+        [None, None, 10_008, 10_009],  # three sweeps and 20,000 samples are kept
+        [30_018, 30_019, None, None],
+    ]
+
+
 def test_without_a_trigger_the_last_whole_sweep_is_shown(page: Page) -> None:
     steps: list[Step] = [numbered(100, 3), numbered(103, 2), numbered(105, 6), numbered(111, 1)]
     found = lived(page, None, steps)
