@@ -8,6 +8,9 @@ from pathlib import Path
 import pytest
 from tests.panel.bench import HandStation
 
+from openacr.client import Card, Level
+from openacr.client.card_axes import Attached, attached
+from openacr.controller import Controller
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.panel.commands.all import carry_out
@@ -206,3 +209,36 @@ def test_an_acknowledged_alarm_that_stays_says_what_ends_its_cause(
     hand.run(0.5)
     assert hand.do("alarm.acknowledge")["left"] == []
     hand.station.close()
+
+
+def test_an_axis_of_the_card_alone_is_tuned_by_its_number_and_not_stored(
+    tmp_path: Path, open_project: Open
+) -> None:
+    folder = shutil.copytree(EXAMPLES / "gantry", tmp_path / "gantry")
+    hand = HandStation(tmp_path, installation=open_project(folder))
+    card = hand.station.machine.card
+    present = hand.do("tune.gains", axis="axis2")["P Gain"]
+    assert present == pytest.approx(card.read("axis2.proportional gain"))
+    given = {"axis": "AXIS2", "gain": "P Gain", "value": 0.002, "store": False}
+    assert hand.do("gain.set", **given)["value"] == 0.002
+    assert card.read("axis2.proportional gain") == pytest.approx(0.002)
+    assert card.read("axis0.proportional gain") != pytest.approx(0.002)
+    refused = hand.refused("gain.set", **{**given, "store": True})["text"]
+    assert refused == "the machine has no AXIS2: its values are set without keeping them"
+    assert hand.do("gain.set", **{**given, "axis": "AXIS1", "store": True})["is_stored"]
+    known = "AXIS0, AXIS1, AXIS2, X, Y, Z"
+    assert hand.refused("tune.gains", axis="AXIS8")["text"] == f"no axis AXIS8: there are {known}"
+    card.command("AXIS2 DRIVE ON")
+    hand.run(0.2)
+    assert max(hand.do("tune.step", axis="AXIS2")["measured"]["setpoint_cnt"]) == 100.0
+    hand.station.close()
+
+
+def test_the_axes_of_a_card_are_those_that_its_programs_attach_to_their_masters() -> None:
+    gantry = [Attached(0, 0, 0, "X"), Attached(0, 1, 1, "Y"), Attached(1, 0, 2, "Z")]
+    with Card.open(Controller.from_project(EXAMPLES / "gantry")) as card:
+        assert card.perform(attached) == gantry
+        card.go(Level())
+        card.command("ATTACH MASTER4", program=3)
+        card.command('ATTACH SLAVE2 AXIS5 "A"', program=3)
+        assert card.perform(attached) == [*gantry, Attached(4, 2, 5, "A")]

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import BrowserContext, Locator, Page, expect
+from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import open_page, until_model
 from tests.panel.browser.test_bench import open_pane
@@ -122,3 +122,77 @@ def test_an_axis_is_measured_with_the_fields_as_they_are(page: Page, served: Ser
     expect(tune).to_contain_text("Measured for 0.55 s")
     worse = tune.locator("[data-worse=overshoot_percent]")
     expect(worse).to_contain_text("overshoot of a step, % 22")
+
+
+def test_an_axis_that_only_the_card_has_is_seen_in_the_loop_and_gets_gains(
+    page: Page, served: Served
+) -> None:
+    loop = page.locator("[data-pane=servo]")
+    loop.get_by_role("radio", name="Z (AXIS2)").click()
+    served.call(lambda station: station.machine.machine.write(12288 + 512 + 8, 321))  # gear offset
+    expect(loop.locator("[data-box=gear] .value")).to_have_text("321")
+    served.call(lambda station: station.machine.machine.write(12288 + 512 + 8, 0))
+    open_pane(page, "Gains")
+    gains = page.locator("[data-pane=gain]")
+    gains.get_by_role("radio", name="Z (AXIS2)").click()
+    field = gains.get_by_label("P Gain")
+    field.fill("0.0021")
+    field.press("Enter")
+    expect(page.locator("#prompt")).to_contain_text("0.0021")
+    gain = served.call(lambda station: station.machine.card.read("axis2.proportional gain"))
+    assert gain == pytest.approx(0.0021)
+
+
+# --- a mouse, and keys ----------------------------------------------------------------
+
+
+def test_a_mouse_has_the_dense_form_in_which_lines_and_values_are_seen(
+    browser: Browser, served: Served, pictures: Path
+) -> None:
+    with browser.new_context(viewport={"width": 1366, "height": 768}) as context:
+        page = open_page(context, f"{served.url}/bench")
+        until_model(page, "model.hello.value.client")
+        key = page.locator("[data-pane=terminal] .pane-head .key").first
+        box = key.bounding_box()
+        assert box is not None
+        assert box["height"] == 32
+        line = page.get_by_label("Line for the card")
+        pane = page.locator("[data-pane=terminal]")
+        assert bottom(line) <= bottom(pane)
+        open_pane(page, "Editor")
+        page.locator("[data-pane=editor]").get_by_label("Program or file").select_option("PROG0")
+        expect(page.locator("[data-pane=editor] .cm-line").first).to_have_text("PROGRAM")
+        page.screenshot(path=pictures / "bench_dense.png")
+        code = page.locator("[data-pane=editor] .editor-host").bounding_box()
+        assert code is not None
+        assert code["height"] > 100
+        assert page.complaints == []  # type: ignore[attr-defined]
+
+
+def bottom(place: Locator) -> float:
+    box = place.bounding_box()
+    assert box is not None
+    return box["y"] + box["height"]
+
+
+def test_keys_show_panes_and_run_and_step_a_program(page: Page, served: Served) -> None:
+    download(served, "PROGRAM\nP7 = 1\nP8 = 2\nENDP\n")
+    page.locator(".bench-tab-text", has_text="Programs").click()
+    listed(page, "PROG1").click()
+    page.locator(".bench-tab-text", has_text="Status").click()
+    page.keyboard.press("Alt+r")  # first the pane is shown
+    expect(programs(page)).to_be_visible()
+    page.keyboard.press("Alt+r")
+    dialog = page.get_by_role("dialog", name="Start PROG1?")
+    page.keyboard.press("Alt+p")  # not over a dialog
+    expect(page.get_by_role("dialog")).to_have_count(1)
+    dialog.get_by_role("button", name="RUN").click()
+    until_model(page, "model.programs.value.programs.length")
+    programs(page).get_by_role("button", name="BLOCK").click()
+    expect(programs(page).get_by_role("button", name="STEP")).to_have_attribute("title", "Alt+S")
+    page.keyboard.press("Alt+p")
+    expect(page.get_by_role("dialog", name="PANES")).to_be_visible()
+    page.keyboard.press("Escape")
+    page.keyboard.press("Alt+2")
+    expect(page.locator("[data-pane=status]")).to_be_visible()
+    page.keyboard.press("Alt+9")

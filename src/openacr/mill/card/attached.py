@@ -1,37 +1,7 @@
-"""How the axes of a card are attached, beside what AcroMill would attach: only read."""
+"""What of AcroMill's axes is not attached on a card as it needs them."""
 
-import re
-from dataclasses import dataclass
-
-from openacr.client import Card
-from openacr.client.errors import RefusedError
+from openacr.client.card_axes import Attached
 from openacr.mill.config.settings import Settings
-
-MASTERS = 8
-_SLAVE = re.compile(r'ATTACH SLAVE(\d+) AXIS(\d+) "(.*)"')
-
-
-@dataclass(frozen=True, slots=True)
-class Attached:
-    """One axis of a master, as the card lists it."""
-
-    master: int
-    slave: int
-    axis: int
-    name: str
-
-
-def attached(card: Card) -> list[Attached]:
-    """The axes of all masters; none of a card that does not list them."""
-    found = []
-    for master in range(MASTERS):
-        try:
-            lines = card.command("ATTACH", program=master)
-        except RefusedError:
-            break  # a card with fewer programs, or one that does not list them
-        for slave in filter(None, map(_SLAVE.match, lines)):
-            found.append(Attached(master, int(slave[1]), int(slave[2]), slave[3]))
-    return found
 
 
 def lacking(there: list[Attached], settings: Settings) -> str:

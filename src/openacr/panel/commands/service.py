@@ -242,7 +242,8 @@ def scope_stop(station: Station, order: Order, args: NoArgs) -> None:
 def gain(station: Station, order: Order, args: OfGain) -> dict[str, float | bool]:
     """Set a gain on the card at once, and store it; while the machine moves, once it rests."""
     session = station.link
-    axis = station.installation.axis(args.axis)
+    is_stored = args.store and session.is_set_up  # else the axis is not that of the parameters
+    axis = station.installation.axis(args.axis, is_stored=is_stored)
     names = {known(cells[axis]).name.lower(): k for k, cells in enumerate(GAINS)}
     place = names.get(args.gain.lower())
     if place is None:
@@ -250,7 +251,7 @@ def gain(station: Station, order: Order, args: OfGain) -> dict[str, float | bool
     store, cell = station.installation.store, known(GAINS[place][axis])
     checked(cell, args.value, store.is_metric, store.letter_of(cell))
     session.machine.type([f"AXIS{axis} {GAIN_WORDS[place]} {number_text(args.value)}"])
-    if args.store and session.is_set_up:  # else the axis is not that of the parameters
+    if is_stored:
         station.store_at_rest(cell.number, args.value)
     return {"value": args.value, "is_stored": store.read(cell.number) == args.value}
 

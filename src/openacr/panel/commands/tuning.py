@@ -24,7 +24,7 @@ Positive = Annotated[float, Meta(gt=0.0, le=1e6)]
 
 
 class OfAxis(Args, frozen=True):
-    """An axis by its name."""
+    """An axis by its name, or AXIS2 for one that the machine does not have."""
 
     axis: str
 
@@ -53,12 +53,12 @@ class OfProposal(OfAxis, frozen=True, kw_only=True):
     store: bool = False
 
 
-def _resting(station: Station, name: str) -> int:
+def _resting(station: Station, name: str, *, is_stored: bool = False) -> int:
     """The number of an axis of a machine that may be moved."""
     session = station.link
     if session.is_set_up:
         session.runner.require_start()
-    return station.installation.axis(name)
+    return station.installation.axis(name, is_stored=is_stored)
 
 
 @command("tune.gains", Role.SERVICE, needs_control=False)
@@ -102,7 +102,7 @@ def tune_step(station: Station, order: Order, args: OfStep) -> Later:
 @command("tune.apply", Role.SERVICE, is_motion=True)
 def tune_apply(station: Station, order: Order, args: OfProposal) -> Later:
     """Set the gains that were proposed; the card tries them with a step and takes bad ones back."""
-    axis = _resting(station, args.axis)
+    axis = _resting(station, args.axis, is_stored=args.store)
     if args.store:
         station.tuning.require_kept(axis)
     cells = _cells(station, axis, station.tuning.proposed(axis)) if args.store else {}

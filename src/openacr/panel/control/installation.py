@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from openacr.client import Card, Options
+from openacr.client.card_axes import Attached, attached
 from openacr.client.links import Host
 from openacr.errors import OpenacrError, UserError
-from openacr.mill.card.attached import Attached, attached, lacking
+from openacr.mill.card.attached import lacking
 from openacr.mill.card.checks import MovingError, check_rest
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.mill.config.settings import Settings
@@ -99,20 +100,25 @@ class Installation:
         return session
 
     def _noted(self, session: MillSession) -> MillSession:
-        self.attached = attached(session.card)
+        self.attached = session.card.perform(attached)
         return session
 
-    def axis(self, name: str) -> int:
+    def axis(self, name: str, *, is_stored: bool = False) -> int:
         """An axis of the card by the name that AcroMill or one of its masters gives it, or AXISn.
 
-        UserError for another name.
+        UserError for another name, and where values are to be stored for an axis that has no
+        parameters of the machine.
         """
+        own = {each.name: each.index for each in Settings(self.store).axes}
         known = {f"AXIS{each.axis}": each.axis for each in self.attached}
         known |= {each.name: each.axis for each in reversed(self.attached)}
-        known |= {each.name: each.index for each in Settings(self.store).axes}
-        if name.upper() not in known:
+        known |= own
+        index = known.get(name.upper())
+        if index is None:
             raise UserError(f"no axis {name}: there are {', '.join(sorted(known))}")
-        return known[name.upper()]
+        if is_stored and index not in own.values():
+            raise UserError(f"the machine has no {name}: its values are set without keeping them")
+        return index
 
     def rests(self, session: MillSession) -> bool:
         """Whether a set-up that waits for the card to rest may be tried again."""

@@ -11,6 +11,7 @@ from starlette.concurrency import run_in_threadpool
 
 from openacr.client import Level
 from openacr.client.backup import surroundings
+from openacr.client.card_axes import attached
 from openacr.client.program_states import PLCS, PROGRAMS
 from openacr.client.stored import ListedLine, Room, listing, rooms, version_of
 from openacr.errors import CardError
@@ -90,6 +91,13 @@ def _memory(room: Room | None) -> dict[str, int]:
     return (
         {"bytes": room.total, "used": room.total - room.free} if room else {"bytes": 0, "used": 0}
     )
+
+
+@endpoint("GET", "/card/axes")
+async def attached_axes(call: Call) -> object:
+    """The axes that programs of the card move, with the names that they give them."""
+    found = {each.axis: each.name for each in await talked(call.panel, attached)}
+    return {"axes": [{"index": index, "name": found[index]} for index in sorted(found)]}
 
 
 @endpoint("GET", "/card/listing", query=OfProgram)

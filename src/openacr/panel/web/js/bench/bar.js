@@ -10,15 +10,16 @@ import { arrange, closePane, layoutNow, mayCloseAll, openPane } from "./workspac
 export function startBar() {
   const bar = byId("menu");
   bar.ariaLabel = t("bench.keys");
-  fill(bar, keyOf("bench.panes", choosePane), keyOf("bench.layouts", chooseLayout), keyOf("bench.close", closePane), h("a.menu-key", { href: "/" }, t("bench.operator")));
+  fill(bar, keyOf("bench.panes", choosePane, { data: { does: "panes" }, title: "Alt+P, Alt+1 \u2026 9", attr: { "aria-keyshortcuts": "Alt+P" } }), keyOf("bench.layouts", chooseLayout), keyOf("bench.close", closePane), h("a.menu-key", { href: "/" }, t("bench.operator")));
 }
 
 /**
  * @param {import("../core/texts.js").TextKey} label
  * @param {() => void} onclick
+ * @param {object} [more]
  */
-function keyOf(label, onclick) {
-  return h("button.menu-key", { type: "button", onclick }, t(label));
+function keyOf(label, onclick, more = {}) {
+  return h("button.menu-key", { type: "button", onclick, ...more }, t(label));
 }
 
 /** Choose a pane from all there are. */

@@ -14,8 +14,8 @@ async function start() {
   const language = setting("language", "en");
   await useLanguage(language);
   addTexts(language === "de" ? (await import("../catalog/bench/de.js")).default : english);
-  const [clock, top, prompt, stop, workspace, bar] = await Promise.all([
-    import("../frame/clock.js"), import("../frame/top.js"), import("../frame/prompt.js"), import("../frame/stop.js"), import("./workspace.js"), import("./bar.js"),
+  const [clock, top, prompt, stop, workspace, bar, shortcuts] = await Promise.all([
+    import("../frame/clock.js"), import("../frame/top.js"), import("../frame/prompt.js"), import("../frame/stop.js"), import("./workspace.js"), import("./bar.js"), import("./shortcuts.js"),
   ]);
   top.startTop(() => workspace.openPane("alarms"));
   prompt.startPrompt();
@@ -23,6 +23,7 @@ async function start() {
   clock.startClock();
   workspace.startWorkspace();
   bar.startBar();
+  shortcuts.startShortcuts();
 }
 
 void start();

@@ -125,6 +125,14 @@ function known(layout) {
   return layout;
 }
 
+/**
+ * Show an open pane by its place in the order of the layout; nothing where there is none.
+ * @param {number} place from 0
+ */
+export function showPaneAt(place) {
+  dock.groups.flatMap((group) => group.panels)[place]?.api.setActive();
+}
+
 /** Close the active pane. */
 export async function closePane() {
   const panel = dock.activePanel;

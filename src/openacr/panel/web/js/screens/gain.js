@@ -1,6 +1,7 @@
 // GAIN: the gains of one axis; ENTER writes a value to the card at once.
-import { get, latest } from "../core/api.js";
-import { give, model, refuse, report } from "../core/app.js";
+import { latest } from "../core/api.js";
+import { give, refuse, report } from "../core/app.js";
+import { cardAxes, gainRows } from "../core/card_axes.js";
 import { evaluate } from "../core/arithmetic.js";
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
@@ -14,22 +15,23 @@ export const screen = {
     const rows = h("div.stack.grow.scroll", {});
     body.append(h("div.notice", {}, t("gain.warning")), axes, rows, h("label.check", {}, store, t("gain.store")));
     const newest = latest(endings);
-    const show = async (/** @type {import("../core/model.js").Axis} */ axis) => {
+    const show = async (/** @type {import("../core/card_axes.js").CardAxis} */ axis) => {
       fill(rows); // until they are read, nothing can be typed
-      fill(axes, ...model.axes.map((each) => h("button.key", { type: "button", role: "radio", ariaChecked: String(each === axis), onclick: () => show(each) }, each.name)));
+      fill(axes, ...all.map((each) => h("button.key", { type: "button", role: "radio", ariaChecked: String(each === axis), onclick: () => show(each) }, each.title)));
       try {
-        const form = await newest(get("forms/SERVO", { axis: axis.index }));
-        if (form) fill(rows, ...form.groups.flatMap((/** @type {any} */ group) => group.rows).filter((/** @type {any} */ row) => row.kind === "real").map((/** @type {any} */ row) => rowOf(axis, row, store)));
+        const found = await newest(gainRows(axis));
+        if (found) fill(rows, ...found.map((row) => rowOf(axis, row, store)));
       } catch (error) {
         refuse(error);
       }
     };
-    if (model.axes.length) await show(model.axes[0]);
+    const all = await cardAxes();
+    if (all.length) await show(all[0]);
   },
 };
 
 /**
- * @param {import("../core/model.js").Axis} axis
+ * @param {import("../core/card_axes.js").CardAxis} axis
  * @param {import("../frame/field.js").FormRow} row
  * @param {HTMLInputElement} store
  */
@@ -42,7 +44,7 @@ function rowOf(axis, row, store) {
       refuse(`${row.name}: ${t("pad.none")}`);
       return;
     }
-    const answer = await give("gain.set", { axis: axis.name, gain: row.name, value, store: store.checked });
+    const answer = await give("gain.set", { axis: axis.name, gain: row.name, value, store: store.checked && axis.isMachines });
     if (!answer) return;
     field.value = String(answer.value);
     report(t(store.checked && !answer.is_stored ? "gain.later" : "gain.done", { gain: row.name, value: answer.value }));

@@ -129,10 +129,10 @@ export const screen = {
       const focused = keys.contains(document.activeElement) ? document.activeElement?.textContent : "";
       if (!text.hidden) fill(keys, key("programs.send", () => send(), { className: "key main", disabled: false }), h("button.key", { type: "button", onclick: () => drop() }, t("form.drop")));
       else fill(keys,
-        key("programs.run", () => run(), { className: bar || isRunning ? "key" : "key danger", disabled: Boolean(bar) || isRunning }), key("programs.halt", order("card.halt")),
+        key("programs.run", () => run(), { className: bar || isRunning ? "key" : "key danger", disabled: Boolean(bar) || isRunning, ...shortcut("run", "Alt+R", bar) }), key("programs.halt", order("card.halt")),
         ...(isPlc ? [] : [
           key("programs.pause", order("card.pause"), { disabled: Boolean(bar) || !isRunning || isPaused }), key("programs.resume", order("card.resume"), { disabled: Boolean(bar) || !isPaused }),
-          key("programs.block", order("card.block", { on: !state?.block }), { ariaPressed: String(Boolean(state?.block)) }), key("programs.step", order("card.step"), { disabled: Boolean(bar) || !state?.block }),
+          key("programs.block", order("card.block", { on: !state?.block }), { ariaPressed: String(Boolean(state?.block)) }), key("programs.step", order("card.step"), { disabled: Boolean(bar) || !state?.block, ...shortcut("step", "Alt+S", bar) }),
           key("programs.listen", () => listen(), { ariaPressed: String(listened === name), disabled: false, title: "" }),
         ]),
         key("programs.edit", () => edit(true), { disabled: Boolean(bar) || isRunning || !isRead }), key("programs.clear", () => clear(), { disabled: Boolean(bar) || isRunning || !lines.length }));
@@ -216,6 +216,16 @@ export const screen = {
     /** @type {HTMLElement | null} */ (items.querySelector("[aria-selected=true]"))?.focus();
   },
 };
+
+/**
+ * How a key is found by a shortcut of the bench, and that it has one.
+ * @param {string} does
+ * @param {string} keys
+ * @param {string} bar why it cannot be pressed
+ */
+function shortcut(does, keys, bar) {
+  return { data: { does }, title: bar || (document.querySelector(".bench") ? keys : "") };
+}
 
 /** @param {State} state */
 export function stateText(state) {

@@ -1,5 +1,6 @@
 // SERVO LOOP: the loop of one axis as a drawing with live values.
 import { model } from "../core/app.js";
+import { cardAxes } from "../core/card_axes.js";
 import { fill, h, setText } from "../core/dom.js";
 import { needWords, stateOf, wordsOf } from "../core/flags.js";
 import { Endings } from "../core/signal.js";
@@ -14,7 +15,7 @@ const [OPEN, FILTER, FLAGS] = [785, 786, 32]; // flags of axis 0: open servo loo
 export const screen = {
   title: "servo.title",
   area: "full",
-  show({ body, endings }) {
+  async show({ body, endings }) {
     const own = new Endings();
     endings.add(() => own.end());
     const axes = h("div.row.wrap", { role: "radiogroup", ariaLabel: t("form.axis") });
@@ -23,8 +24,8 @@ export const screen = {
     body.append(h("div.row.wrap", {}, axes, state), host);
     const choose = (/** @type {number} */ index) => {
       own.end();
-      const name = model.axes.find((axis) => axis.index === index)?.name ?? "";
-      fill(axes, ...model.axes.map((axis) => h("button.key", { type: "button", role: "radio", ariaChecked: String(axis.index === index), onclick: () => choose(axis.index) }, axis.name)));
+      const name = all.find((axis) => axis.index === index)?.title ?? "";
+      fill(axes, ...all.map((axis) => h("button.key", { type: "button", role: "radio", ariaChecked: String(axis.index === index), onclick: () => choose(axis.index) }, axis.title)));
       const picture = drawLoop(t("loop.label", { axis: name }));
       fill(host, picture.element);
       const first = FIRST + EACH * index;
@@ -39,6 +40,7 @@ export const screen = {
       );
       /** @type {HTMLElement | null} */ (axes.querySelector("[aria-checked=true]"))?.focus();
     };
-    choose(model.axes[0]?.index ?? 0);
+    const all = await cardAxes();
+    choose(all[0]?.index ?? 0);
   },
 };

@@ -1,5 +1,6 @@
 // TUNING: an axis is measured, its motor and margins are shown, gains proposed, predicted, and set when confirmed.
 import { give, link, model, report } from "../../core/app.js";
+import { cardAxes } from "../../core/card_axes.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
@@ -23,6 +24,7 @@ export async function mount(host, { head, kept, keep }) {
   const endings = new Endings();
   const drawn = new Endings();
   const tried = new Endings();
+  const all = await cardAxes(); // before there is a key that moves one
   const axes = h("div.row.wrap", { role: "radiogroup", ariaLabel: t("form.axis") });
   const fields = FIELDS.map(([name, text, value]) => h("input.field.number", { ariaLabel: t(text), value: kept[name] ?? value, inputMode: "decimal", autocomplete: "off", data: { field: name } }));
   const integral = h("input", { type: "checkbox", checked: true });
@@ -40,8 +42,7 @@ export async function mount(host, { head, kept, keep }) {
       ...FIELDS.map(([, text], n) => h("label.row", {}, h("span.grow", {}, t(text)), fields[n])),
       h("label.check", {}, integral, t("tune.integral")), h("label.check", {}, store, t("gain.store")), state, facts, sliders),
     h("div.scroll.tune-view", { tabIndex: 0 }, charts)));
-  /** @type {import("../../core/model.js").Axis} */
-  let axis = model.axes[0];
+  let axis = all[0];
   /** @type {any} */
   let found = null;
   /** @type {{ reload: () => Promise<void> } | null} */
@@ -50,14 +51,14 @@ export async function mount(host, { head, kept, keep }) {
   let former = null; // step
   let isMoving = false;
 
-  /** @param {import("../../core/model.js").Axis} chosen */
+  /** @param {import("../../core/card_axes.js").CardAxis} chosen */
   async function choose(chosen) {
     if (isMoving) return;
     axis = chosen;
-    fill(axes, ...model.axes.map((each) => h("button.key", { type: "button", role: "radio", ariaChecked: String(each === axis), onclick: () => void choose(each) }, each.name)));
+    fill(axes, ...all.map((each) => h("button.key", { type: "button", role: "radio", ariaChecked: String(each === axis), onclick: () => void choose(each) }, each.title)));
     show(null);
     former = null;
-    gains = await gainSliders(sliders, chosen, () => store.checked);
+    gains = await gainSliders(sliders, chosen, () => store.checked && chosen.isMachines);
   }
 
   /** @param {any} advice */
@@ -141,7 +142,7 @@ export async function mount(host, { head, kept, keep }) {
     const { overshoot_percent: overshoot } = found.proposed.figures;
     const text = t("tune.apply.text", { axis: axis.name, overshoot: shown(overshoot), gains: GAINS.map((word) => `${word} ${shown(found.proposed.gains[word])}`).join(", ") + filterText(found.proposed) });
     if (!mayMove() || !(await confirm(t("tune.apply"), text, t("tune.apply")))) return;
-    const answer = await moved("tune.apply", { axis: axis.name, store: store.checked });
+    const answer = await moved("tune.apply", { axis: axis.name, store: store.checked && axis.isMachines });
     await gains?.reload();
     if (!answer) return;
     drawStep(answer);

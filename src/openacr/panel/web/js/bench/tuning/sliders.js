@@ -1,6 +1,6 @@
 // Gains of one axis as sliders that act at once, with a list of changes to go back and forth in.
-import { get } from "../../core/api.js";
 import { give, link, refuse, report } from "../../core/app.js";
+import { gainRows } from "../../core/card_axes.js";
 import { evaluate } from "../../core/arithmetic.js";
 import { fill, h } from "../../core/dom.js";
 import { t } from "../../core/texts.js";
@@ -17,7 +17,7 @@ const STEPS = 100; // of a decade
 /**
  * Show the sliders of an axis in an element; `reload` reads all gains of the card anew, as after a proposal was set.
  * @param {HTMLElement} host
- * @param {import("../../core/model.js").Axis} axis
+ * @param {import("../../core/card_axes.js").CardAxis} axis
  * @param {() => boolean} isStored whether a gain is also kept in the parameters of the machine, once its slider is let go
  */
 export async function gainSliders(host, axis, isStored) {
@@ -30,8 +30,8 @@ export async function gainSliders(host, axis, isStored) {
   fill(host, h("div.notice", {}, t("gain.warning")), rows, h("div.row.wrap", {}, undo, redo, start), list);
 
   async function reload() {
-    const [form, values] = await Promise.all([get("forms/SERVO", { axis: axis.index }), link.command("tune.gains", { axis: axis.name })]);
-    const shown = form.groups.flatMap((/** @type {any} */ group) => group.rows).filter((/** @type {any} */ row) => row.name in values);
+    const [found, values] = await Promise.all([gainRows(axis), link.command("tune.gains", { axis: axis.name })]);
+    const shown = found.filter((row) => row.name in values);
     fill(rows, ...shown.map((/** @type {any} */ row) => rowOf(row, values[row.name])));
   }
 
