@@ -293,6 +293,20 @@ def test_the_ladder_shows_contacts_coils_and_the_flow_of_power_live(
     expect(live).to_have_count(0)
 
 
+def test_what_a_flag_of_the_card_means_is_written_under_its_contact(
+    page: Page, served: Served
+) -> None:
+    stored(served, Level.plc(0), "NEW\n10 LD NOT 769\n20 OUT 131\n")
+    page.click("#display-tab-plc")
+    page.get_by_role("combobox", name="PLC").select_option("PLC0")
+    page.get_by_role("button", name="READ").click()
+    expect(page.locator(".rung")).to_have_count(1)
+    under = symbol(page, 0, 0).locator("text.small")
+    expect(under).to_have_text(["AXIS0 Not Excess", "Error"])
+    expect(symbol(page, 0, 1).locator("text.small")).to_have_count(0)
+    stored(served, Level.plc(0), "NEW\n" + LADDER)
+
+
 def test_a_plc_that_is_no_ladder_is_shown_as_text_with_the_reason(page: Page) -> None:
     page.click("#display-tab-plc")
     page.get_by_role("combobox", name="PLC").select_option("PLC1")

@@ -14,6 +14,7 @@ const COUNT = 8;
 const WIDE = 560; // room for ladder and listing side by side
 const [RUNNING, EACH] = [1536, 32]; // flag "PLC Running" of PLC 0, flags of a PLC
 const COUNTS = Object.freeze({ timer: 6661, counter: 6663 }); // of PLC 0; the preload is the parameter before
+const NOTHING = "User Defined"; // the name of a flag that the card leaves to its user
 const PARAMETERS = 16; // of a PLC
 
 /**
@@ -101,7 +102,7 @@ async function meant(reading, names) {
   const flags = new Set(ladder.rungs.flatMap((rung) => rung.symbols).filter((symbol) => symbol.number === null).flatMap((symbol) => symbol.flag ?? []).filter((flag) => !named.has(flag)));
   if (!flags.size) return [ladder, named];
   const { items } = await get("card/named", { names: [...flags].map((flag) => `BIT${flag}`).join(";") }).catch(() => ({ items: [] }));
-  return [ladder, new Map([...named, ...items.map((/** @type {import("./card_value.js").Item} */ each) => /** @type {[number, string]} */ ([each.number, fullName(each)]))])];
+  return [ladder, new Map([...named, ...items.filter((/** @type {any} */ each) => each.name !== NOTHING).map((/** @type {import("./card_value.js").Item} */ each) => /** @type {[number, string]} */ ([each.number, fullName(each)]))])];
 }
 
 /**
