@@ -77,13 +77,13 @@ def test_the_axes_of_an_example_with_settings_keep_what_its_set_up_says(
 
 
 @pytest.mark.parametrize(("count", "words"), [(1, "1 variable"), (99, "99 variables")])
-def test_a_card_with_too_few_variables_is_refused_with_their_count_and_keeps_its_time(
+def test_a_card_with_too_few_variables_is_not_set_up_and_keeps_its_time(
     count: int, words: str, project: Path, open_project: Open
 ) -> None:
     (project / "setup.8k").write_text(f"DIM P({count})\n")
     station = Station(open_project(project), carry_out)
     station.open(100.0)
-    assert station.lost == (
+    assert station.installation.lacks == (
         f"the front end needs P0 to P99, the card has {words}: write DIM P(100) in its set-up"
         " (DIM P(100): Re-dimensioned block (NEW ALL and CLEAR at the SYS level free the memory))"
     )
@@ -102,7 +102,7 @@ def test_a_card_with_as_many_variables_as_needed_or_more_is_left_as_it_is(
     (project / "setup.8k").write_text(f"DIM P({count})\n")
     station = Station(open_project(project), carry_out)
     station.open(0.0)
-    assert station.lost == ""
+    assert (station.lost, station.installation.lacks) == ("", "")
     assert station.machine.card.ask(f"P{count - 1}") == 0.0
     station.close()
 
