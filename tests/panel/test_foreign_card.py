@@ -12,7 +12,7 @@ from openacr.client import Card
 from openacr.controller import Controller
 from openacr.map.rows import axes
 from openacr.panel.control.installation import Installation
-from openacr.panel.machine import opened
+from openacr.panel.machine import embedded, opened
 
 GANTRY = Path(__file__).parents[2] / "examples" / "gantry"
 LACKS = "AcroMill's axis Z is not attached on this card: Z is AXIS2 of MASTER1"
@@ -143,6 +143,34 @@ def test_what_moves_is_never_set_up(foreign: HandStation) -> None:
     foreign.until(lambda: bool(foreign.events("lamp")[-1]["moving"]))
     assert foreign.refused("card.setup")["text"].startswith("the machine is moving")
     assert moves(foreign)
+
+
+def test_a_card_of_the_panel_that_moves_is_set_up_once_it_rests_and_no_stop_holds_it(
+    tmp_path: Path,
+) -> None:
+    installation = embedded(tmp_path)
+    assert installation.controller is not None
+    with Card.open(installation.controller) as other:
+        other.command("ATTACH MASTER0", program=0)
+        other.command('ATTACH SLAVE0 AXIS0 "X"', program=0)
+        for line in ("PPU X1000", "DRIVE ON X", "JOG ACC X20", "JOG DEC X20", "JOG VEL X1"):
+            other.command(line, program=0)
+        for line in ("PROGRAM", "_wait", "DWL 1", "GOTO wait", "ENDP"):
+            other.command(line, program=3)
+        other.run(3)
+        other.command("JOG FWD X", program=0)
+        hand = HandStation(tmp_path, installation=installation)
+        try:
+            assert installation.lacks.startswith("the machine is moving")
+            hand.do("stop.hold")
+            hand.run(6.0)
+            assert installation.lacks
+            assert not moves(hand)
+            hand.do("run.resume")  # the program goes on, the axis rests
+            hand.until(lambda: not installation.lacks)
+            assert hand.station.machine.is_set_up
+        finally:
+            hand.close()
 
 
 def test_a_served_card_with_other_axes_keeps_its_set_up_and_its_motion(tmp_path: Path) -> None:

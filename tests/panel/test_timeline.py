@@ -174,8 +174,11 @@ def test_moves_of_the_panel_are_held_where_it_is_operated_from_and_no_alarm_come
     hand.do("stop.all")
     hand.until(lambda: not hand.is_busy)
     hand.do("timeline.seek", tick=tick)
+    begun = history(hand).card.p[12288]
     hand.do("timeline.operate")
     place = history(hand).card.p[12288]
+    (axis, *_others) = hand.station.machine.runner.settings.axes
+    assert 0 < place - begun < axis.pulses_per_unit  # until it rests, less than 1 mm
     hand.run(3.0)  # longer than the watchdog waits for its host
     assert hand.station.machine.runner.alarms.history == []
     assert history(hand).card.p[12288] == place
