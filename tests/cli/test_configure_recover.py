@@ -93,3 +93,14 @@ def test_a_first_machine_goes_with_no_other_option() -> None:
     result = CliRunner().invoke(app, ["configure", "--machine", "--recover", str(GANTRY)])
     assert result.exit_code == 2
     assert "--machine prints a file: it takes neither a folder nor other options" in result.stderr
+
+
+@pytest.mark.parametrize("option", ["--recover", "--machine"])
+def test_uploads_without_a_set_up_are_refused_in_one_line(tmp_path: Path, option: str) -> None:
+    (tmp_path / "prog0.8k").write_text((GANTRY / "prog0.8k").read_text())
+    result = CliRunner().invoke(app, ["configure", option, str(tmp_path)])
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr == (
+        f"error: {tmp_path}: setup.8k is missing: without it nothing is known of the set-up"
+        " (`openacr backup HOST FOLDER` reads it from a card)\n"
+    )

@@ -96,7 +96,13 @@ def _opened(source: Path, baud: int, silence_s: float) -> "Iterator[tuple[Card, 
     if source.is_dir() or source.suffix.lower() == ".8k":
         from openacr.configure.queries import Virtual
         from openacr.controller import Controller
+        from openacr.project import find_project
 
+        if source.is_dir() and find_project(source).setup is None:
+            raise UserError(
+                f"{source}: setup.8k is missing: without it nothing is known of the set-up"
+                " (`openacr backup HOST FOLDER` reads it from a card)"
+            )
         controller = Controller.from_project(source)
         yield Virtual(controller), controller.model.name
         return
