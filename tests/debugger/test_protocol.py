@@ -368,3 +368,17 @@ def test_nothing_is_answered_before_initialize() -> None:
     for command in ("launch", "threads"):
         answer = read_message(out) or {}
         assert answer["message"] == f"{command}: a session begins with initialize"
+
+
+def test_a_scenario_that_is_not_played_is_named_with_what_plays_it(
+    client: Client, tmp_path: Path
+) -> None:
+    write(tmp_path)
+    scenario = tmp_path / "scenario.toml"
+    scenario.write_text("duration_s = 1\n")
+    client.ask("initialize", adapterID="openacr")
+    client.ask("launch", program=str(tmp_path), stopOnEntry=True)
+    assert client.event("output")["output"] == (
+        f"note: {scenario} is not played here; `openacr run {tmp_path} --journal FILE`"
+        " records a run with it, which a launch with `journal` debugs\n"
+    )

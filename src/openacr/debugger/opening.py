@@ -12,6 +12,7 @@ from openacr.debugger.card_target import CardTarget
 from openacr.debugger.requests import Launch
 from openacr.debugger.target import Target
 from openacr.errors import UserError
+from openacr.project import find_project
 
 _KINDS = (
     "`program` (a project), `journal` (of a card), `partProgram` (on a virtual machine)"
@@ -34,7 +35,13 @@ def opened(wanted: Launch, show: Callable[[str], None]) -> Target:
 
 
 def _project(wanted: Launch, show: Callable[[str], None]) -> CardTarget:
-    return CardTarget(Controller.from_project(wanted.program), show)
+    target = CardTarget(Controller.from_project(wanted.program), show)
+    if scenario := find_project(wanted.program).scenario:
+        show(
+            f"note: {scenario} is not played here; `openacr run {wanted.program} --journal FILE`"
+            " records a run with it, which a launch with `journal` debugs\n"
+        )
+    return target
 
 
 def _journal(wanted: Launch, show: Callable[[str], None]) -> CardTarget:
