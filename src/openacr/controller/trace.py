@@ -4,14 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import overload
+from importlib import import_module
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from openacr.engine.trace_cy import TRACE_AXIS, TRACE_HEAD
+from openacr.errors import UserError
+from openacr.wording import counted
 
 Reals = NDArray[np.float64]
+QUANTITIES = ("commanded", "actual", "velocity", "following_error")
+EXTREMES = ("axis", "lowest [units]", "highest [units]", "peak velocity [units/s]",
+            "peak following error [units]")  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +42,62 @@ class Trace:
     outputs: NDArray[np.int64]
     axes: Sequence[AxisTrace]
     values: Reals
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Every column by its name, as a file of `openacr run --trace` has them.
+
+        `time_s`, `inputs` and `outputs`, for each axis `axis_0_commanded`, `axis_0_actual` (units),
+        `axis_0_velocity` (units/s) and `axis_0_following_error` (units), then `value_0` ... for
+        the chosen values.
+        """
+        found: dict[str, NDArray[Any]] = {
+            "time_s": self.time_s,
+            "inputs": self.inputs,
+            "outputs": self.outputs,
+        }
+        for number, axis in enumerate(self.axes):
+            reals = (axis.commanded_u, axis.actual_u, axis.velocity_ups, axis.following_error_u)
+            for quantity, column in zip(QUANTITIES, reals, strict=True):
+                found[f"axis_{number}_{quantity}"] = column
+        return found | {f"value_{place}": column for place, column in enumerate(self.values.T)}
+
+    def to_pandas(self) -> Any:
+        """The columns as a DataFrame of pandas, indexed by time [s]; UserError without pandas."""
+        found = _package("pandas").DataFrame(self.columns())
+        return found.set_index("time_s")
+
+    def to_arrow(self) -> Any:
+        """The columns as a Table of Apache Arrow; UserError without pyarrow."""
+        return _package("pyarrow").table(self.columns())
+
+    def _repr_html_(self) -> str:
+        """What notebooks show: rows, time, and the extremes of each axis that has moved."""
+        span = f"{self.time_s[0]:g} to {self.time_s[-1]:g} s" if len(self.time_s) else "empty"
+        rows = "".join(
+            f"<tr><td>{number}</td>"
+            + "".join(f"<td>{value:.6g}</td>" for value in _extremes(axis))
+            + "</tr>"
+            for number, axis in enumerate(self.axes)
+            if len(self.time_s) and np.ptp(axis.actual_u) > 0.0
+        )
+        head = "".join(f"<th>{title}</th>" for title in EXTREMES)
+        return (
+            f"<p>Trace: {counted(len(self.time_s), 'row')}, {span}</p>"
+            f"<table><tr>{head}</tr>{rows}</table>"
+        )
+
+
+def _extremes(axis: AxisTrace) -> tuple[float, ...]:
+    peaks = (np.abs(column).max() for column in (axis.velocity_ups, axis.following_error_u))
+    return (axis.actual_u.min(), axis.actual_u.max(), *peaks)
+
+
+def _package(name: str) -> Any:
+    """A package that only some users have; UserError with how to get it."""
+    try:
+        return import_module(name)
+    except ImportError:
+        raise UserError(f"{name} is not installed: python -m pip install {name}") from None
 
 
 class _Axes(Sequence[AxisTrace]):

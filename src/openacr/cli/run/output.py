@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from openacr.cli.plots.curves import Array
 
 TRACE_FORMATS = (".csv", ".parquet")
-QUANTITIES = ("commanded", "actual", "velocity", "following_error")
 
 
 def require_writable(path: Path) -> None:
@@ -130,6 +129,8 @@ def write_trace(path: Path, curves: "Curves") -> None:
 
 def trace_columns(curves: "Curves") -> Iterator[tuple[str, "Array"]]:
     """Name the columns of a trace."""
+    from openacr.controller.trace import QUANTITIES
+
     yield "time_s", curves.time_s
     for axis in curves.used:
         values = (axis.commanded_u, axis.actual_u, axis.velocity_ups, axis.following_error_u)
