@@ -97,3 +97,22 @@ def test_the_report_marks_axes_that_are_driven_without_having_been_enabled() -> 
     assert made.type("DRIVE X") == "DRIVE OFF X FAULT"
     made.all("DRIVE ON Y").ticks(1)
     assert made.type("DRIVE Y") == "DRIVE ON Y"
+
+
+def test_the_motor_flag_that_a_host_reads_follows_the_drive() -> None:
+    """Bit 28 of P4360 + n, undocumented: a host of real cards takes it for "motor on"."""
+    made = Bench("X", "Y")
+    motors = (8448 + 28, 8480 + 28)
+
+    def on() -> list[bool]:
+        return [made.card.memory.bit(flag) for flag in motors]
+
+    assert on() == [False, False]
+    made.all("DRIVE ON Y").seconds(0.02)
+    assert on() == [False, True]
+    made.all("DRIVE ON X").seconds(0.02)
+    made.all("DRIVE OFF Y").seconds(0.02)
+    assert on() == [True, False]
+    made.card.memory.set_bit(8448 + 17, False)
+    made.seconds(0.02)
+    assert on() == [False, False], "also where a host clears Drive Enabled"

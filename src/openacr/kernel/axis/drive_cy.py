@@ -39,7 +39,7 @@ def drive_driven(I: I32, n: int) -> bool:
 
 def drive_disable(I: I32, n: int) -> None:
     """Disable the drive of axis n, enabled or not."""
-    I[af4.word[n]] &= ~af4.DRIVE_ENABLED
+    I[af4.word[n]] &= ~(af4.DRIVE_ENABLED | af4.MOTOR_ON)
     I[axes.enable_ticks[n]] = 0
     if not I[axes.switched_off[n]]:
         I[axes.switched_off[n]] = 1
@@ -141,7 +141,7 @@ def drive_step(I: I32, n: int, period_s: float) -> None:
     if I[axes.enable_ticks[n]] > 0:
         I[axes.enable_ticks[n]] -= 1
         if I[axes.enable_ticks[n]] == 0 and not drive_barred(I, n):
-            I[word] |= af4.DRIVE_ENABLED
+            I[word] |= af4.DRIVE_ENABLED | af4.MOTOR_ON
     if I[word] & af4.DRIVE_RESET_REQUEST:
         I[axes.reset_ticks[n]] += 1
         if I[axes.reset_ticks[n]] * period_s >= RESET_S:

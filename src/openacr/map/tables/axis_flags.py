@@ -150,6 +150,9 @@ AXIS_4.inferred(
     22, "Disable Drive On EXC Only", RW, "Set: excess error disables the drive, no kill."
 )
 AXIS_4.inferred(23, "Disable Drive On Kill", RW, "Set: a kill of the axis also disables its drive.")
+AXIS_4.inferred(
+    28, "Motor On", NS, "Follows Drive Enabled; undocumented, one host reads it so on real cards."
+)
 AXIS_4.row(29, "Drive Fault", NS, "Latched drive fault input.")
 AXIS_4.row(
     31, "Excess Error Fault", RW, "The axis was disabled for excess error; DRIVE ON clears it."
