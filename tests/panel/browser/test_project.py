@@ -16,6 +16,15 @@ from openacr.panel.machine.project import of_project
 EXAMPLES = Path(__file__).parents[3] / "examples"
 ONE = "PROGRAM\n_more\n' as fast as it can\nP5 = P5+1\nGOTO more\nENDP\n"
 
+HELD = """() => import('/js/core/app.js').then(({ link }) => {
+  window.pressed = [];
+  const command = link.command;
+  link.command = (name, args) => {
+    if (name.startsWith('jog.press')) window.pressed.push(name);
+    return command.call(link, name, args);
+  };
+})"""
+
 
 @pytest.fixture(scope="module")
 def gantry(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -141,6 +150,25 @@ def test_an_axis_that_only_the_card_has_is_seen_in_the_loop_and_gets_gains(
     expect(page.locator("#prompt")).to_contain_text("0.0021")
     gain = served.call(lambda station: station.machine.card.read("axis2.proportional gain"))
     assert gain == pytest.approx(0.0021)
+
+
+def test_arrow_keys_jog_while_the_focus_is_in_the_pane_and_never_from_another(page: Page) -> None:
+    open_pane(page, "Jog")
+    jog = page.locator("[data-pane=jog]")
+    key = jog.get_by_role("button", name="X plus")
+    tab = page.locator(".bench-tab-text", has_text="Editor")
+    tab.click()
+    page.locator("[data-pane=editor] .cm-line").first.click()
+    page.evaluate(HELD)
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("window.pressed") == []
+    page.locator(".bench-tab-text", has_text="Jog").click()
+    key.focus()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function("window.pressed.length")
+    assert page.evaluate("window.pressed") == ["jog.press"]
+    page.get_by_role("button", name="CLOSE PANE").click()
+    expect(jog).to_have_count(0)
 
 
 # --- a mouse, and keys ----------------------------------------------------------------

@@ -49,7 +49,7 @@ export const screen = {
     let steps = PRESETS.map((n) => `#${n}`);
     draw(steps);
     void readSteps().then((found) => draw(steps = found ?? steps));
-    endings.add(fast.watch(() => draw(steps)), preset.watch(() => draw(steps)), releaseAll, listenToArrows(held));
+    endings.add(fast.watch(() => draw(steps)), preset.watch(() => draw(steps)), releaseAll, listenToArrows(held, body));
   },
 };
 
@@ -96,15 +96,17 @@ function step(axis, direction) {
 }
 
 /**
- * Arrow and page keys hold the keys of X, Y and Z while no field has the focus.
+ * Arrow and page keys hold the keys of X, Y and Z while no field has the focus; as a pane among others, while the focus is in it.
  * @param {Map<string, HTMLElement>} keys
+ * @param {HTMLElement} body
  */
-function listenToArrows(keys) {
+function listenToArrows(keys, body) {
   const pressed = (/** @type {KeyboardEvent} */ event) => {
     const jog = ARROWS[event.key];
     const isFree = !(event.target instanceof Element && event.target.closest("input, select, textarea, [role=tablist], [role=radiogroup]"));
+    const isHere = !body.closest(".bench-pane") || (event.target instanceof Node && body.contains(event.target));
     const key = jog && keys.get(jog.join(""));
-    if (!key || !isFree || event.ctrlKey || event.altKey || event.metaKey || document.querySelector("dialog[open]")) return;
+    if (!key || !isFree || !isHere || event.ctrlKey || event.altKey || event.metaKey || document.querySelector("dialog[open]")) return;
     event.preventDefault();
     if (event.repeat) return;
     if (preset.value > 0) step(jog[0], jog[1]);

@@ -1,6 +1,6 @@
 // Texts on their way from the card and to it.
 import { get, send } from "../../core/api.js";
-import { link, model } from "../../core/app.js";
+import { link, model, refuse } from "../../core/app.js";
 import { textOf } from "../../screens/programs.js";
 
 const OF_CARD = /^(prog|plc)(\d+)\.8k$/i;
@@ -17,12 +17,12 @@ export function which(level) {
 }
 
 /**
- * A program as the card lists it; where its project has the same, as it is written there, with its comments.
+ * A program as the card lists it; where its project has the same, as it is written there, with its comments. A project that cannot be read is said.
  * @param {string} level
  * @returns {Promise<Opened>}
  */
 export async function fromCard(level) {
-  const [listed, around, project] = await Promise.all([get("card/listing", which(level)), get("card/surroundings", which(level)), inProject(level)]);
+  const [listed, around, project] = await Promise.all([get("card/listing", which(level)), get("card/surroundings", which(level)), inProject(level).catch((error) => void refuse(error))]);
   const text = project?.is_same && project.text ? project.text : textOf(listed.lines);
   return { name: `${level.toLowerCase()}.8k`, level, text, version: listed.version, setup: around.setup, isCards: true, project };
 }
