@@ -9,7 +9,10 @@ from pathlib import Path
 
 import httpx
 import pytest
+from tests.io.served import serving
 from tests.mill.live import LIMIT_S, Process, until
+
+from openacr.client import Card
 
 
 def test_the_panel_starts_without_configuration_and_ends_cleanly_while_it_computes_a_path(
@@ -90,6 +93,21 @@ def test_a_card_that_cannot_be_reached_is_said_in_the_terminal(tmp_path: Path) -
         assert process.ended() == 0
     finally:
         process.close()
+
+
+def test_a_card_is_set_up_at_the_start_where_that_is_asked_for(tmp_path: Path) -> None:
+    with serving() as served, Card.open(f"127.0.0.1:{served.ascii_port}") as card:
+        card.command("DIM P(100)")
+        words = ("panel", card.name, "--set-up", "--no-browser", "--port", "0")
+        store = ("--store", str(tmp_path / "sysvar.db"), "--programs", str(tmp_path))
+        process = Process(*words, *store, store=tmp_path / "other.db")
+        try:
+            attached = 'ATTACH SLAVE0 AXIS0 "X"'
+            until(lambda: attached in card.command("ATTACH", program=0), about="it is set up")
+            process.signal(signal.SIGTERM)
+            assert process.ended() == 0
+        finally:
+            process.close()
 
 
 def test_the_panel_ends_in_one_line_while_it_opens_a_card_that_does_not_answer(

@@ -49,6 +49,10 @@ def panel(
     programs: Annotated[
         Path | None, typer.Option(metavar="FOLDER", help="Folder of part programs.")
     ] = None,
+    is_agreed: Annotated[
+        bool,
+        typer.Option("--set-up", help="Set a card up for AcroMill at the start, as SET UP does."),
+    ] = False,
     names: Annotated[
         list[str] | None,
         typer.Option("--name", metavar="HOST", help="A name by which browsers reach this server."),
@@ -73,6 +77,7 @@ def panel(
     """
     _require_packages()
     installation = _installation(machine, store, programs)
+    installation.is_agreed |= is_agreed
     try:
         if set_password is not None:
             _set_password(installation, set_password)
