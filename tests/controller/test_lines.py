@@ -233,6 +233,7 @@ def test_ask_returns_the_whole_of_a_long_list_and_leaves_nothing() -> None:
 def test_ask_waits_for_every_line_and_for_the_end_of_a_followed_program() -> None:
     card = Controller()
     assert card.ask("DWL 0.2\r?1\r") == "DWL 0.2\r\n?1\r\nSYS>1\r\nSYS>"
+    assert card.ask("DWL 0.1\r" + "?1\r" * 60).count("SYS>") == 61, "more than one turn"
     card.send("PROG0\r10 PRINT 7\r20 DWL 0.5\r30 PRINT 8\r")
     assert card.ask("LRUN\r") == "LRUN\r\n7\r\n8\r\nP00>"
     assert card.ask("RUN\r") == "RUN\r\nP00>", "RUN does not wait"

@@ -47,6 +47,8 @@ def test_several_lines_of_a_text_are_padded_together(packets: Host) -> None:
     assert packets.send(padded("P1=7\r?P1\r")) == "P1=7|SYS>?P1|7|SYS>"
     assert packets.send(b"?P") == "?P"
     assert packets.send(b"1\r" + GET).startswith("1|7|SYS>"), "in any pieces"
+    assert packets.send(b"?P" + GET).startswith("?P\0"), "a zero within a line begins a packet"
+    assert packets.send(b"1\r") == "1|7|SYS>"
 
 
 @pytest.mark.parametrize("begin", ["00", "04", "07", "1C", "1D", "1F"])

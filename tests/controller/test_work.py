@@ -168,6 +168,10 @@ def test_many_keys_are_dealt_with_in_turns_and_the_last_of_each_acts_at_once(
     assert host.card.memory.bit(8467), "the last key was a Ctrl-X"
     pressed.clear()
     host.after(1)
+    assert host.send("\x18" + "?1\r" * 40) == "?1|1|SYS>" * 24
+    assert pressed == [kill], "a key that has acted is not found again"
+    assert host.after(20) == "?1|1|SYS>" * 16
+    pressed.clear()
     host.send("?1\r" * 40 + "\x18\x19")
     assert pressed == [kill, clear]
     assert not host.card.memory.bit(8467)
