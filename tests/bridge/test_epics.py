@@ -105,7 +105,7 @@ def test_beacons_that_no_repeater_takes_are_no_failure(
 
 
 def test_only_what_the_file_lists_is_written_and_within_its_limits(
-    served: str, feed: GivenFeed
+    served: str, feed: GivenFeed, caplog: pytest.LogCaptureFixture
 ) -> None:
     def write(name: str, given: object) -> None:
         client.write(f"mill:{name}", given, notify=True, repeater=False, timeout=LIMIT_S)
@@ -118,6 +118,12 @@ def test_only_what_the_file_lists_is_written_and_within_its_limits(
         with pytest.raises(CaprotoError):
             write(name, given)
     assert len(feed.written) == 2
+    lines = [each.getMessage() for each in caplog.records if each.name == "caproto.circ"]
+    assert [line for line in lines if line.startswith("refused: ")][:2] == [
+        "refused: pulses: 1000.5 is not in -1000..1000",
+        "refused: pulses is a whole number: 0.5 is not",
+    ]
+    assert not [record for record in caplog.records if record.exc_info]
     until(lambda: read("user:pulses", "time").metadata.severity == AlarmSeverity.NO_ALARM)
 
 

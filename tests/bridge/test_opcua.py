@@ -260,9 +260,13 @@ async def _writing(client: Client, feed: GivenFeed) -> None:
     for value, kind in ((1000.5, double), (-1001.0, double), (0.5, double)):
         assert await refused(client, "user.pulses", value, kind) == codes.BadOutOfRange
     assert await refused(client, "user.gate", 2, integer) == codes.BadOutOfRange
-    wrong: list[Any] = [(float("nan"), double), ("1", ua.VariantType.String), (True, boolean)]
-    for given, kind in wrong:
-        assert await refused(client, "user.pulses", given, kind) == codes.BadDeviceFailure
+    assert await refused(client, "user.pulses", float("nan"), double) == codes.BadOutOfRange
+    text = ua.VariantType.String
+    wrong: list[Any] = [("user.pulses", "1", text), ("user.pulses", True, boolean)]
+    for name, given, kind in (*wrong, ("user.gate", "1", text)):
+        assert await refused(client, name, given, kind) == codes.BadTypeMismatch
+    server_uris = await client.get_node(ua.ObjectIds.Server_ServerArray).read_value()
+    assert server_uris == ["urn:openacr:bridge"]
     assert await refused(client, "user.pulses", [1.0], double) == codes.BadTypeMismatch
     assert await refused(client, "line", 3, ua.VariantType.Int64) == codes.BadNotWritable
     state = client.get_node(ua.ObjectIds.Server_ServiceLevel)

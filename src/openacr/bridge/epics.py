@@ -16,11 +16,12 @@ from caproto import (
     ChannelEnum,
     ChannelInteger,
     ChannelString,
+    Forbidden,
 )
 from caproto.asyncio.server import Context
 
 from openacr.bridge.items import Item, Readings
-from openacr.bridge.library_logs import leave_out
+from openacr.bridge.library_logs import in_one_line, leave_out
 from openacr.bridge.newest import Newest
 from openacr.bridge.rows import Kind, Unit, Value
 from openacr.bridge.settings import Chosen, Epics
@@ -37,7 +38,7 @@ UNITS = {
     Unit.PERCENT: "%", Unit.SECOND: "s",
 }  # fmt: skip
 READY_S = 60.0
-LIBRARY_LOG = "caproto.ctx"
+LIBRARY_LOG, WRITE_LOG = "caproto.ctx", "caproto.circ"
 Put = Callable[[object], Awaitable[None]]
 
 
@@ -109,6 +110,7 @@ class EpicsSystem:
         # Beacons are for this address, not for every network of the computer.
         os.environ.setdefault("EPICS_CAS_AUTO_BEACON_ADDR_LIST", "NO")
         os.environ.setdefault("EPICS_CAS_BEACON_ADDR_LIST", settings.address)
+        in_one_line(WRITE_LOG, UserError, Forbidden)
         leave_out(LIBRARY_LOG, ConnectionRefusedError)  # no repeater waits for beacons here
         prefix = settings.prefix or f"{self._setup.machine}:"
         names = [f"{prefix}{item.name.replace('.', ':')}" for item in self._items]

@@ -35,3 +35,27 @@ def limit(logger: str) -> None:
     found = logging.getLogger(logger)
     if not any(isinstance(each, Bounded) for each in found.filters):
         found.addFilter(Bounded(time.monotonic))
+
+
+class OneLine(logging.Filter):
+    """Makes one line of what a library logs with a traceback: the sentence of the failure."""
+
+    def __init__(self, failures: tuple[type[Exception], ...]) -> None:
+        super().__init__()
+        self._failures = failures
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Keep the line; of such a failure, only what it says."""
+        raised = record.exc_info[1] if record.exc_info else None
+        if isinstance(raised, self._failures):
+            record.msg, record.args = "refused: %s", (raised,)
+            record.exc_info = record.exc_text = None
+            record.levelno, record.levelname = logging.WARNING, "WARNING"
+        return True
+
+
+def in_one_line(logger: str, *failures: type[Exception]) -> None:
+    """Log failures within a library as their sentences, from now on."""
+    found = logging.getLogger(logger)
+    if not any(isinstance(each, OneLine) for each in found.filters):
+        found.addFilter(OneLine(failures))

@@ -42,14 +42,22 @@ class RangeError(UserError):
     """A value beyond its limits."""
 
 
+class KindError(UserError):
+    """A value of another kind: a text, or a flag for a number."""
+
+
 def checked(chosen: Chosen, value: object) -> float:
-    """The number to write; UserError for another kind of value, RangeError beyond its limits."""
+    """The number to write; KindError for another kind of value, RangeError beyond its limits."""
     if chosen.is_flag:
-        if not isinstance(value, bool | int) or value not in (0, 1):
+        if not isinstance(value, bool | int | float):
+            raise KindError(f"{chosen.name} is a flag: {value!r} is neither 0 nor 1")
+        if value not in (0, 1):
             raise RangeError(f"{chosen.name} is a flag: {value!r} is neither 0 nor 1")
         return float(value)
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        raise UserError(f"{chosen.name}: {value!r} is not a number")
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise KindError(f"{chosen.name}: {value!r} is not a number")
+    if not math.isfinite(value):
+        raise RangeError(f"{chosen.name}: {value!r} is not a number")
     low, high = chosen.low, chosen.high
     if low is None or high is None or not low <= value <= high:
         raise RangeError(f"{chosen.name}: {value:g} is not in {low:g}..{high:g}")

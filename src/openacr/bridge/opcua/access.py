@@ -10,7 +10,7 @@ from asyncua.server.address_space import AddressSpace, AttributeService
 
 from openacr.bridge.items import Item
 from openacr.bridge.opcua.trust import Trusted
-from openacr.bridge.writing import RangeError, Writer
+from openacr.bridge.writing import KindError, RangeError, Writer
 from openacr.errors import UserError
 
 WRITER = "OPC UA"
@@ -68,6 +68,8 @@ class Attributes(AttributeService):  # type: ignore[misc]
             return codes.BadTypeMismatch
         try:
             await self._writer.write(item, given.Value, WRITER)
+        except KindError:
+            return codes.BadTypeMismatch
         except RangeError:
             return codes.BadOutOfRange
         except UserError:

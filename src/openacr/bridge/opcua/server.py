@@ -81,10 +81,10 @@ class OpcUaSystem:
     async def _secure(self) -> None:
         """Without a certificate there is no encryption; with one there is nothing else."""
         settings = self._settings
+        await self._server.set_application_uri(settings.application_uri)
         if settings.certificate is None or settings.private_key is None:
             self._server.set_security_policy(list(OPEN))
             return
-        await self._server.set_application_uri(settings.application_uri)
         self._server.set_security_policy(list(SEALED))
         folder = self._setup.folder
         await _load_key(folder / settings.certificate, self._server.load_certificate)
