@@ -55,7 +55,7 @@ export async function mount(host, { head, kept, keep }) {
   const channels = new Channels(kept.channels ?? [], changed);
   const settings = new Settings(kept, changed);
   const hosts = VIEWS.map((each) => h("div.scope-chart.grow", { hidden: each !== view, data: { view: each } }));
-  Object.assign(hosts[0], { tabIndex: 0, ariaLabel: t("scope.zoom.label"), onkeydown: zoomByKey });
+  Object.assign(hosts[0], { role: "group", tabIndex: 0, ariaLabel: t("scope.zoom.label"), onkeydown: zoomByKey });
   const state = h("span.scope-state.grow", { role: "status" });
   const zooming = h("span.hint", {}, t("scope.zoom"));
   const distance = h("span.hint", { data: { cursors: "" } });
