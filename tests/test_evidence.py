@@ -11,7 +11,7 @@ import pytest
 TESTS = Path(__file__).parent
 KINDS = {"manual", "oracle", "client", "reading"}
 ORACLES = {"scipy", "shapely", "ruckig"}
-ORACLE_MODULES = ("oracle", "part_models")
+ORACLE_MODULES = ("oracle", "part_models", "linuxcnc")
 
 
 def entries() -> list[dict[str, Any]]:

@@ -1,5 +1,9 @@
 """The interpreter of LinuxCNC as a judge: the moves of `rs274 -g`, in machine coordinates.
 
+Its lines for the programs of `tests/data/ngc` are kept beside them (`*.canon`), for `rs274` is on
+few computers. Where it is (Debian package linuxcnc-uspace), `python -m tests.cnc.linuxcnc` writes
+them again; the version belongs into `tests/evidence.toml`.
+
 `rs274` prints the calls of its canonical machining functions, in program units. What they come to
 on a machine is written in the documentation of LinuxCNC (Coordinate Systems, "G10 L2") and of
 its canonical functions: a point is shifted by the offset of G52 and G92, turned by the rotation of
@@ -11,10 +15,12 @@ import os
 import re
 import shutil
 import subprocess
+import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
+from tests.cnc.ngc_programs import PROGRAMS, is_judged
 from tests.cnc.programs import Run
 
 from openacr.cnc.canonical import Arc, Dwell, Line, Probe, Rapid, Say
@@ -65,8 +71,8 @@ class Canon:
         p[1] = x * math.sin(angle) + y * math.cos(angle)
         return tuple(a + o + t for a, o, t in zip(p, self.origin, self.tool, strict=True))
 
-    def take(self, name: str, text: str) -> None:
-        """One call."""
+    def take(self, name: str, text: str) -> bool:
+        """One call; whether it says anything of the moves."""
         numbers = [float(each) for each in _NUMBER.findall(text)]
         if name in ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "STRAIGHT_PROBE"):
             self.at = numbers[:6]
@@ -90,6 +96,9 @@ class Canon:
             self.moves.append(Move("D", (numbers[0],)))
         elif name == "MESSAGE":
             self.texts.append(text.strip('"'))
+        else:
+            return False
+        return True
 
     def _add(self, move: Move) -> None:
         """A move; one that stays where it is moves nothing."""
@@ -119,25 +128,50 @@ class Canon:
         self.moves.append(Move("A", self.machine(end), where, math.degrees(sweep), self.feed))
 
 
-def judged(text: str, folder: Path) -> Canon:
-    """What LinuxCNC does with a program in inches."""
+def golden(path: Path) -> Path:
+    """The file with the lines of LinuxCNC for a program."""
+    return path.with_suffix(".canon")
+
+
+def printed(path: Path) -> str:
+    """What LinuxCNC prints of the moves of a program in inches, one call per line, to its end."""
     assert PROGRAM is not None
-    (folder / "program.ngc").write_text(f"G20 {text}", encoding="utf-8")
-    (folder / "tool.tbl").write_text(_TABLE, encoding="utf-8")
-    (folder / "first.var").write_text("", encoding="utf-8")
-    command = [PROGRAM, "-g", "-t", "tool.tbl", "-v", "first.var", "program.ngc"]
-    home = os.environ | {"HOME": str(folder)}  # where it shares its table of tools
-    done = subprocess.run(
-        command, cwd=folder, env=home, capture_output=True, text=True, timeout=_LIMIT_S, check=False
-    )
+    with tempfile.TemporaryDirectory(prefix="openacr-rs274-") as name:
+        folder = Path(name)
+        program = f"G20 {path.read_text(encoding='utf-8')}"
+        (folder / "program.ngc").write_text(program, encoding="utf-8")
+        (folder / "tool.tbl").write_text(_TABLE, encoding="utf-8")
+        (folder / "first.var").write_text("", encoding="utf-8")
+        command = [PROGRAM, "-g", "-t", "tool.tbl", "-v", "first.var", "program.ngc"]
+        home = os.environ | {"HOME": name}  # where it shares its table of tools
+        done = subprocess.run(
+            command,
+            cwd=name,
+            env=home,
+            capture_output=True,
+            text=True,
+            timeout=_LIMIT_S,
+            check=False,
+        )
     canon = Canon()
+    kept: list[str] = []
     for line in done.stdout.splitlines():
         found = _CALL.search(line)
         if found and found[1] == "PROGRAM_END":
-            return canon
-        if found:
-            canon.take(found[1], found[2])
+            return "".join(kept)
+        if found and canon.take(found[1], found[2]):
+            kept.append(f"{found[0].rstrip()}\n")
     raise AssertionError(f"LinuxCNC refuses it: {done.stdout[-300:]}{done.stderr[-300:]}")
+
+
+def judged(path: Path) -> Canon:
+    """What LinuxCNC does with a program, by the lines that are kept of it."""
+    canon = Canon()
+    for line in golden(path).read_text(encoding="utf-8").splitlines():
+        found = _CALL.fullmatch(line)
+        assert found, line
+        assert canon.take(found[1], found[2]), line
+    return canon
 
 
 def own(done: Run) -> list[Move]:
@@ -186,3 +220,13 @@ def compare(mine: list[Move], theirs: list[Move]) -> None:
         assert here.end == pytest.approx(there.end, abs=NEAR), (here, there)
         assert here.centre == pytest.approx(there.centre, abs=NEAR), (here, there)
         assert here.sweep_deg == pytest.approx(there.sweep_deg, abs=0.5), (here, there)
+
+
+def main() -> None:
+    """Write the lines of LinuxCNC for every program that it judges."""
+    for path in filter(is_judged, PROGRAMS):
+        golden(path).write_text(printed(path), encoding="utf-8", newline="\n")
+
+
+if __name__ == "__main__":
+    main()
