@@ -77,7 +77,8 @@ class Canon:
         if name in ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED", "STRAIGHT_PROBE"):
             self.at = numbers[:6]
             kind = {"STRAIGHT_TRAVERSE": "R", "STRAIGHT_FEED": "L"}.get(name, "P")
-            self._add(Move(kind, self.machine(self.at), feed=self.feed))
+            feed = self.feed if kind == "L" else 0.0
+            self._add(Move(kind, self.machine(self.at), feed=feed))
         elif name == "ARC_FEED":
             self._arc(numbers)
         elif name == "SET_G5X_OFFSET":
@@ -220,6 +221,7 @@ def compare(mine: list[Move], theirs: list[Move]) -> None:
         assert here.end == pytest.approx(there.end, abs=NEAR), (here, there)
         assert here.centre == pytest.approx(there.centre, abs=NEAR), (here, there)
         assert here.sweep_deg == pytest.approx(there.sweep_deg, abs=0.5), (here, there)
+        assert here.feed == pytest.approx(there.feed, abs=NEAR), (here, there)
 
 
 def main() -> None:
