@@ -26,14 +26,15 @@ def list_file(
     file: File,
     ladder: Annotated[bool, typer.Option("--ladder", help="Draw PLCs as ladders instead.")] = False,
 ) -> None:
-    """Print a controller file as the card lists it."""
+    """Print a controller file as the card lists it; exit code 1: it has errors."""
     from openacr.source_check import ladders, listing, read
 
     reader = read(file, find_project(file))
-    for line in ladders(reader) if ladder and not reader.faults else listing(reader):
+    errors = [fault for fault in reader.faults if not fault.is_warning]
+    for line in ladders(reader) if ladder and not errors else listing(reader):
         typer.echo(readable(line))
-    if reader.faults:
-        _show(reader.faults, on_stderr=True)
+    if errors:
+        _show(errors, on_stderr=True)
         raise typer.Exit(HAS_ERRORS)
 
 
