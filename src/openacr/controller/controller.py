@@ -17,6 +17,7 @@ from openacr.controller.engine_run import AskLine, EngineRun
 from openacr.controller.inputs import JournalFile
 from openacr.controller.journal import Entered, JournalEntry
 from openacr.controller.loading import PATIENCE_S, Loader, LoadError, Origins
+from openacr.controller.pages import card_page
 from openacr.controller.parts import CardParts
 from openacr.controller.streams import CONSOLE
 from openacr.controller.surroundings import Surroundings, needs_axis
@@ -458,6 +459,10 @@ class Controller:
         """Totals of an axis since power-up."""
         needs_axis(self.card, axis)
         return AxisStatistics.of(self.card, axis)
+
+    def _repr_html_(self) -> str:
+        """What notebooks show: time, motors, programs."""
+        return card_page(self)
 
     def digest(self) -> str:
         """Fingerprint of the state, without what this process requested from the engine."""

@@ -10,6 +10,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from openacr.controller.pages import table
 from openacr.engine.trace_cy import TRACE_AXIS, TRACE_HEAD
 from openacr.errors import UserError
 from openacr.wording import counted
@@ -73,18 +74,12 @@ class Trace:
     def _repr_html_(self) -> str:
         """What notebooks show: rows, time, and the extremes of each axis that has moved."""
         span = f"{self.time_s[0]:g} to {self.time_s[-1]:g} s" if len(self.time_s) else "empty"
-        rows = "".join(
-            f"<tr><td>{number}</td>"
-            + "".join(f"<td>{value:.6g}</td>" for value in _extremes(axis))
-            + "</tr>"
+        rows = [
+            (number, *(f"{value:.6g}" for value in _extremes(axis)))
             for number, axis in enumerate(self.axes)
             if len(self.time_s) and np.ptp(axis.actual_u) > 0.0
-        )
-        head = "".join(f"<th>{title}</th>" for title in EXTREMES)
-        return (
-            f"<p>Trace: {counted(len(self.time_s), 'row')}, {span}</p>"
-            f"<table><tr>{head}</tr>{rows}</table>"
-        )
+        ]
+        return f"<p>Trace: {counted(len(self.time_s), 'row')}, {span}</p>{table(EXTREMES, rows)}"
 
 
 def _extremes(axis: AxisTrace) -> tuple[float, ...]:
