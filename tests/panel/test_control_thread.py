@@ -7,8 +7,10 @@ import pytest
 from tests.panel.bench import HandStation
 
 from openacr.errors import UserError
+from openacr.panel.commands.registry import COMMANDS
 from openacr.panel.control.orders import Order
-from openacr.panel.control.thread import ORDERS_S, ControlThread
+from openacr.panel.control.people import Person
+from openacr.panel.control.thread import ORDERS_S, URGENT, ControlThread
 from openacr.panel.control.waiting import Waiting
 
 
@@ -19,8 +21,9 @@ class Hand(ControlThread):
         self.hand = hand
         super().__init__(hand.station, lambda: hand.now_s)
 
-    def send(self, name: str, answers: list[Any], **args: Any) -> None:
-        self.put(Order(self.hand.me, name, args, self.hand.now_s, answers.append))
+    def send(self, name: str, answers: list[Any], *, client: int = 1, **args: Any) -> None:
+        person = Person(client, self.hand.me.role, "127.0.0.1")
+        self.put(Order(person, name, args, self.hand.now_s, answers.append))
 
 
 @pytest.fixture
@@ -118,6 +121,77 @@ def test_motion_that_is_commanded_at_or_after_a_stop_begins(thread: Hand) -> Non
     thread.send("mdi.execute", answers, line="G0 X5")
     thread.turn(0.0)
     assert [each["ok"] for each in answers] == [True, True]
+
+
+def busy(text: str) -> dict[str, Any]:
+    return {"ok": False, "error": {"code": "busy", "text": text}}
+
+
+def test_of_one_browser_a_hundred_commands_wait_and_another_one_has_room(thread: Hand) -> None:
+    mine: list[Any] = []
+    other: list[Any] = []
+    for _ in range(102):
+        thread.send("nothing", mine)
+    assert mine == [busy("100 commands of this browser wait already: try again")] * 2
+    thread.send("nothing", other, client=2)
+    assert other == []
+    thread.turn(0.0)  # the clock is still: all are carried out
+    assert len(mine) == 102
+    assert [each["error"]["code"] for each in other] == ["bad"]
+    thread.send("nothing", mine)
+    assert len(mine) == 102
+
+
+def test_of_all_browsers_a_thousand_commands_wait_and_each_one_still_stops(thread: Hand) -> None:
+    answers: list[Any] = []
+    for client in range(10, 20):
+        for _ in range(100):
+            thread.send("nothing", answers, client=client)
+    assert answers == []
+    thread.send("nothing", answers, client=2)
+    assert answers == [busy("too many commands wait: try again")]
+    thread.send("stop.all", answers, client=2)
+    assert len(answers) == 1
+
+
+def test_stops_of_one_browser_have_a_bound_and_the_stop_of_another_one_is_the_next(
+    thread: Hand, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mine: list[Any] = []
+    other: list[Any] = []
+    order: list[str] = []
+    for _ in range(1000):
+        thread.send("stop.hold", mine)
+    assert mine == [busy("stop.hold: 8 of this browser wait already")] * 992
+    del mine[:]
+    real = thread.station.order
+
+    def noted(each: Order, now_s: float) -> None:
+        order.append(f"{each.person.client} {each.name}")
+        real(each, now_s)
+
+    monkeypatch.setattr(thread.station, "order", noted)
+    thread.send("stop.hold", other, client=2)
+    thread.send("stop.estop", mine)  # a stronger one of the same browser is not kept out
+    thread.turn(0.0)
+    assert order == [*["1 stop.hold"] * 8, "2 stop.hold", "1 stop.estop"]
+    assert [each["ok"] for each in mine + other] == [True] * 10
+    thread.send("stop.hold", mine)
+    assert len(mine) == 9
+
+
+def test_a_browser_that_may_send_no_more_commands_still_stops(thread: Hand) -> None:
+    answers: list[Any] = []
+    for _ in range(100):
+        thread.send("nothing", answers)
+    thread.send("stop.all", answers)
+    thread.turn(0.0)
+    assert answers[0] == {"ok": True, "result": {"stopped": []}}
+
+
+def test_all_that_stops_is_urgent() -> None:
+    stops = {name for name, each in COMMANDS.items() if each.is_stop}
+    assert {*URGENT} == {*stops, "jog.release"}
 
 
 def failing(*_args: object) -> None:
@@ -227,6 +301,19 @@ def test_urgent_items_are_taken_first_and_each_kind_in_its_order() -> None:
     assert len(waiting) == 4
     assert [waiting.take() for _ in range(5)] == ["U", "V", "a", "b", None]
     assert waiting.take(0.001) is None
+
+
+def test_an_item_is_refused_while_the_most_of_its_sender_wait() -> None:
+    waiting: Waiting[str] = Waiting()
+    assert waiting.put("a", sender=1, most=2)
+    assert waiting.put("b", is_urgent=True, sender=1, most=2)
+    assert not waiting.put("c", sender=1, most=2)
+    assert waiting.put("d", sender=2, most=1)
+    assert waiting.put("e", sender=1)
+    assert [waiting.take() for _ in range(2)] == ["b", "a"]
+    assert waiting.put("f", sender=1, most=2)
+    assert [waiting.take() for _ in range(4)] == ["d", "e", "f", None]
+    assert not waiting._counts
 
 
 def test_an_unexpected_failure_at_the_end_cuts_the_power_and_closes_the_machine(

@@ -20,10 +20,12 @@ log = logging.getLogger(__name__)
 T = TypeVar("T")
 SWITCH_S = 0.0005  # how long another thread may compute before this one gets its turn
 MOST_WAITING = 1000
+MOST_OF_ONE = 100  # of a browser, without those that stop
+MOST_STOPS = 8  # of a browser, of each kind: a finger on each key of an operator's screen
 REST_S = 90.0  # longer than any wait of an ending
 AGAIN_S = 10.0  # from one report of a failure to the next one of the same text
 ORDERS_S = 0.005  # longest time of orders before the machine gets its step
-URGENT = ("stop.", "jog.release", "jog.stop")
+URGENT = ("stop.hold", "stop.all", "stop.estop", "jog.release", "jog.stop")
 
 Work = Callable[[], None]
 
@@ -52,13 +54,22 @@ class ControlThread:
     # --- from other threads -----------------------------------------------------------
 
     def put(self, order: Order) -> None:
-        """Hand an order over; one that finds too many before it is refused, unless it stops."""
-        is_urgent = order.name.startswith(URGENT)
-        if len(self._orders) >= MOST_WAITING and not is_urgent:
-            busy = PanelError("busy", "too many commands wait: try again")
-            order.answer({"ok": False, "error": failure(busy)})
-            return
-        self._orders.put(order, is_urgent=is_urgent)
+        """Hand an order over; one that finds too many before it is refused, unless it stops.
+
+        Of each browser a number of orders wait at most, also of those that stop.
+        """
+        client = order.person.client
+        if order.name in URGENT:  # those that wait stop the same machine
+            sender = client, order.name
+            if not self._orders.put(order, is_urgent=True, sender=sender, most=MOST_STOPS):
+                self._refuse(order, f"{order.name}: {MOST_STOPS} of this browser wait already")
+        elif len(self._orders) >= MOST_WAITING:
+            self._refuse(order, "too many commands wait: try again")
+        elif not self._orders.put(order, sender=client, most=MOST_OF_ONE):
+            self._refuse(order, f"{MOST_OF_ONE} commands of this browser wait already: try again")
+
+    def _refuse(self, order: Order, text: str) -> None:
+        order.answer({"ok": False, "error": failure(PanelError("busy", text))})
 
     def call(self, work: Callable[[Station], T]) -> "Future[T]":
         """Run a function in the control thread; its result or error is in the future."""
