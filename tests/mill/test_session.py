@@ -148,3 +148,39 @@ def test_the_block_of_a_long_path_is_shown_with_its_text() -> None:
     while shop.block is None or shop.block[0] < 12:
         shop.step()
     assert shop.block == (12, "X1.1 Y0")
+
+
+PART = "G0 Z1\nS800 M3\nM7 M8\nG1 X1 F600\nX2\nM2\n"
+
+
+@pytest.mark.req("MILL-RUN-STARTLINE-STATE")
+@pytest.mark.parametrize(
+    ("typed", "differs"),
+    [
+        ("M5", {"S": ("0", "800"), "spindle": ("off", "clockwise")}),
+        ("S800 M3", {}),
+        ("S800 M4", {"spindle": ("counter-clockwise", "clockwise")}),
+        ("S800 M4\nM5", {"spindle": ("off", "clockwise")}),
+        ("S300 M3", {"S": ("300", "800")}),
+        ("S800 M3\nM8", {"coolant": ("flood", "mist and flood")}),
+        ("S800 M3\nM7", {"coolant": ("mist", "mist and flood")}),
+        ("S800 M3\nM7\nM8", {"coolant": None}),
+    ],
+)
+def test_a_start_at_a_line_compares_with_what_the_machine_has_switched_on(
+    typed: str, differs: dict[str, tuple[str, str] | None]
+) -> None:
+    shop = shop_on(Controller(), P200_007=0)
+    shop.card.command("DRIVE ON X Y Z", program=0)
+    list(shop.run_blocks(typed.splitlines(), "acromill", lambda _shop: None))
+    replay = shop.rehearse(load(PART, shop.cells), Start(line=5))
+    found = {
+        each.name: (each.shown(each.present), each.shown(each.wanted))
+        for each in replay.differences
+        if each.name in ("S", "spindle", "coolant")
+    }
+    assert found == {
+        name: pair
+        for name, pair in {"coolant": ("off", "mist and flood"), **differs}.items()
+        if pair is not None
+    }

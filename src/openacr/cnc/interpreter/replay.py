@@ -35,8 +35,8 @@ from openacr.cnc.canonical import (
 )
 from openacr.cnc.canonical.actions import Spin
 from openacr.cnc.interpreter.interpreter import Interpreter
-from openacr.cnc.state.cells import COOLANT, SPEED, SPIN, TOOL_IN_SPINDLE
-from openacr.cnc.state.hosts import Machine
+from openacr.cnc.state.cells import TOOL_IN_SPINDLE
+from openacr.cnc.state.hosts import Machine, Switched
 from openacr.cnc.state.parameters import OUTPUTS_INVERTED, is_inverted
 from openacr.cnc.state.shadow import Shadow
 from openacr.errors import UserError
@@ -116,6 +116,9 @@ class _Rehearsal:
 
     def has_probe(self) -> bool:
         return self._machine.has_probe()
+
+    def switched(self) -> Switched:
+        return self._machine.switched()
 
 
 @dataclass(slots=True)
@@ -231,7 +234,7 @@ def rehearsal(run: Interpreter, line: int, level: float | None = None) -> Rehear
         raise TypeError("a replay needs cells of its own")
     machine = run.machine
     present = machine.position() or run.path.target
-    before = {n: run.cells.read(n) for n in (TOOL_IN_SPINDLE, SPEED, SPIN, COOLANT)}
+    tool = run.cells.read(TOOL_IN_SPINDLE)
     host = _Rehearsal(machine)
     run.machine = host
     replay = Replay(run, line, present, run.cells, variables=host.written, level=level)
@@ -244,7 +247,7 @@ def rehearsal(run: Interpreter, line: int, level: float | None = None) -> Rehear
     if replay.reached.by_increments:
         replay.warnings.append(_increments(replay))
     replay.safe_level()  # a start that would be refused is not asked about
-    replay.differences += _differences(replay, before)
+    replay.differences += _differences(replay, tool)
     return replay
 
 
@@ -277,14 +280,14 @@ def _increments(replay: Replay) -> str:
     return f"{listed}: increments were counted from where the machine is now"
 
 
-def _differences(replay: Replay, before: dict[int, float]) -> Iterator[Difference]:
+def _differences(replay: Replay, tool: float) -> Iterator[Difference]:
     modal, run = replay.run.modal, replay.run
-    coolant = modal.mist + 2.0 * modal.flood
+    now = run.machine.switched()
     pairs = (
-        ("tool", before[TOOL_IN_SPINDLE], float(modal.tool_in_spindle)),
-        ("S", before[SPEED], modal.speed),
-        ("spindle", before[SPIN], float(modal.spin.value)),
-        ("coolant", before[COOLANT], coolant),
+        ("tool", tool, float(modal.tool_in_spindle)),
+        ("S", now.rpm, modal.speed),
+        ("spindle", float(now.spin.value), float(modal.spin.value)),
+        ("coolant", now.has_mist + 2.0 * now.has_flood, modal.mist + 2.0 * modal.flood),
         ("work system", 1.0, float(modal.work)),
         ("H", 0.0, float(modal.length_number)),
         ("D", 0.0, float(modal.radius_number)),
@@ -295,7 +298,7 @@ def _differences(replay: Replay, before: dict[int, float]) -> Iterator[Differenc
     for output in replay.outputs.values():
         bit = output.is_on != is_inverted(run.cells, OUTPUTS_INVERTED, output.number)
         if run.machine.read_bit(output.number) != bit:
-            now, then = float(not output.is_on), float(output.is_on)
-            yield Difference(f"output {output.number}", now, then)
+            is_on = float(output.is_on)
+            yield Difference(f"output {output.number}", 1.0 - is_on, is_on)
     if run.path.issued != replay.present:
         yield Difference("position", replay.present, run.path.issued)

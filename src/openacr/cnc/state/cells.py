@@ -26,5 +26,4 @@ FLOATING = CELLS.floating_zero_shift[0]
 FIXTURES = OFFSETS.fixtures[0][0] - OFFSETS.fixtures[0].step  # of G100, which has no cells
 
 # What is shown of the state.
-TOOL, TOOL_IN_SPINDLE, SPEED = CELLS.tool_selected, CELLS.tool_in_spindle, CELLS.spindle_speed
-SPIN, COOLANT = CELLS.spindle_state, CELLS.coolant_state
+TOOL, TOOL_IN_SPINDLE = CELLS.tool_selected, CELLS.tool_in_spindle

@@ -8,7 +8,7 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from openacr.cnc.canonical import Point
+from openacr.cnc.canonical import Point, Spin
 
 
 class Home(Protocol):
@@ -52,6 +52,16 @@ class Cells(Protocol):
         """
 
 
+@dataclass(frozen=True, slots=True)
+class Switched:
+    """What a machine has switched on: direction and set speed of the spindle, and coolant."""
+
+    spin: Spin = Spin.OFF
+    rpm: float = 0.0
+    has_mist: bool = False
+    has_flood: bool = False
+
+
 class Machine(Protocol):
     """The card and what is wired to it; asked only after a Sync."""
 
@@ -81,6 +91,9 @@ class Machine(Protocol):
 
     def has_probe(self) -> bool:
         """Whether a probe input is configured."""
+
+    def switched(self) -> Switched:
+        """Spindle and coolant as they are now."""
 
 
 @dataclass
@@ -127,3 +140,7 @@ class VirtualMachine:
     def has_probe(self) -> bool:
         """As set."""
         return self.is_probed
+
+    def switched(self) -> Switched:
+        """Nothing is on."""
+        return Switched()

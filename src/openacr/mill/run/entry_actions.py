@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from openacr.client.errors import RefusedError
 from openacr.cnc import canonical as c
+from openacr.cnc.state.hosts import Switched
 from openacr.errors import MapError
 from openacr.map.numbers import AX_ACTUAL_POSITION
 from openacr.mill.card import alarms
@@ -45,6 +46,11 @@ class EntryActions:
             each.callback(self.coolant.set, mist=False, flood=False)
             for beam in (burning.plasma, burning.under_burn):
                 each.callback(self._io.output, beam, False)
+
+    def switched(self) -> Switched:
+        """Spindle and coolant as they are now."""
+        spindle, coolant = self.spindle, self.coolant
+        return Switched(c.Spin(spindle.state), spindle.rpm, coolant.has_mist, coolant.has_flood)
 
     @singledispatchmethod
     def steps(self, halt: Halt) -> Steps:

@@ -46,7 +46,9 @@ class ProgramStream:
 
     def __init__(self, io: MachineIo, entry_actions: EntryActions, depth: int) -> None:
         self.settings = io.settings
-        self.host = RunHost(io.machine, io.settings, lambda: self._probing.point)
+        self.host = RunHost(
+            io.machine, io.settings, lambda: self._probing.point, entry_actions.switched
+        )
         self.tracker = Tracker()
         self._sent = 0  # moves sent one by one
         self.is_retaking = False  # moves are being withdrawn from the card

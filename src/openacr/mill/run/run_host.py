@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from openacr.cnc.canonical import AXES, Point
+from openacr.cnc.state.hosts import Switched
 from openacr.map.numbers import AX_CURRENT_POSITION
 from openacr.mill.card.driver import MachineDriver
 from openacr.mill.config.settings import Settings
@@ -12,11 +13,16 @@ class RunHost:
     """`cnc.hosts.MachineDriver` for a card. `answers` of the operator are kept by parameter."""
 
     def __init__(
-        self, machine: MachineDriver, settings: Settings, tripped: Callable[[], Point | None]
+        self,
+        machine: MachineDriver,
+        settings: Settings,
+        tripped: Callable[[], Point | None],
+        switched: Callable[[], Switched],
     ) -> None:
         self._machine = machine
         self._settings = settings
         self._tripped = tripped
+        self._switched = switched
         self.answers: dict[int, float] = {}
         self.is_skipping = False  # the switch
         self.skips_always = False  # the button on the screen
@@ -56,6 +62,10 @@ class RunHost:
     def has_probe(self) -> bool:
         """Whether a probe input is configured."""
         return self._settings.wiring.probe >= 0
+
+    def switched(self) -> Switched:
+        """Spindle and coolant as they are now."""
+        return self._switched()
 
     def is_block_skip_on(self) -> bool:
         """Whether block skip is on, by the switch or the screen button."""
