@@ -329,3 +329,30 @@ def test_steps_of_a_homing_that_is_over_are_not_shown_after_a_reload_either(
     expect(page.locator("#prompt")).to_have_text("")
     served.call(lambda station: station.say("printed"))
     expect(page.locator("#prompt")).to_have_text("printed")
+
+
+@pytest.mark.req("MILL-MDI-TOPROG")
+def test_the_mdi_buffer_is_saved_as_a_program_and_run_as_such(page: Page, served: Served) -> None:
+    give(page, "mdi.buffer", on=True, lines=[])
+    page.keyboard.press("F7")
+    page.keyboard.press("F1")
+    line = page.get_by_role("textbox", name="Block", exact=True)
+    typed = ["G21 G90 G54 G1 X3 Y1 F3000", "G91 Y0.5"]
+    for text in typed:
+        line.fill(text)
+        page.keyboard.press("Enter")
+        expect(line).to_have_value("")
+        at_rest(page, served)
+    page.locator("#screen").get_by_role("button", name="SAVE AS", exact=True).click()
+    page.get_by_role("dialog").get_by_role("textbox").fill("TYPED.TXT")
+    page.keyboard.press("Enter")
+    expect(page.locator("#prompt")).to_have_text("TYPED.TXT is saved")
+    assert (served.programs / "TYPED.TXT").read_text() == "\n".join(typed) + "\n"
+    give(page, "mdi.execute", line="G90 G54 G0 X0 Y0")
+    at_rest(page, served)
+    place = lambda station: station.machine.runner.stream.host.position()[:2]  # noqa: E731
+    zero_x, zero_y = served.call(place)
+    load_file(page, "TYPED.TXT")
+    begin_run(page)
+    at_rest(page, served)
+    assert served.call(place) == pytest.approx((zero_x + 3.0, zero_y + 1.5))

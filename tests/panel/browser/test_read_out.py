@@ -72,6 +72,40 @@ def test_every_view_is_chosen_at_any_time_also_while_a_program_runs(
     at_rest(page, served)
 
 
+@pytest.mark.req("MILL-DISP-VIEWS-INDEP")
+def test_each_view_shows_its_own_blocks_and_a_change_of_one_leaves_the_others(
+    page: Page, served: Served
+) -> None:
+    store = served.panel.installation.store
+    kept = [store.read_text(cell) for cell in DISPLAY.views]
+    wanted = [
+        ["Current position", "Push buttons"],
+        ["Distance to go", "Modal status"],
+        ["Emergency stop", "Next position", "Feed and spindle"],
+    ]
+    words = ["position buttons", "distance modal", "estop next feeds"]
+    titles = page.locator("#status-panel > section.block")
+
+    def shown() -> None:
+        for n in (3, 1, 2):
+            view(page, n)
+            expect(titles).to_have_count(len(wanted[n - 1]))
+            for place, name in enumerate(wanted[n - 1]):
+                expect(titles.nth(place)).to_have_attribute("aria-label", name)
+
+    try:
+        for cell, text in zip(DISPLAY.views, words, strict=True):
+            store.write_text(cell, text)
+        shown()
+        for n, name, word in ((2, "Modal status", "modal"), (3, "Push buttons", "buttons")):
+            wanted[n - 1] = [name]
+            store.write_text(DISPLAY.views[n - 1], word)
+            shown()
+    finally:
+        for cell, text in zip(DISPLAY.views, kept, strict=True):
+            store.write_text(cell, text)
+
+
 @pytest.mark.req("MILL-SCR-VIEW-CURPOS", "MILL-SCR-VIEW-DTG", "MILL-SCR-VIEW-NEXTPOS")
 def test_positions_distance_to_go_and_next_position_of_every_axis_are_live(
     page: Page, served: Served
