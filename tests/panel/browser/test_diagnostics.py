@@ -283,12 +283,12 @@ def test_board_parameters_lists_every_parameter_with_its_value(page: Page, serve
     assert listed == {number: known[number] for number in listed}
     page.get_by_label("Name or number").fill("P12288")
     expect(place).to_have_text("1\u20131 of 1")
-    value = page.locator("#screen tbody strong")
+    shown = page.locator("#screen tbody strong")
     place_x = served.call(lambda station: station.machine.card.read(12288))
-    expect(value).to_have_text(str(int(place_x)))
+    expect(shown).to_have_text(str(int(place_x)))
     page.get_by_label("Name or number").fill("P12304")  # the gain P of axis 0
     gain = served.call(lambda station: station.machine.card.read(12304))
-    expect(value).to_have_text(f"{gain:.6g}")
+    expect(shown).to_have_text(f"{gain:.6g}")
     assert 0.0 < gain < 1.0
 
 
