@@ -599,3 +599,32 @@ def test_the_screens_show_mist_and_flood_as_they_are_switched(hand: HandStation)
         lights = hand.station.snapshot.lights
         assert (bool(lights & Light.MIST), bool(lights & Light.FLOOD)) == (mist, flood), block
         assert hand.events("modals")[-1]["coolant"] == mist + 2 * flood
+
+
+@pytest.mark.parametrize("dialect", ["acromill", "rs274ngc"])
+def test_the_line_while_a_cycle_drills_is_that_of_the_block_that_calls_it(
+    hand: HandStation, dialect: str
+) -> None:
+    holes = [f"X{x}" for x in range(21, 31)]
+    first = ["G21 G90 G54", "G0 X10 Y10 Z60", "G1 X20 F6000", "G81 X20 Y10 Z59.5 R59.7 F300"]
+    text = "\n".join([*first, *holes, "G80", "G1 X40", "M2"]) + "\n"
+    (hand.installation.programs / "t.nc").write_text(text)
+    hand.do("program.load", path="t.nc", dialect=dialect)
+    hand.run(0.1)
+    hand.do("run.begin")
+    seen: list[int] = []
+    in_cycle = set()
+
+    def note() -> bool:
+        line = hand.station.snapshot.line
+        if line and seen[-1:] != [line]:
+            seen.append(line)
+        if "CYCLES" in hand.events("program")[-1]["file"]:
+            in_cycle.add(line)
+        return not hand.is_busy and bool(seen)
+
+    hand.until(note)
+    assert [line for line in seen if line > 3] == [*range(4, 15), 16]
+    assert in_cycle == set(range(4, 15))
+    hand.run(0.1)
+    assert hand.station.snapshot.line == 0

@@ -1,6 +1,6 @@
 """What moves and actions share: points, planes, where they come from, how they run."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 
 AXES = 8
@@ -53,6 +53,7 @@ class Source:
     file: str
     line: int
     text: str
+    caller: "Source | None" = field(default=None, compare=False)  # the block of its cycle
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum, auto
 
+from openacr.cnc.canonical import Source
 from openacr.cnc.program.labels import Place
 from openacr.cnc.program.program import Node, Nodes, Part, Program
 from openacr.cnc.reading.findings import CodeError
@@ -31,6 +32,7 @@ class Frame:
     level: Level
     back: Node | None = None
     is_done: bool = False
+    caller: Source | None = None  # the block of a cycle
 
 
 class Flow:
@@ -57,7 +59,9 @@ class Flow:
         self.next = self.last = self.place = None
 
     def pass_by(self, node: Node) -> None:
-        """Go to the line after this one."""
+        """Go to the line after this one; in a cycle it acts for the block that calls that."""
+        if self.frames and self.frames[-1].caller is not node.source.caller:
+            node.source = replace(node.source, caller=self.frames[-1].caller)
         self.next = node.next
         self.last = node if node.next is None else None
         self.place = None

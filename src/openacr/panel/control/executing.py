@@ -16,6 +16,7 @@ class Executing:
         self._station = station
         self.file = ""
         self.line = 0  # of that file
+        self.caller: Source | None = None  # the block whose cycle it belongs to
         self.text = ""
 
     @property
@@ -30,8 +31,8 @@ class Executing:
         """Note the executing block, and its text when it is another one than before."""
         session = self._station.session
         source = session.runner.source if session is not None and self.is_under_way else None
-        file, line = (source.file, source.line) if source is not None else ("", 0)
-        if (file, line) == (self.file, self.line):
+        found = (source.file, source.line, source.caller) if source is not None else ("", 0, None)
+        if found == (self.file, self.line, self.caller):
             return
-        self.file, self.line = file, line
+        self.file, self.line, self.caller = found
         self.text = "" if source is None else (source.text or text_of(source)).strip()

@@ -259,8 +259,11 @@ class Part:
 
     @property
     def line(self) -> int:
-        """The executing line of the loaded text; 0 in an included one, and while none runs."""
-        executing, loaded = self.executing, self.loaded
+        """The executing line of the loaded text, that of the call while a cycle executes.
+
+        0 in an included text, and while none runs.
+        """
+        executing, loaded = self.executing.caller or self.executing, self.loaded
         return executing.line if loaded is not None and loaded.has(executing.file) else 0
 
     def left_s(self) -> float:

@@ -139,7 +139,7 @@ def _one(run: Run, b: BlockContext, drilling: Drilling, left: int) -> Iterator[E
     kept = modal.cycle, modal.motion, modal.distance, modal.path, run.motions
     start = run.flow.find(label_of(run, kept[0]), run.program.cycles, b.plan.column(""))
     modal.cycle, modal.distance, run.motions = NONE, 90, IN_CYCLE
-    yield from run.execution.call(Frame(Level.CYCLE), start, [0.0] * (LOCALS + 1))
+    yield from run.execution.call(Frame(Level.CYCLE, caller=b.source), start, [0.0] * (LOCALS + 1))
     run.motions = kept[4]
     if not run.is_ended:
         modal.cycle, modal.motion, modal.distance, modal.path, _ = kept
