@@ -288,3 +288,34 @@ def test_a_program_received_by_link_is_shown_as_it_arrives_and_loaded(
     expect(page.locator("#alarms .none")).to_have_text("LINKED.TXT")
     expect(page.locator("#menu")).to_have_attribute("data-shown", "run")
     sender.close()
+
+
+def test_sizes_of_a_library_part_are_in_the_unit_of_the_machine_and_its_conditions_in_words(
+    page: Page, served: Served
+) -> None:
+    to_main_menu(page)
+    page.keyboard.press("F5")
+    page.keyboard.press("F3")
+    page.get_by_role("radio", name="LIBRARY PART").click()
+    page.locator("[data-part=ARCSLOT]").click()
+    radius = page.get_by_label("Radius of the middle line", exact=True)
+    expect(radius).to_have_value("50.8")
+    row = page.locator(".part-form .form-row").first
+    expect(row.locator(".unit")).to_have_text("mm")
+    expect(row.locator(".hint")).to_have_text("P200 \u00b7 2.54 to 5080")
+    angle = page.locator(".part-form .form-row", has=page.get_by_label("Angle it spans"))
+    expect(angle.locator(".unit")).to_have_text("deg")
+    expect(page.get_by_label("Angle it spans", exact=True)).to_have_value("90")
+    for words in (
+        "\u201cWidth\u201d < \u201cRadius of the middle line\u201d",
+        "\u201cWidth\u201d > 2 \u00d7 the tool radius",
+        "\u201cAngle it spans\u201d in radians \u00d7 \u201cRadius of the middle line\u201d \u2265",
+        "the tool radius = 0 or \u201cStep over\u201d \u2264 2 \u00d7 the tool radius",
+    ):
+        expect(page.locator(".load-side .hint")).to_contain_text(words)
+    radius.fill("76.2")
+    with page.expect_request("**/api/parts/ARCSLOT/path") as drawn:
+        radius.press("End")
+    sent = drawn.value.post_data_json
+    assert sent["values"]["P200"] == pytest.approx(3.0)
+    assert sent["values"]["P204"] == 90.0

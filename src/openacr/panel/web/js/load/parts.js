@@ -8,6 +8,10 @@ import { fetchPath } from "../draw/path.js";
 import { createPicture } from "../draw/picture.js";
 
 const WAIT_MS = 250;
+const MM_PER_INCH = 25.4;
+const TOOL_RADIUS = 224; // its cell
+/** @type {Record<string, string>} */
+const SIGNS = { "*": " \u00d7 ", "/": " \u00f7 ", "-": " \u2212 ", "+": " + ", "<=": "\u2264", ">=": "\u2265" };
 
 /**
  * @param {HTMLElement} host
@@ -22,19 +26,20 @@ export async function partSource(host, endings, load) {
   const conditions = h("div.hint.grow", {});
   host.append(h("div.load-parts", {}, list, form, h("div.stack.load-side", {}, drawing, h("div.row", {}, conditions, go))));
   const picture = await createPicture(drawing, endings);
-  const { parts } = await get("parts").catch((error) => {
+  const { parts, metric } = await get("parts").catch((error) => {
     refuse(error);
-    return { parts: [] };
+    return { parts: [], metric: false };
   });
   let turn = new AbortController();
   endings.add(() => turn.abort());
   const choose = (/** @type {any} */ part) => {
     for (const key of list.children) key.setAttribute("aria-selected", String(/** @type {HTMLElement} */ (key).dataset.part === part.name));
-    const fields = part.sizes.map((/** @type {any} */ each) => ({ each, input: h("input.field.number", { id: `part-P${each.cell}`, value: String(each.default ?? ""), inputMode: "decimal", autocomplete: "off" }) }));
-    const values = () => Object.fromEntries(fields.map((/** @type {any} */ { each, input }) => [`P${each.cell}`, numberIn(input, each.text)]).filter((/** @type {any} */ [, value]) => value !== null));
+    const sizes = part.sizes.map((/** @type {any} */ size) => shownIn(size, metric));
+    const fields = sizes.map((/** @type {any} */ each) => ({ each, input: h("input.field.number", { id: `part-P${each.cell}`, value: String(each.default ?? ""), inputMode: "decimal", autocomplete: "off" }) }));
+    const values = () => Object.fromEntries(fields.map((/** @type {any} */ { each, input }) => [`P${each.cell}`, numberIn(input, each.text), each.scale]).filter(([, value]) => value !== null).map(([cell, value, scale]) => [cell, value / scale]));
     fill(form, h("h3", {}, part.title || part.name), ...fields.map((/** @type {any} */ { each, input }) =>
       h("div.form-row", {}, h("label", { htmlFor: input.id }, each.text), h("div.row.form-input", {}, input, each.unit ? h("span.unit", {}, each.unit) : ""), h("span.hint", {}, `P${each.cell} \u00b7 ${rangeOf(each)}`))));
-    fill(conditions, [part.start, ...part.checks].filter(Boolean).join(" \u00b7 "));
+    fill(conditions, [part.start, ...part.checks.map((/** @type {string} */ rule) => inWords(rule, part.sizes))].filter(Boolean).join(" \u00b7 "));
     let timer = setTimeout(() => {}, 0);
     const draw = async () => {
       turn.abort();
@@ -63,6 +68,31 @@ export async function partSource(host, endings, load) {
   fill(list, ...parts.map((/** @type {any} */ part) => h("button.key.item", { type: "button", role: "option", ariaSelected: "false", data: { part: part.name }, onclick: () => choose(part) },
     h("strong", {}, part.name), h("span.name", {}, part.title))));
   if (parts.length) choose(parts[0]);
+}
+
+/**
+ * A size in the unit of the machine; `scale` times its own one is what is shown.
+ * @param {any} size
+ * @param {boolean} isMetric
+ */
+function shownIn(size, isMetric) {
+  const [scale, unit] = size.unit === "in" && isMetric ? [MM_PER_INCH, "mm"] : size.unit === "mm" && !isMetric ? [1 / MM_PER_INCH, "in"] : [1, size.unit];
+  const shown = (/** @type {number} */ value) => Number((value * scale).toPrecision(6));
+  return { ...size, unit: unit === "n" ? "" : unit, scale, default: shown(size.default), low: shown(size.low), high: shown(size.high) };
+}
+
+/**
+ * A condition between sizes with their names.
+ * @param {string} rule
+ * @param {{ cell: number, text: string }[]} sizes
+ */
+function inWords(rule, sizes) {
+  return rule.replaceAll("/57.29578", ` ${t("load.radians")}`).replace(/P(\d+)|<=|>=|[*/+-]|\bOR\b|\bAND\b/g, (found, cell) => {
+    if (!cell) return SIGNS[found] ?? t(found === "OR" ? "load.or" : "load.and");
+    if (Number(cell) === TOOL_RADIUS) return t("load.radius");
+    const size = sizes.find((each) => each.cell === Number(cell));
+    return size ? `\u201c${size.text}\u201d` : found;
+  });
 }
 
 /** @param {{ low: number, high: number }} size */
