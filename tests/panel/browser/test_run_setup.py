@@ -316,6 +316,6 @@ def test_sizes_of_a_library_part_are_in_the_unit_of_the_machine_and_its_conditio
     radius.fill("76.2")
     with page.expect_request("**/api/parts/ARCSLOT/path") as drawn:
         radius.press("End")
-    sent = drawn.value.post_data_json
+    sent = drawn.value.post_data_json or {}
     assert sent["values"]["P200"] == pytest.approx(3.0)
     assert sent["values"]["P204"] == 90.0
