@@ -251,6 +251,11 @@ class Series(Declaring[range]):
 
 FALSE_TRUE = {0: "false", 1: "true"}
 DISABLE = {-1: "disable"}
+COLOURS = (
+    "black", "blue", "green", "cyan", "red", "magenta", "brown", "light grey", "dark grey",
+    "light blue", "light green", "light cyan", "light red", "light magenta", "yellow", "white",
+)  # fmt: skip
+COLOUR: dict[str, Any] = {"low": 0, "high": len(COLOURS) - 1, "words": dict(enumerate(COLOURS))}
 LAST_LINE = 511  # of the fourth expansion module
 INPUT: dict[str, Any] = {"low": -1, "high": LAST_LINE, "words": DISABLE, "wire": Wire.INPUT}
 OUTPUT: dict[str, Any] = {"low": -1, "high": LAST_LINE, "words": DISABLE, "wire": Wire.OUTPUT}

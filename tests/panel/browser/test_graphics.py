@@ -164,6 +164,28 @@ def test_the_path_has_the_colour_of_the_index_that_control_holds(
         until_counted(page, color)
 
 
+def test_a_colour_is_chosen_by_its_swatch_and_has_its_name(drawn: Page, served: Served) -> None:
+    page, store = drawn, served.panel.installation.store
+    page.keyboard.press("F8")
+    page.keyboard.press("F1")
+    page.get_by_role("tab", name="Control, page 2", exact=True).click()
+    row = page.locator(".form-row", has=page.get_by_label("Path Color", exact=True))
+    swatches = row.locator(".swatch")
+    expect(swatches).to_have_count(16)
+    expect(row.locator(".swatches .hint")).to_have_text("light green")
+    for index, name, tone in ((15, "white", "rgb(111, 143, 175)"), (4, "red", "rgb(176, 0, 32)")):
+        swatch = row.get_by_role("button", name=f"Path Color {index}: {name}", exact=True)
+        expect(swatch).to_have_css("background-color", tone)
+        swatch.click()
+        expect(page.get_by_label("Path Color", exact=True)).to_have_value(str(index))
+        expect(row.locator(".swatches .hint")).to_have_text(name)
+        expect(row.locator("[aria-pressed=true]")).to_have_count(1)
+    page.get_by_role("button", name="SAVE", exact=True).click()
+    until_stored(page, store, CONTROL.path_color, 4)
+    store.write(CONTROL.path_color, 10)
+    to_main_menu(page)
+
+
 def test_the_path_has_another_tone_of_its_colour_in_the_dark_theme(drawn: Page) -> None:
     page = drawn
     assert page.evaluate(STORE, ["CONTROL2", {str(CONTROL.path_color): "1"}])

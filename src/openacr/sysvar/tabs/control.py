@@ -1,7 +1,7 @@
 """GENERAL, CONTROL, COMPATIBILITY, COMMUNICATIONS and DISPLAY: how the front end behaves."""
 
 from openacr.models import ACR8020
-from openacr.sysvar.schema import OUTPUT, Tab
+from openacr.sysvar.schema import COLOUR, OUTPUT, Tab
 
 _CODES = {"doc": "Code active at the start of programs."}
 _IJ = {0: "negative", 1: "positive", 2: "absolute"}
@@ -224,7 +224,7 @@ class CONTROL:
         doc="Turns up to this angle insert no move.",
     )
     path_color = tab.integer(
-        114, "Path Color", 10, typical="10", low=0, high=15, doc="Colour of the tool path."
+        114, "Path Color", 10, typical="10", doc="Colour of the tool path.", **COLOUR
     )
     position_display = tab.choice(
         115,

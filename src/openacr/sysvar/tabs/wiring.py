@@ -1,6 +1,6 @@
 """I/O, FOV, ROV, SOV, PROBE, SPINDLE and TOOL: wiring of the machine, and override tables."""
 
-from openacr.sysvar.schema import INPUT, OUTPUT, At, Tab
+from openacr.sysvar.schema import COLOUR, INPUT, OUTPUT, At, Tab
 
 
 class IO:
@@ -184,9 +184,8 @@ class TOOL:
         1000,
         "Tool {} colour",
         lambda at: float(at.index % 16),
-        low=0,
-        high=15,
         doc="Colour of the path of the tool.",
+        **COLOUR,
     )
     tip = tab.series(1000).choice(
         2000,

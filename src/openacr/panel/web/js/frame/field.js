@@ -1,6 +1,7 @@
 // One row of a form: its field by its kind, with unit, limits, default, help and refusal.
 import { h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
+import { PENS } from "../draw/colors.js";
 import { askNumber } from "./number_pad.js";
 
 /**
@@ -68,7 +69,7 @@ export function fieldFor(row, changed, isPerAxis = false) {
     edited();
   } }, "\u2328") : "";
   return {
-    element: h("div.form-row", {}, h("label", { htmlFor: id }, row.axis_name && !isPerAxis ? `${row.axis_name}  ${row.name}` : row.name), h("div.row.form-input", {}, input, row.unit ? h("span.unit", {}, row.unit) : "", pad), hint, refusal),
+    element: h("div.form-row", {}, h("label", { htmlFor: id }, row.axis_name && !isPerAxis ? `${row.axis_name}  ${row.name}` : row.name), h("div.row.form-input", {}, input, row.unit ? h("span.unit", {}, row.unit) : "", pad), hint, isColour(row) ? swatches(row, input) : "", refusal),
     isChanged, text: read, refuse, refusal: () => refusal.textContent ?? "", focus: () => input.focus(),
     type(text) {
       if (input instanceof HTMLInputElement && input.type === "checkbox") input.checked = text === "1";
@@ -76,6 +77,37 @@ export function fieldFor(row, changed, isPerAxis = false) {
       edited();
     },
   };
+}
+
+/** Whether a whole number is one of the colours of paths. @param {FormRow} row */
+function isColour(row) {
+  return row.kind === "integer" && Object.keys(row.words ?? {}).length === PENS.length;
+}
+
+/**
+ * The colours of paths with their names: a press chooses one.
+ * @param {FormRow} row
+ * @param {HTMLInputElement | HTMLSelectElement} input
+ */
+function swatches(row, input) {
+  const keys = PENS.map((pen, n) => {
+    const name = `${n}: ${row.words?.[n]}`;
+    const key = h("button.swatch", { type: "button", title: name, ariaLabel: `${row.name} ${name}`, disabled: row.fixed, onclick: () => {
+      input.value = String(n);
+      input.dispatchEvent(new Event("input"));
+    } });
+    key.style.background = pen;
+    return key;
+  });
+  const name = h("span.hint", {});
+  const draw = () => {
+    const chosen = Number(input.value.trim() || NaN);
+    setText(name, row.words?.[chosen] ?? "");
+    keys.forEach((key, n) => { key.ariaPressed = String(n === chosen); });
+  };
+  input.addEventListener("input", draw);
+  draw();
+  return h("div.row.wrap.swatches", {}, ...keys, name);
 }
 
 /**
@@ -107,7 +139,7 @@ function limitsOf(row) {
 
 /** @param {FormRow} row */
 function hintOf(row) {
-  const facts = [limitsOf(row), ...(row.kind === "integer" ? Object.entries(row.words ?? {}).map(([value, word]) => `${value}: ${word}`) : []), row.typical ? t("field.typical", { value: row.typical }) : "", row.default !== "" && !row.is_default ? t("field.default", { value: row.words?.[row.default] ?? row.default }) : "",
+  const facts = [limitsOf(row), ...(row.kind === "integer" && !isColour(row) ? Object.entries(row.words ?? {}).map(([value, word]) => `${value}: ${word}`) : []), row.typical ? t("field.typical", { value: row.typical }) : "", row.default !== "" && !row.is_default ? t("field.default", { value: row.words?.[row.default] ?? row.default }) : "",
     row.motion ? t("field.motion") : ""].filter(Boolean).join(" \u00b7 ");
   return [row.help, facts].filter(Boolean).join(" \u2014 ");
 }
