@@ -1,5 +1,6 @@
 """Zero, jog keys, MDI, what programs print and ask, editing beside a run."""
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -356,3 +357,17 @@ def test_the_mdi_buffer_is_saved_as_a_program_and_run_as_such(page: Page, served
     begin_run(page)
     at_rest(page, served)
     assert served.call(place) == pytest.approx((zero_x + 3.0, zero_y + 1.5))
+
+
+def test_the_key_at_the_top_says_that_the_first_key_takes_control_and_it_does(
+    page: Page, served: Served
+) -> None:
+    give(page, "control.release")
+    tools = page.locator("#tools .key").first
+    expect(tools).to_have_text("\u25cbFree")
+    expect(tools).to_have_attribute("title", re.compile("The first key takes control"))
+    assert served.call(lambda station: station.people.holder) is None
+    assert give(page, "mdi.execute", line="G4 F0.1") is not None
+    expect(tools).to_have_text("\u25cfYou operate")
+    expect(tools).to_have_attribute("title", "Who operates the machine")
+    at_rest(page, served)
