@@ -9,6 +9,7 @@ import msgspec
 
 from openacr.panel.commands.registry import Command
 from openacr.panel.server.api import Endpoint
+from openacr.panel.wire import described
 
 _NAMED = re.compile(r"\{(\w+)\}")
 REFERENCE = "#/components/schemas/{name}"
@@ -25,7 +26,7 @@ REFUSAL = {
 
 
 def document(endpoints: Iterable[Endpoint], commands: Iterable[Command]) -> dict[str, Any]:
-    """The document; commands of the WebSocket are listed as an extension, `x-commands`."""
+    """The document; commands of the WebSocket are extensions: `x-commands`, `x-frames`."""
     rows, orders = list(endpoints), list(commands)
     kinds: list[Any] = [kind for row in rows for kind in (row.query, row.body) if kind is not None]
     kinds += [order.args for order in orders]
@@ -53,6 +54,7 @@ def document(endpoints: Iterable[Endpoint], commands: Iterable[Command]) -> dict
             }
             for order in orders
         },
+        "x-frames": described.document(),
     }
 
 

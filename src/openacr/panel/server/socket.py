@@ -12,13 +12,13 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 from openacr.panel.control.orders import Order, PanelError, failure
 from openacr.panel.control.people import Person
 from openacr.panel.server.panel import Panel
+from openacr.panel.wire.described import LEAST_HZ, MOST_HZ
 from openacr.panel.wire.frames import Topic
 from openacr.panel.wire.hub import Browser
 
 log = logging.getLogger(__name__)
 LOG_IN, ENDS, SLOW = 4401, 1012, 4408
 SLOW_S = 10.0
-MOST_HZ = 60.0
 WATCHED = (Topic.FLAGS, Topic.WATCH, Topic.WORLD)
 WORDS = ("programs",)  # topics whose news are events
 WATCHING = {"sub": "watch.begin", "unsub": "watch.end"}
@@ -159,8 +159,8 @@ class Connection:
             self._refuse(number, "bad", f"topic {args.get('topic')!r}: there are {known}")
             return
         hz = args.get("hz", 25)
-        if isinstance(hz, bool) or not isinstance(hz, int | float) or not 0.1 <= hz <= MOST_HZ:
-            self._refuse(number, "bad", f"hz {hz!r}: allowed are 0.1 to {MOST_HZ:g}")
+        if isinstance(hz, bool) or not isinstance(hz, int | float) or not LEAST_HZ <= hz <= MOST_HZ:
+            self._refuse(number, "bad", f"hz {hz!r}: allowed are {LEAST_HZ:g} to {MOST_HZ:g}")
             return
         outbox = self.browser.outbox
         if name == "unsub":

@@ -1,31 +1,24 @@
 """Binary frames: a head of 24 bytes, then typed arrays whose 8-byte values lie on 8-byte offsets.
 
-| offset | type | what |
-|---|---|---|
-| 0 | u8 | topic |
-| 1 | u8 | version |
-| 2 | u16 | count of axes, words, values or channels |
-| 4 | u32 | sequence number of the topic |
-| 8 | f64 | card time in ms when the values were read |
-| 16 | f64 | age of the values when the frame was sent, ms |
+HEAD_FIELDS and FIELDS name every field in the order of its bytes, little-endian; the fields
+without a shape are packed by these rows, and docs/panel.md and the OpenAPI document show them.
 """
 
 import json
 from collections.abc import Sequence
 from enum import IntEnum
 from struct import Struct
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from openacr.panel.control.scope import Block
-from openacr.panel.control.snapshot import STATES, Snapshot
+from openacr.panel.control.snapshot import STATES, Light, Snapshot
 
 VERSION = 1
-HEAD = Struct("<BBHIdd")
-_LAMPS = Struct("<BBBBIII")
-_NUMBERS = Struct("<9d")
 WRAP = 1 << 32
+# What `Field.kind` can be, as the letters of `struct`; text is the rest of a frame, in UTF-8.
+KINDS = {"u8": "B", "u16": "H", "u32": "I", "u64": "Q", "f64": "d", "text": "s"}
 
 
 class Topic(IntEnum):
@@ -38,6 +31,75 @@ class Topic(IntEnum):
     WORLD = 5
 
 
+class Field(NamedTuple):
+    """One field of a frame; `shape` has a number or the name of a field for each dimension."""
+
+    name: str
+    kind: str
+    what: str
+    shape: tuple[str | int, ...] = ()
+
+
+HEAD_FIELDS = (
+    Field("topic", "u8", ", ".join(f"{topic.value} {topic.name.lower()}" for topic in Topic)),
+    Field("version", "u8", f"of the frames: {VERSION}"),
+    Field("count", "u16", "axes, words, values or channels"),
+    Field("seq", "u32", "sequence number of the topic, for `ack`"),
+    Field("tick_ms", "f64", "card time when the values were read [ms]"),
+    Field("age_ms", "f64", "age of the values when the frame was sent [ms]"),
+)
+_AXES = ("count",)
+FIELDS = {
+    Topic.STATUS: (
+        Field("state", "u8", ", ".join(f"{n} {state.name}" for n, state in enumerate(STATES))),
+        Field("homed", "u8", "a bit for each axis: it is homed"),
+        Field("jogging", "u8", "a bit for each axis: it moves"),
+        Field("near_limit", "u8", "a bit for each axis: it is near an end of its travel"),
+        Field("lights", "u32", ", ".join(f"{light.value} {light.name}" for light in Light)),
+        Field("line", "u32", "line of the part program"),
+        Field("tool", "u32", "number of the tool"),
+        Field("feed_upm", "f64", "programmed feed [units/min]"),
+        Field("speed_upm", "f64", "actual feed [units/min]"),
+        Field("spindle_rpm", "f64", "spindle [rev/min]"),
+        Field("feed_percent", "f64", "feed override [%]"),
+        Field("rapid_percent", "f64", "rapid override [%]"),
+        Field("spindle_percent", "f64", "spindle override [%]"),
+        Field("run_s", "f64", "time of this run [s]"),
+        Field("left_s", "f64", "predicted time that is left [s]; NaN: not known"),
+        Field("parts", "f64", "parts made"),
+        Field("work", "f64", "work position [units]", _AXES),
+        Field("commanded", "f64", "commanded machine position [units]", _AXES),
+        Field("actual", "f64", "actual machine position [units]", _AXES),
+        Field("following", "f64", "following error [units]", _AXES),
+        Field("to_go", "f64", "distance to go [units]", _AXES),
+        Field("following_end", "f64", "end of the next move, program coordinates [units]", _AXES),
+    ),
+    Topic.FLAGS: (
+        Field("words", "u32", "number of the parameter, its 32 flags; pair by pair", ("count", 2)),
+    ),
+    Topic.WATCH: (
+        Field("places", "u32", "places in the list of `sub`; those that changed", ("count",)),
+        Field("values", "f64", "their values", ("count",)),
+    ),
+    Topic.SCOPE: (
+        Field("first", "f64", "number of the first sample"),
+        Field("samples", "u64", "samples of each channel"),
+        Field("period_s", "f64", "time between two samples [s]"),
+        Field("values", "f64", "samples, channel by channel", ("count", "samples")),
+    ),
+    Topic.WORLD: (Field("state", "text", "the world around the card as JSON", ("rest",)),),
+}
+
+
+def _single(fields: Sequence[Field]) -> Struct:
+    """The fields without a shape, packed one after the other."""
+    return Struct("<" + "".join(KINDS[field.kind] for field in fields if not field.shape))
+
+
+HEAD = _single(HEAD_FIELDS)
+_SINGLE = {topic: _single(fields) for topic, fields in FIELDS.items()}
+
+
 def head(topic: Topic, count: int, seq: int, tick_ms: float, age_ms: float) -> bytes:
     """The first 24 bytes of a frame."""
     return HEAD.pack(topic, VERSION, count, seq % WRAP, tick_ms, age_ms)
@@ -45,41 +107,28 @@ def head(topic: Topic, count: int, seq: int, tick_ms: float, age_ms: float) -> b
 
 def status(snapshot: Snapshot, seq: int, now_s: float, *, is_lost: bool) -> bytes:
     """A frame of the status: lamps, numbers and six arrays of the axes."""
-    axes = len(snapshot.commanded)
-    lights = snapshot.lights | (64 if is_lost else 0)
-    lamps = _LAMPS.pack(
-        STATES.index(snapshot.state),
-        snapshot.homed,
-        snapshot.jogging,
-        snapshot.near_limit,
-        lights,
-        snapshot.line % WRAP,
-        max(0, snapshot.tool) % WRAP,
+    packed = {
+        "state": STATES.index(snapshot.state),
+        "lights": snapshot.lights | (Light.LINK_LOST if is_lost else 0),
+        "line": snapshot.line % WRAP,
+        "tool": max(0, snapshot.tool) % WRAP,
+    }
+    single: list[float] = []
+    columns: list[bytes] = []
+    for field in FIELDS[Topic.STATUS]:
+        value = packed.get(field.name, getattr(snapshot, field.name))
+        if field.shape:
+            columns.append(_doubles(value))
+        else:
+            single.append(value)
+    first = head(
+        Topic.STATUS,
+        len(snapshot.commanded),
+        seq,
+        snapshot.tick_ms,
+        1000.0 * (now_s - snapshot.read_s),
     )
-    numbers = _NUMBERS.pack(
-        snapshot.feed_upm,
-        snapshot.speed_upm,
-        snapshot.spindle_rpm,
-        snapshot.feed_percent,
-        snapshot.rapid_percent,
-        snapshot.spindle_percent,
-        snapshot.run_s,
-        snapshot.left_s,
-        snapshot.parts,
-    )
-    columns = (
-        snapshot.work, snapshot.commanded, snapshot.actual,
-        snapshot.following, snapshot.to_go, snapshot.following_end,
-    )  # fmt: skip
-    age_ms = 1000.0 * (now_s - snapshot.read_s)
-    return b"".join(
-        (
-            head(Topic.STATUS, axes, seq, snapshot.tick_ms, age_ms),
-            lamps,
-            numbers,
-            *(_doubles(column) for column in columns),
-        )
-    )
+    return b"".join((first, _SINGLE[Topic.STATUS].pack(*single), *columns))
 
 
 def _doubles(values: Sequence[float]) -> bytes:
@@ -112,7 +161,7 @@ def scope(
 ) -> bytes:
     """A frame of scope samples, channel by channel, from sample `first` on."""
     channels, count = block.shape
-    body = Struct("<dQd").pack(first, count, period_s)
+    body = _SINGLE[Topic.SCOPE].pack(first, count, period_s)
     data = np.ascontiguousarray(block, "<f8").tobytes()
     return head(Topic.SCOPE, channels, seq, tick_ms, age_ms) + body + data
 
