@@ -41,6 +41,11 @@ CORE_SOURCES := setup.py src/openacr/unity.py src/openacr/unity_c.py src/openacr
 PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc)
 WORKERS ?= 2
 
+# In front of a command that is long and silent: a line every few seconds until its shell ends.
+BEAT_S := 5
+BEAT = ( while sleep $(BEAT_S) >/dev/null 2>&1 && kill -0 $$$$ 2>/dev/null; do \
+	echo "  $$(date +%H:%M:%S) still busy"; done ) &
+
 help:
 	@sed -n '3,17s/^# *//p' Makefile
 
@@ -55,15 +60,15 @@ $(MADE):
 
 $(INSTALLED): pyproject.toml $(MADE)
 	@echo "installing packages into $(VENV)"
-	@$(PIP) install --upgrade pip "setuptools>=77" wheel "cython>=3.1" || \
+	@$(BEAT) $(PIP) install --upgrade pip "setuptools>=77" wheel "cython>=3.1" || \
 		echo "pip and setuptools were not upgraded; carrying on with what is there"
-	@OPENACR_PURE=1 $(PIP) install --no-build-isolation --editable ".[dev,bridge,dxf,lsp,panel,plot,sweep]"
+	@$(BEAT) OPENACR_PURE=1 $(PIP) install --no-build-isolation --editable ".[dev,bridge,dxf,lsp,panel,plot,sweep]"
 	@touch $@
 
 $(BUILT): $(CORE_SOURCES) $(INSTALLED)
 	@echo "building the compiled core"
 	@mkdir -p build
-	@$(PY) setup.py --quiet build_ext --inplace >build/core.log 2>&1 || true
+	@$(BEAT) $(PY) setup.py --quiet build_ext --inplace >build/core.log 2>&1 || true
 	@$(PY) -c 'from openacr.compiled import is_compiled; import sys; sys.exit(not is_compiled)' \
 		2>/dev/null || echo "note: no compiled core (no C compiler? see build/core.log);" \
 		"running the slower pure-Python kernel"
@@ -160,10 +165,12 @@ web-bundle: $(WEB_TOOLS)
 
 # The pages of docs/ and the Python interface with a search, in build/site; a broken link ends it.
 site: $(BUILT)
-	@OPENACR_PURE=1 $(PIP) install -qq --no-build-isolation --editable ".[site]"
+	@echo "installing what makes the site"
+	@$(BEAT) OPENACR_PURE=1 $(PIP) install -qq --no-build-isolation --editable ".[site]"
 	@rm -rf build/site-pages build/site
 	@cp -r docs build/site-pages && cp site/*.md site/conf.py build/site-pages/
-	$(PY) -m sphinx -q -W --keep-going -j auto -b html build/site-pages build/site
+	@echo "writing the pages"
+	@$(BEAT) $(PY) -m sphinx -q -W --keep-going -j auto -b html build/site-pages build/site
 	@echo "the site is in build/site/index.html"
 
 clean:
