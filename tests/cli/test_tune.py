@@ -3,7 +3,7 @@
 import json
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -74,6 +74,23 @@ def test_gains_of_a_project_are_proposed_as_a_line_for_its_files(project: Path) 
     assert proposed < present / 4
     assert lines[-1].startswith(f"AXIS0 PGAIN {float(rows['PGAIN'][1]):.4g}"[:14])
     assert "coherence" in picture.read_text()
+
+
+def test_recording_and_computing_are_shown_while_they_last(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown: list[str] = []
+
+    @contextmanager
+    def progress_bar(title: str) -> Iterator[Callable[[int, int], None]]:
+        shown.append(title)
+        yield lambda done, total: None
+        shown.append("end")
+
+    monkeypatch.setattr(tune, "progress_bar", progress_bar)
+    code, _text, problems = called("measure", project, 0, "--time", "0.6")
+    assert (code, problems) == (0, "")
+    assert shown == ["recording", "end", "identifying the motor", "end"]
 
 
 def test_a_measurement_is_also_one_json_object(project: Path) -> None:

@@ -24,6 +24,7 @@ def test_the_panel_starts_without_configuration_and_ends_cleanly_while_it_comput
         until(lambda: "panel http" in process.text, about="the panel listens")
         found = re.search(r"panel (http://127\.0\.0\.1:\d+/)", process.text)
         assert found is not None
+        assert process.text.startswith("starting the panel ...\n")
         assert httpx.get(f"{found[1]}api/me", timeout=LIMIT_S).json()["role"] == "service"
         names = httpx.get(f"{found[1]}api/programs", timeout=LIMIT_S).json()["entries"]
         assert "plate.nc" in [entry["name"] for entry in names]

@@ -140,7 +140,9 @@ def advised(
     """An axis measured, with what can be said of its gains."""
     from openacr.tuning.advice import advise
 
-    return advise(recorded(card, axis, excitation, program), wish, move)
+    measurement = recorded(card, axis, excitation, program)
+    with progress_bar("identifying the motor"):
+        return advise(measurement, wish, move)
 
 
 def recorded(
