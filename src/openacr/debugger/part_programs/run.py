@@ -36,10 +36,15 @@ class LiveRun:
         return self.shop.runner.is_busy
 
     @property
-    def alarms(self) -> list[str]:
-        """The texts of all alarms so far."""
-        history = self.shop.runner.alarms.history
-        return [f"alarm {each.kind.code}: {each.text}" for each in history]
+    def alarms(self) -> int:
+        """How many alarms were raised so far."""
+        return self.shop.runner.alarms.raised
+
+    @property
+    def last_alarm(self) -> str:
+        """Code and text of the last alarm."""
+        last = self.shop.runner.alarms.history[-1]
+        return f"alarm {last.kind.code}: {last.text}"
 
     @property
     def reached_cnt(self) -> int:

@@ -102,13 +102,13 @@ class PartSession:
                 return stop
         if self.timeline.is_past:
             return None
-        if self._stops_at_alarms and len(self.live.alarms) > self._alarm_cnt:
+        if self._stops_at_alarms and self.live.alarms > self._alarm_cnt:
             return self._alarmed()
         return None if self.live.is_busy else self._ended()
 
     def _alarmed(self) -> Stop:
-        self._alarm_cnt = len(self.live.alarms)
-        return Stop(Reason.EXCEPTION, 0, self.live.alarms[-1])
+        self._alarm_cnt = self.live.alarms
+        return Stop(Reason.EXCEPTION, 0, self.live.last_alarm)
 
     def _ended(self) -> Stop:
         return Stop(Reason.END, 0, "the part program has ended")

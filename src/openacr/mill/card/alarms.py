@@ -4,8 +4,9 @@ An alarm stays active until its cause is gone and the operator has acknowledged 
 alarm bars START. Number, text and effect of each alarm are one row of the table here.
 """
 
+from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
 from enum import Enum
 from pathlib import Path
@@ -13,6 +14,7 @@ from pathlib import Path
 from openacr.errors import UserError
 
 NO_ALARM = 0
+MOST_KEPT = 100  # alarms of the history; the log has all
 
 
 class Effect(Enum):
@@ -99,6 +101,10 @@ class AlarmError(UserError):
         self.detail = str(detail)
 
 
+def _now() -> str:
+    return datetime.now().astimezone().isoformat(timespec="seconds")
+
+
 @dataclass(frozen=True, slots=True)
 class Alarm:
     """One alarm as it was raised."""
@@ -106,6 +112,7 @@ class Alarm:
     kind: Kind
     detail: str
     at_s: float  # card time
+    time: str = field(default_factory=_now, compare=False)  # of day, with the zone
 
     @property
     def text(self) -> str:
@@ -114,10 +121,11 @@ class Alarm:
 
 
 class Alarms:
-    """Active alarms, the last alarm code, and the log of all alarms."""
+    """Active alarms, the last ones that were raised, and the log of all alarms."""
 
     def __init__(self, log: Path | None = None) -> None:
-        self.history: list[Alarm] = []
+        self.history: deque[Alarm] = deque(maxlen=MOST_KEPT)
+        self.raised = 0  # alarms so far, those that are not kept included
         self._active: dict[tuple[int, str], Alarm] = {}
         self._log = log
 
@@ -127,6 +135,7 @@ class Alarms:
         if key not in self._active:
             alarm = self._active[key] = Alarm(what, str(detail), at_s)
             self.history.append(alarm)
+            self.raised += 1
             self._note(alarm)
         return self._active[key]
 
@@ -138,6 +147,11 @@ class Alarms:
     def active(self) -> list[Alarm]:
         """The active alarms, oldest first."""
         return list(self._active.values())
+
+    def since(self, raised: int) -> list[Alarm]:
+        """The kept alarms that came after the first `raised` ones, oldest first."""
+        count = min(self.raised - raised, len(self.history))
+        return list(self.history)[len(self.history) - count :]
 
     @property
     def last_code(self) -> int:
@@ -167,9 +181,8 @@ class Alarms:
     def _note(self, alarm: Alarm) -> None:
         if self._log is None:
             return
-        stamp = datetime.now().astimezone().isoformat(timespec="seconds")
         try:
             with self._log.open("a", encoding="utf-8") as log:
-                log.write(f"{stamp}  alarm {alarm.kind.code}  {alarm.text}\n")
+                log.write(f"{alarm.time}  alarm {alarm.kind.code}  {alarm.text}\n")
         except OSError:
             self._log = None  # a full disk must not stop what an alarm has to do

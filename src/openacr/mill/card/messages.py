@@ -1,5 +1,6 @@
 """User messages: texts shown while an input, output or flag has a given state."""
 
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -11,6 +12,7 @@ from openacr.sysvar.tabs import MESSAGES
 
 MOST = len(MESSAGES.defined)
 POLL_S = 0.05
+MOST_KEPT = 10_000  # displays of the history; a flag may blink for days
 WHITE, RED, LETTERS, LONGEST = 15, 4, 40, 132
 
 
@@ -102,7 +104,7 @@ class Messages:
     io: MachineIo
     defined: Sequence[Message]
     changed: Callable[[Message, bool], None]
-    history: list[Showing] = field(default_factory=list)
+    history: deque[Showing] = field(default_factory=lambda: deque(maxlen=MOST_KEPT))
     _shown: dict[int, Showing] = field(default_factory=dict)
     _due_s: float = 0.0
 

@@ -1,7 +1,6 @@
 """Facts in words for browsers: each is sent when it has changed."""
 
 from collections.abc import Callable, Mapping
-from datetime import datetime
 from typing import Any
 
 from openacr.mill.card.alarms import Alarm
@@ -21,7 +20,6 @@ from openacr.panel.control.typed import Typed
 from openacr.sysvar.tabs import CELLS
 
 Data = dict[str, Any]
-ALARMS_KEPT = 100
 
 
 class Facts:
@@ -38,7 +36,6 @@ class Facts:
         self._station, self._part, self._typed, self._times = station, part, typed, times
         self._stopping, self._lamp = of_card
         self._reported: dict[str, Data] = {}
-        self._noted: dict[int, str] = {}  # time of day of each alarm, by its place
 
     def tell(self) -> None:
         """Tell the facts that have changed."""
@@ -143,16 +140,9 @@ class Facts:
             lost = {"code": 1, "text": text, "effect": "REFUSE", "at_s": 0.0, "time": ""}
             return {"active": [lost] if text else [], "history": [], "bars_start": True}
         alarms = station.session.runner.alarms
-        history = alarms.history
-        if not history:
-            self._noted.clear()
-        for place in range(len(history)):
-            if place not in self._noted:
-                self._noted[place] = datetime.now().astimezone().isoformat(timespec="seconds")
-        when = {id(alarm): self._noted[place] for place, alarm in enumerate(history)}
         return {
-            "active": [_alarm(each, when.get(id(each), "")) for each in alarms.active],
-            "history": [_alarm(each, when[id(each)]) for each in history[-ALARMS_KEPT:]],
+            "active": [_alarm(each) for each in alarms.active],
+            "history": [_alarm(each) for each in alarms.history],
             "bars_start": alarms.bars_start or not station.session.is_set_up,
         }
 
@@ -244,13 +234,13 @@ def _is_in(session: MillSession, number: int) -> bool:
     return polled is not None and session.runner.io.is_in(polled, number)
 
 
-def _alarm(alarm: Alarm, when: str) -> Data:
+def _alarm(alarm: Alarm) -> Data:
     return {
         "code": alarm.kind.code,
         "text": alarm.text,
         "effect": alarm.kind.effect.name,
         "at_s": alarm.at_s,
-        "time": when,
+        "time": alarm.time,
     }
 
 

@@ -264,8 +264,8 @@ class Live(Shared):
                 return
             raise
         self._tick_ms = self._tick_base_ms + 1000.0 * session.machine.now_s
-        if len(session.runner.alarms.history) != self._alarms:
-            self._alarms = len(session.runner.alarms.history)
+        if session.runner.alarms.raised != self._alarms:
+            self._alarms = session.runner.alarms.raised
             self.times.mark(Kind.ALARM, self._last_alarm())
             self._guarded(lambda: self.hand_motion.presses.end_all(End.ALARM, self._last_alarm()))
         self._failures.forget()

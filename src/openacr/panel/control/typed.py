@@ -61,7 +61,7 @@ class Typed:
         if self._is_shown and self.is_buffer_on:
             self.text.append(block)
             del self.text[:-MOST_TEXT]
-            self._kept = block, len(session.runner.alarms.history)
+            self._kept = block, session.runner.alarms.raised
 
     def poll(self) -> None:
         """Start the next block when the one before it has ended; an error drops the rest."""
@@ -70,7 +70,7 @@ class Typed:
         runner = self._station.machine.runner
         if runner.is_busy:
             return
-        self._take_back(runner.alarms.history)
+        self._take_back(runner.alarms)
         if not self._queue:
             return
         if runner.alarms.bars_start or runner.was_aborted:
@@ -82,12 +82,12 @@ class Typed:
             self._queue.clear()
             raise
 
-    def _take_back(self, history: list[alarms.Alarm]) -> None:
+    def _take_back(self, raised: alarms.Alarms) -> None:
         """Take the last block out of the text if an alarm has refused it."""
         if self._kept is None:
             return
         (block, before), self._kept = self._kept, None
-        is_refused = any(alarm.kind in REFUSALS for alarm in history[before:])
+        is_refused = any(alarm.kind in REFUSALS for alarm in raised.since(before))
         if is_refused and self.text[-1:] == [block]:
             self.text.pop()
 
