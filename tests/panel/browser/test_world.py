@@ -221,3 +221,59 @@ def open_world(page: Page) -> None:
     page.get_by_role("button", name="PANES").click()
     page.get_by_role("dialog").get_by_role("button", name="World", exact=True).click()
     expect(page.locator("[data-pane=world] canvas")).to_be_visible()
+
+
+DRAWN = """() => {
+  const canvas = document.querySelector('[data-pane=world] canvas');
+  const copy = document.createElement('canvas');
+  [copy.width, copy.height] = [canvas.width, canvas.height];
+  const pen = copy.getContext('2d');
+  pen.drawImage(canvas, 0, 0);
+  const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+  const [xs, ys] = [[], []];
+  for (let at = 0; at < data.length; at += 4) {
+    const [r, g, b, a] = data.slice(at, at + 4);
+    if (a > 200 && Math.max(r, g, b) - Math.min(r, g, b) > 40) {
+      xs.push((at / 4) % copy.width);
+      ys.push(Math.floor(at / 4 / copy.width));
+    }
+  }
+  const span = (values) => values.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [1e9, 0]);
+  return [span(xs).map((v) => v / copy.width), span(ys).map((v) => v / copy.height)];
+}"""
+FITTED = """async () => {
+  const { Camera } = await import('/js/draw/camera.js');
+  const camera = new Camera();
+  [camera.width, camera.height, camera.inset] = [500, 300, 100];
+  camera.look('front');
+  const seen = [[10, 5, 0], [210, -70, 20], [60, 0, 40]];
+  camera.fitPoints(seen);
+  const shows = (x, y) => camera.shows([[110 + x / camera.scale, 0, 20 + y / camera.scale]]);
+  return [camera.scale, camera.project(110, 0, 20), camera.shows(seen),
+    [[-199, 0], [-201, 0], [199, 0], [201, 0], [0, 149], [0, 151], [0, -149], [0, -151]]
+      .map(([x, y]) => shows(x, y))];
+}"""
+
+
+def test_a_fitted_machine_fills_its_picture_again_after_it_was_enlarged(
+    page: Page,
+) -> None:
+    """In the coloured parts alone: its bodies, ends and signs, without rails and ground."""
+    page.set_viewport_size({"width": 1366, "height": 768})
+    pane = page.locator("[data-pane=world]")
+    pane.get_by_role("button", name="FIT").click()
+    page.wait_for_function(f"() => {{ const [x, y] = ({DRAWN})(); return y[1] - y[0] > 0.6; }}")
+    for _ in range(3):
+        pane.get_by_role("button", name="Zoom in").click()
+    page.wait_for_function(f"() => {{ const [x, y] = ({DRAWN})(); return y[1] > 0.99; }}")
+    pane.get_by_role("button", name="FIT").click()
+    page.wait_for_function(f"() => {{ const [x, y] = ({DRAWN})(); return y[1] < 0.95; }}")
+    assert page.complaints == []  # type: ignore[attr-defined]
+
+
+def test_a_camera_fits_points_beside_the_keys_and_knows_which_ones_it_shows(page: Page) -> None:
+    scale, middle, all_shown, shown = page.evaluate(FITTED)
+    assert scale == pytest.approx(0.86 * 400 / 200)
+    assert middle == pytest.approx([200, 150])
+    assert all_shown
+    assert shown == [True, False] * 4

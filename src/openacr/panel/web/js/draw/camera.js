@@ -80,6 +80,30 @@ export class Camera {
   }
 
   /**
+   * Fit points of space.
+   * @param {Vector[]} points
+   */
+  fitPoints(points) {
+    const [[left, right], [low, high]] = [this.right, this.up].map((way) => ends(points.map((point) => dot(point, way))));
+    const out = cross(this.right, this.up);
+    const [x, y, z] = [(left + right) / 2, (low + high) / 2, dot(this.middle, out)];
+    this.middle = /** @type {Vector} */ ([0, 1, 2].map((n) => x * this.right[n] + y * this.up[n] + z * out[n]));
+    this.scale = FILL * Math.min(Math.max(1, this.width - this.inset) / Math.max(right - left, 1e-6), this.height / Math.max(high - low, 1e-6), 1e6);
+    this.pan(-this.inset / 2, 0);
+  }
+
+  /**
+   * Whether all of some points of space are in the picture, beside its keys.
+   * @param {Vector[]} points
+   */
+  shows(points) {
+    return points.every((point) => {
+      const [x, y] = this.project(...point);
+      return x >= 0 && x <= this.width - this.inset && y >= 0 && y <= this.height;
+    });
+  }
+
+  /**
    * Move what is seen by pixels.
    * @param {number} dx
    * @param {number} dy
@@ -117,6 +141,9 @@ export class Camera {
     this.isFlat = false;
   }
 }
+
+/** @param {number[]} values @returns {[number, number]} */
+const ends = (values) => [Math.min(...values), Math.max(...values)];
 
 /**
  * @param {Vector} a

@@ -48,8 +48,16 @@ export function machinePainter(canvas, links, devices) {
   let now = frames(links, []);
 
   return {
-    /** What a fitted view shows: min x y z, max x y z. */
-    box: [extent.min.x, extent.min.y, floor, extent.max.x, extent.max.y, extent.max.z],
+    /** What a fitted view shows: the corners of all that is drawn where it is now, without the ground. */
+    corners() {
+      scene.updateMatrixWorld();
+      /** @type {Point[]} */
+      const found = [];
+      scene.traverse((each) => {
+        if (each instanceof Mesh) found.push(...cornersOf(each));
+      });
+      return found;
+    },
     /** @param {State} state */
     show(state) {
       now = frames(links, state.positions);
@@ -157,7 +165,18 @@ function postsOf(link, fixed, floor) {
 }
 
 /**
- * The ground under a machine: lines at whole steps; the extent grows to it.
+ * The corners of the box about a solid, turned and moved with it.
+ * @param {Mesh} mesh
+ * @returns {Point[]}
+ */
+function cornersOf(mesh) {
+  if (!mesh.geometry.boundingBox) mesh.geometry.computeBoundingBox();
+  const { min, max } = /** @type {Box3} */ (mesh.geometry.boundingBox);
+  return [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => pointOf(mesh.matrixWorld.elements, [x, y, z]))));
+}
+
+/**
+ * The ground under a machine: lines at whole steps.
  * @param {Box3} extent
  * @param {number} floor
  */
@@ -168,7 +187,6 @@ function groundOf(extent, floor) {
   const points = [];
   for (let x = left; x < right + step / 2; x += step) points.push(x, near, floor, x, far, floor);
   for (let y = near; y < far + step / 2; y += step) points.push(left, y, floor, right, y, floor);
-  extent.expandByPoint(new Vector3(left, near, floor)).expandByPoint(new Vector3(right, far, floor));
   return new LineSegments(new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3)), new LineBasicMaterial());
 }
 

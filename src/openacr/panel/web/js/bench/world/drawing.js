@@ -24,7 +24,7 @@ export function createDrawing(host, endings, { links, devices }) {
   const painter = machinePainter(canvas, links, devices);
   const camera = new Camera();
   let colours = readColours(area);
-  let [asked, view, isFitted] = [false, "iso", true];
+  let [asked, view, isFitted, isShown] = [false, "iso", true, false];
 
   function paint() {
     asked = false;
@@ -58,7 +58,7 @@ export function createDrawing(host, endings, { links, devices }) {
 
   function fit() {
     isFitted = true;
-    camera.fit(painter.box);
+    camera.fitPoints(painter.corners());
     repaint();
   }
 
@@ -113,6 +113,8 @@ export function createDrawing(host, endings, { links, devices }) {
      */
     show(state, texts, onSigns) {
       painter.show(state);
+      if (isFitted && !(isShown && camera.shows(painter.corners()))) fit();
+      isShown = true;
       names.forEach((name, n) => setText(name, texts[n]));
       signs.forEach((name, n) => setText(name, onSigns[n]));
       repaint();
