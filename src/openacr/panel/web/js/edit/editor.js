@@ -25,7 +25,7 @@ const COLORS = HighlightStyle.define([
 ]);
 
 /**
- * @typedef {{ line: number, column: number, severity: "error" | "warning", code: string, text: string }} Finding
+ * @typedef {import("../frame/findings.js").Finding} Finding
  *
  * @param {HTMLElement} host
  * @param {{ check: (text: string) => Promise<Finding[]>, found: (findings: Finding[]) => void, changed: () => void }} options
