@@ -277,3 +277,34 @@ def test_a_camera_fits_points_beside_the_keys_and_knows_which_ones_it_shows(page
     assert middle == pytest.approx([200, 150])
     assert all_shown
     assert shown == [True, False] * 4
+
+
+LEAVING = """async () => {
+  const { createDrawing } = await import('/js/bench/world/drawing.js');
+  const about = await (await fetch('/api/world')).json();
+  const links = [{ ...about.links[0], parent: null, file: '' }];
+  const host = document.createElement('div');
+  host.style.cssText = 'position: fixed; inset: 0; width: 600px; height: 400px';
+  document.body.append(host);
+  const turn = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+  const ends = [];
+  const drawing = createDrawing(host, { add: (...all) => ends.push(...all) }, { links, devices: [] });
+  const at = async (position) => {
+    const no = () => false;
+    drawing.show({ positions: [position], isActive: no, isForced: no, isBusy: no }, ['X'], []);
+    for (let n = 0; n < 4; n++) await turn();
+    return host.querySelector('.world-name').style.transform;
+  };
+  const found = [];
+  for (const position of [0, 0.001, 20 * links[0].high, 0]) found.push(await at(position));
+  ends.forEach((end) => end());
+  host.remove();
+  return found;
+}"""
+
+
+def test_a_machine_that_leaves_its_fitted_picture_is_fitted_again(page: Page) -> None:
+    first, near, far, back = page.evaluate(LEAVING)
+    assert near == first
+    assert far != first
+    assert back == far  # it is in the picture: nothing jumps
