@@ -96,10 +96,9 @@ def test_packets_on_both_ports(card: Served) -> None:
         for host in (text, packets):
             host.send(request)
             assert host.exactly(4 + 32) == request + bytes(32)
-        packets.send(b"?1\r\x18" + bytes.fromhex("00 89 01 10 15 00 00 00 00 88 01 10"))
+        packets.send(bytes.fromhex("00 89 01 10 15 00 00 00 00 88 01 10"))
         assert packets.exactly(8) == bytes.fromhex("00 88 01 10 15 00 00 00")
         assert text.value("?P4097") == "21"
-        assert text.value("?BIT8467") == "0"
         packets.send(bytes.fromhex("00 89 01 10 00 00 00 00"))
 
 

@@ -77,13 +77,13 @@ def test_programs_blocks_and_remarks_fold() -> None:
 
 
 def test_findings_name_the_place_and_what_mends_it() -> None:
-    assert Editor().ask("findings") == {
+    assert Editor(TEXT.replace("NOWORD", "GOSUP")).ask("findings") == {
         "findings": [
             {
-                "span": [5, 0, 5, 6],
-                "text": "Unknown command (did you mean NOR?)",
+                "span": [5, 0, 5, 5],
+                "text": "Unknown command (did you mean GOSUB?)",
                 "is_warning": False,
-                "fix": {"title": "Write NOR", "edits": [[5, 0, 5, 6, "NOR"]]},
+                "fix": {"title": "Write GOSUB", "edits": [[5, 0, 5, 5, "GOSUB"]]},
             }
         ],
         "more": 0,
