@@ -223,6 +223,17 @@ def test_all_questions_have_answers(project: Path, store: Path) -> None:
             )
             assert tokens is not None
             assert list(tokens.data[:5]) == [1, 0, 5, tokens.data[3], 1]
+            everything = await client.text_document_semantic_tokens_range_async(
+                types.SemanticTokensRangeParams(
+                    document, types.Range(position(0, 0), position(99, 0))
+                )
+            )
+            full = await client.text_document_semantic_tokens_full_async(
+                types.SemanticTokensParams(document)
+            )
+            assert everything is not None and full is not None
+            assert list(full.data) == list(everything.data)
+            assert len(full.data) > len(tokens.data)
             hints = await client.text_document_inlay_hint_async(
                 types.InlayHintParams(document, types.Range(position(0, 0), position(9, 0)))
             )
@@ -352,6 +363,8 @@ def test_a_port_of_this_computer_serves_one_client(store: Path) -> None:
             assert answer.server_info is not None
             assert answer.server_info.name == "openacr"
             assert answer.capabilities.hover_provider
+            tokens = answer.capabilities.semantic_tokens_provider
+            assert tokens is not None and (tokens.full, tokens.range) == (True, True)
             with pytest.raises(ConnectionRefusedError):
                 await Client().start_tcp("127.0.0.1", port)
             await client.shutdown_async(None)

@@ -199,10 +199,18 @@ def formatting(ls: Server, params: types.DocumentFormattingParams) -> list[types
     return [ls.columns.edit(document, edit) for edit in ls.engine.format(document.path)]
 
 
-@feature(
-    types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE,
-    types.SemanticTokensLegend(TOKEN_TYPES, TOKEN_MODIFIERS),
-)
+LEGEND = types.SemanticTokensLegend(TOKEN_TYPES, TOKEN_MODIFIERS)
+
+
+@feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, LEGEND)
+def all_tokens(ls: Server, params: types.SemanticTokensParams) -> types.SemanticTokens:
+    """The kinds of the words of a file."""
+    document = ls.document(params.text_document.uri)
+    last = len(document.lines)
+    return ls.columns.tokens(document, ls.engine.colored(document.path, 0, last))
+
+
+@feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, LEGEND)
 def tokens(ls: Server, params: types.SemanticTokensRangeParams) -> types.SemanticTokens:
     """The kinds of the words of some lines."""
     document = ls.document(params.text_document.uri)
