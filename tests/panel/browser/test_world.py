@@ -288,7 +288,8 @@ LEAVING = """async () => {
   document.body.append(host);
   const turn = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
   const ends = [];
-  const drawing = createDrawing(host, { add: (...all) => ends.push(...all) }, { links, devices: [] });
+  const endings = { add: (...all) => ends.push(...all) };
+  const drawing = createDrawing(host, endings, { links, devices: [] });
   const at = async (position) => {
     const no = () => false;
     drawing.show({ positions: [position], isActive: no, isForced: no, isBusy: no }, ['X'], []);
