@@ -36,7 +36,10 @@ export async function partSource(host, endings, load) {
     for (const key of list.children) key.setAttribute("aria-selected", String(/** @type {HTMLElement} */ (key).dataset.part === part.name));
     const sizes = part.sizes.map((/** @type {any} */ size) => shownIn(size, metric));
     const fields = sizes.map((/** @type {any} */ each) => ({ each, input: h("input.field.number", { id: `part-P${each.cell}`, value: String(each.default ?? ""), inputMode: "decimal", autocomplete: "off" }) }));
-    const values = () => Object.fromEntries(fields.map((/** @type {any} */ { each, input }) => [`P${each.cell}`, numberIn(input, each.text), each.scale]).filter(([, value]) => value !== null).map(([cell, value, scale]) => [cell, value / scale]));
+    const values = () => Object.fromEntries(fields.flatMap((/** @type {any} */ { each, input }) => {
+      const value = numberIn(input, each.text);
+      return value === null ? [] : [[`P${each.cell}`, value / each.scale]];
+    }));
     fill(form, h("h3", {}, part.title || part.name), ...fields.map((/** @type {any} */ { each, input }) =>
       h("div.form-row", {}, h("label", { htmlFor: input.id }, each.text), h("div.row.form-input", {}, input, each.unit ? h("span.unit", {}, each.unit) : ""), h("span.hint", {}, `P${each.cell} \u00b7 ${rangeOf(each)}`))));
     fill(conditions, [part.start, ...part.checks.map((/** @type {string} */ rule) => inWords(rule, part.sizes))].filter(Boolean).join(" \u00b7 "));

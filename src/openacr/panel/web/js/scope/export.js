@@ -1,6 +1,9 @@
 // Records of the scope as files: CSV and PNG are made here, Parquet by the server.
 import { address, call } from "../core/api.js";
+import { model, refuse } from "../core/app.js";
 import { h } from "../core/dom.js";
+import { t } from "../core/texts.js";
+import { ask } from "../frame/dialog.js";
 import { fullLabel } from "./channels.js";
 
 /**
@@ -88,4 +91,33 @@ export function keepFile(name, blob) {
   const link = h("a", { href: URL.createObjectURL(blob), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+}
+
+/**
+ * Ask for the kind of a file, and keep what is shown as one.
+ * @param {{ traces: Channel[], period: number, begin: number, canvas: HTMLCanvasElement | null | undefined, trigger: any }} shown s
+ */
+export async function exportAs({ traces, period, begin, canvas, trigger }) {
+  const kind = await ask({ title: t("scope.export"), body: [h("p", {}, t("scope.export.text"))], choices: ["csv", "parquet", "png"].map((each) => ({ text: each.toUpperCase(), value: each })) });
+  const now = new Date();
+  try {
+    if (kind && kind !== "png" && !traces.length) throw new Error(t("scope.export.none"));
+    if (kind === "csv") keepFile(fileName(kind, now), new Blob([csvOf(traces, period, begin)], { type: "text/csv" }));
+    else if (kind === "parquet") keepFile(fileName(kind, now), await parquetOf(traces, period, begin));
+    else if (kind && canvas) keepFile(fileName(kind, now), await pngOf(canvas, legendOf(traces, period, trigger, now)));
+  } catch (error) {
+    refuse(error);
+  }
+}
+
+/**
+ * What a picture shows, in words.
+ * @param {Channel[]} traces
+ * @param {number} period s
+ * @param {any} trigger
+ * @param {Date} now
+ */
+function legendOf(traces, period, trigger, now) {
+  const title = [`${model.hello.value.machine.name} ${model.hello.value.machine.card}`.trim(), now.toLocaleString(), `${t("scope.period")} ${1000 * period}`, ...(trigger ? [`T: ${trigger.channel} ${trigger.level} ${t(/** @type {any} */ (`scope.${trigger.slope}`))}`] : [])];
+  return [{ text: title.join(", ") }, ...traces.map((each) => ({ text: t("scope.legend", { name: fullLabel(each), scale: each.scale, offset: each.offset }), color: each.color }))];
 }

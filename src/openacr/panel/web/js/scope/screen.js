@@ -72,9 +72,9 @@ export function createScreen(chart, endings, plugins = []) {
       [drawn, from, step] = [traces, frame.from, frame.step > 0 ? frame.step : 1];
       setSeries();
       const length = Math.max(0, ...traces.map(({ values }) => values.length));
-      const times = Array.from({ length }, (_each, n) => frame.start + n * frame.period * 1000);
+      const samples = Array.from({ length }, (_each, n) => frame.start + n * frame.period * 1000);
       const divisions = traces.map(({ values, scale, offset }) => Array.from({ length }, (_each, n) => (Number.isFinite(values[n]) ? (values[n] - offset) / scale : null)));
-      plot.setData(/** @type {any} */ ([times, ...divisions]));
+      plot.setData(/** @type {any} */ ([samples, ...divisions]));
     },
   };
 }

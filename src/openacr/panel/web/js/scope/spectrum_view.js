@@ -1,10 +1,12 @@
 // Spectra of the traces over the frequency.
+import { h } from "../core/dom.js";
 import { plain } from "../core/format.js";
 import { t } from "../core/texts.js";
 import { uPlot } from "../../vendor/uplot.js";
-import { decibels, spectrum } from "./spectrum.js";
+import { decibels, peaks, spectrum } from "./spectrum.js";
 
 const LEGEND_PX = 34;
+const PEAKS = 6;
 
 /**
  * @param {HTMLElement} host
@@ -54,4 +56,15 @@ export function createSpectrum(host, endings) {
       return found;
     },
   };
+}
+
+/**
+ * The highest peaks of a spectrum, a cell of a table each.
+ * @param {ReturnType<typeof spectrum>} found
+ * @param {string} unit
+ */
+export function peaksOf(found, unit) {
+  if (!found) return [h("td", {}, t("scope.spectrum.gap"))];
+  const digits = (/** @type {number} */ value) => String(Number(value.toPrecision(5)));
+  return peaks(found.amplitudes, PEAKS).map((n) => h("td.number", {}, `${digits(n * found.step)} Hz: ${digits(found.amplitudes[n])} ${unit}`.trim()));
 }

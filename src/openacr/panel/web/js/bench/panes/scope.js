@@ -8,14 +8,13 @@ import { arm } from "../../scope/arm.js";
 import { samplesOf } from "../../scope/branch.js";
 import { Channels, fullLabel } from "../../scope/channels.js";
 import { cursorPlugin } from "../../scope/cursors.js";
-import { csvOf, fileName, keepFile, parquetOf, pngOf } from "../../scope/export.js";
+import { exportAs } from "../../scope/export.js";
 import { distanceText, samplesAt, showMeasures } from "../../scope/measure_table.js";
 import { panningPlugin } from "../../scope/panning.js";
 import { moved, Recording } from "../../scope/recording.js";
 import { DIVISIONS } from "../../scope/scales.js";
 import { createScreen } from "../../scope/screen.js";
-import { peaks } from "../../scope/spectrum.js";
-import { createSpectrum } from "../../scope/spectrum_view.js";
+import { createSpectrum, peaksOf } from "../../scope/spectrum_view.js";
 import { Settings } from "../../scope/settings.js";
 import { stateOf, stateText } from "../../scope/state.js";
 import { triggerPlugin } from "../../scope/trigger_mark.js";
@@ -23,7 +22,6 @@ import { within, zoomed } from "../../scope/view.js";
 import { createXy } from "../../scope/xy.js";
 
 const VIEWS = /** @type {const} */ (["time", "xy", "spectrum"]);
-const PEAKS = 6;
 const SLOW_S = 0.5; // a sweep of this time and more is also drawn while it comes
 const KEYS = /** @type {Record<string, number>} */ ({ "+": 1, "-": -1 }); // zoom
 const PANS = /** @type {Record<string, number>} */ ({ ArrowLeft: -1, ArrowRight: 1 }); // divisions
@@ -71,7 +69,7 @@ export async function mount(host, { head, kept, keep }) {
   sideKey.ariaPressed = String(!side.hidden);
   const cursorKey = key("scope.cursors", toggleCursors);
   const referenceKey = key("scope.reference", toggleReference);
-  head.append(key("scope.start", () => void start().catch(refuse), "main"), key("scope.stop", () => void give("scope.stop")), key("scope.autoscale", () => {
+  head.append(key("scope.start", () => void sample().catch(refuse), "main"), key("scope.stop", () => void give("scope.stop")), key("scope.autoscale", () => {
     channels.fit(shownNow().traces);
     changed();
   }), ...keys, cursorKey, referenceKey, key("scope.branch", () => void referToBranch().catch(refuse)), sideKey, key("scope.export", choose));
@@ -187,7 +185,7 @@ export async function mount(host, { head, kept, keep }) {
     screen.redraw();
     if (!isDone) return;
     changed();
-    if (["waiting", "triggered"].includes(stateNow())) void start().catch(refuse);
+    if (["waiting", "triggered"].includes(stateNow())) void sample().catch(refuse);
   }
 
   /**
@@ -244,7 +242,7 @@ export async function mount(host, { head, kept, keep }) {
     draw();
   }
 
-  async function start() {
+  async function sample() {
     const asked = { channels: channels.sources(), ...settings.asked(channels.asked) };
     await channels.nameUnits();
     live.end();
@@ -264,31 +262,9 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   async function choose() {
-    const kind = await ask({ title: t("scope.export"), body: [h("p", {}, t("scope.export.text"))], choices: ["csv", "parquet", "png"].map((each) => ({ text: each.toUpperCase(), value: each })) });
-    if (kind) await save(kind).catch(refuse);
-  }
-
-  /** @param {string} kind */
-  async function save(kind) {
-    const { traces: present, period, start } = shownNow();
-    const now = new Date();
-    if (kind !== "png" && !present.length) throw new Error(t("scope.export.none"));
+    const { traces: shown, period, start } = shownNow();
     const canvas = { time: screen.canvas, xy: xy.canvas, spectrum: spectra.canvas() }[view];
-    if (kind === "csv") keepFile(fileName(kind, now), new Blob([csvOf(present, period, start / 1000)], { type: "text/csv" }));
-    else if (kind === "parquet") keepFile(fileName(kind, now), await parquetOf(present, period, start / 1000));
-    else if (canvas) keepFile(fileName(kind, now), await pngOf(canvas, legendOf(present, period, now)));
-  }
-
-  /**
-   * What a picture shows, in words.
-   * @param {Channel[]} present
-   * @param {number} period s
-   * @param {Date} now
-   */
-  function legendOf(present, period, now) {
-    const trigger = settings.trigger;
-    const title = [`${model.hello.value.machine.name} ${model.hello.value.machine.card}`.trim(), now.toLocaleString(), `${t("scope.period")} ${1000 * period}`, ...(trigger ? [`T: ${trigger.channel} ${trigger.level} ${t(/** @type {any} */ (`scope.${trigger.slope}`))}`] : [])];
-    return [{ text: title.join(", ") }, ...present.map((each) => ({ text: t("scope.legend", { name: fullLabel(each), scale: each.scale, offset: each.offset }), color: each.color }))];
+    await exportAs({ traces: shown, period, begin: start / 1000, canvas, trigger: settings.trigger });
   }
 
   endings.add(
@@ -311,16 +287,6 @@ export async function mount(host, { head, kept, keep }) {
   );
   show(view);
   return () => endings.end();
-}
-
-/**
- * @param {ReturnType<typeof import("../../scope/spectrum.js").spectrum>} found
- * @param {string} unit
- */
-function peaksOf(found, unit) {
-  if (!found) return [h("td", {}, t("scope.spectrum.gap"))];
-  const digits = (/** @type {number} */ value) => String(Number(value.toPrecision(5)));
-  return peaks(found.amplitudes, PEAKS).map((n) => h("td.number", {}, `${digits(n * found.step)} Hz: ${digits(found.amplitudes[n])} ${unit}`.trim()));
 }
 
 /**

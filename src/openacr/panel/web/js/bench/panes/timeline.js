@@ -54,9 +54,9 @@ export async function mount(host, { head, kept, keep }) {
   const at = h("input.field.time-at", { ariaLabel: t("time.at"), placeholder: t("time.at"), inputMode: "decimal", autocomplete: "off" });
   const going = h("form.row.wrap", { onsubmit: (/** @type {Event} */ event) => {
     event.preventDefault();
-    const seconds = secondsOf(at.value);
-    if (seconds === null) refuse(t("time.at.wrong", { text: at.value }));
-    else void seek(Math.round(seconds / model.timeline.value.period_s));
+    const typed = secondsOf(at.value);
+    if (typed === null) refuse(t("time.at.wrong", { text: at.value }));
+    else void seek(Math.round(typed / model.timeline.value.period_s));
   } }, ...JUMPS.map((each) => h("button.key", { type: "button", onclick: () => void jump(each) }, `${each < 0 ? "\u2212" : "+"}${Math.abs(each)} s`)), at, h("button.key", { type: "submit" }, t("time.go")), key("time.whole", () => look(null)), shown);
   /** The part that is shown; null: all of the branch. @type {import("../time_view.js").Part | null} */
   let part = null;
