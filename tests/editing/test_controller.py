@@ -390,3 +390,11 @@ def test_a_closed_file_is_not_open(engine: Engine, project: Path) -> None:
     engine.close(path)
     with pytest.raises(UserError, match="is not open"):
         engine.describe(path, Place(0, 0))
+
+
+@pytest.mark.parametrize("mark", ["'", "\u2018", "\u2019"])
+def test_formatting_keeps_a_comment_after_an_apostrophe(tmp_path: Path, mark: str) -> None:
+    path = tmp_path / "prog0.8k"
+    engine = Engine()
+    engine.open(path, f"PROGRAM\nset   32 {mark} lamp\nclr  32\nENDP\n")
+    assert [edit.text for edit in engine.format(path)] == [f" SET 32 {mark} lamp", " CLR 32"]

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator
 from functools import lru_cache
 from itertools import pairwise
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from typing import TYPE_CHECKING
 
 from openacr.basic.language import registry
 from openacr.basic.language.grammar import Form, Mark, Object, Word
@@ -28,15 +28,6 @@ _OPENING = frozenset(("IF", "FOR", "WHILE"))
 _CLOSING = frozenset(("ENDIF", "NEXT", "WEND"))
 _OUTDENTED = frozenset(("ELSE", "ELSEIF", "NEXT", "WEND"))
 _SPACED_VARIABLE = "BIT"
-
-
-@runtime_checkable
-class Spelled(Protocol):
-    """The meaning of a line that is not AcroBASIC and says itself how it is written."""
-
-    @property
-    def spelled(self) -> str:
-        """The line as LIST shows it."""
 
 
 class Lister:
@@ -66,7 +57,8 @@ class Lister:
         outer = depth - (first in _OUTDENTED) + is_free_form
         indent = 0 if frame else max(outer, 0)
         tree = None if line.is_unread else line.tree
-        text = tree.spelled if isinstance(tree, Spelled) else self.line(line.tokens)
+        spelled: str | None = getattr(tree, "spelled", None)  # of a line that is not AcroBASIC
+        text = self.line(line.tokens) if spelled is None else spelled
         return f"{numbered}{' ' * indent}{text}"
 
     def line(self, tokens: Iterable[Token]) -> str:

@@ -16,6 +16,7 @@ from openacr.project import find_project
 from openacr.source_check import listed, read
 
 _NO_NAMES: frozenset[str] = frozenset()
+_APOSTROPHES = frozenset("'\u2018\u2019")
 
 
 def edits(document: Document, unsaved: Mapping[Path, Document]) -> list[Edit]:
@@ -46,7 +47,9 @@ def _changed(document: Document, shown: dict[int, list[str]], faulty: set[int]) 
 
 def _comment(line: str) -> str:
     """The comment of a line, with a blank before it."""
+    if _APOSTROPHES.isdisjoint(line):
+        return ""
     for mark in marks_of(line, _NO_NAMES, _NO_NAMES, is_plc=False):
-        if mark.kind is Kind.REMARK and line[mark.start] in "'\u2018\u2019":
+        if mark.kind is Kind.REMARK and line[mark.start] in _APOSTROPHES:
             return f" {line[mark.start :].rstrip()}"
     return ""
