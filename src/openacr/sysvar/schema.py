@@ -69,6 +69,7 @@ class Row:
     high: float = ANY
     is_low_open: bool = False  # the lowest value itself is refused
     words: Mapping[int, str] = field(default_factory=dict)  # names of values
+    bits: tuple[str, ...] = ()  # what the bits of a value mean where they are set, from bit 0 on
     noun: str = ""  # prefix with which numbers may be written and are displayed: Axis4
     doc: str = ""
     count: int = 1

@@ -12,7 +12,7 @@ from tests.panel.browser.conftest import SETTLED_S, give, load_file, to_main_men
 from openacr.mill.plan.blank import SIZES
 from openacr.panel.control.station import Station
 from openacr.sysvar import Store
-from openacr.sysvar.tabs import CONTROL, DISPLAY
+from openacr.sysvar.tabs import CONTROL, DISPLAY, SPINDLE
 
 ANGLE = "G21 G91 F600\nG1 X20\nY10\nM2\n"
 GREEN, RED, BROWN = (0, 0x9E, 0x73), (0xB0, 0, 0x20), (0x8B, 0x5A, 0x2B)  # 10, 4 and 6
@@ -183,6 +183,28 @@ def test_a_colour_is_chosen_by_its_swatch_and_has_its_name(drawn: Page, served: 
     page.get_by_role("button", name="SAVE", exact=True).click()
     until_stored(page, store, CONTROL.path_color, 4)
     store.write(CONTROL.path_color, 10)
+    to_main_menu(page)
+
+
+def test_bits_of_the_spindle_code_are_boxes_beside_its_number(drawn: Page, served: Served) -> None:
+    page, store = drawn, served.panel.installation.store
+    store.write(SPINDLE.code, 6.0)
+    page.keyboard.press("F8")
+    page.keyboard.press("F1")
+    page.get_by_role("tab", name="Spindle", exact=True).click()
+    row = page.locator(".form-row", has=page.get_by_label("Spindle Code", exact=True))
+    number, boxes = page.get_by_label("Spindle Code", exact=True), row.locator("[type=checkbox]")
+    texts = row.locator(".bits label").all_inner_texts()
+    assert [text.split(":")[0] for text in texts] == ["0", "1", "2", "3", "4"]
+    assert texts[3] == "3: wait for At Zero"
+    assert [box.is_checked() for box in boxes.all()] == [False, True, True, False, False]
+    boxes.nth(4).check()
+    boxes.nth(1).uncheck()
+    expect(number).to_have_value("20")
+    number.fill("9")
+    assert [box.is_checked() for box in boxes.all()] == [True, False, False, True, False]
+    page.get_by_role("button", name="SAVE", exact=True).click()
+    until_stored(page, store, SPINDLE.code, 9)
     to_main_menu(page)
 
 

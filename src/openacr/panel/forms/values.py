@@ -96,6 +96,7 @@ def row_data(store: Store, found: Parameter) -> dict[str, Any]:
         "high": high,
         "low_open": row.is_low_open,
         "words": {str(key): word for key, word in row.words.items()} or None,
+        "bits": list(row.bits),
         "noun": row.noun,
         "typical": typical(found, store.is_metric, letter),
         "help": row.doc,

@@ -88,7 +88,14 @@ class PROBE:
 
     tab = Tab("PROBE", 600_000)
     tab.motion()
-    input = tab.integer(0, "Probe Input", -1, doc="Input of the probe of G31.", **INPUT)
+    input = tab.integer(
+        0,
+        "Probe Input",
+        -1,
+        doc="Input of the probe of G31. Axis n (0 to 7) captures at 24 + n, 16 + n, 8 + n and n:"
+        " 24, 16, 8, 0 for the first axis, 25, 17, 9, 1 for the second. Others are polled.",
+        **INPUT,
+    )
     edge = tab.choice(1, "Edge", {0: "leading", 1: "trailing"}, doc="Edge that trips.")
     capture = tab.choice(
         2, "Capture", {0: "hardware", 1: "software"}, doc="How positions are captured."
@@ -113,7 +120,20 @@ class SPINDLE:
     tab = Tab("SPINDLE", 800_000)
     tab.motion()
     code = tab.integer(
-        0, "Spindle Code", 0, typical="6", low=0, high=31, doc="Bits for handshake and speed range."
+        0,
+        "Spindle Code",
+        0,
+        typical="6",
+        low=0,
+        high=31,
+        bits=(
+            "-10 to 10 V, else 0 to 10 V",
+            "wait for At Speed",
+            "At Speed is high, else low",
+            "wait for At Zero",
+            "At Zero is high, else low",
+        ),
+        doc="Bits for handshake and speed range.",
     )
     scaling = tab.real(
         1, "Spindle Scaling", "V/rpm", 0, typical="0.00333", low=0, doc="Volts per rpm."

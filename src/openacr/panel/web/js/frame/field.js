@@ -17,6 +17,7 @@ import { askNumber } from "./number_pad.js";
  * @property {number | null} low
  * @property {number | null} high
  * @property {Record<string, string> | null} words
+ * @property {string[]} [bits] what the bits of a whole number mean, from bit 0 on
  * @property {string} typical
  * @property {string} help
  * @property {boolean} motion
@@ -69,7 +70,7 @@ export function fieldFor(row, changed, isPerAxis = false) {
     edited();
   } }, "\u2328") : "";
   return {
-    element: h("div.form-row", {}, h("label", { htmlFor: id }, row.axis_name && !isPerAxis ? `${row.axis_name}  ${row.name}` : row.name), h("div.row.form-input", {}, input, row.unit ? h("span.unit", {}, row.unit) : "", pad), hint, isColour(row) ? swatches(row, input) : "", refusal),
+    element: h("div.form-row", {}, h("label", { htmlFor: id }, row.axis_name && !isPerAxis ? `${row.axis_name}  ${row.name}` : row.name), h("div.row.form-input", {}, input, row.unit ? h("span.unit", {}, row.unit) : "", pad), hint, isColour(row) ? swatches(row, input) : "", row.bits?.length ? bitBoxes(row, input) : "", refusal),
     isChanged, text: read, refuse, refusal: () => refusal.textContent ?? "", focus: () => input.focus(),
     type(text) {
       if (input instanceof HTMLInputElement && input.type === "checkbox") input.checked = text === "1";
@@ -108,6 +109,23 @@ function swatches(row, input) {
   input.addEventListener("input", draw);
   draw();
   return h("div.row.wrap.swatches", {}, ...keys, name);
+}
+
+/**
+ * The bits of a whole number with what they mean: a box sets one.
+ * @param {FormRow} row
+ * @param {HTMLInputElement | HTMLSelectElement} input
+ */
+function bitBoxes(row, input) {
+  const bits = row.bits ?? [];
+  const boxes = bits.map(() => h("input", { type: "checkbox", disabled: row.fixed, onchange: () => {
+    input.value = String(boxes.reduce((sum, box, bit) => sum + (box.checked ? 1 << bit : 0), 0));
+    input.dispatchEvent(new Event("input"));
+  } }));
+  const draw = () => boxes.forEach((box, n) => { box.checked = (Number(input.value) >> n & 1) === 1; });
+  input.addEventListener("input", draw);
+  draw();
+  return h("div.bits", {}, ...bits.map((text, n) => h("label.row", {}, boxes[n], `${n}: ${text}`)));
 }
 
 /**
