@@ -212,8 +212,8 @@ OUT_OF_REACH = """() => {
     const isRow = each.matches('.position-row');
     const name = each.textContent.slice(0, 9);
     if (box.left < 0 || box.right > innerWidth || box.bottom > (isRow ? panel.bottom : innerHeight)) found.push(`${name} is cut off`);
-    const top = document.elementFromPoint(box.left + 8, box.top + 8);
-    if (!isRow && !each.contains(top)) found.push(`${name} is covered`);
+    const corners = [[box.left + 8, box.top + 8], [box.right - 8, box.bottom - 8]];
+    if (!isRow && corners.some(([x, y]) => !each.contains(document.elementFromPoint(x, y)))) found.push(`${name} is covered`);
   }
   return found;
 }"""  # noqa: E501
@@ -234,6 +234,23 @@ def test_a_phone_shows_the_read_out_and_stop_with_every_menu_and_while_jogging(
         found[place] = left_over(page, OUT_OF_REACH, MISFITS)
     page.set_viewport_size({"width": 1024, "height": 768})
     assert {place: each for place, each in found.items() if each} == {}
+
+
+def test_the_servo_loop_is_readable_on_a_phone_and_moved_sideways(page: Page) -> None:
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.evaluate(OPEN, "servo")
+    page.wait_for_selector("#screen .loop-picture text")
+    heights = page.eval_on_selector_all(
+        "#screen .loop-picture text",
+        "all => all.map((each) => each.getBoundingClientRect().height)",
+    )
+    assert min(heights) >= 12.0
+    room = page.eval_on_selector(
+        "#screen .loop-host", "(each) => each.scrollWidth - each.clientWidth"
+    )
+    assert room > 500
+    assert page.evaluate("document.documentElement.scrollWidth") == 390
+    page.set_viewport_size({"width": 1024, "height": 768})
 
 
 def test_the_browser_has_nothing_to_complain_about(page: Page) -> None:

@@ -20,7 +20,7 @@ export const screen = {
     endings.add(() => own.end());
     const axes = h("div.row.wrap", { role: "radiogroup", ariaLabel: t("form.axis") });
     const state = h("span.hint.grow", { role: "status" });
-    const host = h("div.loop-host.grow", {});
+    const host = h("div.loop-host.grow", { tabIndex: 0, role: "group", ariaLabel: t("servo.title") });
     body.append(h("div.row.wrap", {}, axes, state), host);
     const choose = (/** @type {number} */ index) => {
       own.end();
