@@ -48,7 +48,8 @@ def test_a_form_has_units_limits_help_and_values(web: httpx.Client) -> None:
     assert row == {
         "number": 151000, "name": "P Gain", "kind": "real", "axis": 1, "axis_name": "Y",
         "unit": "V/pulse", "value": "0.002441", "number_value": 0.002441, "default": "0.00244",
-        "is_default": False, "low": 0, "high": 10.0, "low_open": False, "words": None, "noun": "",
+        "is_default": False, "low": 0, "high": 10.0, "low_open": False, "words": None, "bits": [],
+        "noun": "",
         "typical": "0.001", "help": "Volts per pulse of error.", "motion": True, "fixed": False,
         "wire": None,
     }  # fmt: skip
