@@ -167,5 +167,5 @@ def test_only_the_stamps_of_files_and_alarms_read_the_date() -> None:
         for path in source.rglob("*.py")
         if dated.search(path.read_text(encoding="utf-8"))
     }
-    panel = {"panel/control/facts.py", "panel/files.py", "panel/server/calls/journals.py"}
+    panel = {"panel/files.py", "panel/server/calls/journals.py"}
     assert found == {"cli/run/journals.py", "mill/card/alarms.py", "bridge/clock.py"} | panel

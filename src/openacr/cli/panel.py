@@ -76,10 +76,10 @@ def panel(
     are held, not a program. Ctrl-C brings the machine to rest and ends the server.
     """
     _require_packages()
-    if set_password is None:
-        print("starting the panel ...", file=sys.stderr, flush=True)
     installation = _installation(machine, store, programs)
     installation.is_agreed |= is_agreed
+    if set_password is None:
+        print("starting the panel ...", file=sys.stderr, flush=True)
     try:
         if set_password is not None:
             _set_password(installation, set_password)

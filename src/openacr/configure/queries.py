@@ -10,7 +10,6 @@ from openacr.basic.language.registry import BY_OBJECT, commands
 from openacr.controller import Controller
 
 PROGRAMS = range(16)
-LONG, REST_TK = 50, 10  # lines that a listing prints at once; ticks for the next ones
 _AXIS = re.compile(r"ATTACH AXIS(\d+) ENC(\d+) DAC(\d+)\b")
 _MASTER = re.compile(r"ATTACH MASTER(\d+)")
 _SLAVE = re.compile(r'ATTACH SLAVE\d+ AXIS(\d+) "(\w+)"')
@@ -91,15 +90,8 @@ class Virtual:
 
     def command(self, line: str, *, program: int | None = None) -> list[str]:
         """Type a line and return what the card has printed."""
-        self._card.send("SYS\r" if program is None else f"PROG{program}\r")
-        text = self._card.send(f"{line}\r")
-        while text.count("\n") >= LONG:  # the rest of a listing takes time of the card
-            self._card.advance(REST_TK)
-            more = self._card.send("")
-            text += more
-            if not more:
-                break
-        return text.splitlines()
+        self._card.ask("SYS\r" if program is None else f"PROG{program}\r")
+        return self._card.ask(f"{line}\r").splitlines()
 
     def type(self, lines: Iterable[str]) -> None:
         """Type the lines of a file, which change the level themselves."""

@@ -2,10 +2,11 @@
 
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
 
 import pytest
-from playwright.sync_api import BrowserContext, CDPSession, Page, expect
+from playwright.sync_api import BrowserContext, CDPSession, Error, Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import open_page
 
@@ -298,12 +299,17 @@ def test_a_key_that_is_held_or_pressed_with_the_mouse_can_be_read(
     inspector = jog.context.new_cdp_session(jog)  # a finger presses a key without being over it
     inspector.send("DOM.enable")
     inspector.send("CSS.enable")
-    root = inspector.send("DOM.getDocument")["root"]["nodeId"]
-    asked = {"nodeId": root, "selector": "#screen .key.main"}
-    found = inspector.send("DOM.querySelector", asked)
-    inspector.send("CSS.forcePseudoState", {**found, "forcedPseudoClasses": ["active"]})
     key = jog.locator("#screen .key.main")
-    assert key.evaluate("(each) => each.matches(':active:not(:hover)')")
+
+    def is_pressed() -> bool:
+        root = inspector.send("DOM.getDocument")["root"]["nodeId"]
+        asked = {"nodeId": root, "selector": "#screen .key.main"}
+        with suppress(Error):  # the screen is just being drawn
+            found = inspector.send("DOM.querySelector", asked)
+            inspector.send("CSS.forcePseudoState", {**found, "forcedPseudoClasses": ["active"]})
+        return bool(key.count()) and key.evaluate("(each) => each.matches(':active:not(:hover)')")
+
+    until(is_pressed, jog)
     assert key.evaluate(CONTRAST) >= READABLE
     inspector.detach()
     jog.evaluate("() => { delete document.documentElement.dataset.theme; }")

@@ -2,7 +2,6 @@
 
 import os
 import tempfile
-import time
 from collections.abc import AsyncIterator
 from contextlib import suppress
 from pathlib import Path
@@ -191,8 +190,8 @@ async def _received(parts: AsyncIterator[bytes], place: Path) -> Path:
     """What comes in, in a file beside the place it is for."""
     try:
         place.parent.mkdir(parents=True, exist_ok=True)
-        _remove_left_over(place.parent)
         handle, name = tempfile.mkstemp(prefix=PARTIAL, dir=place.parent)
+        _remove_left_over(place.parent, os.fstat(handle).st_mtime)
     except OSError as error:
         raise _unwritable(place, error) from None
     partial, size = Path(name), 0
@@ -213,11 +212,14 @@ async def _received(parts: AsyncIterator[bytes], place: Path) -> Path:
     return partial
 
 
-def _remove_left_over(folder: Path) -> None:
-    """Remove parts of uploads that a process left when it was killed; others are under way."""
+def _remove_left_over(folder: Path, now_s: float) -> None:
+    """Remove parts of uploads that a process left when it was killed; others are under way.
+
+    `now_s` is the time of the disk, which may be another one than that of this computer.
+    """
     for partial in folder.glob(f"{PARTIAL}*"):
         with suppress(OSError):
-            if time.time() - partial.stat().st_mtime > LEFT_OVER_S:
+            if now_s - partial.stat().st_mtime > LEFT_OVER_S:
                 partial.unlink()
 
 
