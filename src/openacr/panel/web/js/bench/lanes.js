@@ -1,4 +1,4 @@
-// The picture of the timeline: a ruler with bookmarks, lanes of axes and programs, and the moment.
+// The picture of the timeline: a ruler with bookmarks, lanes of axes and programs, and the moment. The keys of the bookmarks are below it.
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { placeOf, rulerOf } from "./time_view.js";
@@ -51,7 +51,7 @@ export function createLanes({ seek, zoom, pan, seconds }) {
       part = shown;
       const times = rulerOf(part, period, Math.max(2, ruler.clientWidth / LABEL));
       fill(ruler, ...times.map((time) => h("span.time-time", { style: `left: ${left(time / period)}` }, String(time))),
-        ...bookmarks.filter(({ tick }) => isShown(tick)).map(({ tick, kind, text }) => h("button.time-tick", { type: "button", style: `left: ${left(tick)}`, data: { tick: String(tick), kind }, title: `${seconds(tick)} s ${text}`, ariaLabel: `${seconds(tick)} s ${text}` })));
+        ...bookmarks.filter(({ tick }) => isShown(tick)).map(({ tick, kind, text }) => h("span.time-tick", { style: `left: ${left(tick)}`, data: { tick: String(tick), kind }, title: `${seconds(tick)} s ${text}`, ariaHidden: "true" })));
       fill(rows, ...lanes.map(({ name, kind, spans }) => h("div.time-lane", { data: { lane: name } }, h("span.time-name", {}, name), ...spans.map(([from, to]) => h("span.time-span", { data: { kind }, style: `left: ${left(Math.max(from, part[0]))}; width: ${placeOf(Math.min(to, part[1]), part) - placeOf(Math.max(from, part[0]), part)}%` })))));
     },
     /** @param {number} tick */
