@@ -68,14 +68,14 @@ def convert_drawing(
         raise UserError(f"--output {output}: it must be a bit, {OUTPUTS[0]} to {OUTPUTS[-1]}")
     levels = None
     if safe_height is not None and cut_z is not None:
-        levels = _finite("--safe-height", safe_height), _finite("--cut-z", cut_z)
+        levels = finite("--safe-height", safe_height), finite("--cut-z", cut_z)
     require_absent(out, is_forced=is_forced)
     require_writable(out)
     options = Options(
         is_counter_clockwise=is_ccw,
         layer=layer,
         is_metric=not is_inch,
-        epsilon=_positive("--epsilon", EPSILON[not is_inch] if epsilon is None else epsilon),
+        epsilon=positive("--epsilon", EPSILON[not is_inch] if epsilon is None else epsilon),
     )
     machine = MotionMachine(
         program=number,
@@ -101,17 +101,19 @@ def _names(text: str, needed: int) -> tuple[str, ...]:
     return names
 
 
-def _finite(option: str, value: float) -> float:
+def finite(option: str, value: float) -> float:
+    """The value of an option that may be any number; UserError for infinity and NaN."""
     if not isfinite(value):
         raise UserError(f"{option} {value:g}: it must be a number")
     return value
 
 
-def _positive(option: str, value: float) -> float:
+def positive(option: str, value: float) -> float:
+    """The value of an option that must be a number above 0; UserError."""
     if not 0.0 < value < float("inf"):
         raise UserError(f"{option} {value:g}: it must be above 0")
     return value
 
 
 def _rate(option: str, value: float | None) -> float | None:
-    return None if value is None else _positive(option, value)
+    return None if value is None else positive(option, value)

@@ -3,12 +3,12 @@
 import json as json_format
 from dataclasses import replace
 from enum import StrEnum
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from openacr.cli.drawing import finite, positive
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
@@ -104,20 +104,18 @@ def import_drawing(
             is_counter_clockwise=direction in (Direction.CCW, Direction.ONE),
             layer=layer,
             is_metric=cells.is_metric,
-            epsilon=_positive(
-                "--epsilon", _given(epsilon, cells, CONTROL.epsilon_for_compensation)
-            ),
-            safe_height=_finite(
+            epsilon=positive("--epsilon", _given(epsilon, cells, CONTROL.epsilon_for_compensation)),
+            safe_height=finite(
                 "--safe-height", _given(safe_height, cells, CONTROL.dxf_safe_height)
             ),
-            cut_z=_finite("--cut-z", cut_z or 0.0),
-            drill_bottom=_finite("--drill-z", _given(drill_z, cells, CONTROL.dxf_drill_z)),
-            drill_level=_finite("--drill-r", _given(drill_r, cells, CONTROL.dxf_drill_r)),
-            drill_feed=_positive("--feed", _given(feed, cells, CONTROL.dxf_drill_f)),
-            feed=None if feed is None else _positive("--feed", feed),
+            cut_z=finite("--cut-z", cut_z or 0.0),
+            drill_bottom=finite("--drill-z", _given(drill_z, cells, CONTROL.dxf_drill_z)),
+            drill_level=finite("--drill-r", _given(drill_r, cells, CONTROL.dxf_drill_r)),
+            drill_feed=positive("--feed", _given(feed, cells, CONTROL.dxf_drill_f)),
+            feed=None if feed is None else positive("--feed", feed),
             d_number=tool,
             radius=tool_radius(cells, tool) if tool else 0.0,
-            lead=_positive("--lead", _given(lead, cells, CONTROL.default_lead_in_radius)),
+            lead=positive("--lead", _given(lead, cells, CONTROL.default_lead_in_radius)),
         )
     conversion = convert(file, options)
     write_text(target, conversion.text)
@@ -156,18 +154,6 @@ def _files(folder: Path, suffix: str) -> list[Path]:
 
 def _given(value: float | None, cells: "Store", n: int) -> float:
     return cells.read(n) if value is None else value
-
-
-def _finite(option: str, value: float) -> float:
-    if not isfinite(value):
-        raise UserError(f"{option} {value:g}: it must be a number")
-    return value
-
-
-def _positive(option: str, value: float) -> float:
-    if not 0.0 < value < float("inf"):
-        raise UserError(f"{option} {value:g}: it must be above 0")
-    return value
 
 
 def _report(conversion: "Conversion", options: "Options", target: Path, as_json: bool) -> None:
