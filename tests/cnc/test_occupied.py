@@ -18,7 +18,7 @@ def test_the_table_has_every_number_once() -> None:
         ("P95", "run state"),
         ("P96", "heartbeat"),
         ("P97", "cause of a kill"),
-        ("P98", "least moves"),
+        ("P98", "hold at"),
         ("BIT128 to BIT227", "relays"),
         ("BIT245", "ran short"),
         ("BIT246", "outputs at rest"),

@@ -18,6 +18,7 @@ GET = bytes.fromhex("00 88 04 1B")  # P6916, the clock, which nothing sets back
 CLOCK = 6916
 PER_CARD = 100_000  # bytes; what noise has set on a card goes with it
 PER_CHECK = 5_000
+TURNS_TK = 500  # in which the lines of a piece of noise have had their turns
 TIMEOUTS = (
     at.P_FIFO_COMMUNICATION_TIMEOUT,
     at.P_COM1_COMMUNICATION_TIMEOUT,
@@ -66,6 +67,11 @@ def back_in_step(port: Host, kind: StreamKind) -> None:
     if kind is not StreamKind.PACKETS:
         port.card.receive(port.stream, b"\x1b")
     port.heard()
+    for _ in range(TURNS_TK):  # lines of the noise that wait for their turns come first
+        if port.card.streams.is_answered(port.stream):
+            break
+        port.card.advance(1)
+        port.heard()
     session = port.card.streams.session(port.stream)
     mode = BinaryMode(session.mode) if session else BinaryMode.PLAIN
     port.card.receive(port.stream, encode_packet(GET, mode))
