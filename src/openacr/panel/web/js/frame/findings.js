@@ -59,6 +59,7 @@ async function sayFirst() {
   /** @type {Found | null} */
   const found = await get("program").catch(refuse);
   const first = found?.findings.find((each) => each.severity === "error") ?? found?.findings[0];
+  if (model.state.value.running) return; // the line is for what the program says now
   if (found && first) prompt.set({ kind: found.errors ? "error" : "say", text: `${summary(found)}: ${first.line}:${first.column} ${first.code} ${first.text}` });
 }
 
