@@ -48,6 +48,20 @@ export function numberText(value, format) {
   const whole = Math.trunc(value) >>> 0; // the 32 bits of the card
   if (format === "hex") return `0x${whole.toString(16).toUpperCase().padStart(8, "0")}`;
   if (format === "binary") return whole.toString(2).padStart(32, "0").replace(/(.{8})(?=.)/g, "$1 ");
+  return shortest(value);
+}
+
+/**
+ * The fewest digits that mean this number: 0.002441 of a gain that the card keeps in 32 bits, all digits of a counter.
+ * @param {number} value
+ */
+function shortest(value) {
+  if (Number.isInteger(value)) return String(value);
+  if (Math.fround(value) !== value) return String(Number(value.toPrecision(9)));
+  for (let digits = 6; digits < 9; digits++) {
+    const rounded = Number(value.toPrecision(digits));
+    if (Math.fround(rounded) === value) return String(rounded);
+  }
   return String(Number(value.toPrecision(9)));
 }
 
