@@ -259,7 +259,7 @@ def test_board_parameters_lists_every_parameter_with_its_value(page: Page, serve
     total = len(known)
     listed: dict[str, str] = {}
     numbers = list(known)
-    marked = {1: 11.5, 40: -3.0, 59: 4.25}  # variables of the first page, which nothing changes
+    marked = {1: 0.1, 40: -3.0, 59: 1234567891.0}  # variables of the first page, which nothing changes
     for number, value in marked.items():
         served.call(partial(_command, line=f"P{number}={value}"))
     for first in (0, 60, (total - 1) // 60 * 60):
@@ -271,7 +271,7 @@ def test_board_parameters_lists_every_parameter_with_its_value(page: Page, serve
         if first == 0:
             for number, value in marked.items():
                 shown = page.locator("#screen tbody strong").nth(numbers.index(f"P{number}"))
-                expect(shown).to_have_text(f"{value:g}")
+                expect(shown).to_have_text(f"{value:.12g}")
             served.call(partial(_command, line="P40=7"))
             shown = page.locator("#screen tbody strong").nth(numbers.index("P40"))
             expect(shown).to_have_text("7")

@@ -194,6 +194,7 @@ def test_bits_of_the_spindle_code_are_boxes_beside_its_number(drawn: Page, serve
     page.get_by_role("tab", name="Spindle", exact=True).click()
     row = page.locator(".form-row", has=page.get_by_label("Spindle Code", exact=True))
     number, boxes = page.get_by_label("Spindle Code", exact=True), row.locator("[type=checkbox]")
+    expect(boxes).to_have_count(5)
     texts = row.locator(".bits label").all_inner_texts()
     assert [text.split(":")[0] for text in texts] == ["0", "1", "2", "3", "4"]
     assert texts[3] == "3: wait for At Zero"

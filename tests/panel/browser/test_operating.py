@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import (
     READY,
@@ -96,8 +96,16 @@ def test_what_a_program_prints_and_asks_is_in_one_line_and_another_is_edited_mea
     )
     (served.programs / "OTHER.TXT").write_text("G0 X1\nM2\n")
     line = page.locator("#prompt")
-    load_file(page, "ASK.TXT")
+    late: list[Route] = []  # what reading the program found, which arrives after the start
+    page.route("**/api/program", lambda route: late.append(route))
+    with page.expect_request("**/api/program"):
+        load_file(page, "ASK.TXT")
     begin_run(page)
+    expect(line).to_have_text("Clamp the part")
+    with page.expect_response("**/api/program"):
+        late[0].continue_()
+    page.unroute_all()
+    page.evaluate("() => new Promise(requestAnimationFrame)")
     expect(line).to_have_text("Clamp the part")
     expect(page.locator("#state")).to_contain_text("HOLD")
     page.keyboard.press("F2")
@@ -266,17 +274,22 @@ def test_the_buffer_of_mdi_is_switched_off_and_on(placed: Page, served: Served) 
     assert served.call(lambda station: list(station.typed.text)) == [*first, "G91 G0 X-5"]
 
 
+def name_axes(page: Page, served: Served, names: str) -> None:
+    """Three or four axes with these names."""
+    store = served.panel.installation.store
+    with store.transaction():
+        for n, name in enumerate(names):
+            store.write_text(AXIS.name[n], name)
+        store.write(AXIS.configured[3], float(len(names) == 4))
+    until_model(page, f"model.axes.map(({{ name }}) => name).join('') === '{names}'")
+
+
 @pytest.mark.req("MILL-JOG-SCREEN")
 def test_every_configured_axis_has_a_plus_and_a_minus_key(page: Page, served: Served) -> None:
     """X and Y as a cross, the others beside it in any order, on a screen of 800 x 600."""
-    store = served.panel.installation.store
     page.set_viewport_size({"width": 800, "height": 600})
-    for names in ("XYZ", "XYZA", "ZYXA"):
-        with store.transaction():
-            for n, name in enumerate(names):
-                store.write_text(AXIS.name[n], name)
-            store.write(AXIS.configured[3], float(len(names) == 4))
-        until_model(page, f"model.axes.map(({{ name }}) => name).join('') === '{names}'")
+    for names in ("ZYXA", "XYZA", "XYZ"):  # the last is the machine of the other tests
+        name_axes(page, served, names)
         to_main_menu(page)
         page.keyboard.press("F7")
         page.keyboard.press("F2")
