@@ -200,7 +200,7 @@ def test_gains_reach_the_running_card_at_enter_and_are_stored(
         "() => import('/js/core/app.js').then(({ model }) => model.axes)")]  # fmt: skip
     kept, entered = {}, {}
     open_diagnostics(page, 4, "gain")
-    assert page.locator("#screen [role=radio]").all_inner_texts() == axes
+    expect(page.locator("#screen [role=radio]")).to_have_text(axes)
     for axis in range(len(axes)):
         page.locator("#screen [role=radio]").nth(axis).click()
         for gain, name, value, offset in (
