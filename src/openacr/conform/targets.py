@@ -1,0 +1,167 @@
+"""What cases run on: a virtual card as new, for each case from a snapshot."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import lru_cache
+from typing import Protocol
+
+from openacr.channels import CHANNELS, StreamKind
+from openacr.conform.form import DifferenceError, Machine
+from openacr.controller import Controller
+from openacr.controller.snapshot import Snapshot
+from openacr.errors import UserError
+from openacr.plant.load import parse_world
+from openacr.testing import machine as under_test
+
+CONSOLE = "STREAM1"
+KINDS = {name: kind for kind, names in CHANNELS.items() for name in names}
+KINDS |= {CONSOLE: StreamKind.TERMINAL, "PACKETS": StreamKind.PACKETS}
+_SET = re.compile(r"(BIT\s*\d+\s*(?:=|<>)\s*)-1", re.IGNORECASE)
+_PLACE = re.compile(r"(P|BIT)\s*(\d+)", re.IGNORECASE)
+
+
+class Target(Protocol):
+    """A card that cases run on; times are its servo periods."""
+
+    @property
+    def period_s(self) -> float:
+        """The servo period [s]."""
+
+    @property
+    def tick(self) -> int:
+        """Servo periods since some moment."""
+
+    def send(self, channel: str, data: bytes) -> None:
+        """Send bytes on a channel, which is opened by its first use."""
+
+    def heard(self, channel: str) -> bytes:
+        """The bytes a channel has sent since the last call."""
+
+    def is_answered(self, channel: str) -> bool:
+        """Whether all lines of a channel are answered."""
+
+    def advance(self, ticks: int) -> None:
+        """Let time pass."""
+
+    def until(self, condition: str, limit_s: float) -> None:
+        """Let time pass until a condition holds; DifferenceError if it does not in time."""
+
+    def number(self, what: str) -> float | None:
+        """The value of `P` or `BIT` with a number, exactly; None for any other expression."""
+
+    def printed(self) -> str:
+        """What programs have printed since the last call."""
+
+    def state(self) -> str:
+        """Axes and programs in words, for the report of a case that failed."""
+
+    @property
+    def world(self) -> Controller:
+        """The card whose inputs and machine can be changed; UserError where there is none."""
+
+
+class VirtualCard:
+    """A virtual card as it is after loading a machine."""
+
+    def __init__(self, card: Controller) -> None:
+        self.world = card
+        self._machine = under_test.Machine(card)
+        self._printed = ""
+        self._streams: dict[str, int] = {CONSOLE: card.console}
+        card.listen(self._hear)
+
+    def _hear(self, program: int, text: str) -> None:
+        self._printed += text
+
+    @property
+    def period_s(self) -> float:
+        """The servo period [s]."""
+        return self.world.period_s
+
+    @property
+    def tick(self) -> int:
+        """Servo periods the card has run; a restart does not reset the count."""
+        return self.world.lived_tk
+
+    def _stream(self, channel: str) -> int:
+        if channel not in self._streams:
+            if channel not in KINDS:
+                raise UserError(f"{channel}: the channels are {', '.join(sorted(KINDS))}")
+            name = None if channel == "PACKETS" else channel
+            self._streams[channel] = self.world.open_stream(KINDS[channel], name)
+        return self._streams[channel]
+
+    def send(self, channel: str, data: bytes) -> None:
+        """Send bytes on a channel."""
+        self.world.receive(self._stream(channel), data)
+
+    def heard(self, channel: str) -> bytes:
+        """The bytes a channel has sent since the last call."""
+        stream = self._stream(channel)
+        return b"".join(iter(lambda: self.world.take_output(stream), b""))
+
+    def is_answered(self, channel: str) -> bool:
+        """Whether all lines of a channel are answered."""
+        return self.world.streams.is_answered(self._stream(channel))
+
+    def advance(self, ticks: int) -> None:
+        """Let time pass."""
+        self.world.advance(ticks)
+
+    def until(self, condition: str, limit_s: float) -> None:
+        """Let time pass until a condition holds."""
+        try:
+            self._machine.until(_plain(condition), limit_s)
+        except under_test.NotReachedError as error:
+            raise DifferenceError(f"{condition} within {limit_s:g} s", str(error)) from None
+
+    def number(self, what: str) -> float | None:
+        """The value of `P` or `BIT` with a number."""
+        place = _PLACE.fullmatch(what)
+        if place is None:
+            return None
+        number = int(place[2])
+        return self.world.p[number] if place[1].upper() == "P" else -self.world.bit[number]
+
+    def printed(self) -> str:
+        """What programs have printed since the last call."""
+        text, self._printed = self._printed, ""
+        return text
+
+    def state(self) -> str:
+        """Axes and programs in words."""
+        return self._machine.state()
+
+
+def _plain(condition: str) -> str:
+    """A condition whose set flag is 1, not -1 as the card prints it."""
+    return _SET.sub(r"\g<1>1", condition)
+
+
+@lru_cache(maxsize=16)
+def _loaded(machine: Machine) -> tuple[Controller, Snapshot]:
+    """The card of a machine, and what it is after loading."""
+    if machine.folder:
+        card = Controller.from_project(machine.folder)
+    else:
+        world = parse_world(machine.text) if machine.text else None
+        card = Controller(world.card.board, world=world) if world else Controller()
+    card.is_journalled = False
+    return card, card.snapshot()
+
+
+@contextmanager
+def virtual(machine: Machine) -> Iterator[VirtualCard]:
+    """A virtual card with its machine, as new; UserError or SourceError of a faulty machine."""
+    card, snapshot = _loaded(machine)
+    card.take_over(snapshot)
+    card.owns_console = False
+    try:
+        yield VirtualCard(card)
+    finally:
+        card.watch()
+        card.end_record()
+        card.system.listeners.taps.clear()

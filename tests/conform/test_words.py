@@ -1,0 +1,191 @@
+"""Each word of the cases: what holds, and what is reported where it does not."""
+
+from pathlib import Path
+
+import pytest
+
+from openacr.conform import read, report, run
+
+HEAD = "[case A]\nsource: 000 L7\nrests on: manual\n"
+ROOT = Path(__file__).parents[2]
+
+
+def differs(folder: Path, steps: str, about: str = "") -> str:
+    """What is reported of a case of these steps, without its file; empty where it holds."""
+    path = folder / "cases.txt"
+    path.write_text(HEAD + about + steps, encoding="utf-8")
+    (case,) = read(path)
+    difference = run(case)
+    if difference is None:
+        return ""
+    place, _, rest = report(case, difference).partition("\n")
+    assert place.startswith(f"{path}:") and place.endswith(' in "A"')
+    assert difference.at is not None
+    assert place.removeprefix(f"{path}:").split(":")[0] == str(difference.at.number)
+    number = difference.at.number - (HEAD + about).count("\n")
+    return f"{number}|" + "|".join(" ".join(line.split()) for line in rest.split("\n"))
+
+
+LOOP = "program 0:\n    10 GOTO 10\n"
+COUNT = 'program 1:\n    PRINT "a"\n    PRINT "b";\n> PROG1\n> RUN\nwait 10 ms\n'
+MOVE = (
+    '> PROG0\n> ATTACH MASTER0\n> ATTACH SLAVE0 AXIS0 "X"\n> PPU X1000\n> DRIVE ON X\n'
+    "> JOG ACC X1000 JOG DEC X1000 JOG VEL X25\n> JOG INC X10\n"
+)
+
+
+@pytest.mark.parametrize(
+    "steps",
+    [
+        "> ?1\n1\n> ?2\n2",
+        ">?1\n1",
+        "> ?1\n# a remark\n\n1",
+        '> PRINT "wait 1 s"\n|wait 1 s',
+        '> PRINT " A "\n| A |',
+        "> PRINT\n|",
+        '> PRINT "A";\nASYS>',
+        "> DIM\n...\n> ?1\n1",
+        '> PRINT "|"\n|||',
+        '> PRINT "1"\n1\n> PRINT "#"\n|#',
+        "SYS> PROG3\nP03> PLC1\nPLC1>",
+        'type PRINT "A"\nshows: A',
+        LOOP + "> PROG0\ntype LRUN\nwait 1 s\nshows:\npress Esc\nP00> ?BIT1024\n-1",
+        COUNT + "prints:\n    a\n    b\\\nprints:",
+        COUNT + "prints: a\n    b\\",
+        "? 1 + 2 -> 3",
+        '? 1; BIT32; "A"; 0.5 -> 1; 0; "A"; 0.5',
+        "? 1.5 -> 1.25 +- 0.25  # exactly at its end",
+        "> DIM P(1)\nprogram 0:\n    10 P0 = 7\n> RUN PROG0\nwait 10 ms\n? P0 -> 7",
+        "SYS> PROG5\nprogram 0:\n    10 GOTO 10\nP05>",
+        "plc 0:\n    10 LD 0\n    20 OUT 32\n> RUN PLC0\ninput 0 on\nwait 20 ms\n? BIT32 -> -1",
+        "> DIM PLC0(500)\nplc 0:\n    10 LD 0\n",
+        "flag 128 on\n> ?BIT128\n-1\nflag 128 off\n> ?BIT128\n0",
+        "input 3 on\nwait 1 period\n? BIT3 -> -1\nrelease input 3\nwait 1 period\n? BIT3 -> 0",
+        "> DWL 0.02\ntook 20.5 ms\ntook 0.0205 s\ntook 41 periods",
+        "> DWL 0.02\ntook 42 periods +- 1 periods  # at the end of the tolerance",
+        MOVE + "wait until BIT792 = 0 within 425 ms\ntook 0.425 s\n? P12297 -> 10000",
+        MOVE + "wait until BIT792 = -1 within 0 s\nwait until BIT792 <> -1 within 1 s",
+        "> PROG0\n> DIM LV(1)\n>> 00 88 00 30\n<< 00 88 00 30 i32=0",
+        '>> "?5" 0D\n<< "?5" 0D 0A "5" 0D 0A "SYS>"',
+        ">> 00 88 00 30\n<< 00 ?? 00 30 ?? 00 00 00",
+        ">> 07 01 00 00 f32=0.5\n<<",
+        "channel COM1\nSYS> PROG1\nchannel STREAM1\nSYS>\nchannel COM1\nP01>",
+        "channel PACKETS\n>> 00 88 00 30\n<< 00 88 00 30 00 00 00 00",
+        "press ^X\npress ^Y\npress ^Z",
+        "analog P6408 = 5\nwait 1 period\n? ROUND(P6408) -> 5",
+        "check setup:\n    DIM P(1)\n    BLAH  # E: Unknown command",
+        "check program 2:\n    10 PRINT 1\n    20 BLAH  # E: Unknown command\n    30 END",
+    ],
+)
+def test_a_case_that_holds(tmp_path: Path, steps: str) -> None:
+    assert differs(tmp_path, steps) == ""
+
+
+@pytest.mark.parametrize(
+    ("steps", "reported"),
+    [
+        ("> ?1\n2", "2|2|expected: 2|shown: 1"),
+        ("> DIM\n...\n> ?1\n2", "4|2|expected: 2|shown: 1"),
+        ("> ?1", "1|> ?1|expected: (nothing)|shown: 1"),
+        ("> DIM P(1)\n...\nX", "1|> DIM P(1)|expected: ...|X|shown: (nothing)"),
+        ("> ?1\n1\n1", "1|> ?1|expected: 1|1|shown: 1"),
+        ('> PRINT "A "\nA', "2|A|expected: A|shown: |A |"),
+        ('> PRINT "A";\nA', "2|A|expected: A|shown: ASYS>"),
+        ("P00> VER", "1|P00> VER|expected: P00>|shown: SYS>"),
+        ("> DWL 61", "1|> DWL 61|expected: an answer within 60 s|shown: (nothing)"),
+        ("type ?1\n> ?2\n2", "2|> ?2|expected: (nothing before this line)|shown: 1"),
+        ("type ?1\npress ^X", "2|press ^X|expected: (nothing before this line)|shown: 1"),
+        ("type ?1\nchannel COM1", "2|channel COM1|expected: (nothing before this line)|shown: 1"),
+        ("type ?1", "1|type ?1|expected: (nothing at the end)|shown: 1"),
+        ("shows: A", "1|shows: A|expected: A|shown: (nothing)"),
+        ("type ?1\nshows:", "2|shows:|expected: (nothing)|shown: 1"),
+        ("prints:\n    A", "1|prints:|expected: A|shown: (nothing)"),
+        (COUNT + "prints:\n    a\n    b", "9|b|expected: a|b|shown: a|b\\"),
+        ("press ^X\nA", "1|press ^X|expected: A|shown: (nothing)"),
+        ("channel ABC\n> ?1",
+         "2|> ?1|expected: a step that can be done|shown: ABC: the channels are"
+         " COM1, COM2, DPCB, PACKETS, STREAM1, STREAM2, STREAM3, STREAM4, STREAM5"),
+        ("program 0:\n    10 PRINT 1\n    20 BLAH",
+         "3|20 BLAH|expected: a line the card stores|shown: Unknown command"),
+        ("plc 0:\n    10 LD 0\n    20 FOO",
+         "3|20 FOO|expected: a line the card stores|shown: Unknown command"),
+        ("? 1 -> 2", "1|? 1 -> 2|expected: 2|shown: 1"),
+        ("? 1; 3 -> 1; 2", "1|? 1; 3 -> 1; 2|expected: 1; 2|shown: 1; 3"),
+        ("? 1;2 -> 1", "1|? 1;2 -> 1|expected: 1|shown: 1; 2"),
+        ('? "A" -> "B"', '1|? "A" -> "B"|expected: "B"|shown: "A"'),
+        ('? 1 -> "1"', '1|? 1 -> "1"|expected: "1"|shown: 1'),
+        ("? BLAH -> 1", '1|? BLAH -> 1|expected: 1|shown: "Undefined symbol"'),
+        ("? P99999 -> 1",
+         "1|? P99999 -> 1|expected: a step that can be done|shown: Invalid parameter"),
+        ("? 1.5 -> 1.25 +- 0.249  # x",
+         "1|? 1.5 -> 1.25 +- 0.249 # x|expected: 1.25 +- 0.249|shown: 1.5"),
+        ("> DWL 0.02\ntook 20 ms",
+         "2|took 20 ms|expected: 0.02 s (40 periods)|shown: 0.0205 s (41 periods)"),
+        ("> DWL 0.02\ntook 43 periods +- 1 periods  # x",
+         "2|took 43 periods +- 1 periods # x|expected: 0.0215 s (43 periods)"
+         "|shown: 0.0205 s (41 periods)"),
+        ("wait until BIT32 = -1 within 4 periods",
+         "1|wait until BIT32 = -1 within 4 periods|expected: BIT32 = -1 within 0.002 s"
+         "|shown: BIT32 = 1 did not hold within 0.002 s: "
+         "BIT32 (OUTPUT: OUT 32) is 0|time 0.0020 s"),
+        ("wait until 5 within 1 s", "1|wait until 5 within 1 s|expected: a step that can be done"
+         "|shown: '5': a condition is P or BIT, its number, one of <= >= <> = < > and a value"),
+        ("analog P1 = 5", "1|analog P1 = 5|expected: a step that can be done"
+         "|shown: P1 shows no analog input"),
+        (">> 00 88 00 30\n<< 00 88 00 31 00 00 00 00",
+         "2|<< 00 88 00 31 00 00 00 00|expected: 00 88 00 31 00 00 00 00"
+         "|shown: 00 88 00 30 00 00 00 00"),
+        (">> 00 88 00 30\n<< 00 88 00 30 ?? 00 00 00 00",
+         "2|<< 00 88 00 30 ?? 00 00 00 00|expected: 00 88 00 30 ?? 00 00 00 00"
+         "|shown: 00 88 00 30 00 00 00 00"),
+        (">> 00 88 00 30\n<< 00 88 00 30 00 00 00",
+         "2|<< 00 88 00 30 00 00 00|expected: (nothing at the end)|shown: ^@"),
+        (">> 00 88 00 30\n<<", "2|<<|expected: (nothing)|shown: 00 88 00 30 00 00 00 00"),
+        ("check setup:\n    DIM P(1)\n    DIM P(1)",
+         "3|DIM P(1)|expected: (no message)|shown: # E: Re-dimensioned block"),
+        ("check setup:\n    DIM P(1)  # E: Syntax error",
+         "2|DIM P(1) # E: Syntax error|expected: # E: Syntax error|shown: (no message)"),
+    ],
+)  # fmt: skip
+def test_a_case_that_does_not_hold(tmp_path: Path, steps: str, reported: str) -> None:
+    assert differs(tmp_path, steps) == reported
+
+
+def test_an_endless_answer_is_given_up_after_a_minute_of_the_card(tmp_path: Path) -> None:
+    shown = differs(tmp_path, LOOP + "> PROG0\n> LRUN")
+    assert shown == "4|> LRUN|expected: an answer within 60 s|shown: (nothing)"
+
+
+def test_a_machine_is_a_project_or_the_text_of_its_file(tmp_path: Path) -> None:
+    folder = tmp_path / "machines" / "two-units"
+    folder.mkdir(parents=True)
+    (folder / "setup.8k").write_text("DIM P(1)\nP0=5\n")
+    assert differs(tmp_path, "> ?P0\n5", "machine: two units\n") == ""
+    model = 'machine:\n    [card]\n    model = "ACR1505"\n'
+    assert differs(tmp_path, "> VER\nACR1505", model).endswith("Version 1.18.06 Update 15")
+
+
+def test_a_machine_that_cannot_be_loaded_is_a_failure_of_its_case(tmp_path: Path) -> None:
+    folder = tmp_path / "machines" / "bad"
+    folder.mkdir(parents=True)
+    (folder / "setup.8k").write_text("BLAH\n")
+    path = tmp_path / "cases.txt"
+    path.write_text(HEAD + "machine: bad\n> VER\n")
+    (case,) = read(path)
+    difference = run(case)
+    assert difference is not None
+    assert report(case, difference) == (
+        f'{path}:1: in "A"\nexpected: a machine that can be loaded\n'
+        f"shown:    {folder / 'setup.8k'}:1: Unknown command"
+    )
+
+
+def test_nothing_of_a_case_is_left_for_the_next(tmp_path: Path) -> None:
+    first = (
+        "> DIM P(5)\n> P1=7\nprogram 0:\n    10 GOTO 10\n> RUN PROG0\ninput 1 on\nchannel COM1\n"
+    )
+    assert differs(tmp_path, first + "> PROG2\ntype LRUN\nwait 1 s") == ""
+    assert (
+        differs(tmp_path, "? BIT1024; BIT1 -> 0; 0\n> ?P1\nUndefined variable\nchannel COM1\nSYS>")
+        == ""
+    )
