@@ -38,7 +38,7 @@ CORE_SOURCES := setup.py src/openacr/unity.py src/openacr/unity_c.py src/openacr
 	src/openacr/messages.py \
 	$(wildcard src/openacr/map/numbers.py src/openacr/map/rows/*.py src/openacr/map/words/*.py) $(shell find src -name '*_cy.py')
 # Tests of the core run a second time as plain Python where the core is compiled.
-PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc)
+PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc conformance)
 WORKERS ?= 2
 
 # In front of a command that is long and silent: a line every few seconds until its shell ends.

@@ -60,17 +60,23 @@ def extensions() -> list[Extension]:
 
 
 class BuildWithExamples(build_py):
-    """The package, and the examples of the source tree as a folder in it."""
+    """The package, and the examples and cases of the source tree as folders in it."""
 
     def run(self) -> None:
-        """Copy the modules, then the examples; a tree built in place has them already."""
+        """Copy the modules, then the rest; a tree built in place has it already."""
         super().run()
         if self.editable_mode:
             return
-        folders = [*sorted((ROOT / "examples").iterdir()), ROOT / "parts"]
-        target = Path(self.build_lib) / "openacr" / "example_projects"
-        for path in [file for folder in folders for file in sorted(folder.iterdir())]:
-            place = target / path.parent.name / path.name
+        for folder in [*sorted((ROOT / "examples").iterdir()), ROOT / "parts"]:
+            self._copy(sorted(folder.iterdir()), folder.parent, "example_projects")
+        cases = ROOT / "conformance"
+        files = [*cases.rglob("*.txt"), *cases.rglob("*.8k"), *cases.rglob("*.toml")]
+        self._copy(sorted(files), cases, "conformance")
+
+    def _copy(self, files: list[Path], root: Path, name: str) -> None:
+        """Copy files to their places in a folder of the package."""
+        for path in files:
+            place = Path(self.build_lib) / "openacr" / name / path.relative_to(root)
             self.mkpath(str(place.parent))
             self.copy_file(str(path), str(place))
 

@@ -51,7 +51,7 @@ def test_the_container_copies_what_the_build_reads_and_opens_the_ports_it_serves
     folders = re.findall(r"^COPY (\w+) \1$", CONTAINER, re.MULTILINE)
     for name in (*copied[1].split(), *folders):
         assert (ROOT / name).exists(), name
-    assert {"src", "examples", "parts"} <= set(folders)
+    assert {"src", "examples", "parts", "conformance"} <= set(folders)
     assert "EXPOSE 5002 5006 5080\n" in CONTAINER
     ports = re.findall(r"_PORT:-(\d+)", START.read_text())
     assert ports == ["5002", "5006", "5080"]

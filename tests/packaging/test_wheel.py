@@ -12,8 +12,8 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 SOURCES = (
-    "src", "editors", "examples", "parts", "pyproject.toml", "setup.py", "MANIFEST.in", "README.md",
-    "LICENSE",
+    "src", "editors", "examples", "parts", "conformance", "pyproject.toml", "setup.py",
+    "MANIFEST.in", "README.md", "LICENSE",
 )  # fmt: skip
 
 
@@ -68,6 +68,10 @@ def test_the_wheel_holds_examples_templates_and_screens_and_no_other_top_level_n
     example = "openacr/example_projects"
     for path in (*(ROOT / "examples").rglob("*.*"), *(ROOT / "parts").glob("*.*")):
         assert f"{example}/{path.parent.name}/{path.name}" in names
+    cases = ROOT / "conformance"
+    for path in [*cases.rglob("*.txt"), *cases.rglob("*.8k")]:
+        assert f"openacr/conformance/{path.relative_to(cases)}" in names
+    assert "openacr/conformance/conftest.py" not in names
     templates = ROOT / "src" / "openacr" / "starter" / "templates"
     for path in templates.iterdir():
         assert f"openacr/starter/templates/{path.name}" in names
