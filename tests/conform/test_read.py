@@ -39,6 +39,21 @@ def test_a_case_has_its_line_its_ids_with_clauses_and_its_source(tmp_path: Path)
     assert (case.rests, case.only, case.moves) == ("manual", "virtual", "X Y")
 
 
+def test_lines_above_the_first_case_hold_where_a_case_says_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "cases.txt"
+    two = "[case A]\n> X\n[case B]\nsource: 000 L2\nrests on: client: a host\n#\n> Y\n"
+    path.write_text("source: 000 L1\nrests on: manual\n" + two)
+    found = [(case.source, case.rests) for case in read(path)]
+    assert found == [("000 L1", "manual"), ("000 L2", "client: a host")]
+
+
+def test_an_answer_in_bars_is_never_a_step(tmp_path: Path) -> None:
+    path = tmp_path / "cases.txt"
+    path.write_text(HEAD + "> X\n|wait 1 s\n| > Y|\n")
+    (case,) = read(path)
+    assert [len(step.below) for step in case.steps] == [2]
+
+
 def test_each_row_of_a_table_is_a_case_with_its_values_in_every_line(tmp_path: Path) -> None:
     path = tmp_path / "cases.txt"
     table = "table:\na | id\n1 | ACR-A\n2 | ACR-B\n"
@@ -80,6 +95,8 @@ def test_a_line_that_is_empty_in_a_row_is_no_line(tmp_path: Path) -> None:
          "3: rests on: oracle: expected manual | oracle: what | client: what | inferred: what"),
         ("[case A]\nsource: 000 L7\n> X",
          "1: rests on: : expected manual | oracle: what | client: what | inferred: what"),
+        ("[case A]\nrests on: oracle: scipy\n> X",
+         "1: source: : expected a manual and its line, 000 L2011"),
         (HEAD + "only: real\n> X", "4: only: real: expected virtual"),
         (HEAD + "proves: ACR-1, acr-2\n> X",
          "4: proves: acr-2: expected ID or ID (clause), ID ..."),
