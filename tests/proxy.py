@@ -22,6 +22,7 @@ class Proxy(Closing):
         self._pairs: list[tuple[socket.socket, socket.socket]] = []
         self._changes = threading.Lock()  # of the pairs: they are made in the thread
         self._is_cut = self._is_over = False
+        self.passed = 0  # bytes, in both directions
         threading.Thread(target=self._accept, daemon=True).start()
 
     @property
@@ -72,6 +73,7 @@ class Proxy(Closing):
             while data := source.recv(65536):
                 flows.wait()
                 sink.sendall(data)
+                self.passed += len(data)
         with suppress(OSError):
             sink.shutdown(socket.SHUT_WR)
 

@@ -63,6 +63,7 @@ COMMANDS: dict[str, Entry | Family] = {
     "backup": Entry("live.backup", "backup"),
     "restore": Entry("live.backup", "restore"),
     "compare": Entry("live.compare", "compare"),
+    "conform": Entry("conform", "conform"),
     "configure": Entry("configure", "configure"),
     "list": Entry("check", "list_file"),
     "check": Entry("check", "check_file"),

@@ -35,6 +35,7 @@ class Word:
     act: Callable[..., None]
     below: str  # ANSWERS, BLOCK or nothing
     takes_remark: bool  # whether ` # ...` at the end of the line is a remark
+    asks: bool  # whether it changes nothing that the line it types does not change
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +75,7 @@ class Case:
     source: str
     rests: str  # one of RESTS, and after a colon on what
     machine: Machine
+    model: str  # whose answers it holds, where they differ from those of others
     only: str  # "virtual": it needs the world around a virtual card
     moves: str  # the axes it moves
     steps: tuple[Step, ...]
@@ -171,7 +173,7 @@ _KIND = re.compile("|".join(KINDS))
 
 
 def word(
-    form: str, below: str = "", *, takes_remark: bool = True
+    form: str, below: str = "", *, takes_remark: bool = True, asks: bool = False
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Declare a word: the form of its line, and what may stand below it."""
     kinds = [KINDS[name] for name in _KIND.findall(form)]
@@ -182,7 +184,7 @@ def word(
 
     def declare(act: Callable[..., None]) -> Callable[..., None]:
         convert = tuple(kind[1] for kind in kinds)
-        WORDS.append(Word(form, re.compile(pattern), convert, act, below, takes_remark))
+        WORDS.append(Word(form, re.compile(pattern), convert, act, below, takes_remark, asks))
         return act
 
     return declare

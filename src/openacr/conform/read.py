@@ -16,11 +16,14 @@ from pathlib import Path
 from openacr.conform import words as _words  # noqa: F401  (declares the words)
 from openacr.conform.form import ANSWERS, BLOCK, Case, Claim, Line, Machine, Step, step_of
 from openacr.errors import FaultyFileError, SourceError, UserError, read_bytes
+from openacr.models import DEFAULT_MODEL, MODELS
 
+PACKAGE = Path(__file__).parents[1]
+INSTALLED = PACKAGE / "conformance"  # which the build (setup.py) copies
 RESTS = ("manual", "oracle", "client", "inferred")
 MACHINES = "machines"  # the folder of machines, in the folder of the manuals or above it
 _CASE = re.compile(r"\[case (.+)\]")
-_ABOUT = re.compile(r"(proves|source|rests on|machine|only|moves):(?:\s+(.*))?")
+_ABOUT = re.compile(r"(proves|source|rests on|machine|model|only|moves):(?:\s+(.*))?")
 _CLAIM = re.compile(r"\s*([A-Z]+(?:-[A-Z0-9]+)+)\s*(?:\(([^()]*)\))?\s*(?:,|$)")
 _MANUAL = re.compile(r"\b00[013] L\d+")
 _COLUMN = re.compile(r"\{([^{}]+)\}")
@@ -101,6 +104,9 @@ class _Reader:
             raise _FaultError(about.get("source", [head])[0], text)
         if texts.get("only", "virtual") != "virtual":
             raise _FaultError(about["only"][0], f"only: {texts['only']}: expected virtual")
+        if texts.get("model", DEFAULT_MODEL.name) not in MODELS:
+            names = ", ".join(MODELS)
+            raise _FaultError(about["model"][0], f"model: {texts['model']}: expected {names}")
         steps = tuple(self._steps(lines))
         if not steps:
             raise _FaultError(
@@ -114,6 +120,7 @@ class _Reader:
             source,
             rests,
             self._machine(about["machine"]) if "machine" in about else Machine(),
+            texts.get("model", ""),
             texts.get("only", ""),
             texts.get("moves", ""),
             steps,
@@ -261,3 +268,8 @@ def read(path: Path) -> list[Case]:
 def files(folder: Path) -> list[Path]:
     """The files of cases in a folder and its subfolders, in the order of their names."""
     return sorted(path for path in folder.rglob("*.txt") if MACHINES not in path.parts)
+
+
+def supplied() -> Path:
+    """The folder of the cases that come with the package, or of the source tree."""
+    return INSTALLED if INSTALLED.is_dir() else PACKAGE.parents[1] / "conformance"

@@ -6,14 +6,17 @@ from openacr.conform.form import Case, DifferenceError
 from openacr.conform.stage import Stage
 from openacr.conform.targets import Target, virtual
 from openacr.errors import OpenacrError
+from openacr.models import DEFAULT_MODEL
 
 
-def run(case: Case, card: Target | None = None) -> DifferenceError | None:
-    """Run a case on a card, by default on a virtual one as new; what differs first, if anything."""
+def run(
+    case: Case, card: Target | None = None, *, model: str = DEFAULT_MODEL.name
+) -> DifferenceError | None:
+    """Run a case on a card, by default on a virtual one of a model, as new; what differs first."""
     if card is not None:
         return _run(case, Stage(card))
     try:
-        with virtual(case.machine) as new:
+        with virtual(case.machine, case.model or model) as new:
             return _run(case, Stage(new))
     except OpenacrError as error:
         return DifferenceError("a machine that can be loaded", error)

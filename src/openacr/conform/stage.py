@@ -42,9 +42,12 @@ class Stage:
 
     def type(self, text: str) -> str:
         """Type a line; what the terminal shows at once, without the echo."""
+        self._send(text)
+        return self.take().removeprefix(f"{text}\n")
+
+    def _send(self, text: str) -> None:
         self.expect_silence()
         self.card.send(self.channel, as_typed(text) + b"\r")
-        return self.take().removeprefix(f"{text}\n")
 
     def say(self, text: str) -> list[str]:
         """Type a line; the lines of its answer, with echo and prompt taken away.
@@ -52,15 +55,17 @@ class Stage:
         A last line without an end has the prompt after it, as on the terminal.
         """
         begun_tk = self.card.tick
-        heard = self.type(text)
+        self._send(text)
+        shown = self.take()
         last_tk = begun_tk + round(PATIENCE_S / self.card.period_s)
-        while not self.card.is_answered(self.channel):
-            if self.card.tick >= last_tk:
-                raise DifferenceError(f"an answer within {PATIENCE_S:g} s", heard or "(nothing)")
+        while not self.card.is_answered(self.channel) and self.card.tick < last_tk:
             self.card.advance(1)
-            heard += self.take()
+            shown += self.take()
+        shown = (shown + self.take()).removeprefix(f"{text}\n")  # the echo may come in pieces
+        if not self.card.is_answered(self.channel):
+            raise DifferenceError(f"an answer within {PATIENCE_S:g} s", shown or "(nothing)")
         self.took_tk = self.card.tick - begun_tk
-        return self.answer(heard)
+        return self.answer(shown)
 
     def answer(self, heard: str) -> list[str]:
         """The lines of an answer; its prompt is kept in `prompt`."""

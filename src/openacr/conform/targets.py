@@ -13,7 +13,10 @@ from openacr.conform.form import DifferenceError, Machine
 from openacr.controller import Controller
 from openacr.controller.snapshot import Snapshot
 from openacr.errors import UserError
+from openacr.models import DEFAULT_MODEL
 from openacr.plant.load import parse_world
+from openacr.plant.schema import Card, ModelName, World
+from openacr.project import find_project
 from openacr.testing import machine as under_test
 
 CONSOLE = "STREAM1"
@@ -142,21 +145,26 @@ def _plain(condition: str) -> str:
 
 
 @lru_cache(maxsize=16)
-def _loaded(machine: Machine) -> tuple[Controller, Snapshot]:
+def _loaded(machine: Machine, model: str) -> tuple[Controller, Snapshot]:
     """The card of a machine, and what it is after loading."""
+    bare = World(card=Card(model=ModelName(model)))
     if machine.folder:
-        card = Controller.from_project(machine.folder)
+        has_world = find_project(machine.folder).machine is not None
+        card = Controller.from_project(machine.folder, world=None if has_world else bare)
     else:
-        world = parse_world(machine.text) if machine.text else None
-        card = Controller(world.card.board, world=world) if world else Controller()
+        world = parse_world(machine.text) if machine.text else bare
+        card = Controller(world.card.board, world=world)
     card.is_journalled = False
     return card, card.snapshot()
 
 
 @contextmanager
-def virtual(machine: Machine) -> Iterator[VirtualCard]:
-    """A virtual card with its machine, as new; UserError or SourceError of a faulty machine."""
-    card, snapshot = _loaded(machine)
+def virtual(machine: Machine, model: str = DEFAULT_MODEL.name) -> Iterator[VirtualCard]:
+    """A virtual card with its machine, as new; UserError or SourceError of a faulty machine.
+
+    The model is that of the machine where it names one.
+    """
+    card, snapshot = _loaded(machine, model)
     card.take_over(snapshot)
     card.owns_console = False
     try:

@@ -43,13 +43,13 @@ def _hexadecimal(data: Sequence[int | None]) -> str:
 # The terminal.
 
 
-@word(">LINE", ANSWERS, takes_remark=False)
+@word(">LINE", ANSWERS, takes_remark=False, asks=True)
 def type_and_compare(stage: Stage, step: Step, text: str) -> None:
     """Type a line and wait for the prompt; the lines below are its answer, all of it."""
     compare(step, stage.say(text))
 
 
-@word("PROMPTLINE", ANSWERS, takes_remark=False)
+@word("PROMPTLINE", ANSWERS, takes_remark=False, asks=True)
 def type_after_prompt(stage: Stage, step: Step, prompt: str, text: str) -> None:
     """The same where the terminal must show this prompt; the prompt alone types nothing."""
     if stage.prompt != prompt:
@@ -147,13 +147,13 @@ def _at_level(stage: Stage, level: str, act: Callable[[], None]) -> None:
 # Values.
 
 
-@word("? WHAT -> RESULT")
+@word("? WHAT -> RESULT", asks=True)
 def value(stage: Stage, step: Step, what: str, expected: str) -> None:
     """Values of parameters, flags and expressions, with `;` between several: exactly these."""
     _compare_values(stage, what, expected, 0.0)
 
 
-@word("? WHAT -> RESULT +- TOLERANCE")
+@word("? WHAT -> RESULT +- TOLERANCE", asks=True)
 def value_within(stage: Stage, step: Step, what: str, expected: str, tolerance: float) -> None:
     """The same within a tolerance, whose reason is the remark after it."""
     _compare_values(stage, what, expected, tolerance)

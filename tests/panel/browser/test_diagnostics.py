@@ -259,7 +259,11 @@ def test_board_parameters_lists_every_parameter_with_its_value(page: Page, serve
     total = len(known)
     listed: dict[str, str] = {}
     numbers = list(known)
-    marked = {1: 0.1, 40: -3.0, 59: 1234567891.0}  # variables of the first page, which nothing changes
+    marked = {
+        1: 0.1,
+        40: -3.0,
+        59: 1234567891.0,
+    }  # variables of the first page, which nothing changes
     for number, value in marked.items():
         served.call(partial(_command, line=f"P{number}={value}"))
     for first in (0, 60, (total - 1) // 60 * 60):
