@@ -48,9 +48,9 @@ def quiet_panel(tmp_path: Path) -> Iterator[Served]:
     served.close()
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture(scope="module", autouse=True)
 def swept(request: pytest.FixtureRequest) -> Iterator[None]:
-    """Collect what libraries leave open at the end of a test, before other tests are blamed."""
+    """Collect what libraries leave open at the end of a file, before other tests are blamed."""
     yield
     if is_leaving(request.module.__name__):
         with warnings.catch_warnings():
