@@ -1,15 +1,21 @@
 """The OPC UA server, with the client of the library it is made with."""
 
 import asyncio
-from collections.abc import Awaitable, Callable
+import gc
+import pickle
+from collections.abc import Awaitable, Callable, Iterator
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
-from asyncua import Client, ua
+from asyncua import Client, Server, ua
 from asyncua.crypto.cert_gen import generate_private_key, generate_self_signed_app_certificate
 from asyncua.crypto.security_policies import SecurityPolicyBasic256Sha256
+from asyncua.server.address_space import NodeManagementService
+from asyncua.server.internal_server import InternalServer
+from asyncua.server.standard_address_space import standard_address_space
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 from tests.bridge.bench import LIMIT_S, RUNNING, VALUES, GivenFeed, bridged, url
 
@@ -23,6 +29,41 @@ READ_ONLY = FILE.replace("write = true\nlow = -1000\nhigh = 1000\n", "").replace
     "write = true\n", ""
 )
 READY = ua.StatusCodes.Good
+
+
+@pytest.fixture(scope="module", autouse=True)
+def quick_library() -> Iterator[None]:
+    """The library makes its 6000 nodes once; they and its clock end with the server."""
+    fill, stop = standard_address_space.fill_address_space, Server.stop
+    run_clock = InternalServer._set_current_time_loop
+    kept: list[bytes] = []
+
+    def filled(service: NodeManagementService) -> None:
+        gc.disable()  # it would look through all nodes again and again
+        try:
+            if not kept:
+                fill(service)
+                kept.append(pickle.dumps(service._aspace._nodes))
+            else:
+                service._aspace._nodes.update(pickle.loads(kept[0]))
+        finally:
+            gc.enable()
+
+    async def clock(server: InternalServer) -> None:
+        running = asyncio.create_task(run_clock(server))
+        while not server._time_task_stop:
+            await asyncio.sleep(0.02)
+        running.cancel()
+
+    async def stopped(server: Server) -> None:
+        await stop(server)
+        server.iserver.aspace._nodes.clear()
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(standard_address_space, "fill_address_space", filled)
+        patch.setattr(InternalServer, "_set_current_time_loop", clock)
+        patch.setattr(Server, "stop", stopped)
+        yield
 
 
 def node(client: Client, name: str) -> Any:
@@ -290,13 +331,22 @@ def test_nothing_is_written_where_the_file_does_not_allow_it() -> None:
     assert served(try_it, READ_ONLY).written == []
 
 
-def certificate(folder: Path, name: str) -> tuple[Path, Path]:
-    """A certificate that is its own authority, and its key."""
+@cache
+def signed(name: str) -> tuple[bytes, bytes]:
+    """A certificate that is its own authority, and its key: finding its primes takes seconds."""
     key = generate_private_key()
     made = generate_self_signed_app_certificate(key, name, {}, [], extended=[])
+    return (
+        made.public_bytes(Encoding.PEM),
+        key.private_bytes(Encoding.PEM, PrivateFormat.PKCS8, NoEncryption()),
+    )
+
+
+def certificate(folder: Path, name: str) -> tuple[Path, Path]:
+    """The files of a certificate and its key."""
     paths = folder / f"{name}.pem", folder / f"{name}-key.pem"
-    paths[0].write_bytes(made.public_bytes(Encoding.PEM))
-    paths[1].write_bytes(key.private_bytes(Encoding.PEM, PrivateFormat.PKCS8, NoEncryption()))
+    for path, text in zip(paths, signed(name), strict=True):
+        path.write_bytes(text)
     return paths
 
 
@@ -304,7 +354,7 @@ def test_with_a_certificate_and_a_password_only_sealed_sessions_of_the_user_are_
     tmp_path: Path,
 ) -> None:
     certificate(tmp_path, "server")
-    own, key = certificate(tmp_path, "host")
+    own, key = certificate(tmp_path, "known")
     (tmp_path / "secret").write_text("hush\n")
     text = FILE.replace(
         "port = 0\n",

@@ -85,8 +85,9 @@ def panel(
             _set_password(installation, set_password)
             return
         panel, server = _server(installation, address, port, names or [])
-        bridging = None if bridge is None else _bridge(panel, bridge)
-        asyncio.run(_serve(panel, server, bridging, is_shown=not no_browser))
+        with server.socket:
+            bridging = None if bridge is None else _bridge(panel, bridge)
+            asyncio.run(_serve(panel, server, bridging, is_shown=not no_browser))
     finally:
         installation.close()
 
