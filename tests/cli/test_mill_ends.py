@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from tests import warm
 
 from openacr.client import Card
 from openacr.map.numbers import MF1_IN_MOTION, MF1_WORD
@@ -20,8 +21,8 @@ SERVE = ["serve", "--ascii-port", "0", "--binary-port", "0", "--no-journal"]
 
 
 def openacr(*words: str, store: Path) -> "subprocess.Popen[str]":
-    return subprocess.Popen(
-        [sys.executable, "-m", "openacr", *words],
+    return warm.Popen(
+        [*words],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,

@@ -4,11 +4,13 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
+from tests import warm
 from typer.testing import CliRunner, Result
 
 from openacr.channels import StreamKind
@@ -16,7 +18,6 @@ from openacr.cli.main import app
 from openacr.io.recording import Event, Recorder, What, read_recording
 
 ROOT = Path(__file__).parents[2]
-OPENACR = (sys.executable, "-m", "openacr")
 
 
 def openacr(*words: object) -> Result:
@@ -26,8 +27,7 @@ def openacr(*words: object) -> Result:
 @contextmanager
 def running(*words: object) -> Iterator[str]:
     """A server in a process of its own; yields the line it prints when it listens."""
-    command = [*OPENACR, *map(str, words)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+    with warm.Popen([*map(str, words)], stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         try:
             yield process.stdout.readline()
@@ -45,11 +45,7 @@ def test_a_session_is_recorded_and_replayed(tmp_path: Path) -> None:
         with running("record", card, file, "--port", 0) as listening:
             assert listening.endswith(f" card={card}\n")
             place = listening.split()[1]
-            typed = subprocess.run(
-                [*OPENACR, "term", place], input="PROG0\n?6*7\n", text=True, check=True,
-                capture_output=True,
-            )  # fmt: skip
-    assert "42" in typed.stdout
+            ask(place)
     assert file.stat().st_mode & 0o777 == 0o600
     same = openacr("replay", file, "--project", ROOT / "examples" / "square")
     assert same.exit_code == 0, same.output
@@ -57,18 +53,7 @@ def test_a_session_is_recorded_and_replayed(tmp_path: Path) -> None:
 
 
 OLD = "an older session\n"
-SAID = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
-
-
-def limited(most_bytes: int) -> Callable[[], None]:
-    """What a process calls first, so that its files take no more: as on a disk that is full."""
-
-    def limit() -> None:
-        import resource
-
-        resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes))
-
-    return limit
+SAID: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
 
 
 @contextmanager
@@ -80,8 +65,9 @@ def square() -> Iterator[str]:
 
 
 def ask(place: str) -> None:
-    words = [*OPENACR, "term", place]
-    typed = subprocess.run(words, input="PROG0\n?6*7\n", text=True, check=True, stdout=-1)
+    typed = warm.run(
+        ["term", place], input="PROG0\n?6*7\n", text=True, check=True, capture_output=True
+    )
     assert "42" in typed.stdout
 
 
@@ -92,8 +78,9 @@ def left(folder: Path) -> list[str]:
 def refused(file: Path, most_bytes: int, *options: str) -> str:
     """What a recording says whose file takes no more than some bytes."""
     with square() as card:
-        words = [*OPENACR, "record", card, str(file), "--port", "0", *options]
-        with subprocess.Popen(words, preexec_fn=limited(most_bytes), **SAID) as process:  # type: ignore[call-overload]
+        words = ["record", card, str(file), "--port", "0", *options]
+        with warm.Popen(words, most_bytes=most_bytes, **SAID) as process:
+            assert process.stdout is not None
             if most_bytes:
                 ask(process.stdout.readline().split()[1])
                 process.terminate()
@@ -191,11 +178,12 @@ def test_a_serial_line_goes_on_when_the_disk_is_full(tmp_path: Path, is_forced: 
     for each in (host_line, card_line):
         tty.setraw(each)
     file, ports = tmp_path / "s.jsonl", (os.ttyname(card_line), os.ttyname(host_line))
-    words = [*OPENACR, "record", ports[0], str(file), "--host-port", ports[1]]
+    words = ["record", ports[0], str(file), "--host-port", ports[1]]
     if is_forced:
         file.write_text(OLD)
         words.append("--force")
-    with subprocess.Popen(words, preexec_fn=limited(150), **SAID) as process:  # type: ignore[call-overload]
+    with warm.Popen(words, most_bytes=150, **SAID) as process:
+        assert process.stdout is not None
         assert process.stdout.readline().startswith("joined ")
         for _ in range(5):
             for sender, receiver in ((host, card), (card, host)):

@@ -5,10 +5,10 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from tests import warm
 
 ROOT = Path(__file__).parents[2]
 if sys.platform == "win32":
@@ -56,15 +56,7 @@ def project(tmp_path: Path) -> Path:
     return folder
 
 
-def _openacr(
-    *words: str | Path, stdout: int | None = None, preexec_fn: Callable[[], None] | None = None
-) -> "subprocess.Popen[str]":
-    command = [sys.executable, "-m", "openacr", *map(str, words)]
-    environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
-    return subprocess.Popen(
-        command, text=True, stdout=stdout, stderr=subprocess.PIPE, cwd=ROOT, env=environment,
-        preexec_fn=preexec_fn,
-    )  # fmt: skip
+ENVIRONMENT = {**os.environ, "PYTHONUNBUFFERED": "1"}
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
@@ -72,9 +64,10 @@ def test_an_ended_run_writes_its_results_and_counts_what_was_not_reached(
     number: signal.Signals, project: Path, tmp_path: Path
 ) -> None:
     summary, trace = tmp_path / "s.json", tmp_path / "t.csv"
-    job = _openacr(
-        "run", project, "--realtime", "--summary", summary, "--trace", trace, stdout=subprocess.PIPE
-    )
+    job = warm.Popen(
+        ["run", project, "--realtime", "--summary", summary, "--trace", trace], text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT,
+    )  # fmt: skip
     assert job.stdout is not None
     assert [job.stdout.readline() for _ in range(2)] == ["begun\n", "goes on\n"]
     job.send_signal(number)
@@ -96,7 +89,10 @@ def _closed(streams: tuple[int, ...], *words: str) -> tuple[int, str]:
         for descriptor in streams:
             os.close(descriptor)
 
-    job = _openacr(*words, preexec_fn=close)
+    job = subprocess.Popen(
+        [sys.executable, "-m", "openacr", *words], text=True, stderr=subprocess.PIPE, cwd=ROOT,
+        env=ENVIRONMENT, preexec_fn=close,
+    )  # fmt: skip
     _, err = job.communicate(timeout=60)
     return job.returncode, err
 

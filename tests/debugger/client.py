@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import subprocess
-import sys
 import threading
 from pathlib import Path
 from queue import Queue
 from typing import Any
+
+from tests import warm
 
 from openacr.debugger.wire import read_message, write_message
 
@@ -23,10 +24,7 @@ class Client:
     """A debugger of its own process, as editors start it."""
 
     def __init__(self) -> None:
-        code = "from openacr.cli.main import main; main()"
-        self.process = subprocess.Popen(
-            [sys.executable, "-c", code, "debug"], stdin=subprocess.PIPE, stdout=subprocess.PIPE
-        )
+        self.process = warm.Popen(["debug"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         assert self.process.stdin is not None
         assert self.process.stdout is not None
         self._in, self._out = self.process.stdin, self.process.stdout

@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 import socket
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import IO
+
+from tests import warm
 
 from openacr.client import Card
 from openacr.map.numbers import PF_PROGRAM_RUNNING, PF_WORD
@@ -90,9 +91,7 @@ class Served:
         for name, text in FILES.items():
             (folder / f"{name}.8k").write_text(text)
         words = ("serve", str(folder), "--ascii-port", "0", "--binary-port", "0", "--no-journal")
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "openacr", *words], stdout=subprocess.PIPE, text=True
-        )
+        self.process = warm.Popen([*words], stdout=subprocess.PIPE, text=True)
         assert self.process.stdout is not None
         self.address = self._address(self.process.stdout)
 

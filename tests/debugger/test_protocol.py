@@ -3,13 +3,13 @@
 import re
 import socket
 import subprocess
-import sys
 from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
 from typing import IO, cast
 
 import pytest
+from tests import warm
 from tests.debugger.client import LIMIT_S, Client, RefusedError
 from tests.debugger.project import card_of, write
 
@@ -309,10 +309,7 @@ def test_the_end_of_the_stream_ends_the_session(data: bytes) -> None:
 
 
 def test_a_broken_stream_ends_the_debugger_with_its_sentence() -> None:
-    done = subprocess.run(
-        [sys.executable, "-m", "openacr", "debug"], input=b"hello\r\n\r\n", capture_output=True,
-        timeout=60,
-    )  # fmt: skip
+    done = warm.run(["debug"], input=b"hello\r\n\r\n", capture_output=True, timeout=60)
     assert (done.returncode, done.stdout) == (2, b"")
     assert done.stderr == b"error: b'hello\\r\\n' is not a header\n"
 
@@ -335,8 +332,7 @@ def test_a_journal_with_own_devices_needs_their_folder(client: Client, tmp_path:
 
 @pytest.mark.parametrize("last", ["disconnect", "terminate"])
 def test_the_end_of_a_session_over_tcp_waits_for_no_client_and_no_other_gets_in(last: str) -> None:
-    command = [sys.executable, "-m", "openacr", "debug", "--port", "0"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+    with warm.Popen(["debug", "--port", "0"], stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         secret = process.stdout.readline().split('"')[3]
         port = int(process.stdout.readline().rsplit(":", 1)[1])

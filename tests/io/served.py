@@ -3,13 +3,13 @@
 import re
 import socket
 import subprocess
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-OPENACR = [sys.executable, "-c", "from openacr.cli.main import main; main()"]
+from tests import warm
+
 WAIT_S = 20.0
 LOOPBACK = "127.0.0.1"
 
@@ -84,10 +84,8 @@ LISTENING = (
 @contextmanager
 def serving(*arguments: str | Path) -> Iterator[Served]:
     """A server on free ports of this machine."""
-    command = [*OPENACR, "serve", "--ascii-port", "0", "--binary-port", "0", *map(str, arguments)]
-    with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    ) as process:
+    command = ["serve", "--ascii-port", "0", "--binary-port", "0", *map(str, arguments)]
+    with warm.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         try:
             assert process.stdout is not None
             line = process.stdout.readline()
@@ -101,6 +99,4 @@ def serving(*arguments: str | Path) -> Iterator[Served]:
 
 def openacr(*arguments: str, text: str = "") -> "subprocess.CompletedProcess[str]":
     """Run the command line to its end."""
-    return subprocess.run(
-        [*OPENACR, *arguments], input=text, capture_output=True, text=True, timeout=WAIT_S
-    )
+    return warm.run([*arguments], input=text, capture_output=True, text=True, timeout=WAIT_S)

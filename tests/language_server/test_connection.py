@@ -5,12 +5,12 @@ from __future__ import annotations
 import asyncio
 import json
 import subprocess
-import sys
 from pathlib import Path
 from typing import Any, cast
 
 import pytest
 from lsprotocol import types
+from tests import warm
 
 from openacr.editing.document import Document, Place, Span, units_of
 from openacr.editing.symbols import Finding
@@ -18,7 +18,6 @@ from openacr.language_server import features
 from openacr.language_server.conversions import MOST_FINDINGS, Columns, path_of, uri_of
 from openacr.language_server.server import Server
 
-COMMAND = [sys.executable, "-m", "openacr", "lsp"]
 PATIENCE_S = 50.0
 INITIALIZE = {"id": 0, "method": "initialize", "params": {"capabilities": {}}}
 INITIALIZED: dict[str, Any] = {"method": "initialized", "params": {}}
@@ -107,7 +106,7 @@ def test_a_change_that_fails_does_not_end_the_others(monkeypatch: pytest.MonkeyP
 
 def serve(text: bytes) -> subprocess.CompletedProcess[bytes]:
     """What a server does with all that a client sends before it dies."""
-    return subprocess.run(COMMAND, input=text, capture_output=True, timeout=PATIENCE_S, check=False)
+    return warm.run(["lsp"], input=text, capture_output=True, timeout=PATIENCE_S)
 
 
 def test_an_exit_without_shutdown_is_a_failure() -> None:
@@ -137,8 +136,8 @@ def test_what_is_asked_last_is_answered() -> None:
 
 
 def test_a_client_that_reads_no_more_is_no_failure() -> None:
-    server = subprocess.Popen(
-        COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    server = warm.Popen(
+        ["lsp"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE
     )
     assert server.stdout is not None
     server.stdout.close()

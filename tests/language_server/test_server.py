@@ -13,6 +13,7 @@ import pytest
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException
 from pygls.lsp.client import LanguageClient
+from tests import warm
 
 from openacr.source_check import check
 
@@ -332,9 +333,7 @@ def listening(*options: str) -> Iterator[tuple[subprocess.Popen[str], int]]:
     with socket.socket() as found:
         found.bind(("127.0.0.1", 0))
         port = found.getsockname()[1]
-    process = subprocess.Popen(
-        [*COMMAND, "--tcp", str(port), *options], stderr=subprocess.PIPE, text=True
-    )
+    process = warm.Popen(["lsp", "--tcp", str(port), *options], stderr=subprocess.PIPE, text=True)
     try:
         assert process.stderr is not None
         assert process.stderr.readline() == f"listening lsp=127.0.0.1:{port}\n"
@@ -378,10 +377,9 @@ def test_a_port_of_this_computer_serves_one_client(store: Path) -> None:
 def test_a_port_in_use_is_refused_as_by_all_commands_that_listen() -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        done = subprocess.run(
-            [*COMMAND, "--tcp", str(port)],
-            capture_output=True, text=True, timeout=PATIENCE_S, check=False,
-        )  # fmt: skip
+        done = warm.run(
+            ["lsp", "--tcp", str(port)], capture_output=True, text=True, timeout=PATIENCE_S
+        )
     said = f"error: port {port} on 127.0.0.1 is in use (is it running already?); choose another one"
     assert (done.returncode, done.stderr.splitlines()[-1]) == (2, f"{said} with --tcp PORT")
 
@@ -394,9 +392,7 @@ def test_a_port_in_use_is_refused_as_by_all_commands_that_listen() -> None:
     ],
 )
 def test_a_wrong_option_is_refused(options: list[str], message: str) -> None:
-    done = subprocess.run(
-        [*COMMAND, *options], capture_output=True, text=True, timeout=PATIENCE_S, check=False
-    )
+    done = warm.run(["lsp", *options], capture_output=True, text=True, timeout=PATIENCE_S)
     assert (done.returncode, done.stdout, done.stderr) == (2, "", message)
 
 

@@ -9,13 +9,14 @@ import re
 import select
 import signal
 import subprocess
-import sys
 import threading
 import time
 import tty
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+
+from tests import warm
 
 from openacr.client import Card
 from openacr.controller.journal import read_journal
@@ -43,8 +44,8 @@ class Process:
     """One openacr command, with all it says."""
 
     def __init__(self, *words: str, store: Path, stdin: int | None = subprocess.DEVNULL) -> None:
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", "openacr", *words],
+        self._process = warm.Popen(
+            [*words],
             stdin=stdin,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
