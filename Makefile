@@ -21,6 +21,7 @@
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
+MAKEFLAGS += --jobs=2 # the core is compiled while packages are installed
 .PHONY: help setup demo test test-pure browser lint bench soak lowest audit mutate docs editor-test web-lint web-bundle site clean
 
 VENV := .venv
@@ -30,10 +31,13 @@ PIP := $(PY) -m pip --disable-pip-version-check -qq --retries 2
 PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
 
-# The stamps say what is up to date: the environment, its packages, the compiled core.
+# The stamps say what is up to date: the environment, what compiles the core, the compiled core, the
+# packages of the demo and of what it points to at its end, all packages.
 MADE := $(VENV)/.made
-INSTALLED := $(VENV)/.installed
+TOOLS := $(VENV)/.tools
 BUILT := $(VENV)/.built
+RUNS := $(VENV)/.runs
+INSTALLED := $(VENV)/.installed
 CORE_SOURCES := setup.py src/openacr/unity.py src/openacr/unity_c.py src/openacr/cmath.py src/openacr/views.py \
 	src/openacr/messages.py \
 	$(wildcard src/openacr/map/numbers.py src/openacr/map/rows/*.py src/openacr/map/words/*.py) $(shell find src -name '*_cy.py')
@@ -49,7 +53,7 @@ BEAT = ( while sleep $(BEAT_S) >/dev/null 2>&1 && kill -0 $$$$ 2>/dev/null; do \
 help:
 	@sed -n '3,17s/^# *//p' Makefile
 
-setup: $(BUILT)
+setup: $(BUILT) $(INSTALLED)
 
 $(MADE):
 	@test -n "$(PYTHON)" || { echo "error: Python 3.11 or newer is needed (python3)"; exit 2; }
@@ -58,36 +62,46 @@ $(MADE):
 		"install its venv module (Debian and Ubuntu: apt install python3-venv)"; exit 2; }
 	@touch $@
 
-$(INSTALLED): pyproject.toml $(MADE)
-	@echo "installing packages into $(VENV)"
-	@$(BEAT) $(PIP) install --upgrade pip "setuptools>=77" wheel "cython>=3.1" || \
-		echo "pip and setuptools were not upgraded; carrying on with what is there"
-	@$(BEAT) OPENACR_PURE=1 $(PIP) install --no-build-isolation --editable ".[dev,bridge,dxf,lsp,panel,plot,sweep]"
+$(TOOLS): pyproject.toml $(MADE)
+	@echo "installing what compiles the core"
+	@$(BEAT) $(PIP) install "setuptools>=77" "cython>=3.1" || \
+		echo "setuptools and Cython were not installed; carrying on with what is there"
 	@touch $@
 
-$(BUILT): $(CORE_SOURCES) $(INSTALLED)
+$(BUILT): $(CORE_SOURCES) $(TOOLS)
 	@echo "building the compiled core"
 	@mkdir -p build
 	@$(BEAT) $(PY) setup.py --quiet build_ext --inplace >build/core.log 2>&1 || true
-	@$(PY) -c 'from openacr.compiled import is_compiled; import sys; sys.exit(not is_compiled)' \
+	@PYTHONPATH=src $(PY) -c 'from openacr.compiled import is_compiled; import sys; sys.exit(not is_compiled)' \
 		2>/dev/null || echo "note: no compiled core (no C compiler? see build/core.log);" \
 		"running the slower pure-Python kernel"
 	@touch $@
 
-demo: $(BUILT)
+EDITABLE = OPENACR_PURE=1 $(PIP) install --no-build-isolation --editable
+$(RUNS): pyproject.toml $(TOOLS)
+	@echo "installing openacr into $(VENV)"
+	@$(BEAT) $(EDITABLE) ".[panel,plot]"
+	@touch $@
+
+$(INSTALLED): pyproject.toml $(TOOLS)
+	@echo "installing openacr and all that develops it into $(VENV)"
+	@$(BEAT) $(EDITABLE) ".[dev,bridge,dxf,lsp,panel,plot,sweep]"
+	@touch $(RUNS) $@
+
+demo: $(BUILT) $(RUNS)
 	@mkdir -p out
 	$(VENV)/bin/openacr run examples/gantry --for 60 --plot out/gantry.png
 	@echo "the picture is in out/gantry.png"
 	@echo "screens in the browser: $(VENV)/bin/openacr panel"
 
-lint: $(BUILT)
+lint: setup
 	$(VENV)/bin/ruff check
 	$(VENV)/bin/ruff format --check
 	$(VENV)/bin/mypy
 	$(VENV)/bin/lint-imports
 
 # The tests of the screens need a Chrome, Chromium or Edge; one is installed only if none is found.
-browser: $(BUILT)
+browser: setup
 	@$(PY) -m tests.panel.browser.chromium
 
 # Screens, links and processes of the tests run in real time; where the machine does not let them, those
@@ -108,10 +122,10 @@ test-pure: $(BUILT)
 	@echo "the core once more as plain Python"
 	$(call tested,OPENACR_PURE=1,$(PURE_TESTS))
 
-bench: $(BUILT)
+bench: setup
 	$(PY) -m bench
 
-soak: $(BUILT)
+soak: setup
 	$(PY) -m pytest -n 0 -m soak --timeout 0
 
 # Every lower bound of pyproject.toml, in an environment of its own (uv finds the versions).
@@ -133,10 +147,10 @@ audit:
 	$(AUDIT)/bin/pip-audit --strict --no-deps --disable-pip -r build/lowest.txt
 
 # Of the lines changed since BASE (default: the last commit), or of WHAT="kernel/status/limits_cy.py protocol".
-mutate: $(BUILT)
+mutate: setup
 	$(PY) -m mutation $(WHAT) $(if $(BASE),--base $(BASE)) $(if $(MOST),--most $(MOST)) --workers $(WORKERS)
 
-docs: $(BUILT)
+docs: setup
 	$(PY) -m openacr.basic.reference docs/reference examples
 	$(PY) -m openacr.sysvar.reference docs/sysvar-tables.md
 	$(PY) -m openacr.cnc.reference docs/part-program-codes.md
@@ -156,7 +170,7 @@ web-lint: $(WEB_TOOLS)
 	$(NPM) run lint
 
 # editors/vscode/README.md says how code-server is installed.
-editor-test: $(BUILT)
+editor-test: setup
 	@test -n "$(CODE_SERVER)" || { echo "error: CODE_SERVER=FOLDER of code-server is needed"; exit 2; }
 	CODE_SERVER="$(CODE_SERVER)" $(PY) -m pytest -n 0 tests/editors/in_the_editor.py
 
@@ -164,7 +178,7 @@ web-bundle: $(WEB_TOOLS)
 	$(NPM) run bundle
 
 # The pages of docs/ and the Python interface with a search, in build/site; a broken link ends it.
-site: $(BUILT)
+site: setup
 	@echo "installing what makes the site"
 	@$(BEAT) OPENACR_PURE=1 $(PIP) install -qq --no-build-isolation --editable ".[site]"
 	@rm -rf build/site-pages build/site

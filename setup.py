@@ -35,8 +35,9 @@ def extensions() -> list[Extension]:
     # Fused multiply-add would round once where plain Python rounds twice, and the views
     # alias one buffer: both flags keep the compiled core bit-identical to its source.
     # SSE4.1 (any x86-64 since 2008) makes rounding one instruction with the same result.
+    # Lines for a debugger take a third of the time and four fifths of the file.
     flags = [] if windows else ["-O3", "-ffp-contract=off", "-fno-strict-aliasing", "-w"]
-    flags += [] if windows else ["-fno-math-errno"]
+    flags += [] if windows else ["-fno-math-errno", "-g0"]
     if platform.machine() in ("x86_64", "AMD64") and not windows:
         flags.append("-msse4.1")
     module = Extension(

@@ -29,13 +29,25 @@ def test_a_long_step_prints_lines_until_it_ends(tmp_path: Path) -> None:
     assert rest[-1] == "done\n"
 
 
-@pytest.mark.parametrize(
-    ("target", "steps"), [("demo", ["pip", "pip", "setup.py"]), ("site", ["pip", "sphinx"])]
-)
-def test_every_long_step_of_a_target_shows_that_it_is_alive(target: str, steps: list[str]) -> None:
+def planned(target: str) -> list[str]:
+    """What a target would do where nothing is made yet."""
     command = ["make", "--dry-run", "--always-make", target]
     shown = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
-    recipe = shown.replace("\\\n", " ").splitlines()
+    return shown.replace("\\\n", " ").splitlines()
+
+
+def test_the_demo_installs_what_it_needs_and_the_tests_install_the_rest() -> None:
+    extras = re.compile(r'--editable "\.\[(.*)\]"')
+    found = {target: extras.findall("\n".join(planned(target))) for target in ("demo", "test")}
+    assert found["demo"] == ["panel,plot"]
+    assert found["test"] == ["dev,bridge,dxf,lsp,panel,plot,sweep"]
+
+
+@pytest.mark.parametrize(
+    ("target", "steps"), [("demo", ["pip", "setup.py", "pip"]), ("site", ["pip", "sphinx"])]
+)
+def test_every_long_step_of_a_target_shows_that_it_is_alive(target: str, steps: list[str]) -> None:
+    recipe = planned(target)
     alive = [line for line in recipe if "still busy" in line]
     for step, line in zip(steps, alive[-len(steps) :], strict=True):
         assert step in line.partition("&")[2]
