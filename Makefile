@@ -22,11 +22,16 @@ SHELL := /bin/sh
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 MAKEFLAGS += --jobs=2 # the core is compiled while packages are installed
-.PHONY: help setup demo test test-pure browser lint bench soak lowest audit mutate docs editor-test web-lint web-bundle site clean
+# Tests start some hundred processes; without this each would compile all sources anew where the
+# user has asked Python not to keep what it compiles.
+export PYTHONDONTWRITEBYTECODE :=
+.PHONY: help setup demo test browser lint style types bench soak lowest audit mutate docs editor-test web-lint web-bundle site clean
 
 VENV := .venv
 PY := $(VENV)/bin/python
 PIP := $(PY) -m pip --disable-pip-version-check -qq --retries 2
+# A module is compiled when it is imported first: most never are.
+INSTALL := $(PIP) install --no-compile
 # `make PYTHON=/path/to/python3.12 test` chooses another interpreter for the environment.
 PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
@@ -41,9 +46,7 @@ INSTALLED := $(VENV)/.installed
 CORE_SOURCES := setup.py src/openacr/unity.py src/openacr/unity_c.py src/openacr/cmath.py src/openacr/views.py \
 	src/openacr/messages.py \
 	$(wildcard src/openacr/map/numbers.py src/openacr/map/rows/*.py src/openacr/map/words/*.py) $(shell find src -name '*_cy.py')
-# Tests of the core run a second time as plain Python where the core is compiled.
-PURE_TESTS := $(wildcard tests/kernel tests/engine tests/plant tests/plc conformance)
-WORKERS ?= 2
+WORKERS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 
 # In front of a command that is long and silent: a line every few seconds until its shell ends.
 BEAT_S := 5
@@ -64,7 +67,7 @@ $(MADE):
 
 $(TOOLS): pyproject.toml $(MADE)
 	@echo "installing what compiles the core"
-	@$(BEAT) $(PIP) install "setuptools>=77" "cython>=3.1" || \
+	@$(BEAT) $(INSTALL) "setuptools>=77" "cython>=3.1" || \
 		echo "setuptools and Cython were not installed; carrying on with what is there"
 	@touch $@
 
@@ -77,7 +80,7 @@ $(BUILT): $(CORE_SOURCES) $(TOOLS)
 		"running the slower pure-Python kernel"
 	@touch $@
 
-EDITABLE = OPENACR_PURE=1 $(PIP) install --no-build-isolation --editable
+EDITABLE = OPENACR_PURE=1 $(INSTALL) --no-build-isolation --editable
 $(RUNS): pyproject.toml $(TOOLS)
 	@echo "installing openacr into $(VENV)"
 	@$(BEAT) $(EDITABLE) ".[panel,plot]"
@@ -94,33 +97,30 @@ demo: $(BUILT) $(RUNS)
 	@echo "the picture is in out/gantry.png"
 	@echo "screens in the browser: $(VENV)/bin/openacr panel"
 
-lint: setup
+lint: style types
+
+style: setup
 	$(VENV)/bin/ruff check
 	$(VENV)/bin/ruff format --check
-	$(VENV)/bin/mypy
-	$(VENV)/bin/lint-imports
+
+TYPES := $(VENV)/bin/mypy && $(VENV)/bin/lint-imports
+types: setup
+	$(TYPES)
 
 # The tests of the screens need a Chrome, Chromium or Edge; one is installed only if none is found.
 browser: setup
 	@$(PY) -m tests.panel.browser.chromium
 
-# Screens, links and processes of the tests run in real time; where the machine does not let them, those
-# that failed run once more, one after the other with nothing beside them. The second result counts.
-PYTEST := $(PY) -m pytest -m "not soak"
-define tested
-	@$(1) $(PYTEST) -n $(WORKERS) $(2) || { test $$? -eq 1 && \
-		echo "what failed, once more with nothing beside it" && \
-		$(1) $(PYTEST) -n 0 --last-failed --last-failed-no-failures none -rA --show-capture no $(2); }
-endef
-
-test: lint browser
-	$(call tested,,)
-	@if $(PY) -c 'from openacr.compiled import is_compiled; import sys; sys.exit(not is_compiled)' \
-		&& test -n "$(PURE_TESTS)"; then $(MAKE) --no-print-directory test-pure; fi
-
-test-pure: $(BUILT)
-	@echo "the core once more as plain Python"
-	$(call tested,OPENACR_PURE=1,$(PURE_TESTS))
+# Types and imports are checked while the tests run; what that says follows their result.
+PYTEST := $(PY) -m pytest -n $(WORKERS) -m "not soak"
+test: style browser
+	@mkdir -p build
+	@($(TYPES)) >build/types.log 2>&1 & types=$$!; \
+	$(PYTEST) --durations 10; tests=$$?; \
+	wait $$types; types=$$?; cat build/types.log; \
+	test $$types -eq 0 || echo "error: types or imports are not as they should be (above)"; \
+	test $$tests -eq 0 || echo "error: tests failed (above)"; \
+	exit $$((tests ? tests : types))
 
 bench: setup
 	$(PY) -m bench
@@ -180,7 +180,7 @@ web-bundle: $(WEB_TOOLS)
 # The pages of docs/ and the Python interface with a search, in build/site; a broken link ends it.
 site: setup
 	@echo "installing what makes the site"
-	@$(BEAT) OPENACR_PURE=1 $(PIP) install -qq --no-build-isolation --editable ".[site]"
+	@$(BEAT) $(EDITABLE) ".[site]"
 	@rm -rf build/site-pages build/site
 	@cp -r docs build/site-pages && cp site/*.md site/conf.py build/site-pages/
 	@echo "writing the pages"

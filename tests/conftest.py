@@ -5,6 +5,7 @@ import signal
 
 import pytest
 from hypothesis import settings
+from tests import longest
 
 # How long an example takes depends on who else computes; pytest-timeout ends what hangs.
 settings.register_profile("patient", deadline=None)
@@ -23,3 +24,20 @@ if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_I
 def _journals(tmp_path_factory: pytest.TempPathFactory) -> None:
     """Journals of cards that tests serve stay out of the folders of the user."""
     os.environ["OPENACR_JOURNALS"] = str(tmp_path_factory.mktemp("journals"))
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Files that take longest begin first."""
+    longest.sort(items, longest.noted(getattr(config, "cache", None)))
+
+
+def pytest_terminal_summary(
+    terminalreporter: pytest.TerminalReporter, config: pytest.Config
+) -> None:
+    """Note what each file took, for the next run."""
+    cache = getattr(config, "cache", None)
+    reports = [each for kind in terminalreporter.stats.values() for each in kind]
+    tests = (each for each in reports if isinstance(each, pytest.TestReport))
+    if cache is not None:
+        cache.set(longest.KEY, longest.noted(cache) | longest.measured(tests))

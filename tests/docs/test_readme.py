@@ -110,7 +110,7 @@ def test_make_demo_runs_the_example_it_promises() -> None:
     assert plan.index("-m venv") < plan.index("build_ext") < plan.index("openacr run")
 
 
-def test_make_test_checks_everything_before_the_tests() -> None:
+def test_make_test_checks_everything_and_runs_the_tests() -> None:
     plan = planned("test")
     steps = ("-m venv", "build_ext", "ruff check", "ruff format --check", "mypy", "lint-imports")
     places = [plan.index(step) for step in (*steps, "-m pytest")]
