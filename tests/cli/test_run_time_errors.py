@@ -128,3 +128,32 @@ def test_no_name_of_a_project_can_spoil_pictures_and_messages(
         assert data["title"] == shown
         text = data["events"][0]["text"]
     assert f"({place}:8): Divide by zero" in text
+
+
+def empty_starts(shown: str) -> list[str]:
+    return [line for line in shown.splitlines() if "is empty: its RUN" in line]
+
+
+def test_a_start_of_an_empty_program_is_mentioned_once_with_its_place(project: Path) -> None:
+    (project / "setup.8k").write_text(
+        f"{SETUP}RUN PROG2\nRUN PROG2\nPROG3\nLRUN\nRUN PLC1\nRUN ALL\n"
+    )
+    (project / "prog2.8k").write_text("PROGRAM\nPBOOT\nRUN PROG5\nRUN PROG3\nSET 32\nENDP\n")
+    code, _, shown = run(project, "--for", "1")
+    assert code == 0
+    setup, program = f"mine{os.sep}setup.8k", f"mine{os.sep}prog2.8k"
+    assert [line.split(" s: ")[1] for line in empty_starts(shown)] == [
+        f"PROG2 is empty: its RUN starts nothing ({setup}:3)",
+        f"PROG3 is empty: its RUN starts nothing ({setup}:6)",
+        f"PROG5 is empty: its RUN starts nothing ({program}:3)",
+        f"PLC1 is empty: its RUN starts nothing ({setup}:7)",
+    ]
+    assert empty_starts(run(project, "--for", "1", "--quiet")[2]) == []
+
+
+def test_a_typed_start_of_an_empty_program_has_its_time_and_no_place(project: Path) -> None:
+    (project / "prog2.8k").write_text("PROGRAM\nSET 32\nENDP\n")
+    scenario = '[[at]]\ntime_s = 0.2\nsend = "RUN PROG7\\r"\n'
+    (project / "scenario.toml").write_text(scenario)
+    _, _, shown = run(project, "--for", "1")
+    assert empty_starts(shown) == ["note: 0.2000 s: PROG7 is empty: its RUN starts nothing"]

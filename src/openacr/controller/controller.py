@@ -11,12 +11,13 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
+from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.channels import StreamKind
 from openacr.controller import snapshot as snapshots
 from openacr.controller.engine_run import AskLine, EngineRun
 from openacr.controller.inputs import JournalFile
 from openacr.controller.journal import Entered, JournalEntry
-from openacr.controller.loading import PATIENCE_S, Loader, LoadError, Origins
+from openacr.controller.loading import PATIENCE_S, EmptyStart, Loader, LoadError, Origins
 from openacr.controller.pages import card_page
 from openacr.controller.parts import CardParts
 from openacr.controller.streams import CONSOLE
@@ -32,6 +33,9 @@ from openacr.map.numbers import (
     FSBI_BASE,
     FSBI_STRIDE,
     FSBI_WORDS,
+    PROG_BASE,
+    PROG_LINE_NUMBER,
+    PROG_STRIDE,
 )
 from openacr.models import DEFAULT_MODEL, Model
 from openacr.plant import load, schema
@@ -83,6 +87,8 @@ class Controller:
         self.world_view = WorldView(self.memory, self.world, self.devices)
         self.owns_console = False  # STREAM1, when it is open, is of the calling process
         self._origins = Origins()
+        self.empty_starts: dict[int, EmptyStart] = {}  # by program (0-15) or PLC (16-23)
+        self.system.programs.on_empty_start = self._note_empty
 
     @classmethod
     def from_project(cls, path: str | Path, *, world: schema.World | None = None) -> Controller:
@@ -454,6 +460,15 @@ class Controller:
         None for lines that were typed or changed since, and for lines that do not exist.
         """
         return self._origins.find(self.system.programs, program, line)
+
+    def _note_empty(self, owner: int, thread: int) -> None:
+        """Remember where a program or PLC without lines was started first."""
+        origins = self._origins
+        origin = (origins.path, origins.line) if origins.path else None
+        if thread < PROGRAMS:
+            row = PROG_BASE + thread * PROG_STRIDE + PROG_LINE_NUMBER
+            origin = self.origin(thread, self.memory.I[row])
+        self.empty_starts.setdefault(owner, EmptyStart(self.lived_tk, origin))
 
     def statistics(self, axis: int) -> AxisStatistics:
         """Totals of an axis since power-up."""

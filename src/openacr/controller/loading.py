@@ -28,11 +28,19 @@ class LoadError(SourceError):
         self.errors = tuple(errors)
 
 
+@dataclass(frozen=True, slots=True)
+class EmptyStart:
+    """The first start of a program or PLC without lines: nothing runs, silently."""
+
+    tick: int  # as `lived_tk`
+    origin: tuple[str, int] | None  # file and line of the command; None if it was typed
+
+
 @dataclass(slots=True)
 class Origins:
     """Source positions, in the files of a project, of the stored lines of programs and PLCs."""
 
-    path: str = ""  # of the file that is being read, and its line
+    path: str = ""  # of the file that is being read, and its line; none is after loading
     line: int = 0
     _places: dict[tuple[int, int], tuple[str, str, int]] = field(default_factory=dict)
 
@@ -67,6 +75,7 @@ class Loader:
                 errors.extend(self._load_file(source))
         finally:
             programs.on_put = None
+            self.origins.path = ""
         return errors
 
     def _load_file(self, source: SourceFile) -> list[SourceError]:

@@ -46,11 +46,13 @@ def run_(run: Run, line: int | None, target: ObjectRef | None) -> None:
 
     ALL starts every one that can be started; the first that cannot is reported.
     """
-    control = run.system.control
+    control, programs = run.system.control, run.system.programs
     is_all = target is not None and target.word == "ALL"
     refused: list[CardError] = []
     for owner in targets.owners(run, target):
-        if run.system.programs.is_empty(owner):
+        if is_all and programs.is_empty(owner):
+            continue  # it was not asked for by its name
+        if not programs.is_startable(owner, run.thread):
             continue
         try:
             if not control.is_running(owner):
@@ -256,7 +258,7 @@ def lrun(run: Run, line: int | None, target: ObjectRef | None) -> None:
     program = targets.program(run, target)
     if run.system.control.is_running(program):
         raise CardError(PROGRAM_IS_RUNNING)
-    if not run.system.programs.is_empty(program):
+    if run.system.programs.is_startable(program, run.thread):
         run.channel.listen(program, until_end=True)  # its first line may print an error
         try:
             run.system.control.run(program, line)

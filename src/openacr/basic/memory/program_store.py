@@ -117,6 +117,7 @@ class ProgramStore:
     password: str | None = None
     changed: set[int] = field(default_factory=set)  # owners, for who stores their text
     on_put: Callable[[int, StoredLine], None] | None = None  # owner and line, while files load
+    on_empty_start: Callable[[int, int], None] | None = None  # owner, thread of the command
     _last: list[int] = field(default_factory=lambda: [0] * OWNERS)  # no line has a higher number
 
     def lines(self, owner: int) -> list[StoredLine]:
@@ -127,6 +128,13 @@ class ProgramStore:
     def is_empty(self, owner: int) -> bool:
         """Whether nothing is stored."""
         return not self.texts[owner]
+
+    def is_startable(self, owner: int, thread: int) -> bool:
+        """Whether there are lines to start; the card says nothing where there are none."""
+        is_empty = self.is_empty(owner)
+        if is_empty and self.on_empty_start is not None:
+            self.on_empty_start(owner, thread)
+        return not is_empty
 
     def put(self, owner: int, line: StoredLine) -> None:
         """Store a line, replacing the one of its number; `Out of memory` stores nothing."""

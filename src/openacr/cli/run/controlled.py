@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.cli.plots import AxisCurves, BitCurve, Curves, ValueCurve
 from openacr.cli.results import AxisReport, Event, Watched
 from openacr.cli.run.events import EventLog
@@ -14,6 +15,7 @@ from openacr.controller import Controller
 from openacr.controller.recorder import Recorder
 from openacr.engine.watches import Watch
 from openacr.errors import SourceError
+from openacr.lang.characters import shown
 from openacr.map.numbers import AXI_BASE, AXI_HLBIT, AXI_STRIDE
 from openacr.project import Project
 from openacr.scenario import Condition, card_view
@@ -37,6 +39,7 @@ class ControlledMachine(PlayedCard):
         self._begin_s = controller.time_s
         self._watched: tuple[Watched, ...] = ()
         self._event_watches: list[Watch] = []
+        self._shown_starts: set[int] = set()
         self._events = EventLog(
             controller.memory, controller.model.axes, self._titles(), self.failure
         )
@@ -67,7 +70,18 @@ class ControlledMachine(PlayedCard):
 
     def events(self) -> list[Event]:
         """What happened to the machine since the last call."""
-        return self._events.poll(self.time_s - self._begin_s)
+        return [*self._empty_starts(), *self._events.poll(self.time_s - self._begin_s)]
+
+    def _empty_starts(self) -> Iterator[Event]:
+        """Programs that were started without lines, each once: the card says nothing of it."""
+        found = self._controller.empty_starts
+        for owner in sorted(found.keys() - self._shown_starts):
+            self._shown_starts.add(owner)
+            start = found[owner]
+            name = f"PROG{owner}" if owner < PROGRAMS else f"PLC{owner - PROGRAMS}"
+            place = f" ({shown(start.origin[0])}:{start.origin[1]})" if start.origin else ""
+            time_s = max(0.0, start.tick * self.period_s - self._begin_s)
+            yield Event(time_s, f"{name} is empty: its RUN starts nothing{place}")
 
     @contextmanager
     def journalled(self, path: Path, project: Project) -> Iterator[None]:
