@@ -280,3 +280,26 @@ def test_lines_of_a_caller_in_this_process_are_all_dealt_with() -> None:
     card = Controller()
     assert card.send("?1\r" * 300) == "?1\r\n1\r\nSYS>" * 300
     assert card.send("?2\r\n\r?3") == "?2\r\n2\r\nSYS>\r\nSYS>?3"
+
+
+@pytest.mark.parametrize(("line", "work"), [
+    ("ESAVE", 2000), ("ELOAD", 5500), ("FLASH SAVE", 25 * 80), ("FLASH IMAGE", 25 * 80),
+    ("FLASH LOAD", 60 * 80), ("ERASE", 0),
+])  # fmt: skip
+def test_what_saves_and_loads_much_counts_as_much(host: Host, line: str, work: int) -> None:
+    host.type("DIM PROG0(9000)", "DIM PLC0(4000)", "PROG0", *(f"{n} SET 32" for n in range(1, 61)))
+    host.type("PLC0", *(f"{n} LD 1" for n in range(1, 21)), "SYS", "ESAVE", "FLASH SAVE")
+    cost = 150 + 30 * len(line) + work
+    sent = 5000 // cost + 40
+    first = -(-5000 // cost)
+    heard = host.send(f"{line}\r" * sent)
+    assert heard.count("SYS>") == first
+    waited = first * cost - 5000
+    assert host.after(waited // 250).count("SYS>") == 0
+    assert host.after(1).count("SYS>") >= 1
+
+
+def test_what_a_program_saves_is_not_counted_for_a_host(host: Host) -> None:
+    host.type("DIM PROG0(900)", "PROG0", "10 ESAVE", "20 ESAVE", "30 ESAVE", "RUN", "SYS")
+    host.after(20)
+    assert host.send("?1\r" * 40).count("SYS>") == -(-5000 // (150 + 30 * 2))

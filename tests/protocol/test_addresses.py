@@ -338,7 +338,7 @@ def test_a_poke_walks_the_arrays_that_have_elements_alone(card: Card) -> None:
         card.storage.locals.array(1, "LA", number, 2)
     (table,) = card.ask(VariableAddress(1, VariableKind.LA))
     header = card.peek(table + 60_000)[0]
-    card.memory.walked = 0
+    card.memory.work = 0
     execute(card, Poke.of(Conversion.LONG, header + 2, (7,)))
     assert card.peek(header, 3) == (2, 0, 7)
-    assert card.memory.walked == 4
+    assert card.memory.work == 2 * 4

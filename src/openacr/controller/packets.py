@@ -48,10 +48,10 @@ class PacketHost:
         self.parameter_address = self._space.parameter_address
         self.variable_address = self._space.variable_address
 
-    def take_walked(self) -> int:
-        """The references of arrays that were walked since the last call."""
-        walked, self._card.memory.walked = self._card.memory.walked, 0
-        return walked
+    def take_work(self) -> int:
+        """The work since the last call that grows with what the card holds."""
+        work, self._card.memory.work = self._card.memory.work, 0
+        return work
 
     def timeout_tk(self, channel: str) -> int:
         """The longest permitted gap between the bytes of a packet on a channel, in ticks."""

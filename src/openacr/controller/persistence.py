@@ -28,6 +28,12 @@ from openacr.errors import CardError, StoreError
 from openacr.map import numbers as at
 from openacr.motion.axis import modules
 
+# Work of the commands, in the units of `streams.py`.
+SAVE_WORK = 2000  # ESAVE
+LOAD_WORK = 5500  # ELOAD
+SAVED_LINE_WORK = 25  # FLASH SAVE and FLASH IMAGE, for each line of a program or PLC
+LOADED_LINE_WORK = 60  # FLASH LOAD
+
 CARD, FLASH, PARAMETERS, STREAM_MODES, BACKUP = "card", "flash", "parameters", "streams", "firmware"
 NO_BATTERY = "no battery"  # in snapshots: BRESET was given
 BOOT_EMPTY, SYSTEM1_EMPTY, SYSTEM2_EMPTY, USER_EMPTY, BACKED_UP = range(5656, 5661)
@@ -118,12 +124,14 @@ class Persistence:
         parameters = msgspec.msgpack.encode(saved.take(self._system))
         modes = msgspec.msgpack.encode(saved.take_stream_modes(self._system))
         self.store.write({PARAMETERS: parameters, STREAM_MODES: modes})
+        self._system.card.memory.work += SAVE_WORK
 
     def eload(self) -> None:
         """Load the saved parameters (ELOAD); without any, nothing changes."""
         parameters = self.store.decoded(PARAMETERS, dict[str, Any])
         if parameters is not None:
             self._say(saved.put(self._system, parameters))
+            self._system.card.memory.work += LOAD_WORK
 
     def erase(self) -> None:
         """Erase the saved parameters (ERASE); start-up modes of streams remain."""
@@ -135,12 +143,14 @@ class Persistence:
         """Store user memory in flash: FLASH SAVE, or FLASH IMAGE with values."""
         image = user_memory.take(self._system, values=values)
         self.store.write({FLASH: msgspec.msgpack.encode(image)})
+        self._system.card.memory.work += SAVED_LINE_WORK * image.line_count
 
     def flash_load(self) -> None:
         """Load user memory from flash (FLASH LOAD); an empty flash loads nothing."""
         flash = self.store.decoded(FLASH, UserMemory)
         if flash is not None:
             self._put_user_memory(flash)
+            self._system.card.memory.work += LOADED_LINE_WORK * flash.line_count
 
     def flash_erase(self) -> None:
         """Erase the user flash (FLASH ERASE)."""

@@ -26,7 +26,6 @@ from openacr.protocol.events import (
     Typed,
 )
 from openacr.protocol.execute import execute
-from openacr.protocol.memory import Poke
 from openacr.protocol.move import Move
 from openacr.protocol.terminal import Terminal, TerminalState
 
@@ -36,7 +35,6 @@ CHARACTER_WORK = 30  # added for each of its characters
 KEY_WORK = 30  # to act on a control key
 PACKET_WORK = 12  # to act on a packet
 VALUE_WORK = 8  # added for each value it reads or pokes
-WALK_WORK = 2  # added for each array that is walked in search of another, or to add up memory
 WORK_PER_TURN = 5000  # about 2 ms of computing for bytes that arrive together
 WORK_PER_TICK = 250  # about 0.1 ms in every tick for lines left over
 
@@ -272,11 +270,11 @@ class Streams:
         return session
 
     def _pump(self, stream: Stream) -> None:
+        self._host.take_work()  # of programs
         while stream.credit > 0 and (event := stream.terminal.next_event()) is not NEED_DATA:
             stream.credit -= _work(event)
-            self._host.take_walked()
             self._deal(stream, event)
-            stream.credit -= WALK_WORK * self._host.take_walked()
+            stream.credit -= self._host.take_work()
             if not isinstance(event, Received):  # packets do not concern the session
                 self._settle(stream)
         for key in stream.terminal.pause():
@@ -332,9 +330,7 @@ def _work(event: Event) -> int:
     if isinstance(event, ReceivedLine):
         return LINE_WORK + CHARACTER_WORK * len(event.text)
     if isinstance(event, Received):
-        packet = event.packet
-        values = packet.count if isinstance(packet, Poke) else packet.reply_words()
-        return PACKET_WORK + VALUE_WORK * values
+        return PACKET_WORK + VALUE_WORK * event.packet.value_count()
     if isinstance(event, Control):
         return KEY_WORK
     return LINE_WORK if isinstance(event, LineTooLong) else 0

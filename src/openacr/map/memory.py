@@ -29,6 +29,7 @@ from openacr.messages import INVALID_BIT, INVALID_PARAMETER, UNDEFINED_VARIABLE
 from openacr.views import F32, F64, I32
 
 KINDS_PER_WORD = 16
+WALK_WORK = 2  # to find a reference, in the units of `controller/streams.py`
 CHUNK = 1024  # words that are skipped together if all are 0
 _ZEROS = bytes(4 * CHUNK)
 
@@ -36,7 +37,7 @@ _ZEROS = bytes(4 * CHUNK)
 class Memory:
     """All state of one card, as it is right after power-up."""
 
-    __slots__ = ("F", "I", "S", "_buffer", "walked")
+    __slots__ = ("F", "I", "S", "_buffer", "work")
 
     F: F64
     I: I32
@@ -47,7 +48,7 @@ class Memory:
         self.F = self._buffer.cast("d")
         self.I = self._buffer.cast("i")
         self.S = self._buffer.cast("f")
-        self.walked = 0  # references found by `references` since a caller last set it to 0
+        self.work = 0  # beyond what a line or packet counts by itself, since a caller took it
 
     def read(self, number: int) -> int | float:
         """Value of parameter `number`; CardError if there is no such parameter."""
@@ -96,7 +97,7 @@ class Memory:
             words = self.I[start : min(start + CHUNK, first + count)]
             if words.tobytes() != _ZEROS[: 4 * len(words)]:
                 found += [start + k for k, word in enumerate(words) if word]
-        self.walked += len(found)
+        self.work += WALK_WORK * len(found)
         return found
 
     def snapshot(self) -> bytes:

@@ -79,10 +79,14 @@ class PacketReader:
         self._tick = tick
         self._wanted = 2
 
-    def expire(self, tick: int, timeout_tk: int) -> None:
-        """Discard an incomplete packet if the gap before a byte at `tick` is too long."""
-        if self.reading and tick - self._tick > timeout_tk:
+    def continues(self, tick: int, timeout_tk: int) -> bool:
+        """Whether a byte at `tick` belongs to the packet that has started.
+
+        After too long a gap it does not: an incomplete packet is discarded.
+        """
+        if self._data and tick - self._tick > timeout_tk:
             self._data.clear()
+        return bool(self._data)
 
     def feed(self, data: bytes, tick: int) -> Packet | None:
         """The packet completed by at most `whole_bytes` bytes; PacketError for a broken one."""

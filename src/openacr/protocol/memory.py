@@ -140,6 +140,10 @@ class Poke(Packet):
             self.HEADER + struct.pack("<BBI", self.code, self.count, self.address) + b"".join(data)
         )
 
+    def value_count(self) -> int:
+        """The values it writes."""
+        return self.count
+
     @property
     def conversion(self) -> Conversion:
         """How the values are stored in memory; PacketError for an unknown code."""

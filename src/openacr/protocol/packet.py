@@ -64,9 +64,10 @@ class Packet(ABC):
     @classmethod
     def decode(cls, data: bytes) -> Self:
         """The packet in exactly these bytes."""
-        if len(data) != cls.total_length(data):
-            raise PacketError(f"{cls.__name__}: {len(data)} bytes, {cls.total_length(data)} wanted")
-        return cls(*_form(cls).fields.unpack_from(data, len(cls.HEADER)))
+        form = _form(cls)
+        if len(data) != form.length:
+            raise PacketError(f"{cls.__name__}: {len(data)} bytes, {form.length} wanted")
+        return cls(*form.fields.unpack_from(data, len(cls.HEADER)))
 
     def encode(self) -> bytes:
         """The bytes a host sends, before any MODE conversion."""
@@ -94,6 +95,10 @@ class Packet(ABC):
     def reply_words(self) -> int:
         """Four-byte words after the repeated request; 0 when the card sends nothing."""
         return 0
+
+    def value_count(self) -> int:
+        """Values that the packet reads or pokes."""
+        return self.reply_words()
 
     def reply(self, values: Sequence[int | float]) -> bytes:
         """Build the reply: the request repeated, then integers as LONG, floats as IEEE."""

@@ -131,8 +131,8 @@ class Terminal:
 
     def begins_text(self, data: bytes) -> bool:
         """Whether bytes that arrive now begin with a character, not with a packet."""
-        is_idle = not (self._reader.reading or self._looked or self._fresh)
-        return is_idle and data[:1] not in _HEADERS
+        is_text = data[:1] not in _HEADERS
+        return is_text and not (self._reader.reading or self._looked or self._fresh)
 
     def receive_data(self, data: bytes, tick: int) -> None:
         """Take bytes that arrived together at `tick`."""
@@ -159,8 +159,9 @@ class Terminal:
     @property
     def has_next(self) -> bool:
         """Whether `next_event` could continue with received bytes."""
-        takes_lines = not self.busy and self.attention is Attention.COMMANDS
-        return bool(self._looked or self._fresh) or (takes_lines and bool(self._lines))
+        if self._looked or self._fresh:
+            return True
+        return bool(self._lines) and not self.busy and self.attention is Attention.COMMANDS
 
     def pause(self) -> list[ControlKey]:
         """Stop pulling events for now; returns the control keys in the bytes not scanned yet.
@@ -220,21 +221,19 @@ class Terminal:
         return event
 
     def _byte(self, byte: int, segment: Segment) -> Event | None:
-        self._reader.expire(segment.tick, self.timeout_tk)
-        if self._reader.reading:
+        if self._reader.continues(segment.tick, self.timeout_tk):
             return self._packet_byte(byte, segment)
         if self.attention is Attention.OPEN:
             return Control(ControlKey(byte)) if _is_control(byte) else Typed(byte)
-        if self.kind is StreamKind.PACKETS:
-            if self._after_cr and self._odd and byte == 0:
-                self._odd = (self._odd + 1) % TEXT_UNIT
-                return None
-            if byte not in HEADER_IDS:
-                if not self.takes_text:
-                    return None
-                self._odd = (self._odd + 1) % TEXT_UNIT
-        if byte in HEADER_IDS:
+        is_padding = self._odd and self._after_cr and byte == 0
+        if byte in HEADER_IDS and not is_padding:
             return self._packet_start(byte, segment)
+        if self.kind is StreamKind.PACKETS:
+            if not self.takes_text:
+                return None
+            self._odd = (self._odd + 1) % TEXT_UNIT
+            if is_padding:
+                return None
         if _is_control(byte):
             return Control(ControlKey(byte))
         return self._character(byte)

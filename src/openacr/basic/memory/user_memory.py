@@ -76,6 +76,11 @@ class UserMemory(Struct, frozen=True):
     texts: list[Text]
     data: Data
 
+    @property
+    def line_count(self) -> int:
+        """Lines of all programs and PLCs."""
+        return sum(len(text.lines) for text in self.texts)
+
 
 # taking
 
