@@ -1,14 +1,14 @@
 """`openacr conform`: cards against their manuals, on virtual cards and over TCP."""
 
 import json
-import subprocess
 import time
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 
 import pytest
-from tests.io.served import LOOPBACK, OPENACR, Served, serving
+from tests import warm
+from tests.io.served import LOOPBACK, Served, serving
 from tests.proxy import Proxy
 from typer.testing import CliRunner
 
@@ -114,7 +114,7 @@ def test_a_run_that_is_killed_leaves_the_card_as_it_was(cases: Path, card: Serve
     report = cases / "report.json"
     with closing(Proxy(f"{LOOPBACK}:{card.ascii_port}")) as line:
         words = ["conform", line.address, "--cases", str(cases), "--report", str(report)]
-        process = subprocess.Popen([*OPENACR, *words])
+        process = warm.Popen(words)
         while line.passed < 2000:
             assert process.poll() is None
             time.sleep(0.01)
