@@ -8,7 +8,7 @@
 #   make lowest  all tests with the oldest versions of the packages that are allowed
 #   make audit   the oldest versions that are allowed against the public list of advisories
 #   make mutate  break changed lines and list what no test notices (WHAT=package, BASE=revision, MOST=n)
-#   make docs    write the reference pages and the grammars of editors anew
+#   make docs    write the reference pages, the names of the map and the grammars of editors anew
 #   make editor-test  the extension in Visual Studio Code in a browser (CODE_SERVER=folder, needs Node)
 #   make web-lint   type-check and lint the screens' JavaScript (needs Node)
 #   make web-bundle bundle the libraries of the screens anew (needs Node and a registry)
@@ -44,8 +44,7 @@ BUILT := $(VENV)/.built
 RUNS := $(VENV)/.runs
 INSTALLED := $(VENV)/.installed
 CORE_SOURCES := setup.py src/openacr/unity.py src/openacr/unity_c.py src/openacr/cmath.py src/openacr/views.py \
-	src/openacr/messages.py \
-	$(wildcard src/openacr/map/numbers.py src/openacr/map/rows/*.py src/openacr/map/words/*.py) $(shell find src -name '*_cy.py')
+	src/openacr/messages.py src/openacr/map/fingerprint.py $(shell find src -name '*_cy.py')
 WORKERS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 
 # In front of a command that is long and silent: a line every few seconds until its shell ends.
@@ -151,6 +150,7 @@ mutate: setup
 	$(PY) -m mutation $(WHAT) $(if $(BASE),--base $(BASE)) $(if $(MOST),--most $(MOST)) --workers $(WORKERS)
 
 docs: setup
+	$(PY) -m openacr.map.generate
 	$(PY) -m openacr.basic.reference docs/reference examples
 	$(PY) -m openacr.sysvar.reference docs/sysvar-tables.md
 	$(PY) -m openacr.cnc.reference docs/part-program-codes.md

@@ -12,6 +12,7 @@ from openacr import compiled, messages, unity
 from openacr.kernel.tick_cy import tick
 from openacr.map.memory import Memory
 from openacr.map.rows import axes, kernel
+from openacr.map.words import candi
 from openacr.unity import source_hash, unity_source, write_unity
 from openacr.unity_c import UnityError
 
@@ -209,6 +210,7 @@ def test_the_place_and_the_numbers_of_a_family_are_literals(
 def test_places_that_cannot_be_computed_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, place: str, message: str
 ) -> None:
+    assert candi.word[16] != candi.word[15] + 1  # words in four runs
     head = "from openacr.map.words import candi, mf1\n"
     with pytest.raises(UnityError, match=re.escape(message)):
         place_in_c(tmp_path, monkeypatch, place, head)

@@ -10,6 +10,7 @@ from openacr.basic.language.registry import Level
 from openacr.compiled import pick
 from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at
+from openacr.map.names import every_name
 from openacr.models import DEFAULT_MODEL, Model
 from openacr.motion.axis import attach
 from openacr.motion.card import Card
@@ -114,7 +115,7 @@ class Bench:
         """Set parts of the setpoint (position, gear, jog, cam) as if motion had left them."""
         row = at.AXF_BASE + axis * at.AXF_STRIDE
         for part, value in offsets_cnt.items():
-            self.memory.F[row + getattr(at, f"AXF_{part.upper()}_CNT")] = value
+            self.memory.F[row + every_name()[f"AXF_{part.upper()}_CNT"]] = value
         self.card.show(axis)
 
 

@@ -15,8 +15,14 @@ LEADER = 1  # axis Y jogs and leads gear and cam of X
 LEADER_CPS = 1 / PERIOD_S  # of 1000; as whole counts: one in a period at most
 FASTEST_CPS = 2000 + 1500 + 2 * LEADER_CPS + LEADER_CPS  # move at twice its feed, jog, gear, cam
 ROWS = [
-    at.AXF_BASE + getattr(at, f"AXF_{part}_CNT")
-    for part in ("POSITION", "GEAR", "JOG", "CAM", "KINEMATICS")
+    at.AXF_BASE + row
+    for row in (
+        at.AXF_POSITION_CNT,
+        at.AXF_GEAR_CNT,
+        at.AXF_JOG_CNT,
+        at.AXF_CAM_CNT,
+        at.AXF_KINEMATICS_CNT,
+    )
 ]
 PSP, SSP = at.AXF_BASE + at.AXF_PSP_CNT, at.AXF_BASE + at.AXF_SSP_CNT
 LINES = (

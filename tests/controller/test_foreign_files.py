@@ -20,6 +20,7 @@ from openacr.errors import StoreError
 from openacr.map import numbers as at
 from openacr.map.hidden import HIDDEN_BLOCKS
 from openacr.map.hidden.block import ANY_NUMBER, ROWS_F, ROWS_I, places
+from openacr.map.names import every_name
 from openacr.plant.load import parse_world
 
 LIMITED = [
@@ -58,8 +59,8 @@ def changed(kept: Snapshot, view: str, row: int, value: float) -> Snapshot:
 @pytest.mark.parametrize("row", LIMITED, ids=lambda row: f"{row[0].prefix}_{row[2]}")
 def test_a_row_outside_its_range_is_refused_by_name(kept: Snapshot, row) -> None:  # type: ignore[no-untyped-def]
     block, view, name, offset, size, (low, high) = row
-    last = getattr(at, f"{block.prefix}{view}_BASE") + (
-        (block.count - 1) * getattr(at, f"{block.prefix}{view}_STRIDE") + offset + size - 1
+    last = place_of(f"{block.prefix}{view}_BASE") + (
+        (block.count - 1) * place_of(f"{block.prefix}{view}_STRIDE") + offset + size - 1
     )
     wrong = (low - 1, high + 1) if view == "I" else (low - max(1.0, abs(low)), 2 * high + 1.0)
     for value in wrong:
@@ -140,7 +141,7 @@ def test_a_thread_that_executes_nothing_is_refused(kept: Snapshot, row: object) 
 
 
 def place_of(name: str) -> int:
-    return int(getattr(at, name))
+    return every_name()[name]
 
 
 def lived_through(data: bytes) -> bool:

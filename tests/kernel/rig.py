@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from openacr import compiled
 from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at
+from openacr.map.names import every_name
 from openacr.models import ACR8020
 from openacr.motion import row_index
 from openacr.motion.axis import attach
@@ -163,7 +164,7 @@ def stride(count: int) -> int:
 
 def row_of(prefix: str, name: str) -> int:
     """Offset of a row by its name in lower case."""
-    return int(getattr(at, f"{prefix}_{name.upper()}"))
+    return every_name()[f"{prefix}_{name.upper()}"]
 
 
 MASTER_ROWS = {

@@ -1,33 +1,57 @@
 """The generated files are current and no two places of the map overlap."""
 
+from hashlib import blake2b
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
 
-import openacr.map
 from openacr.map import numbers
-from openacr.map.generate import generated_files
+from openacr.map.fingerprint import LAYOUT
+from openacr.map.generate import FOLDER, generated_files, left_over, numbers_text, of_names
 from openacr.map.hidden import HIDDEN_BLOCKS
 from openacr.map.hidden.block import HiddenBlock
 from openacr.map.layout import hidden_constants, slug
+from openacr.map.names import every_name
+from openacr.map.names_read import names_in
 
-FOLDER = Path(openacr.map.__file__).parent
+FILES = generated_files()
+NAMES = every_name()
 
 
-@pytest.mark.parametrize(("name", "text"), list(generated_files()))
+@pytest.mark.parametrize(("name", "text"), FILES.items())
 def test_generated_files_are_current(name: str, text: str) -> None:
     assert (FOLDER / name).read_text() == text, "run python -m openacr.map.generate"
 
 
 def test_no_generated_file_is_left_of_a_family_that_is_gone() -> None:
-    kept = {name for name, _ in generated_files()}
-    present = {
-        f"{folder}/{path.name}"
-        for folder in ("rows", "words")
-        for path in FOLDER.glob(f"{folder}/*")
-    }
-    assert {name for name in present if not name.endswith(("__init__.py", "__pycache__"))} <= kept
+    assert left_over(FILES) == []
+
+
+def test_only_names_that_are_read_are_written() -> None:
+    source = """
+from openacr.map import numbers as at
+from openacr.map.numbers import AX_BASE
+from openacr.map.rows import axes as rows, masters
+from openacr.map.words import mf1
+
+I[at.AX_STRIDE] = I[rows.velocity[0]] & mf1.IN_MOTION | I[other.hold[0]]
+"""
+    read = set(names_in(source))
+    assert read == {"numbers.AX_BASE", "numbers.AX_STRIDE", "axes.velocity", "mf1.IN_MOTION"}
+    chapter = "# Axis Parameters\nAX_BASE = 12288\nAX_STRIDE = 256\n"
+    assert numbers_text(read).endswith(f'"""\n\n{chapter}')
+    rows = "velocity = 1\nvelocity_limit = 2\nCOUNT = 16\n"
+    assert of_names(read, "axes", f'"""Places."""\n\n{rows}') == '"""Places."""\n\nvelocity = 1\n'
+    assert of_names(read, "masters", rows) == ""
+
+
+def test_a_module_whose_names_are_read_by_nothing_is_left_over() -> None:
+    assert left_over(set(FILES) - {"rows/axes.py"}) == [FOLDER / "rows/axes.py"]
+
+
+def test_the_fingerprint_of_the_layout_is_that_of_all_names() -> None:
+    assert len(NAMES) > 1800
+    assert blake2b(repr(sorted(NAMES.items())).encode(), digest_size=8).hexdigest() == LAYOUT
 
 
 def hidden_bytes() -> list[tuple[int, int, str]]:
@@ -36,8 +60,8 @@ def hidden_bytes() -> list[tuple[int, int, str]]:
     for block in HIDDEN_BLOCKS:
         for fields, letter, size in ((block.doubles, "F", 8), (block.ints, "I", 4)):
             if fields:
-                base = getattr(numbers, f"{block.prefix}{letter}_BASE") * size
-                stride = getattr(numbers, f"{block.prefix}{letter}_STRIDE") * size
+                base = NAMES[f"{block.prefix}{letter}_BASE"] * size
+                stride = NAMES[f"{block.prefix}{letter}_STRIDE"] * size
                 runs.append((base, base + stride * block.count, f"{block.prefix}{letter}"))
     return sorted(runs)
 

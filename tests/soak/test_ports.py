@@ -11,6 +11,7 @@ from tests.soak.noise import Noise
 
 from openacr.channels import BinaryMode, StreamKind
 from openacr.map import numbers as at
+from openacr.map.names import every_name
 from openacr.protocol.escape import encode_packet
 
 MODEL = "ACR8020"  # the card with a port of every kind
@@ -186,8 +187,8 @@ def test_refused_lines_change_the_counters_of_their_streams_alone() -> None:
 
 def waiting_rows() -> set[int]:
     """Rows that count what has been typed and not yet ended with CR."""
-    names = [name for name in vars(at) if name.endswith(("CHARACTER_COUNT", "LINE_COUNT"))]
-    return {getattr(at, name) for name in names}
+    counters = ("CHARACTER_COUNT", "LINE_COUNT")
+    return {place for name, place in every_name().items() if name.endswith(counters)}
 
 
 def kind_of(port: Host) -> StreamKind:

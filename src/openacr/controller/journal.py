@@ -44,6 +44,7 @@ from openacr.channels import StreamKind
 from openacr.controller import snapshot as snapshots
 from openacr.controller import snapshot_file
 from openacr.errors import StoreError, reason
+from openacr.map.fingerprint import LAYOUT
 from openacr.models import MODELS
 from openacr.plant import schema
 from openacr.plant.check import contradictions
@@ -127,7 +128,7 @@ class Journal:
     @property
     def snapshot(self) -> snapshots.Snapshot:
         """The initial state of the card; StoreError if this version cannot use it."""
-        if self.header.layout != snapshots.layout():
+        if self.header.layout != LAYOUT:
             raise StoreError(
                 f"the journal was written by openacr {self.header.program} with another layout"
                 " of the memory; replay it with that version"

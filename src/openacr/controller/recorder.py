@@ -23,6 +23,7 @@ from openacr.controller import snapshot as snapshots
 from openacr.controller import snapshot_file
 from openacr.controller.journal import MAGIC, Entered, Header, JournalEntry, record_of
 from openacr.errors import StoreError, reason
+from openacr.map.fingerprint import LAYOUT
 from openacr.map.memory import digest_of
 from openacr.models import Model
 from openacr.plant.schema import World
@@ -187,7 +188,7 @@ class Recorder:
         def header() -> bytes:
             found = Header(
                 version("openacr"),
-                snapshots.layout(),
+                LAYOUT,
                 model,
                 world,
                 tick,

@@ -8,7 +8,6 @@ objects: the code of programs and PLCs is compiled again from text and rows.
 
 from __future__ import annotations
 
-from functools import cache
 from hashlib import blake2b
 from typing import Protocol
 
@@ -23,7 +22,7 @@ from openacr.basic.memory.ranges import Index
 from openacr.controller.persistence import Persistence
 from openacr.controller.streams import Streams, StreamsState
 from openacr.errors import StoreError
-from openacr.map import numbers
+from openacr.map.fingerprint import LAYOUT
 from openacr.map.memory import Memory
 from openacr.models import Model
 from openacr.plant import schema
@@ -81,7 +80,7 @@ def take(card: WholeCard) -> Snapshot:
     return Snapshot(
         card.model.name,
         world_print(card.world),
-        layout(),
+        LAYOUT,
         bytes(card.image()),
         Beside(
             language_state.take(card.system, card.executor),
@@ -128,7 +127,7 @@ def put_back_streams(card: WholeCard, snapshot: Snapshot) -> None:
 
 def check_fits(card: WholeCard, snapshot: Snapshot) -> None:
     """StoreError if a snapshot is of another layout, model or world."""
-    if snapshot.layout != layout():
+    if snapshot.layout != LAYOUT:
         raise StoreError("the snapshot is of a version of openacr with another memory layout")
     if snapshot.model != card.model.name:
         raise StoreError(
@@ -136,13 +135,6 @@ def check_fits(card: WholeCard, snapshot: Snapshot) -> None:
         )
     if snapshot.world != world_print(card.world):
         raise StoreError("the snapshot was taken with another machine connected to the card")
-
-
-@cache
-def layout() -> str:
-    """Fingerprint of the memory layout: snapshots fit cards with the same one."""
-    places = sorted((name, value) for name, value in vars(numbers).items() if name.isupper())
-    return blake2b(repr(places).encode(), digest_size=8).hexdigest()
 
 
 def world_print(world: schema.World) -> str:

@@ -19,8 +19,9 @@ import msgspec
 from msgspec import Meta, Struct
 
 from openacr.basic.memory.heap import Heap
-from openacr.controller.snapshot import Beside, Snapshot, layout
+from openacr.controller.snapshot import Beside, Snapshot
 from openacr.errors import StoreError
+from openacr.map.fingerprint import LAYOUT
 from openacr.map.memory import Memory
 from openacr.map.numbers import MEMORY_BYTES
 from openacr.map.valid import check_rows
@@ -71,7 +72,7 @@ def decode(data: bytes) -> Snapshot:
         header = msgspec.msgpack.decode(data[begin:end], type=Header)
     except (msgspec.MsgspecError, RecursionError) as error:
         raise StoreError(f"the snapshot cannot be read: {error}") from None
-    if header.layout != layout() or header.rows_bytes != MEMORY_BYTES:
+    if header.layout != LAYOUT or header.rows_bytes != MEMORY_BYTES:
         raise StoreError(
             f"the snapshot was written by openacr {header.program} with another layout of the"
             " memory; use that version"

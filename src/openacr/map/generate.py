@@ -1,136 +1,98 @@
-"""Write the generated parts of the map: the names of all places, and `image.py` (power-up state).
+"""Write the generated parts of the map: the names that are read, and `image.py` (power-up state).
 
-Run `python -m openacr.map.generate` after a change of the tables or the hidden rows.
+Run `python -m openacr.map.generate` after a change of the tables or the hidden rows, and where a
+name of the map is read for the first time.
 """
 
+import re
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterator, Mapping
+from hashlib import blake2b
 from itertools import groupby, pairwise
 from pathlib import Path
 
-from openacr.map.block import FLAG_LAST, FLAG_WORD_BASE, Block, Row
+from openacr.map.block import Block, Row
 from openacr.map.families import HEADER, flag_modules, row_modules
-from openacr.map.flag_block import FlagBlock
 from openacr.map.hidden import HIDDEN_BLOCKS
-from openacr.map.layout import (
-    HIDDEN_BASE,
-    KIND_CODES,
-    PUBLIC_COUNT,
-    USER_BASE,
-    USER_COUNT,
-    Constant,
-    hidden_constants,
-    slug,
-)
+from openacr.map.layout import KIND_CODES
+from openacr.map.names import chapters, every_name
+from openacr.map.names_read import names_read
 from openacr.map.tables import BLOCKS, FLAG_BLOCKS
 
+FOLDER = Path(__file__).parent
+ASSIGNMENT = re.compile(r"^(\w+) = .*\n", re.MULTILINE)
 Run = tuple[int, int, int, int, int]
 
 
 def main() -> None:
-    """Write all files; unchanged ones keep their time stamp."""
-    folder = Path(__file__).parent
-    for name, text in generated_files():
-        path = folder / name
+    """Write all files and delete those of no name; unchanged ones keep their time stamp."""
+    files = generated_files()
+    for name, text in files.items():
+        path = FOLDER / name
         if not path.exists() or path.read_text() != text:
-            path.parent.mkdir(exist_ok=True)
             path.write_text(text)
             sys.stdout.write(f"wrote {name}\n")
+    for path in left_over(files):
+        path.unlink()
+        sys.stdout.write(f"deleted {path.relative_to(FOLDER)}\n")
 
 
-def generated_files() -> Iterator[tuple[str, str]]:
-    """Path in this folder and text of every generated file."""
-    yield "numbers.py", numbers_text()
-    yield "image.py", image_text()
-    for name, text in row_modules(BLOCKS, HIDDEN_BLOCKS):
-        yield f"rows/{name}.py", text
-    for name, text in flag_modules(FLAG_BLOCKS):
-        yield f"words/{name}.py", text
+def generated_files() -> dict[str, str]:
+    """Text of every generated file by its path in this folder."""
+    read = names_read()
+    rows, words = row_modules(BLOCKS, HIDDEN_BLOCKS), flag_modules(FLAG_BLOCKS)
+    files = {f"rows/{name}.py": text for name, text in rows}
+    files |= {f"words/{name}.py": text for name, text in words}
+    fingerprint = fingerprint_text(files)
+    files = {name: of_names(read, Path(name).stem, text) for name, text in files.items()}
+    files = {name: text for name, text in files.items() if ASSIGNMENT.search(text)}
+    return files | {
+        "numbers.py": numbers_text(read),
+        "image.py": image_text(),
+        "fingerprint.py": fingerprint,
+    }
 
 
-def numbers_text() -> str:
-    """Names of everything that has a place in the map."""
-    parts = [HEADER.format("Names of all places in the map.")]
-    for title, constants in _chapters():
-        lines = [f"{name} = {value}" for name, value in constants]
-        parts.append("\n".join([f"# {title}", *lines, ""]))
+def left_over(files: Container[str]) -> list[Path]:
+    """Modules of rows and words that are not generated any more."""
+    modules = [*FOLDER.glob("rows/[!_]*.py"), *FOLDER.glob("words/[!_]*.py")]
+    return [path for path in modules if path.relative_to(FOLDER).as_posix() not in files]
+
+
+def of_names(read: Container[str], module: str, text: str) -> str:
+    """A module without the names that nothing reads."""
+
+    def kept(found: re.Match[str]) -> str:
+        return found[0] if f"{module}.{found[1]}" in read else ""
+
+    return ASSIGNMENT.sub(kept, text)
+
+
+def numbers_text(read: Container[str]) -> str:
+    """Names of places in the map, chapter by chapter."""
+    parts = [HEADER.format("Names of places in the map.")]
+    for title, constants in chapters():
+        lines = [f"{name} = {value}" for name, value in constants if f"numbers.{name}" in read]
+        if lines:
+            parts.append("\n".join([f"# {title}", *lines, ""]))
     return "\n".join(parts)
 
 
-def _chapters() -> Iterator[tuple[str, list[Constant]]]:
-    known: dict[str, int] = {}
-    chapters: list[tuple[str, Iterable[Constant]]] = [("Layout", _layout_constants())]
-    chapters += [(block.title, _block_constants(block)) for block in BLOCKS]
-    chapters += [(block.title, _flag_constants(block)) for block in FLAG_BLOCKS]
-    chapters.append(("Hidden rows", hidden_constants(HIDDEN_BLOCKS)))
-    for title, constants in chapters:
-        new = _unknown(constants, known)
-        if new:
-            yield title, new
-
-
-def _unknown(constants: Iterable[Constant], known: dict[str, int]) -> list[Constant]:
-    """Constants not met before; streams share names, which then must agree."""
-    new = []
-    for name, value in constants:
-        if name not in known:
-            known[name] = value
-            new.append((name, value))
-        elif known[name] != value:
-            raise ValueError(f"{name} has two values, {known[name]} and {value}")
-    return new
-
-
-def _layout_constants() -> Iterator[Constant]:
-    yield "PUBLIC_COUNT", PUBLIC_COUNT
-    yield "USER_BASE", USER_BASE
-    yield "USER_COUNT", USER_COUNT
-    yield "HIDDEN_BASE", HIDDEN_BASE
-    yield "FLAG_WORD_BASE", FLAG_WORD_BASE
-    yield "FLAG_LAST", FLAG_LAST
-    yield "KIND_BASE", 0
-    for kind, code in KIND_CODES.items():
-        yield f"KIND_{kind or 'NONE'}", code
-
-
-def _block_constants(block: Block) -> Iterator[Constant]:
-    """Base, stride, count and row offsets; for single objects the parameter numbers."""
-    first = block.spans[0].first
-    if block.prefix:
-        yield f"{block.prefix}_BASE", first
-        yield f"{block.prefix}_STRIDE", block.stride
-        yield f"{block.prefix}_COUNT", block.count
-        for span in block.spans[1:]:
-            yield f"{block.prefix}_HIGH_BASE", span.first
-    for row in block.rows.values():
-        if row.is_reserved:
-            continue
-        name = slug(row.ident or row.name)
-        if block.prefix:
-            yield f"{block.prefix}_{name}", row.offset
-        else:
-            yield f"P_{name}", first + row.offset
-
-
-def _flag_constants(block: FlagBlock) -> Iterator[Constant]:
-    """Numbers of the flag words, masks of the flags."""
-    first = block.spans[0].first
-    if block.ident:
-        yield f"W_{slug(block.ident)}", first
-    elif block.prefix:
-        yield from _word_constants(block)
-    for row in block.rows.values():
-        if block.prefix and not row.is_reserved and "{" not in row.name:
-            yield f"{block.prefix}_{slug(row.ident or row.name)}", row.mask
-
-
-def _word_constants(block: FlagBlock) -> Iterator[Constant]:
-    spans = block.spans
-    yield f"{block.prefix}_WORD", spans[0].first
-    if len(spans) > 2:
-        yield f"{block.prefix}_WORD_STRIDE", spans[1].first - spans[0].first
-    else:
-        yield f"{block.prefix}_WORD_HIGH", spans[-1].first - (len(spans) - 1) * spans[0].count
+def fingerprint_text(modules: Mapping[str, str]) -> str:
+    """Fingerprints that tell whether a snapshot and the compiled core fit."""
+    names = every_name()
+    layout = blake2b(repr(sorted(names.items())).encode(), digest_size=8).hexdigest()
+    places = blake2b(repr((names, modules)).encode(), digest_size=8).hexdigest()
+    parts = [
+        HEADER.format("Fingerprints of the map."),
+        "# of the names of all places: snapshots fit cards with the same one",
+        f'LAYOUT = "{layout}"',
+        "",
+        "# of all that could be read: the compiled core fits sources with the same one",
+        f'PLACES = "{places}"',
+        "",
+    ]
+    return "\n".join(parts)
 
 
 def image_text() -> str:

@@ -13,35 +13,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from openacr.errors import StoreError
-from openacr.map import numbers
 from openacr.map.hidden import HIDDEN_BLOCKS
 from openacr.map.hidden.block import ANY_NUMBER, Field, HiddenBlock, Range, places
+from openacr.map.layout import PUBLIC_COUNT, hidden_bases
 from openacr.map.memory import KINDS_PER_WORD, Memory
 
 
 def check_rows(memory: Memory) -> None:
     """StoreError that names the first row outside its range."""
-    kinds = numbers.PUBLIC_COUNT // KINDS_PER_WORD
+    kinds = PUBLIC_COUNT // KINDS_PER_WORD
     if memory.I[:kinds] != Memory().I[:kinds]:
         raise StoreError("the snapshot is damaged: its kinds of parameters are others")
     doubles, ints = np.asarray(memory.F), np.asarray(memory.I)
-    for block in HIDDEN_BLOCKS:
-        _check(block, "F", block.doubles, doubles, block.usual)
-        _check(block, "I", block.ints, ints, ANY_NUMBER)
+    for block, real, whole in hidden_bases(HIDDEN_BLOCKS):
+        count = block.count
+        reals = doubles[real : real + count * block.doubles_stride].reshape(count, -1)
+        wholes = ints[whole : whole + count * block.ints_stride].reshape(count, -1)
+        _check(block, block.doubles, reals, block.usual)
+        _check(block, block.ints, wholes, ANY_NUMBER)
 
 
 def _check(
-    block: HiddenBlock,
-    view: str,
-    fields: tuple[Field, ...],
-    rows: NDArray[Any],
-    usual: Range,
+    block: HiddenBlock, fields: tuple[Field, ...], table: NDArray[Any], usual: Range
 ) -> None:
-    if not fields:
-        return
-    base: int = getattr(numbers, f"{block.prefix}{view}_BASE")
-    stride: int = getattr(numbers, f"{block.prefix}{view}_STRIDE")
-    table = rows[base : base + block.count * stride].reshape(block.count, stride)
     for name, offset, size, (low, high) in _limits(block, fields, usual):
         found = table[:, offset : offset + size]
         fits = (found >= low) & (found <= high)

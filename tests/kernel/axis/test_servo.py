@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy import signal
-from tests.kernel.rig import Rig, T
+from tests.kernel.rig import Rig, T, row_of
 
 from openacr.map import numbers as at
 
@@ -180,7 +180,7 @@ def test_setpoints_are_the_sums_of_their_parts() -> None:
     rig = open_loop()
     parts = {"position": 100.25, "gear": 20.5, "jog": -3.0, "cam": 7.0}
     for name, value in (parts | {"ballscrew": 2.0, "backlash": -1.5}).items():
-        rig.F[at.AXF_BASE + getattr(at, f"AXF_{name.upper()}_CNT")] = value
+        rig.F[at.AXF_BASE + row_of("AXF", f"{name}_cnt")] = value
     rig.ticks()
     assert rig.I[12294] == rig.long("primary_setpoint") == 125
     assert rig.I[12295] == rig.long("secondary_setpoint") == 125
