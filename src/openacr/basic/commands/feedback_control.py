@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from openacr.basic.commands.follower_forms import LAST_CAPTURE_MODE, needs_long
 from openacr.basic.commands.interpolation import room
-from openacr.basic.commands.value_commands import Value, axis_values, report_all, set_or_print
+from openacr.basic.commands.value_commands import Value, axis_values, report_all, value_elsewhere
 from openacr.basic.language.grammar import (
     Axes,
     Axis,
@@ -28,8 +28,14 @@ from openacr.errors import CardError
 from openacr.map.numbers import AX_PPU, AXF_ROTARY_U
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import interlocks
-from openacr.motion.axis import registers, settings
-from openacr.motion.axis.settings import not_negative, not_zero, of_axis, of_axis_real
+from openacr.motion.axis import registers
+from openacr.motion.axis.settings import (
+    multiplier_of,
+    not_negative,
+    not_zero,
+    of_axis,
+    of_axis_real,
+)
 from openacr.motion.path import moves
 
 if TYPE_CHECKING:
@@ -50,19 +56,14 @@ axis_values(
 )  # fmt: skip
 
 
-@command(
+value_elsewhere(
     "MULT",
-    group=GROUP,
-    levels=BY_OBJECT,
-    grammar=(AxisValues(),),
-    ref=REF,
+    multiplier_of,
+    "Set edges counted and direction of the position encoder of an axis: 0, 1, 2, 4, -1, ...",
     default="1",
-    saved=True,
+    group=GROUP,
+    ref=REF,
 )
-def mult(run: Run, axes: tuple[AxisValue, ...]) -> None:
-    """Set edges counted and direction of the position encoder of an axis: 0, 1, 2, 4, -1, ..."""
-    encoders = [settings.position_encoder(run.card, item.axis.number) for item in axes]
-    set_or_print(run, axes, [(settings.ENCODER_MULTIPLIER, encoder) for encoder in encoders])
 
 
 @command("RES", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(optional=True),), ref=REF)

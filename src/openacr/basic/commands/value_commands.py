@@ -19,7 +19,7 @@ from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
 from openacr.models import Feature
-from openacr.motion.axis.settings import Setting
+from openacr.motion.axis.settings import Place, Setting
 from openacr.motion.card import Card
 
 
@@ -146,18 +146,26 @@ def _axis_value(row: Value) -> Callable[..., None]:
     return handler
 
 
-def set_or_print(
-    run: Run, axes: Iterable[AxisValue], places: Iterable[tuple[Setting, int]]
+def value_elsewhere(
+    words: str, place: Callable[[Card, int], Place], doc: str, *, default: str, group: str, ref: str
 ) -> None:
-    """Store or print the setting each axis has of its own; all values are checked before."""
-    items = list(zip(axes, places, strict=True))
-    for item, (setting, _) in items:
-        check_all((item,), setting)
-    for item, (setting, number) in items:
-        if item.is_query:
-            run.print(value_text(setting, setting.read(run.card, number)))
-        else:
-            setting.write(run.card, number, item.value)
+    """Register `WORD axis {value}...` for values that lie where `place` finds them for an axis."""
+
+    def handler(run: Run, axes: tuple[AxisValue, ...]) -> None:
+        items = [(item, *place(run.card, item.axis.number)) for item in axes]
+        for item, setting, _ in items:
+            check_all((item,), setting)
+        for item, setting, number in items:
+            if item.is_query:
+                run.print(value_text(setting, setting.read(run.card, number)))
+            else:
+                setting.write(run.card, number, item.value)
+
+    handler.__doc__ = doc
+    form = AxisValues()
+    command(
+        words, group=group, levels=BY_OBJECT, grammar=(form,), ref=ref, default=default, saved=True
+    )(handler)
 
 
 def check_all(axes: Iterable[AxisValue], setting: Setting) -> None:

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from openacr.basic.commands.value_commands import Value, master_values, set_or_print
-from openacr.basic.language.grammar import AxisValue, AxisValues
-from openacr.basic.language.registry import BY_OBJECT, command
-from openacr.basic.vm.run import Run
+from openacr.basic.commands.value_commands import Value, master_values, value_elsewhere
 from openacr.map.numbers import (
     MA_FEEDRATE_OVERRIDE,
     MA_MANUAL_VECTOR,
@@ -18,8 +15,7 @@ from openacr.map.numbers import (
     MSF_JRK_UPS3,
     MSF_STP_UPS2,
 )
-from openacr.motion.axis import settings
-from openacr.motion.axis.settings import of_master, of_master_real
+from openacr.motion.axis.settings import of_master, of_master_real, vector_weight
 
 GROUP = "Velocity Profile"
 REF = "PG Velocity Profile"
@@ -56,16 +52,11 @@ master_values(
 )  # fmt: skip
 
 
-@command(
+value_elsewhere(
     "VECDEF",
-    group=GROUP,
-    levels=BY_OBJECT,
-    grammar=(AxisValues(),),
-    ref=REF,
+    vector_weight,
+    "Set the weight of axes in the length of a move; 0 leaves an axis out.",
     default="1",
-    saved=True,
+    group=GROUP,
+    ref=REF,
 )
-def vecdef(run: Run, axes: tuple[AxisValue, ...]) -> None:
-    """Set the weight of axes in the length of a move; 0 leaves an axis out."""
-    weights = [settings.vector_weight(run.card, item.axis.number) for item in axes]
-    set_or_print(run, axes, [(weight, 0) for weight in weights])

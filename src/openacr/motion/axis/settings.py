@@ -102,6 +102,7 @@ class Setting:
             memory.F[place] = value
 
 
+Place = tuple[Setting, int]  # a value: of which object
 _Allowed = Callable[[float], bool]
 
 
@@ -186,13 +187,13 @@ def refresh_max_velocity(card: Card, master: int) -> None:
 # VECDEF
 
 
-def vector_weight(card: Card, axis: int) -> Setting:
+def vector_weight(card: Card, axis: int) -> Place:
     """The weight of an axis in the length of moves; `No master attached` if it has none."""
     master = master_of(card, axis)
     if master is None:
         raise CardError(NO_MASTER_ATTACHED)
     slave = card.memory.I[axes.slave[axis]]
-    return Setting(Kind.FP64, masters.vecdef[master] + slave, 0, not_negative)
+    return Setting(Kind.FP64, masters.vecdef[master] + slave, 0, not_negative), 0
 
 
 # MULT
@@ -200,11 +201,11 @@ def vector_weight(card: Card, axis: int) -> Setting:
 ENCODER_MULTIPLIER = Setting(Kind.LONG, ENI_BASE + ENI_MULT, ENI_STRIDE, multiplier)
 
 
-def position_encoder(card: Card, axis: int) -> int:
-    """The encoder that is the position feedback; `Invalid argument` if it is not."""
+def multiplier_of(card: Card, axis: int) -> Place:
+    """The one of the encoder that is the position feedback; `Invalid argument` if it is not."""
     if card.memory.I[axes.position_source[axis]] != Feedback.ENC:
         raise CardError(INVALID_ARGUMENT)
-    return card.memory.I[axes.position_index[axis]]
+    return ENCODER_MULTIPLIER, card.memory.I[axes.position_index[axis]]
 
 
 # DGAIN
