@@ -11,16 +11,20 @@ from openacr.panel.control.live import Live
 from openacr.panel.control.orders import Order, failure
 from openacr.panel.control.people import Person
 from openacr.panel.control.presses import End
-from openacr.panel.control.settled import is_of_session
 from openacr.panel.control.shared import Tell
 from openacr.panel.roles import Role
-from openacr.sysvar.tabs import CELLS
+from openacr.sysvar.lookup import known
+from openacr.sysvar.schema import FIRST_SYSTEM
+from openacr.sysvar.tabs import CELLS, COMMUNICATIONS, DISPLAY, GENERAL
 
 log = logging.getLogger(__name__)
 KEEP = "jog.keep"  # comes many times a second
 OF_A_RUN = range(CELLS.tool_selected, CELLS.cycle_direction + 1)  # written as a program runs
 MOST_CELLS = 2000  # numbers of changed cells in one event
 SERVER = Person(0, Role.SERVICE, "", "server")
+# Tabs of which a session reads nothing when it is opened, and the cells that it does read there.
+OF_ANY_TIME = frozenset(tab.tab.name for tab in (COMMUNICATIONS, DISPLAY, GENERAL))
+OF_CARD = frozenset({GENERAL.card_model, GENERAL.axis_count, GENERAL.master_program})
 Carry = Callable[["Station", Order, float], object]
 
 
@@ -97,3 +101,10 @@ class Station(Live):
         self._guarded(lambda: self.buttons.drop(self.session, client))
         self.people.leave(client)
         self._facts.tell()
+
+
+def is_of_session(cell: int) -> bool:
+    """Whether the machine has to be set up again after this cell was stored."""
+    if cell < FIRST_SYSTEM:
+        return False
+    return cell in OF_CARD or known(cell).tab not in OF_ANY_TIME
