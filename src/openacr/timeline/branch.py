@@ -32,6 +32,14 @@ class Branch:
         """The earliest moment that can be returned to."""
         return Moment(self.keyframes[0].tick)
 
+    def require(self, moment: Moment) -> None:
+        """UserError for a moment that is not on it."""
+        if not self.first.order <= moment.order <= self.last.order:
+            raise UserError(
+                f"tick {moment.tick} is not on branch {self.number}, which goes from"
+                f" {self.first.tick} to {self.last.tick}"
+            )
+
     def forked(self, number: int, at: Moment, entered: int) -> Branch:
         """Another course of events from a moment on, before which `entered` inputs came."""
         return Branch(

@@ -8,24 +8,151 @@ another branch; the branch that was left remains as it is.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from itertools import takewhile
 from pathlib import Path
 
+from openacr.controller.controller import Controller
+from openacr.controller.journal import Entered, JournalEntry
+from openacr.controller.player import Player
 from openacr.errors import UserError
-from openacr.timeline.branch import Branch
+from openacr.timeline.branch import Branch, Branches
 from openacr.timeline.course import Course
-from openacr.timeline.keyframe import Keyframe
+from openacr.timeline.keyframe import Base, Keyframe
 from openacr.timeline.moment import Moment, moments
-from openacr.timeline.noted import Noted
+
+KEYFRAME_EVERY_S = 2.0
+MOST_BYTES = 1 << 28
+_ALL_PROGRAMS = 0xFFFF
 
 
-class Timeline(Noted):
+class Timeline:
     """The past and the branches of a card; `card` is the card at the present moment.
 
-    Time goes on by `advance`; everything else is done with the card itself. Connections are
-    part of the state: at a moment before a host has connected, its stream does not exist.
+    Time goes on by `advance`; everything else is done with the card itself, and what it is given
+    from outside comes to `note`. Connections are part of the state: at a moment before a host has
+    connected, its stream does not exist.
     """
+
+    def __init__(
+        self,
+        card: Controller,
+        *,
+        keyframe_every_s: float = KEYFRAME_EVERY_S,
+        most_bytes: int = MOST_BYTES,
+    ) -> None:
+        if card.recorder is not None:
+            raise UserError("the card writes a journal already: a timeline needs one without")
+        self.card = card
+        self._player = Player(card)
+        self._every_tk = max(1, round(keyframe_every_s / card.period_s))
+        self._most_bytes = most_bytes
+        snapshot = card.snapshot()
+        self._base = Base(snapshot)
+        first = Keyframe(self._base, snapshot, card.lived_tk, 0)
+        self.branches = Branches([Branch(0, Moment(card.lived_tk), [first])])
+        self.branch = self.branches[0]  # the present one
+        self._entered = 0  # inputs up to now
+        self.on_fork: Callable[[Branch, Branch], None] = lambda _before, _branch: None
+        card.recorder = self
+
+    # the present moment
+
+    @property
+    def now(self) -> Moment:
+        """The present moment."""
+        return Moment(self.card.lived_tk, self.card.within)
+
+    @property
+    def is_past(self) -> bool:
+        """Whether the present branch goes on after the present moment."""
+        return self._knows_inputs or self.now.order < self.branch.last.order
+
+    @property
+    def size_bytes(self) -> int:
+        """What keyframes and inputs take, roughly."""
+        return self.branches.size_bytes
+
+    # forward
+
+    def advance(self, ticks: int = 0) -> bool:
+        """Advance by a number of ticks, or until an event ends it, and return whether one has.
+
+        From a moment in the past, the inputs that followed come again at their moments.
+        """
+        end_tk = self.card.lived_tk + ticks
+        if self._knows_inputs and self._repeat(end_tk):
+            return True
+        self.card.advance(end_tk - self.card.lived_tk)
+        self._reach()
+        return self.card.was_ended
+
+    @property
+    def _knows_inputs(self) -> bool:
+        """Whether inputs follow on the present branch."""
+        return self._entered - self.branch.forgotten < len(self.branch.entries)
+
+    def _repeat(self, end_tk: int) -> bool:
+        """Advance to the last known input up to a tick; True if an event ends it before."""
+        branch = self.branch
+        for moment, place in moments(branch.entries, self._entered - branch.forgotten):
+            if moment.tick > end_tk:
+                break
+            if self._advance_to(moment):
+                return True
+            if branch.entries[place].what is not Entered.WITHIN:
+                with self._without_notes():
+                    self._player.apply(branch.entries[place])
+            self._entered += 1
+        return False
+
+    def _advance_to(self, moment: Moment) -> bool:
+        """Advance to a moment of inputs; True if an event ends it, there or before."""
+        if self.now == moment:
+            return False
+        if moment.within:
+            return self._advance_within(moment)
+        self.card.advance(moment.tick - self.card.lived_tk)
+        self._reach()
+        return self.card.was_ended
+
+    def _advance_within(self, moment: Moment) -> bool:
+        """The same into a tick, with the lines that the caller wants announced."""
+        card = self.card
+        programs, ask = card.announced
+        is_there = wanted = False
+
+        def either(program: int, line: int) -> bool:
+            nonlocal is_there, wanted
+            present = Moment(card.lived_tk, card.next_statement)
+            is_there = present.order >= moment.order
+            wanted = ask is not None and bool(programs >> program & 1) and ask(program, line)
+            return is_there or wanted
+
+        card.announce_lines(_ALL_PROGRAMS, either)
+        try:
+            card.advance(moment.tick - card.lived_tk)
+        finally:
+            card.announce_lines(programs, ask)
+        self._reach()
+        return wanted if is_there else card.was_ended
+
+    def _reach(self) -> None:
+        if self.now.order > self.branch.last.order:
+            self.branch.last = self.now
+
+    def foresee(self, entries: Sequence[JournalEntry], last_tk: int) -> None:
+        """Let inputs of a journal come at their moments, up to a tick; from here they are known.
+
+        UserError unless the present is the first moment of an empty history.
+        """
+        if self.branch.entries or self.now != self.branch.first:
+            raise UserError("a timeline takes a journal at its beginning only")
+        for entry in entries:
+            if not entry.is_digest:
+                self.branch.note(entry)
+        self.branch.last = Moment(last_tk)
 
     # back
 
@@ -36,19 +163,11 @@ class Timeline(Noted):
         """
         self._reach()
         moment = Moment(moment) if isinstance(moment, int) else moment
-        self._require(self.branch, moment)
+        self.branch.require(moment)
         with self.card.undisturbed():
             self._return_to(self.branch.keyframe(moment), unless_before=moment)
             self._live_to(moment)
         self.card.streams.discard_output()
-
-    def _require(self, branch: Branch, moment: Moment) -> None:
-        first, last = branch.first, branch.last
-        if not first.order <= moment.order <= last.order:
-            raise UserError(
-                f"tick {moment.tick} is not on branch {branch.number}, which goes from"
-                f" {first.tick} to {last.tick}"
-            )
 
     def _return_to(self, keyframe: Keyframe, *, unless_before: Moment) -> None:
         """Take over a keyframe, unless the present is between it and the moment."""
@@ -129,9 +248,52 @@ class Timeline(Noted):
         first = branch.first if first_tk is None else Moment(first_tk)
         last = branch.last if last_tk is None else Moment(last_tk)
         for moment in (first, last):
-            self._require(branch, moment)
+            branch.require(moment)
         return Course.of(self.card, branch, first, last)
 
     def save(self, path: Path, *, seen: Callable[[float], None] = lambda part: None) -> None:
         """Write the present branch as a journal; `seen` gets the part that is done, 0 to 1."""
         self.course(self.branch.number).save(path, seen=seen)
+
+    # what the card reports (openacr.controller.inputs.JournalFile)
+
+    @property
+    def next_tk(self) -> int:
+        """When the next keyframe is due, in ticks of the life of the card."""
+        return self.branch.keyframe(self.now).tick + self._every_tk
+
+    def note(self, entry: JournalEntry) -> None:
+        """Note an input at the present moment; in the past it begins another branch."""
+        if self.is_past:
+            self.fork()
+        self.branch.note(entry)
+        self._entered += 1
+        self._reach()
+
+    def fork(self) -> None:
+        """Begin another branch at the present moment: what followed stays on the one before."""
+        self._reach()
+        before = self.branch
+        self.branch = self.branches.fork(before, self.now, self._entered)
+        self.on_fork(before, self.branch)
+
+    def flush(self) -> None:
+        """Do nothing: inputs are kept in memory."""
+
+    def mark(self) -> None:
+        """Take the keyframe that is due."""
+        self.branch.put(
+            Keyframe(self._base, self.card.snapshot(), self.card.lived_tk, self._entered)
+        )
+        self.branches.shorten(self._most_bytes)
+
+    def close(self) -> None:
+        """Do nothing: a timeline ends with its process, unless it is saved."""
+
+    @contextmanager
+    def _without_notes(self) -> Iterator[None]:
+        file, self.card.recorder = self.card.recorder, None
+        try:
+            yield
+        finally:
+            self.card.recorder = file
