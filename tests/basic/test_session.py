@@ -9,7 +9,6 @@ from openacr.channels import Attention
 from openacr.errors import CardError
 from openacr.map.numbers import P_COM1_COMMAND_COUNTER
 from openacr.messages import DIVIDE_BY_ZERO
-from openacr.models import ACR9000
 
 
 @pytest.fixture
@@ -19,46 +18,6 @@ def bench() -> Bench:
 
 def test_nothing_is_sent_when_a_host_connects(bench: Bench) -> None:
     assert bench.sent() == ""
-
-
-@pytest.mark.req("ACR-COMM-01")
-def test_every_channel_starts_at_system_level() -> None:
-    bench = Bench(ACR9000)
-    for name in bench.system.sessions:
-        assert bench.type("", on=bench.connect(name)) == "SYS>"
-
-
-@pytest.mark.req(
-    "ACR-COMM-02",
-    "ACR-COMM-03",
-    "ACR-COMM-04",
-    "ACR-COMM-05",
-    "ACR-CMD-PROG",
-    "ACR-CMD-PLC",
-    "ACR-CMD-SYS",
-)
-def test_level_commands_switch_the_prompt_from_any_level(bench: Bench) -> None:
-    typed = ("PROG 1", "PLC 3", "PLC7", "prog15", "SYS", "PLC0", "PROG 0", "PROG 4", "SYS")
-    assert [bench.type(line) for line in typed] == [
-        "P01>", "PLC3>", "PLC7>", "P15>", "SYS>", "PLC0>", "P00>", "P04>", "SYS>",
-    ]  # fmt: skip
-
-
-@pytest.mark.req("ACR-COMM-10")
-@pytest.mark.parametrize("line", ["PROG 16", "PLC 8", "PROG -1"])
-def test_a_level_number_out_of_range_is_refused(bench: Bench, line: str) -> None:
-    assert bench.type(line) in ("Invalid argument|SYS>", "Syntax error|SYS>")
-
-
-@pytest.mark.req("ACR-COMM-06")
-def test_each_channel_keeps_its_own_level(bench: Bench) -> None:
-    other = bench.connect("COM2")
-    assert bench.type("PROG 3") == "P03>"
-    assert bench.type("PROG 5", on=other) == "P05>"
-    assert bench.type("10 X10") == "Unknown command|P03>"
-    assert bench.type("10 DWL 1") == "P03>"
-    assert bench.type("LIST", on=other) == "P05>"
-    assert bench.type("LIST") == "10 DWL 1|P03>"
 
 
 @pytest.mark.parametrize(
@@ -139,18 +98,6 @@ def test_axis_and_master_commands_are_unknown_at_sys(line: str) -> None:
     assert card.type(line) == "Unknown command|SYS>"
     card.card.memory.I[P_COM1_COMMAND_COUNTER] -= 1  # all that may change
     assert card.card.memory.digest() == before
-
-
-@pytest.mark.req("ACR-COMM-07")
-def test_channels_work_at_the_same_time_without_mixing_their_output() -> None:
-    card = Machine()
-    others = [card.connect(name) for name in ("COM2", "STREAM1", "STREAM2")]
-    for session in (card.channel, *others):
-        name = session.name
-        session.feed_line(f'PRINT "{name}" : DWL 0.01 : PRINT "{name} done"')
-    card.advance(50)
-    for session in (card.channel, *others):
-        assert card.sent(session) == f"{session.name}|{session.name} done|SYS>"
 
 
 @pytest.mark.req("ACR-IMM-01", "ACR-IMM-02")

@@ -108,27 +108,6 @@ def test_expressions_stand_in_parentheses_after_p_and_bit(host: Host) -> None:
     assert not host.card.bit[8467]
 
 
-@pytest.mark.req("ACR-COMM-02", "ACR-COMM-03", "ACR-COMM-04", "ACR-COMM-05")
-def test_prompts_show_the_level(host: Host) -> None:
-    sent = "PROG3\rPROG 12\rPLC2\rPROG1\rPLC 0\rSYS\r"
-    assert host.send(sent) == "PROG3|P03>PROG 12|P12>PLC2|PLC2>PROG1|P01>PLC 0|PLC0>SYS|SYS>"
-
-
-@pytest.mark.req("ACR-COMM-10")
-def test_there_is_no_program_16(host: Host) -> None:
-    answer = host.type("PROG16")
-    assert answer.endswith("|SYS>")
-    assert answer.count("|") == 1
-    assert len(answer) > len("|SYS>")
-
-
-@pytest.mark.req("ACR-COMM-08", "ACR-COMM-09")
-def test_axis_moves_and_master_settings_are_unknown_at_the_system_level() -> None:
-    axes = at_axes()
-    assert axes.type("SYS", "X10", "ACC 5", "VEL") == "SYS>" + "Unknown command|SYS>" * 3
-    assert axes.type("PROG0", "?ACC", "?P12288") == "P00>1000|P00>0|P00>"
-
-
 def test_hosts_that_never_leave_sys_have_what_they_need(host: Host) -> None:
     accepted = (
         "AXIS0 PPU 2000", "AXIS0 RES 1", "AXIS0 JOG VEL 10", "AXIS0 JOG ACC 100",

@@ -7,22 +7,12 @@ from tests.system.terminal import Console
 
 from openacr import Controller
 
-DEFAULT = "CONFIG ENC8 DAC4 DAC4 ADC8"
 NOTICE = "CONFIG acts after ESAVE and REBOOT"
 
 
 @pytest.fixture
 def card() -> Console:
     return Console()
-
-
-def accepts(card: Console, modules: str) -> bool:
-    """Whether CONFIG takes these modules and shows them afterwards."""
-    said = card.type(f"CONFIG {modules}")
-    shown = card.type("CONFIG")
-    is_taken = said in ("", NOTICE)
-    assert is_taken == (shown == f"CONFIG {modules}"), (said, shown)
-    return is_taken
 
 
 def test_config_says_that_it_is_not_in_effect_yet(card: Console) -> None:
@@ -37,51 +27,6 @@ def test_config_says_that_it_is_not_in_effect_yet(card: Console) -> None:
     card.type("ECHO 4")
     assert card.type("CONFIG ENC8 DACSTEP4 DAC4 ADC8") == ""
     assert card.type("CONFIG CLEAR") == NOTICE
-
-
-@pytest.mark.req("ACR-CFG-01", "ACR-CFG-02", "ACR-CFG-08")
-@pytest.mark.parametrize("model", ["ACR9000", "ACR8020", "ACR1505"])
-def test_a_new_card_has_a_configuration(model: str) -> None:
-    assert Console(model).type("CONFIG") == DEFAULT
-
-
-@pytest.mark.req("ACR-CFG-02", "ACR-CFG-03")
-def test_a_new_configuration_is_reported_and_clear_brings_the_old_one_back(card: Console) -> None:
-    assert accepts(card, "ENC4 DAC4 STEPPER4 NONE")
-    assert card.type("CONFIG CLEAR", "CONFIG") == DEFAULT
-    assert card.type("CONFIG ENC8 DAC4") == "Syntax error"
-
-
-@pytest.mark.req("ACR-CFG-04")
-def test_the_encoder_argument_has_seven_words(card: Console) -> None:
-    for word in ("NONE", "ENC2", "ENC3", "ENC4", "ENC6", "ENC8", "ENC10"):
-        assert accepts(card, f"{word} DAC4 DAC4 ADC8"), word
-    for word in ("ENC1", "ENC5", "ENC7", "ENC9", "ENC11", "DAC4"):
-        assert not accepts(card, f"{word} DAC2 DAC4 ADC8"), word
-
-
-@pytest.mark.req("ACR-CFG-05")
-def test_module_0_takes_dacs_steppers_or_both(card: Console) -> None:
-    for word in ("NONE", "DAC2", "DAC4", "STEPPER2", "STEPPER4", "DACSTEP2", "DACSTEP4"):
-        assert accepts(card, f"ENC8 {word} DAC4 ADC8"), word
-    for word in ("DAC3", "ADC8", "ENC8", "STEPPER8"):
-        assert not accepts(card, f"ENC8 {word} DAC2 ADC8"), word
-
-
-@pytest.mark.req("ACR-CFG-06")
-def test_module_1_takes_dacs_or_steppers(card: Console) -> None:
-    for word in ("NONE", "DAC2", "DAC4", "STEPPER2", "STEPPER4"):
-        assert accepts(card, f"ENC8 DAC4 {word} ADC8"), word
-    for word in ("DACSTEP2", "DACSTEP4", "ADC8"):
-        assert not accepts(card, f"ENC8 DAC2 {word} ADC8"), word
-
-
-@pytest.mark.req("ACR-CFG-07")
-def test_module_2_takes_analog_inputs_or_nothing(card: Console) -> None:
-    assert accepts(card, "ENC8 DAC4 DAC4 NONE")
-    assert accepts(card, "ENC8 DAC4 DAC4 ADC8")
-    for word in ("DAC4", "ADC4", "STEPPER2"):
-        assert not accepts(card, f"ENC8 DAC2 DAC4 {word}"), word
 
 
 def set_up(card: Console, *lines: str) -> None:
@@ -147,20 +92,6 @@ def test_a_stepper_axis_moves_only_where_config_has_steppers() -> None:
     assert (card.p[6156], card.p[12290]) == (500, 500)
     assert card.p[12304] == pytest.approx(0.002441406)
     assert not any(card.p[12304 + row] for row in range(1, 12))
-
-
-@pytest.mark.req("ACR-CFG-09")
-def test_hardware_that_config_does_not_name_reads_0_and_is_not_driven() -> None:
-    card = restarted("ENC4 DAC4 NONE NONE")
-    lines = [f'ATTACH SLAVE{n} AXIS{n + 3} "{name}"' for n, name in enumerate("XY")]
-    assert "not" not in card.send("\r".join(("PROG0", "ATTACH MASTER0", *lines, "")))
-    card.send("PPU X1000 Y1000\rVEL 10\rX1 Y1\rP6464=5\r")
-    card.advance(seconds=1)
-    assert (card.p[6192], card.p[12290 + 3 * 256]) == (1000, 1000)  # encoder 3, axis 3
-    assert (card.p[6208], card.p[12290 + 4 * 256]) == (0, 0)
-    assert card.p[12288 + 4 * 256] == 1000  # commanded all the same
-    assert card.p[6464] == 0  # analog output 4
-    assert card.p[12288 + 4 * 256 + 31] > 2  # the servo loop has its output
 
 
 def test_a_project_sets_its_card_up_and_restarts_it(tmp_path: Path) -> None:
