@@ -150,10 +150,8 @@ class Streams:
         name = stream.session.name if stream.session else ""
         stream.terminal.timeout_tk = self._host.timeout_tk(name)
         stream.terminal.receive_data(data, tick)
-        joins = stream.session is not None and stream.session.partner is not None
         self._pump(stream)
-        if joins:
-            self.settle()  # what was typed goes to the other channel
+        self.settle()  # what went to another channel: TALK TO, PRINT # of a typed line
 
     def settle(self) -> None:
         """Pass on the output of sessions, and input lines that were waiting for an answer."""
