@@ -1,12 +1,9 @@
 """Bands, limit switches and software limits by command."""
 
 import pytest
-from tests.basic.motion_bench import Bench, ticks
+from tests.basic.motion_bench import Bench
 
-from openacr.basic.language.registry import Level
-from openacr.map import numbers as at
-
-POSITIVE_HARD, NEGATIVE_HARD, POSITIVE_SOFT, NEGATIVE_SOFT = 16132, 16133, 16140, 16141
+POSITIVE_HARD, NEGATIVE_HARD, POSITIVE_SOFT = 16132, 16133, 16140
 KAMR, KILL_MOVES = 8467, 522
 ACTIVE, IN_MOTION = 792, 516
 CURRENT, PSP, JOG = 12288, 12294, 12297
@@ -19,147 +16,6 @@ def bench(*lines: str) -> Bench:
     made.all("PPU X1000 Y1000", "PPU AXIS2 1000", "ACC 0 DEC 0 STP 0 VEL 10")
     made.all("JOG ACC X0 Y0 : JOG DEC X0 Y0 : JOG VEL X10 Y10")
     return made.all(*lines)
-
-
-# bands
-
-
-@pytest.mark.parametrize(
-    ("word", "row"),
-    [
-        pytest.param("EXC", 12320, marks=pytest.mark.req("ACR-CMD-EXC")),
-        pytest.param("IPB", 12322, marks=pytest.mark.req("ACR-CMD-IPB")),
-        pytest.param("ALM", 12324, marks=pytest.mark.req("ACR-CMD-ALM")),
-        pytest.param("BLM", 12326, marks=pytest.mark.req("ACR-CMD-BLM")),
-        pytest.param("TLM", 12328, marks=pytest.mark.req("ACR-CMD-TLM")),
-        pytest.param("ITB", 12330, marks=pytest.mark.req("ACR-CMD-ITB")),
-        pytest.param("JLM", 12334, marks=pytest.mark.req("ACR-CMD-JLM")),
-    ],
-)
-def test_a_band_is_set_by_one_value_or_two(word: str, row: int) -> None:
-    made = Bench("X", "Y")
-    default = "10,-10" if word == "TLM" else "0,0"
-    assert made.type(f"{word} X Y") == f"{default}|{default}"
-    assert made.type(f"{word} X0.2 Y(3,-1)") == ""
-    assert made.type(f"{word} X Y") == "0.2,-0.2|3,-1"
-    assert [made.p(row + k) for k in (256, 257)] == [3.0, -1.0]
-    assert made.type(f"AXIS0 {word} (4,2) : {word} AXIS0") == "4,2"
-    assert made.at(Level.SYS).type(f"{word} AXIS1") == "3,-1"
-    assert made.type(f"{word} X") == "Unknown command"
-    assert made.at(Level.PROG, 0).type(word) == "Syntax error"
-
-
-@pytest.mark.req("ACR-CMD-SLM", "ACR-LIM-21")
-def test_slm_holds_two_absolute_positions() -> None:
-    made = Bench("X")
-    assert made.type("AXIS0 SLM (24,0)") == ""
-    assert made.type("SLM X") == "24,0"
-    assert made.type("SLM X5") == ""
-    assert made.type("SLM X") == "5,-5"
-
-
-def band_flag(made: Bench, flag: int) -> bool:
-    """The flag after the next slow scan."""
-    made.seconds(0.051)
-    return made.bit(flag)
-
-
-@pytest.mark.req("ACR-CMD-ALM", "ACR-CMD-BLM")
-def test_stroke_limits_follow_the_commanded_position() -> None:
-    made = bench("ALM X(5,-1) : BLM X(5,-1)", "X5")
-    made.until_clear(IN_MOTION)
-    assert (band_flag(made, 770), made.bit(771)) == (True, False)
-    made.all("X5.001")
-    made.until_clear(IN_MOTION)
-    assert (band_flag(made, 770), made.bit(771)) == (False, True)
-    assert made.p(PSP) == 5001
-
-
-@pytest.mark.req("ACR-CMD-IPB", "ACR-CMD-EXC")
-def test_error_bands_follow_the_following_error() -> None:
-    made = bench("IPB X0.1 : EXC X0.5", "TLM X0")  # no torque: the axis stays where it is
-    assert (band_flag(made, 768), made.bit(769)) == (False, True)
-    made.all("X0.3")
-    assert (band_flag(made, 768), made.bit(769)) == (True, True)
-    made.all("X0.6")
-    made.until_clear(IN_MOTION)
-    assert (band_flag(made, 768), made.bit(769)) == (True, False)
-    assert not made.bit(KAMR)  # the response is not enabled
-
-
-@pytest.mark.req("ACR-CMD-TLM", "ACR-CMD-ITB")
-def test_the_torque_limit_clips_the_output() -> None:
-    made = bench("TLM X1 : ITB X0.5", "PGAIN X0.001", "SET 785")
-    assert (band_flag(made, 772), made.bit(773)) == (True, False)
-    made.memory.I[at.PLI_BASE + at.PLI_KIND] = 1  # a motor that never turns
-    made.all("CLR 785", "X5")
-    made.until_clear(IN_MOTION)
-    assert (band_flag(made, 772), made.bit(773)) == (False, True)
-    assert made.p(12319) == 1.0
-    made.all("X0.3")
-    made.until_clear(IN_MOTION)
-    made.ticks(1)
-    assert made.p(12319) == pytest.approx(0.3)
-    assert (band_flag(made, 772), made.bit(773)) == (True, False)
-
-
-# values
-
-
-@pytest.mark.parametrize(
-    "word",
-    [
-        pytest.param("HLDEC", marks=pytest.mark.req("ACR-CMD-HLDEC")),
-        pytest.param("SLDEC", marks=pytest.mark.req("ACR-CMD-SLDEC")),
-    ],
-)
-def test_a_limit_rate_is_reported(word: str) -> None:
-    made = Bench("X", "Y")
-    assert made.type(f"{word} X1000 Y2.5 X Y") == "1000|2.5"
-    assert made.type(f"{word} X-1") == "Invalid argument"
-
-
-@pytest.mark.req("ACR-CMD-HLBIT", "ACR-LIMDET-02")
-def test_hlbit_assigns_three_inputs() -> None:
-    made = bench()
-    assert made.type("HLBIT X Y") == "0|3"
-    for pair in (("HLBIT X8", "8"), ("HLBIT X(P8192*0+9)", "9")):
-        made.all(pair[0])
-        assert made.type("HLBIT X") == pair[1]
-    made.all("SET 9").ticks(1)
-    assert [made.bit(16128 + place) for place in range(3)] == [True, False, False]
-    made.all("CLR 9", "SET 10 SET 11").ticks(1)
-    assert [made.bit(16128 + place) for place in range(3)] == [False, True, True]
-    for wrong in ("-1", "17664", "1e9"):
-        assert made.type(f"HLBIT X{wrong}") == "Invalid argument"
-
-
-@pytest.mark.req("ACR-LIMDET-02")
-def test_inputs_beyond_the_word_read_0() -> None:
-    made = bench("HLBIT X30", "SET 30 SET 31 SET 32").ticks(1)
-    assert [made.bit(16128 + place) for place in range(3)] == [True, True, False]
-
-
-@pytest.mark.parametrize(
-    ("word", "first"),
-    [
-        pytest.param("HLIM", 16148, marks=pytest.mark.req("ACR-CMD-HLIM", "ACR-LIM-14")),
-        pytest.param("SLIM", 16150, marks=pytest.mark.req("ACR-CMD-SLIM", "ACR-LIM-15")),
-    ],
-)
-@pytest.mark.parametrize("axis", [0, 1])
-def test_a_limit_mode_and_its_flags_are_the_same(word: str, first: int, axis: int) -> None:
-    made = Bench("X", "Y")
-    name, flag = "XY"[axis], first + 32 * axis
-    assert made.type(f"{word} {name}") == "0"
-    for mode in (3, 1, 2, 0):
-        made.all(f"{word} {name}{mode}")
-        assert (made.bit(flag), made.bit(flag + 1)) == (mode in (1, 3), mode in (2, 3))
-    made.all(f"SET {flag + 1}")
-    assert made.type(f"{word} {name}") == "2"
-    for wrong in (4, -1):
-        assert made.type(f"{word} {name}{wrong}") == "Invalid argument"
-    assert made.type(f"{word} {name}") == "2"
 
 
 # hardware limits
@@ -218,19 +74,6 @@ def test_every_kill_of_the_master_has_to_be_cleared_before_motion(
     made.all(f"CLR {left}", "CLR 522", "X0 Y1")
     made.until_clear(IN_MOTION)
     assert (made.p(CURRENT), made.p(CURRENT + 256)) == (0, 1000)
-
-
-@pytest.mark.req("ACR-LIM-03", "ACR-LIMDET-01")
-def test_each_limit_stops_with_its_own_rate() -> None:
-    made = bench("HLIM X1 : HLDEC X100 : SLIM X1 : SLM X(3,0) : SLDEC X50", "JOG FWD X")
-    made.seconds(0.1)
-    made.all("SET 0").ticks(1)
-    assert made.until_clear(ACTIVE) == ticks(10 / 100) - 1
-    made = bench("SLIM X1 : SLM X(3,0) : SLDEC X50", "JOG FWD X")
-    while not made.bit(POSITIVE_SOFT):
-        made.ticks(1)
-    assert made.until_clear(ACTIVE) == ticks(10 / 50) - 1
-    assert made.p(PSP) == pytest.approx(3000 + 1000, abs=11)
 
 
 @pytest.mark.req("ACR-LIM-02", "ACR-KAMR-07", "ACR-KAMR-08")

@@ -3,7 +3,6 @@
 import pytest
 from tests.basic.machine import Machine
 
-from openacr.channels import Attention
 from openacr.map.numbers import P_COM1_COMMAND_COUNTER
 
 
@@ -90,31 +89,6 @@ def test_print_of_a_program_goes_to_its_listeners(card: Machine) -> None:
 # devices
 
 
-@pytest.mark.req("ACR-APP-OPEN-01", "ACR-SYN-12", "ACR-CMD-PRINT")
-def test_print_to_a_device_reaches_the_channel_it_is_open_on(card: Machine) -> None:
-    network = card.connect("STREAM3")
-    card.load(0, 'OPEN "STREAM3:" AS #1', 'PRINT #1, "fruit? ";', "PRINT #1", "DWL 10")
-    card.type("RUN")
-    card.advance()
-    assert card.sent(network) == "fruit? |"
-    assert network.attention is Attention.OPEN
-
-
-@pytest.mark.req("ACR-CMD-CLOSE")
-def test_a_closed_device_refuses_print_and_its_channel_takes_commands(card: Machine) -> None:
-    other = card.connect("COM2")
-    assert card.type('OPEN "COM2:38400,N,8,1" AS #2') == "P00>"
-    assert card.type('PRINT #2,"x";', "CLOSE #2") == "P00>"
-    card.advance(5)
-    assert card.sent() == ""
-    assert card.sent(other) == "x"
-    card.advance(5)
-    assert card.sent() == "P00>"
-    assert card.type("PRINT #2") == "Device not open|P00>"
-    assert card.type("CLOSE #2") == "P00>"
-    assert card.type("", on=other) == "SYS>"
-
-
 @pytest.mark.req("ACR-CMD-OPEN")
 @pytest.mark.parametrize(
     ("text", "answer"),
@@ -133,21 +107,6 @@ def test_a_closed_device_refuses_print_and_its_channel_takes_commands(card: Mach
 )
 def test_devices_are_named_by_strings(card: Machine, text: str, answer: str) -> None:
     assert card.type(f'OPEN "{text}" AS #1') == answer + "P00>"
-
-
-def test_a_device_belongs_to_one_program_at_a_time(card: Machine) -> None:
-    card.type('OPEN "COM2:" AS #1')
-    assert card.type('OPEN "COM2:" AS #1') == "P00>"
-    assert card.type('OPEN "COM2:" AS #2') == "Device in use|P00>"
-    assert card.type('OPEN "STREAM2:" AS #1') == "Device in use|P00>"
-    assert card.type("PROG 1", 'OPEN "COM2:" AS #1') == "P01>Device in use|P01>"
-
-
-def test_a_stream_without_connection_can_be_opened(card: Machine) -> None:
-    assert card.type('OPEN "STREAM4:" AS #1', 'PRINT #1,"lost"') == "P00>P00>"
-    network = card.connect("STREAM4")
-    card.type('PRINT #1,"found"')
-    assert card.sent(network) == "found|"
 
 
 @pytest.mark.req("ACR-APP-OPEN-03")
@@ -170,25 +129,6 @@ def test_getch_waits_for_a_key_as_an_inhibited_program(card: Machine) -> None:
 
 
 # INPUT
-
-
-@pytest.mark.req("ACR-CMD-INPUT")
-def test_input_reads_fields_into_variables(card: Machine) -> None:
-    card.load(
-        1, "DIM $V(2,40)", "DIM LV(2)", 'INPUT "values";LV0,$V0,LV1', "PRINT LV0;$V0;LV1",
-        "INPUT $V1", "PRINT $V1",
-    )  # fmt: skip
-    card.type("PROG 1", "LRUN")
-    card.advance()
-    assert card.sent() == "values"
-    assert card.card.memory.bit(1024 + 32 + 2)
-    card.key("12,abc,7.9\r")
-    card.advance()
-    assert card.sent() == "12abc7|? "
-    card.key("one, two, three\r")
-    card.advance()
-    assert card.sent() == "one, two, three|P01>"
-    assert not card.card.memory.bit(1024 + 32 + 2)
 
 
 def test_too_few_fields_are_asked_for_again(card: Machine) -> None:

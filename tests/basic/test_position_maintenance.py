@@ -8,7 +8,7 @@ from openacr.map import numbers as at
 IN_MOTION = 516
 STEPS = at.STPR_BASE + at.STPR_STEPPER_COUNT
 RAW = at.PLF_BASE + at.PLF_RAW_COUNT
-JOG_OFFSET, ACTUAL, ERROR = 12288 + 9, 12288 + 2, 12288 + 3
+ERROR = 12288 + 3
 
 
 class Stepper:
@@ -45,34 +45,6 @@ def stalled(*lines: str, lost_cnt: int = 50) -> Stepper:
     made = Stepper(*lines).move("X10")
     made.lost_cnt = lost_cnt
     return made.ticks(3)
-
-
-@pytest.mark.req("ACR-CMD-PM")
-@pytest.mark.parametrize("lost_cnt", [50, -50])
-def test_lost_steps_are_put_out_again(lost_cnt: int) -> None:
-    made = stalled("PM ON X", "PM DB X0.02", lost_cnt=lost_cnt)
-    assert made.error_cnt == lost_cnt
-    made.ticks(1000)
-    assert abs(made.error_cnt) <= 2
-    assert made.bench.memory.I[STEPS] == 1000 + lost_cnt
-    assert made.bench.p(JOG_OFFSET) == 0
-    assert made.bench.p(12288) == 1000
-
-
-@pytest.mark.req("ACR-CMD-PM")
-@pytest.mark.parametrize("lost_cnt", [50, -50])
-@pytest.mark.parametrize(("band_u", "steps"), [(0.5, 0), (0.49, 1)])
-def test_errors_up_to_the_band_are_left(lost_cnt: int, band_u: float, steps: int) -> None:
-    made = stalled("PM ON X", f"PM DB X{band_u}", lost_cnt=lost_cnt).ticks(2000)
-    assert made.bench.memory.I[STEPS] == 1000 + steps * lost_cnt
-
-
-@pytest.mark.req("ACR-CMD-PM")
-def test_without_it_they_stay_lost() -> None:
-    made = stalled("PM DB X0.02").ticks(2000)
-    assert made.error_cnt == 50
-    made.bench.all("PM ON X", "PM OFF X")
-    assert made.ticks(2000).error_cnt == 50
 
 
 def test_it_waits_for_its_time_and_keeps_its_ramps() -> None:

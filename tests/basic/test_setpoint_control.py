@@ -199,23 +199,6 @@ def test_jog_jrk_makes_s_curves() -> None:
     assert made.p(JOG) == 40000
 
 
-@pytest.mark.req("ACR-CMD-JLM")
-def test_jog_limits_end_a_continuous_jog_while_checked() -> None:
-    made = bench("JOG ACC X0 : JOG DEC X100 : JOG VEL X10", "JLM X(2,-1)", "SET 798")
-    made.all("JOG FWD X").seconds(1.0)
-    assert made.p(JOG) == 2000
-    made.all("JOG OFF X").ticks(2)
-    assert not made.bit(ACTIVE)
-    made.all("JOG FWD X").seconds(0.1)
-    assert made.p(JOG) == 2000
-    made.all("JOG REV X").seconds(1.0)
-    assert made.p(JOG) == -1000
-    assert (made.p(12334), made.p(12335)) == (2.0, -1.0)
-    made.all("JOG OFF X", "CLR 798").ticks(1)
-    made.all("JOG REV X").seconds(0.5)
-    assert made.p(JOG) < -4000
-
-
 # jogs with a target
 
 
