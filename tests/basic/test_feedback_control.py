@@ -7,7 +7,7 @@ from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
 CURRENT, TARGET, ACTUAL, ERROR, CAPTURE = 12288, 12289, 12290, 12291, 12292
-PSP, SSP, GEAR, JOG, CAM = 12294, 12295, 12296, 12297, 12298
+PSP, SSP, JOG = 12294, 12295, 12297
 CAPTURED, IN_MOTION = 777, 516
 MOVING = "Not valid while in motion"
 
@@ -40,20 +40,6 @@ def test_ppu_leaves_pulses_and_scales_what_follows() -> None:
     assert made.p(CURRENT) == 170
 
 
-@pytest.mark.req("ACR-CMD-MULT")
-def test_mult_is_the_multiplier_of_the_attached_encoder() -> None:
-    made = Bench("X", "Y")
-    assert made.type("MULT X") == "1"
-    for value in (4, -4, 2, -2, 1, -1, 0):
-        assert made.type(f"MULT X{value} X") == str(value)
-        assert made.type("ENC0 MULT") == str(value)
-    for wrong in ("3", "1.5", "8"):
-        assert made.type(f"MULT X{wrong}") == "Invalid argument"
-    made.memory.I[at.AXI_BASE + at.AXI_STRIDE + at.AXI_POSITION_INDEX] = 5
-    made.all("MULT Y-2")
-    assert made.type("ENC5 MULT : ENC1 MULT") == "-2|1"
-
-
 @pytest.mark.req("ACR-CMD-MULT", "ACR-PROF-15")
 def test_mult_scales_and_turns_the_count_of_a_motor() -> None:
     made = Bench("X").all("MULT X4")
@@ -67,54 +53,7 @@ def test_mult_scales_and_turns_the_count_of_a_motor() -> None:
     assert made.p(ACTUAL) == 80
 
 
-def test_rotary_is_a_length() -> None:
-    made = Bench("X")
-    assert made.type("ROTARY X : ROTARY X360 X") == "0|360"
-    assert made.type("ROTARY X-1") == "Invalid argument"
-
-
 # registers
-
-
-@pytest.mark.req("ACR-REG-01", "ACR-REG-02", "ACR-REG-03", "ACR-CMD-REN")
-def test_ren_takes_the_actual_position_and_keeps_the_offsets() -> None:
-    made = Bench("X").all("TLM X0", "P12290 = 11").ticks(2)
-    made.place(0, position=9, jog=2, gear=3, cam=4)
-    made.ticks(2)
-    assert made.p(ERROR) == 7
-    made.all("REN X")
-    assert rows(made, CURRENT, TARGET, JOG, GEAR, CAM, PSP, SSP) == [2, 2, 2, 3, 4, 11, 11]
-    made.ticks(2)
-    assert rows(made, CURRENT, PSP, SSP, ACTUAL, ERROR) == [2, 11, 11, 11, 0]
-
-
-@pytest.mark.parametrize(
-    ("line", "value"),
-    [
-        pytest.param("RES X10", 10, marks=pytest.mark.req("ACR-REG-04", "ACR-CMD-RES")),
-        pytest.param("RES X", 0, marks=pytest.mark.req("ACR-REG-05", "ACR-CMD-RES")),
-        pytest.param("RES", 0, marks=pytest.mark.req("ACR-REG-05")),
-        ("AXIS0 RES -3", -3),
-        ("RES X 3.0 RES X -4.0", -4),
-    ],
-)
-@pytest.mark.req("ACR-REG-10")
-def test_res_sets_every_position_and_clears_the_offsets(line: str, value: int) -> None:
-    made = Bench("X")
-    made.place(0, position=9, jog=2, gear=3, cam=4)
-    made.ticks(2)
-    made.all(line)
-    positions, offsets = (CURRENT, TARGET, PSP, SSP, ACTUAL, 6144), (JOG, GEAR, CAM)
-    for _ in range(2):
-        assert rows(made, *positions) == [value] * 6
-        assert rows(made, *offsets) == [0] * 3
-        made.ticks(2)
-    assert made.p(12315) == 0.0
-
-
-def test_res_counts_in_units() -> None:
-    made = Bench("X").all("PPU X400", "RES X2.5")
-    assert rows(made, CURRENT, 6144) == [1000, 1000]
 
 
 @pytest.mark.parametrize("motion", ["Y5", "JOG FWD X"])

@@ -28,72 +28,6 @@ def run(made: Bench, *lines: str) -> list[float]:
     return positions(made)
 
 
-@pytest.mark.parametrize("line", ["MOV X10", "X10", "x 10", "X(4+6)", "MOV X 10", "X10 VEL 1000"])
-@pytest.mark.req("ACR-MOT-05")
-def test_a_move_ends_at_its_target_with_and_without_mov(line: str) -> None:
-    assert run(bench(), line) == [10, 0, 0]
-
-
-@pytest.mark.req("ACR-CMD-MOV")
-def test_mov_makes_the_same_move_as_the_targets_alone() -> None:
-    courses = []
-    for line in ("MOV X10 Y5", "X10 Y5"):
-        made = bench().all("ACC 100 DEC 100 STP 100", line)
-        course = [(made.psp(0), made.psp(1))]
-        while made.bit(IN_MOTION):
-            made.ticks(1)
-            course.append((made.psp(0), made.psp(1)))
-        courses.append(course)
-    assert courses[0] == courses[1]
-    assert courses[0][-1] == (10, 5)
-
-
-@pytest.mark.req("ACR-MOT-06", "ACR-MOT-03")
-def test_axes_of_one_statement_end_at_the_same_instant() -> None:
-    made = bench()
-    made.type("X20 Y-30")
-    ended: dict[int, int] = {}
-    while len(ended) < 2:
-        made.ticks(1)
-        for axis, target in ((0, 20), (1, -30)):
-            if made.p(12288 + 256 * axis) == target and made.psp(axis) == target:
-                ended.setdefault(axis, made.card.tick)
-    assert ended[0] == ended[1]
-
-
-@pytest.mark.req("ACR-MOT-03")
-def test_separate_statements_move_one_after_the_other() -> None:
-    made = bench()
-    made.type("X10 : Y10")
-    while made.p(12288) < 10:
-        assert made.p(12544) == 0
-        made.ticks(1)
-    made.until_clear(IN_MOTION)
-    assert positions(made) == [10, 10, 0]
-
-
-@pytest.mark.req("ACR-MOT-07")
-def test_a_slash_adds_to_the_position() -> None:
-    assert run(bench(), "X5 Y5", "X/20 Y/-30") == [25, -25, 0]
-
-
-@pytest.mark.req("ACR-MOT-08")
-def test_absolute_and_incremental_targets_mix_in_one_move() -> None:
-    assert run(bench(), "X1 Y1 Z1", "X/2 Y2 Z/-2") == [3, 2, -1]
-
-
-@pytest.mark.parametrize(
-    "moves",
-    [
-        pytest.param("X0 X100 X200 X300 X400", marks=pytest.mark.req("ACR-MOT-10")),
-        pytest.param("X0 X/-400 X/500 X/200 X/100", marks=pytest.mark.req("ACR-MOT-11")),
-        pytest.param("x/-400 x200 x/50 x400", marks=pytest.mark.req("ACR-MOT-12")),
-    ],
-)
-def test_a_sequence_of_moves_ends_at_400(moves: str) -> None:
-    assert run(bench(), *moves.split()) == [400, 0, 0]
-
-
 def test_the_last_target_of_an_axis_in_a_block_wins() -> None:
     assert run(bench(), "X10 Y5 X20") == [20, 5, 0]
 
@@ -112,14 +46,6 @@ def test_a_move_of_one_unit_changes_the_encoder_by_ppu_counts() -> None:
     made.until_clear(IN_MOTION)
     made.ticks(1)
     assert (made.p(6144), made.p(6160)) == (400, -25)
-
-
-@pytest.mark.req("ACR-MOT-04")
-def test_a_move_of_an_axis_by_number_is_refused() -> None:
-    made = bench()
-    assert made.type("MOV AXIS0 10") == "Undefined symbol"
-    assert made.type("X1 AXIS1 10") != ""
-    assert run(made) == [0, 0, 0]
 
 
 @pytest.mark.req("ACR-ATT-08", "ACR-MOT-02")
@@ -241,25 +167,6 @@ def test_a_limit_that_was_met_refuses_no_move(latch: int) -> None:
 @pytest.mark.parametrize("line", ["X(1,2)", "X", "MOV", "X/"])
 def test_a_malformed_move_is_a_syntax_error(line: str) -> None:
     assert bench().type(line) == "Syntax error"
-
-
-# rotary axes
-
-
-@pytest.mark.parametrize(("line", "end"), [("X10", 370), ("X170", 530), ("X175", 175)])
-@pytest.mark.req("ACR-CMD-ROTARY", "ACR-PROF-11")
-def test_an_absolute_move_of_a_rotary_axis_takes_the_shorter_direction(line: str, end: int) -> None:
-    made = bench()
-    made.type("X350")
-    made.until_clear(IN_MOTION)
-    made.type("ROTARY X360")
-    assert run(made, line)[0] == end
-
-
-def test_incremental_moves_of_a_rotary_axis_go_as_far_as_commanded() -> None:
-    made = bench()
-    made.type("ROTARY X360")
-    assert run(made, "X/500")[0] == 500
 
 
 # MAXVEL

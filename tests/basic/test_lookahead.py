@@ -15,11 +15,10 @@ from openacr.map import numbers as at
 from openacr.motion.path import moves
 from openacr.motion.path.move_request import Target
 
-IN_MOTION, BUFFERED, MOVE_PENDING = 516, 517, 1027
+IN_MOTION = 516
 MBUF_MODE, LOOK_MODE, USER_RAM, NEGLECT, SLOWDOWN = (5888 + n for n in (4, 5, 10, 11, 1))
 FILLED = at.MA_BASE + at.MA_MBUF_FILLED
 VELOCITY = at.MA_BASE + at.MA_VECTOR_VELOCITY
-LENGTH = at.MA_BASE + at.MA_VECTOR_LENGTH
 ANGLE = at.MA_BASE + at.MA_LOOK_AHEAD_VECTOR_ANGLE
 PERIOD_S = 0.0005
 Point = tuple[float, float]
@@ -65,28 +64,6 @@ class Path:
 
 
 # MBUF
-
-
-@pytest.mark.req("ACR-CMD-MBUF")
-def test_mbuf_lets_ten_moves_wait() -> None:
-    made = Bench("X").all("VEL 1", "MBUF ON")
-    assert made.bit(MBUF_MODE)
-    for number in range(11):
-        made.type(f"X{number + 1}")
-        assert not made.is_waiting
-    made.ticks(1)
-    assert (made.p(FILLED), made.type("MBUF")) == (10, "10")
-    made.type("X12")
-    assert made.is_waiting
-
-
-@pytest.mark.req("ACR-CMD-MBUF")
-def test_each_master_shows_the_filling_of_its_own_buffer() -> None:
-    made = Bench("X").all("VEL 1", "MBUF ON", "X1", "X2")
-    made.attach(1, (1, "Y"))
-    made.at(Level.PROG, 1).all("VEL 1", "MBUF ON", *(f"Y{number}" for number in range(1, 5)))
-    made.ticks(1)
-    assert (made.p(8212), made.p(8468), made.type("MBUF")) == (1, 3, "3")
 
 
 @pytest.mark.req("ACR-CMD-MBUF")

@@ -8,7 +8,7 @@ from openacr.map import numbers as at
 
 ACTIVE, DIRECTION, AT_SPEED, STOPPING, FORWARD, REVERSE, LIMIT_CHECK, LOCKOUT = range(792, 800)
 HOMING, HOME_REQUEST, VELOCITY = 16131, 17160, 12346
-CURRENT, ACTUAL, PSP, SSP, GEAR, JOG, CAM = 12288, 12290, 12294, 12295, 12296, 12297, 12298
+CURRENT, PSP, GEAR, JOG, CAM = 12288, 12294, 12296, 12297, 12298
 
 
 def bench(*lines: str) -> Bench:
@@ -297,21 +297,6 @@ def test_the_primary_setpoint_is_the_sum_of_all_parts() -> None:
     assert made.psp(0) == 104.0
 
 
-@pytest.mark.req("ACR-SUM-04", "ACR-SUM-05", "ACR-SUM-06", "ACR-SUM-03", "ACR-SUM-07", "ACR-SUM-08")
-def test_the_diamond_is_shifted_by_jogs_and_ends_where_it_began() -> None:
-    diamond = [(-2, 1), (0, 2), (2, 1), (0, 0)]
-    made = bench("ACC 0 STP 0 VEL 100", "JOG ACC X0 Y0 : JOG DEC X0 Y0 : JOG VEL X100 Y100")
-    for jog, (dx, dy) in ((None, (0, 0)), ("Y3", (0, 3)), ("X5", (5, 3)), ("Y0", (5, 0))):
-        if jog:
-            made.all(f"JOG ABS {jog}")
-            made.until_clear(ACTIVE, ACTIVE + 32)
-        for x, y in diamond:
-            made.all(f"X{x} Y{y}")
-            made.until_clear(516)
-            assert (made.p(PSP), made.p(PSP + 256)) == (1000 * (x + dx), 1000 * (y + dy))
-        assert (made.p(CURRENT), made.p(CURRENT + 256)) == (0, 0)
-
-
 @pytest.mark.req("ACR-JOG-04")
 def test_a_jog_by_name_needs_attachments_and_one_by_number_does_not() -> None:
     made = Bench()
@@ -352,30 +337,6 @@ def test_a_refused_axis_lets_none_of_the_statement_start() -> None:
 
 
 # registers
-
-
-@pytest.mark.parametrize(
-    ("line", "current", "jog"),
-    [
-        pytest.param("JOG REN X", 0, 12, marks=pytest.mark.req("ACR-REG-06", "ACR-CMD-JOG-REN")),
-        pytest.param("JOG REN X2", 2, 10, marks=pytest.mark.req("ACR-REG-07")),
-        pytest.param("JOG RES X", 12, 0, marks=pytest.mark.req("ACR-REG-08", "ACR-CMD-JOG-RES")),
-        pytest.param("JOG RES X2", 10, 2, marks=pytest.mark.req("ACR-REG-09")),
-    ],
-)
-@pytest.mark.req("ACR-REG-10")
-def test_jog_ren_and_res_share_the_sum_anew_without_motion(
-    line: str, current: int, jog: int
-) -> None:
-    made = Bench("X")
-    made.place(0, position=7, jog=5, gear=3, cam=4)
-    made.ticks(2)
-    before = [made.p(row) for row in (PSP, SSP, GEAR, CAM, 6144)]
-    made.all(line)
-    assert (made.p(CURRENT), made.p(JOG)) == (current, jog)
-    made.ticks(3)
-    assert (made.p(CURRENT), made.p(12289), made.p(JOG)) == (current, current, jog)
-    assert [made.p(row) for row in (PSP, SSP, GEAR, CAM, 6144)] == before
 
 
 def test_jog_ren_and_res_are_refused_while_their_profiler_moves() -> None:

@@ -56,15 +56,6 @@ def test_moves_begin_in_one_tick_and_end_in_one() -> None:
     assert made.p(DELTA) == made.p(DELTA + 256) == pytest.approx(least)
 
 
-@pytest.mark.req("ACR-CMD-SYNC")
-def test_off_makes_them_independent() -> None:
-    made = bench("SYNC OFF")
-    assert not made.bit(SYNC)
-    begin(made, "X100", "Y1000")
-    made.until_clear(516)
-    assert (made.psp(0), made.bit(548)) == (100, True)
-
-
 def test_chains_of_moves_begin_together_again() -> None:
     made = bench()
     made.at(Level.PROG, 1).all("Y100", "Y200", "Y300")

@@ -10,7 +10,6 @@ from openacr.map import numbers as at
 IN_MOTION = 516
 SHORT_TIME, IN_TMOV, TOV = 2054, 2055, 2057
 TMOV_VELOCITY = at.MA_BASE + at.MA_TMOV_VELOCITY
-VELOCITY = at.MA_BASE + at.MA_VECTOR_VELOCITY
 ACCELERATION = at.MA_BASE + at.MA_VECTOR_ACCELERATION
 JERK = at.MA_BASE + at.MA_VECTOR_JERK
 INTERNAL = at.MA_BASE + at.MA_TOV_INTERNAL
@@ -30,18 +29,6 @@ def duration(made: Bench, line: str) -> int:
 
 
 # TMOV
-
-
-@pytest.mark.req("ACR-CMD-TMOV", "ACR-PROF-12")
-def test_tmov_makes_a_move_take_its_time() -> None:
-    made = bench("TMOV 1")
-    assert made.bit(IN_TMOV)
-    assert duration(made, "X10") == ticks(1.0)
-    assert made.p(TMOV_VELOCITY) == pytest.approx(11.27017, abs=1e-5)
-    made.all("TMOV 4")
-    assert duration(made, "X0") == ticks(4.0)
-    assert made.p(TMOV_VELOCITY) < 2.6
-    assert made.psp(0) == 0
 
 
 @pytest.mark.parametrize(
@@ -71,16 +58,6 @@ def test_tmov_is_met_to_the_tick_or_short(
         assert made.p(TMOV_VELOCITY) <= 50
 
 
-@pytest.mark.req("ACR-CMD-TMOV", "ACR-PROF-12")
-def test_a_time_too_short_keeps_the_programmed_values_and_says_so() -> None:
-    made = bench("TMOV 0.1")
-    assert duration(made, "X10") == ticks(0.632456)
-    assert made.bit(SHORT_TIME)
-    made.all("TMOV 1")
-    duration(made, "X0")
-    assert not made.bit(SHORT_TIME)
-
-
 def test_tmov_is_switched_without_losing_its_value() -> None:
     made = bench("TMOV 2", "TMOV OFF")
     assert (made.type("TMOV"), made.bit(IN_TMOV), made.p(8217)) == ("2", False, 2.0)
@@ -99,17 +76,6 @@ def test_a_circle_takes_its_time_too() -> None:
 
 
 # TOV
-
-
-@pytest.mark.req("ACR-CMD-TOV")
-def test_tov_one_half_takes_twice_as_long() -> None:
-    made = bench(f"P{RATE} = 0", "TOV 0.5")
-    made.type("X40")
-    made.ticks(200)
-    assert made.p(ACCELERATION) == pytest.approx(25)
-    assert made.p(VELOCITY) == pytest.approx(25 * 0.1)
-    assert made.until_clear(IN_MOTION) + 200 == ticks(2 * 1.3)
-    assert made.psp(0) == 40000
 
 
 @pytest.mark.req("ACR-CMD-TOV")
@@ -164,16 +130,6 @@ def test_a_move_follows_an_encoder() -> None:
     made.ticks(50)
     assert made.psp(0) == 1000
     assert not made.bit(IN_MOTION)
-
-
-@pytest.mark.req("ACR-PROF-18")
-@pytest.mark.parametrize("lines", [(), ("SRC ENC9", "SRC CLK")])
-def test_the_clock_is_the_time_base_at_first_and_again_by_src_clk(lines: tuple[str, ...]) -> None:
-    made = bench("ACC 0 STP 0 VEL 10", *lines)
-    assert made.type("SRC") == "CLK"
-    made.all("X1").ticks(1)
-    assert made.until_clear(IN_MOTION) == 0.1 / made.card.period_s - 1
-    assert made.psp(0) == 1000
 
 
 def test_a_source_backwards_takes_the_path_back_to_its_start() -> None:

@@ -22,8 +22,6 @@ pytestmark = pytest.mark.evidence("oracle", "closed forms of the profiles")
 settings.register_profile("kernel", deadline=None, derandomize=True, database=None)
 settings.load_profile("kernel")
 
-IN_MOTION = 516
-
 
 def spread(low: float, high: float) -> st.SearchStrategy[float]:
     """Numbers spread evenly over decades."""
@@ -105,27 +103,6 @@ def test_published_profiles_take_their_times() -> None:
         positions = rig.record()
         assert ticks_moved(positions) * T == pytest.approx(seconds, abs=T * 1.001)
         assert velocity(positions).max() / 1000 == pytest.approx(peak, rel=2e-3)
-
-
-@pytest.mark.req("ACR-PROF-16", "ACR-PROF-17")
-def test_two_axes_share_the_path_by_their_distances() -> None:
-    for second, seconds, peaks in ((15.0, 0.489, (64.3, 38.6)), (0.0, 0.433, (75.0, 0.0))):
-        rig = Rig(2, ppu=[4000.0, 4000.0]).master(acc=750, dec=750, stp=750, vel=75)
-        rig.move(25.0, second)
-        positions = rig.record(0)
-        assert ticks_moved(positions) * T == pytest.approx(seconds, abs=1.5e-3)
-        assert velocity(positions).max() / 4000 == pytest.approx(peaks[0], abs=0.05)
-        assert rig.real("position_cnt", 1) == second * 4000
-        assert rig.real("peak_velocity_cps", 1) / 4000 == pytest.approx(peaks[1], abs=0.05)
-
-
-@pytest.mark.req("ACR-PROF-04")
-def test_profile_values_are_in_units() -> None:
-    rig = Rig(ppu=[4000.0]).master(acc=10, dec=10, stp=10, vel=20)
-    rig.move(200.0)
-    positions = rig.record()
-    assert ticks_moved(positions) * T == pytest.approx(12.0, abs=T)
-    assert positions[-1] == 800_000
 
 
 @settings(max_examples=examples(150))
