@@ -117,10 +117,14 @@ def test_cases_of_one_model_do_not_run_on_another(tmp_path: Path) -> None:
     assert found.result == "agrees"
 
 
-def test_sections_and_ids_are_chosen_by_words() -> None:
-    cases = chosen(supplied(), ["limits", "ACR-COMM-01"])
-    assert {case.path.stem for case in cases} == {
-        "04-communication-levels", "07-end-of-travel-limits"
-    }  # fmt: skip
-    with pytest.raises(UserError, match="--area weather: the sections are"):
-        chosen(supplied(), ["limits", "weather"])
+def test_sections_and_ids_are_chosen_by_words(tmp_path: Path) -> None:
+    folder = tmp_path / "guide"
+    folder.mkdir()
+    for name, claim in (("01-limits", "ACR-LIM-01"), ("02-jogs", "ACR-JOG-01"), ("03-jog", "")):
+        head = f"[case A]\nsource: 000 L7\nrests on: manual\n{f'proves: {claim}' if claim else ''}"
+        (folder / f"{name}.txt").write_text(f"{head}\n> ?1\n1\n")
+    found = [case.path.stem for case in chosen(tmp_path, ["LIMITS", "acr-jog"])]
+    assert found == ["01-limits", "02-jogs"]
+    assert len(chosen(tmp_path, ["guide"])) == len(chosen(tmp_path, [])) == 3
+    with pytest.raises(UserError, match="--area weather: the sections are limits, jogs, jog; or"):
+        chosen(tmp_path, ["limits", "weather"])

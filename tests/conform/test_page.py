@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from openacr.basic.language.registry import commands
 from openacr.conform import read, report, run
 from openacr.conform.form import WORDS
 
@@ -23,6 +24,10 @@ def test_an_example_of_the_page_holds(number: int, tmp_path: Path) -> None:
         assert difference is None, report(case, difference)
 
 
+# The groups of commands as names of files: axis-limits, character-io.
+GROUPS = {re.sub(r"[^a-z-]", "", each.group.lower().replace(" ", "-")) for each in commands()}
+
+
 def test_the_page_names_the_begin_of_every_step() -> None:
     shown = re.findall(r"`([^`]+)`", "".join(re.findall(r"^\| (`.*?) \|", PAGE, re.MULTILINE)))
     shown = [each.replace("\\", "") for each in shown]
@@ -35,5 +40,7 @@ def test_the_page_names_the_begin_of_every_step() -> None:
 def test_every_file_of_cases_has_a_number_and_name_of_the_page() -> None:
     for path in (ROOT / "conformance").glob("*/*.txt"):
         number, _, name = path.stem.partition("-")
+        if number == "20" and path.parent.name == "programmers-guide" and name in GROUPS:
+            continue
         row = next(line for line in PAGE.splitlines() if line.startswith(f"| `{path.parent.name}`"))
         assert f" {number} {name}" in row, path

@@ -13,9 +13,9 @@ from openacr.conform.form import DifferenceError, Machine
 from openacr.controller import Controller
 from openacr.controller.snapshot import Snapshot
 from openacr.errors import UserError
-from openacr.models import DEFAULT_MODEL
+from openacr.models import DEFAULT_MODEL, MODELS
 from openacr.plant.load import parse_world
-from openacr.plant.schema import Card, ModelName, World
+from openacr.plant.schema import default_world
 from openacr.project import find_project
 from openacr.testing import machine as under_test
 
@@ -147,7 +147,7 @@ def _plain(condition: str) -> str:
 @lru_cache(maxsize=16)
 def _loaded(machine: Machine, model: str) -> tuple[Controller, Snapshot]:
     """The card of a machine, and what it is after loading."""
-    bare = World(card=Card(model=ModelName(model)))
+    bare = default_world(MODELS[model])
     if machine.folder:
         has_world = find_project(machine.folder).machine is not None
         card = Controller.from_project(machine.folder, world=None if has_world else bare)
