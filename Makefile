@@ -155,6 +155,7 @@ docs: setup
 	$(PY) -m openacr.sysvar.reference docs/sysvar-tables.md
 	$(PY) -m openacr.cnc.reference docs/part-program-codes.md
 	$(PY) -m openacr.mill.run.lifecycle_page docs/run-life-cycle.md
+	$(PY) -m openacr.conform.pages docs/cases.md
 	$(PY) -m openacr.editing.grammars editors/vscode/syntaxes
 
 # The libraries of the panel's screens come bundled; Node is needed only to change or to check them.
@@ -183,6 +184,7 @@ site: setup
 	@$(BEAT) $(EDITABLE) ".[site]"
 	@rm -rf build/site-pages build/site
 	@cp -r docs build/site-pages && cp site/*.md site/conf.py build/site-pages/
+	@$(PY) -m openacr.conform.pages build/site-pages/cases.md build/site-pages/cases
 	@echo "writing the pages"
 	@$(BEAT) $(PY) -m sphinx -q -W --keep-going -j auto -b html build/site-pages build/site
 	@echo "the site is in build/site/index.html"

@@ -8,6 +8,7 @@ import pytest
 from openacr.basic.language.registry import commands
 from openacr.conform import read, report, run
 from openacr.conform.form import WORDS
+from openacr.conform.pages import sections, table
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "conformance.md").read_text(encoding="utf-8")
@@ -44,3 +45,32 @@ def test_every_file_of_cases_has_a_number_and_name_of_the_page() -> None:
             continue
         row = next(line for line in PAGE.splitlines() if line.startswith(f"| `{path.parent.name}`"))
         assert f" {number} {name}" in row, path
+
+
+def test_the_table_of_cases_is_that_of_the_files() -> None:
+    assert (ROOT / "docs" / "cases.md").read_text() == table(ROOT / "conformance"), "make docs"
+
+
+def test_a_page_of_a_section_has_its_cases_as_they_are_written(tmp_path: Path) -> None:
+    pages = dict(sections(ROOT / "conformance"))
+    assert len(pages) == len(list((ROOT / "conformance").glob("*/*.txt")))
+    text = (ROOT / "conformance" / "programmers-guide" / "10-aliases.txt").read_text()
+    page = pages["programmers-guide/10-aliases.md"]
+    assert page.startswith("# Aliases\n")
+    lines = [line for line in text.splitlines() if line and not line.startswith(("#", "[case"))]
+    assert [line for line in lines if line not in page] == []
+    assert page.count("\n## ") == page.count("```text") == text.count("[case ")
+
+
+def test_an_id_counts_for_what_its_strongest_case_rests_on(tmp_path: Path) -> None:
+    folder = tmp_path / "acromill"
+    folder.mkdir()
+    kinds = ("inferred: a reading", "manual", "oracle: a sum", "client: a host")
+    (folder / "05-format.txt").write_text(
+        "# Format\n"
+        + "".join(
+            f"[case {n}]\nproves: A-{n % 2}, B-{n}\nsource: 003 L1\nrests on: {kind}\n> ?1\n1\n"
+            for n, kind in enumerate(kinds)
+        )
+    )
+    assert "| Format | 4 | 6 | 2 | 2 | 1 | 1 |" in table(tmp_path)

@@ -1,0 +1,113 @@
+"""The cases as pages: `python -m openacr.conform.pages FILE [FOLDER]`.
+
+FILE gets the table of all sections: how many cases each has, how many ids they prove and what they
+rest on. FOLDER gets a page for each section with the text of its cases.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+
+from openacr.conform.form import Case
+from openacr.conform.read import RESTS, files, read, supplied
+
+MANUALS = {
+    "programmers-guide": "Programmer's Guide",
+    "users-guide-2": "User's Guide Part 2",
+    "acromill": "Front end's User's Guide",
+}
+HEAD = """\
+# The cases of the manuals
+
+Made by `make docs` of `conformance/`; [conformance.md](conformance.md) says how a case is written,
+and how a card is asked. A row of a table counts as a case. An id counts for what its strongest case
+rests on: the text of the manual, a computation that shares nothing with openacr (oracle), a host
+that works with real cards (client), or this project's reading (inferred).
+"""
+_CASES = re.compile(r"^\[case (.+)\]$", re.MULTILINE)
+_TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
+
+
+def table(root: Path) -> str:
+    """The page of all sections."""
+    lines = [HEAD]
+    every: list[Case] = []
+    for manual, title in MANUALS.items():
+        sections = {path: read(path) for path in files(root / manual)}
+        if not sections:
+            continue
+        lines += [f"## {title}\n", f"| section | cases | ids | {' | '.join(RESTS)} |"]
+        lines.append("|---|---|---|" + "---|" * len(RESTS))
+        for path, cases in sections.items():
+            lines.append(_row(_title(path), cases))
+            every += cases
+        lines.append("")
+    lines += ["## Together\n", f"| | cases | ids | {' | '.join(RESTS)} |"]
+    lines += ["|---|---|---|" + "---|" * len(RESTS), _row("all", every), ""]
+    return "\n".join(lines)
+
+
+def _row(title: str, cases: Sequence[Case]) -> str:
+    strongest: dict[str, int] = {}
+    for case in cases:
+        rank = RESTS.index(case.rests.partition(":")[0])
+        for claim in case.proves:
+            strongest[claim.id] = min(rank, strongest.get(claim.id, rank))
+    counts = Counter(strongest.values())
+    cells = (str(counts[rank] or "") for rank in range(len(RESTS)))
+    return f"| {title} | {len(cases)} | {len(strongest)} | {' | '.join(cells)} |"
+
+
+def _title(path: Path) -> str:
+    found = _TITLE.search(path.read_text(encoding="utf-8"))
+    return found[1] if found else path.stem
+
+
+def section(path: Path) -> str:
+    """The page of one section: its cases as they are written."""
+    first, *rest = _CASES.split(path.read_text(encoding="utf-8"))
+    shared = "\n".join(line for line in first.splitlines() if line and not line.startswith("#"))
+    lines = [f"# {_title(path)}\n"]
+    lines += [f"For all of them: {shared}.\n"] if shared else []
+    for name, text in zip(rest[::2], rest[1::2], strict=True):
+        lines += [f"## {_plain(name)}\n", "```text", *text.strip("\n").split("\n"), "```\n"]
+    return "\n".join(lines)
+
+
+def _plain(name: str) -> str:
+    """A name as a heading: nothing in it is a mark of the page."""
+    return re.sub(r"([*_`<>\[\]{}$\\])", r"\\\1", name)
+
+
+def sections(root: Path) -> Iterator[tuple[str, str]]:
+    """The pages of all sections by their names."""
+    for manual in MANUALS:
+        for path in files(root / manual):
+            yield f"{manual}/{path.stem}.md", section(path)
+
+
+def contents(names: Iterable[str]) -> str:
+    """A page that leads to the pages of all sections."""
+    entries = "\n".join(name.removesuffix(".md") for name in names)
+    return f"# Cases, section by section\n\n```{{toctree}}\n:maxdepth: 1\n{entries}\n```\n"
+
+
+def main(file: str, folder: str | None = None) -> None:
+    """Write the pages."""
+    root = supplied()
+    Path(file).write_text(table(root), encoding="utf-8")
+    if folder is None:
+        return
+    written = list(sections(root))
+    for name, text in [*written, ("index.md", contents(name for name, _ in written))]:
+        path = Path(folder) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
