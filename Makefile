@@ -7,7 +7,7 @@
 #   make soak    the long-running tests
 #   make lowest  all tests with the oldest versions of the packages that are allowed
 #   make audit   the oldest versions that are allowed against the public list of advisories
-#   make mutate  break changed lines and list what no test notices (WHAT=package, BASE=revision, MOST=n)
+#   make mutate  break changed lines and list what no test notices (WHAT=package or all, BASE=revision, MOST=n, EACH=n)
 #   make docs    write the reference pages, the names of the map and the grammars of editors anew
 #   make editor-test  the extension in Visual Studio Code in a browser (CODE_SERVER=folder, needs Node)
 #   make web-lint   type-check and lint the screens' JavaScript (needs Node)
@@ -147,7 +147,7 @@ audit:
 
 # Of the lines changed since BASE (default: the last commit), or of WHAT="kernel/status/limits_cy.py protocol".
 mutate: setup
-	$(PY) -m mutation $(WHAT) $(if $(BASE),--base $(BASE)) $(if $(MOST),--most $(MOST)) --workers $(WORKERS)
+	$(PY) -m mutation $(WHAT) $(if $(BASE),--base $(BASE)) $(if $(MOST),--most $(MOST)) $(if $(EACH),--each $(EACH)) --workers $(WORKERS)
 
 docs: setup
 	$(PY) -m openacr.map.generate

@@ -1,7 +1,7 @@
 """Break the source place by place and list what no test notices.
 
 Without a name the lines changed since --base are tried, else whole packages or files below
-src/openacr. Core modules (*_cy.py) run as plain Python, whatever is compiled.
+src/openacr, or `all`. The cases of the manuals come first: they are quick. Core modules (*_cy.py) run as plain Python, whatever is compiled.
 """
 
 import argparse
@@ -31,6 +31,9 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("what", nargs="*", help="packages or files below src/openacr")
     parser.add_argument("--base", default="HEAD~1", help="revision since which lines are changed")
     parser.add_argument("--most", type=int, default=0, help="mutants drawn at random (0: all)")
+    parser.add_argument(
+        "--each", type=int, default=0, help="mutants drawn at random from each package (0: all)"
+    )
     parser.add_argument("--seed", type=int, default=1, help="of the draw")
     parser.add_argument(
         "--tests", nargs="+", help="folders of tests instead of those of the package"
@@ -62,10 +65,23 @@ def _chosen(options: argparse.Namespace) -> list[Mutant]:
         for mutant in mutants(path, Path(path).read_text())
         if (numbers is None or mutant.line in numbers) and _place(mutant) not in equal
     ]
-    if options.most and len(found) > options.most:
-        drawn = random.Random(options.seed).sample(range(len(found)), options.most)
-        found = [found[k] for k in sorted(drawn)]
-    return found
+    draw = random.Random(options.seed)
+    if options.each:
+        groups: dict[str, list[Mutant]] = {}
+        for mutant in found:
+            groups.setdefault(_package(mutant), []).append(mutant)
+        found = [each for group in groups.values() for each in _drawn(draw, group, options.each)]
+    return _drawn(draw, found, options.most) if options.most else found
+
+
+def _drawn(draw: random.Random, found: list[Mutant], most: int) -> list[Mutant]:
+    """Some of the mutants, in their order."""
+    places = sorted(draw.sample(range(len(found)), min(most, len(found))))
+    return [found[k] for k in places]
+
+
+def _package(mutant: Mutant) -> str:
+    return Path(mutant.path).parts[2].removesuffix(".py")
 
 
 def _trials(
@@ -120,7 +136,7 @@ def main() -> int:
 
 def _summary(verdicts: list[tuple[Mutant, Verdict]], percent: float) -> int:
     """Survivors of each package; 1 when one has more than its share."""
-    package = {mutant: Path(mutant.path).parts[2].removesuffix(".py") for mutant, _ in verdicts}
+    package = {mutant: _package(mutant) for mutant, _ in verdicts}
     tried = Counter(package.values())
     lost = Counter(package[mutant] for mutant, verdict in verdicts if verdict in LOST)
     too_many = False

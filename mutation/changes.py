@@ -36,7 +36,8 @@ def named(places: list[str]) -> dict[str, None]:
     """Files of packages, folders and files named below `src/openacr`."""
     files: dict[str, None] = {}
     for place in places:
-        where = Path(place) if Path(place).exists() else SOURCE / place
+        where = SOURCE if place == "all" else Path(place)
+        where = where if where.exists() else SOURCE / place
         if not where.exists() or not where.is_relative_to(SOURCE):
             raise SystemExit(f"mutation: {place}: no such file or package in {SOURCE}")
         found = sorted(where.rglob("*.py")) if where.is_dir() else [where]

@@ -46,11 +46,11 @@ class Reach:
 
 
 def folders_of(paths: list[str]) -> list[str]:
-    """The folders of tests that hold the packages of some files."""
+    """The cases of the manuals, and the folders of tests that hold the packages of some files."""
     packages = dict.fromkeys(Path(path).parts[2].removesuffix(".py") for path in paths)
     names = dict.fromkeys(name for package in packages for name in FOLDERS.get(package, (package,)))
     found = [f"tests/{name}" for name in names if Path("tests", name).is_dir()]
-    return found or ["tests"]
+    return [*(["conformance"] if Path("conformance").is_dir() else []), *(found or ["tests"])]
 
 
 def measure(tree: Tree, folders: list[str], *, pure: bool, workers: int) -> Reach:

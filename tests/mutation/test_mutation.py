@@ -78,7 +78,9 @@ def test_every_package_has_tests_to_break_it_against() -> None:
         path for path in (ROOT / "src/openacr").iterdir() if (path / "__init__.py").exists()
     ]
     for package in packages:
-        assert folders_of([str(package.relative_to(ROOT) / "x.py")]) != ["tests"], package.name
+        first, *others = folders_of([str(package.relative_to(ROOT) / "x.py")])
+        assert first == "conformance"
+        assert others != ["tests"], package.name
 
 
 @pytest.fixture
@@ -118,4 +120,16 @@ def test_places_that_no_test_holds_are_listed_and_fail_the_job(repository: Path)
         "survived: src/openacr/toy.py:2 clamp: value > limit -> value >= limit",
         "survived: src/openacr/toy.py:6 loose: value >= 5.0 -> value > 5.0",
         "toy: 3 mutants, 2 survived (67 %)",
+    ]
+
+
+def test_the_same_count_of_mutants_is_drawn_from_each_package(repository: Path) -> None:
+    (repository / "src/openacr/other.py").write_text(TOY)
+    command = [sys.executable, "-m", "mutation", "all", "--each", "2", "--workers", "1"]
+    job = {"PYTHONPATH": str(ROOT), "PATH": "/usr/bin:/bin"}
+    ended = subprocess.run(command, capture_output=True, text=True, env=job)
+    assert "4 mutants;" in ended.stdout
+    assert [line.partition(",")[0] for line in ended.stdout.splitlines()[-2:]] == [
+        "other: 2 mutants",
+        "toy: 2 mutants",
     ]
