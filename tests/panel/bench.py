@@ -6,8 +6,9 @@ import os
 import struct
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -19,6 +20,8 @@ from openacr.panel.control.station import Station
 from openacr.panel.control.thread import ControlThread
 from openacr.panel.machine import embedded
 from openacr.panel.roles import Role
+from openacr.panel.server.accounts import file_of
+from openacr.panel.server.delays import Delays
 from openacr.panel.server.panel import Panel
 from openacr.panel.server.web import PanelServer
 
@@ -234,6 +237,38 @@ class Served:
     def store(self) -> Path:
         assert self.panel.installation.store.path is not None
         return self.panel.installation.store.path
+
+    @contextmanager
+    def as_it_was(self) -> Iterator["Served"]:
+        """Cells, part programs and passwords that are changed meanwhile are put back."""
+        store, accounts = self.panel.installation.store, self.panel.accounts
+        first = {n: store.value(n) for n in store.changes_since(0).numbers if store.is_set(n)}
+        token, files = store.token, self._files()
+        hashes = dict(accounts._hashes)
+        yield self
+        with store.transaction():
+            for cell in store.changes_since(token).numbers:
+                if store.parameter(cell).row.is_fixed:
+                    continue
+                if cell in first:
+                    store._set(cell, first[cell])
+                else:
+                    store.reset(cell)
+        accounts._hashes, accounts._sessions, accounts.delays = hashes, {}, Delays()
+        file_of(store.path).unlink(missing_ok=True)  # type: ignore[union-attr]
+        for path in sorted(self.programs.rglob("*"), reverse=True):
+            if path.is_dir() and not path.is_symlink():
+                with suppress(OSError):
+                    path.rmdir()
+            elif path not in files:
+                path.unlink()
+        for path, content in files.items():
+            if not path.exists() or path.read_bytes() != content:
+                path.write_bytes(content)
+
+    def _files(self) -> dict[Path, bytes]:
+        """The part programs."""
+        return {path: path.read_bytes() for path in self.programs.rglob("*") if path.is_file()}
 
     def call(self, work: Callable[[Station], T]) -> T:
         """Run a function in the control thread; its result."""

@@ -29,3 +29,33 @@ def quiet_panel(tmp_path: Path) -> Iterator[Served]:
     served = Served(tmp_path, by_hand=True)
     yield served
     served.close()
+
+
+@pytest.fixture(scope="module")
+def one_panel(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    """A server in real time for all tests of a file."""
+    served = Served(tmp_path_factory.mktemp("panel"))
+    yield served
+    served.close()
+
+
+@pytest.fixture
+def kept_panel(one_panel: Served) -> Iterator[Served]:
+    """The server of the file, for tests that move nothing; what they store is put back."""
+    with one_panel.as_it_was():
+        yield one_panel
+
+
+@pytest.fixture(scope="module")
+def one_quiet_panel(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    """A server whose machine moves only in `step`, for all tests of a file."""
+    served = Served(tmp_path_factory.mktemp("panel"), by_hand=True)
+    yield served
+    served.close()
+
+
+@pytest.fixture
+def kept_quiet_panel(one_quiet_panel: Served) -> Iterator[Served]:
+    """As `kept_panel`, where time does not pass by itself."""
+    with one_quiet_panel.as_it_was():
+        yield one_quiet_panel

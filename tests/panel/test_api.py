@@ -22,6 +22,11 @@ HEAD = 88  # of the block of a path
 
 
 @pytest.fixture
+def panel(kept_panel: Served) -> Served:
+    return kept_panel
+
+
+@pytest.fixture
 def web(panel: Served) -> Any:
     with httpx.Client(base_url=panel.url, timeout=LIMIT_S) as client:
         yield client
@@ -32,7 +37,7 @@ def ready(ask: Any) -> httpx.Response:
     end_s = time.monotonic() + LIMIT_S
     while (answer := ask()).status_code == 202:
         assert time.monotonic() < end_s
-        time.sleep(0.1)
+        time.sleep(0.02)
     assert isinstance(answer, httpx.Response)
     return answer
 
@@ -352,7 +357,7 @@ def test_time_and_extents_of_the_sample_become_known(web: httpx.Client, panel: S
     end_s = time.monotonic() + LIMIT_S
     while (found := web.get("/api/program").json()) is None or found["seconds"] is None:
         assert time.monotonic() < end_s
-        time.sleep(0.1)
+        time.sleep(0.02)
     assert found["name"] == "plate.nc"
     assert found["tools"] == [1, 2]
     assert found["errors"] == 0
@@ -559,7 +564,7 @@ def test_another_program_ends_the_stock_that_is_being_computed(
 
 
 def test_a_stock_is_stopped_and_begun_again(panel: Served, web: httpx.Client) -> None:
-    (panel.programs / "slot.nc").write_text(SLOT)
+    (panel.programs / "slot.nc").write_text(SLOT.replace("X20", "X19"))  # never computed before
     web.get("/api/stock", params={"path": "slot.nc"})
     assert web.delete("/api/stock").json() == {}
     assert ready(lambda: web.get("/api/stock", params={"path": "slot.nc"})).status_code == 200

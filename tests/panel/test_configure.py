@@ -16,6 +16,11 @@ GANTRY = Path(__file__).parents[2] / "examples" / "gantry"
 
 
 @pytest.fixture
+def quiet_panel(kept_quiet_panel: Served) -> Served:
+    return kept_quiet_panel
+
+
+@pytest.fixture
 def web(quiet_panel: Served) -> Iterator[httpx.Client]:
     with httpx.Client(base_url=f"{quiet_panel.url}/api", timeout=LIMIT_S) as client:
         yield client

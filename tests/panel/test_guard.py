@@ -14,10 +14,21 @@ from typer.testing import CliRunner
 from openacr.cli.main import app
 from openacr.errors import UserError
 from openacr.panel.roles import Role
-from openacr.panel.server import delays
+from openacr.panel.server import accounts, delays
 from openacr.panel.server.accounts import Accounts, file_of
 from openacr.panel.server.panel import require_password
 from openacr.sysvar import Store, password
+
+
+@pytest.fixture(autouse=True)
+def quick_hashes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A hash takes 50 ms on purpose."""
+    monkeypatch.setattr(accounts, "_COST", {"n": 2, "r": 1, "p": 1})
+
+
+@pytest.fixture
+def panel(kept_panel: Served) -> Served:
+    return kept_panel
 
 
 def guarded(panel: Served) -> httpx.Client:

@@ -15,6 +15,11 @@ OLD, NEW = f"mill/1{SUFFIX}", f"lathe/12{SUFFIX}"
 
 
 @pytest.fixture
+def quiet_panel(kept_quiet_panel: Served) -> Served:
+    return kept_quiet_panel
+
+
+@pytest.fixture
 def web(quiet_panel: Served, tmp_path: Path) -> Iterator[httpx.Client]:
     """A panel beside two journals of served cards, and other files."""
     root = tmp_path / "journals"

@@ -3,15 +3,23 @@
 import asyncio
 import struct
 from collections.abc import Awaitable, Callable
+from typing import Any
 
 import pytest
 import websockets
 from tests.panel.bench import HEAD, Client, Served
 
 
+@pytest.fixture
+def panel(kept_panel: Served) -> Served:
+    return kept_panel
+
+
 def talk(panel: Served, scene: Callable[[Client], Awaitable[None]], **more: object) -> None:
     async def run() -> None:
-        async with websockets.connect(panel.ws_url, **more) as socket:  # type: ignore[arg-type]
+        # A queue that is full would keep the end of the connection from being read.
+        options: dict[str, Any] = {"max_queue": None} | more
+        async with websockets.connect(panel.ws_url, **options) as socket:
             await scene(Client(socket))
 
     asyncio.run(run())

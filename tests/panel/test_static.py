@@ -34,6 +34,11 @@ async function start() {
 
 
 @pytest.fixture
+def quiet_panel(kept_quiet_panel: Served) -> Served:
+    return kept_quiet_panel
+
+
+@pytest.fixture
 def web(quiet_panel: Served) -> Iterator[httpx.Client]:
     with httpx.Client(base_url=quiet_panel.url) as client:
         yield client

@@ -44,6 +44,11 @@ SLOW: list[tuple[object, str, str, str, dict[str, Any]]] = [
 ]  # fmt: skip
 
 
+@pytest.fixture
+def panel(kept_panel: Served) -> Served:
+    return kept_panel
+
+
 @pytest.mark.parametrize(
     ("module", "name", "method", "path", "more"), SLOW, ids=[f"{row[3]} {row[1]}" for row in SLOW]
 )
