@@ -4,7 +4,7 @@ import re
 from bisect import bisect_left
 from collections.abc import Iterator
 from difflib import get_close_matches
-from functools import lru_cache
+from functools import cache, lru_cache
 
 from openacr.errors import MapError
 from openacr.sysvar.schema import CARD_PARAMETERS, CARD_VARIABLES, FIRST_SYSTEM, Parameter, Tab
@@ -57,11 +57,16 @@ def _numbers() -> list[int]:
     return [each.number for each in parameters()]
 
 
-def parameters() -> Iterator[Parameter]:
+@cache
+def parameters() -> tuple[Parameter, ...]:
     """All cells of the store in the order of their numbers."""
-    for tab in (CELLS.tab, *TABS):
-        for offset in sorted(tab.cells):
-            yield known(tab.base + offset)
+    return tuple(each for tab in (CELLS.tab, *TABS) for each in in_tab(tab))
+
+
+@cache
+def wired() -> tuple[Parameter, ...]:
+    """The cells that name an input or output of the card, in the order of their numbers."""
+    return tuple(each for each in parameters() if each.row.wire)
 
 
 def tab_named(text: str) -> Tab | None:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Collection, Iterable
 from typing import Protocol
 
 from openacr.models import MODELS
-from openacr.sysvar.lookup import AXIS_LETTERS, known, parameters
+from openacr.sysvar.lookup import AXIS_LETTERS, known, wired
 from openacr.sysvar.schema import AXES, FIRST_SYSTEM, Parameter, Wire
 from openacr.sysvar.tabs import AXIS, CELLS, CONTROL, DISPLAY, FOV, GENERAL, IO, ROV, SOV, SPINDLE
 from openacr.sysvar.values import SettingError
@@ -111,7 +111,7 @@ def _wires(cells: Reader, changed: Iterable[int]) -> None:
     count = MODELS[cells.read_text(MODEL)].lines
     modules = int(cells.read(MODULES))
     if MODEL in changed or MODULES in changed:
-        changed = [each.number for each in parameters() if each.row.wire]
+        changed = [each.number for each in wired()]
     for n in changed:
         row = known(n).row
         if row.wire is None or (value := cells.read(n)) in (-1, row.default):
@@ -143,7 +143,7 @@ def _display_formats(cells: Reader, changed: Iterable[int]) -> None:
 
 def _sharing(cells: Reader, changed: Collection[int]) -> None:
     """Refuse two functions on one output, one DAC or one control input."""
-    lines = [each for each in parameters() if each.row.wire]
+    lines = wired()
     dacs = {SPINDLE.dac, *AXIS.configured, *AXIS.dac_number}
     if not {each.number for each in lines}.isdisjoint(changed):
         _refuse_shared(cells, changed, _users(cells, lines))
@@ -153,8 +153,8 @@ def _sharing(cells: Reader, changed: Collection[int]) -> None:
 
 def require_wiring(cells: Reader) -> None:
     """Refuse a machine with two functions on one output, DAC or control input."""
-    everything = [each.number for each in parameters() if each.row.wire]
-    _refuse_shared(cells, everything, _users(cells, [known(n) for n in everything]))
+    everything = [each.number for each in wired()]
+    _refuse_shared(cells, everything, _users(cells, wired()))
     _refuse_shared(cells, everything, _dac_users(cells))
 
 
