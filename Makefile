@@ -4,7 +4,7 @@
 #   make test    lint, type check, import contract and all tests
 #   make lint    the checks alone
 #   make bench   how many simulated seconds per second this machine reaches
-#   make soak    the long-running tests
+#   make soak    the long-running tests, and all cases of those that make test draws some of
 #   make lowest  all tests with the oldest versions of the packages that are allowed
 #   make audit   the oldest versions that are allowed against the public list of advisories
 #   make mutate  break changed lines and list what no test notices (WHAT=package or all, BASE=revision, MOST=n, EACH=n)
@@ -125,7 +125,7 @@ bench: setup
 	$(PY) -m bench
 
 soak: setup
-	$(PY) -m pytest -n 0 -m soak --timeout 0
+	OPENACR_SEARCH=whole $(PY) -m pytest -n 0 -m "soak or search" --timeout 0
 
 # Every lower bound of pyproject.toml, in an environment of its own (uv finds the versions).
 LOWEST := .venv-lowest

@@ -5,9 +5,10 @@ import operator
 from collections.abc import Callable
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.basic.rig import Rig
+from tests.search import search
 
 from openacr.basic.vm import arith_cy, functions_cy
 from openacr.compiled import counterpart, is_compiled
@@ -318,7 +319,7 @@ def _join(
 
 
 @given(TREES)
-@settings(max_examples=150, deadline=None)
+@search(150)
 def test_expressions_agree_with_python(rig: Rig, tree: tuple[str, float | None]) -> None:
     text, expected = tree
     if len(text) > 200:
@@ -345,7 +346,7 @@ REAL = st.floats(allow_nan=False, allow_infinity=False) | st.floats(-1e3, 1e3)
 
 @pytest.mark.skipif(not is_compiled, reason="no compiled core")
 @given(st.integers(1, 20), REAL, REAL)
-@settings(max_examples=300, deadline=None)
+@search(300)
 def test_operators_give_the_same_bits_compiled(op: int, a: float, b: float) -> None:
     first, second = Memory(), Memory()
     for memory in (first, second):
@@ -357,7 +358,7 @@ def test_operators_give_the_same_bits_compiled(op: int, a: float, b: float) -> N
 
 @pytest.mark.skipif(not is_compiled, reason="no compiled core")
 @given(st.integers(1, 26), REAL)
-@settings(max_examples=300, deadline=None)
+@search(300)
 def test_functions_give_the_same_bits_compiled(function: int, x: float) -> None:
     first, second = Memory(), Memory()
     first.F[at.USER_BASE] = second.F[at.USER_BASE] = x

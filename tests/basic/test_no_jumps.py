@@ -4,11 +4,11 @@ import math
 import random
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.basic.motion_bench import PERIOD_S, Bench
+from tests.search import search
 
-from openacr.compiled import is_compiled
 from openacr.map import numbers as at
 
 LEADER = 1  # axis Y jogs and leads gear and cam of X
@@ -72,7 +72,7 @@ def step(made: Bench, before: float, parts_before: list[float]) -> tuple[float, 
     return F[PSP], parts
 
 
-@settings(max_examples=150 if is_compiled else 2, deadline=None, derandomize=True, database=None)
+@search(150, derandomize=True, database=None)
 @given(STEPS)
 def test_no_sequence_of_commands_makes_a_setpoint_jump(steps: list[tuple[str, int]]) -> None:
     made = bench()
@@ -87,7 +87,7 @@ def test_no_sequence_of_commands_makes_a_setpoint_jump(steps: list[tuple[str, in
         place, parts = step(made, place, parts)
 
 
-@settings(max_examples=60 if is_compiled else 2, deadline=None, derandomize=True, database=None)
+@search(60, derandomize=True, database=None)
 @given(STEPS)
 def test_after_everything_a_move_still_ends_on_its_target(steps: list[tuple[str, int]]) -> None:
     made = bench()

@@ -2,9 +2,10 @@
 
 from itertools import islice
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.cnc.programs import made
+from tests.search import search
 
 from openacr.cnc.codes.table import DIALECTS
 from openacr.cnc.interpreter.interpreter import Options
@@ -32,7 +33,7 @@ BLOCKS = st.builds(
 FIRST = {"rs274ngc": ["F10 S100", "#1=1 #2=3"], "acromill": ["F10 S100", "P1=1", "#2=3"]}
 
 
-@settings(max_examples=250, deadline=None)
+@search(250)
 @given(st.sampled_from(sorted(DIALECTS)), st.lists(BLOCKS, min_size=1, max_size=6), st.booleans())
 def test_any_words_are_read_or_refused_with_their_place(
     dialect: str, blocks: list[str], is_checked: bool
@@ -53,7 +54,7 @@ def test_any_words_are_read_or_refused_with_their_place(
         assert 1 <= each.column <= len(lines[each.line - 1]) + 1
 
 
-@settings(max_examples=150, deadline=None)
+@search(150)
 @given(
     st.lists(st.sampled_from([
         "G5.2 X1 Y1 P1", "X2 Y2 P1", "P1", "L4", "G5.3", "G5 X1 Y1 I0 J1 P0 Q-1", "G5 X2 P0 Q1",

@@ -6,10 +6,11 @@ from itertools import islice
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.cnc.programs import Run, made, unrolled
 from tests.cnc.test_fuzz import ACROMILL, OTHER, mutated
+from tests.search import search
 
 from openacr.cnc.canonical import Arc, Coolant, Line, Moves, Plane, Rapid, Source, batches
 from openacr.cnc.codes.fast import Sets
@@ -177,7 +178,7 @@ def program(chance: random.Random, dialect: str) -> str:
     return chance.choice(["\n", "\r\n", "\r"]).join(lines)
 
 
-@settings(max_examples=250, deadline=None)
+@search(250)
 @given(seed=st.integers(0, 10**9), dialect=st.sampled_from(["acromill", "rs274ngc"]))
 def test_many_blocks_do_what_each_does(seed: int, dialect: str) -> None:
     require_same(program(random.Random(seed), dialect), dialect)

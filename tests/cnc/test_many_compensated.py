@@ -6,10 +6,11 @@ from dataclasses import replace
 from itertools import islice
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.cnc.programs import Run, made, unrolled
 from tests.cnc.test_many_blocks import one_by_one
+from tests.search import search
 
 from openacr.cnc.canonical import Arc, Line, Moves
 from openacr.cnc.compensation import chain, chain_cy, pieces
@@ -151,7 +152,7 @@ def require_same(seed: int, dialect: str, *, collects_errors: bool) -> None:
         assert one.is_rested == other.is_rested
 
 
-@settings(max_examples=150, deadline=None)
+@search(150)
 @given(
     seed=st.integers(0, 10**9),
     dialect=st.sampled_from(["acromill", "rs274ngc"]),

@@ -4,10 +4,11 @@ import math
 import random
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.cnc.programs import made
 from tests.cnc.test_many_blocks import require_same
+from tests.search import search
 
 from openacr.cnc.canonical import Moves
 from openacr.cnc.interpreter import execution, formulas_cy, loops
@@ -83,7 +84,7 @@ def line(chance: random.Random, dialect: str) -> str:
 
 
 @pytest.mark.parametrize("dialect", DIALECTS)
-@settings(max_examples=120, deadline=None)
+@search(120)
 @given(seed=st.integers(0, 2**40))
 def test_lines_with_formulas_do_what_each_does(dialect: str, seed: int) -> None:
     chance = random.Random(seed)
@@ -96,7 +97,7 @@ def test_lines_with_formulas_do_what_each_does(dialect: str, seed: int) -> None:
 
 
 @pytest.mark.parametrize("dialect", DIALECTS)
-@settings(max_examples=400, deadline=None)
+@search(400)
 @given(seed=st.integers(0, 2**40))
 def test_a_formula_has_the_value_of_its_tree(dialect: str, seed: int) -> None:
     chance = random.Random(seed)

@@ -4,11 +4,12 @@ import random
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.cnc.programs import CYCLES, made
 from tests.cnc.test_fuzz import mutated
 from tests.cnc.test_many_blocks import done, require_equal_builds, require_same
+from tests.search import search
 
 from openacr.cnc.canonical import Dwell, Entry, Line, Moves, Rapid, Source, Sync
 from openacr.cnc.interpreter import loops
@@ -102,7 +103,7 @@ def program(chance: random.Random, dialect: str) -> str:
     return "\n".join(lines) + (CYCLES if dialect == "acromill" else "\nM2\n")
 
 
-@settings(max_examples=250, deadline=None)
+@search(250)
 @given(seed=st.integers(0, 10**9), dialect=st.sampled_from(["acromill", "rs274ngc"]))
 def test_many_holes_are_what_each_is(seed: int, dialect: str) -> None:
     require_same(program(random.Random(seed), dialect), dialect)

@@ -4,9 +4,10 @@ import random
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.cnc.programs import Bench, Run, made, unrolled
+from tests.search import search
 
 from openacr.cnc.canonical import Entry, Line, Polyline, Rapid
 from openacr.cnc.interpreter import lines_cy, scanning
@@ -98,7 +99,7 @@ def line(chance: random.Random) -> str:
     return " " * chance.randrange(2) + " ".join(words)
 
 
-@settings(max_examples=60, deadline=None)
+@search(60)
 @given(seed=st.integers(0, 10**9))
 def test_both_ways_give_the_same_moves(seed: int) -> None:
     chance = random.Random(seed)

@@ -4,9 +4,10 @@ import math
 from collections.abc import Callable
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.cnc.programs import Run, made, run
+from tests.search import search
 
 from openacr.cnc.canonical import Arc, Line
 from openacr.cnc.geometry.splines import (
@@ -254,7 +255,7 @@ coordinates = st.integers(-40, 40).map(lambda n: n / 8)
 places = st.tuples(coordinates, coordinates)
 
 
-@settings(max_examples=60, deadline=None)
+@search(60)
 @given(
     st.lists(st.tuples(places, st.floats(0.1, 8)), min_size=3, max_size=7), st.integers(3, 5)
 )  # fmt: skip

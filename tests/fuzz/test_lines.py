@@ -8,11 +8,12 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 from tests.basic.parsing import parse_line
 from tests.controller.hosts import X_AND_Y, Host
 from tests.fuzz.programs import BROKEN, Programs
+from tests.search import search
 
 from openacr.basic.language.nodes import Number, Parameter
 from openacr.basic.language.registry import Level
@@ -129,7 +130,7 @@ def any_victim() -> Victim:
     return Victim()
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@search(60, suppress_health_check=list(HealthCheck))
 @given(st.lists(st.text(st.characters(max_codepoint=255), max_size=60), max_size=12))
 def test_any_characters_at_all(lines: list[str]) -> None:
     victim = any_victim()
@@ -173,7 +174,7 @@ def is_parameter(number: int) -> bool:
         return False
 
 
-@settings(max_examples=150, deadline=None)
+@search(150)
 @given(st.integers(0, 1 << 32), st.integers(1, 40))
 def test_the_check_of_a_file_agrees_with_run(seed: int, length: int) -> None:
     """A program whose lines are all accepted fits together for both, or for neither."""

@@ -152,16 +152,6 @@ class Rig:
         return self.F[at.PRF_BASE + at.PRF_VELOCITY]
 
 
-def examples(count: int) -> int:
-    """How many random examples to try: plain Python, a hundred times slower, tries few."""
-    return count if compiled.is_compiled else max(2, count // 150)
-
-
-def stride(count: int) -> int:
-    """Every which tick of a path to try an event at: plain Python tries few."""
-    return count if compiled.is_compiled else 25 * count
-
-
 def row_of(prefix: str, name: str) -> int:
     """Offset of a row by its name in lower case."""
     return every_name()[f"{prefix}_{name.upper()}"]

@@ -9,7 +9,8 @@ import math
 import random
 
 import pytest
-from tests.kernel.rig import PLANT, TICK, Rig, T, examples
+from tests.kernel.rig import PLANT, TICK, Rig, T
+from tests.search import examples
 
 from openacr import compiled
 from openacr.errors import CardError
@@ -110,6 +111,7 @@ def torment(seed: int, rounds: int, pure: bool = False) -> Rig:
     return rig
 
 
+@pytest.mark.search
 @pytest.mark.parametrize("seed", range(examples(60)))
 def test_no_value_of_any_parameter_stops_the_servo_interrupt(seed: int) -> None:
     rig = torment(seed, 300)

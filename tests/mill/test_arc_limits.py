@@ -11,11 +11,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from tests.mill.planned import Action, follow, motion_s
 from tests.mill.shop import PULSES, Shop, at, end, line, src
+from tests.search import search, sparse
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
@@ -107,7 +108,7 @@ def accelerations(places: Reals, period_s: float = PERIOD_S) -> Reals:
 
 
 @pytest.mark.parametrize("own", [(), (60.0, 60.0), (0.0, 35.0), (140.0, 50.0)])
-@settings(max_examples=12, deadline=None)
+@search(12)
 @given(seed=st.integers(0, 10**9))
 def test_no_sample_of_lines_and_arcs_is_above_the_limit_of_an_axis(
     own: tuple[float, ...], seed: int
@@ -117,7 +118,7 @@ def test_no_sample_of_lines_and_arcs_is_above_the_limit_of_an_axis(
         assert found[axis] <= min(limit or LIMIT, LIMIT) * (1 + 1e-6)
 
 
-@settings(max_examples=40, deadline=None)
+@search(40)
 @given(
     sweep=st.floats(0.2, CIRCLE),
     radius=st.floats(0.05, 5.0),
@@ -323,7 +324,7 @@ def chains(entries: Sequence[c.Entry], limit: float) -> list[list[Piece]]:
     return [chain for chain in found if chain]
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", sparse(range(12)))
 def test_the_time_is_that_of_the_fastest_speed_under_the_same_law(seed: int) -> None:
     entries = smooth_chain(seed)
     predictor = Predictor(Settings(shop().store), at())

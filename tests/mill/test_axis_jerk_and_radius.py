@@ -1,6 +1,7 @@
 """Max axis jerk and Tolerance radius: on planned paths, in moves of their own, and in holds."""
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
@@ -22,6 +23,7 @@ from tests.mill.planned_rotary import (
 )
 from tests.mill.prediction import predicted
 from tests.mill.shop import Shop, end, src
+from tests.search import sparse
 from tests.trajectory.measures import off
 
 from openacr.cnc import canonical as c
@@ -74,8 +76,10 @@ def assert_jerks(shop: Shop, places: Reals, jerk: float) -> Reals:
     return found
 
 
-@pytest.mark.parametrize("name", ["wave", "mixed", "turns", "circle", "zigzag"])
-@pytest.mark.parametrize("radius_u", [0.2, 5.0, 25.0])
+@pytest.mark.parametrize(
+    ("name", "radius_u"),
+    sparse(list(product(["wave", "mixed", "turns", "circle", "zigzag"], [0.2, 5.0, 25.0])), 4),
+)
 def test_the_tool_keeps_the_tolerance_at_the_radius_of_the_table(
     name: str, radius_u: float
 ) -> None:
@@ -102,8 +106,7 @@ def test_the_tolerance_is_kept_at_the_radius_that_is_set_and_not_beyond() -> Non
     assert apart_u[5.0] < apart_u[0.0] <= 25.0 / DEFAULT_U * TOLERANCE
 
 
-@pytest.mark.parametrize("name", PROGRAMS)
-@pytest.mark.parametrize("jerk", [SLOW, QUICK])
+@pytest.mark.parametrize(("name", "jerk"), sparse(list(product(PROGRAMS, [SLOW, QUICK])), 3))
 def test_the_table_has_its_own_jerk_and_the_tool_that_of_the_path(name: str, jerk: float) -> None:
     shop, program = rotary_shop(**{OWN_JERK: jerk}), PROGRAMS[name]
     shop.start(*program)
@@ -113,8 +116,7 @@ def test_the_table_has_its_own_jerk_and_the_tool_that_of_the_path(name: str, jer
     assert (places[-1] * SCALES).tolist() == counts(program)
 
 
-@pytest.mark.parametrize("jerk", [SLOW, QUICK])
-@pytest.mark.parametrize("at_s", [0.3, 0.5, 0.6])
+@pytest.mark.parametrize(("jerk", "at_s"), sparse(list(product([SLOW, QUICK], [0.3, 0.5, 0.6])), 4))
 def test_a_hold_keeps_the_jerk_of_the_table(jerk: float, at_s: float) -> None:
     shop, program = rotary_shop(**{OWN_JERK: jerk}), PROGRAMS["wave"]
     shop.start(*program)
@@ -131,8 +133,13 @@ def exact(move: c.Line | c.Arc) -> c.Line | c.Arc:
     )
 
 
-@pytest.mark.parametrize("jerk", [SLOW, QUICK])
-@pytest.mark.parametrize("place", [(0, 0, 0, 90), (3, 0, 0, 90), (20, 20, 0, 10), (20, 20, 5)])
+@pytest.mark.parametrize(
+    ("place", "jerk"),
+    sparse(
+        list(product([(0, 0, 0, 90), (3, 0, 0, 90), (20, 20, 0, 10), (20, 20, 5)], [SLOW, QUICK])),
+        3,
+    ),
+)
 def test_a_move_of_its_own_has_the_jerk_of_the_axis_that_is_first_at_its_limit(
     jerk: float, place: tuple[float, ...]
 ) -> None:

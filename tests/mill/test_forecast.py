@@ -4,11 +4,12 @@ import random
 from collections.abc import Callable
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.cnc import test_many_holes
 from tests.cnc.programs import made, unrolled
 from tests.cnc.test_many_blocks import program
+from tests.search import search
 
 from openacr.cnc.canonical import Entry, Moves
 from openacr.cnc.interpreter.interpreter import Options
@@ -113,13 +114,13 @@ def require_same(seed: int, write: Callable[[random.Random, str], str] = program
     return entries
 
 
-@settings(max_examples=30, deadline=None)
+@search(30)
 @given(seed=st.integers(0, 10**9))
 def test_holes_have_the_same_times_and_findings_at_their_lines(seed: int) -> None:
     require_same(seed, test_many_holes.program)
 
 
-@settings(max_examples=120, deadline=None)
+@search(120)
 @given(seed=st.integers(0, 10**9))
 def test_the_forecast_is_that_of_the_moves_one_by_one(seed: int) -> None:
     require_same(seed)

@@ -9,6 +9,7 @@ from tests.mill.planned import follow, motion_s
 from tests.mill.prediction import predicted
 from tests.mill.shop import Shop, at, end, line, rapid, src
 from tests.mill.test_path_motion import motion
+from tests.search import sparse
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
@@ -134,7 +135,7 @@ def machine() -> Store:
     return cells
 
 
-@pytest.mark.parametrize("file", FILES)
+@pytest.mark.parametrize("file", sparse(FILES, 4))
 def test_programs_take_the_predicted_time_with_jerk_to_one_period_for_each_run_of_moves(
     file: str,
 ) -> None:

@@ -1,12 +1,21 @@
 """Overrides on a planned path over a link: when they act, and that the card never lacks path."""
 
+import itertools
 import random
 
 import numpy as np
 import pytest
 from tests.mill.planned import ACCEL, FEED, JERK, SPEED, TOLERANCE, Point, Reals, highest, off_path
 from tests.mill.test_planned_lost_host import PULSES, Host
-from tests.mill.test_planned_overrides import HALF, MOST, PATHS, ROUNDING2, ROUNDING3
+from tests.mill.test_planned_overrides import (
+    HALF,
+    KINDS_AND_TIMES,
+    MOST,
+    PATHS,
+    ROUNDING2,
+    ROUNDING3,
+)
+from tests.search import sparse
 
 from openacr.cnc.occupied import RAN_SHORT
 from openacr.map import numbers as n
@@ -52,8 +61,7 @@ def require_end(host: Host, points: list[Point]) -> None:
     assert host.places[-1] == pytest.approx([*points[-1], 0.0, 0.0][:3], abs=0.5 / PULSES)
 
 
-@pytest.mark.parametrize("kind", ["leg", "chords", "bent"])
-@pytest.mark.parametrize("at_s", [0.6, 0.627, 0.87])
+@pytest.mark.parametrize(("kind", "at_s"), KINDS_AND_TIMES)
 def test_a_faster_feed_acts_after_what_waits_on_the_card(kind: str, at_s: float) -> None:
     host = Host(PATHS[kind], 0.5 * FEED)
     host.live(at_s)
@@ -83,8 +91,7 @@ def test_a_slower_feed_acts_after_what_waits_on_the_card(kind: str, percent: flo
     require_path(host, PATHS[kind])
 
 
-@pytest.mark.parametrize("kind", PATHS)
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(("kind", "seed"), sparse(list(itertools.product(PATHS, range(3))), 3))
 def test_a_host_that_is_a_little_late_keeps_path_and_limits_under_any_overrides(
     kind: str, seed: int
 ) -> None:
@@ -99,8 +106,9 @@ def test_a_host_that_is_a_little_late_keeps_path_and_limits_under_any_overrides(
     require_end(host, PATHS[kind])
 
 
-@pytest.mark.parametrize("hold_s", [0.05, 0.5, 0.6, 0.8])
-@pytest.mark.parametrize("kind", ["leg", "chords"])
+@pytest.mark.parametrize(
+    ("kind", "hold_s"), sparse(list(itertools.product(["leg", "chords"], [0.05, 0.5, 0.6, 0.8])), 3)
+)
 def test_a_feed_hold_after_a_faster_feed_keeps_path_and_limits(kind: str, hold_s: float) -> None:
     host = Host(PATHS[kind], 0.5 * FEED)
     host.live(0.6)

@@ -1,11 +1,12 @@
 """Overrides above 100 percent while a planned curve is on the card."""
 
+import itertools
 import random
 from collections.abc import Sequence
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.mill.planned import (
     ACCEL,
@@ -26,6 +27,7 @@ from tests.mill.planned import (
     wave,
 )
 from tests.mill.shop import Shop, end
+from tests.search import search, sparse
 
 from openacr.cnc import canonical as c
 from openacr.mill.run.lifecycle import Options, State
@@ -39,6 +41,9 @@ LEG: list[Point] = [(300.0, 0.0)]
 LEGS: list[Point] = [(60.0, 0.0), (60.0, 40.0), (20.0, 41.0), (19.0, 0.0), (0.0, 0.0)]
 BENT: list[Point] = [(40.0, 0.0), (90.0, 5.0), (140.0, 0.0), (150.0, -1.0), (190.0, -1.0)]
 PATHS = {"legs": LEGS, "bent": BENT, "chords": wave(200), "leg": LEG}
+# Each path and each time of a hold is there in a run of `make test`.
+HOLDS = sparse(list(itertools.product(PATHS, [0.02, 0.2, 0.43, 0.5])), 5)
+KINDS_AND_TIMES = sparse(list(itertools.product(["leg", "chords", "bent"], [0.6, 0.627, 0.87])), 4)
 
 
 def limits(places: Reals, shop: Shop) -> None:
@@ -61,8 +66,7 @@ def ends(points: Sequence[Point], shop: Shop) -> None:
     assert shop.runner.state is State.IDLE
 
 
-@pytest.mark.parametrize("kind", ["leg", "chords", "bent"])
-@pytest.mark.parametrize("at_s", [0.6, 0.627, 0.87])
+@pytest.mark.parametrize(("kind", "at_s"), KINDS_AND_TIMES)
 def test_it_acts_within_half_a_second(kind: str, at_s: float) -> None:
     points, shop = PATHS[kind], planned_shop()
     program: list[c.Entry] = [*path(points, feed=0.5 * FEED), end()]
@@ -94,8 +98,7 @@ def test_it_is_taken_back_before_it_is_exceeded() -> None:
     ends(LEG, shop)
 
 
-@pytest.mark.parametrize("kind", PATHS)
-@pytest.mark.parametrize("hold_s", [0.02, 0.2, 0.43, 0.5])
+@pytest.mark.parametrize(("kind", "hold_s"), HOLDS)
 def test_a_feed_hold_right_after_it(kind: str, hold_s: float) -> None:
     points, shop = PATHS[kind], planned_shop()
     program: list[c.Entry] = [*path(points, feed=0.5 * FEED), end()]
@@ -132,7 +135,7 @@ def test_rapids_are_not_raised() -> None:
     assert speeds(places, shop)[~coming].max() == pytest.approx(0.75 * SPEED, rel=1e-3)
 
 
-@settings(max_examples=8, deadline=None, derandomize=True)
+@search(8, derandomize=True)
 @given(st.sampled_from(sorted(PATHS)), st.integers(0, 10_000))
 def test_overrides_of_any_course_keep_limits_tolerance_and_end(kind: str, seed: int) -> None:
     chance, now_s, actions = random.Random(seed), chance_s(seed), []

@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import settings as hypothesis
 from hypothesis import strategies as st
 from tests.mill.planned import FEED, SPEED, TOLERANCE, Reals, motion_s
 from tests.mill.planned_rotary import (
@@ -25,6 +24,7 @@ from tests.mill.planned_rotary import (
 )
 from tests.mill.prediction import predicted
 from tests.mill.shop import end, src
+from tests.search import search
 from tests.trajectory.measures import off
 
 from openacr.cnc import canonical as c
@@ -142,7 +142,7 @@ def chains(draw: st.DrawFn) -> list[c.Entry]:
     return found
 
 
-@hypothesis(max_examples=12, deadline=None, derandomize=True)
+@search(12, derandomize=True)
 @given(chains())
 def test_chains_of_lines_helices_and_turns_keep_limits_and_tolerances(
     program: list[c.Entry],

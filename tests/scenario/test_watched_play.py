@@ -7,8 +7,9 @@ from io import StringIO
 from pathlib import Path
 from typing import Any
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.search import search
 
 from openacr.cli.run.controlled import ControlledMachine
 from openacr.cli.run.session import Options, Session
@@ -173,7 +174,7 @@ def play(scenario: Scenario, until: Until | None, kind: type[ControlledMachine])
     )
 
 
-@settings(max_examples=40, deadline=None)
+@search(40)
 @given(scenarios(), st.sampled_from([None, None, Until(), Until(33), Until(516, False)]))
 def test_a_watched_scenario_comes_out_as_one_looked_at_in_every_tick(
     scenario: Scenario, until: Until | None

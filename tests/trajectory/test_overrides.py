@@ -2,11 +2,13 @@
 
 import math
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from tests.search import search, sparse
 from tests.trajectory.measures import PERIOD_S, deviations, limits, planned, points
 from tests.trajectory.programs import Segments, corners, line, surface
 from tests.trajectory.random_programs import program
@@ -92,7 +94,7 @@ def require_all(found: list[Setpoints], segments: Segments, start: tuple[float, 
     return speed
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@search(40, derandomize=True)
 @given(
     st.integers(0, 5000),
     st.lists(st.tuples(st.integers(0, 80), st.sampled_from(FACTORS)), min_size=3, max_size=9),
@@ -131,8 +133,8 @@ def test_a_window_before_the_last_one_is_planned_again() -> None:
     assert speed[at : at + 24].max() > 1.02 * HALF * 100.0
 
 
-@pytest.mark.parametrize("seed", [52, 157, 298])  # a course begins amid the end of another one
-@pytest.mark.parametrize("first", range(3))
+# a course begins amid the end of another one
+@pytest.mark.parametrize(("seed", "first"), sparse(list(product([52, 157, 298], range(3))), 4))
 def test_a_course_that_overlaps_another_keeps_the_limits(seed: int, first: int) -> None:
     whole, axes, _ = program(seed)
     turns = {at: FACTORS[1 + (k % 3)] for k, at in enumerate(range(11 + first, 700, 19))}

@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.cnc.compensation.oracle import (
     contour,
@@ -20,6 +20,7 @@ from tests.cnc.compensation.oracle import (
     star,
 )
 from tests.cnc.compensation.tools import EXACT, Path, Trace, compensate
+from tests.search import search, sparse
 
 from openacr.cnc.compensation import Rules, Side
 from openacr.cnc.geometry.elements import Element
@@ -58,7 +59,7 @@ def keeps_off(trace: Trace, elements: list[Element], radius: float) -> bool:
     return all(is_beside(path, contours[path.source.line], radius, CLOSE) for path in paths)
 
 
-@pytest.mark.parametrize("bundle", range(BUNDLES))
+@pytest.mark.parametrize("bundle", sparse(range(BUNDLES), 4))
 def test_the_tool_keeps_its_radius_or_the_gouge_is_reported(bundle: int) -> None:
     """What is not reported is right; what is reported as too near is too near."""
     clean = 0
@@ -79,7 +80,7 @@ def test_the_tool_keeps_its_radius_or_the_gouge_is_reported(bundle: int) -> None
     assert clean > CONTOURS / 10
 
 
-@pytest.mark.parametrize("bundle", range(3))
+@pytest.mark.parametrize("bundle", sparse(range(3), 2))
 def test_closed_contours_are_followed_as_shapely_offsets_them(bundle: int) -> None:
     compared = 0
     for seed in range(bundle * 60, (bundle + 1) * 60):
@@ -98,7 +99,7 @@ def test_closed_contours_are_followed_as_shapely_offsets_them(bundle: int) -> No
     assert compared > 15
 
 
-@settings(max_examples=100, deadline=None)
+@search(100)
 @given(st.integers(0, 10**9), st.floats(-pi, pi))
 def test_a_turned_contour_gives_the_turned_path(seed: int, angle: float) -> None:
     rnd = random.Random(seed)
@@ -111,7 +112,7 @@ def test_a_turned_contour_gives_the_turned_path(seed: int, angle: float) -> None
         assert one.sweep_rad == pytest.approx(other.sweep_rad, abs=1e-3)
 
 
-@settings(max_examples=100, deadline=None)
+@search(100)
 @given(st.integers(0, 10**9))
 def test_the_mirrored_contour_with_the_negative_radius_gives_the_mirrored_path(seed: int) -> None:
     rnd = random.Random(seed)
@@ -124,7 +125,7 @@ def test_the_mirrored_contour_with_the_negative_radius_gives_the_mirrored_path(s
         assert one.is_inserted is other.is_inserted
 
 
-@settings(max_examples=100, deadline=None)
+@search(100)
 @given(st.integers(0, 10**9))
 def test_with_gouge_stop_off_the_path_stays_in_one_piece(seed: int) -> None:
     rnd = random.Random(seed)

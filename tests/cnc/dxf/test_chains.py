@@ -4,9 +4,10 @@ import math
 import random
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from shapely.geometry import LineString, Polygon
+from tests.search import search
 
 from openacr.cnc.dxf.chains import Chain, directed, in_order, joined, turned
 from openacr.cnc.dxf.doubles import without_doubles
@@ -68,7 +69,7 @@ def torn(segments: list[Segment], seed: int, gap: float) -> list[tuple[Segment, 
 
 
 @pytest.mark.req("MILL-DXF-03", "MILL-DXF-10")
-@settings(max_examples=150, deadline=None)
+@search(150)
 @given(st.integers(0, 10**9), st.integers(3, 25), st.floats(0, EPSILON * 0.99), st.booleans())
 def test_a_closed_outline_comes_back_whole_in_the_wanted_direction(
     seed: int, count: int, gap: float, is_counter_clockwise: bool
@@ -90,7 +91,7 @@ def test_a_closed_outline_comes_back_whole_in_the_wanted_direction(
     assert found.length == pytest.approx(whole.length, abs=4 * count * EPSILON)
 
 
-@settings(max_examples=100, deadline=None)
+@search(100)
 @given(st.integers(0, 10**9), st.integers(4, 25))
 def test_an_open_path_comes_back_whole_and_runs_from_its_end_nearest_to_the_tool(
     seed: int, count: int

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.kernel import oracle
-from tests.kernel.rig import Reals, Rig, T, acceleration, examples, velocity
+from tests.kernel.rig import Reals, Rig, T, acceleration, velocity
+from tests.search import search
 
 from openacr.errors import CardError
 from openacr.map import numbers as at
@@ -241,7 +242,7 @@ def test_a_jog_adds_to_a_move() -> None:
     assert rig.real("psp_cnt") == 5000.0
 
 
-@settings(max_examples=examples(200))
+@search(200)
 @given(
     st.floats(-3, 3).map(lambda x: 10**x),
     st.floats(0.002, 0.5),
@@ -324,7 +325,7 @@ def lived(commands: list[tuple[str, float, int]]) -> Reals:
     return np.array(positions) / 1000
 
 
-@settings(max_examples=examples(400))
+@search(400)
 @given(
     st.lists(
         st.tuples(st.sampled_from(COMMANDS), st.floats(-10, 10), st.integers(1, 120)),

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from tests.kernel.path.test_corners import Point, accelerations, follow, jerks, rig
 from tests.kernel.path.test_late_corners import JRK, chain
-from tests.kernel.rig import Reals, Rig, T, stride
+from tests.kernel.rig import Reals, Rig, T
+from tests.search import stride
 
 from openacr.kernel.path.sync_cy import sync_drop
 from openacr.map import numbers as at
@@ -42,6 +43,7 @@ def barred(made: Rig, points: list[Point], tick: int, bar: Bar) -> Reals:
     return follow(made, points, meanwhile)
 
 
+@pytest.mark.search
 @pytest.mark.parametrize("points", [PATH, CHORDS])
 @pytest.mark.parametrize("jrk", [0.0, JRK])
 @pytest.mark.parametrize("bar", [inhibit, sync])
@@ -68,6 +70,7 @@ def test_a_barred_path_rests_at_the_first_corner_before_which_it_has_room(bar: B
 STRAIGHT = chain([(0.5, 0.0)] * 12)
 
 
+@pytest.mark.search
 @pytest.mark.parametrize("jrk", [0.0, JRK])
 @pytest.mark.parametrize("bar", [inhibit, sync])
 def test_a_path_without_a_tolerance_is_barred_at_the_first_joint_before_which_it_has_room(
@@ -136,6 +139,7 @@ def dropped(made: Rig, points: list[Point], tick: int) -> Reals:
     return follow(made, points, meanwhile)
 
 
+@pytest.mark.search
 @pytest.mark.parametrize("jrk", [0.0, JRK])
 @pytest.mark.parametrize("fvel", [0.0, 20.0])
 def test_a_kill_of_one_member_lets_the_other_pass_the_corner_it_is_in(
@@ -148,6 +152,7 @@ def test_a_kill_of_one_member_lets_the_other_pass_the_corner_it_is_in(
             assert jerks(places).max() <= jrk * (1 + 1e-3)
 
 
+@pytest.mark.search
 @pytest.mark.parametrize("fvel", [0.0, 20.0])
 def test_a_barred_path_with_a_final_velocity_rests_where_it_is_to_stop(fvel: float) -> None:
     for tick in range(20, 200, stride(9)):
@@ -155,6 +160,7 @@ def test_a_barred_path_with_a_final_velocity_rests_where_it_is_to_stop(fvel: flo
         assert accelerations(places).max() <= 1000 * (1 + 1e-4)
 
 
+@pytest.mark.search
 def test_a_path_held_within_a_corner_ends_after_it_though_its_moves_are_dropped() -> None:
     within = 0
     for tick in range(30, 120, stride(1)):
@@ -203,6 +209,7 @@ def test_both_builds_agree_about_barred_paths(bar: Bar, jrk: float) -> None:
     assert digests[0] == digests[1]
 
 
+@pytest.mark.search
 def test_a_kill_of_one_member_lets_the_other_brake_on_a_path_without_a_tolerance() -> None:
     """Every other move of the line is slower, so that each of them is a section of its own."""
     lengths = []

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from tests.kernel.rig import Reals, Rig, T, examples
+from tests.kernel.rig import Reals, Rig, T
+from tests.search import search
 
 from openacr.errors import CardError
 from openacr.map import numbers as at
@@ -231,7 +232,7 @@ def keeps_its_limits(places: Reals, points: Sequence[Point], tolerance: float) -
 TOLERANCES = st.floats(-4.0, 0.0).map(lambda e: 10.0**e)
 
 
-@settings(max_examples=examples(250))
+@search(250)
 @given(polylines(), TOLERANCES, EVENTS)
 def test_any_path_stays_within_tolerance_and_acceleration_and_ends_exactly(
     points: list[Point], tolerance: float, events: list[Event]
@@ -291,7 +292,7 @@ def test_a_tolerance_that_is_no_length_is_refused_before_anything_moves() -> Non
     assert not made.bit(IN_MOTION)
 
 
-@settings(max_examples=examples(250))
+@search(250)
 @given(polylines(), st.lists(st.none() | TOLERANCES, min_size=12, max_size=12), EVENTS)
 def test_binary_chains_stay_within_tolerance_and_acceleration_and_end_exactly(
     points: list[Point], tolerances: list[float | None], events: list[Event]
@@ -308,7 +309,7 @@ def jerks(places: Reals) -> Reals:
     return np.asarray(np.linalg.norm(np.diff(still, n=3, axis=0), axis=1) / T**3)
 
 
-@settings(max_examples=examples(150))
+@search(150)
 @given(
     polylines(),
     st.lists(st.none() | st.floats(-2.0, 0.3).map(lambda e: 10.0**e), min_size=12, max_size=12),
@@ -351,7 +352,7 @@ def test_under_jerk_and_look_events_near_a_corner_keep_all_limits(
 NEAR_STOPS = [(0.009, -0.056), (-0.222, -0.395), (-0.298, -0.246), (-0.289, -0.325)]
 
 
-@settings(max_examples=examples(150))
+@search(150)
 @given(
     st.one_of(polylines(), st.sampled_from([0.2, 0.4, 2.0]).map(lambda leg: wave(leg)[:40])),
     st.floats(-3.0, 0.0).map(lambda e: 10.0**e),
@@ -469,7 +470,7 @@ def test_a_hold_before_a_stop_ends_at_rest_in_the_corner_at_the_latest(tick: int
     assert jerks(places).max() <= 20_000 * (1 + 1e-3)
 
 
-@settings(max_examples=examples(15))
+@search(15)
 @given(polylines(), st.lists(st.none() | TOLERANCES, min_size=12, max_size=12))
 def test_both_builds_agree_about_binary_chains(
     points: list[Point], tolerances: list[float | None]

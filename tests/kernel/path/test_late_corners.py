@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from tests.kernel.path.test_corners import (
     EVENTS,
@@ -19,7 +19,8 @@ from tests.kernel.path.test_corners import (
     off_path,
     rig,
 )
-from tests.kernel.rig import Reals, Rig, T, examples
+from tests.kernel.rig import Reals, Rig, T
+from tests.search import search
 
 from openacr.map import numbers as at
 from openacr.motion.path import moves
@@ -76,7 +77,7 @@ TOO_FAST = [(0.64, 0.0), (0.32, 17.0), (0.9, 17.0)]
 STRAIGHT_ON = [(0.09, 0.0), (0.4, 0.0), (0.19, 101.0), (17.0, 106.0), (4.0, 113.0)]
 
 
-@settings(max_examples=examples(300))
+@search(300)
 @given(CHAINS, TOLERANCES, DEPTHS, EVERY, RAMPS)
 @example(chain(TOO_FAST), 0.8, 1, 0, (1.0, 0.5))
 @example(chain(STRAIGHT_ON), 0.5, 8, 0, (1.0, 1.0))
@@ -87,7 +88,7 @@ def test_under_jerk_any_path_keeps_all_limits_however_late_its_moves_come(
     keeps_limits(places, points, tolerance)
 
 
-@settings(max_examples=examples(150))
+@search(150)
 @given(CHAINS, TOLERANCES, DEPTHS, EVERY, RAMPS, EVENTS)
 def test_under_jerk_late_moves_keep_all_limits_whatever_happens(
     points: list[Point],
@@ -146,7 +147,7 @@ def test_a_hold_that_is_released_as_it_brakes_in_front_of_a_corner_keeps_all_lim
     keeps_limits(places, points, 0.1)
 
 
-@settings(max_examples=examples(15))
+@search(15)
 @given(CHAINS, TOLERANCES, st.integers(1, 6))
 def test_both_builds_agree_about_late_corners(
     points: list[Point], tolerance: float, depth: int
@@ -192,7 +193,7 @@ def keeps_ramps(places: Reals, points: Sequence[Point], tolerance: float) -> Non
 REFUSED = [(1.278, 0.0), (0.247, 0.0), (0.075, 10.01), (2.766, 0.27), (9.481, 0.02)]
 
 
-@settings(max_examples=examples(200))
+@search(200)
 @given(CHAINS, TOLERANCES, DEPTHS, EVERY, RAMPS, EVENTS)
 @example(chain(REFUSED), 0.12, 2, 50, (0.6, 1.0), [])
 def test_without_jerk_late_moves_keep_the_acceleration_whatever_happens(
@@ -221,7 +222,7 @@ def test_a_hold_softer_than_the_stop_ahead_comes_to_rest_in_it(tick: int) -> Non
 TO_A_STOP = [(0.356, 5.0), (0.056, 37.0), (0.562, 45.0), (0.305, 0.0), (0.092, -141.0), (1.2, 98.0)]
 
 
-@settings(max_examples=examples(150))
+@search(150)
 @given(CHAINS, TOLERANCES, DEPTHS, EVERY, RAMPS, EVENTS, st.sampled_from([0.0, JRK]))
 @example(chain(TO_A_STOP), 0.14, 1, 50, (1.0, 1.0), [], 0.0)
 @example(chain(TO_A_STOP), 0.14, 1, 50, (1.0, 1.0), [], JRK)

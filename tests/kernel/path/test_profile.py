@@ -13,7 +13,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from tests.kernel import oracle
-from tests.kernel.rig import Reals, Rig, T, acceleration, examples, jerk, noise, velocity
+from tests.kernel.rig import Reals, Rig, T, acceleration, jerk, noise, velocity
+from tests.search import search
 
 from openacr.motion.path import moves
 
@@ -53,7 +54,7 @@ def ticks_moved(positions: Reals) -> int:
     return len(positions) - 2
 
 
-@settings(max_examples=examples(600))
+@search(600)
 @given(shapes(), st.sampled_from([1.0, -1.0]), st.sampled_from([1.0, 0.01, 1000.0, -8000.0]))
 def test_a_move_ends_on_its_target_within_limits_and_in_time(
     shape: dict[str, float], sign: float, ppu: float
@@ -105,7 +106,7 @@ def test_published_profiles_take_their_times() -> None:
         assert velocity(positions).max() / 1000 == pytest.approx(peak, rel=2e-3)
 
 
-@settings(max_examples=examples(150))
+@search(150)
 @given(st.lists(shapes(), min_size=2, max_size=3), st.lists(st.booleans(), min_size=3, max_size=3))
 def test_merged_moves_pass_on_their_speed_and_end_exactly(
     chain: list[dict[str, float]], stops: list[bool]
@@ -137,7 +138,7 @@ def test_merged_moves_pass_on_their_speed_and_end_exactly(
     assert abs(ticks_moved(positions) - expected / T) <= 1 + 1e-5 * expected / T
 
 
-@settings(max_examples=examples(200))
+@search(200)
 @given(shapes(), st.data())
 @example(
     {"length": 10.0, "vel": 50.0, "acc": 100.0, "dec": 50.0, "stp": 100.0, "fvel": 20.0, "ivel": 0},

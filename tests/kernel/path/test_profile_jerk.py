@@ -7,7 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.kernel import oracle
 from tests.kernel.path.test_profile import disturbed, set_up, shapes, spread, ticks_moved
-from tests.kernel.rig import Rig, T, acceleration, examples, jerk, noise, velocity
+from tests.kernel.rig import Rig, T, acceleration, jerk, noise, velocity
+from tests.search import examples, search
 
 pytestmark = pytest.mark.evidence("oracle", "the fastest trajectory of ruckig")
 
@@ -24,7 +25,7 @@ def curves(draw: st.DrawFn) -> dict[str, float]:
     return shape
 
 
-@settings(max_examples=examples(400))
+@search(400)
 @given(curves())
 def test_an_s_curve_ends_exactly_keeps_its_jerk_and_takes_the_closed_form_time(
     shape: dict[str, float],
@@ -46,7 +47,7 @@ def test_an_s_curve_ends_exactly_keeps_its_jerk_and_takes_the_closed_form_time(
     assert abs(ticks_moved(positions) - leg.time / T) <= 1 + 1e-6 * leg.time / T
 
 
-@settings(max_examples=examples(300))
+@search(300)
 @given(curves())
 def test_an_s_curve_is_at_most_a_hundredth_slower_than_the_optimum(
     shape: dict[str, float],
@@ -69,7 +70,7 @@ def test_an_s_curve_is_at_most_a_hundredth_slower_than_the_optimum(
     assert optimum_s - T <= moved <= optimum_s * 1.01 + T
 
 
-@settings(max_examples=examples(300))
+@search(300)
 @given(curves(), st.data())
 def test_overrides_and_holds_during_an_s_curve_keep_end_acceleration_and_jerk(
     shape: dict[str, float], data: st.DataObject
@@ -86,6 +87,7 @@ def test_overrides_and_holds_during_an_s_curve_keep_end_acceleration_and_jerk(
     assert np.abs(jerk(units)).max() <= shape["jrk"] * (1 + 1e-6) + noise(units, 3)
 
 
+@pytest.mark.search
 def test_an_s_curve_that_brakes_for_a_lower_override_goes_on_braking_at_its_end() -> None:
     """Released so late that taking the brake off first would pass the target."""
     for ticks in range(0, 900, 900 // examples(130)):
@@ -103,7 +105,7 @@ def test_an_s_curve_that_brakes_for_a_lower_override_goes_on_braking_at_its_end(
         assert np.abs(jerk(units)).max() <= 1000 * (1 + 1e-5)
 
 
-@settings(max_examples=examples(150))
+@search(150)
 @given(st.lists(curves(), min_size=2, max_size=3))
 def test_merged_s_curves_pass_on_speed_and_acceleration(chain: list[dict[str, float]]) -> None:
     rig = Rig(ppu=[100.0])
@@ -137,7 +139,7 @@ def chains(draw: st.DrawFn) -> tuple[float, float, float, list[tuple[float, floa
     return vel, acc, jrk, [(v * vel, part * stop) for v, part in zip(speeds, parts, strict=True)]
 
 
-@settings(max_examples=examples(200))
+@search(200)
 @given(chains())
 def test_merged_s_curves_keep_acceleration_and_jerk_at_every_junction(
     chain: tuple[float, float, float, list[tuple[float, float]]],

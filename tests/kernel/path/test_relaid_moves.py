@@ -4,11 +4,12 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.kernel.path.test_corners import Point, accelerations, follow, jerks, off_path, rig
 from tests.kernel.path.test_late_corners import CHAINS, JRK, TOLERANCES, chain
-from tests.kernel.rig import Reals, Rig, T, examples, stride
+from tests.kernel.rig import Reals, Rig, T
+from tests.search import search, stride
 
 from openacr.kernel.path.path_cy import MARK_BLOCK_SKIP
 from openacr.map import numbers as at
@@ -44,6 +45,7 @@ def left_out(made: Rig, points: list[Point], tick: int) -> Reals:
     return follow(made, points, meanwhile)
 
 
+@pytest.mark.search
 @pytest.mark.parametrize("jrk", [0.0, JRK])
 def test_a_move_that_is_left_out_at_any_tick_leaves_limits_and_tolerance_kept(jrk: float) -> None:
     skipped = []
@@ -117,7 +119,7 @@ def test_a_marked_move_far_ahead_is_left_out_with_the_input_and_run_into_without
     assert whole == pytest.approx(follow(rig(0.1, jrk=jrk), PATH))
 
 
-@settings(max_examples=examples(150))
+@search(150)
 @given(CHAINS, TOLERANCES, st.integers(1, 400), st.sampled_from([0.0, JRK]))
 def test_any_path_with_a_move_that_is_left_out_keeps_limits_and_tolerance(
     points: list[Point], tolerance: float, tick: int, jrk: float

@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.kernel.path.test_corners import Point, accelerations, follow, jerks, rig
 from tests.kernel.path.test_late_corners import CHAINS, JRK, TOLERANCES, chain
-from tests.kernel.rig import Reals, Rig, examples, stride
+from tests.kernel.rig import Reals, Rig
+from tests.search import search, stride
 
 from openacr.motion.path import moves
 from openacr.motion.path.move_request import Target
@@ -31,6 +32,7 @@ def keeps(places: Reals, jrk: float) -> None:
         assert jerks(places).max() <= jrk * (1 + 1e-3)
 
 
+@pytest.mark.search
 @pytest.mark.parametrize("jrk", [0.0, JRK])
 def test_a_path_that_is_turned_back_at_any_tick_keeps_all_limits(jrk: float) -> None:
     for tick in range(1, len(follow(rig(0.1, jrk=jrk), PATH)) - 2, stride(1)):
@@ -68,7 +70,7 @@ def test_corners_after_the_path_has_turned_back_are_rounded_from_where_it_did(
     keeps(places, jrk)
 
 
-@settings(max_examples=examples(100))
+@search(100)
 @given(CHAINS, TOLERANCES, st.integers(1, 400), st.sampled_from([0.0, JRK]))
 def test_any_path_that_is_turned_back_keeps_all_limits(
     points: list[Point], tolerance: float, tick: int, jrk: float

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.kernel.path.test_corners import (
     Point,
@@ -25,7 +25,8 @@ from tests.kernel.path.test_late_corners import (
     keeps_limits,
     late_rig,
 )
-from tests.kernel.rig import Reals, Rig, T, examples, stride
+from tests.kernel.rig import Reals, Rig, T
+from tests.search import search, stride
 
 from openacr.map import numbers as at
 from openacr.motion.path import buffer
@@ -64,6 +65,7 @@ def keeps_acceleration(places: Reals, points: list[Point], tolerance: float) -> 
     assert accelerations(places).max() <= 1000 * (1 + 1e-4)
 
 
+@pytest.mark.search
 @pytest.mark.parametrize("jrk", [0.0, JRK])
 @pytest.mark.parametrize("depth", [2, 10])
 @pytest.mark.parametrize("what", ["on", "off", "neglect", "0.02", "0.1"])
@@ -94,7 +96,7 @@ SWITCHES = st.lists(
 )
 
 
-@settings(max_examples=examples(100))
+@search(100)
 @given(CHAINS, TOLERANCES, DEPTHS, EVERY, RAMPS, SWITCHES, st.booleans())
 def test_under_jerk_any_switches_keep_all_limits(
     points: list[Point],
@@ -109,7 +111,7 @@ def test_under_jerk_any_switches_keep_all_limits(
     keeps_limits(places, points, 1.0)
 
 
-@settings(max_examples=examples(100))
+@search(100)
 @given(CHAINS, TOLERANCES, SWITCHES, st.booleans())
 def test_without_jerk_any_switches_keep_the_acceleration(
     points: list[Point], tolerance: float, switches: list[Switch], on: bool
@@ -178,6 +180,7 @@ def ramps(made: Rig, points: list[Point], tick: int, what: str) -> Reals:
     return np.asarray(np.abs(np.diff([*speeds, made.path_velocity])) / T)
 
 
+@pytest.mark.search
 @pytest.mark.parametrize("share", [(1.0, 1.0), (1.0, 0.5), (0.6, 1.0)])
 @pytest.mark.parametrize("what", ["off", "neglect"])
 @pytest.mark.parametrize("jrk", [0.0, JRK])
