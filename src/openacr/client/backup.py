@@ -27,6 +27,7 @@ from openacr.client.requests import SYS, Level
 from openacr.client.talk import Talk
 from openacr.client.transfer import Progress, upload
 from openacr.errors import UserError, unreadable, unwritable
+from openacr.lang.attachments import attachments
 
 Files: TypeAlias = list[tuple[Path, Level, str]]
 
@@ -71,10 +72,8 @@ _VALUE = re.compile(rf"{_NUMBER}(?:,{_NUMBER})?|ON|OFF")
 _SOURCE = re.compile(r"NONE|CLK|[A-Z]+\d+")  # as the card reports and takes it
 _OWN_SETPOINT = "PSP"  # of a ballscrew without a source, which no line can choose
 _ATTACHED_AXIS = re.compile(r"ATTACH AXIS(\d+) ")
-_MASTER = re.compile(r"ATTACH MASTER(\d+)")
 _MAINTENANCE = re.compile(r"(\w+) (ON|OFF)")
 _CHANNEL_WORDS = frozenset(("ENC", "DAC", "ADC"))  # of commutators: CMT0 DAC0 DAC1
-_SLAVE = re.compile(r"ATTACH SLAVE\d+ AXIS(\d+) ")
 _VARIABLES = re.compile(r"DIM P\((\d+)\)")
 
 
@@ -175,8 +174,8 @@ def surroundings(talk: Talk, level: Level) -> Op[str]:
     """The memory, aliases and axes that a program or PLC finds on the card, as set-up code."""
     home = talk.level
     reader = _Reader(talk, None)
-    sizes, aliases, attachments = yield from _memory_and_names(reader)
-    reader.lines += [str(SYS), *sizes, *aliases, *attachments]
+    sizes, aliases, attached = yield from _memory_and_names(reader)
+    reader.lines += [str(SYS), *sizes, *aliases, *attached]
     if level.word == "PROG":
         yield from _read_program(reader, level, [])
     yield from talk.go(home)
@@ -187,14 +186,14 @@ def _memory_and_names(reader: _Reader) -> Op[tuple[list[str], list[str], list[st
     """What SYS reports of memory, aliases and axes."""
     sizes = yield from reader.commands("DIM", "DIM")
     aliases = yield from reader.commands("DEF", "#DEFINE")
-    attachments = yield from reader.commands("ATTACH", "ATTACH")
-    return sizes, aliases, attachments
+    attached = yield from reader.commands("ATTACH", "ATTACH")
+    return sizes, aliases, attached
 
 
 def _read_system(reader: _Reader) -> Op[None]:
-    sizes, aliases, attachments = yield from _memory_and_names(reader)
+    sizes, aliases, attached = yield from _memory_and_names(reader)
     sizes = [line for line in sizes if line not in Storage.factory_lines()]  # CLEAR sets these
-    axes = [int(found[1]) for found in map(_ATTACHED_AXIS.match, attachments) if found]
+    axes = [int(found[1]) for found in map(_ATTACHED_AXIS.match, attached) if found]
     if not axes:
         axes = yield from _axes_that_answer(reader)
     modules = yield from reader.commands("CONFIG", "CONFIG")
@@ -206,7 +205,7 @@ def _read_system(reader: _Reader) -> Op[None]:
     for words in _SYSTEM_ROWS:
         yield from reader.setting(registry.find(words))
     yield from _read_flags(reader, [_LISTS_NUMBERS])
-    reader.lines += attachments
+    reader.lines += attached
     for row, query in objects:
         yield from reader.setting(row, query)
     for axis in axes:
@@ -285,25 +284,26 @@ def _read_variables(reader: _Reader, sizes: Iterable[str]) -> Op[None]:
 
 
 def _read_program(reader: _Reader, level: Level, commands: list[Command]) -> Op[None]:
-    attachments = yield from reader.commands("ATTACH", "ATTACH", at=level)
+    attached = yield from reader.commands("ATTACH", "ATTACH", at=level)
     sizes = yield from reader.commands("DIM", "DIM", at=level)
-    if attachments or sizes:
-        reader.lines += [str(level), *attachments, *sizes]
-    for row in commands if attachments else ():
+    if attached or sizes:
+        reader.lines += [str(level), *attached, *sizes]
+    for row in commands if attached else ():
         yield from reader.setting(row, at=level)
     if commands:
-        yield from _read_switches(reader, level, attachments)
-    for axis in (found[1] for found in map(_SLAVE.match, attachments) if found):
+        yield from _read_switches(reader, level, attached)
+    for slave in attachments(attached)[1]:
         row = registry.find(_OF_MASTER)
-        yield from reader.setting(row, f"AXIS{axis} {_OF_MASTER}", at=level)
+        yield from reader.setting(row, f"AXIS{slave.axis} {_OF_MASTER}", at=level)
 
 
-def _read_switches(reader: _Reader, level: Level, attachments: Iterable[str]) -> Op[None]:
+def _read_switches(reader: _Reader, level: Level, attached: Iterable[str]) -> Op[None]:
     """What ON and OFF have set: timed moves of a master, position maintenance of its axes."""
-    for master in (found[1] for found in map(_MASTER.match, attachments) if found):
+    master, slaves = attachments(attached)
+    if master is not None:
         yield from reader.parameter(f"master{master}.{_MASTER_PARAMETER}")
         yield from _read_flags(reader, [f"master{master}.{_IN_MOVE_TIME}"])
-    if any(map(_SLAVE.match, attachments)):
+    if slaves:
         for line in (yield from reader.ask("PM", at=level)):
             found = _MAINTENANCE.fullmatch(line)
             reader.lines.append(

@@ -8,11 +8,10 @@ from openacr.basic import commands as _registered  # noqa: F401 - fills the regi
 from openacr.basic.language.grammar import AxisGroups, AxisList, AxisPairs, AxisValues, Num
 from openacr.basic.language.registry import BY_OBJECT, commands
 from openacr.controller import Controller
+from openacr.lang.attachments import attachments
 
 PROGRAMS = range(16)
 _AXIS = re.compile(r"ATTACH AXIS(\d+) ENC(\d+) DAC(\d+)\b")
-_MASTER = re.compile(r"ATTACH MASTER(\d+)")
-_SLAVE = re.compile(r'ATTACH SLAVE\d+ AXIS(\d+) "(\w+)"')
 _PROGRAM = re.compile(r"DIM PROG(\d+)\((\d+)\)")
 _PLC = re.compile(r"DIM PLC(\d+)\(")
 
@@ -64,10 +63,8 @@ def attached_axes(card: Card) -> dict[int, tuple[int, int]]:
 
 def attached_master(card: Card, program: int) -> tuple[int | None, dict[str, int]]:
     """The master of a program, and its axes by name in the order of its slaves."""
-    lines = card.command("ATTACH", program=program)
-    master = next((int(each[1]) for each in map(_MASTER.match, lines) if each), None)
-    slaves = {each[2]: int(each[1]) for each in map(_SLAVE.match, lines) if each}
-    return master, slaves
+    master, slaves = attachments(card.command("ATTACH", program=program))
+    return master, {each.name: each.axis for each in slaves}
 
 
 def dimensioned_plcs(card: Card) -> list[int]:

@@ -1,6 +1,6 @@
 """What of AcroMill's axes is not attached on a card as it needs them."""
 
-from openacr.client.card_axes import Attached
+from openacr.lang.attachments import Attached
 from openacr.mill.config.settings import Settings
 
 
