@@ -14,7 +14,7 @@ from openacr.cnc.interpreter.values_cy import MOST_VALUES
 from openacr.cnc.reading.blocks import Assignment, Block, Goto, If, OWord, Statement
 from openacr.cnc.reading.formulas import Call, Node, Number, Parameter
 from openacr.cnc.reading.functions import EQUAL
-from openacr.cnc.reading.statement_reader import INPUTS
+from openacr.cnc.reading.statements import INPUTS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

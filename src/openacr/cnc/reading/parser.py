@@ -15,10 +15,11 @@ from openacr.cnc.reading.blocks import (
     OWord,
     Word,
 )
+from openacr.cnc.reading.expressions import ExpressionReader
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.reading.formulas import Node, Number, Parameter
 from openacr.cnc.reading.grammar import Grammar
-from openacr.cnc.reading.statement_reader import StatementReader
+from openacr.cnc.reading.statements import end, remark, statement
 
 LONGEST = 256
 LAST_LABEL = 999_999
@@ -70,7 +71,7 @@ def _target(number: int, *, has_fraction: bool) -> int | None:
     return number if 1 <= number <= LAST_LABEL and not has_fraction else None
 
 
-class _Parser(StatementReader):
+class _Parser(ExpressionReader):
     """Reads one line."""
 
     def block(self) -> Block:
@@ -125,7 +126,7 @@ class _Parser(StatementReader):
         while self.peek() == self.open:
             values.append(self.bracketed())
             self.gap()
-        self.end(block)
+        end(self, block)
         block.statement = OWord(name, word, tuple(values), at, number)
         return True
 
@@ -146,10 +147,10 @@ class _Parser(StatementReader):
         if self._plain_word(block):
             return True
         if char == "(":
-            self.remark(block)
+            remark(self, block)
         elif char == "#":
             self._assignment(block, "#")
-        elif not self.statement(block):
+        elif not statement(self, block):
             self._word(block, char)
         return True
 
