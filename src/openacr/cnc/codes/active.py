@@ -1,4 +1,4 @@
-"""What stays active between blocks beside the modal state: a canned cycle, a modal macro."""
+"""What stays active between blocks beside the modal state: a canned cycle, a modal macro ..."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from openacr.cnc.canonical import Point
 from openacr.cnc.program.program import Node
+from openacr.cnc.state.modal import Modal
 
 
 @dataclass(slots=True)
@@ -44,3 +45,12 @@ class ModalMacro:
     start: Node
     values: tuple[float, ...]
     repeat_cnt: int
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """What M70 keeps; `is_automatic` (M73): restored when the subroutine returns."""
+
+    modal: Modal
+    added: Point
+    is_automatic: bool

@@ -8,10 +8,10 @@ of an interpreter is known to a code.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 from openacr.cnc.canonical import Entry, Source
-from openacr.cnc.codes.active import Curve, Drilling, ModalMacro
+from openacr.cnc.codes.active import Context, Curve, Drilling, ModalMacro
 from openacr.cnc.geometry.path import Path
 from openacr.cnc.program.block_context import BlockContext
 from openacr.cnc.program.flow import Flow, Frame
@@ -20,9 +20,6 @@ from openacr.cnc.reading.grammar import Grammar
 from openacr.cnc.state.hosts import Cells, Machine
 from openacr.cnc.state.modal import Modal
 from openacr.cnc.state.parameters import Parameters
-
-if TYPE_CHECKING:
-    from openacr.cnc.codes.ngc.contexts import Context
 
 Motions = dict[
     float, Callable[["Run", BlockContext], "Iterator[Entry] | None"]

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from openacr.cnc.canonical import Coolant, Entry, Point, Spindle
+from openacr.cnc.canonical import Coolant, Entry, Spindle
+from openacr.cnc.codes.active import Context
 from openacr.cnc.codes.gcodes.work import select
 from openacr.cnc.codes.table import Step
 from openacr.cnc.codes.tables import RS274NGC
@@ -25,15 +25,6 @@ FIELDS = (
     "feed_mode", "has_feed", "speed", "spin", "mist", "flood", "is_feed_locked",
 )  # fmt: skip
 _SPINDLE, _COOLANT = ("spin", "speed"), ("mist", "flood")
-
-
-@dataclass(frozen=True, slots=True)
-class Context:
-    """What M70 keeps; `is_automatic` (M73): restored when the subroutine returns."""
-
-    modal: Modal
-    added: Point
-    is_automatic: bool
 
 
 @mcode(70, step=Step.KEEP)

@@ -13,7 +13,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from openacr.cnc.codes.ngc.contexts import Context, restored
+from openacr.cnc.codes.active import Context
+from openacr.cnc.codes.ngc.contexts import restored
 from openacr.cnc.program.flow import Frame, Level
 from openacr.cnc.program.labels import Place
 from openacr.cnc.program.program import Node, OPlace, Part, Program
