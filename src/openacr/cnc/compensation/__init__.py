@@ -27,7 +27,8 @@ finds moves that come too near to any element.
 
 from openacr.cnc.compensation.compensator import Compensator
 from openacr.cnc.compensation.listing import listing
-from openacr.cnc.compensation.rules import Report, Rules, Side, Watch
+from openacr.cnc.compensation.many import Watch
+from openacr.cnc.compensation.rules import Report, Rules, Side
 from openacr.cnc.compensation.whole import ChainCheck
 
 __all__ = ["ChainCheck", "Compensator", "Report", "Rules", "Side", "Watch", "listing"]

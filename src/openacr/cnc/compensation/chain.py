@@ -34,11 +34,11 @@ from openacr.cnc.compensation.join_cy import (
     ROUND,
 )
 from openacr.cnc.compensation.lead import begin_lead_in, end_lead_in
-from openacr.cnc.compensation.many import Many
+from openacr.cnc.compensation.many import Many, Watch
 from openacr.cnc.compensation.moves import at_place
 from openacr.cnc.compensation.pieces import Held, Pieces
 from openacr.cnc.compensation.rows import Piece, Table, fit, place
-from openacr.cnc.compensation.rules import Report, Rules, Watch
+from openacr.cnc.compensation.rules import Report, Rules
 from openacr.cnc.geometry.elements import Element
 from openacr.compiled import pick
 

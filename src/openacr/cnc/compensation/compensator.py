@@ -7,9 +7,10 @@ from typing import Generic
 from openacr.cnc.canonical import Moves, Point
 from openacr.cnc.compensation.chain import Chain
 from openacr.cnc.compensation.entry import entry_arc
+from openacr.cnc.compensation.many import Watch
 from openacr.cnc.compensation.moves import is_motion, moved
 from openacr.cnc.compensation.pieces import Held
-from openacr.cnc.compensation.rules import Report, Rules, Side, Watch
+from openacr.cnc.compensation.rules import Report, Rules, Side
 from openacr.cnc.geometry.elements import Element
 
 

@@ -1,8 +1,8 @@
-"""Many elements at once: a contour as rows of moves, and the rows of the tool beside it."""
+"""Many elements at once: a contour as rows of moves, the rows beside it, and who watches them."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from openacr.cnc.canonical import AXES, PLANES, Moves
 from openacr.cnc.canonical.batches import ARC, CURVE, RAPID, ROW, Origin
@@ -10,7 +10,7 @@ from openacr.cnc.geometry.elements import Element
 from openacr.cnc.reading.line_shapes import doubles, integers
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from openacr.cnc.canonical import Pace, Point
     from openacr.cnc.compensation.rows import Piece, Table
@@ -70,3 +70,22 @@ class Many:
         rows[:], ends[:] = table.rows[: count * ROW], table.ends[: count * AXES]
         arcs[:] = table.arcs[: count * CURVE]
         return Moves(tuple(self._origins), rows, ends, arcs, tuple(self._paces))
+
+
+class Watch(Protocol):
+    """An observer of whole chains (`ChainCheck`)."""
+
+    def contour(self, element: Element) -> None:
+        """Receive an element of the programmed contour."""
+
+    def centre_path(self, element: Element, radius: float) -> None:
+        """Receive a move of the tool."""
+
+    def elements(self, many: Many) -> None:
+        """Receive many elements of the programmed contour."""
+
+    def tool_moves(self, moves: Moves, extra: Sequence[float]) -> None:
+        """Receive many moves of the tool; `extra`: EXTRA numbers of each (`chain_cy`)."""
+
+    def end(self) -> None:
+        """Receive the end of the chain."""

@@ -6,10 +6,9 @@ from typing import Generic, TypeVar, cast
 from openacr.cnc.canonical import AXES, PLANES
 from openacr.cnc.compensation import chain_cy as core
 from openacr.cnc.compensation.curve_cy import COLUMNS, START
-from openacr.cnc.compensation.many import Many
+from openacr.cnc.compensation.many import Many, Watch
 from openacr.cnc.compensation.moves import element_of
 from openacr.cnc.compensation.rows import Piece, Table
-from openacr.cnc.compensation.rules import Watch
 from openacr.cnc.geometry.elements import Element
 from openacr.compiled import pick
 from openacr.views import F64, I32

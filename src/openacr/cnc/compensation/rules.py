@@ -1,39 +1,15 @@
-"""Settings of compensation: side of the tool, tolerances, receivers of findings."""
+"""Settings of compensation: side of the tool, tolerances, the receiver of findings."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, Protocol
 
 from openacr.cnc.geometry.elements import Element
 
-if TYPE_CHECKING:
-    from openacr.cnc.canonical import Moves
-    from openacr.cnc.compensation.many import Many
-
 Report = Callable[[str, str, Element], None]
 """Takes a finding: its code, its text, and the element it is about."""
-
-
-class Watch(Protocol):
-    """An observer of whole chains (`ChainCheck`)."""
-
-    def contour(self, element: Element) -> None:
-        """Receive an element of the programmed contour."""
-
-    def centre_path(self, element: Element, radius: float) -> None:
-        """Receive a move of the tool."""
-
-    def elements(self, many: Many) -> None:
-        """Receive many elements of the programmed contour."""
-
-    def tool_moves(self, moves: Moves, extra: Sequence[float]) -> None:
-        """Receive many moves of the tool; `extra`: EXTRA numbers of each (`chain_cy`)."""
-
-    def end(self) -> None:
-        """Receive the end of the chain."""
 
 
 class Side(Enum):
