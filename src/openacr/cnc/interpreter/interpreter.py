@@ -42,7 +42,8 @@ from openacr.cnc.interpreter.offset_path import OFF, OffsetPath
 from openacr.cnc.loading.load import planner_of
 from openacr.cnc.program.block_context import BlockContext
 from openacr.cnc.program.flow import Flow
-from openacr.cnc.program.program import Node, Part, Program
+from openacr.cnc.program.labels import Part
+from openacr.cnc.program.program import Node, Program
 from openacr.cnc.reading.findings import MOST, BlockError, CodeError, Finding, found
 from openacr.cnc.state.cells import (
     CMP_RAD,

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from openacr.cnc.canonical import Point
     from openacr.cnc.interpreter.interpreter import Interpreter
     from openacr.cnc.program.flow import Frame
-    from openacr.cnc.program.program import Node, Part
+    from openacr.cnc.program.labels import Part
+    from openacr.cnc.program.program import Node
 
 MOST_PASSES = 500_000
 HINT = "it does not end by itself; a machine runs it until it is ended"

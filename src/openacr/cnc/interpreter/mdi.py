@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from openacr.cnc.canonical import Entry
 from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.cnc.loading.supplied import add_labels, supplied_cycles
-from openacr.cnc.program.program import Node, Part
+from openacr.cnc.program.labels import Part
+from openacr.cnc.program.program import Node
 from openacr.cnc.reading.blocks import Goto, If, Include
 from openacr.cnc.reading.findings import BlockError, CodeError
 from openacr.cnc.reading.parser import parse

@@ -22,7 +22,7 @@ from openacr.cnc.state.shadow import NEAR, Shadow
 
 if TYPE_CHECKING:
     from openacr.cnc.interpreter.interpreter import Interpreter
-    from openacr.cnc.program.program import Part
+    from openacr.cnc.program.labels import Part
     from openacr.views import F64, I32
 
 

@@ -17,7 +17,7 @@ from openacr.cnc.reading.text import decoded
 if TYPE_CHECKING:
     from openacr.cnc.interpreter.fast_plans import Notes
     from openacr.cnc.interpreter.interpreter import Interpreter
-    from openacr.cnc.program.program import Part
+    from openacr.cnc.program.labels import Part
     from openacr.views import F64, I32
 
 

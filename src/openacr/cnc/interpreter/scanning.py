@@ -42,7 +42,7 @@ from openacr.compiled import pick
 if TYPE_CHECKING:
     from openacr.cnc.codes.table import Limit
     from openacr.cnc.interpreter.interpreter import Interpreter
-    from openacr.cnc.program.program import Part
+    from openacr.cnc.program.labels import Part
     from openacr.views import F64
 
 MOST_SLOW = 20_000  # places of lines that are known to be left to the parser

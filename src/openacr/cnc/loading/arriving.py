@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import re
 
-from openacr.cnc.program.labels import Labels, Place
-from openacr.cnc.program.program import Part
+from openacr.cnc.program.labels import Labels, Part, Place
 from openacr.cnc.reading.text import CONTROL_Z, Kept, Text, decoded
 
 _LABEL = re.compile(r"\s*/?\d?\s*N\s*(\d{1,6})", re.IGNORECASE)

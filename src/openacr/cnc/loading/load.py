@@ -18,8 +18,8 @@ from openacr.cnc.loading.checks import Checks, Report
 from openacr.cnc.loading.skimming import Skimmer
 from openacr.cnc.loading.supplied import custom_numbers, cycle_part, found_in, supplied_cycles
 from openacr.cnc.loading.targets import Targets, double_labels, labels_of_cycles
-from openacr.cnc.program.labels import Place
-from openacr.cnc.program.program import CYCLES_FILE, Part, Program
+from openacr.cnc.program.labels import Part, Place
+from openacr.cnc.program.program import CYCLES_FILE, Program
 from openacr.cnc.reading.blocks import Block, Gosub, Goto, If, Include, OWord, Word
 from openacr.cnc.reading.findings import MOST, CodeError
 from openacr.cnc.reading.formulas import Number

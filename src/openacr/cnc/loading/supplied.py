@@ -3,8 +3,8 @@
 import re
 from pathlib import Path
 
-from openacr.cnc.program.labels import Place
-from openacr.cnc.program.program import CYCLES_FILE, Part
+from openacr.cnc.program.labels import Part, Place
+from openacr.cnc.program.program import CYCLES_FILE
 from openacr.cnc.reading.text import Kept, Text
 
 CUSTOM_NAME = re.compile(r"M(\d+)\.TXT", re.IGNORECASE)

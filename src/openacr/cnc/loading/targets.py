@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from openacr.cnc.loading.checks import Report
-from openacr.cnc.program.labels import Labels, Place
-from openacr.cnc.program.program import Part
+from openacr.cnc.program.labels import Labels, Part, Place
 from openacr.cnc.reading.findings import CodeError, Finding, found
 from openacr.cnc.reading.text import decoded
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from enum import Enum, auto
 
 from openacr.cnc.canonical import Source
-from openacr.cnc.program.labels import Place
-from openacr.cnc.program.program import Node, Nodes, Part, Program
+from openacr.cnc.program.labels import Part, Place
+from openacr.cnc.program.program import Node, Nodes, Program
 from openacr.cnc.reading.findings import CodeError
 
 DEEPEST = 10

@@ -1,4 +1,4 @@
-"""The labels of a program and the lines they name.
+"""The texts of a program, their labels and the lines they name.
 
 Labels of parsed lines are added one by one; those of plain lines, of which there can be
 hundreds of thousands, as arrays that are sorted when the first label is looked up.
@@ -7,14 +7,14 @@ hundreds of thousands, as arrays that are sorted when the first label is looked 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
+
+from openacr.cnc.reading.text import Text, decoded
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
-
-    from openacr.cnc.program.program import Part
 
 Rows: TypeAlias = "NDArray[np.int64]"  # label, line, offset
 
@@ -96,6 +96,32 @@ class Labels:
                 yield from ((label, first, place) for place in places)
             if len(texts) > 1:
                 firsts = {row[0]: _place(part, row) for row in rows[::-1].tolist()} | firsts
+
+
+@dataclass(slots=True, eq=False)
+class Part:
+    """One text of a program; `labels` are shared with the texts it is added to."""
+
+    text: Text
+    labels: Labels = field(default_factory=Labels)
+    is_cycles: bool = False
+    continues_at: Place | None = None  # where to continue after an included text
+    line_cnt: int = 0
+
+    @property
+    def start(self) -> Place:
+        """The first line."""
+        return Place(self, self.text.begin, 1)
+
+    def line(self, number: int) -> str:
+        """A line by its number; empty after the last one."""
+        found, after = None, self.text.begin
+        for _ in range(number):
+            found = self.text.line(after)
+            if found is None:
+                return ""
+            after = found[1]
+        return decoded(found[0]) if found else ""
 
 
 def _sorted(many: list[Rows]) -> Rows:

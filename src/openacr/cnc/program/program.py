@@ -7,38 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from openacr.cnc.canonical import Source
-from openacr.cnc.program.labels import Labels, Place
+from openacr.cnc.program.labels import Part, Place
 from openacr.cnc.reading.findings import Finding
-from openacr.cnc.reading.text import Text, decoded
+from openacr.cnc.reading.text import decoded
 
 CYCLES_FILE = "CYCLES.TXT"
 MANY = 20_000  # nodes kept
-
-
-@dataclass(slots=True, eq=False)
-class Part:
-    """One text of a program; `labels` are shared with the texts it is added to."""
-
-    text: Text
-    labels: Labels = field(default_factory=Labels)
-    is_cycles: bool = False
-    continues_at: Place | None = None  # where to continue after an included text
-    line_cnt: int = 0
-
-    @property
-    def start(self) -> Place:
-        """The first line."""
-        return Place(self, self.text.begin, 1)
-
-    def line(self, number: int) -> str:
-        """A line by its number; empty after the last one."""
-        found, after = None, self.text.begin
-        for _ in range(number):
-            found = self.text.line(after)
-            if found is None:
-                return ""
-            after = found[1]
-        return decoded(found[0]) if found else ""
 
 
 class Node:

@@ -9,7 +9,8 @@ from pathlib import Path
 
 from openacr.client.program_variables import Value
 from openacr.cnc.loading.load import Folders
-from openacr.cnc.program.program import Part, Program
+from openacr.cnc.program.labels import Part
+from openacr.cnc.program.program import Program
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.reading.grammar import Grammar
 from openacr.cnc.reading.parser import parse

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING
 from openacr.cnc.codes.active import Context
 from openacr.cnc.codes.ngc.contexts import restored
 from openacr.cnc.program.flow import Frame, Level
-from openacr.cnc.program.labels import Place
-from openacr.cnc.program.program import Node, OPlace, Part, Program
+from openacr.cnc.program.labels import Part, Place
+from openacr.cnc.program.program import Node, OPlace, Program
 from openacr.cnc.reading.blocks import OWord
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.reading.formulas import LOCALS, Formula
