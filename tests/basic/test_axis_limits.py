@@ -218,10 +218,3 @@ def test_a_software_limit_before_the_switch_keeps_the_axis_off_it() -> None:
             made.all("SET 0")
     assert (made.bit(POSITIVE_SOFT), made.bit(POSITIVE_HARD)) == (True, False)
     assert made.p(PSP) == pytest.approx(2500, abs=11)
-
-
-@pytest.mark.req("ACR-LIMDET-03")
-def test_a_limit_met_in_homing_turns_the_search_round_without_a_kill() -> None:
-    made = bench("HLIM X3 : HLDEC X1000", "JOG HOME X1").ticks(100)
-    made.all("SET 0").ticks(200)
-    assert (made.bit(KAMR), made.bit(POSITIVE_HARD), made.bit(793)) == (False, False, True)

@@ -7,7 +7,7 @@ from tests.basic.motion_bench import Bench
 
 from openacr.map import numbers as at
 
-CURRENT, PSP, CAM, CYCLES, SMOOTH = 12288, 12294, 12298, 12400, 12401
+PSP, CAM, CYCLES, SMOOTH = 12294, 12298, 12400, 12401
 ACTIVATE, TRIGGER_MODE, TRIGGER_STARTED = 790, 2308, 2309
 KAMR = 8467
 WHEEL = 6144 + 16 * 10  # position of encoder 10, which no axis has here
@@ -36,13 +36,6 @@ def offsets(made: Bench, *counts: int) -> list[float]:
 # tables
 
 
-@pytest.mark.req("ACR-CAM-01", "ACR-CMD-CAM")
-def test_the_output_is_interpolated_and_repeats() -> None:
-    made = bench(0, 100, 0, lines=("CAM ON X",))
-    assert offsets(made, 25, 25, 25, 50) == [50, 100, 50, 50]
-    assert made.p(CAM) == made.p(PSP) == 50
-
-
 def test_a_cam_runs_in_both_directions() -> None:
     made = bench(0, 100, 0, 40, 0, lines=("CAM ON X",))
     assert offsets(made, -10, -15, -50) == pytest.approx([16, 40, 100])
@@ -65,39 +58,7 @@ def test_segments_follow_each_other() -> None:
     assert offsets(made, 50, 55, 5, 5, 5) == [5, 30, 50, 25, 0]
 
 
-@pytest.mark.req("ACR-CAM-02")
-def test_changed_points_act_at_once() -> None:
-    made = bench(0, 100, 0, lines=("CAM ON X",))
-    assert turn(made, 50) == 100
-    made.all("LA0(1)=70")
-    assert turn(made, 0) == 70
-
-
-def test_the_clock_drives_a_cam_by_default() -> None:
-    made = bench(0, 1000, length=1000, lines=("CAM CLEAR X", "CAM DIM X1", "CAM SEG X(0,1000,LA0)"))
-    assert made.type("CAM SRC X") == "CLK"
-    made.all("CAM ON X").seconds(0.25)
-    assert made.p(CAM) == 250
-
-
-@pytest.mark.req("ACR-CAM-05", "ACR-MOT-01")
-def test_cam_motion_adds_to_moves_and_jogs() -> None:
-    made = bench(0, 100, 0, lines=("ACC 0 DEC 0 STP 0 VEL 1000", "X50", "CAM ON X"))
-    made.all("JOG ACC X0 : JOG DEC X0 : JOG VEL X1000", "JOG INC X30")
-    turn(made, 50)
-    made.ticks(200)
-    assert (made.p(CURRENT), made.p(12297), made.p(CAM), made.p(PSP)) == (50, 30, 100, 180)
-
-
 # settings
-
-
-@pytest.mark.req("ACR-CAM-04")
-def test_offset_adds_units_at_once() -> None:
-    made = bench(0, 100, 0, lines=("PPU X10", "CAM ON X"))
-    turn(made, 25)
-    made.all("CAM OFFSET X3")
-    assert turn(made, 0) == 80
 
 
 def test_flz_shifts_the_index_without_a_jump_at_the_start() -> None:
@@ -124,19 +85,6 @@ def test_cam_cycles_end_it_exactly_at_the_cycle_end(delta: int) -> None:
     assert turn(made, delta) == 0.0
     assert not made.bit(ACTIVATE)
     assert turn(made, delta) == 0.0
-
-
-@pytest.mark.req("ACR-CAM-03")
-def test_cam_res_gives_the_difference_to_the_current_position() -> None:
-    made = bench(0, 100, lines=("PPU X10", "CAM ON X"))
-    assert turn(made, 330) == 330
-    made.all("CAM RES X")
-    assert turn(made, 0) == 0.0
-    assert (made.p(CAM), made.p(CURRENT), made.p(PSP)) == (0, 330, 330)
-    assert made.type("CAM SHIFT X") == "0"
-    assert turn(made, 90) == 90
-    made.all("CAM RES X5").ticks(1)
-    assert (made.p(CAM), made.p(CURRENT), made.p(PSP)) == (50, 370, 420)
 
 
 def test_shift_preloads() -> None:

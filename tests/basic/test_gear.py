@@ -10,7 +10,7 @@ from tests.basic.motion_bench import Bench
 from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
-CURRENT, ACTUAL, PSP, GEAR, SLIP, ON_OFFSET = 12288, 12290, 12294, 12296, 12369, 12396
+CURRENT, PSP, GEAR, SLIP, ON_OFFSET = 12288, 12294, 12296, 12369, 12396
 LOCK, AT_SPEED, STOPPING, ACTIVATE, ACTIVE = 781, 782, 783, 788, 789
 ON_ARMED, ON_POSITION, STARTED, OFF_ARMED, OFF_POSITION, MAX, MIN = (
     2312, 2313, 2314, 2316, 2317, 2318, 2319,
@@ -36,57 +36,6 @@ def gear(made: Bench) -> float:
 
 
 # offsets
-
-
-@pytest.mark.parametrize(
-    ("ratio", "ppu", "offset"), [("5", "25000", 130250), ("-2.5", "4000", -10420)]
-)
-@pytest.mark.req("ACR-CMD-GEAR")
-def test_the_offset_is_source_units_times_ratio_times_ppu(
-    ratio: str, ppu: str, offset: int
-) -> None:
-    made = bench(f"PPU X{ppu}", "GEAR PPU X4000", f"GEAR RATIO X{ratio}", "GEAR ON X")
-    for _ in range(4):
-        turn(made, 1042)
-    assert made.p(GEAR) == offset
-    assert made.p(PSP) == offset
-
-
-@pytest.mark.req("ACR-GEAR-01")
-def test_1000_counts_at_ratio_half_add_500_pulses() -> None:
-    made = bench("GEAR RATIO X0.5", "GEAR ON X")
-    for _ in range(1000):
-        turn(made, 1)
-    assert made.p(GEAR) == 500
-
-
-@pytest.mark.req("ACR-GEAR-05", "ACR-MOT-01")
-def test_gear_motion_adds_to_moves_and_jogs() -> None:
-    made = bench("ACC 0 DEC 0 STP 0 VEL 1000", "JOG ACC X0 : JOG DEC X0 : JOG VEL X1000")
-    made.all("GEAR ON X", "X50", "JOG INC X30")
-    turn(made, 20)
-    made.ticks(200)
-    assert (made.p(CURRENT), made.p(12297), made.p(GEAR), made.p(PSP)) == (50, 30, 20, 100)
-
-
-@pytest.mark.parametrize(
-    ("source", "prepare", "moved"),
-    [
-        ("ENC11", "ENC11 RES 100", 5.0),
-        ("P38912", "P38912=100", 100.0),
-        ("4100", "P4100=7", 7.0),
-        ("NONE", "P38912=100", 0.0),
-    ],
-)
-@pytest.mark.req("ACR-GEAR-02")
-def test_a_gear_follows_any_source(source: str, prepare: str, moved: float) -> None:
-    made = Bench("X", "Y").all(f"GEAR SRC X {source}", "GEAR ON X").ticks(3)
-    if source == "ENC11":
-        made.memory.I[6144 + 16 * 11] = 5
-    else:
-        made.all(prepare)
-    made.ticks(3)
-    assert gear(made) == moved
 
 
 def test_the_clock_is_a_source_of_1000_pulses_per_second() -> None:

@@ -1,7 +1,7 @@
 """The profile commands of a master, and the moves they shape: times to the tick."""
 
 import pytest
-from tests.basic.motion_bench import Bench, largest, ticks
+from tests.basic.motion_bench import Bench, ticks
 
 from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
@@ -80,11 +80,3 @@ def test_velocity_0_waits_for_the_first_velocity_above_it() -> None:
 
 
 # what the master profile does not touch
-
-
-@pytest.mark.req("ACR-PROF-09", "ACR-JOG-01")
-def test_a_jog_obeys_its_own_profile_only() -> None:
-    made = bench("ACC 1 DEC 1 STP 1 VEL 1", "JOG ACC X1000 : JOG DEC X1000 : JOG VEL X25")
-    made.type("JOG INC X10")
-    assert largest(made, at.AX_CURRENT_JOG_VELOC, 0, 792) == pytest.approx(25.0)
-    assert made.card.tick == ticks(0.425)

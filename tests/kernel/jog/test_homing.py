@@ -3,7 +3,6 @@
 import pytest
 from tests.kernel.rig import Rig
 
-from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.motion.axis import registers
 from openacr.motion.jog import jog
@@ -140,52 +139,6 @@ def test_the_figures_with_backup(
     assert rig.machine_u == pytest.approx(at_u, abs=1 / COUNTS)
 
 
-@pytest.mark.req("ACR-HOME-FIG-A", "ACR-HOME-FIG-B", "ACR-HOME-11")
-@pytest.mark.parametrize(("direction", "start", "edge_u"), [(1, 0.0, 5.0), (-1, 10.0, 6.0)])
-@pytest.mark.parametrize("edge", [False, True])
-@pytest.mark.parametrize("final", [False, True])
-def test_without_backup_the_place_of_rest_beyond_the_first_edge_is_zero(
-    direction: int, start: float, edge_u: float, edge: bool, final: bool
-) -> None:
-    rig = options(Home(start), edge, final, backup=False)
-    assert rig.speeds(direction) == [(direction, 10.0)]
-    rig.seconds(0.2)
-    assert rig.bit(FOUND)
-    assert abs(rig.long("actual_position")) <= 1
-    beyond = (rig.machine_u - edge_u) * direction
-    assert 0.4 <= beyond <= 0.6  # 10^2 / (2 100) = 0.5
-
-
-@pytest.mark.req("ACR-HOME-09")
-@pytest.mark.parametrize("direction", [1, -1])
-@pytest.mark.parametrize("edge", [False, True])
-@pytest.mark.parametrize("final", [False, True])
-def test_a_start_on_the_switch_leaves_it_towards_the_edge(
-    direction: int, edge: bool, final: bool
-) -> None:
-    rig = options(Home(5.5), edge, final)
-    motions = rig.speeds(direction)
-    assert motions[0][0] == (-1 if edge else 1)
-    assert rig.bit(FOUND)
-    rig.seconds(0.1)
-    assert abs(rig.zero_raw - rig.count(5.0 if edge else 6.0)) <= 1
-
-
-@pytest.mark.req("ACR-HOME-05")
-@pytest.mark.parametrize(("direction", "start"), [(1, 8.0), (-1, 3.0)])
-@pytest.mark.parametrize("edge", [False, True])
-@pytest.mark.parametrize("final", [False, True])
-def test_a_search_away_from_the_switch_turns_round_at_the_limit(
-    direction: int, start: float, edge: bool, final: bool
-) -> None:
-    rig = options(Home(start), edge, final)
-    rig.bit(16148, True)
-    rig.bit(16149, True)
-    rig.home(direction)
-    assert (rig.bit(FOUND), rig.bit(KAMR), rig.bit(16132), rig.bit(16133)) == (True, 0, 0, 0)
-    assert abs(rig.zero_raw - rig.count(5.0 if edge else 6.0)) <= 1
-
-
 def test_a_soft_limit_turns_the_search_round_too() -> None:
     rig = options(Home(8.0), False, False)
     rig.F[at.AXF_BASE + at.AXF_SLM_PLUS_U] = 2.0
@@ -196,17 +149,6 @@ def test_a_soft_limit_turns_the_search_round_too() -> None:
     rig.home(1)
     assert rig.bit(FOUND)
     assert abs(rig.zero_raw - rig.count(6.0)) <= 1
-
-
-@pytest.mark.req("ACR-HOME-06", "ACR-LIMDET-03")
-def test_the_second_limit_ends_homing_as_failed() -> None:
-    rig = Home(0.0, extra=world_text(0.0).replace("[5.0, 6.0]", "[50.0, 60.0]"))
-    rig.bit(16148, True)
-    rig.bit(16149, True)
-    rig.bit(BACKUP, True)
-    rig.home(1)
-    assert (rig.bit(FOUND), rig.bit(FAILED), rig.bit(KAMR)) == (False, True, True)
-    assert rig.machine_u == pytest.approx(-2.0, abs=0.3)
 
 
 def test_jog_off_and_a_kill_abort_homing() -> None:
@@ -222,32 +164,6 @@ def test_jog_off_and_a_kill_abort_homing() -> None:
         rig.seconds(0.5)
         assert (rig.bit(FOUND), rig.bit(FAILED), rig.bit(HOMING), rig.bit(ACTIVE)) == (0, 1, 0, 0)
         assert rig.real("psp_velocity_cps") == 0.0
-
-
-@pytest.mark.req("ACR-HOME-04", "ACR-CMD-JOG-HOME")
-def test_homing_a_moving_axis_is_refused() -> None:
-    rig = Home(0.0)
-    jog.continuous(rig.card, 0, 1)
-    rig.ticks(5)
-    with pytest.raises(CardError, match="Not valid while in motion"):
-        jog.home(rig.card, 0, 1)
-
-
-@pytest.mark.req("ACR-HOME-14")
-def test_two_axes_home_at_the_same_time_each_in_its_direction() -> None:
-    second = world_text(10.0).replace("number = 0", "number = 1")
-    rig = Rig(2, ppu=[COUNTS, COUNTS], world=world_text(0.0) + second)
-    rig.ticks(4)
-    for axis, direction in ((0, 1), (1, -1)):
-        rig.I[at.ENI_BASE + axis * at.ENI_STRIDE + at.ENI_MULT] = 4
-        rig.jog(axis, vel=10, acc=100, dec=100)
-        rig.bit(BACKUP + 32 * axis, True)
-        jog.home(rig.card, axis, direction)
-    rig.seconds(0.2)
-    assert rig.real("psp_velocity_cps", 0) == -rig.real("psp_velocity_cps", 1) > 0
-    rig.seconds(4.0)
-    assert rig.bit(FOUND)
-    assert rig.bit(FOUND + 32)
 
 
 @pytest.mark.parametrize("vel", [1.0, 7.0, 83.0, 400.0])

@@ -38,30 +38,6 @@ def jogged(rig: Rig) -> float:
     return rig.real("jog_cnt") / 1000
 
 
-@pytest.mark.req("ACR-JOG-08", "ACR-CMD-JOG-FWD", "ACR-CMD-JOG-OFF")
-def test_flags_of_a_forward_jog_at_each_phase() -> None:
-    rig = jogging()
-    jog.continuous(rig.card, 0, 1)
-    assert flags(rig) == "AF"
-    assert flags(rig.seconds(0.05)) == "AF"  # ramp of 0.1 s
-    assert flags(rig.seconds(0.06)) == "AMF"
-    assert rig.real("psp_velocity_cps") == pytest.approx(10_000)
-    jog.off(rig.card, 0)
-    assert flags(rig.ticks()) == "AS"
-    assert flags(rig.seconds(0.19)) == "AS"
-    assert flags(rig.seconds(0.01)) == ""
-    assert rig.real("psp_velocity_cps") == 0.0
-
-
-@pytest.mark.req("ACR-CMD-JOG-REV")
-def test_flags_of_a_reverse_jog() -> None:
-    rig = jogging()
-    jog.continuous(rig.card, 0, -1)
-    assert flags(rig.seconds(0.05)) == "ADR"
-    assert flags(rig.seconds(0.06)) == "ADMR"
-    assert rig.real("psp_velocity_cps") == pytest.approx(-10_000)
-
-
 @pytest.mark.req("ACR-JOG-09")
 def test_flags_set_and_cleared_by_hand_start_and_stop_a_jog() -> None:
     rig = jogging()
@@ -72,60 +48,6 @@ def test_flags_set_and_cleared_by_hand_start_and_stop_a_jog() -> None:
     rig.bit(FORWARD, True)
     rig.bit(REVERSE, True)  # both: stop
     assert flags(rig.seconds(0.25)) == "FR"
-
-
-@pytest.mark.req("ACR-JOG-10")
-def test_lockout_holds_a_new_jog_but_not_a_running_one() -> None:
-    rig = jogging()
-    rig.bit(LOCKOUT, True)
-    jog.continuous(rig.card, 0, 1)
-    assert flags(rig.seconds(0.1)) == "FL"
-    assert jogged(rig) == 0.0
-    rig.bit(LOCKOUT, False)
-    rig.seconds(0.2).bit(LOCKOUT, True)
-    assert flags(rig.seconds(0.1)) == "AMFL"
-
-
-@pytest.mark.req("ACR-CMD-JOG-ABS", "ACR-CMD-JOG-INC")
-def test_absolute_and_incremental_jogs_end_exactly() -> None:
-    rig = jogging()
-    jog.absolute(rig.card, 0, 3.0)
-    rig.record(while_=ACTIVE)
-    assert rig.real("jog_cnt") == 3000.0
-    jog.absolute(rig.card, 0, 3.0)
-    assert not rig.bit(ACTIVE)
-    jog.incremental(rig.card, 0, -1.0)
-    rig.record(while_=ACTIVE)
-    assert rig.real("jog_cnt") == 2000.0
-    jog.incremental(rig.card, 0, 1.0)
-    rig.ticks(3)
-    jog.incremental(rig.card, 0, 1.0)  # from the target of the running one
-    rig.record(while_=ACTIVE)
-    assert rig.real("jog_cnt") == 4000.0
-    assert rig.real("position_cnt") == 0.0
-
-
-@pytest.mark.req("ACR-JOG-05")
-def test_two_axes_jog_each_with_its_own_profile() -> None:
-    rig = Rig(2, ppu=[1000.0, 1000.0])
-    rig.jog(0, acc=1000, dec=1000, vel=25).jog(1, acc=500, dec=500, vel=50)
-    jog.incremental(rig.card, 0, 10.0)
-    jog.incremental(rig.card, 1, 10.0)
-    positions = rig.record(1, while_=792 + 32)
-    assert (len(positions) - 2) * T == pytest.approx(0.3, abs=T)
-    positions = rig.record(0, while_=ACTIVE)
-    assert (len(positions) - 3 + 601) * T == pytest.approx(0.425, abs=2 * T)
-
-
-@pytest.mark.req("ACR-JOG-06", "ACR-CMD-JOG-VEL")
-def test_a_changed_velocity_acts_at_once() -> None:
-    rig = Rig(ppu=[1000.0]).jog(acc=20, dec=25, vel=10)
-    jog.incremental(rig.card, 0, 10.0)
-    rig.seconds(1.0)
-    rig.jog(vel=5)
-    positions = rig.record(while_=ACTIVE)
-    assert (len(positions) - 2) * T + 1.0 == pytest.approx(1.5, abs=T)
-    assert jogged(rig) == 10.0
 
 
 def test_a_changed_acceleration_waits_for_the_next_ramp() -> None:
@@ -230,16 +152,6 @@ def test_a_written_jog_offset_moves_the_running_jog_along() -> None:
         places.append(jogged(rig))
     assert places[-1] == 5.0
     assert np.abs(np.diff(places, 2)).max() <= 100.0 * T**2 * 1.01  # no jump to the target
-
-
-@pytest.mark.req("ACR-JOG-03", "ACR-JOG-11")
-def test_a_jog_adds_to_a_move() -> None:
-    rig = jogging().master(acc=100, dec=100, stp=100, vel=5)
-    jog.absolute(rig.card, 0, 3.0)
-    rig.move(2.0)
-    rig.seconds(1.5)
-    assert rig.real("position_cnt") == 2000.0
-    assert rig.real("psp_cnt") == 5000.0
 
 
 @search(200)
