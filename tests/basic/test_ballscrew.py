@@ -106,19 +106,6 @@ def test_backlash_is_added_while_the_primary_setpoint_is_positive() -> None:
     assert (made.p(PSP), made.p(SSP), made.p(BACKLASH)) == (-500, -500, 0)
 
 
-@pytest.mark.req("ACR-CMD-BKL", "ACR-SERVO-04")
-def test_the_backlash_of_another_axis_and_at_zero() -> None:
-    made = Bench("X", "Y").all("PPU X1000 Y1000", "BKL Y0.02")
-    assert made.type("BKL X Y") == "0|0.02"
-    assert [made.p(12332), made.p(12588)] == pytest.approx([0, 0.02])
-    for position, backlash in ((1, 20), (0, 0), (-1, 0), (1000, 20)):
-        made.place(0, jog=position)
-        made.place(1, jog=position)
-        made.seconds(0.02)
-        assert made.p(SSP + 256) - made.p(PSP + 256) == made.p(BACKLASH + 256) == backlash
-        assert made.p(SSP) == made.p(PSP) == position
-
-
 def test_the_step_is_spread_over_10_ms() -> None:
     made = Bench("X").all("BKL X100")
     offsets = []
