@@ -6,8 +6,8 @@ from tests.basic.motion_bench import Bench
 from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
-CURRENT, TARGET, ACTUAL, ERROR, CAPTURE = 12288, 12289, 12290, 12291, 12292
-PSP, SSP, JOG = 12294, 12295, 12297
+CURRENT, ACTUAL, CAPTURE = 12288, 12290, 12292
+PSP, JOG = 12294, 12297
 CAPTURED, IN_MOTION = 777, 516
 MOVING = "Not valid while in motion"
 
@@ -17,17 +17,6 @@ def rows(made: Bench, *numbers: int) -> list[float]:
 
 
 # scale
-
-
-@pytest.mark.req("ACR-CMD-PPU")
-def test_ppu_is_its_parameter_and_never_0() -> None:
-    made = Bench("X", "Y")
-    assert made.type("PPU X Y") == "1|1"
-    assert made.type("AXIS0 PPU 4000 : PPU AXIS1 -25.5") == ""
-    assert (made.type("PPU X Y"), made.p(12375), made.p(12631)) == ("4000|-25.5", 4000.0, -25.5)
-    assert made.type("PPU X0") == "Invalid argument"
-    assert made.type("PPU X 2000 Y 0") == "Invalid argument"
-    assert made.type("PPU X") == "4000"
 
 
 def test_ppu_leaves_pulses_and_scales_what_follows() -> None:
@@ -72,17 +61,6 @@ def test_res_and_ren_without_axis_mean_the_axes_of_the_program() -> None:
     assert made.type("AXIS2 RES") == ""
 
 
-@pytest.mark.parametrize(("start", "end"), [(370, 10), (-10, 350), (360, 0), (725.5, 5.5)])
-@pytest.mark.req("ACR-CMD-NORM")
-def test_norm_takes_whole_turns_off_without_motion(start: float, end: float) -> None:
-    made = Bench("X").all("PPU X10", "ROTARY X360", f"RES X{start}")
-    made.ticks(2)
-    made.all("NORM X")
-    assert rows(made, CURRENT, TARGET, PSP, SSP, ACTUAL) == [end * 10] * 5
-    made.ticks(3)
-    assert rows(made, CURRENT, ACTUAL, ERROR) == [end * 10, end * 10, 0]
-
-
 def test_norm_keeps_offsets_and_does_nothing_to_a_linear_axis() -> None:
     made = Bench("X").all("ROTARY X100")
     made.place(0, position=250, jog=7)
@@ -94,16 +72,6 @@ def test_norm_keeps_offsets_and_does_nothing_to_a_linear_axis() -> None:
 
 
 # capture
-
-
-@pytest.mark.req("ACR-CMD-INTCAP")
-def test_intcap_stores_the_position_at_the_edge() -> None:
-    made = Bench("X").all("ACC 0 STP 0 VEL 1000", "SET 777", "INTCAP X2 P38912")
-    assert (made.type("INTCAP X"), made.bit(CAPTURED)) == ("2", False)
-    made.all("X500").ticks(100)
-    made.all("SET 24").ticks(1)
-    assert (made.bit(CAPTURED), made.type("INTCAP X")) == (True, "OFF")
-    assert made.p(CAPTURE) == made.p(38912) == pytest.approx(50, abs=1)
 
 
 def test_intcap_can_be_switched_off_and_reports_all_axes() -> None:

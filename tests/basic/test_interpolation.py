@@ -172,20 +172,6 @@ def test_a_malformed_move_is_a_syntax_error(line: str) -> None:
 # MAXVEL
 
 
-@pytest.mark.req("ACR-CMD-MAXVEL")
-def test_maxvel_slows_a_vector_move() -> None:
-    made = bench()
-    assert made.type("MAXVEL X30") == ""
-    assert (made.p(12368), made.bit(2076)) == (30.0, True)
-    made.type("VEL 1000 X30 Y40")
-    assert made.until_clear(IN_MOTION) == ticks(1.0)
-    made.type("MAXVEL OFF")
-    assert made.type("MAXVEL X Y") == "0|0"
-    assert not made.bit(2076)
-    made.type("X0 Y0")
-    assert made.until_clear(IN_MOTION) == ticks(0.05)
-
-
 def test_maxvel_written_as_a_parameter_counts_too() -> None:
     made = bench()
     made.type("P12368 = 10")

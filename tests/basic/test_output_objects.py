@@ -5,7 +5,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.basic.motion_bench import Bench
 
-from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
 WHEEL = 6144 + 16 * 10  # position of encoder 10, which no axis has here
@@ -25,28 +24,6 @@ def place(made: Bench, position: int) -> Bench:
 
 
 # ratchets
-
-
-@pytest.mark.parametrize(
-    ("mode", "counts", "outputs"),
-    [
-        (0, (5, -3), (5, 2)),
-        (3, (5, -3, 2, 4), (5, 5, 5, 8)),
-        (3, (-10, 10, 1), (0, 0, 1)),
-        (1, (5, -3, 2), (5, 5, 7)),
-        (4, (5, -3), (0, -3)),
-        (2, (5, -3), (5, 8)),
-        (10, (5, -3), (-5, -2)),
-        (12, (5, -3, -4), (0, 0, -2)),
-    ],
-)
-@pytest.mark.req("ACR-CMD-RATCH")
-def test_a_ratchet_treats_counts_by_their_sign(
-    mode: int, counts: tuple[int, ...], outputs: tuple[int, ...]
-) -> None:
-    made = Bench().at(Level.SYS).all("RATCH0 SRC ENC10", f"RATCH0 MODE {mode}")
-    for count, output in zip(counts, outputs, strict=True):
-        assert turn(made, count).type("RATCH0") == str(output)
 
 
 def test_a_ratchet_is_a_source() -> None:
@@ -80,18 +57,6 @@ def test_what_does_not_exist_is_refused(line: str) -> None:
     assert Bench().type(line) == "Invalid argument"
 
 
-# limiters
-
-
-@pytest.mark.req("ACR-CMD-LIMIT")
-def test_a_limiter_delivers_later_what_it_holds_back() -> None:
-    made = Bench().all("LIMIT0 SRC ENC10", "LIMIT0 FREQ 20000")  # 10 per tick
-    outputs = [float(turn(made, count).type("LIMIT0")) for count in (35, 0, -5, 0, 0)]
-    assert outputs == [10, 20, 30, 30, 30]
-    made.all("LIMIT0 FREQ 0 : LIMIT0 MULT -2 : LIMIT0 RES 5")
-    assert turn(made, 35).type("LIMIT0") == "-65"
-
-
 # limit switches
 
 
@@ -100,17 +65,6 @@ def switch(*patterns: int, lines: tuple[str, ...] = ()) -> Bench:
     for index, pattern in enumerate(patterns):
         made.all(f"LA0({index})={pattern}")
     return made.all("PLS0 SRC ENC10", "PLS0 BASE LA0", "PLS0 DST P4100", *lines, "PLS0 ON")
-
-
-@pytest.mark.req("ACR-CMD-PLS")
-def test_each_position_has_its_pattern() -> None:
-    made = switch(1, 2, 4)
-    assert [place(made, position).p(4100) for position in (0, 1, 2)] == [1, 2, 4]
-    assert place(made, 3).p(4100) == 4
-    assert place(made, -1).p(4100) == 4
-    assert made.bit(120)
-    made.all("PLS0 OFF")
-    assert place(made, 0).p(4100) == 4
 
 
 def test_mask_ratio_rotary_and_flz() -> None:

@@ -24,28 +24,6 @@ def ends(made: Bench, *lines: str) -> tuple[float, ...]:
     return tuple(round(made.psp(axis) / SCALE_CNT, 6) for axis in range(3))
 
 
-@pytest.mark.req("ACR-CMD-OFFSET")
-def test_offset_shifts_the_path_from_the_machine_zero() -> None:
-    made = bench("X5")
-    made.until_clear(516)
-    made.all("OFFSET X2 Y-1")
-    assert ends(made, "X10 Y10") == (12, 9, 0)
-    assert ends(made, "X/1") == (13, 9, 0)  # distances are not shifted
-    assert made.type("OFFSET X Y Z") == "2|-1|0"
-
-
-@pytest.mark.req("ACR-CMD-FLZ")
-def test_flz_gives_the_present_position_a_programmed_value() -> None:
-    made = bench()
-    assert ends(made, "X7 Y3") == (7, 3, 0)
-    made.all("FLZ X2")
-    assert made.type("FLZ X") == "5"
-    assert ends(made, "X2") == (7, 3, 0)
-    assert ends(made, "X0 Y0") == (5, 0, 0)
-    made.all("FLZ OFF")
-    assert ends(made, "X0") == (0, 0, 0)
-
-
 def test_flz_counts_from_the_end_of_the_moves_that_wait() -> None:
     made = bench("VEL 10", "MBUF ON", "X7", "X9", "FLZ X0")
     assert made.type("FLZ X") == "9"
@@ -57,27 +35,6 @@ def test_flz_and_offset_add_up() -> None:
     made.all("FLZ X0")
     assert made.type("FLZ X") == "1"
     assert ends(made, "X2") == (7, 0, 0)
-
-
-@pytest.mark.req("ACR-CMD-SCALE")
-def test_scale_multiplies_about_a_centre() -> None:
-    made = bench("SCALE X2 Y(0.5,10)")
-    assert ends(made, "X3 Y20") == (6, 15, 0)
-    assert ends(made, "X/1 Y/2") == (8, 16, 0)
-    assert made.type("SCALE X Y Z") == "2|0.5|1"
-    assert made.type("SCALE X0") == "Invalid argument"
-
-
-@pytest.mark.req("ACR-CMD-ROTATE")
-def test_rotate_turns_the_path_about_a_point() -> None:
-    made = bench("ROTATE 90")
-    assert ends(made, "X10 Y0") == (0, 10, 0)
-    assert made.type("ROTATE") == "90"
-    made.all("ROTATE 90 X5 Y5")
-    assert ends(made, "X10 Y5") == (5, 10, 0)
-    assert ends(made, "X/1") == (5, 11, 0)
-    made.all("ROTATE 0")
-    assert ends(made, "X1 Y1") == (1, 1, 0)
 
 
 def test_a_single_axis_of_a_turned_path_keeps_the_programmed_other_one() -> None:

@@ -135,21 +135,6 @@ def test_trj_never_waits_for_the_buffer() -> None:
 # TRG
 
 
-def test_trg_holds_the_next_move_until_its_flag() -> None:
-    made = bench(f"TRG {FLAG}")
-    assert made.bit(TRG_PENDING)
-    made.type("X1")
-    made.ticks(100)
-    assert (made.psp(0), made.bit(IN_MOTION), made.bit(TRG_PENDING)) == (0, True, True)
-    made.all(f"SET {FLAG}").ticks(1)
-    assert made.psp(0) > 0
-    assert not made.bit(TRG_PENDING)
-    made.until_clear(IN_MOTION)
-    made.type("X2")
-    made.until_clear(IN_MOTION)
-    assert made.psp(0) == 2000
-
-
 def test_trg_is_for_the_move_issued_after_it() -> None:
     made = bench()
     made.type(f"X1 : TRG -{FLAG} : SET {FLAG} : X2")

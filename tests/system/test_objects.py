@@ -9,45 +9,12 @@ def card() -> Console:
     return Console()
 
 
-@pytest.mark.req("ACR-CMD-AXIS")
-def test_axis_commands_work_at_any_level_by_axis_number(card: Console) -> None:
-    assert card.type("AXIS0 PPU 4000", "AXIS0 PPU", "AXIS3 OFF", "AXIS3") == "4000|OFF"
-    assert card.type("AXIS3 ON", "AXIS3", "PLC0", "AXIS0 PPU 500", "AXIS0 PPU") == "ON|500"
-
-
-@pytest.mark.req("ACR-CMD-ENC")
-def test_an_encoder_has_source_multiplier_and_preset(card: Console) -> None:
-    assert card.type("ENC0 SRC 0", "ENC0 SRC", "ENC0 MULT 4", "ENC0 MULT") == "0|4"
-    assert card.type("ENC8 RES 1234", "ENC8", "ENC8 RES", "ENC8") == "1234|0"
-    assert card.type("ENC0 MULT -2", "ENC0 MULT", "ENC0 MULT 3") == "-2|Invalid argument"
-
-
-@pytest.mark.req("ACR-CMD-DAC")
-def test_a_dac_has_a_gain_and_its_output_a_parameter(card: Console) -> None:
-    assert card.type("DAC0 GAIN 3276.8", "DAC0 GAIN", "DAC0 GAIN -3276.8", "DAC0 GAIN") == (
-        "3276.8|-3276.8"
-    )
-    card.type("AXIS3 OFF", "P6448=5")
-    card.card.advance(seconds=0.01)
-    assert card.type("DAC3", "?P6448") == "5|5"
-
-
 @pytest.mark.req("ACR-CMD-ADC")
 def test_analog_inputs_have_a_mode_and_read_in_volts() -> None:
     card = Console("ACR8020")
     assert card.type("ADC MODE 0", "ADC MODE", "ADC MODE 1", "ADC MODE") == "0|1"
     card.card.p[6408 + 16] = 2.5
     assert card.type("ADC1", "?P6424") == "2.5|2.5"
-
-
-@pytest.mark.req("ACR-CMD-MASTER")
-def test_a_master_is_addressed_from_another_program(card: Console) -> None:
-    card.type("PROG0", "ATTACH MASTER0", "VEL 10", "PROG1")
-    assert card.type("MASTER0 VEL500", "PROG0", "VEL") == "500"
-
-
-def test_cip_reports_that_no_connection_is_there(card: Console) -> None:
-    assert card.type("CIP") == "CIP connections 0|CIP state IDLE"
 
 
 @pytest.mark.req("ACR-CMD-PERIOD", "ACR-PAR-08")
