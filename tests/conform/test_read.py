@@ -103,7 +103,7 @@ def test_a_line_that_is_empty_in_a_row_is_no_line(tmp_path: Path) -> None:
         (HEAD + "wait 1 s\nX", "5: X: expected a step here"),
         (HEAD + "wait 1 s\n  X", "5:   X: expected a step here"),
         (HEAD + "wait 1 second",
-         "4: wait 1 second: expected wait TIME or wait until CONDITION within TIME"
+         "4: wait 1 second: expected wait TIME or wait until CONDITION within TIME or wait for MODE"
          " (an answer that begins so: |wait ...)"),
         (HEAD + "? P1",
          "4: ? P1: expected ? WHAT -> RESULT or ? WHAT -> RESULT +- TOLERANCE"

@@ -33,6 +33,8 @@ MOVE = (
     "> JOG ACC X1000 JOG DEC X1000 JOG VEL X25\n> JOG INC X10\n"
 )
 
+ONE = "part:\n    G1 X1 F60\n    M2\n"
+
 
 @pytest.mark.parametrize(
     "steps",
@@ -78,6 +80,17 @@ MOVE = (
         "flag 32 on\nwait until BIT32 = -1 within 0 s\nwait until BIT32 = 1 within 0 s",
         "analog P6408 = 5\nwait 1 period\n? ROUND(P6408) -> 5",
         "check setup:\n    CONFIG ENC4 DAC4 STEPPER4 NONE  # W: CONFIG acts after ESAVE and REBOOT",
+        ONE + "entries:\n    line X1 F60\n    end\nrun\nat X1\ntook 1.01 s",
+        ONE + "store Master Feed ACC/DEC = 10\nrun\ntook 1.1 s",
+        ONE + "press START\nwait for RUN\nwait 0.2 s\npress STOP\nwait for PAUSED\nstate: PAUSED",
+        "part:\n    M0\n    G0 X1\npress START\nwait for HOLD\nat 0\npress START\n"
+        "wait for IDLE\nat X1",
+        "part of dialect rs274ngc:\n    g1 x1 y-2 f60\nentries: line X1 Y-2 F60",
+        "part:\n    P130 = 5\nrun\nstore ? P130; P131 -> 5; 0",
+        "part:\n    PRINT(1)\nrun\nsays: 1\nsays:",
+        "part:\n    G28 X1\n    M2\nentries:\n    rapid X1\n    rapid 0\n    confirm G28\n    end",
+        "mdi G91 G1 X0.1 F600\nmdi G1 Q1\nE206 word has no meaning in this block: Q\nat X0.1",
+        "check part:\n    G1 X1 F1\n    G77  # E: E203 unknown G code: G77",
         "check setup:\n    DIM P(1)\n    BLAH  # E: Unknown command",
         "check program 2:\n    10 PRINT 1\n    20 BLAH  # E: Unknown command\n    30 END",
     ],
@@ -150,6 +163,24 @@ def test_a_case_that_holds(tmp_path: Path, steps: str) -> None:
         (">> 00 88 00 30\n<< 00 88 00 30 00 00 00",
          "2|<< 00 88 00 30 00 00 00|expected: (nothing at the end)|shown: ^@"),
         (">> 00 88 00 30\n<<", "2|<<|expected: (nothing)|shown: 00 88 00 30 00 00 00 00"),
+        (ONE + "run\nat X1.0001", "5|at X1.0001|expected: X10001 Y0 Z0 pulses"
+         "|shown: X10000 Y0 Z0 pulses"),
+        (ONE + "run\nat X1 Z1",
+         "5|at X1 Z1|expected: X10000 Y0 Z10000 pulses|shown: X10000 Y0 Z0 pulses"),
+        (ONE + "run\nat 0", "5|at 0|expected: X0 Y0 Z0 pulses|shown: X10000 Y0 Z0 pulses"),
+        (ONE + "run\ntook 2019 periods",
+         "5|took 2019 periods|expected: 1.0095 s (2019 periods)|shown: 1.01 s (2020 periods)"),
+        (ONE + "entries: line X1 F60.00001",
+         "4|line X1 F60.00001|expected: line X1 F60.00001|shown: line X1 F60|end"),
+        ("part:\n    M0\nrun", "3|run|expected: IDLE|shown: HOLD M0"),
+        ("store P1001 = 0.5\nstore ? P1001; P1002 -> 0.5; 0.5",
+         "2|store ? P1001; P1002 -> 0.5; 0.5|expected: 0.5; 0.5|shown: 0.5; 0"),
+        ("state: RUN", "1|state: RUN|expected: RUN|shown: IDLE"),
+        ("says: A", "1|says: A|expected: A|shown: (nothing)"),
+        ("alarm: 5", "1|alarm: 5|expected: 5|shown: (nothing)"),
+        ("mdi G77", "1|mdi G77|expected: (nothing)|shown: E203 unknown G code: G77"),
+        ("check part:\n    G77",
+         "2|G77|expected: (no message)|shown: # E: E203 unknown G code: G77"),
         ("check setup:\n    DIM P(1)\n    DIM P(1)",
          "3|DIM P(1)|expected: (no message)|shown: # E: Re-dimensioned block"),
         ("check setup:\n    DIM P(1)  # E: Syntax error",

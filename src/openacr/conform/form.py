@@ -167,6 +167,8 @@ KINDS: dict[str, tuple[str, Callable[[str], Any]]] = {
     "STATE": (r"on|off", lambda text: text == "on"),
     "NAME": (r"[A-Za-z0-9-]+", str),
     "KEY": (r"\^[XYZ]|Esc", str),
+    "BUTTON": (r"START|STOP|RESUME|ABORT|ACKNOWLEDGE", str),
+    "MODE": (r"IDLE|RUN|WAIT|HOMING|PAUSED|HOLD|ALARM", str),
 }
 WORDS: list[Word] = []
 _KIND = re.compile("|".join(KINDS))
@@ -262,3 +264,55 @@ def compare(step: Step, shown: Sequence[str]) -> None:
             break
     wanted = "\n".join(line.text for line in step.below) or "(nothing)"
     raise DifferenceError(wanted, "\n".join(map(exactly, shown)) or "(nothing)", at)
+
+
+def compare_text(step: Step, text: str, shown: Sequence[str]) -> None:
+    """Compare lines with the text beside a word and the block below it."""
+    first = [Line(step.at.number, text)] if text else []
+    compare(Step(step.word, step.values, step.at, [*first, *step.below]), shown)
+
+
+def compare_values(
+    read: Callable[[str], float | str], what: str, expected: str, tolerance: float = 0.0
+) -> None:
+    """Compare values with `;` between them; DifferenceError where one is not within tolerance."""
+    names, wanted = ([each.strip() for each in text.split(";")] for text in (what, expected))
+    shown = [read(name) for name in names]
+    if len(shown) != len(wanted) or not all(map(_equals, shown, wanted, [tolerance] * len(shown))):
+        within = f" +- {tolerance:g}" if tolerance else ""
+        raise DifferenceError(expected + within, "; ".join(map(_written, shown)))
+
+
+def _equals(shown: float | str, wanted: str, tolerance: float) -> bool:
+    if isinstance(shown, str) or wanted.startswith('"'):
+        return shown == wanted.strip('"')
+    return abs(shown - float(wanted)) <= tolerance
+
+
+def _written(shown: float | str) -> str:
+    if isinstance(shown, str):
+        return f'"{shown}"'
+    return str(int(shown)) if float(shown).is_integer() else repr(shown)
+
+
+# Messages beside the lines of a text.
+
+_MESSAGE = re.compile(r"\s+# ([EW]): (.*?)(?=\s+# [EW]: |$)")
+
+
+def messages_taken(step: Step) -> list[str]:
+    """The lines below a step without the messages beside them."""
+    return [_MESSAGE.sub("", line.text) for line in step.below]
+
+
+def compare_messages(step: Step, found: Sequence[tuple[int, bool, str]]) -> None:
+    """Compare the messages beside lines with those found: line, whether a warning, text."""
+    for at, line in enumerate(step.below, 1):
+        shown = [
+            f"# {'W' if is_warning else 'E'}: {text}" for n, is_warning, text in found if n == at
+        ]
+        expected = [match[0].strip() for match in _MESSAGE.finditer(line.text)]
+        if shown != expected:
+            raise DifferenceError(
+                " ".join(expected) or "(no message)", " ".join(shown) or "(no message)", line
+            )

@@ -14,6 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from openacr.conform import words as _words  # noqa: F401  (declares the words)
+from openacr.conform import words_part as _part  # noqa: F401
 from openacr.conform.form import ANSWERS, BLOCK, Case, Claim, Line, Machine, Step, step_of
 from openacr.errors import FaultyFileError, SourceError, UserError, read_bytes
 from openacr.models import DEFAULT_MODEL, MODELS
@@ -22,6 +23,7 @@ PACKAGE = Path(__file__).parents[1]
 INSTALLED = PACKAGE / "conformance"  # which the build (setup.py) copies
 RESTS = ("manual", "oracle", "client", "inferred")
 MACHINES = "machines"  # the folder of machines, in the folder of the manuals or above it
+MAY_BE_EMPTY = ("shows:", "prints:", "says:", "alarm:", "entries:")
 _CASE = re.compile(r"\[case (.+)\]")
 _ABOUT = re.compile(r"(proves|source|rests on|machine|model|only|moves):(?:\s+(.*))?")
 _CLAIM = re.compile(r"\s*([A-Z]+(?:-[A-Z0-9]+)+)\s*(?:\(([^()]*)\))?\s*(?:,|$)")
@@ -171,11 +173,7 @@ def _whole(step: Step) -> Step:
     """A step with its block moved to the left."""
     if step.word.below != BLOCK:
         return step
-    if (
-        step.word.form.endswith(":")
-        and not step.below
-        and step.word.form not in ("shows:", "prints:")
-    ):
+    if step.word.form.endswith(":") and not step.below and step.word.form not in MAY_BE_EMPTY:
         raise _FaultError(step.at, f"{step.at.text}: expected indented lines below")
     margin = min((len(line.text) - len(line.text.lstrip()) for line in step.below), default=0)
     return replace(step, below=[Line(line.number, line.text[margin:]) for line in step.below])

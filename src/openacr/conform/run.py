@@ -23,6 +23,13 @@ def run(
 
 
 def _run(case: Case, stage: Stage) -> DifferenceError | None:
+    try:
+        return _steps(case, stage)
+    finally:
+        stage.close()
+
+
+def _steps(case: Case, stage: Stage) -> DifferenceError | None:
     for step in case.steps:
         try:
             step.word.act(stage, step, *step.values)
@@ -33,6 +40,7 @@ def _run(case: Case, stage: Stage) -> DifferenceError | None:
             return DifferenceError("a step that can be done", error, step.at)
     try:
         stage.expect_silence()
+        stage.expect_no_alarm()
     except DifferenceError as difference:
         return DifferenceError("(nothing at the end)", difference.shown, case.steps[-1].at)
     return None

@@ -6,7 +6,9 @@ import re
 from dataclasses import dataclass, field
 
 from openacr.conform.form import DifferenceError
-from openacr.conform.targets import CONSOLE, Target
+from openacr.conform.mill import Mill
+from openacr.conform.targets import CONSOLE, Target, VirtualCard
+from openacr.errors import UserError
 from openacr.lang.characters import as_typed, shown
 
 PATIENCE_S = 60.0  # of the card, for the answer to a line
@@ -24,6 +26,21 @@ class Stage:
     took_tk: int = 0  # by the latest line or wait
     pending: dict[str, bytes] = field(default_factory=dict)  # heard and not yet compared
     prompts: dict[str, str] = field(default_factory=dict)
+    _mill: Mill | None = None
+
+    @property
+    def mill(self) -> Mill:
+        """The front end on the card, from its first use."""
+        if self._mill is None:
+            if not isinstance(self.card, VirtualCard):
+                raise UserError("the front end runs on a virtual card alone")
+            self._mill = Mill(self.card)
+        return self._mill
+
+    def close(self) -> None:
+        """End what the case has begun beside its card."""
+        if self._mill is not None:
+            self._mill.close()
 
     @property
     def prompt(self) -> str:
@@ -39,6 +56,12 @@ class Stage:
         """DifferenceError if the terminal has shown what no line of the case expects."""
         if lines := self.answer(self.take()):
             raise DifferenceError("(nothing before this line)", shown("\n".join(lines)))
+
+    def expect_no_alarm(self) -> None:
+        """DifferenceError if the front end has an alarm that the case does not look at."""
+        if self._mill is not None and not self._mill.are_alarms_expected:
+            if alarms := self._mill.alarms():
+                raise DifferenceError("(no alarm)", "\n".join(alarms))
 
     def type(self, text: str) -> str:
         """Type a line; what the terminal shows at once, without the echo."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from typing import Protocol
@@ -20,6 +20,7 @@ from openacr.project import find_project
 from openacr.testing import machine as under_test
 
 CONSOLE = "STREAM1"
+POLL_TK = 10  # between two looks of a host at its card
 KINDS = {name: kind for kind, names in CHANNELS.items() for name in names}
 KINDS |= {CONSOLE: StreamKind.TERMINAL, "PACKETS": StreamKind.PACKETS}
 _SET = re.compile(r"(BIT\s*\d+\s*(?:=|<>)\s*)-1", re.IGNORECASE)
@@ -74,6 +75,7 @@ class VirtualCard:
         self._machine = under_test.Machine(card)
         self._printed = ""
         self._streams: dict[str, int] = {CONSOLE: card.console}
+        self.attend: Callable[[], object] | None = None  # a host that looks at the card meanwhile
         card.listen(self._hear)
 
     def _hear(self, program: int, text: str) -> None:
@@ -112,14 +114,29 @@ class VirtualCard:
 
     def advance(self, ticks: int) -> None:
         """Let time pass."""
+        while self.attend and ticks > 0:
+            part = min(ticks, POLL_TK)
+            self.world.advance(part)
+            self.attend()
+            ticks -= part
         self.world.advance(ticks)
 
     def until(self, condition: str, limit_s: float) -> None:
         """Let time pass until a condition holds."""
-        try:
-            self._machine.until(_plain(condition), limit_s)
-        except under_test.NotReachedError as error:
-            raise DifferenceError(f"{condition} within {limit_s:g} s", str(error)) from None
+        last_tk = self.tick + round(limit_s / self.period_s)
+        while True:
+            left_tk = last_tk - self.tick
+            part_tk = min(left_tk, POLL_TK) if self.attend else left_tk
+            try:
+                self._machine.until(_plain(condition), part_tk * self.period_s)
+            except under_test.NotReachedError as error:
+                if part_tk == left_tk:
+                    text = f"{condition} within {limit_s:g} s"
+                    raise DifferenceError(text, str(error)) from None
+            else:
+                return
+            if self.attend:
+                self.attend()
 
     def number(self, what: str) -> float | None:
         """The value of `P` or `BIT` with a number."""

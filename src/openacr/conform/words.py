@@ -6,7 +6,20 @@ import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from openacr.conform.form import ANSWERS, BLOCK, DifferenceError, Line, Step, Time, compare, word
+from openacr.conform.form import (
+    ANSWERS,
+    BLOCK,
+    DifferenceError,
+    Line,
+    Step,
+    Time,
+    compare,
+    compare_messages,
+    compare_text,
+    compare_values,
+    messages_taken,
+    word,
+)
 from openacr.conform.stage import Stage
 from openacr.project import Place
 from openacr.source_check import check_text
@@ -68,7 +81,7 @@ def type_alone(stage: Stage, step: Step, text: str) -> None:
 @word("shows: TEXT", BLOCK, takes_remark=False)
 def shows(stage: Stage, step: Step, text: str = "") -> None:
     """All that the terminal has shown since it was last compared, without the prompt at its end."""
-    _compare_text(step, text, stage.answer(stage.take()))
+    compare_text(step, text, stage.answer(stage.take()))
 
 
 @word("prints:", BLOCK)
@@ -76,13 +89,7 @@ def shows(stage: Stage, step: Step, text: str = "") -> None:
 def prints(stage: Stage, step: Step, text: str = "") -> None:
     """All that programs have printed since `prints:` or the beginning; `\\` ends an open line."""
     *lines, last = stage.card.printed().replace("\r\n", "\n").split("\n")
-    _compare_text(step, text, [*lines, last + "\\"] if last else lines)
-
-
-def _compare_text(step: Step, text: str, shown: Sequence[str]) -> None:
-    """Compare lines with the text beside a word and the block below it."""
-    first = [Line(step.at.number, text)] if text else []
-    compare(Step(step.word, step.values, step.at, [*first, *step.below]), shown)
+    compare_text(step, text, [*lines, last + "\\"] if last else lines)
 
 
 @word("press KEY", ANSWERS)
@@ -150,33 +157,13 @@ def _at_level(stage: Stage, level: str, act: Callable[[], None]) -> None:
 @word("? WHAT -> RESULT", asks=True)
 def value(stage: Stage, step: Step, what: str, expected: str) -> None:
     """Values of parameters, flags and expressions, with `;` between several: exactly these."""
-    _compare_values(stage, what, expected, 0.0)
+    compare_values(stage.value, what, expected)
 
 
 @word("? WHAT -> RESULT +- TOLERANCE", asks=True)
 def value_within(stage: Stage, step: Step, what: str, expected: str, tolerance: float) -> None:
     """The same within a tolerance, whose reason is the remark after it."""
-    _compare_values(stage, what, expected, tolerance)
-
-
-def _compare_values(stage: Stage, what: str, expected: str, tolerance: float) -> None:
-    names, wanted = ([each.strip() for each in text.split(";")] for text in (what, expected))
-    shown = [stage.value(name) for name in names]
-    if len(shown) != len(wanted) or not all(map(_equals, shown, wanted, [tolerance] * len(shown))):
-        within = f" +- {tolerance:g}" if tolerance else ""
-        raise DifferenceError(expected + within, "; ".join(map(_written, shown)))
-
-
-def _equals(shown: float | str, wanted: str, tolerance: float) -> bool:
-    if isinstance(shown, str) or wanted.startswith('"'):
-        return shown == wanted.strip('"')
-    return abs(shown - float(wanted)) <= tolerance
-
-
-def _written(shown: float | str) -> str:
-    if isinstance(shown, str):
-        return f'"{shown}"'
-    return str(int(shown)) if float(shown).is_integer() else repr(shown)
+    compare_values(stage.value, what, expected, tolerance)
 
 
 # Time.
@@ -266,8 +253,6 @@ def flag(stage: Stage, step: Step, number: int, on: bool) -> None:
 
 # Messages of check.
 
-_MESSAGE = re.compile(r"\s+# ([EW]): (.*?)(?=\s+# [EW]: |$)")
-
 
 @word("check setup:", BLOCK)
 def check_setup(stage: Stage, step: Step) -> None:
@@ -288,16 +273,6 @@ def check_plc(stage: Stage, step: Step, number: int) -> None:
 
 
 def _check(step: Step, place: Place, number: int) -> None:
-    lines = [_MESSAGE.sub("", line.text) for line in step.below]
-    faults = check_text("\n".join(lines) + "\n", Path(f"{place.value}{number}.8k"), (place, number))
-    for at, line in enumerate(step.below, 1):
-        shown = [
-            f"# {'W' if each.is_warning else 'E'}: {each.message}"
-            for each in faults
-            if each.line == at
-        ]
-        expected = [match[0].strip() for match in _MESSAGE.finditer(line.text)]
-        if shown != expected:
-            raise DifferenceError(
-                " ".join(expected) or "(no message)", " ".join(shown) or "(no message)", line
-            )
+    text = "\n".join(messages_taken(step)) + "\n"
+    faults = check_text(text, Path(f"{place.value}{number}.8k"), (place, number))
+    compare_messages(step, [(each.line, each.is_warning, each.message) for each in faults])

@@ -1,0 +1,130 @@
+"""The words of cases about AcroMill: part programs, MDI, the store."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from openacr.conform.form import (
+    ANSWERS,
+    BLOCK,
+    DifferenceError,
+    Step,
+    compare,
+    compare_messages,
+    compare_text,
+    compare_values,
+    messages_taken,
+    word,
+)
+from openacr.conform.stage import Stage
+from openacr.mill.plan.checking import check_text
+from openacr.mill.run.lifecycle import State
+
+AXES = "XYZABCUV"
+
+
+@word("store WHAT = RESULT")
+def write_cell(stage: Stage, step: Step, name: str, text: str) -> None:
+    """Set a cell of the store, by number or name, to a value as users write it."""
+    stage.mill.write(name, text)
+
+
+@word("store ? WHAT -> RESULT")
+def read_cell(stage: Stage, step: Step, names: str, expected: str) -> None:
+    """The values of cells, with `;` between several."""
+    compare_values(stage.mill.value, names, expected)
+
+
+@word("part:", BLOCK)
+def part(stage: Stage, step: Step) -> None:
+    """Load a part program; nothing runs."""
+    stage.mill.text = "\n".join(line.text for line in step.below) + "\n"
+
+
+@word("part of dialect NAME:", BLOCK)
+def part_of(stage: Stage, step: Step, dialect: str) -> None:
+    """The same in another dialect."""
+    stage.mill.dialect = dialect
+    part(stage, step)
+
+
+@word("entries:", BLOCK)
+@word("entries: TEXT", BLOCK, takes_remark=False)
+def entries(stage: Stage, step: Step, text: str = "") -> None:
+    """The canonical entries the part becomes without a machine, a line each."""
+    compare_text(step, text, list(stage.mill.entries()))
+
+
+@word("check part:", BLOCK)
+def check_part(stage: Stage, step: Step) -> None:
+    """Messages of `openacr mill check`: `# E: E203 ...` or `# W: W212 ...` at their lines."""
+    text = "\n".join(messages_taken(step)) + "\n"
+    found = check_text(text, Path("PART.TXT"), stage.mill.store, stage.mill.dialect)
+    compare_messages(
+        step, [(each.line, not each.is_error, f"{each.code} {each.text}") for each in found]
+    )
+
+
+@word("run")
+def run(stage: Stage, step: Step) -> None:
+    """Start the part and wait for its end; `took` is its motion, from first to last."""
+    stage.mill.start()
+    stage.took_tk = stage.mill.wait_for(State.IDLE)
+
+
+@word("wait for MODE")
+def wait_for(stage: Stage, step: Step, state: str) -> None:
+    """Wait until the machine is in a state; `took` is the motion meanwhile."""
+    stage.took_tk = stage.mill.wait_for(State[state])
+
+
+@word("press BUTTON")
+def press_button(stage: Stage, step: Step, button: str) -> None:
+    """Press a button of the front end: START, STOP, RESUME, ABORT, ACKNOWLEDGE."""
+    stage.mill.press(button)
+
+
+@word("mdi LINE", ANSWERS, takes_remark=False)
+def mdi(stage: Stage, step: Step, block: str) -> None:
+    """Run a block of MDI to its end; the lines below are the errors it is refused with."""
+    compare(step, stage.mill.type(block))
+
+
+@word("state: TEXT")
+def state(stage: Stage, step: Step, text: str) -> None:
+    """The state of the machine, and its reason."""
+    runner = stage.mill.session.runner
+    shown = f"{runner.state.name} {runner.reason}".strip()
+    if shown != text:
+        raise DifferenceError(text, shown)
+
+
+@word("alarm:", BLOCK)
+@word("alarm: TEXT", BLOCK, takes_remark=False)
+def alarm(stage: Stage, step: Step, text: str = "") -> None:
+    """The active alarms with their codes, oldest first; a case without it has none at its end."""
+    stage.mill.are_alarms_expected = True
+    compare_text(step, text, stage.mill.alarms())
+
+
+@word("says:", BLOCK)
+@word("says: TEXT", BLOCK, takes_remark=False)
+def says(stage: Stage, step: Step, text: str = "") -> None:
+    """All that the operator has been shown since it was last compared."""
+    shown, stage.mill.heard[:] = list(stage.mill.heard), []
+    compare_text(step, text, shown)
+
+
+@word("at TEXT")
+def at(stage: Stage, step: Step, text: str) -> None:
+    """Where the axes are commanded to be, in machine coordinates, to the pulse; others are at 0."""
+    pulses, per_unit = stage.mill.place()
+    wanted = dict.fromkeys(pulses, 0)
+    for axis in text.split() if text != "0" else ():
+        wanted[axis[0]] = round(float(axis[1:]) * per_unit.get(axis[0], 1.0))
+    if wanted != pulses:
+        raise DifferenceError(_place(wanted), _place(pulses))
+
+
+def _place(pulses: dict[str, int]) -> str:
+    return " ".join(f"{axis}{value}" for axis, value in pulses.items()) + " pulses"
