@@ -1,7 +1,8 @@
 """Break the source place by place and list what no test notices.
 
 Without a name the lines changed since --base are tried, else whole packages or files below
-src/openacr, or `all`. The cases of the manuals come first: they are quick. Core modules (*_cy.py) run as plain Python, whatever is compiled.
+src/openacr, or `all`. The cases of the manuals come first: they are quick. Core modules (*_cy.py)
+run as plain Python, whatever is compiled.
 """
 
 import argparse

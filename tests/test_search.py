@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests import search
+
+from openacr.compiled import is_compiled
 
 TEST = """
 from hypothesis import given, strategies as st
@@ -34,13 +35,22 @@ def test_sparse(n, m):
     ("marks", "environment", "counts"),
     [("not soak", {}, (10, 10, 3)), ("soak or search", {"OPENACR_SEARCH": "whole"}, (60, 60, 4))],
 )
-@pytest.mark.skipif(not search.is_compiled, reason="plain Python tries few")
+@pytest.mark.skipif(not is_compiled, reason="plain Python tries few")
 def test_make_test_tries_a_part_and_make_soak_the_rest(
     tmp_path: Path, marks: str, environment: dict[str, str], counts: tuple[int, ...]
 ) -> None:
     (tmp_path / "test_it.py").write_text(TEST)
     markers = "-omarkers=search\nsoak"
-    options = ["-p", "no:cacheprovider", "-p", "no:xdist", "-s", markers, "--rootdir", tmp_path]
+    options = [
+        "-p",
+        "no:cacheprovider",
+        "-p",
+        "no:xdist",
+        "-s",
+        markers,
+        "--rootdir",
+        str(tmp_path),
+    ]
     done = subprocess.run(
         [sys.executable, "-m", "pytest", "-c", os.devnull, *options, "-m", marks, "test_it.py"],
         cwd=tmp_path,

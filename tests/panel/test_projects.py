@@ -9,9 +9,10 @@ import pytest
 from tests.panel.bench import HandStation
 
 from openacr.client import Card, Level
-from openacr.client.card_axes import Attached, attached
+from openacr.client.card_axes import attached
 from openacr.controller import Controller
 from openacr.errors import UserError
+from openacr.lang.attachments import Attached
 from openacr.map import numbers as n
 from openacr.panel.commands.all import carry_out
 from openacr.panel.control.installation import Installation

@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from openacr.client import Card, Options
-from openacr.client.card_axes import Attached, attached
+from openacr.client.card_axes import attached
 from openacr.client.links import Host
 from openacr.errors import OpenacrError, UserError
+from openacr.lang.attachments import Attached
 from openacr.mill.card.attached import lacking
 from openacr.mill.card.checks import MovingError, check_rest
 from openacr.mill.card.driver import LINK_ERRORS
