@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests import search
 
 from openacr.compiled import is_compiled
 
