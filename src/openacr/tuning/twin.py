@@ -5,6 +5,7 @@ one of `plant.step_cy`. So limits, filters, converter steps and whole counts are
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -78,44 +79,49 @@ def run(
     origin = 0 if first is None else round(float(first.actual_cnt[0]))
     wanted = np.rint(setpoint_cnt)
     jogs = (wanted - origin).astype(int).tolist()
-    card = _card(settings, motor)
-    F, I, S = card.memory.F, card.memory.I, card.memory.S
+    memory = _memory(settings, motor)
+    F, I, S = memory.F, memory.I, memory.S
     for row in (axes.psp_cnt, axes.ssp_cnt, axes.error_old_cnt):
         F[row[0]] = jogs[0]
     if first is not None and settings.gain("IGAIN"):
         F[axes.integral_v[0]] = float(first.output_v[0]) - settings.gain("PGAIN") * jogs[0]
-    actual, output, load = (np.zeros(len(jogs)) for _ in range(3))
-    turned = 0.0 if motor.shaft is None else 1.0 + 1.0 / motor.shaft.inertia_ratio
     whole = int(motor.delay_tk)
     part = motor.delay_tk - whole
     sent = [0.0 if first is None else float(first.output_v[0])] * (whole + 2)
     S[_DAC] = sent[0]
-    for k, jog in enumerate(jogs):
-        if part or whole:
-            S[_DAC] = (1.0 - part) * sent[-1 - whole] + part * sent[-2 - whole]
-        _plant(F, I, S, 1, settings.period_s)
-        I[axes.jog_offset[0]] = jog
-        _tick(F, I, S)
-        sent = [*sent[1:], S[_DAC]]
-        actual[k], output[k] = I[axes.actual_position[0]], S[axes.output_signal[0]]
-        load[k] = F[motors.position_cnt[0]] - turned * F[compliant_loads.flex_cnt[0]]
-    where = load - MIDDLE + origin if turned else None
-    return Record(settings.period_s, wanted, actual + origin, output, where)
+    # A fit comes here ten million times: places are looked up once.
+    plant, tick, period_s, dac = _plant, _tick, settings.period_s, _DAC
+    offset, position, signal = axes.jog_offset[0], axes.actual_position[0], axes.output_signal[0]
+    actual: list[float] = []
+    output: list[float] = []
+    turned: list[tuple[float, float]] = []
+    for jog in jogs:
+        if motor.delay_tk:
+            S[dac] = (1.0 - part) * sent[-1 - whole] + part * sent[-2 - whole]
+        plant(F, I, S, 1, period_s)
+        I[offset] = jog
+        tick(F, I, S)
+        if motor.delay_tk:
+            sent = [*sent[1:], S[dac]]
+        actual.append(I[position])
+        output.append(S[signal])
+        if motor.shaft is not None:
+            turned.append((F[motors.position_cnt[0]], F[compliant_loads.flex_cnt[0]]))
+    load = None
+    if motor.shaft is not None:
+        places, flexes = np.array(turned).T
+        load = places - (1.0 + 1.0 / motor.shaft.inertia_ratio) * flexes - MIDDLE + origin
+    return Record(
+        settings.period_s, wanted, np.array(actual, float) + origin, np.array(output), load
+    )
 
 
-def _card(settings: LoopSettings, motor: Motor) -> Card:
+def _memory(settings: LoopSettings, motor: Motor) -> Memory:
     """A card with axis 0 alone, its loop closed and its motor at rest."""
-    card = Card()
-    memory = card.memory
-    apply_world(parse_world(_WORLD), memory)
-    card.set_period(settings.period_s)
-    attach.master(card, 0, 0)
-    attach.slave(card, 0, 0, 0, "X")
-    for row, value in settings.rows.items():
-        memory.write(at.AX_BASE + row, value)
-    activate_derivative_smoothing(card, 0)
-    if settings.is_filtering:
-        memory.I[af1.word[0]] |= af1.BIQUAD_FILTER_ACTIVATE
+    memory = Memory()
+    memory.restore(
+        _closed_loop(settings.period_s, tuple(settings.rows.items()), settings.is_filtering)
+    )
     for place, value in (
         (motors.accel_per_volt, motor.accel_per_volt),
         (motors.peak_accel, _NO_LIMIT),
@@ -127,10 +133,27 @@ def _card(settings: LoopSettings, motor: Motor) -> Card:
         memory.F[place[0]] = value
     if motor.shaft is not None:
         _bend(memory, motor.shaft)
+    return memory
+
+
+@lru_cache(maxsize=4)
+def _closed_loop(period_s: float, rows: tuple[tuple[int, float], ...], is_filtering: bool) -> bytes:
+    """The memory of a card whose loop has these settings; a fit tries many motors with one."""
+    card = Card()
+    memory = card.memory
+    apply_world(parse_world(_WORLD), memory)
+    card.set_period(period_s)
+    attach.master(card, 0, 0)
+    attach.slave(card, 0, 0, 0, "X")
+    for row, value in rows:
+        memory.write(at.AX_BASE + row, value)
+    activate_derivative_smoothing(card, 0)
+    if is_filtering:
+        memory.I[af1.word[0]] |= af1.BIQUAD_FILTER_ACTIVATE
     memory.I[encoders.mult[0]] = COUNTS_PER_LINE  # the motor is given in counts of the position
     memory.I[kernel.axes] = 1
     memory.I[kernel.masters] = 1
-    return card
+    return memory.snapshot()
 
 
 def _bend(memory: Memory, shaft: Shaft) -> None:
