@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.interpolate import BSpline, CubicHermiteSpline
-from shapely.geometry import LineString, Point
+from shapely import STRtree, linestrings, points
+from shapely.geometry import LineString
 
 from openacr.controller import Controller
 from openacr.map.rows import axes
@@ -74,8 +75,11 @@ def length(stroke: np.ndarray) -> float:
 
 def is_on(stroke: np.ndarray, ideal: LineString, within: float) -> bool:
     """Whether every setpoint is on the curve and every place of the curve was passed."""
-    off = max(Point(place).distance(ideal) for place in stroke)
-    return bool(off < within and ideal.hausdorff_distance(LineString(stroke)) < 0.05)
+    places = np.array(ideal.coords)
+    pieces = STRtree(linestrings(np.stack((places[:-1], places[1:]), axis=1)))
+    off = pieces.query_nearest(points(stroke), return_distance=True)[1].max()
+    passed = LineString(places[:: max(1, len(places) // 2000)])
+    return bool(off < within and passed.hausdorff_distance(LineString(stroke)) < 0.05)
 
 
 def arc(cx: float, cy: float, radius: float, begin: float, end: float) -> LineString:
