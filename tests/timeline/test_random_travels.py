@@ -1,5 +1,6 @@
 """Whatever is done on a timeline, each moment of each branch keeps its state."""
 
+import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from tests.controller.hosts import X_AND_Y, Host
@@ -49,10 +50,8 @@ back = st.tuples(st.just("seek"), st.integers(0, 1000))
 other = st.tuples(st.just("branch"), st.integers(0, 5))
 
 
-@settings(max_examples=60, deadline=None)
-@example([("advance", 0), ("line", 10), ("write", 1), ("seek", 0), ("line", 10)])
-@given(st.lists(st.one_of(forward, line, line, write, switch, back, other), max_size=25))
-def test_each_moment_of_each_branch_keeps_its_state(steps: list[tuple[str, int]]) -> None:
+def require_states(steps: list[tuple[str, int]]) -> None:
+    """Each moment that was seen has its state again when one comes back to it."""
     timeline = Timeline(begun(), keyframe_every_s=0.05)
     card = timeline.card
     known: dict[tuple[int, Moment], str] = {}
@@ -79,3 +78,20 @@ def test_each_moment_of_each_branch_keeps_its_state(steps: list[tuple[str, int]]
         timeline.switch(branch)
         timeline.seek(moment)
         assert card.digest() == digest
+
+
+TRAVELS = st.lists(st.one_of(forward, line, line, write, switch, back, other), max_size=25)
+
+
+@settings(max_examples=20)
+@example([("advance", 0), ("line", 10), ("write", 1), ("seek", 0), ("line", 10)])
+@given(TRAVELS)
+def test_each_moment_of_each_branch_keeps_its_state(steps: list[tuple[str, int]]) -> None:
+    require_states(steps)
+
+
+@pytest.mark.soak
+@settings(max_examples=1000)
+@given(TRAVELS)
+def test_in_many_travels_each_moment_keeps_its_state(steps: list[tuple[str, int]]) -> None:
+    require_states(steps)
