@@ -5,6 +5,7 @@ open; other tests of the process start loops of their own, so no browser outlive
 """
 
 import json
+import os
 import time
 from collections.abc import Generator, Iterator
 from contextlib import suppress
@@ -220,9 +221,15 @@ def open_page(context: BrowserContext, url: str) -> Page:
     return page
 
 
+def picture(page: Page, path: Path) -> None:
+    """Keep what the page shows for people to look at: with OPENACR_TEST_PICTURES=1, 300 of them."""
+    if os.environ.get("OPENACR_TEST_PICTURES"):
+        page.screenshot(path=path)
+
+
 @pytest.fixture(scope="session")
 def pictures() -> Path:
-    """Where screenshots go for people to look at."""
+    """Where screenshots go."""
     folder = Path(__file__).parents[3] / "build" / "panel-screens"
     folder.mkdir(parents=True, exist_ok=True)
     return folder

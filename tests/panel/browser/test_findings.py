@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import to_main_menu, until_model
+from tests.panel.browser.conftest import picture, to_main_menu, until_model
 
 OPEN_REMARK = "G21 G90\nG1 X5 F100 (open\nG4 P1\nG83 X1 Q\nM2\n"
 NO_CIRCLE = "G21 G90 G17\nG0 X0 Y0\nG2 X10 Y0 I3 J0 F100\nM2\n"
@@ -44,7 +44,7 @@ def test_a_program_that_cannot_be_read_is_shown_with_its_errors_and_not_offered_
     expect(dialog.get_by_role("heading")).to_contain_text("REMARK.TXT · 2 errors")
     expect(dialog.locator(".findings .error .number")).to_have_text(["2:12", "4:9"])
     expect(dialog.locator(".findings .error .name").first).to_have_text("E103 comment not closed")
-    page.screenshot(path=pictures / "findings.png")
+    picture(page, pictures / "findings.png")
     expect(page.locator("#menu")).to_have_attribute("data-shown", "setup")
     page.keyboard.press("Escape")
     expect(page.locator("#screen")).to_be_visible()  # LOAD PROG, for another one

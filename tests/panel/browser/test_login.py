@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import give, open_page
+from tests.panel.browser.conftest import give, open_page, picture
 
 from openacr.panel.roles import Role
 from openacr.sysvar import password
@@ -42,7 +42,7 @@ def test_a_panel_with_a_password_is_entered_by_its_log_in_page(
         attempt(page, "wrong password")
         expect(alert).to_have_text("that is not the password of the role operate")
         expect(page.get_by_label("Password")).to_be_focused()
-    page.screenshot(path=str(pictures / "login.png"))
+    picture(page, pictures / "login.png")
     served.panel.accounts.delays._failed["127.0.0.1"] = (9, float("1e12"))
     attempt(page, "long enough")
     expect(alert).to_have_text(re.compile(r"too many wrong passwords: wait \d+ s"))

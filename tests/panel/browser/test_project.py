@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import open_page, until_model
+from tests.panel.browser.conftest import open_page, picture, until_model
 from tests.panel.browser.test_bench import open_pane
 
 from openacr.client import Level
@@ -189,7 +189,7 @@ def test_a_mouse_has_the_dense_form_in_which_lines_and_values_are_seen(
         open_pane(page, "Editor")
         page.locator("[data-pane=editor]").get_by_label("Program or file").select_option("PROG0")
         expect(page.locator("[data-pane=editor] .cm-line").first).to_have_text("PROGRAM")
-        page.screenshot(path=pictures / "bench_dense.png")
+        picture(page, pictures / "bench_dense.png")
         code = page.locator("[data-pane=editor] .editor-host").bounding_box()
         assert code is not None
         assert code["height"] > 100

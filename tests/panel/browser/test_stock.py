@@ -5,7 +5,7 @@ from pathlib import Path
 
 from playwright.sync_api import Page, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import load_file
+from tests.panel.browser.conftest import load_file, picture
 
 # How many pixels of the picture of the material have a colour, how many are red, and a sum that no
 # two pictures share.
@@ -53,7 +53,7 @@ def test_the_stock_is_shown_instead_of_the_path_until_its_key_is_pressed_again(
     assert page.evaluate(PIXELS)["red"] == 0
     for view in ("3D", "FRONT", "TOP"):
         show_view(page, view, "shown > 1000")
-        page.screenshot(path=pictures / f"stock-{view.lower()}.png")
+        picture(page, pictures / f"stock-{view.lower()}.png")
     expect(page.locator(".picture [data-layer=strokes]")).to_be_hidden()
     key.click()
     expect(key).to_have_attribute("aria-pressed", "false")
@@ -74,7 +74,7 @@ def test_a_rapid_in_material_is_red_and_its_line_is_named(
     expect(note).to_have_text(re.compile("Rapid in material: line 8"), timeout=60_000)
     page.wait_for_function(f"() => ({PIXELS})().red > 10")
     show_view(page, "3D", "red > 10")
-    page.screenshot(path=pictures / "stock-rapid.png")
+    picture(page, pictures / "stock-rapid.png")
     key.click()
 
 

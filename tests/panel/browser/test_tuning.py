@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import open_page
+from tests.panel.browser.conftest import open_page, picture
 from tests.panel.browser.test_bench import open_pane
 from tests.panel.browser.test_screens import AXE, AXE_RUN
 
@@ -128,7 +128,7 @@ def test_a_resonance_is_shown_and_a_notch_is_asked_for_with_the_gains(
     notch = rows.filter(has_text="NOTCH, Hz").locator("td").last.inner_text()
     assert float(notch) == pytest.approx(RESONANCE_HZ, rel=0.02)
     expect(rows.filter(has_text="Load swings")).to_have_count(1)
-    page.screenshot(path=pictures / "tuning-resonance.png")
+    picture(page, pictures / "tuning-resonance.png")
     page.get_by_role("button", name="SET THESE GAINS").click()
     dialog = page.get_by_role("dialog")
     expect(dialog).to_contain_text(f"NOTCH ({notch},")
