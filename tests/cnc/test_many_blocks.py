@@ -243,6 +243,7 @@ def test_units_and_path_modes_have_batches_of_their_own() -> None:
     assert [len(moves) for moves in found] == [2, 1, 1, 1, 1]
 
 
+@pytest.mark.soak  # what a check does at the same line is proved by tests/verify in every run
 def test_idle_blocks_are_counted_across_batches() -> None:
     text = "F60\nX1\n" + "G90\n" * (MOST_IDLE - 1) + "X2\nM2"
     assert require_same(text, "rs274ngc").error is None

@@ -1,5 +1,6 @@
 """Turns of a table within planned paths, while they run: holds, traces, overrides."""
 
+import itertools
 import math
 
 import numpy as np
@@ -21,6 +22,7 @@ from tests.mill.planned_rotary import (
     to,
 )
 from tests.mill.shop import Shop, end
+from tests.search import sparse
 from tests.trajectory.measures import off
 
 from openacr.cnc import canonical as c
@@ -92,8 +94,10 @@ def test_turns_are_traced_back_and_forward_as_far_as_they_were_held(
     assert np.abs(rates[:, A]).max() <= TURN_SPEED * (1 + 1e-4)  # its start is on pulses
 
 
-@pytest.mark.parametrize("percent", [93.0, 97.0, 99.0])
-@pytest.mark.parametrize("name", ["wave", "mixed", "turns"])
+@pytest.mark.parametrize(
+    ("name", "percent"),
+    sparse(list(itertools.product(["wave", "mixed", "turns"], [93.0, 97.0, 99.0])), 4),
+)
 def test_an_override_below_100_percent_is_the_speed_of_the_turn(name: str, percent: float) -> None:
     shop = rotary_shop(**{f"P{FOV.percents[9]}": percent})  # 90 by default
     feed(percent)(shop)

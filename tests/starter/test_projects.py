@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.search import sparse
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
@@ -37,17 +38,21 @@ def require_good(project: Path) -> None:
     assert met[-3] == met[-1] != "0"
 
 
-@pytest.mark.parametrize("homing", Homing)
-@pytest.mark.parametrize("limits", Limits)
-@pytest.mark.parametrize("kind", Kind)
+# Every kind is there with all limits, homings, inputs and with and without a PLC: one of seven.
+COMBINATIONS = sparse(list(itertools.product(Kind, Limits, Homing, INPUTS, (False, True))), 7)
+
+
+@pytest.mark.parametrize(("kind", "limits", "homing", "inputs", "has_plc"), COMBINATIONS)
 def test_every_combination_runs_and_meets_its_scenario(
-    tmp_path: Path, kind: Kind, limits: Limits, homing: Homing
+    tmp_path: Path,
+    kind: Kind,
+    limits: Limits,
+    homing: Homing,
+    inputs: tuple[str, ...],
+    has_plc: bool,
 ) -> None:
-    for inputs, has_plc in itertools.product(INPUTS, (False, True)):
-        folder = tmp_path / f"{len(inputs)}{has_plc}"
-        folder.mkdir()
-        chosen = choices(kind, limits=limits, homing=homing, inputs=inputs, has_plc=has_plc)
-        require_good(made(folder, chosen))
+    chosen = choices(kind, limits=limits, homing=homing, inputs=inputs, has_plc=has_plc)
+    require_good(made(tmp_path, chosen))
 
 
 @pytest.mark.parametrize("kind", Kind)
