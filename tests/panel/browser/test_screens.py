@@ -222,10 +222,11 @@ OUT_OF_REACH = """() => {
 }"""  # noqa: E501
 
 
+@pytest.mark.parametrize(("width", "height"), [(390, 844), (375, 667), (360, 640)])
 def test_a_phone_shows_the_read_out_and_stop_with_every_menu_and_while_jogging(
-    page: Page,
+    page: Page, width: int, height: int
 ) -> None:
-    page.set_viewport_size({"width": 390, "height": 844})
+    page.set_viewport_size({"width": width, "height": height})
     page.click("#status-tab-view1")
     found = {}
     for place in [*page.evaluate(MENUS), "jog", "mdi", "home"]:
