@@ -9,13 +9,13 @@ from openacr.cnc.codes.gcodes.cycles import clearances, shift_signs
 from openacr.cnc.interpreter import run_rows_cy as core
 
 if TYPE_CHECKING:
-    from openacr.cnc.interpreter.interpreter import Interpreter
+    from openacr.cnc.interpreter.inside import Inside
     from openacr.views import F64, I32
 
 _WORDS = (("Q", core.HAS_PECK, core.W_PECK), ("P", core.HAS_REST, core.W_REST))
 
 
-def take_drilling(run: Interpreter, W: F64, M: I32) -> None:
+def take_drilling(run: Inside, W: F64, M: I32) -> None:
     """Write what cycles need to know of an interpreter."""
     drilling = run.drilling or Drilling()
     M[core.M_IS_DRILLING], M[core.M_RISES] = run.drilling is not None, run.dialect.rises_first
@@ -36,7 +36,7 @@ def take_drilling(run: Interpreter, W: F64, M: I32) -> None:
     W[core.W_SIGNS], W[core.W_SIGNS + 1] = shift_signs(run)
 
 
-def hand_back_drilling(run: Interpreter, W: F64, M: I32) -> None:
+def hand_back_drilling(run: Inside, W: F64, M: I32) -> None:
     """Give an interpreter the cycle in force after lines that were executed together."""
     if not M[core.M_IS_DRILLING]:
         run.drilling = None

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Entry, Say, Source
 from openacr.cnc.codes.table import Code
-from openacr.cnc.interpreter.ready import Quick, Ready, ready, values_of
+from openacr.cnc.interpreter.inside import Inside, Quick, Ready
+from openacr.cnc.interpreter.ready import ready, values_of
 from openacr.cnc.interpreter.scanning import Scanner
 from openacr.cnc.interpreter.statements import shown
 from openacr.cnc.program.block_context import BlockContext
@@ -21,9 +21,6 @@ from openacr.cnc.program.program import Node
 from openacr.cnc.reading.blocks import Message
 from openacr.cnc.reading.findings import BlockError, CodeError
 from openacr.cnc.state.parameters import NotAtRestError
-
-if TYPE_CHECKING:
-    from openacr.cnc.interpreter.interpreter import Interpreter
 
 MOST_IDLE = 100_000  # blocks without motion, dwell or wait
 MACRO = "MACRO"
@@ -40,7 +37,7 @@ _REASONS = {
 class Execution:
     """Runs the blocks of one interpreter."""
 
-    def __init__(self, run: Interpreter) -> None:
+    def __init__(self, run: Inside) -> None:
         self._run = run
         self._flow = run.flow
         self.scanner = Scanner(run)

@@ -118,7 +118,7 @@ class Interpreter:
         self.is_rested = True
         self.is_ended = False
         self.ended_cnt = 0  # block ends since the start of the program
-        self.loops = Loops(self) if self.options.collects_errors else None
+        self.loops = Loops(self, self.o_words) if self.options.collects_errors else None
         if self.loops is not None:
             self.flow.jumped = self.loops.jumped
         self.power_up()

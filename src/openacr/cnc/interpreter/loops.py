@@ -15,7 +15,8 @@ from openacr.cnc.state.shadow import Shadow
 
 if TYPE_CHECKING:
     from openacr.cnc.canonical import Point
-    from openacr.cnc.interpreter.interpreter import Interpreter
+    from openacr.cnc.codes.ngc.owords import OWords
+    from openacr.cnc.codes.run import Run
     from openacr.cnc.program.flow import Frame
     from openacr.cnc.program.labels import Part
     from openacr.cnc.program.program import Node
@@ -27,8 +28,8 @@ HINT = "it does not end by itself; a machine runs it until it is ended"
 class Loops:
     """The jumps of one run, by the line that jumps."""
 
-    def __init__(self, run: Interpreter) -> None:
-        self._run = run
+    def __init__(self, run: Run, o_words: OWords) -> None:
+        self._run, self._o_words = run, o_words
         self._cnts: dict[tuple[int, int], int] = {}
         self._last: Node | None = None  # the line that jumped last
         self._hole: Frame | None = None  # passes of a cycle are counted hole by hole
@@ -85,6 +86,6 @@ class Loops:
             bytes(run.parameters.own or b""),
             cells.written if isinstance(cells, Shadow) else None,
             dict(machine.parameters) if isinstance(machine, VirtualMachine) else None,
-            run.o_words.left,
+            self._o_words.left,
             tuple(run.flow.frames),
         )

@@ -16,7 +16,7 @@ from openacr.cnc.state.cells import EPSILON, RADIUS, RADIUS_WEAR
 from openacr.sysvar.tabs import CONTROL
 
 if TYPE_CHECKING:
-    from openacr.cnc.interpreter.interpreter import Interpreter
+    from openacr.cnc.interpreter.inside import Inside
 
 OFF = 40
 SIDES = {41: Side.LEFT, 42: Side.RIGHT}
@@ -26,7 +26,7 @@ _ARCS = (2, 3)
 class OffsetPath:
     """The compensator of one program."""
 
-    def __init__(self, run: Interpreter) -> None:
+    def __init__(self, run: Inside) -> None:
         self._run = run
         self._compensator = self._new()
 

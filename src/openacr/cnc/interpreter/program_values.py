@@ -21,7 +21,7 @@ from openacr.cnc.state.parameters import (
 from openacr.cnc.state.shadow import NEAR, Shadow
 
 if TYPE_CHECKING:
-    from openacr.cnc.interpreter.interpreter import Interpreter
+    from openacr.cnc.interpreter.inside import Inside
     from openacr.cnc.program.labels import Part
     from openacr.views import F64, I32
 
@@ -47,7 +47,7 @@ class ProgramValues:
     Cells are read and written by the core where they are those of a `Shadow`.
     """
 
-    def __init__(self, run: Interpreter) -> None:
+    def __init__(self, run: Inside) -> None:
         parameters, cells = run.parameters, run.cells
         self._cells = cells if isinstance(cells, Shadow) else None
         self.locals = cast("F64", memoryview(parameters.values))
@@ -72,7 +72,7 @@ class Jumps:
     passes are counted as `Loops` does, which sees those passes whose state it compares.
     """
 
-    def __init__(self, run: Interpreter) -> None:
+    def __init__(self, run: Inside) -> None:
         self._run = run
         self.rows = integers(values.JUMPS * values.JUMP)
         self.kept = doubles(values.JUMPS * AXES)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Entry, Output, SetBit
 from openacr.cnc.codes.block_plan import Plan
-from openacr.cnc.codes.table import Code, Limit, check_limit
+from openacr.cnc.codes.table import Code, check_limit
+from openacr.cnc.interpreter.inside import Act, Assign, Inside, Quick, Ready
 from openacr.cnc.interpreter.statements import statement_of
 from openacr.cnc.reading.blocks import Assignment, Block, Input, OWord, Print
 from openacr.cnc.reading.findings import CodeError
@@ -19,37 +20,16 @@ from openacr.cnc.reading.parser import parse
 from openacr.cnc.state.parameters import NotAtRestError, Parameters, number
 
 if TYPE_CHECKING:
-    from openacr.cnc.interpreter.interpreter import Interpreter
     from openacr.cnc.program.program import Node
 
-Assign = Callable[["Node"], None]
-Act = Callable[["Node"], "Iterator[Entry] | None"]
 
-
-@dataclass(slots=True)
-class Ready:
-    """What is done when a block is reached."""
-
-    plan: Plan
-    is_empty: bool
-    assigns: tuple[Assign, ...]
-    late: tuple[Assign, ...]  # where assignments act after the block is read
-    statement: Act | None
-    values: tuple[tuple[str, Formula], ...]
-    limits: tuple[Limit, ...]  # of words that are formulas
-    acts: tuple[Code, ...]
-    quick: Quick | None  # the block is assignments, or a statement that never waits
-    bare: Quick | None  # the same, where it shows nothing and no switch skips it
-    is_plain: bool  # the block is words and nothing else
-
-
-def ready(node: Node, run: Interpreter) -> Ready:
+def ready(node: Node, run: Inside) -> Ready:
     """Read and plan the line of a node."""
     block = parse(node.raw, run.language(node.part)[0].grammar)
     return _prepared(block if not block.is_percent else Block(), node, run)
 
 
-def _prepared(block: Block, node: Node, run: Interpreter) -> Ready:
+def _prepared(block: Block, node: Node, run: Inside) -> Ready:
     dialect, planner = run.language(node.part)
     plan = planner.plan(block)
     if plan.is_computed:
@@ -92,12 +72,12 @@ def _prepared(block: Block, node: Node, run: Interpreter) -> Ready:
     )
 
 
-def acting(plan: Plan, run: Interpreter) -> tuple[Code, ...]:
+def acting(plan: Plan, run: Inside) -> tuple[Code, ...]:
     """The codes of a block that act: in DRY RUN not all do."""
     return tuple(code for code in plan.acts if code.acts_dry or not run.options.is_dry)
 
 
-def _computed(block: Block, run: Interpreter) -> Act:
+def _computed(block: Block, run: Inside) -> Act:
     """A block with codes that are formulas: made ready again each time, with their values."""
     formulas = {
         k: Formula(word.value, run.parameters)
@@ -136,7 +116,7 @@ def values_of(ready: Ready) -> dict[str, float]:
     return words
 
 
-def _assign(one: Assignment, run: Interpreter) -> Assign:
+def _assign(one: Assignment, run: Inside) -> Assign:
     """An assignment as a function."""
     value = Formula(one.value, run.parameters)
     if one.kind in ("OUT", "BIT"):
@@ -150,14 +130,6 @@ def _assign(one: Assignment, run: Interpreter) -> Assign:
         return lambda node: write(kind, n, value.now())
     index = Formula(one.index, run.parameters)
     return lambda node: write(kind, index.now(), value.now())
-
-
-class Quick(Protocol):
-    """Something that is done by a call."""
-
-    @property
-    def now(self) -> Callable[[Node], object]:
-        """Do it."""
 
 
 class _Statement:
@@ -244,7 +216,7 @@ def _store(kind: str, n: float, parameters: Parameters) -> str:
     return f"write({kind!r}, {n!r}, v)"
 
 
-def _switch(one: Assignment, value: Formula, run: Interpreter) -> Assign:
+def _switch(one: Assignment, value: Formula, run: Inside) -> Assign:
     """`OUT(n) = x`, `BIT(n) = x`: at rest, as everything that reads the machine."""
     if isinstance(one.index, str):
         raise TypeError(one.index)
@@ -259,7 +231,7 @@ def _switch(one: Assignment, value: Formula, run: Interpreter) -> Assign:
     return act
 
 
-def _together(many: list[Assignment], run: Interpreter) -> tuple[Assign, ...]:
+def _together(many: list[Assignment], run: Inside) -> tuple[Assign, ...]:
     """All assignments of a block with the values from before it."""
     if not many:
         return ()

@@ -16,7 +16,7 @@ from openacr.cnc.reading.text import decoded
 
 if TYPE_CHECKING:
     from openacr.cnc.interpreter.fast_plans import Notes
-    from openacr.cnc.interpreter.interpreter import Interpreter
+    from openacr.cnc.interpreter.inside import Inside
     from openacr.cnc.program.labels import Part
     from openacr.views import F64, I32
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 class Scanned:
     """The rows of many lines of a text, and how they become entries."""
 
-    def __init__(self, run: Interpreter, notes: Notes, nodes: dict[int, Node]) -> None:
+    def __init__(self, run: Inside, notes: Notes, nodes: dict[int, Node]) -> None:
         self._run = run
         self._notes = notes
         self._nodes = nodes  # of the cycles

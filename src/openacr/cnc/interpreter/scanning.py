@@ -41,7 +41,7 @@ from openacr.compiled import pick
 
 if TYPE_CHECKING:
     from openacr.cnc.codes.table import Limit
-    from openacr.cnc.interpreter.interpreter import Interpreter
+    from openacr.cnc.interpreter.inside import Inside
     from openacr.cnc.program.labels import Part
     from openacr.views import F64
 
@@ -56,7 +56,7 @@ _run_lines = pick(lines_cy.run_lines)
 class Scanner:
     """Executes runs of lines for an interpreter."""
 
-    def __init__(self, run: Interpreter) -> None:
+    def __init__(self, run: Inside) -> None:
         self._run = run
         bracket = run.dialect.grammar.brackets[0]
         sizes = core.W_RUN_SIZE, core.K_RUN_SIZE, rich.MOST_NUMBERS + MOST_NUMBERS

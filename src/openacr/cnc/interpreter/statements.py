@@ -23,26 +23,24 @@ from openacr.cnc.state.cells import HASH_TEST
 from openacr.cnc.state.parameters import number
 
 if TYPE_CHECKING:
-    from openacr.cnc.interpreter.interpreter import Interpreter
+    from openacr.cnc.interpreter.inside import Act, Inside
     from openacr.cnc.program.program import Node
 
-Act = Callable[["Node"], "Iterator[Entry] | None"]
 
-
-def statement_of(statement: Statement, run: Interpreter, node: Node) -> Act:
+def statement_of(statement: Statement, run: Inside, node: Node) -> Act:
     """A statement as a function of its line."""
     return _MAKERS[type(statement)](statement, run, node)
 
 
-def _goto(statement: Goto, run: Interpreter, node: Node) -> Act:
+def _goto(statement: Goto, run: Inside, node: Node) -> Act:
     return _jump(statement, run, node, run.flow.jump)
 
 
-def _gosub(statement: Gosub, run: Interpreter, node: Node) -> Act:
+def _gosub(statement: Gosub, run: Inside, node: Node) -> Act:
     return _jump(statement, run, node, run.flow.call_sub)
 
 
-def _jump(statement: Goto | Gosub, run: Interpreter, node: Node, go: Callable[[Node], None]) -> Act:
+def _jump(statement: Goto | Gosub, run: Inside, node: Node, go: Callable[[Node], None]) -> Act:
     """A jump; the line of a label that is a number is looked up once."""
     flow, column = run.flow, statement.column
     if isinstance(statement.label, Number):
@@ -63,14 +61,14 @@ def _jump(statement: Goto | Gosub, run: Interpreter, node: Node, go: Callable[[N
     return act_by_value
 
 
-def _return(statement: Return, run: Interpreter, node: Node) -> Act:
+def _return(statement: Return, run: Inside, node: Node) -> Act:
     def act(node: Node) -> None:
         run.flow.go_back(statement.column)
 
     return act
 
 
-def _if(statement: If, run: Interpreter, node: Node) -> Act:
+def _if(statement: If, run: Inside, node: Node) -> Act:
     condition = Formula(statement.condition, run.parameters)
     then = _MAKERS[type(statement.then)](statement.then, run, node)
     test, parameters = statement.test, run.parameters
@@ -101,7 +99,7 @@ def _input_test(n: int) -> str:
     return f"tests input {n}, not parameter {n} that was assigned: that is IF (#{n})=..."
 
 
-def _print(statement: Print, run: Interpreter, node: Node) -> Act:
+def _print(statement: Print, run: Inside, node: Node) -> Act:
     items = [
         item if isinstance(item, str) else Formula(item, run.parameters) for item in statement.items
     ]
@@ -119,7 +117,7 @@ def shown(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def _input(statement: Input, run: Interpreter, node: Node) -> Act:
+def _input(statement: Input, run: Inside, node: Node) -> Act:
     index = Formula(statement.parameter, run.parameters)
     kind = "#" if statement.is_hash else "P"
 
@@ -136,11 +134,11 @@ def _input(statement: Input, run: Interpreter, node: Node) -> Act:
     return act
 
 
-def _include(statement: Include, run: Interpreter, node: Node) -> Act:
+def _include(statement: Include, run: Inside, node: Node) -> Act:
     return lambda node: None  # the added text follows by itself
 
 
-def _o_word(statement: OWord, run: Interpreter, node: Node) -> Act:
+def _o_word(statement: OWord, run: Inside, node: Node) -> Act:
     return run.o_words.act(statement, node)
 
 

@@ -19,7 +19,7 @@ from openacr.cnc.reading.parser import parse
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from openacr.cnc.interpreter.interpreter import Interpreter
+    from openacr.cnc.interpreter.inside import Inside
     from openacr.cnc.program.program import Node
     from openacr.cnc.reading.blocks import Block
     from openacr.views import F64
@@ -40,9 +40,7 @@ class Strokes:
     `keep` takes the numbers of a plan and returns its place, 0 without room.
     """
 
-    def __init__(
-        self, run: Interpreter, N: F64, notes: Notes, keep: Callable[[list[int]], int]
-    ) -> None:
+    def __init__(self, run: Inside, N: F64, notes: Notes, keep: Callable[[list[int]], int]) -> None:
         self._run = run
         self._N = N
         self._numbers_end = rich.MOST_NUMBERS
