@@ -3,15 +3,16 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from openacr.cnc.canonical import Spin
+from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.mill.card.alarms import Alarm
 from openacr.mill.config.overrides import Override
 from openacr.mill.config.settings import NONE
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
 from openacr.panel.control.about import machine_data
-from openacr.panel.control.history_facts import moment_data, timeline_data
+from openacr.panel.control.history import moment_data, timeline_data
 from openacr.panel.control.lamp import Lamp
-from openacr.panel.control.modals import modals
 from openacr.panel.control.part import Part
 from openacr.panel.control.shared import Shared
 from openacr.panel.control.stopping import Stopping
@@ -270,3 +271,20 @@ MAKERS: dict[str, Callable[[Facts, Shared], Data]] = {
     "timeline": Facts.timeline,
     "moment": Facts.moment,
 }
+
+
+def modals(session: MillSession, run: Interpreter) -> dict[str, Any]:
+    """Codes and words in force in the block that is read."""
+    modal, actions = run.modal, session.runner.entry_actions
+    return {
+        "codes": modal.codes,
+        "F": modal.feed,
+        "S": modal.speed,
+        "T": modal.tool,
+        "D": modal.radius_number,
+        "H": modal.length_number,
+        "spindle": actions.spindle.state,
+        "coolant": actions.coolant.has_mist + 2 * actions.coolant.has_flood,
+        "is_spinning": modal.spin is not Spin.OFF,
+        "work": modal.work_code,
+    }

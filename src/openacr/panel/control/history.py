@@ -4,6 +4,9 @@ Links let time pass by `advance`. While time is still they get what the card has
 wait in vain for anything that takes a tick.
 """
 
+import math
+from typing import Any
+
 from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.debugger.breakpoints import MASTERS, kill_watch, running_watch
@@ -14,6 +17,7 @@ from openacr.timeline import Bookmark, Bookmarks, Branch, Kind, Timeline
 
 MOST_BYTES = 1 << 27  # of memory, for an hour of a machine that is used and some branches
 MOST_BRANCHES = 16
+COARSE_S = 0.5  # of moments as the screens get them while time passes
 AWAY = "the card is at a moment of its history without the panel: OPERATE of the timeline goes on"
 STILL = "the time of the card is still: RUN of the timeline lets it go on"
 
@@ -151,3 +155,44 @@ class History:
         self.bookmarks.forget(number)
         self.lanes.forget(number)
         self.names.pop(number, None)
+
+
+def timeline_data(history: History, speed: float) -> dict[str, Any]:
+    """The branches and bookmarks; what changes with every tick is in `moment_data`."""
+    present = history.timeline.branch
+    return {
+        "period_s": history.period_s,
+        "still": history.is_still,
+        "away": history.is_away,
+        "speed": None if speed == math.inf else speed,
+        "branch": present.number,
+        "most_bytes": history.most_bytes,
+        "branches": [
+            {
+                "number": each.number,
+                "name": history.names[each.number],
+                "parent": each.parent,
+                "fork": each.fork.tick if each.fork else None,
+                "first": each.first.tick,
+                "last": None if each is present else each.last.tick,
+            }
+            for each in history.timeline.branches
+        ],
+        "bookmarks": [
+            {"tick": each.tick, "kind": each.kind.value, "text": each.text}
+            for each in history.bookmarks.of(present.number)
+            if each.tick >= present.first.tick
+        ],
+    }
+
+
+def moment_data(history: History) -> dict[str, Any]:
+    """Where the card is in its history: exactly while time is still, else every half second."""
+    coarse_tk = 1 if history.is_still else max(1, round(COARSE_S / history.period_s))
+    now, last_tk = history.timeline.now, history.last_tk // coarse_tk * coarse_tk
+    return {
+        "tick": now.tick // coarse_tk * coarse_tk,
+        "within": now.within if history.is_still else 0,
+        "last": last_tk,
+        "bytes": history.size_bytes(last_tk),
+    }

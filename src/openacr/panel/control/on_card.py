@@ -1,14 +1,44 @@
 """The programs of the card as the screens know them: states, texts, what they print."""
 
+from collections import OrderedDict
 from collections.abc import Callable
+from hashlib import blake2b
 from typing import Any
 
+from openacr.errors import UserError
 from openacr.panel.control.aside import Aside
 from openacr.panel.control.card_programs import CardPrograms
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.listening import Listening
-from openacr.panel.control.parked import ParkedTexts
 from openacr.panel.control.rows import Rows
+
+MOST_PARKED = 8
+
+
+class ParkedTexts:
+    """Texts that a browser has handed over before the command that sends them to the card.
+
+    They are known by marks made of them. A message of the socket is short, and only the socket
+    knows who has control.
+    """
+
+    def __init__(self) -> None:
+        self._texts: OrderedDict[str, str] = OrderedDict()
+
+    def put(self, text: str) -> str:
+        """Keep a text; its mark."""
+        mark = blake2b(text.encode(errors="replace"), digest_size=16).hexdigest()
+        self._texts[mark] = text
+        self._texts.move_to_end(mark)
+        while len(self._texts) > MOST_PARKED:
+            self._texts.popitem(last=False)
+        return mark
+
+    def text(self, mark: str) -> str:
+        """The text of a mark; UserError if it is no longer kept."""
+        if mark not in self._texts:
+            raise UserError("the text is no longer here: send it again")
+        return self._texts[mark]
 
 
 class OnCard:

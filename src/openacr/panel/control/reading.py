@@ -4,18 +4,56 @@ from collections.abc import Callable
 from math import nan
 
 from openacr.cnc.canonical import Point
+from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.mill.card.actions import OFF
 from openacr.mill.config.overrides import Override
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
+from openacr.mill.zeroing import reader
 from openacr.panel.control.place import Place, read_place
 from openacr.panel.control.rows import Rows
 from openacr.panel.control.snapshot import Axes, Light, Snapshot
-from openacr.panel.control.work import WorkSystem
 from openacr.sysvar.tabs import CELLS
 
 NEAR = 0.001  # share of the travel that counts as at the limit
 PERCENT = 100.0
+# What the shift between program and machine is made of.
+FROM = range(CELLS.floating_zero_active, CELLS.work_system_in_use + 1)
+LENGTHS = (CELLS.current_h_length, CELLS.current_h_wear)
+
+
+class WorkSystem:
+    """Program coordinates of machine positions: those of the program, else of MDI."""
+
+    def __init__(self, session: MillSession) -> None:
+        self._session = session
+        self._idle = reader(session)
+        self._parts: tuple[float, ...] = ()
+
+    @property
+    def run(self) -> Interpreter:
+        """The interpreter whose modal state and offsets count."""
+        session = self._session
+        is_typed = session.runner.options.is_mdi
+        if session.reading is not None and (session.runner.is_busy or is_typed):
+            return session.reading
+        return self._idle
+
+    def program(self, machine: Point) -> Point:
+        """A machine position in program coordinates."""
+        run = self.run
+        if not self._session.runner.is_busy:
+            self._follow(run)
+        coordinates = run.path.coordinates
+        return coordinates.backward(coordinates.from_machine(machine))
+
+    def _follow(self, run: Interpreter) -> None:
+        """Take over offsets that were stored; a program under way keeps those it has read."""
+        read = run.cells.read
+        parts = (*map(read, FROM), *map(read, LENGTHS), float(run.modal.work), float(id(run)))
+        if parts != self._parts:
+            self._parts = parts
+            run.path.coordinates.refresh(run.modal)
 
 
 class Reading:
