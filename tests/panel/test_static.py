@@ -13,8 +13,7 @@ from starlette.requests import Request
 from tests.panel.bench import Served
 
 from openacr.panel.server.modules import with_modules
-from openacr.panel.server.parts import with_parts
-from openacr.panel.server.static import WEB, static_file
+from openacr.panel.server.static import WEB, static_file, with_parts
 
 LINK = re.compile(r'<link rel="modulepreload" href="/([^"]+)">')
 SCRIPT = '<script type="module" src="/js/main.js"></script>'

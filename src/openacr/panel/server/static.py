@@ -2,6 +2,8 @@
 
 import gzip
 import hashlib
+import re
+from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
 
@@ -9,9 +11,9 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
 from openacr.panel.server.modules import with_modules
-from openacr.panel.server.parts import with_parts
 
 WEB = Path(__file__).parents[1] / "web"
+PART = re.compile(r"^ *<!-- include ([\w/.]+) -->\n", re.MULTILINE)
 PAGES = {"": "index.html", "bench": "bench.html", "login": "login.html"}
 TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -85,3 +87,8 @@ def _read(place: Path, _changed_ns: int, _size: int) -> bytes:
 @lru_cache(maxsize=512)
 def _packed(body: bytes) -> bytes:
     return gzip.compress(body, mtime=0)
+
+
+def with_parts(page: str, read: Callable[[str], str]) -> str:
+    """A page with its shared parts: `<!-- include parts/head.html -->` as a line is that file."""
+    return PART.sub(lambda found: read(found[1]), page)
