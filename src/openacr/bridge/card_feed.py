@@ -11,6 +11,7 @@ from openacr.bridge.settings import Length, OnCard
 from openacr.client import Card, Options, RefusedError
 from openacr.errors import OpenacrError
 from openacr.map import numbers as n
+from openacr.map.rows import masters
 
 log = logging.getLogger(__name__)
 ROTARY = frozenset("ABC")
@@ -20,7 +21,7 @@ END_S = 2.0 * SILENCE_S
 MASTER = 0
 MOST_WRITES = 1000  # that wait for the card
 ROWS = (n.AX_CURRENT_POSITION, n.AX_ACTUAL_POSITION, n.AX_FOLLOWING_ERROR, n.AX_PPU)
-MASTER_ROWS = (n.MF1_WORD + MASTER, n.MA_BASE + MASTER * n.MA_STRIDE + n.MA_VECTOR_VELOCITY)
+MASTER_ROWS = (n.MF1_WORD + MASTER, masters.vector_velocity[MASTER])
 
 
 class CardFeed:

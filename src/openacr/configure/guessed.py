@@ -17,7 +17,7 @@ from openacr.configure.queries import (
 from openacr.configure.recovered import turn_of
 from openacr.configure.setup_code import CONTACT_FLAGS, FLAGS_PER_AXIS, SWITCH_FLAGS
 from openacr.errors import UserError
-from openacr.map.numbers import AX_BASE, AX_PPU, AX_STRIDE
+from openacr.map.rows import axes
 
 HOME_INVERT = 16146
 COUNTS_PER_REV = 4000
@@ -109,7 +109,7 @@ def _axis(
 
 
 def _turn(card: Card, number: int) -> tuple[float, int]:
-    ppu = card.read(AX_BASE + AX_STRIDE * number + AX_PPU)
+    ppu = card.read(axes.ppu[number])
     try:
         return turn_of(ppu, number)
     except UserError:

@@ -15,6 +15,7 @@ from openacr.map.numbers import (
     AXI_POSITION_INDEX,
     AXI_POSITION_SOURCE,
 )
+from openacr.map.rows import encoders
 from openacr.motion.axis.attach import Feedback
 from openacr.motion.card import Card
 from openacr.motion.interlocks import scale_of
@@ -114,7 +115,7 @@ class Surroundings:
             field = at.PLTF_BASE + motor * at.PLTF_STRIDE
             counts = pulses * self.memory.F[field + at.PLTF_COUNTS_PER_PULSE]
         else:
-            mult = rows[at.ENI_BASE + motor * at.ENI_STRIDE + at.ENI_MULT] or 1
+            mult = rows[encoders.mult[motor]] or 1
             counts = pulses * RAW_COUNTS / mult
         return apply.push(self.memory, motor, counts)
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from openacr.engine.watches import Watched, parameter_place
 from openacr.map import numbers as at
 from openacr.map.memory import Memory, flag_place
+from openacr.map.rows import trace_values
 
 SAMPLES = at.SMV_COUNT
 
@@ -39,8 +40,7 @@ def set_samples(memory: Memory, samples: Sequence[Sample]) -> None:
     if len(samples) > SAMPLES:
         raise ValueError(f"{len(samples)} values cannot be recorded at once, at most {SAMPLES}")
     for index, sample in enumerate(samples):
-        row = at.SMVI_BASE + index * at.SMVI_STRIDE
-        memory.I[row + at.SMVI_KIND] = sample.place.value
-        memory.I[row + at.SMVI_ROW] = sample.row
-        memory.I[row + at.SMVI_MASK] = sample.mask
+        memory.I[trace_values.kind[index]] = sample.place.value
+        memory.I[trace_values.row[index]] = sample.row
+        memory.I[trace_values.mask[index]] = sample.mask
     memory.I[at.ENGI_BASE + at.ENGI_SAMPLE_COUNT] = len(samples)

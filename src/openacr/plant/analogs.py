@@ -2,11 +2,12 @@
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import adcs, analogs
 from openacr.plant.counts import count_of
 from openacr.plant.schema import Analog, Axis, World
 
 FULL_DAC_BITS = 16
-_FIRST, _LAST = (at.ADC_BASE + n * at.ADC_STRIDE + at.ADC_ADC_INPUT for n in (0, at.PLA_COUNT - 1))
+_FIRST, _LAST = (adcs.adc_input[n] for n in (0, at.PLA_COUNT - 1))
 
 
 def write_analogs(memory: Memory, world: World) -> None:
@@ -40,9 +41,7 @@ def terminal(parameter: int) -> int | None:
 
 def put_volts(memory: Memory, channel: int, volts: float) -> None:
     """Apply a fixed voltage to an analog input, replacing what was wired to it."""
-    row = at.PLAF_BASE + channel * at.PLAF_STRIDE
-    wired = at.PLAI_BASE + channel * at.PLAI_STRIDE
-    memory.F[row + at.PLAF_BASE_V] = volts
-    memory.F[row + at.PLAF_VOLTS_PER_CNT] = 0.0
-    memory.I[wired + at.PLAI_AXIS] = memory.I[wired + at.PLAI_DAC] = 0
+    memory.F[analogs.base_v[channel]] = volts
+    memory.F[analogs.volts_per_cnt[channel]] = 0.0
+    memory.I[analogs.axis[channel]] = memory.I[analogs.dac[channel]] = 0
     memory.I[at.PLGI_BASE + at.PLGI_ANALOGS] |= 1

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory, flag_place
-from openacr.map.rows import compliant_loads
+from openacr.map.rows import compliant_loads, encoders, motors, stepper_motors, wires
 from openacr.plant import analogs, apply_networks, apply_phases, apply_stepper, bus
 from openacr.plant.counts import count_of
 from openacr.plant.inputs import WORD_BITS, input_place, output_place, word_row
@@ -116,18 +116,18 @@ def put_state(memory: Memory, state: tuple[list[list[float]], list[list[int]]]) 
         for index, number in enumerate(ints, base):
             memory.I[index] = number
     for motor in range(at.PL_COUNT):
-        raw = memory.F[at.PLF_BASE + motor * at.PLF_STRIDE + at.PLF_RAW_COUNT]
-        memory.F[at.ENF_BASE + motor * at.ENF_STRIDE + at.ENF_RAW_OLD_CNT] = raw
-        memory.F[at.PLTF_BASE + motor * at.PLTF_STRIDE + at.PLTF_PULSES_SEEN] = 0.0
+        raw = memory.F[motors.raw_count[motor]]
+        memory.F[encoders.raw_old_cnt[motor]] = raw
+        memory.F[stepper_motors.pulses_seen[motor]] = 0.0
         for row in (at.ENXF_FILTER_OLD_CNT, at.ENXF_FILTER_LEVEL_CNT):
             memory.F[at.ENXF_BASE + motor * at.ENXF_STRIDE + row] = raw
 
 
 def push(memory: Memory, motor: int, by_cnt: float) -> bool:
     """Move the load of a motor by raw encoder counts; False if there is no such motor."""
-    if not memory.I[at.PLI_BASE + motor * at.PLI_STRIDE + at.PLI_KIND]:
+    if not memory.I[motors.kind[motor]]:
         return False
-    memory.F[at.PLF_BASE + motor * at.PLF_STRIDE + at.PLF_POSITION_CNT] += by_cnt
+    memory.F[motors.position_cnt[motor]] += by_cnt
     return True
 
 
@@ -364,20 +364,18 @@ def _write_target(
     memory: Memory, entry: int, number: int, contact: Contact, slots: dict[int, int]
 ) -> None:
     word, mask = input_place(number)
-    base = at.PLWI_BASE + entry * at.PLWI_STRIDE
-    memory.I[base + at.PLWI_SLOT] = slots[word]
-    memory.I[base + at.PLWI_MASK] = mask
-    memory.I[base + at.PLWI_BIT] = number % WORD_BITS
+    memory.I[wires.slot[entry]] = slots[word]
+    memory.I[wires.mask[entry]] = mask
+    memory.I[wires.bit[entry]] = number % WORD_BITS
     if contact is Contact.CLOSED:
-        memory.I[base + at.PLWI_CLOSED] = 1
+        memory.I[wires.closed[entry]] = 1
         memory.I[word_row(slots[word]) + at.PLNI_LEVEL] |= mask
 
 
 def _write_output(memory: Memory, entry: int, wire: Wire) -> None:
-    base = at.PLWI_BASE + entry * at.PLWI_STRIDE
     word, mask = output_place(wire.output or 0)
-    memory.I[base + at.PLWI_OUTPUT_WORD], memory.I[base + at.PLWI_OUTPUT_MASK] = word, mask
-    memory.F[at.PLWF_BASE + entry * at.PLWF_STRIDE + at.PLWF_DELAY_S] = wire.delay_s
+    memory.I[wires.output_word[entry]], memory.I[wires.output_mask[entry]] = word, mask
+    memory.F[wires.delay_s[entry]] = wire.delay_s
 
 
 def _write_box(memory: Memory, entry: int, box: _Box, slots: dict[int, int]) -> int:

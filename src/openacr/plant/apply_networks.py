@@ -2,6 +2,7 @@
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import bus_faults, bus_signals
 from openacr.plant import aries, bus, terminals
 from openacr.plant.counts import position_of
 from openacr.plant.network_schema import (
@@ -87,29 +88,25 @@ def _write_node(memory: Memory, place: int, node: Node) -> None:
 
 
 def _write_fault(memory: Memory, place: int, fault: Fault, places: dict[int, int]) -> None:
-    ints = at.BUSXI_BASE + place * at.BUSXI_STRIDE
-    memory.I[ints + at.BUSXI_KIND] = TROUBLES[fault.kind]
-    memory.I[ints + at.BUSXI_NODE] = places.get(fault.node or 0, 0)
-    reals = at.BUSXF_BASE + place * at.BUSXF_STRIDE
-    memory.F[reals + at.BUSXF_FROM_S] = fault.at_s
-    memory.F[reals + at.BUSXF_UNTIL_S] = bus.NEVER_S if fault.until_s is None else fault.until_s
-    memory.F[reals + at.BUSXF_RATE] = fault.rate
+    memory.I[bus_faults.kind[place]] = TROUBLES[fault.kind]
+    memory.I[bus_faults.node[place]] = places.get(fault.node or 0, 0)
+    memory.F[bus_faults.from_s[place]] = fault.at_s
+    memory.F[bus_faults.until_s[place]] = bus.NEVER_S if fault.until_s is None else fault.until_s
+    memory.F[bus_faults.rate[place]] = fault.rate
 
 
 def _write_signal(memory: Memory, place: int, signal: Signal, axes: dict[int, Axis]) -> None:
     """A position counts from the machine's own zero, in units of its axis."""
-    ints = at.BUSSI_BASE + place * at.BUSSI_STRIDE
     scale, offset = signal.scale, signal.offset
-    memory.I[ints + at.BUSSI_INPUT] = terminals.analog_input(memory, signal.input) or 0
-    memory.I[ints + at.BUSSI_AXIS] = -1 if signal.axis is None else signal.axis
+    memory.I[bus_signals.input[place]] = terminals.analog_input(memory, signal.input) or 0
+    memory.I[bus_signals.axis[place]] = -1 if signal.axis is None else signal.axis
     if signal.axis is not None:
         axis = axes[signal.axis]
         origin, unit = (position_of(axis, count) for count in (0.0, 1.0))
         scale, offset = scale * (unit - origin), offset + scale * origin
     elif output := terminals.analog_output(memory, signal.output or 0):
-        memory.I[ints + at.BUSSI_NODE], memory.I[ints + at.BUSSI_CHANNEL] = output
-    factors = at.BUSSF_BASE + place * at.BUSSF_STRIDE
-    memory.F[factors + at.BUSSF_SCALE], memory.F[factors + at.BUSSF_OFFSET] = scale, offset
+        memory.I[bus_signals.node[place]], memory.I[bus_signals.channel[place]] = output
+    memory.F[bus_signals.scale[place]], memory.F[bus_signals.offset[place]] = scale, offset
 
 
 # -- drives --------------------------------------------------------------------------------

@@ -4,6 +4,7 @@ import math
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import stepper_motors
 from openacr.plant.counts import count_of
 from openacr.plant.schema import Axis, Direction, StepperDrive
 
@@ -29,4 +30,4 @@ def write_stepper(memory: Memory, axis: Axis, drive: StepperDrive, accel_per_nm:
         rows[at.PLTF_ACCEL + point] = torque_nm * accel_per_nm
     for row, value in rows.items():
         memory.F[base + row] = value
-    memory.I[at.PLTI_BASE + axis.number * at.PLTI_STRIDE + at.PLTI_POINTS] = len(drive.torque_nm)
+    memory.I[stepper_motors.points[axis.number]] = len(drive.torque_nm)

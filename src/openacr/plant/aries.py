@@ -13,6 +13,7 @@ from enum import IntEnum
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import axes
 from openacr.plant.bus import NEVER_S, now_s
 
 ARIES = 1
@@ -137,7 +138,7 @@ def torque(drive: Drive) -> float:
 
 def following_error(drive: Drive) -> int:
     """The position error: that of the axis of the card."""
-    return drive.memory.I[at.AX_BASE + drive.axis * at.AX_STRIDE + at.AX_FOLLOWING_ERROR]
+    return drive.memory.I[axes.following_error[drive.axis]]
 
 
 def commanded(drive: Drive) -> int:

@@ -12,6 +12,7 @@ from enum import IntEnum
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import bus_faults
 from openacr.plant.terminals import ints
 
 NEVER_S = 1e300
@@ -65,18 +66,16 @@ def faults(memory: Memory, kind: Trouble, node: int | None = None) -> Iterator[f
     """Yield the rates of the faults of a kind that are present."""
     now = now_s(memory)
     for fault in _known_faults(memory):
-        rows = at.BUSXI_BASE + fault * at.BUSXI_STRIDE
-        times = at.BUSXF_BASE + fault * at.BUSXF_STRIDE
-        is_meant = memory.I[rows + at.BUSXI_KIND] == kind
-        if is_meant and (node is None or memory.I[rows + at.BUSXI_NODE] == node):
-            if memory.F[times + at.BUSXF_FROM_S] <= now < memory.F[times + at.BUSXF_UNTIL_S]:
-                yield memory.F[times + at.BUSXF_RATE]
+        is_meant = memory.I[bus_faults.kind[fault]] == kind
+        if is_meant and (node is None or memory.I[bus_faults.node[fault]] == node):
+            if memory.F[bus_faults.from_s[fault]] <= now < memory.F[bus_faults.until_s[fault]]:
+                yield memory.F[bus_faults.rate[fault]]
 
 
 def _known_faults(memory: Memory) -> Iterator[int]:
     """The rows of faults; they are filled from the first on."""
     for fault in range(at.BUSX_COUNT):
-        if not memory.I[at.BUSXI_BASE + fault * at.BUSXI_STRIDE + at.BUSXI_KIND]:
+        if not memory.I[bus_faults.kind[fault]]:
             return
         yield fault
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import motors
 
 WORD_BITS = 32
 FULL_SCALE = 32767  # counts of a signed 16-bit converter
@@ -77,7 +78,7 @@ def follow_signals(memory: Memory) -> None:
         if not place:
             return  # they are filled from the first on
         if axis >= 0:
-            source = memory.F[at.PLF_BASE + axis * at.PLF_STRIDE + at.PLF_POSITION_CNT]
+            source = memory.F[motors.position_cnt[axis]]
         else:
             node, channel = (memory.I[rows + row] for row in (at.BUSSI_NODE, at.BUSSI_CHANNEL))
             source = output_value(memory, node, channel)

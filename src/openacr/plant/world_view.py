@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import motors
 from openacr.plant import faults, inputs
 from openacr.plant.attached_devices import Attached, AttachedDevices
 from openacr.plant.check import sources
@@ -99,7 +99,7 @@ class WorldView:
         )
 
     def _position_u(self, number: int) -> float:
-        count = self._memory.F[at.PLF_BASE + number * at.PLF_STRIDE + at.PLF_POSITION_CNT]
+        count = self._memory.F[motors.position_cnt[number]]
         return position_of(self.axis(number), count)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import plcs
 from openacr.plc import scan_cy as scan
 from openacr.plc.compile import Compiled, Preload, compile_plc
 from openacr.plc.instructions import Operand
@@ -41,7 +42,7 @@ class Plcs:
         self._write_code(plc, compiled)
         for preload in compiled.preloads:
             self._write_preload(preload)
-        self._memory.I[at.PLC_BASE + plc * at.PLC_STRIDE + at.PLC_TICK_COUNT] = 1
+        self._memory.I[plcs.tick_count[plc]] = 1
         self._memory.I[at.PLF_WORD + plc] |= _FIRST
 
     def halt(self, plc: int) -> None:
@@ -50,8 +51,7 @@ class Plcs:
 
     def note(self, plc: int, on: bool) -> None:
         """Have the scans of a PLC note in its code what they see, or no longer."""
-        rows = at.PCI_BASE + plc * at.PCI_STRIDE
-        self._memory.I[rows + at.PCI_NOTED] = on
+        self._memory.I[plcs.noted[plc]] = on
         for k in self._places(plc):
             self._memory.I[k] &= ~scan.SEEN
 
@@ -64,15 +64,13 @@ class Plcs:
         return [int(self._memory.I[k]) & ~scan.SEEN for k in self._places(plc)]
 
     def _places(self, plc: int) -> range:
-        rows = at.PCI_BASE + plc * at.PCI_STRIDE
-        first = rows + at.PCI_CODE
-        return range(first, first + self._memory.I[rows + at.PCI_LENGTH])
+        first = plcs.code[plc]
+        return range(first, first + self._memory.I[plcs.length[plc]])
 
     def _write_code(self, plc: int, compiled: Compiled) -> None:
-        rows = at.PCI_BASE + plc * at.PCI_STRIDE
         for place, word in enumerate(compiled.words):
-            self._memory.I[rows + at.PCI_CODE + place] = word
-        self._memory.I[rows + at.PCI_LENGTH] = len(compiled.words)
+            self._memory.I[plcs.code[plc] + place] = word
+        self._memory.I[plcs.length[plc]] = len(compiled.words)
 
     def _write_preload(self, preload: Preload) -> None:
         row, stride = _PRELOAD_ROWS[preload.operand]

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from openacr.map import numbers as at
 from openacr.map.block import FLAG_WORD_BASE
 from openacr.map.memory import Memory
+from openacr.map.rows import programs, storage, threads
 from openacr.scenario.schema import State
 
 PROGRAMS = range(at.PROG_COUNT)
@@ -23,7 +24,7 @@ _STATES = (
 
 def has_failed(memory: Memory, program: int) -> bool:
     """Whether an error has ended a program since it was started."""
-    return memory.I[at.THI_BASE + program * at.THI_STRIDE + at.THI_ERROR] > 0
+    return memory.I[threads.error[program]] > 0
 
 
 def program_state(memory: Memory, program: int) -> State:
@@ -37,12 +38,12 @@ def program_state(memory: Memory, program: int) -> State:
 
 def program_line(memory: Memory, program: int) -> int:
     """Give the number of the line a program is at, or was at last."""
-    return memory.I[at.PROG_BASE + program * at.PROG_STRIDE + at.PROG_LINE_NUMBER]
+    return memory.I[programs.line_number[program]]
 
 
 def has_program(memory: Memory, program: int) -> bool:
     """Whether program text is stored."""
-    return memory.I[at.STI_BASE + program * at.STI_STRIDE + at.STI_CODE_BYTES] > 0
+    return memory.I[storage.code_bytes[program]] > 0
 
 
 def running_programs(memory: Memory) -> list[int]:

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from openacr.engine.watches import Watch, Watched, parameter_place
 from openacr.map import numbers as at
 from openacr.map.memory import Memory, flag_place
+from openacr.map.rows import threads
 from openacr.scenario.schema import Condition
 
 _STATES = (
@@ -26,7 +27,7 @@ def watches(condition: Condition, memory: Memory) -> Iterator[Watch]:
         yield Watch(Watched.WORD, *flag_place(condition.bit))
     elif condition.program is not None:
         yield Watch(Watched.WORD, at.PF_WORD + condition.program, _STATES)
-        yield Watch(Watched.WORD, at.THI_BASE + condition.program * at.THI_STRIDE + at.THI_ERROR)
+        yield Watch(Watched.WORD, threads.error[condition.program])
     elif condition.axis is not None:
         yield from _bounds(condition, Watched.AXIS, at.AX_BASE + condition.axis * at.AX_STRIDE)
     elif condition.parameter is not None:

@@ -13,6 +13,7 @@ from openacr.errors import UserError
 from openacr.map import find_flag, find_parameter
 from openacr.map import numbers as at
 from openacr.map.explain import object_of
+from openacr.map.rows import programs
 
 RUNNING = 1024  # the flag Program Running of PROG0
 BITS = 32
@@ -124,7 +125,7 @@ class Machine:
         rows = self.card.memory.I
         for program in range(at.PROG_COUNT):
             if self.card.bit[RUNNING + BITS * program]:
-                number = rows[at.PROG_BASE + program * at.PROG_STRIDE + at.PROG_LINE_NUMBER]
+                number = rows[programs.line_number[program]]
                 where = self.card.origin(program, number)
                 place = f"{where[0]}:{where[1]}" if where else f"line {number}"
                 lines.append(f"PROG{program} runs at {place}")

@@ -8,7 +8,7 @@ The frequency grows with the square of the time, so that most of the time is spe
 is identified; above KNEE_HZ the amplitude falls with the frequency, so that the speed stays.
 """
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 
 KNEE_HZ = 60.0
 PULSES_PER_S = 1000.0
@@ -78,9 +78,9 @@ def flag(axis: int) -> int:
 
 def smoothing(axis: int) -> str:
     """CAM Velocity Smooth of an axis."""
-    return f"P{at.AX_BASE + axis * at.AX_STRIDE + at.AX_CAM_VELOCITY_SMOOTH}"
+    return f"P{axes.cam_velocity_smooth[axis]}"
 
 
 def offset(axis: int) -> str:
     """Cam Offset of an axis."""
-    return f"P{at.AX_BASE + axis * at.AX_STRIDE + at.AX_CAM_OFFSET}"
+    return f"P{axes.cam_offset[axis]}"

@@ -16,6 +16,7 @@ from openacr.client.talk import Talk
 from openacr.client.transfer import Progress, download
 from openacr.errors import OpenacrError, UserError
 from openacr.map import numbers as at
+from openacr.map.rows import axes
 from openacr.tuning.excitation import (
     ARMED,
     DRIVE_FLAG,
@@ -107,8 +108,7 @@ def require_rest(talk: Talk, axis: int, bound_cnt: float = math.inf) -> Op[None]
 
 
 def _require_still(talk: Talk, axis: int, bound_cnt: float) -> Op[None]:
-    first = at.AX_BASE + axis * at.AX_STRIDE
-    rows = [first + at.AX_SECONDARY_SETPOINT, first + at.AX_ACTUAL_POSITION]
+    rows = [axes.secondary_setpoint[axis], axes.actual_position[axis]]
     setpoint, actual = yield from values.read_many(talk, rows)
     yield Pause(REST_S)
     later, now = yield from values.read_many(talk, rows)

@@ -11,6 +11,7 @@ from openacr.basic.language.registry import ANY, IMMEDIATE, PROG, command
 from openacr.basic.vm.run import Run, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.map import numbers as at
+from openacr.map.rows import drive_talk
 from openacr.messages import (
     DEVICE_IN_USE,
     DEVICE_NOT_OPEN,
@@ -59,7 +60,7 @@ def dtalk(run: Run, axes: tuple[Axis, ...]) -> Wait | None:
     port = lines.line_of(memory, axis)
     if port is None:
         raise CardError(DEVICE_NOT_OPEN)
-    if memory.I[at.DTK_BASE + axis * at.DTK_STRIDE + at.DTK_DRIVE_TYPE] != ARIES_TYPE:
+    if memory.I[drive_talk.drive_type[axis]] != ARIES_TYPE:
         raise CardError(NOT_SUPPORTED)
     line = lines.TalkLine(memory, port)
     if line.get(at.NETLI_CHANNEL):

@@ -16,7 +16,8 @@ from openacr.basic.language.grammar import (
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run, whole
 from openacr.kernel.sources.source_cy import USE_FILTER
-from openacr.map.numbers import FLF_WINDOW_CNT_SIZE, FLI_BASE, FLI_SIZE, FLI_STRIDE
+from openacr.map.numbers import FLF_WINDOW_CNT_SIZE
+from openacr.map.rows import filters
 from openacr.motion.followers import gear, objects
 
 GROUP = "Servo Control"
@@ -49,7 +50,7 @@ def flt_coef(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Set over how many servo periods a filter averages, or report it."""
     for item in axes:
         if item.is_query:
-            size = run.card.memory.I[FLI_BASE + item.axis.number * FLI_STRIDE + FLI_SIZE]
+            size = run.card.memory.I[filters.size[item.axis.number]]
             run.print(str(size))
         else:
             objects.set_filter_size(run.card, item.axis.number, whole(item.value))

@@ -16,10 +16,8 @@ from openacr.map.numbers import (
     HWF_RATIO,
     HWF_STRIDE,
     HWF_VEL_UPS,
-    HWI_BASE,
-    HWI_ON,
-    HWI_STRIDE,
 )
+from openacr.map.rows import hand_wheels
 from openacr.motion.axis.settings import Setting, not_negative, not_zero
 from openacr.motion.followers import gear, objects
 
@@ -54,7 +52,7 @@ def hdw_src(run: Run, axes: tuple[tuple[Axis, ObjectRef | None], ...]) -> None:
 def hdw_report(run: Run, axes: tuple[Axis, ...]) -> None:
     """Report whether hand wheels are on."""
     for axis in axes:
-        on = run.card.memory.I[HWI_BASE + axis.number * HWI_STRIDE + HWI_ON]
+        on = run.card.memory.I[hand_wheels.on[axis.number]]
         run.print("ON" if on else "OFF")
 
 

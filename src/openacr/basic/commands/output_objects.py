@@ -25,6 +25,7 @@ from openacr.kernel.sources.source_cy import LIMITER_TAPS, OUTPUT_TAPS, RATCHET_
 from openacr.map import block
 from openacr.map import numbers as at
 from openacr.map.kinds_cy import kind_of
+from openacr.map.rows import limit_switches, output_objects
 from openacr.messages import INVALID_BIT, INVALID_PARAMETER
 from openacr.motion.axis.settings import Setting, anything, not_negative, not_zero
 from openacr.motion.card import Card
@@ -145,9 +146,8 @@ def pls_base(run: Run, number: int, array: ObjectRef) -> None:
     check_number(number, at.PS_COUNT)
     program = run.needed_program()
     cam.array_length(run.card, program, LONGS, array.number, 1)
-    row = at.PSI_BASE + number * at.PSI_STRIDE
-    run.card.memory.I[row + at.PSI_PROGRAM] = program
-    run.card.memory.I[row + at.PSI_ARRAY] = array.number + 1
+    run.card.memory.I[limit_switches.program[number]] = program
+    run.card.memory.I[limit_switches.array[number]] = array.number + 1
 
 
 @command("PLS # DST", group=GROUP, levels=ANY, grammar=(ParameterName(optional=True),), ref=REF,
@@ -155,7 +155,7 @@ def pls_base(run: Run, number: int, array: ObjectRef) -> None:
 def pls_dst(run: Run, number: int, parameter: SignedParameter | None) -> None:
     """Choose the LONG parameter a limit switch writes to."""
     check_number(number, at.PS_COUNT)
-    row = at.PSI_BASE + number * at.PSI_STRIDE + at.PSI_DESTINATION
+    row = limit_switches.destination[number]
     if parameter is None:
         run.print(f"P{run.card.memory.I[row]}")
     elif kind_of(run.card.memory.I, parameter.number) != at.KIND_LONG:
@@ -169,10 +169,11 @@ def pls_res(run: Run, number: int, index: float | None) -> None:
     """Make the present position of the source this index (0) of the array."""
     check_number(number, at.PS_COUNT)
     memory = run.card.memory
-    row = at.PSF_BASE + number * at.PSF_STRIDE
     now = sources.value(run.card, SWITCH_TAPS + number)
-    offset = (index or 0.0) / memory.F[row + at.PSF_RATIO]
-    memory.F[row + at.PSF_BASE_CNT] = now + memory.F[row + at.PSF_FLZ_CNT] - offset
+    offset = (index or 0.0) / memory.F[limit_switches.ratio[number]]
+    memory.F[limit_switches.base_cnt[number]] = (
+        now + memory.F[limit_switches.flz_cnt[number]] - offset
+    )
 
 
 @command("PLS # ON", group=GROUP, levels=ANY, ref=REF)
@@ -219,7 +220,7 @@ def oop_src(run: Run, number: int, source: ObjectRef | None) -> None:
 def oop_bit(run: Run, number: int, bit: BitState | None) -> None:
     """Choose the flag of an output object."""
     check_number(number, at.OO_COUNT)
-    row = at.OOI_BASE + number * at.OOI_STRIDE + at.OOI_BIT
+    row = output_objects.bit[number]
     if bit is None:
         run.print(str(run.card.memory.I[row]))
     elif not 0 <= bit.number <= at.FLAG_LAST:

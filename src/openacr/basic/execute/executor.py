@@ -27,6 +27,7 @@ from openacr.basic.vm.run import Run, Wait, WaitKind
 from openacr.compiled import pick
 from openacr.errors import CardError
 from openacr.map import numbers as at
+from openacr.map.rows import programs, threads
 from openacr.messages import LINE_NOT_FOUND, PROGRAM_IS_RUNNING
 
 if TYPE_CHECKING:
@@ -69,7 +70,7 @@ class Executor:
         try:
             chunk = self._compiled(lines)
         except CompileError as error:
-            row = at.PROG_BASE + program * at.PROG_STRIDE + at.PROG_LINE_NUMBER
+            row = programs.line_number[program]
             self.memory.I[row] = error.line
             self.threads.fail(program, error.line, error)
             self.system.listeners.ended(program)
@@ -213,13 +214,14 @@ class Executor:
         """Let a thread wait; `at_trap`: the statement is executed again afterwards."""
         if at_trap:
             self.threads.set_row(thread, at.THI_PC, self.threads.row(thread, at.THI_PC) - 2)
-        reals = at.THF_BASE + thread * at.THF_STRIDE
         self.threads.set_row(thread, at.THI_WAIT_KIND, wait.kind)
         self.threads.set_row(thread, at.THI_WAIT_OPERAND, wait.operand)
         self.threads.set_row(thread, at.THI_WAIT_SHOW, wait.show)
-        self.memory.F[reals + at.THF_WAIT_VALUE] = wait.value
+        self.memory.F[threads.wait_value[thread]] = wait.value
         is_next = wait.kind is WaitKind.NEXT_SLICE
-        self.memory.F[reals + at.THF_WAIT_DEADLINE_TK] = self.threads.tick + 1.0 if is_next else 0.0
+        self.memory.F[threads.wait_deadline_tk[thread]] = (
+            self.threads.tick + 1.0 if is_next else 0.0
+        )
         self.threads.set_row(thread, at.THI_STATE, scheduler.THREAD_WAITING)
         if thread < PROGRAMS:
             self.memory.I[at.PF_WORD + thread] |= wait.show

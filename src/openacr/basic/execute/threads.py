@@ -15,6 +15,7 @@ from openacr.basic.vm.flow_cy import FLOW_GOSUB
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.map import numbers as at
+from openacr.map.rows import threads
 from openacr.messages import LABEL_NOT_FOUND, MESSAGES
 from openacr.motion.path import kinematics
 from openacr.motion.row_index import master_word
@@ -158,7 +159,7 @@ class Threads:
     def error(self, thread: int) -> CardError:
         """The error the VM has stopped with."""
         message = MESSAGES[self.row(thread, at.THI_ERROR)]
-        detail = int(self.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_ERROR_DETAIL])
+        detail = int(self.memory.F[threads.error_detail[thread]])
         if message is LABEL_NOT_FOUND:
             return CardError(message, self.space.chunks[thread].names[detail])
         return CardError(message, detail)

@@ -18,6 +18,7 @@ from openacr.basic.memory.program_memory import PROGRAMS, Locals
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import threads
 from openacr.messages import (
     INVALID_ARGUMENT,
     INVALID_DEVICE,
@@ -155,7 +156,7 @@ class Storage:
         """Bytes of a program or PLC not taken by its text, locals and open flow levels."""
         used = self.heap.row(owner, at.STI_CODE_BYTES)
         if owner < PROGRAMS:
-            levels = self.memory.I[at.THI_BASE + owner * at.THI_STRIDE + at.THI_DEPTH]
+            levels = self.memory.I[threads.depth[owner]]
             used += FLOW_LEVEL.bytes(levels) + self.locals.bytes(owner)
         return self.size(owner) - used
 

@@ -7,15 +7,12 @@ from openacr.basic.language.nodes import Expr, Move, Statement
 from openacr.map.memory import Memory
 from openacr.map.numbers import (
     TH_COUNT,
-    THCI_BASE,
-    THCI_CODE_BASE,
-    THCI_NUM_BASE,
-    THCI_STRIDE,
     THI_BASE,
     THI_LINES_AT,
     THI_LINES_COUNT,
     THI_STRIDE,
 )
+from openacr.map.rows import thread_code
 from openacr.views import F64, I32
 
 # What DO_STATEMENT says of its statement, for followers and for stops before lines. Above these
@@ -94,18 +91,16 @@ class CodeSpace:
         self.nums = memoryview(array("d", bytes(8 * sum(self._nums_room))))
         code_base = num_base = 0
         for thread in range(TH_COUNT):
-            rows = THCI_BASE + thread * THCI_STRIDE
-            self._memory.I[rows + THCI_CODE_BASE] = code_base
-            self._memory.I[rows + THCI_NUM_BASE] = num_base
+            self._memory.I[thread_code.code_base[thread]] = code_base
+            self._memory.I[thread_code.num_base[thread]] = num_base
             self._copy(thread, 0, 0)
             code_base += self._code_room[thread]
             num_base += self._nums_room[thread]
 
     def _copy(self, thread: int, code_from: int, nums_from: int) -> None:
         chunk = self.chunks[thread]
-        rows = THCI_BASE + thread * THCI_STRIDE
-        code_base = self._memory.I[rows + THCI_CODE_BASE]
-        num_base = self._memory.I[rows + THCI_NUM_BASE]
+        code_base = self._memory.I[thread_code.code_base[thread]]
+        num_base = self._memory.I[thread_code.num_base[thread]]
         code, nums = array("i", chunk.code[code_from:]), array("d", chunk.nums[nums_from:])
         code_at, nums_at = code_base + code_from, num_base + nums_from
         self.code[code_at : code_at + len(code)] = code

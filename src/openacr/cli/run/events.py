@@ -11,6 +11,7 @@ from openacr.engine.watches import Watch, Watched
 from openacr.map import flag
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import threads
 from openacr.scenario import card_view
 from openacr.scenario.played import Failure
 
@@ -46,7 +47,7 @@ class EventLog:
         self._names = names
         self._flags = [(word + n, mask, n) for n in range(axes) for word, mask in AXIS_EVENTS]
         self._masters = [(at.MF1_WORD + m, MASTER_EVENTS, m) for m in range(MASTERS)]
-        self._errors = [at.THI_BASE + p * at.THI_STRIDE + at.THI_ERROR for p in card_view.PROGRAMS]
+        self._errors = [threads.error[p] for p in card_view.PROGRAMS]
         self._before = {row: memory.I[row] for row in self._rows()}
 
     def _rows(self) -> Iterator[int]:

@@ -15,6 +15,7 @@ from openacr.client.values import Number, number_text
 from openacr.cnc.occupied import HOLD_AT, RAN_SHORT, TRIPPED
 from openacr.errors import UserError
 from openacr.map import numbers as n
+from openacr.map.rows import masters
 from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.override import FeedrateOverride, RapidOverride
 from openacr.protocol.packets import Packet
@@ -133,7 +134,7 @@ class MachineDriver:
     @property
     def counter(self) -> int:
         """The parameter that counts the packets of the master."""
-        return n.MA_BASE + self.master * n.MA_STRIDE + n.MA_MOVE_COUNTER
+        return masters.move_counter[self.master]
 
     def watch_modules(self, count: int) -> None:
         """Include the inputs of `count` expansion modules; call before the first poll."""

@@ -15,6 +15,7 @@ from openacr.client.errors import RefusedError
 from openacr.cnc.occupied import HEARTBEAT, HOLD_AT, RAN_SHORT, TRIPPED
 from openacr.errors import UserError
 from openacr.map import numbers as n
+from openacr.map.rows import masters
 from openacr.mill.card.actions import DAC_STRIDE, DAC_VALUE
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.card.owner import BEAT_S
@@ -117,7 +118,7 @@ class Watchdog:
         """The program lines, without their numbers 10, 20, 30 ..."""
         timeout_s = self._settings.link_timeout_s
         clock = f"P{n.P_GLOBAL_SYSTEM_CLOCK}"
-        begun = n.MA_BASE + n.MA_STRIDE * self._settings.master + n.MA_MOVE_COUNTER
+        begun = masters.move_counter[self._settings.master]
         hold = f"SET {FEED_HOLD_REQUEST + FLAGS_PER_MASTER * self._settings.master}"
         begin = [
             NAME,

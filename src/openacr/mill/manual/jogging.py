@@ -17,6 +17,7 @@ from openacr.client.errors import RefusedError
 from openacr.client.values import number_text
 from openacr.errors import UserError
 from openacr.map import numbers as n
+from openacr.map.rows import axes
 from openacr.messages import HARD_LIMIT
 from openacr.mill.card import alarms
 from openacr.mill.card.actions import Steps, Until
@@ -243,12 +244,12 @@ class Jogging:
 
     def position(self, row: AxisSettings) -> float:
         """The commanded machine position including the jog offset."""
-        offset = self._machine.read(n.AX_BASE + row.index * n.AX_STRIDE + n.AX_JOG_OFFSET)
+        offset = self._machine.read(axes.jog_offset[row.index])
         return self._current(row) + offset / row.pulses_per_unit
 
     def _current(self, row: AxisSettings) -> float:
         """The commanded position without the jog offset."""
-        pulses = self._machine.read(n.AX_BASE + row.index * n.AX_STRIDE + n.AX_CURRENT_POSITION)
+        pulses = self._machine.read(axes.current_position[row.index])
         return pulses / row.pulses_per_unit
 
     def _is_moving(self) -> bool:

@@ -8,6 +8,7 @@ the cycle are through. Digital inputs travel by themselves, whenever one has cha
 from __future__ import annotations
 
 from openacr.map import numbers as at
+from openacr.map.rows import network_slaves
 from openacr.network.canopen import figures, image
 from openacr.network.canopen.rows import BusState, Master, Phase
 from openacr.plant import bus, terminals
@@ -104,7 +105,7 @@ def note_changes(master: Master) -> None:
     """Let nodes send digital inputs that have changed; they arrive one message later."""
     answering = _answering(master)
     for slave in master.live_slaves():
-        time = at.NETSF_BASE + slave * at.NETSF_STRIDE + at.NETSF_CHANGE_TK
+        time = network_slaves.change_tk[slave]
         if not master.memory.F[time] and _send_inputs(master, slave) and slave in answering:
             after_ms = figures.MESSAGE_BITS / master.get(at.NETMI_BIT_RATE)
             master.memory.F[time] = master.later_tk(after_ms)
@@ -113,7 +114,7 @@ def note_changes(master: Master) -> None:
 def receive_changes(master: Master) -> None:
     """Show digital inputs whose messages have arrived."""
     for slave in master.live_slaves():
-        time = at.NETSF_BASE + slave * at.NETSF_STRIDE + at.NETSF_CHANGE_TK
+        time = network_slaves.change_tk[slave]
         if 0.0 < master.memory.F[time] <= master.tick:
             master.memory.F[time] = 0.0
             if _receives(master):

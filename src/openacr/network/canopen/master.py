@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import network_slaves
 from openacr.network.canopen import exchange, startup
 from openacr.network.canopen.rows import SLAVES, TIMES, Master, Phase
 from openacr.plant import bus
@@ -60,10 +61,7 @@ def next_tk(memory: Memory) -> float:
     """The tick at which something is due; 0 if nothing is."""
     master = Master(memory)
     times = [master.time(row) for row in TIMES]
-    times += [
-        memory.F[at.NETSF_BASE + slave * at.NETSF_STRIDE + at.NETSF_CHANGE_TK]
-        for slave in range(SLAVES)
-    ]
+    times += [memory.F[network_slaves.change_tk[slave]] for slave in range(SLAVES)]
     change_s = bus.next_change_s(memory)
     if change_s is not None:
         after_s = change_s - bus.now_s(memory)

@@ -6,6 +6,7 @@ from enum import IntEnum
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import network_slaves
 from openacr.network import wake_cy
 from openacr.network.times import later_tk, tick_of
 
@@ -76,7 +77,7 @@ class Master:
         for row in TIMES:
             self.memory.F[at.NETMF_BASE + row] = 0.0
         for slave in range(SLAVES):
-            self.memory.F[at.NETSF_BASE + slave * at.NETSF_STRIDE + at.NETSF_CHANGE_TK] = 0.0
+            self.memory.F[network_slaves.change_tk[slave]] = 0.0
 
     def is_due(self, row: int) -> bool:
         """Whether it happens now."""

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import drive_talk, drive_talk_lines
 from openacr.network.wake_cy import DRIVE_REQUESTS
 
 PORTS = ("LPT1", "COM1", "COM2", "", "STREAM3", "STREAM4", "STREAM5")
@@ -36,11 +37,11 @@ class TalkLine:
     @property
     def due_tk(self) -> float:
         """End of the exchange in progress; 0 if there is none."""
-        return self.memory.F[at.NETLF_BASE + self.port * at.NETLF_STRIDE + at.NETLF_DUE_TK]
+        return self.memory.F[drive_talk_lines.due_tk[self.port]]
 
     @due_tk.setter
     def due_tk(self, tick: float) -> None:
-        self.memory.F[at.NETLF_BASE + self.port * at.NETLF_STRIDE + at.NETLF_DUE_TK] = tick
+        self.memory.F[drive_talk_lines.due_tk[self.port]] = tick
 
     @property
     def is_open(self) -> bool:
@@ -89,7 +90,7 @@ def line_of(memory: Memory, axis: int) -> int | None:
 
     P28672 + 256 n names a device; of several programs with that device the lowest counts.
     """
-    device = memory.I[at.DTK_BASE + axis * at.DTK_STRIDE + at.DTK_COMMUNICATION_DEVICE]
+    device = memory.I[drive_talk.communication_device[axis]]
     found = [line for line in lines(memory) if line.is_open and line.get(_DEVICE) == device]
     return min(found, key=lambda line: line.get(at.NETLI_PROGRAM)).port if found else None
 

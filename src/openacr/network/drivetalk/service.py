@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import drive_talk, drive_talk_axes
 from openacr.network.drivetalk.lines import TalkLine, line_of, lines, pending
 from openacr.network.drivetalk.requests import ARIES_TYPE, Exchange, address, exchanges
 from openacr.network.times import later_tk, tick_of
@@ -91,7 +92,7 @@ def _begin(line: TalkLine) -> bool:
 
 def _begin_exchange(line: TalkLine) -> bool:
     axis = line.get(at.NETLI_AXIS)
-    if line.memory.I[at.DTK_BASE + axis * at.DTK_STRIDE + at.DTK_DRIVE_TYPE] != ARIES_TYPE:
+    if line.memory.I[drive_talk.drive_type[axis]] != ARIES_TYPE:
         line.flag(at.DTSF_STREAM_ADDRESS_ERROR)  # a drive with an unknown protocol
         _end(line)
     elif (exchange := _exchange(line)) is None:
@@ -193,7 +194,7 @@ def _give_up(memory: Memory, axis: int) -> None:
 
 
 def _limit(axis: int) -> int:
-    return at.NETDF_BASE + axis * at.NETDF_STRIDE + at.NETDF_LIMIT_TK
+    return drive_talk_axes.limit_tk[axis]
 
 
 _LOOK = at.NETF_BASE + at.NETF_LOOK_TK

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from openacr.map import numbers as n
+from openacr.map.rows import masters
 from openacr.mill.config.settings import S_PER_MIN, Settings
 from openacr.panel.control.rows import Rows
 
@@ -29,8 +30,7 @@ def read_place(settings: Settings, read: Rows) -> Place:
     axes, master = settings.axes, settings.master
     rows = [n.AX_BASE + a.index * n.AX_STRIDE + row for row in ROWS for a in axes]
     words = [n.AF1_WORD + axis.index for axis in axes]
-    base = n.MA_BASE + master * n.MA_STRIDE
-    more = [n.MF1_WORD + master, base + n.MA_VECTOR_VELOCITY]
+    more = [n.MF1_WORD + master, masters.vector_velocity[master]]
     values = read([*rows, *words, *more])
     count = len(axes)
     columns = [

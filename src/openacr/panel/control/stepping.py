@@ -4,6 +4,7 @@ from openacr.debugger.session import DebugSession
 from openacr.engine.watches import Watch, Watched
 from openacr.errors import UserError
 from openacr.map import numbers as n
+from openacr.map.rows import masters
 from openacr.motion.row_index import master_word
 from openacr.panel.control.history import History
 
@@ -34,7 +35,7 @@ def step_line(history: History, program: int) -> None:
 
 def step_move(history: History, master: int) -> None:
     """Go on until a move of a master begins or ends; UserError if none does."""
-    moves = n.MSI_BASE + master * n.MSI_STRIDE + n.MSI_HEAD
+    moves = masters.head[master]
     history.card.watch(
         [
             Watch(Watched.WORD, moves),
