@@ -477,7 +477,7 @@ class Controller:
 
     def _repr_html_(self) -> str:
         """What notebooks show: time, motors, programs."""
-        return card_page(self)
+        return card_page(self.system, self.world)
 
     def digest(self) -> str:
         """Fingerprint of the state, without what this process requested from the engine."""

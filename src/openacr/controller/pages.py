@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from html import escape
-from typing import TYPE_CHECKING
 
+from openacr.basic.execute.system import System
+from openacr.controller.views import AxisView
 from openacr.map.rows import programs as program_rows
 from openacr.map.words import pf, plf
+from openacr.motion.card import Card
+from openacr.plant.schema import World
 from openacr.wording import counted
-
-if TYPE_CHECKING:
-    from openacr.controller.controller import Controller
 
 AXES = ("axis", "name", "units", "commanded", "actual", "following error [pulses]")
 PROGRAMS = ("program", "state", "line")
@@ -27,25 +27,26 @@ def table(titles: Row, rows: Iterable[Row]) -> str:
     return f"<table><tr>{head}</tr>{body}</table>"
 
 
-def card_page(card: Controller) -> str:
+def card_page(system: System, world: World) -> str:
     """Model and time of a card, its motors, and each program and PLC that is stored."""
+    card = system.card
     return (
-        f"<p>{escape(card.model.name)}: {card.time_s:g} s since power-up,"
+        f"<p>{escape(card.model.name)}: {card.tick * card.period_s:g} s since power-up,"
         f" {counted(card.tick, 'servo period')}</p>"
-        + table(AXES, _axes(card))
-        + table(PROGRAMS, _programs(card))
+        + table(AXES, _axes(card, world))
+        + table(PROGRAMS, _programs(system))
     )
 
 
-def _axes(card: Controller) -> Iterable[Row]:
-    for motor in card.world.axis:
-        axis = card.axis(motor.number)
+def _axes(card: Card, world: World) -> Iterable[Row]:
+    for motor in world.axis:
+        axis = AxisView(card, motor.number)
         reals = (f"{axis.commanded_u:.6g}", f"{axis.actual_u:.6g}")
         yield (motor.number, motor.name, motor.units, *reals, axis.following_error)
 
 
-def _programs(card: Controller) -> Iterable[Row]:
-    read, is_empty = card.memory.read, card.system.programs.is_empty
+def _programs(system: System) -> Iterable[Row]:
+    read, is_empty = system.card.memory.read, system.programs.is_empty
     for number, word in enumerate(pf.word):
         if not is_empty(number):
             runs = int(read(word)) & pf.PROGRAM_RUNNING
