@@ -6,19 +6,21 @@ import asyncio
 import logging
 import sys
 import threading
+from collections.abc import Callable
 from functools import cached_property
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from lsprotocol import types
+from pygls.exceptions import FeatureNotificationError
 from pygls.io_ import StdoutWriter, run_async
 from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol, lsp_method
 
 from openacr.editing.document import Document, Edit, Place, units_of
 from openacr.language_server.checks import Checks
 from openacr.language_server.conversions import Columns, path_of, uri_of
-from openacr.language_server.protocol import Protocol
 from openacr.language_server.streams import stream_of
 
 if TYPE_CHECKING:
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
     from openacr.editing.symbols import Finding
 
 NAME = "openacr"
+Params = TypeVar("Params")
 logger = logging.getLogger(__name__)
 
 
@@ -171,3 +174,39 @@ class Server(LanguageServer):
                 version=self._versions.get(path) if is_present else None,
             )
         )
+
+
+class Protocol(LanguageServerProtocol):
+    """The part of the protocol that keeps texts: changes go to the engine, there is no second copy.
+
+    Requests are tasks of the loop (`features.py`), and wait there for those before them. A change
+    of a document waits in the same line: a request is answered from the text it was asked about.
+    """
+
+    _server: Server
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
+    def lsp_text_document__did_open(self, params: types.DidOpenTextDocumentParams) -> None:
+        """A document is open now."""
+        self._in_turn(self._server.opened, params.text_document)
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)
+    def lsp_text_document__did_change(self, params: types.DidChangeTextDocumentParams) -> None:
+        """A document has changed."""
+        self._in_turn(self._server.changed, params)
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_CLOSE)
+    def lsp_text_document__did_close(self, params: types.DidCloseTextDocumentParams) -> None:
+        """A document is closed."""
+        self._in_turn(self._server.closed, params.text_document.uri)
+
+    def _in_turn(self, change: Callable[[Params], None], params: Params) -> None:
+        """Make a change after what has come before it."""
+        asyncio.get_running_loop().call_soon(self._make, change, params)
+
+    def _make(self, change: Callable[[Params], None], params: Params) -> None:
+        try:
+            change(params)
+        except Exception as error:  # one change that fails must not end the others
+            logger.exception("a document could not be changed")
+            self._server.report_server_error(error, FeatureNotificationError)
