@@ -11,7 +11,7 @@ from openacr.motion.path import moves
 from openacr.motion.path.move_request import Target
 
 ACTIVE, KAMR, KILL_ALL_MOVES, IN_MOTION = 792, 8467, 522, 516
-POSITIVE_INPUT, HARD_POSITIVE, SOFT_POSITIVE = 0, 16148, 16150
+POSITIVE_INPUT, HARD_POSITIVE = 0, 16148
 
 
 def travelling(axes: int = 2) -> Rig:
@@ -131,32 +131,6 @@ def test_a_hard_limit_latches_kills_and_bars_one_direction() -> None:
     assert (rig.bit(KAMR), rig.bit(16132)) == (False, True)
 
 
-@pytest.mark.req("ACR-LIM-06", "ACR-LIM-07", "ACR-LIM-08", "ACR-LIM-09", "ACR-LIM-14")
-@pytest.mark.parametrize("enabled", [0, 1, 2, 3])
-@pytest.mark.parametrize("direction", [1, -1])
-def test_each_hard_limit_acts_only_where_enabled(enabled: int, direction: int) -> None:
-    rig = travelling()
-    rig.bit(HARD_POSITIVE, bool(enabled & 1))
-    rig.bit(HARD_POSITIVE + 1, bool(enabled & 2))
-    rig.move(50.0 * direction)
-    rig.seconds(0.5)
-    rig.bit(0, True)
-    rig.bit(1, True)
-    rig.ticks(2)
-    assert rig.bit(KAMR) == bool(enabled & (1 if direction > 0 else 2))
-
-
-@pytest.mark.req("ACR-LIM-16", "ACR-LIM-20")
-def test_an_inverted_level_makes_an_absent_input_active() -> None:
-    rig = travelling()
-    rig.bit(16144, True)
-    rig.ticks(2)
-    assert (rig.bit(16128), rig.bit(16136)) == (True, True)
-    rig.bit(POSITIVE_INPUT, True)
-    rig.ticks()
-    assert (rig.bit(16128), rig.bit(16136)) == (False, True)
-
-
 @pytest.mark.parametrize("first", [-5, 3, 30, 40, 17661, 17663, 17664, 2_000_000_000])
 def test_any_first_limit_input_is_safe_and_stays_in_its_word(first: int) -> None:
     rig = travelling()
@@ -168,48 +142,3 @@ def test_any_first_limit_input_is_safe_and_stays_in_its_word(first: int) -> None
     rig.ticks(2)
     states = [rig.bit(16128 + n) for n in range(3)]
     assert states == {3: [1, 0, 0], 30: [1, 1, 0]}.get(first, states)
-
-
-@pytest.mark.req("ACR-LIM-05", "ACR-LIM-10", "ACR-LIM-11", "ACR-LIM-12", "ACR-LIM-13")
-@pytest.mark.req("ACR-LIM-15", "ACR-LIM-18", "ACR-LIM-21")
-@pytest.mark.parametrize("enabled", [0, 1, 2, 3])
-@pytest.mark.parametrize("target", [30.0, -5.0])
-def test_soft_limits_stop_a_move_near_them(enabled: int, target: float) -> None:
-    rig = travelling(1).master(vel=50)
-    rig.bit(SOFT_POSITIVE, bool(enabled & 1))
-    rig.bit(SOFT_POSITIVE + 1, bool(enabled & 2))
-    rig.move(20.0)
-    rig.record()
-    rig.move(target)
-    rig.seconds(4.0)
-    trips = bool(enabled & (1 if target > 0 else 2))
-    end = rig.real("psp_cnt") / 1000
-    latch = 16140 if target > 0 else 16141
-    assert (rig.bit(KILL_ALL_MOVES), rig.bit(KAMR), rig.bit(latch)) == (trips, False, trips)
-    if not trips:
-        assert end == target
-        return
-    limit = 24.0 if target > 0 else 0.0
-    assert 0 < (end - limit) * (1 if target > 0 else -1) < 12
-    direction = 1 if target > 0 else -1
-    with pytest.raises(CardError, match="Soft limit"):
-        jog.continuous(rig.card, 0, direction)
-    jog.absolute(rig.card, 0, rig.real("jog_cnt") / 1000 - 15 * direction)  # inward: at once
-    rig.record(while_=ACTIVE)
-    assert not rig.bit(latch)
-    with pytest.raises(CardError, match="Master Kill All Moves Request Active"):
-        rig.move(10.0)
-    rig.bit(KILL_ALL_MOVES, False)
-    rig.move(10.0)
-
-
-@pytest.mark.req("ACR-LIM-22")
-def test_a_soft_limit_before_a_hard_one_stops_in_time() -> None:
-    rig = travelling(1)
-    rig.bit(SOFT_POSITIVE, True)
-    rig.bit(HARD_POSITIVE, True)
-    rig.move(30.0)
-    for _ in range(10_000):
-        rig.ticks().bit(POSITIVE_INPUT, rig.real("psp_cnt") > 26_000)
-    assert (rig.bit(16140), rig.bit(16132), rig.bit(KAMR)) == (True, False, False)
-    assert 24 < rig.real("psp_cnt") / 1000 < 25.1
