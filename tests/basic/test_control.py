@@ -187,47 +187,6 @@ def test_remarks_do_not_affect_execution(card: Machine) -> None:
     assert counts(card) == (0, 7, 1)
 
 
-@pytest.mark.req("ACR-MEM-12", "ACR-MEM-13")
-def test_locals_belong_to_the_program_that_dimensioned_them(card: Machine) -> None:
-    card.type("PROG 2", "DIM LV(3)", "LV2 = 5")
-    assert card.type("?LV2", "?LV3") == "5|P02>Undefined variable|P02>"
-    assert card.type("PROG 3", "?LV2") == "P03>Undefined variable|P03>"
-    assert card.type("SYS", "?LV2") == "SYS>Not valid at this level|SYS>"
-
-
-@pytest.mark.req("ACR-MEM-12")
-@pytest.mark.parametrize(
-    ("dim", "inside", "outside"),
-    [
-        ("", "P99", "P100"), ("LV(5)", "LV4", "LV5"), ("SV(5)", "SV4", "SV5"),
-        ("DV(5)", "DV4", "DV5"), ("$V(5,8)", "$V4", "$V5"), ("LA(2)|LA1(5)", "LA1(4)", "LA1(5)"),
-        ("LA(2)|LA1(5)", "LA1(4)", "LA0(0)"), ("SA(1)|SA0(5)", "SA0(4)", "SA0(5)"),
-        ("DA(1)|DA0(5)", "DA0(4)", "DA0(5)"), ("$A(1)|$A0(5,8)", "$A0(4)", "$A0(5)"),
-    ],
-)  # fmt: skip
-def test_a_variable_beyond_its_dimension_is_neither_read_nor_set(
-    card: Machine, dim: str, inside: str, outside: str
-) -> None:
-    value, said = ('"A"', "A") if "$" in dim else ("7", "7")
-    dims = [f"DIM {each}" for each in dim.split("|") if each]
-    assert card.type("PROG 2", *dims) == "P02>" * (len(dims) + 1)
-    assert card.type(f"{inside} = {value}", f"?{inside}") == f"P02>{said}|P02>"
-    is_array = outside.endswith("(5)")
-    error = "Subscript out of range" if is_array else "Undefined variable"
-    for line in (f"{outside} = {value}", f"?{outside}"):
-        assert card.type(line) == f"{error}|P02>", line
-
-
-@pytest.mark.req("ACR-MEM-29")
-def test_each_open_subroutine_takes_four_bytes(card: Machine) -> None:
-    card.load(2, "GOSUB One", "END", "_One", "GOSUB Two", "RETURN", "_Two", "DWL 1", "RETURN")
-    before = card.type("MEM PROG2")
-    card.type("RUN PROG2")
-    card.advance(20)
-    after = card.type("MEM PROG2")
-    assert int(before.split("|")[0]) - int(after.split("|")[0]) == 8
-
-
 def test_programs_go_on_while_their_text_is_edited(card: Machine) -> None:
     card.type("RUN")
     card.advance(5)

@@ -353,16 +353,3 @@ def test_strings_decide_conditions(rig: Rig) -> None:
     assert (
         rig.run('$V0="yes"', 'IF ($V0+"!"="yes!" AND LEN($V0)=3) THEN PRINT MID$($V0,2)') == "es|"
     )
-
-
-@pytest.mark.req("ACR-FLOW-16")
-def test_each_level_of_subroutines_takes_four_bytes(rig: Rig) -> None:
-    rig.store(0, "P0=0", "_s", "P0=P0+1", "IF (P0<P1) THEN GOSUB s", "INH 100", "P0=P0-1", "RETURN")
-    free = []
-    for levels in (1, 2, 5):
-        rig.type(f"P1={levels}", "CLR 100")
-        rig.executor.run_program(0)
-        rig.pass_ticks(100)
-        free.append(int(rig.type("MEM PROG0").rstrip("|")))
-        rig.executor.halt_program(0)
-    assert [free[0] - left for left in free] == [0, 4, 16]

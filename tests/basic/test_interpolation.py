@@ -56,25 +56,6 @@ def test_a_move_without_attachments_is_refused() -> None:
     assert Bench("X").at(Level.PROG, 1).type("X10") == "Unknown command"
 
 
-@pytest.mark.req("ACR-ATT-20")
-def test_two_attached_axes_move_together() -> None:
-    made = Bench().all("HALT", "DETACH", "ATTACH MASTER0")
-    made.all('ATTACH SLAVE0 AXIS0 "X"', 'ATTACH SLAVE1 AXIS1 "Y"')
-    assert run(made, "X1 Y2") == [1, 2, 0]
-
-
-@pytest.mark.req("ACR-ATT-21")
-def test_programs_with_masters_of_their_own_move_at_the_same_time() -> None:
-    made = bench("X")
-    made.attach(1, (1, "Y"))
-    made.type("VEL 100 X10")
-    made.at(Level.PROG, 1).type("ACC 0 STP 0 VEL 50 Y10")
-    made.ticks(40)
-    assert positions(made, 2) == [2, 1]
-    assert made.until_clear(IN_MOTION) == ticks(0.1) - 40
-    assert made.until_clear(IN_MOTION + 32) == ticks(0.1)
-
-
 # the buffer
 
 
