@@ -260,14 +260,6 @@ def test_an_unknown_mnemonic_changes_nothing(card: Machine) -> None:
     assert card.card.memory.digest() == before
 
 
-@pytest.mark.req("ACR-ALIAS-06")
-def test_an_alias_may_spell_like_an_axis(card: Machine) -> None:
-    card.type("SYS", "DIM DEF(2)", "PROG 0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "ARM"')
-    assert card.type("#DEFINE Arm P1", "Arm = 5", "?Arm", "PPU ARM 10", "PPU ARM").endswith(
-        "5|P00>P00>10|P00>"
-    )
-
-
 def test_a_line_that_dwells_is_answered_afterwards(card: Machine) -> None:
     assert card.type('PRINT "a" : DWL 0.01 : PRINT "b"') == "a|"
     card.advance(10)

@@ -156,37 +156,6 @@ def test_run_and_halt_all_act_on_all_programs(card: Machine) -> None:
     assert counts(card) == ended
 
 
-@pytest.mark.req("ACR-ALIAS-05")
-def test_an_alias_of_a_local_means_the_local_of_each_program(card: Machine) -> None:
-    card.type("SYS", "DIM DEF(3)", "#DEFINE Mine LV1")
-    for program in (2, 3):
-        card.load(program, "DIM LV(2)", f"Mine = {program} * 10", f"P{program} = Mine")
-    card.type("RUN PROG2", "RUN PROG3")
-    card.advance(50)
-    assert counts(card) == (0, 20, 30)
-    assert card.type("PROG 2", "?Mine;LV1").endswith("P02>2020|P02>")
-
-
-@pytest.mark.req("ACR-ALIAS-07")
-def test_an_alias_may_stand_for_a_bit(card: Machine) -> None:
-    card.type("SYS", "DIM DEF(3)", "#DEFINE Lamp BIT32", "#DEFINE Key BIT128", "PROG 1")
-    card.load(2, "INH -Key", "SET Lamp", "IF (Key) THEN P1 = 1")
-    card.type("SET Key", "RUN PROG2")
-    card.advance(50)
-    assert bits(card, 32) == [False]
-    card.type("CLR Key")
-    card.advance(50)
-    assert bits(card, 32) == [True]
-
-
-@pytest.mark.req("ACR-REM-01", "ACR-REM-02", "ACR-CMD-REM")
-def test_remarks_do_not_affect_execution(card: Machine) -> None:
-    card.load(2, "REM P1 = 5", "P2 = 7 : REM P2 = 8 : P2 = 9", "P3 = 1 REM P3 = 2")
-    card.type("RUN PROG2")
-    card.advance(50)
-    assert counts(card) == (0, 7, 1)
-
-
 def test_programs_go_on_while_their_text_is_edited(card: Machine) -> None:
     card.type("RUN")
     card.advance(5)

@@ -282,48 +282,6 @@ def test_return_discards_the_loops_of_the_subroutine() -> None:
     assert rig.run(*lines, ticks=4000) == "81|"
 
 
-@pytest.mark.req("ACR-LABEL-01")
-def test_goto_and_gosub_find_labels_without_the_underscore() -> None:
-    assert Rig().run("GOSUB Label1", "GOTO End1", "_Label1", "PRINT 1", "RETURN", "_End1") == "1|"
-
-
-@pytest.mark.req("ACR-LABEL-02")
-def test_labels_that_differ_in_case_are_two() -> None:
-    lines = (
-        "GOSUB Sub2",
-        "GOSUB SUB2",
-        "END",
-        "_SUB2",
-        "PRINT 1",
-        "RETURN",
-        "_Sub2",
-        "PRINT 2",
-        "RETURN",
-    )
-    assert Rig().run(*lines) == "2|1|"
-    assert "Label not found: sub2" in Rig().run("GOTO sub2", "_SUB2")
-
-
-@pytest.mark.req("ACR-LABEL-03")
-def test_labels_of_other_programs_do_not_exist() -> None:
-    rig = Rig()
-    rig.store(1, "_other", "RETURN")
-    expected = "Error in PROG0 line 20: Label not found: other|"
-    assert rig.run("GOSUB other") == expected
-
-
-@pytest.mark.req("ACR-LABEL-05")
-def test_the_published_label_example_prints_until_it_is_halted() -> None:
-    rig = Rig()
-    lines = ("_START", "GOSUB Label1", "GOTO START", "_Label1", 'PRINT "sub"', "RETURN")
-    output = rig.run(*lines, ticks=200)
-    assert output.count("sub|") > 20
-    assert rig.is_running()
-    rig.type("HALT")
-    assert not rig.is_running()
-    assert not rig.bit(1024)
-
-
 @pytest.mark.req("ACR-LABEL-06")
 def test_jumps_to_nowhere_name_their_target() -> None:
     rig = Rig()

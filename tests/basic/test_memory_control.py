@@ -38,14 +38,6 @@ def test_dim_at_sys_reports_programs_plcs_streams_globals_and_aliases(bench: Ben
     )
 
 
-@pytest.mark.req("ACR-REM-05")
-def test_removing_a_remark_frees_memory(bench: Bench) -> None:
-    bench.type("PROG 0", "10 REM 1234", "20 DWL 1")
-    assert bench.type("MEM") == answer(f"{65536 - (4 + 4 + 5) - 12}\n", "P00>")
-    bench.type("10")
-    assert bench.type("MEM") == answer(f"{65536 - 12}\n", "P00>")
-
-
 def test_clear_waits_for_running_programs(bench: Bench) -> None:
     bench.control.running.add(3)
     assert bench.type("CLEAR") == answer("Program in memory\n")

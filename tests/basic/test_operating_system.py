@@ -64,28 +64,6 @@ def test_program_commands_are_unknown_at_sys_and_change_nothing(bench: Bench, li
 # aliases
 
 
-@pytest.mark.req("ACR-CMD-DEFINE", "ACR-ALIAS-01")
-def test_an_alias_is_usable_on_every_channel_and_in_every_program(bench: Bench) -> None:
-    bench.type("DIM DEF(5)", "DIM P(10)", "#DEFINE Counter P5", "#DEFINE Most 7")
-    bench.card.memory.write(5, 12.5)
-    assert bench.type("?Counter") == "12.5|SYS>"
-    assert bench.type("PROG 4", "?Counter;Most", on=bench.connect("COM2")) == "P04>12.57|P04>"
-
-
-@pytest.mark.req("ACR-ALIAS-02")
-def test_alias_names_have_at_most_24_letters(bench: Bench) -> None:
-    bench.type("DIM DEF(5)")
-    assert bench.type(f"#DEFINE {'a' * 24} P0") == "SYS>"
-    assert bench.type(f"#DEFINE {'a' * 25} P0") == "Illegal name|SYS>"
-
-
-@pytest.mark.req("ACR-ALIAS-03")
-def test_alias_names_are_case_sensitive(bench: Bench) -> None:
-    bench.type("DIM DEF(5)", "#DEFINE Counter 1", "#DEFINE counter 2")
-    assert bench.type("?Counter;counter") == "12|SYS>"
-    assert bench.type("?COUNTER") == "Undefined symbol|SYS>"
-
-
 @pytest.mark.req("ACR-ALIAS-04")
 @pytest.mark.parametrize("name", ["Count1", "my_name", "a,b", "DIM", "BIT"])
 def test_digits_symbols_and_keywords_are_no_alias_names(bench: Bench, name: str) -> None:

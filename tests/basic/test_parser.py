@@ -247,12 +247,6 @@ def test_labels_stand_alone_or_before_a_colon() -> None:
     assert refusal("_a b", STORED) == "Syntax error"
 
 
-@pytest.mark.req("ACR-LABEL-04")
-def test_a_remark_directly_after_a_label_is_refused() -> None:
-    assert refusal("_Safe REM marker", STORED) == "Syntax error"
-    assert parsed("_Safe : REM Just a marker label", STORED).remark == " Just a marker label"
-
-
 def test_remarks_follow_statements_with_or_without_a_colon() -> None:
     assert parsed("SET 32 REM on").remark == " on"
     assert parsed("SET 32 : REM on").remark == " on"

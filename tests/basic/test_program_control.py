@@ -109,12 +109,6 @@ def test_lists_of_an_empty_program_print_nothing(bench: Bench) -> None:
     assert bench.type("PROG 9", "LIST") == "P09>P09>"
 
 
-@pytest.mark.req("ACR-REM-03", "ACR-REM-04", "ACR-CMD-REM")
-def test_remarks_are_stored_and_listed_and_apostrophe_comments_are_not(bench: Bench) -> None:
-    bench.type("PROG 4", "PROGRAM", "REM: Keep This", "'drop this", "VER : REM note", "ENDP")
-    assert bench.type("LIST") == "PROGRAM| REM: Keep This| VER : REM note|ENDP|P04>"
-
-
 @pytest.mark.req("ACR-PBOOT-03")
 def test_pboot_typed_starts_every_program_that_begins_with_it(bench: Bench) -> None:
     bench.type("PROG 1", "PROGRAM", "PBOOT", "VER", "ENDP")
