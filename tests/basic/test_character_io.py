@@ -89,26 +89,6 @@ def test_print_of_a_program_goes_to_its_listeners(card: Machine) -> None:
 # devices
 
 
-@pytest.mark.req("ACR-CMD-OPEN")
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
-        ("COM2:38400,n,8,1", ""),
-        ("com2:", ""),
-        ("COM2", ""),
-        ("STREAM5:", ""),
-        ("COM2:123,N,8,1", "Invalid device|"),
-        ("COM2:9600,X", "Invalid device|"),
-        ("FIFO:", "Invalid device|"),
-        ("STREAM9:", "Invalid device|"),
-        ("STREAM3:9600", "Invalid device|"),
-        ("printer", "Invalid device|"),
-    ],
-)
-def test_devices_are_named_by_strings(card: Machine, text: str, answer: str) -> None:
-    assert card.type(f'OPEN "{text}" AS #1') == answer + "P00>"
-
-
 @pytest.mark.req("ACR-APP-OPEN-03")
 def test_inkey_takes_one_waiting_character_and_never_waits(card: Machine) -> None:
     network = card.connect("STREAM2")
@@ -228,21 +208,6 @@ def test_lrun_shows_run_time_and_structure_errors(card: Machine) -> None:
     assert card.sent() == "Error in PROG1 line 30: Divide by zero|P01>"
     card.load(1, "IF (P1)", "P1 = 2")
     assert card.type("LRUN") == "Error in PROG1 line 20: IF without ENDIF|P01>"
-
-
-@pytest.mark.req("ACR-CMD-TRON")
-def test_trace_shows_the_numbers_of_the_lines(card: Machine) -> None:
-    assert card.type("10 P1 = 1", "20 P1 = 2", "TRON", "LRUN") == "P00>P00>P00>"
-    card.advance()
-    assert card.sent() == "[10][20]P00>"
-
-
-@pytest.mark.req("ACR-CMD-TROFF")
-def test_troff_ends_the_trace(card: Machine) -> None:
-    card.type("10 P1 = 1", "TRON", "TROFF", "LRUN")
-    card.advance()
-    assert card.sent() == "P00>"
-    assert not card.card.memory.bit(1036)
 
 
 @pytest.mark.req("ACR-SYN-15")

@@ -80,21 +80,6 @@ def test_clearing_pause_control_resumes_like_the_command(card: Machine) -> None:
     assert counts(card) > held
 
 
-@pytest.mark.req("ACR-CMD-BLK", "ACR-CMD-STEP")
-def test_block_mode_executes_one_line_per_step(card: Machine) -> None:
-    card.load(1, "P1 = 1", "P2 = 1 : P3 = 1", "P1 = 2")
-    card.type("RUN", "BLK")
-    card.advance(20)
-    assert bits(card, BLOCK_CONTROL, BLOCK_MODE, BLOCK_WAITING, STEP_FIRST) == [True] * 4
-    assert counts(card) == (0, 0, 0)
-    seen = []
-    for _ in range(4):
-        card.type("STEP")
-        card.advance(40)
-        seen.append(counts(card))
-    assert seen == [(0, 0, 0), (1, 0, 0), (1, 1, 1), (2, 1, 1)]
-
-
 def test_the_edge_of_step_control_is_a_step_too(card: Machine) -> None:
     card.load(1, "P1 = 1", "P2 = 1")
     card.type("RUN", "BLK")

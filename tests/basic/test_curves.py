@@ -15,8 +15,6 @@ pytestmark = pytest.mark.evidence("oracle", "arc lengths integrated by scipy, ci
 
 IN_MOTION = 516
 LENGTH = at.MA_BASE + at.MA_VECTOR_LENGTH
-VELOCITY = at.MA_BASE + at.MA_VECTOR_VELOCITY
-FRACTION = at.MA_BASE + at.MA_FRACTION_INTO_MOVE
 CNT = 1000  # pulses per unit
 
 
@@ -56,22 +54,6 @@ def test_equal_start_and_end_is_a_full_circle() -> None:
     angles = np.unwrap(np.arctan2(path[:, 1], path[:, 0] - 10))
     assert np.all(np.diff(angles[:-1]) > 0)
     assert (made.psp(0), made.psp(1)) == (0, 0)
-
-
-@pytest.mark.parametrize(
-    ("word", "degrees"),
-    [
-        pytest.param("CIRCW", 90, marks=pytest.mark.req("ACR-CMD-CIRCW")),
-        pytest.param("CIRCCW", 270, marks=pytest.mark.req("ACR-CMD-CIRCW")),
-    ],
-)
-def test_the_direction_decides_about_the_sweep(word: str, degrees: int) -> None:
-    made = go(bench(), "X1")
-    made.type(f"{word} X(0,0) Y(-1,0)")
-    count = made.until_clear(IN_MOTION)
-    assert made.p(LENGTH) == pytest.approx(math.radians(degrees))
-    assert count == ticks(math.radians(degrees) / 10)
-    assert (made.psp(0), made.psp(1)) == (0, -CNT)
 
 
 def test_another_axis_of_the_block_makes_a_helix() -> None:

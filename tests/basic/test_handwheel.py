@@ -5,8 +5,8 @@ from tests.basic.motion_bench import Bench, largest
 
 from openacr.map import numbers as at
 
-CURRENT, ACTUAL, PSP, GEAR, JOG = 12288, 12290, 12294, 12296, 12297
-ACTIVE, IN_MOTION, KAMR = 792, 516, 8467
+PSP, GEAR, JOG = 12294, 12296, 12297
+ACTIVE, KAMR = 792, 8467
 WHEEL = 6144 + 16 * 10  # position of encoder 10, which no axis has here
 
 
@@ -23,15 +23,6 @@ def turn(made: Bench, *counts: int) -> Bench:
 
 
 # hand wheels
-
-
-@pytest.mark.req("ACR-CMD-HDW")
-def test_100_counts_move_each_linked_axis_by_100_counts_times_its_ratio() -> None:
-    made = bench("HDW SRC X ENC10 Y ENC10", "HDW RATIO X0.1 Y-0.02", "HDW ON X Y")
-    turn(made, *([4] * 25))
-    assert made.bit(ACTIVE)
-    made.until_clear(ACTIVE, ACTIVE + 32)
-    assert (made.p(JOG), made.p(JOG + 256)) == (10000, -2000)
 
 
 def test_the_wheel_has_speeds_of_its_own() -> None:
@@ -135,34 +126,6 @@ def test_a_filter_may_move_a_parameter() -> None:
 
 
 # locked pairs
-
-
-@pytest.mark.req("ACR-CMD-LOCK", "ACR-CMD-UNLOCK")
-def test_a_locked_axis_follows_unit_for_unit() -> None:
-    made = bench("PPU Y2000", "ACC 100 DEC 100 STP 100 VEL 10", "LOCK X Y")
-    assert made.type("LOCK") == "LOCK X Y"
-    made.all("X10")
-    while made.bit(IN_MOTION):
-        made.ticks(1)
-        assert made.psp(1) == pytest.approx(2 * made.psp(0))
-    assert (made.p(PSP), made.p(PSP + 256)) == (10000, 20000)
-    for line in ("Y5", "JOG FWD Y", "GEAR ON Y"):
-        assert made.type(line) == "Axis is locked"
-    made.all("UNLOCK Y", "Y5").seconds(3)
-    assert (made.p(PSP), made.p(PSP + 256)) == (10000, 10000)
-    assert made.type("LOCK") == ""
-    made.all("X2").seconds(3)
-    assert (made.p(PSP), made.p(PSP + 256)) == (2000, 10000)
-
-
-@pytest.mark.req("ACR-CMD-UNLOCK")
-def test_unlock_of_the_leader_releases_the_pair_too() -> None:
-    made = bench("ACC 100 DEC 100 STP 100 VEL 10", "LOCK X Y", "UNLOCK X")
-    assert made.type("LOCK") == ""
-    made.all("X1").seconds(3)
-    assert (made.p(PSP), made.p(PSP + 256)) == (1000, 0)
-    made.all("Y2").seconds(3)
-    assert (made.p(PSP), made.p(PSP + 256)) == (1000, 2000)
 
 
 @pytest.mark.parametrize("flag", [788 + 32, 790 + 32, 796 + 32, 797 + 32, 17160 + 32])

@@ -10,7 +10,6 @@ from openacr.basic.language.scope import Scope
 from openacr.errors import CardError
 from openacr.map.numbers import P_COM1_COMMAND_COUNTER
 from openacr.messages import UNDEFINED_SYMBOL, UNKNOWN_COMMAND
-from openacr.models import ACR9000
 
 
 @pytest.fixture
@@ -30,25 +29,6 @@ def test_attachments_are_listed_as_hosts_read_them(bench: Bench) -> None:
         'P00>ATTACH MASTER0|ATTACH SLAVE0 AXIS0 "X"|P00>'
     )
     assert bench.type("DETACH", "ATTACH") == "P00>P00>"
-
-
-@pytest.mark.req("ACR-CMD-ATTACH")
-def test_axis_attachments_are_set_and_listed_at_sys(bench: Bench) -> None:
-    bench.type("ATTACH AXIS0 STEPPER0 STEPPER0", "ATTACH AXIS1 ENC3 DAC2 ENC4")
-    lines = bench.type("ATTACH").split("|")
-    assert lines[:3] == [
-        "ATTACH AXIS0 STEPPER0 STEPPER0 STEPPER0",
-        "ATTACH AXIS1 ENC3 DAC2 ENC4",
-        "ATTACH AXIS2 ENC2 DAC2 ENC2",
-    ]
-    assert len(lines) == 17
-
-
-@pytest.mark.req("ACR-CMD-DETACH")
-def test_detach_at_sys_needs_all(bench: Bench) -> None:
-    bench.type("PROG 3", "ATTACH MASTER3", "SYS")
-    assert bench.type("DETACH") == "Not valid at this level|SYS>"
-    assert bench.type("DETACH ALL", "PROG 3", "ATTACH") == "SYS>P03>P03>"
 
 
 @pytest.mark.req("ACR-COMM-08")
@@ -72,37 +52,12 @@ def test_digits_symbols_and_keywords_are_no_alias_names(bench: Bench, name: str)
     assert bench.type("DEF") == "SYS>"
 
 
-@pytest.mark.req("ACR-CMD-DEF")
-def test_def_lists_every_alias_with_its_target(bench: Bench) -> None:
-    bench.type("DIM DEF(5)")
-    assert bench.type("DEF") == "SYS>"
-    bench.type("#DEFINE Fault BIT2560 : REM remark", "#DEFINE Speed -0.5", "#DEFINE Row LA0(3)")
-    assert bench.type("DEF") == (
-        "#DEFINE Fault BIT 2560|#DEFINE Speed -0.5|#DEFINE Row LA0(3)|SYS>"
-    )
-    assert bench.type("#DEFINE Fault") == "#DEFINE Fault BIT 2560|SYS>"
-    assert bench.type("#DEFINE Fault BIT5", "#DEFINE Fault") == "SYS>#DEFINE Fault BIT 5|SYS>"
-    assert bench.type("DEF CLEAR", "DEF") == "SYS>SYS>"
-
-
 def test_listed_programs_show_aliases_in_their_case(bench: Bench) -> None:
     bench.type("DIM DEF(5)", "#DEFINE EndOfTravel BIT16132", "PROG 0", "10 set EndOfTravel")
     assert bench.type("LIST") == "10 SET EndOfTravel|P00>"
 
 
 # reports and settings
-
-
-@pytest.mark.req("ACR-CMD-STREAM")
-def test_stream_names_the_channel(bench: Bench) -> None:
-    assert bench.type("STREAM") == "COM1|SYS>"
-    network = Bench(ACR9000, "STREAM2")
-    assert network.type("STREAM") == "STREAM2|SYS>"
-
-
-@pytest.mark.req("ACR-CMD-VER")
-def test_ver_prints_model_and_firmware(bench: Bench) -> None:
-    assert bench.type("VER") == "ACR8020 Version 1.18.06 Update 15|SYS>"
 
 
 def test_help_lists_every_command_word(bench: Bench) -> None:
@@ -150,13 +105,6 @@ def test_no_help_contains_a_prompt_character() -> None:
     assert all(">" not in row.summary for row in registry.functions.values())
 
 
-def test_period_is_shown_and_set_within_limits(bench: Bench) -> None:
-    assert bench.type("PERIOD") == "0.0005|SYS>"
-    assert bench.type("PERIOD 0.001", "PERIOD") == "SYS>0.001|SYS>"
-    assert bench.type("PERIOD 0.00005", "PERIOD 0.006") == "Invalid argument|SYS>" * 2
-    assert bench.card.period_s == 0.001
-
-
 def test_period_is_not_changed_in_motion(bench: Bench) -> None:
     bench.card.memory.set_bit(792, True)
     assert bench.type("PERIOD 0.001") == "Not valid while in motion|SYS>"
@@ -171,22 +119,6 @@ def test_config_is_shown_set_and_returned_to_default(bench: Bench) -> None:
     assert bench.type("CONFIG ENC8 DAC4 DACSTEP2 ADC8") == "Invalid argument|SYS>"
     assert bench.type("CONFIG CLEAR") == f"{notice}SYS>", "this card has no fewer modules"
     assert bench.type("CONFIG") == "CONFIG ENC8 DAC4 DAC4 ADC8|SYS>"
-
-
-@pytest.mark.parametrize(
-    "address", ["1.2.3", "1.2.3.256", "192.168.10.0", "192.168.255.7", "a.b.c.d", "1.2.3.4.5"]
-)
-def test_bad_addresses_are_refused(bench: Bench, address: str) -> None:
-    before = bench.type("IP")
-    assert bench.type(f'IP "{address}"') == "Invalid argument|SYS>"
-    assert bench.type("IP") == before
-
-
-@pytest.mark.req("ACR-CMD-IP")
-def test_ip_shows_and_sets_the_addresses(bench: Bench) -> None:
-    assert bench.type("IP") == "IP 192.168.10.40|MASK 255.255.255.0|GATE 0.0.0.0|SYS>"
-    assert bench.type('IP "10.0.0.5"', 'IP MASK "255.0.0.0"', 'IP GATE "10.0.0.1"') == "SYS>" * 3
-    assert bench.type("IP") == "IP 10.0.0.5|MASK 255.0.0.0|GATE 10.0.0.1|SYS>"
 
 
 @pytest.mark.req("ACR-CMD-DIAG")
@@ -208,37 +140,11 @@ def test_eplc_without_a_network_card_fails_to_start(bench: Bench) -> None:
     assert bench.type("EPLC", "EPLC OFF", "EPLC") == "FAILED|SYS>SYS>OFF|SYS>"
 
 
-@pytest.mark.req("ACR-CMD-CPU")
-def test_cpu_load_rises_with_the_number_of_active_axes(bench: Bench) -> None:
-    assert bench.type("CPU") == "Foreground 53.0%|Background 47.0%|SYS>"
-    for axis in range(4, 16):
-        bench.type(f"AXIS{axis} OFF")
-    assert bench.type("CPU") == "Foreground 17.0%|Background 83.0%|SYS>"
-    assert bench.type("PERIOD 0.0001", "CPU").endswith("Foreground 85.0%|Background 15.0%|SYS>")
-
-
-def test_cip_reports_that_no_host_is_connected(bench: Bench) -> None:
-    assert bench.type("CIP") == "CIP connections 0|CIP state IDLE|SYS>"
-
-
 def test_reboot_restarts_the_card(bench: Bench) -> None:
     restarted = []
     bench.system.reboot = lambda: restarted.append(True)
     bench.type("REBOOT")
     assert restarted == [True]
-
-
-@pytest.mark.req("ACR-CMD-PASSWORD")
-def test_a_password_keeps_program_text_from_being_listed(bench: Bench) -> None:
-    bench.type("PROG 0", "10 DWL 1", "SYS")
-    assert bench.type("PASSWORD") == "OFF|SYS>"
-    for unclear in ('PASSWORD "secret"', "PASSWORD ON", "PASSWORD OFF"):
-        assert bench.type(unclear, "PASSWORD") == "Syntax error|SYS>OFF|SYS>"
-    assert bench.type('PASSWORD ON "secret"', "PASSWORD") == "SYS>ON|SYS>"
-    assert bench.type("PROG 0", "LIST") == "P00>Program is protected|P00>"
-    assert bench.type("SYS", 'PASSWORD OFF "other"') == "SYS>Invalid password|SYS>"
-    assert bench.type('PASSWORD ON "other"') == "Invalid password|SYS>"
-    assert bench.type('PASSWORD OFF "secret"', "PROG 0", "LIST") == "SYS>P00>10 DWL 1|P00>"
 
 
 def test_expansion_boards_are_enabled_by_config(bench: Bench) -> None:
@@ -247,12 +153,6 @@ def test_expansion_boards_are_enabled_by_config(bench: Bench) -> None:
     assert [bench.card.memory.bit(flag) for flag in range(116, 120)] == [1, 1, 0, 0]
     assert bench.type("CONFIG XIO 5") == "Invalid argument|SYS>"
     assert bench.type("CONFIG IO INPUT 1 2", "CONFIG IO") == "Not supported|SYS>" * 2
-
-
-@pytest.mark.req("ACR-CMD-ADCX")
-def test_the_expansion_analog_board_is_missing(bench: Bench) -> None:
-    for line in ("ADCX", "ADCX ON", "ADCX OFF", "ADCX MODE 1", "ADCX MAX 8"):
-        assert bench.type(line) == "Not supported|SYS>"
 
 
 AREAS = """

@@ -82,29 +82,6 @@ def test_new_of_a_running_program_erases_nothing(bench: Bench) -> None:
     assert bench.type("PROG 0", "LIST") == "P00>10 DWL 1|P00>"
 
 
-LINES = ("5 REM five", "10 VER", "20 MEM", "30 DWL 3")
-
-
-@pytest.mark.req("ACR-CMD-LIST")
-@pytest.mark.parametrize(
-    ("command", "shown"),
-    [
-        ("LIST", LINES),
-        ("LIST 10", LINES[1:2]),
-        ("LIST 10-20", LINES[1:3]),
-        ("LIST 10,20", LINES[1:3]),
-        ("LIST 15-", LINES[2:]),
-        ("LIST -15", LINES[:2]),
-        ("LIST 11-19", ()),
-    ],
-)
-def test_list_shows_the_lines_of_a_range(
-    bench: Bench, command: str, shown: tuple[str, ...]
-) -> None:
-    bench.type("PROG 9", "SYS", "DIM PROG9(1000)", "PROG 9", *LINES)
-    assert bench.type(command) == "".join(line + "|" for line in shown) + "P09>"
-
-
 def test_lists_of_an_empty_program_print_nothing(bench: Bench) -> None:
     assert bench.type("PROG 9", "LIST") == "P09>P09>"
 

@@ -49,30 +49,6 @@ def test_echo_modes_switch_off_errors_and_prompts(bench: Bench) -> None:
     assert bench.session.echo == 2
 
 
-@pytest.mark.req("ACR-CMD-MODE")
-def test_the_binary_mode_of_the_channel_is_set_and_shown(bench: Bench) -> None:
-    assert bench.type("MODE", "MODE 3", "MODE") == "1|SYS>SYS>3|SYS>"
-    for mode in (0, 1, 2, 3):
-        assert bench.type(f"MODE {mode}", "MODE") == f"SYS>{mode}|SYS>"
-        assert bench.session.mode == mode
-    assert (
-        bench.type("MODE 4", "MODE -1", "MODE")
-        == "Invalid argument|SYS>Invalid argument|SYS>3|SYS>"
-    )
-
-
-@pytest.mark.req("ACR-CMD-ECHO")
-def test_the_flags_of_a_serial_line_are_its_modes(bench: Bench) -> None:
-    memory = bench.card.memory
-    assert [memory.bit(number) for number in (1856, 1857, 1858, 1876)] == [True, False, False, True]
-    bench.type("ECHO 6", "MODE 2")
-    flags = (1856, 1857, 1858, 1876, 1877)
-    assert [memory.bit(number) for number in flags] == [False, True, True, False, True]
-    memory.set_bit(1856, True)
-    memory.set_bit(1858, False)
-    assert bench.type("ECHO") == "3|SYS>"
-
-
 def test_a_line_that_waits_is_answered_when_it_is_done(bench: Bench) -> None:
     bench.session.busy = True
     bench.session.write("1\r\n")
@@ -309,19 +285,6 @@ def test_several_channels_may_listen_to_one_program(bench: Bench) -> None:
     bench.system.listeners.print(1, "both\r\n")
     assert bench.sent() == "both|"
     assert bench.sent(other) == "both|"
-
-
-@pytest.mark.req("ACR-CMD-TALK-TO")
-def test_talk_to_joins_two_channels_until_escape(bench: Bench) -> None:
-    other = bench.connect("COM2")
-    assert bench.type('TALK TO "COM2:"') == ""
-    bench.session.typed(ord("a"))
-    other.typed(ord("b"))
-    assert (bench.sent(other), bench.sent()) == ("a", "b")
-    bench.session.escape()
-    assert bench.sent() == "|SYS>"
-    assert other.attention is Attention.COMMANDS
-    assert bench.type("TALK TO COM1") == "Invalid device|SYS>"
 
 
 def test_the_other_side_may_end_talk_to_as_well(bench: Bench) -> None:

@@ -52,14 +52,6 @@ def test_int_ends_a_move_at_its_flag_and_the_next_one_starts() -> None:
     assert made.p(12289) == made.p(12288)
 
 
-@pytest.mark.parametrize(("period", "delay"), [(5, 5), (50, 50), (0, 1)])
-@pytest.mark.req("ACR-CMD-INT")
-def test_int_looks_at_its_flag_every_response_period(period: int, delay: int) -> None:
-    made = bench(f"P{RESPONSE} = {period}", "ACC 0 STP 0 DEC 0", f"SET {FLAG}")
-    made.type(f"INT {FLAG} X100")
-    assert made.until_clear(IN_MOTION) - delay in (0, 1)
-
-
 def test_int_never_looks_with_a_period_of_minus_1_and_5_is_the_default() -> None:
     made = bench(f"SET {FLAG}")
     assert made.p(RESPONSE) == 5
@@ -115,12 +107,6 @@ def test_trj_backwards_comes_to_rest_first() -> None:
     assert smooth(found)
     assert min(found[: ticks(0.15)]) < 0.06
     assert made.psp(0) == 0
-
-
-def test_trj_of_an_idle_master_is_a_move() -> None:
-    made = bench("TRJ X1 Y/2")
-    made.until_clear(IN_MOTION)
-    assert (made.psp(0), made.psp(1)) == (1000, 2000)
 
 
 def test_trj_never_waits_for_the_buffer() -> None:

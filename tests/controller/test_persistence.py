@@ -73,14 +73,6 @@ def test_saved_parameters_are_back_after_reboot_others_are_not() -> None:
     assert host.type("ACC") == "123.456|P00>"
 
 
-@pytest.mark.req("ACR-MOT-16")
-def test_an_override_is_not_saved_and_leaves_the_velocity_that_is() -> None:
-    host = connected("PROG0", "ATTACH MASTER0", "VEL 7", "FOV 0.5", "ESAVE")
-    assert host.asks("FOV", "VEL") == ["0.5", "7"]
-    host.type("REBOOT", "PROG0")
-    assert host.asks("FOV", "VEL") == ["1", "7"]
-
-
 @pytest.mark.req("ACR-CMD-ESAVE", "ACR-RST-02", "ACR-PROF-08")
 def test_without_esave_parameters_are_defaults_after_reboot() -> None:
     host = connected(*SETTINGS, "SYS", 'IP "10.0.0.7"', "CONFIG NONE NONE NONE NONE")
@@ -277,17 +269,6 @@ def test_the_factory_default_sequence(power_up: PowerUp, model: str) -> None:
     assert host.type("REBOOT") == "SYS>"
     assert _factory_state(host) == fresh
     assert _factory_state(power_up(model)) == fresh
-
-
-@pytest.mark.req("ACR-RST-05")
-@pytest.mark.parametrize("model", OMITTED)
-def test_what_the_sequence_omits_for_a_model_is_refused_by_it(model: str) -> None:
-    host = connected(model=model)
-    refused = {line for line in FACTORY_DEFAULT if host.type(line) != "SYS>"}
-    assert refused == OMITTED[model]
-    for line in refused:
-        said = "Not supported" if line.startswith("FLASH") else "Invalid device"
-        assert host.type(line) == f"{said}|SYS>"
 
 
 def _factory_state(host: Host) -> list[str]:

@@ -9,14 +9,6 @@ def card() -> Console:
     return Console()
 
 
-@pytest.mark.req("ACR-CMD-ADC")
-def test_analog_inputs_have_a_mode_and_read_in_volts() -> None:
-    card = Console("ACR8020")
-    assert card.type("ADC MODE 0", "ADC MODE", "ADC MODE 1", "ADC MODE") == "0|1"
-    card.card.p[6408 + 16] = 2.5
-    assert card.type("ADC1", "?P6424") == "2.5|2.5"
-
-
 @pytest.mark.req("ACR-CMD-PERIOD", "ACR-PAR-08")
 def test_the_servo_period_is_shown_and_scales_the_updates_per_second(card: Console) -> None:
     assert card.type("PERIOD") == "0.0005"
@@ -43,14 +35,6 @@ def test_a_drive_is_switched_and_reported_but_not_in_motion(card: Console) -> No
     card.card.advance(seconds=0.1)
     assert card.type("DRIVE OFF X") == "Not valid while in motion"
     assert card.type("JOG VEL Y1", "JOG FWD Y", "DRIVE OFF Y") == "Not valid while in motion"
-
-
-@pytest.mark.req("ACR-RST-05")
-def test_what_a_model_does_not_have_is_refused_by_name() -> None:
-    assert Console("ACR9000").type("SYS", "CLEAR FIFO") == "Invalid device"
-    assert Console("ACR9000").type("SYS", "CLEAR DPCB") == "Invalid device"
-    assert Console("ACR8020").type("SYS", "CLEAR DPCB") == ""
-    assert Console("ACR8020").type("SYS", "CLEAR FIFO") == ""
 
 
 @pytest.mark.parametrize(
