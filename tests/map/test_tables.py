@@ -99,39 +99,6 @@ def test_packet_groups_hold_the_transcribed_parameters() -> None:
         assert [n for n in fields if n is not None] == [first + stride * k for k in range(count)]
 
 
-@pytest.mark.req(
-    "BIN-054", "BIN-055", "BIN-056", "BIN-057", "BIN-060", "BIN-061", "BIN-062", "BIN-063",
-    "BIN-064", "BIN-065", "BIN-066", "BIN-067",
-)  # fmt: skip
-@pytest.mark.parametrize(
-    ("code", "index", "first", "stride"),
-    [
-        (0x18, 0x00, 6144, 16),
-        (0x18, 0x8C, 6272 + 12, 16),
-        (0x60, 0x01, 24577, 16),
-        (0x19, 0x0A, 6410, 16),
-        (0x19, 0x80, 6528, 16),
-        (0x1A, 0x05, 6661, 16),
-        (0x1C, 0x00, 7168, 16),
-        (0x1C, 0x80, 7296, 16),
-        (0x1D, 0x04, 7428, 16),
-        (0x20, 0x10, 8208, 256),
-        (0x28, 0x00, 10240, 256),
-        (0x30, 0x02, 12290, 256),
-        (0x38, 0x57, 14336 + 0x57, 256),
-        (0x40, 0x27, 16423, 256),
-        (0x50, 0x00, 20480, 1),
-    ],
-)
-def test_mask_bit_selects_the_object(code: int, index: int, first: int, stride: int) -> None:
-    assert packet_groups()[code, index] == tuple(first + stride * k for k in range(8))
-
-
-@pytest.mark.req("BIN-061")
-def test_fast_status_eight_and_nine_fill_two_bits_of_their_group() -> None:
-    assert packet_groups()[0x1D, 0x83] == (7555, 7571, None, None, None, None, None, None)
-
-
 @pytest.mark.req("BIN-068")
 def test_fields_of_a_packet_group_share_one_type() -> None:
     groups = packet_groups()

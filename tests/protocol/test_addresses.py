@@ -8,13 +8,11 @@ import pytest
 
 from openacr.basic.memory.storage import Storage
 from openacr.errors import MapError
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.protocol.addresses import GLOBALS, SYSTEM_POINTERS, AddressSpace
+from openacr.protocol.addresses import AddressSpace
 from openacr.protocol.execute import execute
 from openacr.protocol.memory import (
     Conversion,
-    MaskMemory,
     Peek,
     Poke,
     VariableAddress,
@@ -22,7 +20,6 @@ from openacr.protocol.memory import (
 )
 from openacr.protocol.move import Move
 from openacr.protocol.packet import Packet
-from openacr.protocol.parameter import ParameterAddress
 
 
 class Card:
@@ -63,108 +60,6 @@ def card() -> Card:
 def single(word: int) -> float:
     value: float = struct.unpack("<f", struct.pack("<I", word))[0]
     return value
-
-
-@pytest.mark.req("BIN-098", "BIN-099", "BIN-102")
-def test_a_parameter_is_read_and_masked_at_its_address(card: Card) -> None:
-    (address,) = card.ask(ParameterAddress(4097))
-    assert address == 0x410000 + 4097
-    card.memory.write(4097, -1)
-    assert card.peek(address) == (0xFFFFFFFF,)
-    card.ask(MaskMemory(address, 0xFFFFFFFF, 1))
-    assert card.memory.read(4097) == 1
-    assert card.ask(ParameterAddress(40959)) == (0,)
-
-
-def test_an_fp32_parameter_is_peeked_as_ieee(card: Card) -> None:
-    number = at.AX_BASE + at.AX_PROPORTIONAL_GAIN
-    card.memory.write(number, 2.5)
-    (address,) = card.ask(ParameterAddress(number))
-    (word,) = card.ask(Peek(Conversion.FP32, 1, address))
-    assert single(word) == 2.5
-
-
-@pytest.mark.req("BIN-174", "BIN-175", "BIN-176")
-def test_system_pointers_lead_to_the_global_variables(card: Card) -> None:
-    assert {card.peek(pointer)[0] for pointer in SYSTEM_POINTERS} == {0}
-    card.storage.dimension_globals(100)
-    assert {card.peek(pointer)[0] for pointer in SYSTEM_POINTERS} == {GLOBALS}
-    assert card.peek(GLOBALS) == (100,)
-
-
-@pytest.mark.req("BIN-177", "BIN-178", "BIN-179", "BIN-081", "BIN-088")
-def test_global_variables_are_peeked_and_poked_as_fp64(card: Card) -> None:
-    card.storage.dimension_globals(100)
-    card.memory.write(99, 0.1)
-    address = GLOBALS + 1 + 2 * 99
-    assert single(card.ask(Peek(Conversion.FP64, 1, address))[0]) == pytest.approx(0.1)
-    card.ask(Poke.of(Conversion.FP64, address - 2, (2.5, -4.0)))
-    assert (card.memory.read(98), card.memory.read(99)) == (2.5, -4.0)
-    assert card.ask(ParameterAddress(99)) == (address,)
-
-
-@pytest.mark.req("BIN-180")
-def test_a_poke_beyond_the_dimensioned_range_changes_nothing(card: Card) -> None:
-    card.storage.dimension_globals(2)
-    before = card.memory.digest()
-    card.ask(Poke.of(Conversion.FP64, GLOBALS + 3, (1.0, 2.0)))
-    card.ask(Poke.of(Conversion.LONG, GLOBALS, (7,)))
-    assert card.memory.digest() == before
-
-
-@pytest.mark.req("BIN-092", "BIN-093", "BIN-094", "BIN-095")
-@pytest.mark.parametrize(
-    ("name", "kind", "conversion"),
-    [
-        ("LV", VariableKind.LV, Conversion.LONG),
-        ("SV", VariableKind.SV, Conversion.FP32),
-        ("DV", VariableKind.DV, Conversion.FP64),
-    ],
-)
-def test_local_variables_follow_their_count(
-    card: Card, name: str, kind: VariableKind, conversion: Conversion
-) -> None:
-    request = VariableAddress(5, kind)
-    assert card.ask(request) == (0,)
-    card.storage.locals.variables(4, name, 7)
-    card.storage.locals.variables(5, name, 3)
-    (address,) = card.ask(request)
-    assert card.peek(address) == (3,)
-    values = (1, 2, 3) if conversion is Conversion.LONG else (1.5, 2.5, 3.5)
-    card.ask(Poke.of(conversion, address + 1, values))
-    words = card.ask(Peek(conversion, 3, address + 1))
-    read = words if conversion is Conversion.LONG else tuple(map(single, words))
-    assert read == values
-    rows = card.memory.I[at.STI_BASE + 5 * at.STI_STRIDE :]
-    stored: dict[str, Sequence[float]] = {
-        "LV": card.memory.I[rows[at.STI_LV_BASE] :],
-        "SV": card.memory.S[rows[at.STI_SV_BASE] :],
-        "DV": card.memory.F[rows[at.STI_DV_BASE] :],
-    }
-    assert tuple(stored[name][:3]) == values
-
-
-@pytest.mark.req("BIN-096")
-@pytest.mark.parametrize(
-    ("name", "kind", "conversion"),
-    [
-        ("LA", VariableKind.LA, Conversion.LONG),
-        ("SA", VariableKind.SA, Conversion.FP32),
-        ("DA", VariableKind.DA, Conversion.FP64),
-    ],
-)
-def test_arrays_are_reached_through_their_addresses(
-    card: Card, name: str, kind: VariableKind, conversion: Conversion
-) -> None:
-    card.storage.locals.references(2, name, 2)
-    card.storage.locals.array(2, name, 1, 10)
-    (address,) = card.ask(VariableAddress(2, kind))
-    count, first, second = card.peek(address, 3)
-    assert (count, first) == (2, 0)
-    assert card.peek(second) == (10,)
-    card.ask(Poke.of(conversion, second + 1 + 9 * conversion.words, (4,)))
-    (word,) = card.ask(Peek(conversion, 1, second + 1 + 9 * conversion.words))
-    assert (word if conversion is Conversion.LONG else single(word)) == 4
 
 
 def test_counts_and_references_cannot_be_poked(card: Card) -> None:

@@ -97,87 +97,10 @@ def test_an_explanation_names_the_fields() -> None:
     ]
 
 
-@pytest.mark.req("BIN-168")
-def test_two_masters_share_one_override() -> None:
-    packet = packets.decode(bytes.fromhex("07 05 00 00 6D E7 FB 3D"))
-    assert isinstance(packet, FeedrateOverride)
-    assert packet.masters() == [0, 2]
-    assert packet.value == pytest.approx(0.123)
-
-
-@pytest.mark.req("BIN-040", "BIN-042", "BIN-044", "BIN-046")
-def test_a_data_reply_repeats_the_request_before_its_fields() -> None:
-    reply = DataRequest(0x30, 2, 0x2C).reply([0x23222120, 0x33323130, 0x53525150])
-    assert reply.hex(" ").upper() == "00 30 02 2C 20 21 22 23 30 31 32 33 50 51 52 53"
-
-
-@pytest.mark.req("BIN-043")
-def test_an_empty_mask_is_answered_by_the_header_alone() -> None:
-    request = DataRequest(0x30, 2, 0)
-    assert request.reply([]) == request.encode()
-    assert list(request.parameters()) == []
-
-
-@pytest.mark.req("BIN-078")
-def test_a_peek_has_its_code_before_its_count_and_its_address_low_byte_first() -> None:
-    packet = packets.decode(bytes.fromhex("00 90 01 03 78 56 34 12"))
-    assert isinstance(packet, Peek)
-    assert (packet.code, packet.count, packet.address) == (1, 3, 0x12345678)
-    assert packet.conversion is Conversion(1)
-
-
-@pytest.mark.req("BIN-083")
-def test_a_peek_reply_repeats_eight_bytes() -> None:
-    reply = Peek(0, 3, 0x405000).reply([0x13121110, 0x23222120, 0x33323130])
-    assert reply == bytes.fromhex("0090000300504000101112132021222330313233")
-
-
 @pytest.mark.req("BIN-045")
 def test_floats_travel_as_ieee_singles_low_byte_first() -> None:
     assert DataRequest(0x30, 0x10, 1).reply([0.5])[4:] == bytes.fromhex("0000003F")
     assert DataRequest(0x30, 0x10, 1).reply([1e300])[4:] == struct.pack("<f", float("inf"))
-
-
-def fields(group: int, index: int, mask: int = 0xFF) -> list[int]:
-    return list(DataRequest(group, index, mask).parameters())
-
-
-@pytest.mark.req("BIN-037", "BIN-038")
-def test_mask_bit_0_is_the_first_field() -> None:
-    assert fields(0x30, 2, 0x2C) == [12288 + 256 * axis + 2 for axis in (2, 3, 5)]
-    assert fields(0x30, 2, 0x81) == [12290, 12290 + 7 * 256]
-
-
-@pytest.mark.req(
-    "BIN-049", "BIN-054", "BIN-055", "BIN-056", "BIN-057", "BIN-058", "BIN-060", "BIN-062",
-    "BIN-063", "BIN-064", "BIN-065", "BIN-066", "BIN-067",
-)  # fmt: skip
-@pytest.mark.parametrize(
-    ("group", "index", "first", "last"),
-    [
-        (0x10, 0x00, 4096, 4103),
-        (0x10, 0x22, 4368, 4375),
-        (0x18, 0x01, 6145, 6145 + 112),
-        (0x18, 0x81, 6273, 6273 + 112),
-        (0x60, 0x00, 24576, 24576 + 112),
-        (0x19, 0x08, 6408, 6408 + 112),
-        (0x19, 0x80, 6528, 6528 + 112),
-        (0x1A, 0x05, 6661, 6661 + 112),
-        (0x1B, 0x19, 7112, 7119),
-        (0x1C, 0x80, 7296, 7296 + 112),
-        (0x1D, 0x03, 7427, 7427 + 112),
-        (0x20, 0x10, 8208, 8208 + 1792),
-        (0x28, 0x00, 10240, 10240 + 1792),
-        (0x30, 0x02, 12290, 12290 + 1792),
-        (0x38, 0x00, 14336, 14336 + 1792),
-        (0x40, 0x21, 16417, 16417 + 1792),
-        (0x50, 0x00, 20480, 20487),
-        (0x21, 0x00, 10240, 10240 + 1792),  # misprinted codes are understood
-        (0x31, 0x00, 14336, 14336 + 1792),
-    ],
-)
-def test_every_group_follows_the_numbering(group: int, index: int, first: int, last: int) -> None:
-    assert (fields(group, index)[0], fields(group, index)[-1]) == (first, last)
 
 
 @pytest.mark.parametrize(

@@ -266,31 +266,6 @@ def test_the_timeout_follows_the_setting_of_the_channel() -> None:
     assert list(events(stream)) == [Received(DataRequest(0x30, 2, 0x2C))]
 
 
-@pytest.mark.req("BIN-160")
-def test_a_lone_zero_after_set_and_clr_is_padding() -> None:
-    stream = terminal()
-    stream.receive_data(b"\x1c\x08\x02\x00", 0)
-    stream.receive_data(b"\x1d\x20\x00" + GET, 0)
-    stream.receive_data(b"\x1d\x20\x00\x00A", 0)
-    assert list(events(stream)) == [
-        Received(SetBit(520)),
-        Received(ClearBit(32)),
-        Received(DataRequest(0x30, 2, 0x2C)),
-        Received(ClearBit(32)),
-    ]
-
-
-@pytest.mark.req("BIN-160")
-def test_on_the_dpcb_set_and_clr_always_have_four_bytes() -> None:
-    stream = terminal(StreamKind.DPCB)
-    stream.receive_data(b"\x1c\x08\x02\x00\x1d\x20\x00\x00A\r", 0)
-    assert list(events(stream)) == [
-        Received(SetBit(520)),
-        Received(ClearBit(32)),
-        ReceivedLine("A"),
-    ]
-
-
 @pytest.mark.parametrize("flag", [SetBit(516), ClearBit(8467)])
 @pytest.mark.parametrize("move", [Move.of({0: 2.0}), Move.of({0: 0.0}), Move.of({0: 1.5}, vel=2.0)])
 def test_a_flag_packet_after_a_move_is_not_taken_for_its_last_bytes(
@@ -310,25 +285,6 @@ def test_both_forms_of_a_short_move_are_understood() -> None:
     stream.receive_data(wire[:5] + bytes(3) + wire[5:], 0)
     stream.receive_data(b"A\r", 0)
     assert list(events(stream)) == [Received(documented), Received(documented), ReceivedLine("A")]
-
-
-@pytest.mark.req("BIN-001", "BIN-026")
-def test_packets_are_converted_by_mode_in_both_directions() -> None:
-    stream = terminal(mode=BinaryMode(1))
-    stream.receive_data(b"\x00\x30#B,", 0)
-    assert list(events(stream)) == [Received(DataRequest(0x30, 2, 0x2C))]
-    stream.send_packet(GET + b"\x11#")
-    assert sent(stream) == b"\x000#B,#Q##"
-
-
-@pytest.mark.req("BIN-012", "BIN-013")
-def test_serial_streams_start_in_mode_1_and_all_others_in_mode_0() -> None:
-    assert {kind: terminal(kind).mode for kind in StreamKind} == {
-        StreamKind.TERMINAL: 0,
-        StreamKind.PACKETS: 0,
-        StreamKind.SERIAL: 1,
-        StreamKind.DPCB: 0,
-    }
 
 
 def test_xoff_holds_the_output_of_a_serial_stream_only() -> None:
