@@ -6,7 +6,7 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from tests.controller.hosts import Host, connected
+from tests.controller.hosts import Host
 
 from openacr.channels import StreamKind
 from openacr.controller import Controller
@@ -15,7 +15,6 @@ from openacr.protocol.bits import SetBit
 from openacr.protocol.events import ControlKey
 from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code0, Code1, Code3
-from openacr.protocol.override import FeedrateOverride
 
 IN_MOTION, RAPID_MODES, SPIRAL, BLOCK_SKIP_CHECK, BLOCK_SKIP_INPUT = 516, 2053, 2072, 2048, 2049
 VELOCITY, COUNTER = 8193, 8208
@@ -67,30 +66,6 @@ class Sender:
         return found
 
 
-def test_integers_are_pulses_and_floats_units() -> None:
-    sender = Sender()
-    assert sender.move({0: 1500, 1: -700}).rest().at == (1500, -700, 0)
-    assert sender.move({0: 2.5, 2: 1.0}).rest().at == (2500, -700, 1000)
-
-
-def test_extended_codes_move_sixteen_slaves_of_a_high_master() -> None:
-    names = "XYZABCUVWDEGHKLM"
-    attach = [f'ATTACH SLAVE{n} AXIS{n} "{name}"' for n, name in enumerate(names)]
-    text = connected("PROG9", "ATTACH MASTER9", *attach, "ACC 0 DEC 0 STP 0", model="ACR9040")
-    packets = Host(text.card, StreamKind.PACKETS)
-    packets.send(Move.of({n: 100 * n for n in range(16)}, master=9, vel=5000.0).encode())
-    text.card.advance(4000)
-    assert [text.card.p[12288 + 256 * n] for n in range(16)] == [100 * n for n in range(16)]
-
-
-@pytest.mark.req("BIN-131")
-def test_relative_targets_count_from_the_end_of_the_move_before() -> None:
-    sender = Sender()
-    sender.move({0: 1000}).move({0: 500, 1: 250}, code3=Code3.INCREMENTAL_TARGET)
-    assert sender.rest().at == (1500, 250, 0)
-    assert sender.move({0: 500}).rest().at == (500, 250, 0)
-
-
 def test_velocity_and_ramps_of_a_packet_stay_for_later_moves() -> None:
     sender = Sender()
     sender.move({0: 1000}, vel=5.0, acc=200.0)
@@ -98,98 +73,6 @@ def test_velocity_and_ramps_of_a_packet_stay_for_later_moves() -> None:
     assert sender.card.p[8192 + at.MA_USER_VELOCITY] == 5.0
     sender.rest().move({0: 0})
     assert sender.peak(300) == 5.0
-
-
-@pytest.mark.req("BIN-117", "BIN-119")
-def test_the_stop_bit_ramps_to_the_final_velocity_or_to_zero() -> None:
-    sender = Sender("DEC 100", "FVEL 2")
-    sender.move({0: 1000}, vel=5.0, code0=Code0.STP_RAMP)
-    while sender.card.bit[IN_MOTION]:
-        last = sender.card.p[VELOCITY]
-        sender.ticks(1)
-    assert last == pytest.approx(2.0, abs=0.06)
-    sender.move({0: 0}, code0=Code0.STP_RAMP | Code0.FVEL_LOCKOUT)
-    while sender.card.bit[IN_MOTION]:
-        last = sender.card.p[VELOCITY]
-        sender.ticks(1)
-    assert last < 0.06
-
-
-@pytest.mark.req("BIN-118")
-def test_a_locked_move_is_not_overridden_and_the_next_one_is() -> None:
-    sender = Sender()
-    sender.host.send(FeedrateOverride.of([0], 0.5).encode())
-    sender.move({0: 500}, vel=4.0, code0=Code0.OVERRIDE_LOCKOUT)
-    assert sender.peak(200) == 4.0
-    sender.rest().move({0: 0})
-    assert sender.peak(200) == 2.0
-
-
-@pytest.mark.req("BIN-121")
-def test_a_locked_move_of_the_rapid_modes_has_neither_override() -> None:
-    sender = Sender("ROV 0.25")
-    sender.host.send(FeedrateOverride.of([0], 0.5).encode())
-    sender.host.send(SetBit(RAPID_MODES).encode())
-    feed, rapid = Code0(0), Code0.MOVE_MODE_BIT_0 | Code0.MOVE_MODE_BIT_1
-    target = 500
-    for mode, locked, peak_ups in (
-        *((feed, Code0(0), 2.0), (feed, Code0.OVERRIDE_LOCKOUT, 4.0)),
-        *((rapid, Code0(0), 1.0), (rapid, Code0.OVERRIDE_LOCKOUT, 4.0)),
-    ):
-        sender.move({0: target}, vel=4.0, code0=mode | locked)
-        assert sender.peak(200) == peak_ups
-        sender.rest()
-        target = 500 - target
-
-
-@pytest.mark.req("BIN-116", "BIN-142")
-def test_rapid_modes_are_read_only_with_their_flag_set() -> None:
-    sender = Sender("ROV 0.25")
-    both = Code0.MOVE_MODE_BIT_0 | Code0.MOVE_MODE_BIT_1
-    sender.move({0: 500}, vel=4.0, code0=both)
-    assert sender.peak(200) == 4.0
-    sender.rest()
-    sender.host.send(SetBit(RAPID_MODES).encode())
-    sender.move({0: 0}, code0=both)
-    assert sender.peak(200) == 1.0
-
-
-@pytest.mark.req("BIN-124")
-def test_the_counter_counts_moves_that_have_started() -> None:
-    sender = Sender("P8208=0")
-    up, down = Code0.COUNTER, Code0.COUNTER | Code0.COUNT_DOWN
-    sender.move({0: 1000}, vel=10.0, code0=up).move({0: 2000}, code0=up).move({0: 0}, code0=0)
-    sender.ticks(2)
-    assert sender.card.p[COUNTER] == 1
-    sender.rest()
-    assert sender.card.p[COUNTER] == 2
-    sender.move({0: 100}, code0=down).rest()
-    assert sender.card.p[COUNTER] == 1
-    sender.move({0: 100}, code0=up)  # leads nowhere and is over at once
-    assert sender.card.p[COUNTER] == 2
-
-
-@pytest.mark.req("BIN-135")
-def test_a_move_with_block_skip_is_skipped_while_the_input_is_set() -> None:
-    sender = Sender()
-    sender.host.send(SetBit(BLOCK_SKIP_INPUT).encode())
-    sender.move({0: 100}, code3=Code3.BLOCK_SKIP).move({1: 100}).rest()
-    assert sender.at == (0, 100, 0)
-    assert not sender.card.bit[BLOCK_SKIP_CHECK]
-
-
-@pytest.mark.req("BIN-126")
-def test_a_move_can_interrupt_the_host_when_it_starts() -> None:
-    sender = Sender()
-    sender.move({0: 1000}, vel=10.0).move({0: 2000}, code1=Code1.INTERRUPT)
-    sender.ticks(10)
-    assert not sender.card.bit[538]
-    seen = []
-    while sender.card.bit[IN_MOTION]:
-        seen.append((sender.card.bit[538], sender.at[0]))
-        sender.ticks(1)
-    assert {flag for flag, place in seen if 0.0 < place < 1000.0} == {False}
-    assert {flag for flag, place in seen if 1000.0 < place < 2000.0} == {True}
 
 
 @pytest.mark.parametrize("by_hand", [False, True])
@@ -269,17 +152,6 @@ def test_an_arc_goes_round_its_centre_in_its_plane(plane: int, axes: tuple[int, 
     assert len(points) == pytest.approx(math.pi / 2 / 5.0 / 0.0005, abs=2)
 
 
-@pytest.mark.req("BIN-127")
-@pytest.mark.parametrize(("code", "turns"), [(Code1(0), 3), (Code1.COUNTERCLOCKWISE, 1)])
-def test_without_its_bit_an_arc_goes_clockwise(code: Code1, turns: int) -> None:
-    sender = Sender().move({0: 1000}).rest()
-    sender.move({0: 0, 1: 1000}, vel=5.0, centers=(0, 0), code1=code)
-    points = track(sender)
-    assert all(math.hypot(x, y) == pytest.approx(1000, abs=1e-6) for x, y, _ in points)
-    assert len(points) == pytest.approx(turns * math.pi / 2 / 5.0 / 0.0005, abs=2)
-    assert (min(y for _, y, _ in points) < -999) is (turns == 3)
-
-
 @pytest.mark.req("BIN-144", "BIN-151")
 def test_equal_ends_make_a_full_circle_and_other_slaves_a_helix() -> None:
     sender = Sender()
@@ -321,15 +193,6 @@ def test_scaled_radii_make_an_ellipse() -> None:
     for x, y, _ in points:
         assert (x / 2000) ** 2 + (y / 500) ** 2 == pytest.approx(1.0, abs=1e-9)
     assert max(y for _, y, _ in points) == pytest.approx(500, abs=0.1)
-
-
-@pytest.mark.req("BIN-132")
-def test_relative_centres_count_from_where_the_arc_starts() -> None:
-    sender = Sender()
-    sender.move({0: 1000}).rest()
-    codes = {"code1": Code1.COUNTERCLOCKWISE, "code3": Code3.INCREMENTAL_CENTER}
-    sender.move({0: 0, 1: 1000}, vel=5.0, centers=(-1000, 0), **codes)
-    assert all(math.hypot(x, y) == pytest.approx(1000, abs=1e-6) for x, y, _ in track(sender))
 
 
 def test_nothing_is_lost_and_nothing_waits_when_a_host_sends_as_fast_as_it_can() -> None:
@@ -429,31 +292,6 @@ def test_an_impossible_move_changes_nothing(refused: Move) -> None:
 NURB = {"code1": Code1.NURB, "code3": Code3.CURVE}
 SPLINE = {"code1": Code1.SPLINE, "code3": Code3.CURVE}
 TIMED_SPLINE = {"code1": Code1.SPLINE | Code1.SPLINE_KNOTS, "code3": Code3.CURVE}
-
-
-@pytest.mark.req("BIN-136", "BIN-154", "BIN-156", "BIN-157")
-def test_a_nurb_of_packets_draws_a_quarter_circle() -> None:
-    sender = Sender("NURB RANK 3").move({0: 1000}).rest()
-    sender.move({0: 1000, 1: 0}, scaling=(0.0, 1.0), **NURB)
-    sender.move({1: 1000}, scaling=(0.0, 0.5**0.5), **NURB)
-    sender.move({0: 0}, scaling=(0.0, 1.0), **NURB)
-    sender.move({}, scaling=(-1.0, 0.0), **NURB)
-    while sender.card.bit[IN_MOTION]:
-        x, y, _ = sender.ticks(50).at
-        assert math.hypot(x, y) == pytest.approx(1000, abs=1e-4)
-    assert sender.at == (0, 1000, 0)
-
-
-@pytest.mark.req("BIN-128", "BIN-129", "BIN-155")
-def test_knots_of_spline_packets_are_times() -> None:
-    sender = Sender()
-    for knot in (0.125, 0.25, -0.125):
-        sender.move({0: 500}, **TIMED_SPLINE | {"code3": Code3.CURVE | Code3.INCREMENTAL_TARGET},
-                    scaling=(knot, 0.0))  # fmt: skip
-    start = sender.card.tick
-    sender.rest()
-    assert sender.card.tick - start == 1000
-    assert sender.at == (1500, 0, 0)
 
 
 @pytest.mark.parametrize(("curve", "ticks"), [(SPLINE, 5000), (TIMED_SPLINE, 3500)])
