@@ -14,11 +14,6 @@ def explained(*arguments: str) -> list[str]:
     return (ended.stdout + ended.stderr).splitlines()
 
 
-@pytest.mark.req("ACR-IP-01")
-def test_factory_address_and_mask() -> None:
-    assert Bench().type("IP").split("|")[:2] == ["IP 192.168.10.40", "MASK 255.255.255.0"]
-
-
 @pytest.mark.req("ACR-IP-03")
 @pytest.mark.parametrize("text", ["1.2.3", "1.2.3.4.5", "1.2.3.256", "1.2.-3.4", "a.b.c.d", ""])
 def test_an_address_has_four_octets(text: str) -> None:

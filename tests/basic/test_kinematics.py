@@ -1,6 +1,5 @@
 """INVK: joints computed by a program."""
 
-import math
 from itertools import pairwise
 
 import numpy as np
@@ -47,21 +46,6 @@ def _joints(made: Bench) -> list[float]:
     return [made.psp(axis) / PPU for axis in range(2)]
 
 
-@pytest.mark.req("ACR-CMD-INVK", "ACR-INVK-01", "ACR-INVK-04", "ACR-INVK-06")
-def test_small_steps_of_one_axis_trace_a_circle() -> None:
-    made = bench(*CIRCLE).all("INVK ON")
-    assert made.bit(KINEMATICS)
-    path = trace(made, *["X/0.2"] * 300)[20:]
-    assert np.hypot(path[:, 0], path[:, 1]) == pytest.approx(1, abs=1e-6)
-    angle = np.degrees(np.arctan2(path[-1, 0], path[-1, 1]))
-    assert angle == pytest.approx(60, abs=1e-4)
-    made.all("INVK OFF")
-    assert not made.bit(KINEMATICS)
-    line = trace(made, *["X/0.2"] * 5)
-    assert np.ptp(line[:, 1]) == 0
-    assert line[-1, 0] == pytest.approx(math.sin(math.radians(60)) + 1, abs=1e-3)
-
-
 @pytest.mark.req("ACR-INVK-03")
 def test_input_and_output_stand_in_the_parameters_of_each_axis() -> None:
     made = bench("P12617=P12616*2").all("INVK ON")
@@ -70,42 +54,6 @@ def test_input_and_output_stand_in_the_parameters_of_each_axis() -> None:
     assert [made.p(n) for n in (12360, 12361, 12616, 12617)] == [3, 3, 2, 4]
     assert _joints(made) == [3, 4]  # X has not been written: as it is
     assert (made.p(12288), made.p(12544)) == (3 * PPU, 2 * PPU)
-
-
-@pytest.mark.req("ACR-INVK-02")
-@pytest.mark.parametrize("number", [0, 15])
-def test_any_program_with_logic_and_commands_will_do(number: int) -> None:
-    program = (
-        "IF (P12360>1) THEN SET 32", "FOR P10=1 TO 3 STEP 1", "P11=P11+1", "NEXT",
-        "IF (BIT32) THEN P12617=7", "VEL 50",
-    )  # fmt: skip
-    made = bench(*program, number=number).all("P11=0", "INVK ON")
-    trace(made, "X2")
-    assert made.bit(32)
-    assert _joints(made) == [2, 7]
-    assert made.p(at.MA_BASE + at.MA_USER_VELOCITY) == 50
-    assert made.p(11) % 3 == 0
-    assert made.p(11) > 60
-
-
-@pytest.mark.req("ACR-INVK-07")
-def test_it_may_be_switched_in_a_program() -> None:
-    made = bench(*CIRCLE)
-    made.run("INVK ON", "X30", "INH -516", "INVK OFF")
-    made.seconds(1.5)
-    joints = _joints(made)
-    assert joints == pytest.approx([0.5, math.sqrt(0.75)], abs=1e-6)
-    assert not made.bit(KINEMATICS)
-
-
-@pytest.mark.req("ACR-INVK-05")
-def test_a_protected_program_will_do() -> None:
-    made = bench(*CIRCLE)
-    made.at(Level.SYS).type('PASSWORD ON "secret"')
-    assert "SIN" not in made.at(Level.PROG, 7).type("LIST")
-    made.at(Level.PROG, 0).all("INVK ON")
-    trace(made, "X90")
-    assert _joints(made) == pytest.approx([1, 0], abs=1e-6)
 
 
 def test_a_tool_on_two_links_draws_a_straight_line() -> None:
