@@ -50,16 +50,6 @@ def test_esave_keeps_settings_totals_and_scales() -> None:
     assert start(made) == 2
 
 
-@pytest.mark.req("ACR-CAN-09", "ACR-CAN-08")
-def test_without_esave_the_defaults_come_back() -> None:
-    made = card()
-    for number in (*SETTINGS, *SCALES):
-        made.p[number] = 99
-    reboot(made)
-    assert [made.p[number] for number in SETTINGS] == [5, 125, 1, 0, 50, 1, 0, 0, 0]
-    assert [made.p[n] for n in SCALES[:4]] == pytest.approx([3276.8, 0.0, 10.0, 0.0])
-
-
 @pytest.mark.req("ACR-CAN-09")
 def test_a_card_that_is_switched_on_again_has_its_network(tmp_path: Path) -> None:
     first = card()

@@ -1,7 +1,7 @@
 """Digital points of nodes at the flags of the expansion boards, where PLCs reach them."""
 
 import pytest
-from tests.network.rig import DI, DO, card, expect, node, output, running, start
+from tests.network.rig import DI, DO, card, expect, node, output, start
 
 from openacr.controller import Controller
 
@@ -67,16 +67,6 @@ def test_a_moved_output_is_controlled_by_one_flag_alone() -> None:
     assert output(made, 0, 0)
 
 
-@pytest.mark.req("ACR-CAN-02")
-@pytest.mark.parametrize("mapping", [0, -1])
-def test_without_mapping_everything_is_at_its_place(mapping: int) -> None:
-    made = mapped(mapping)
-    made.set_input(DI[0] + 5, True)
-    made.bit[288] = True
-    made.advance(seconds=0.06)
-    assert (made.p[4456], made.p[4104], output(made, 0, 0)) == (32, 0, False)
-
-
 @pytest.mark.req("ACR-CAN-07")
 def test_the_mapping_changes_with_the_next_start() -> None:
     made = mapped(0)
@@ -94,18 +84,3 @@ def test_the_mapping_changes_with_the_next_start() -> None:
     assert (made.p[4456], made.p[4104]) == (0, 2)
     assert start(made) == 2
     assert made.p[4456] == 2
-
-
-@pytest.mark.req("ACR-CAN-05")
-def test_a_plc_reaches_moved_inputs_only() -> None:
-    made = running(node(1, digital_inputs=8, digital_outputs=8))
-    made.send("ECHO 4\rDIM PLC0(100)\rPLC0\r")
-    assert made.send("10 LD 11520\r").strip() != ""
-    made.p[32771] = 1
-    assert start(made) == 2
-    assert made.send("10 LD 256\r20 OUT 291\rRUN\r").strip() == ""
-    made.set_input(11520, True)
-    made.advance(seconds=0.12)
-    assert made.bit[256] and output(made, 0, 3)
-    made.send("PROG0\rSET 32\rIF (BIT 256) THEN CLR 32\r")
-    assert not made.bit[32]
