@@ -55,20 +55,6 @@ def test_close_waits_for_what_is_under_way() -> None:
 
 
 @pytest.mark.req("ACR-DTALK-02")
-def test_each_axis_names_its_device_and_the_type_of_its_drive() -> None:
-    bench = Bench(talking(0, address=1), talking(3, address=4, port="COM1"))
-    bench.open(0, number=1)
-    bench.open(3, device="COM1:9600,N,8,1", number=2)
-    assert (bench.card.p[28672], bench.card.p[29440]) == (1, 2)
-    for axis in (0, 3):
-        bench.request(axis, GET)
-        assert bench.card.p[28674 + 256 * axis] == 2
-    bench.card.p[29440] = 1  # not on that line
-    bench.request(3, GET)
-    assert bench.troubles() == [LOST, TIMEOUT]
-
-
-@pytest.mark.req("ACR-DTALK-02")
 def test_drives_of_another_type_are_not_understood() -> None:
     bench = Bench(talking(0, address=1))
     bench.open(0)
@@ -79,70 +65,12 @@ def test_drives_of_another_type_are_not_understood() -> None:
 
 
 @pytest.mark.req("ACR-DTALK-03")
-@pytest.mark.parametrize(
-    ("keys", "troubles"),
-    [
-        ({"connected_s": 0.0, "powered_s": 0.0}, []),
-        ({"connected_s": 0.1, "powered_s": 0.2}, []),
-        ({"connected_s": 0.2, "powered_s": 0.1}, [TIMEOUT]),
-        ({"connected_s": 99.0}, [TIMEOUT]),
-    ],
-)
-def test_a_drive_powered_before_it_is_connected_has_chosen_rs_232(
-    keys: dict[str, float], troubles: list[int]
-) -> None:
-    bench = Bench(talking(0, address=1, **keys))
-    bench.card.advance(seconds=0.5)
-    bench.open(0)
-    took_s = bench.request(0, GET)
-    assert bench.troubles() == troubles
-    assert (took_s > 1.0) is bool(troubles)
-
-
-@pytest.mark.req("ACR-DTALK-03")
 def test_switching_the_drive_off_and_on_mends_the_wrong_choice() -> None:
     bench = Bench(talking(0, address=1, connected_s=0.2, powered_s=0.1, lost_s=1.0, back_s=2.0))
     bench.card.advance(seconds=2.5)
     bench.open(0)
     bench.request(0, GET)
     assert bench.troubles() == []
-
-
-@pytest.mark.req("ACR-DTALK-04")
-def test_auto_addressing_gives_each_drive_the_number_of_its_axis_plus_one() -> None:
-    bench = Bench(*(talking(axis) for axis in (0, 1, 4, 7)))
-    bench.open(0, 1, 4, 7)
-    bench.card.advance(seconds=2.0)
-    assert [bench.address(axis) for axis in (0, 1, 4, 7)] == [0] * 4, "no program has asked for it"
-    for axis in (0, 1, 4, 7):
-        bench.request(axis, AUTO)
-    assert [bench.address(axis) for axis in (0, 1, 4, 7)] == [1, 2, 5, 8]
-    assert bench.troubles() == []
-
-
-@pytest.mark.req("ACR-DTALK-05")
-def test_a_drive_with_address_0_is_not_reached() -> None:
-    bench = Bench(talking(0))
-    bench.open(0)
-    bench.request(0, GET)
-    assert (bench.card.p[28674], bench.troubles()) == (0, [TIMEOUT])
-    bench.request(0, AUTO)
-    bench.card.bit[COM2 + TIMEOUT] = False
-    bench.request(0, GET)
-    assert (bench.card.p[28674], bench.troubles()) == (2, [])
-
-
-@pytest.mark.req("ACR-DTALK-06")
-@pytest.mark.parametrize(
-    "keys", [{"powered_s": 99.0}, {"connected_s": 99.0}, {"port": "COM1"}, {"baud": 19200}]
-)
-def test_only_drives_that_hear_get_an_address(keys: dict[str, object]) -> None:
-    bench = Bench(talking(0, **keys), talking(1))
-    bench.open(0, 1)
-    assert bench.request(0, AUTO) >= 1.0
-    bench.request(1, AUTO)
-    assert [bench.address(axis) for axis in (0, 1)] == [0, 2]
-    assert bench.troubles() == [TIMEOUT]
 
 
 @pytest.mark.req("ACR-DTALK-07")
@@ -303,21 +231,6 @@ def test_positions_are_in_counts() -> None:
     assert [bench.card.p[28692 + place] for place in range(3)] == [100, 33, -33]
 
 
-@pytest.mark.req("ACR-DTALK-12")
-@pytest.mark.parametrize("axis", [0, 1, 7])
-def test_the_status_words_of_the_drive_are_fetched_into_flags(axis: int) -> None:
-    bench = Bench(talking(axis, address=axis + 1, drive_temp_c=95.0))
-    bench.open(axis)
-    bench.card.bit[control(axis, STATUS_1)] = True
-    bench.request(axis, DATA)
-    first, second = 9472 + 32 * axis, 9984 + 32 * axis
-    assert bench.card.bit[first] and bench.card.bit[first + 3], "enabled; something is wrong"
-    assert not any(bench.card.bit[second + bit] for bit in range(32))
-    bench.card.bit[control(axis, STATUS_2)] = True
-    bench.request(axis, DATA)
-    assert [bit for bit in range(32) if bench.card.bit[second + bit]] == [2]
-
-
 @pytest.mark.parametrize("axis", [0, 7])
 def test_a_drive_tells_that_the_card_has_switched_it_off_and_on(axis: int) -> None:
     bench = Bench(talking(axis, address=axis + 1))
@@ -333,24 +246,6 @@ def test_a_drive_tells_that_the_card_has_switched_it_off_and_on(axis: int) -> No
 
 
 @pytest.mark.req("ACR-DTALK-14")
-def test_a_drive_that_is_lost_is_distinguished_from_one_that_never_answered() -> None:
-    bench = Bench(talking(0, address=1, lost_s=2.0, back_s=4.0))
-    bench.open(0, 1)
-    bench.request(0, GET)
-    assert bench.troubles() == []
-    bench.card.advance(seconds=2.0)
-    bench.request(0, GET)
-    assert bench.troubles() == [LOST, TIMEOUT]
-    bench.type("CLR 11122", "CLR 11123", "CLR 11124")
-    bench.request(1, GET)
-    assert bench.troubles() == [TIMEOUT]
-    bench.type("CLR 11122", "CLR 11123", "CLR 11124")
-    bench.card.advance(seconds=2.0)
-    bench.request(0, GET)
-    assert bench.troubles() == []
-
-
-@pytest.mark.req("ACR-DTALK-14")
 def test_two_drives_with_one_address_are_an_address_error() -> None:
     bench = Bench(talking(0, address=1), talking(1, address=1))
     bench.open(0, 1)
@@ -360,21 +255,6 @@ def test_two_drives_with_one_address_are_an_address_error() -> None:
     bench.request(1, AUTO)
     bench.request(0, GET)
     assert (bench.troubles(), bench.card.p[28674]) == ([], 2)
-
-
-@pytest.mark.req("ACR-DTALK-15")
-@pytest.mark.parametrize(
-    ("port", "first"),
-    [("COM1", 11072), ("COM2", 11104), ("STREAM3", 11168), ("STREAM4", 11200), ("STREAM5", 11232)],
-)
-def test_each_port_has_stream_flags_of_its_own(port: str, first: int) -> None:
-    bench = Bench(axes=2)
-    bench.open(0, device=f"{port}:")
-    bench.request(0, GET)
-    words = (11040, 11072, 11104, 11168, 11200, 11232)
-    assert {word: bench.troubles(word) for word in words if bench.troubles(word)} == {
-        first: [TIMEOUT]
-    }
 
 
 @pytest.mark.req("ACR-DTALK-15")
