@@ -148,16 +148,6 @@ def test_absolute_targets_count_from_the_home_position() -> None:
     assert stands_u() - home_u == pytest.approx(2.5, abs=2 / 4000)
 
 
-@pytest.mark.req("ACR-APP-HOMING-02")
-def test_a_missing_home_switch_is_reported_for_its_axis() -> None:
-    made = console("", "")
-    said = made.listen(0, 120.0)
-    assert "Y HOMING UNSUCCESSFUL" in said
-    assert "X HOMING UNSUCCESSFUL" in said
-    assert not made.card.bit[128]
-    assert not made.card.bit[129]
-
-
 @pytest.mark.req("ACR-SERVO-07")
 def test_a_step_of_one_unit_settles_with_the_default_gains() -> None:
     made = console("", "")
