@@ -52,19 +52,6 @@ def test_an_acr8000_has_no_commutators(line: str) -> None:
     assert Console("ACR8010").type(beyond) == "Invalid argument"
 
 
-@pytest.mark.req("ACR-ERR-16")
-def test_the_system_clock_counts_milliseconds_and_wraps_at_2_to_the_31(card: Console) -> None:
-    assert card.type("?P6916") == "0"
-    card.card.advance(seconds=1)
-    assert card.type("?P6916") == "1000"
-    card.type("P6916=2147483646")
-    shown = []
-    for _ in range(3):
-        card.card.advance(seconds=0.001)
-        shown.append(card.type("?P6916"))
-    assert shown == ["2147483647", "0", "1"]
-
-
 @pytest.mark.req("ACR-EVAL-14")
 def test_random_numbers_make_patterns_of_the_outputs(card: Console) -> None:
     seen = {card.type("P4097=RND(4294967295)", "?P4097") for _ in range(20)}
