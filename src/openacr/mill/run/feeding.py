@@ -290,5 +290,7 @@ def _fault_of(error: BlockError) -> Fault:
     """The fault of a block error: code `Ann` is alarm nn, every other code alarm 60."""
     finding = error.finding
     if finding.code.startswith("A"):
-        return Fault(alarms.kind(int(finding.code[1:])), f"line {finding.line}")
+        kind = alarms.kind(int(finding.code[1:]))
+        axis = finding.text.partition(": ")[2] if kind is alarms.NOT_HOMED else ""
+        return Fault(kind, axis or f"line {finding.line}")
     return Fault(alarms.PROGRAM_ERROR, str(finding))
