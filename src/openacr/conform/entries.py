@@ -92,7 +92,7 @@ def shown(entry: Entry) -> str:
         case Ask():
             return f"ask P{entry.parameter} {entry.text}"
         case Confirm():
-            return f"confirm {entry.check.value}"
+            return f"confirm {entry.check.name.lower().replace('_', ' ')}"
         case Stop():
             return entry.pause.value
         case End():

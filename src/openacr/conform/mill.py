@@ -8,7 +8,7 @@ from openacr.client import Card
 from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.cnc.interpreter.mdi import Mdi
 from openacr.cnc.loading.load import load
-from openacr.cnc.reading.findings import BlockError
+from openacr.cnc.reading.findings import BlockError, Finding
 from openacr.cnc.state.hosts import VirtualMachine
 from openacr.conform import entries
 from openacr.conform.form import DifferenceError
@@ -70,15 +70,16 @@ class Mill:
         return self.store.value(one(name).number)
 
     def entries(self) -> Iterator[str]:
-        """What the program becomes, without a machine; an error of execution is the last line."""
+        """What the program becomes, without a machine, or its errors; the last may be one, too."""
         program = load(self.text, self.store, self.dialect)
+        yield from map(_placed, program.errors)
         if program.errors:
-            raise UserError("; ".join(map(str, program.errors)))
+            return
         run = Interpreter(program, self.store, VirtualMachine(), self.dialect)
         try:
             yield from entries.texts(run.entries())
         except BlockError as error:
-            yield f"line {error.finding.line}: {error.finding.code} {error.finding.text}"
+            yield _placed(error.finding)
 
     # On the card.
 
@@ -199,3 +200,7 @@ class Mill:
             for axis in self.session.runner.settings.axes
         }
         return places, per_unit
+
+
+def _placed(finding: Finding) -> str:
+    return f"line {finding.line}: {finding.code} {finding.text}"
