@@ -88,7 +88,7 @@ ONE = "part:\n    G1 X1 F60\n    M2\n"
         "part of dialect rs274ngc:\n    g1 x1 y-2 f60\nentries: line X1 Y-2 F60",
         "part:\n    P130 = 5\nrun\nstore ? P130; P131 -> 5; 0",
         "part:\n    PRINT(1)\nrun\nsays: 1\nsays:",
-        "part:\n    G28 X1\n    M2\nentries:\n    rapid X1\n    rapid 0\n    confirm at reference\n    end",
+        "part:\n    G28 X1\nentries:\n    rapid X1\n    rapid 0\n    confirm at reference",
         "mdi G91 G1 X0.1 F600\nmdi G1 Q1\nE206 word has no meaning in this block: Q\nat X0.1",
         "check part:\n    G1 X1 F1\n    G77  # E: E203 unknown G code: G77",
         "check setup:\n    DIM P(1)\n    BLAH  # E: Unknown command",
