@@ -107,9 +107,9 @@ class Checks:
         home = self._cells.home(int(index.number))
         error = home.write_error()
         if error:
-            raise CodeError(error, column, f"P{index.number:g}")
+            raise CodeError(error, column, f"P{index.number:.10g}")
         if home.write_warning:
-            self._report.warn(home.write_warning, column, f"P{index.number:g}")
+            self._report.warn(home.write_warning, column, f"P{index.number:.10g}")
 
     def doubts(self, plan: Plan) -> None:
         """Warn of what may not be meant as written."""
@@ -162,7 +162,7 @@ def _is_plain(plan: Plan) -> bool:
 
 def _shown(parameter: Parameter) -> str:
     index = parameter.index
-    digits = f"{index.number:g}" if isinstance(index, Number) else "()"
+    digits = f"{index.number:.10g}" if isinstance(index, Number) else "()"
     return f"{'#' if parameter.is_hash else 'P'}{digits}"
 
 

@@ -323,5 +323,5 @@ def number(n: float) -> int:
         raise CodeError("E211")
     k = round(n)
     if abs(k - n) > NEAR:
-        raise CodeError("E204", 0, f"P{n:g}")
+        raise CodeError("E204", 0, f"P{n:.10g}")
     return k
