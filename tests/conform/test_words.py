@@ -175,6 +175,8 @@ def test_a_case_that_holds(tmp_path: Path, steps: str) -> None:
         ("part:\n    M0\nrun", "3|run|expected: IDLE|shown: HOLD M0"),
         ("store P1001 = 0.5\nstore ? P1001; P1002 -> 0.5; 0.5",
          "2|store ? P1001; P1002 -> 0.5; 0.5|expected: 0.5; 0.5|shown: 0.5; 0"),
+        ("store P400101 = 31", "1|store P400101 = 31|expected: (nothing)|shown: P400101 Discrete"
+         " Output 1 cannot be 31: outputs of the card are 32 to 63 (-1: not connected)"),
         ("state: RUN", "1|state: RUN|expected: RUN|shown: IDLE"),
         ("says: A", "1|says: A|expected: A|shown: (nothing)"),
         ("alarm: 5", "1|alarm: 5|expected: 5|shown: (nothing)"),

@@ -19,14 +19,20 @@ from openacr.conform.form import (
 from openacr.conform.stage import Stage
 from openacr.mill.plan.checking import check_text
 from openacr.mill.run.lifecycle import State
+from openacr.sysvar import SettingError
 
 AXES = "XYZABCUV"
 
 
-@word("store WHAT = RESULT")
+@word("store WHAT = RESULT", ANSWERS)
 def write_cell(stage: Stage, step: Step, name: str, text: str) -> None:
-    """Set a cell of the store, by number or name, to a value as users write it."""
-    stage.mill.write(name, text)
+    """Set a cell, by number or name, to a value as users write it; below: why it is refused."""
+    try:
+        stage.mill.write(name, text)
+    except SettingError as error:
+        compare(step, [str(error)])
+    else:
+        compare(step, [])
 
 
 @word("store ? WHAT -> RESULT")
