@@ -58,9 +58,11 @@ def remote(port: str, folder: Path, *, is_agreed: bool = False) -> Iterator[Remo
 def stopped(panel: Remote) -> list[str]:
     """What the last stop has found, once its watch is over and nothing moves."""
     until(lambda: panel.call(lambda station: not station.stopping.is_watching))
-    data = panel.call(lambda station: station.stopping.data())
-    assert data["moving"] == []
-    return list(data["found"])
+    found = panel.call(lambda station: station.stopping.data())["found"]
+    until(  # of a card on a busy computer axes still ramp down where the watch ends
+        lambda: panel.call(lambda station: station.stopping.data())["moving"] == []
+    )
+    return list(found)
 
 
 @pytest.mark.parametrize("is_serial", [False, True])
@@ -157,7 +159,8 @@ def test_a_planned_path_of_another_process_comes_to_rest_within_its_limits_and_s
             assert plant.places() == place
             if stop == "stop.all":
                 assert run.ended() != 0
-                assert "Card killed moves" in run.text
+                said = ("Card killed moves", "Card does not make the moves it was sent")
+                assert any(text in run.text for text in said)  # one that looks late sees the second
         rows = [n.AXF_BASE + axis * n.AXF_STRIDE + n.AXF_PSP_CNT for axis in range(3)]
         trace = plant.lived_again(*(Sample(Watched.FP64, row) for row in rows))
         places = trace.values / PULSES
