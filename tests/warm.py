@@ -47,7 +47,8 @@ class Popen(subprocess.Popen[Any]):
         self._most_bytes = most_bytes
         self._keeper = -1
         self._heard = b""
-        super().__init__(["openacr", *map(str, words)], **options)
+        command = ["openacr"] if CAN_FORK else [sys.executable, "-m", "openacr"]
+        super().__init__([*command, *map(str, words)], **options)
 
     if CAN_FORK:
 
