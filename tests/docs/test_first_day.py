@@ -64,7 +64,7 @@ def folder(tmp_path: Path) -> Iterator[Folder]:
     yield found
     if found.server is not None:
         found.server.terminate()
-        found.server.wait(20)
+        found.server.wait(60)
         found.output().close()
 
 

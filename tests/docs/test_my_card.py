@@ -25,7 +25,7 @@ def card() -> Iterator[str]:
         assert server.stdout is not None
         yield server.stdout.readline().split("ascii=")[1].split()[0]
         server.terminate()
-        server.wait(20)
+        server.wait(60)
 
 
 @pytest.mark.timeout(300)

@@ -65,7 +65,7 @@ def served(folder: Path) -> Iterator[str]:
         assert process.stdout is not None
         yield process.stdout.readline().split("ascii=")[1].split()[0]
         process.terminate()
-        assert process.wait(10) == 0
+        assert process.wait(60) == 0
 
 
 def test_the_conversation_of_the_tour_takes_place(served: str) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from tests import warm
 
-WAIT_S = 20.0
+WAIT_S = 60.0
 LOOPBACK = "127.0.0.1"
 
 

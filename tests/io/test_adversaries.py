@@ -68,7 +68,7 @@ def flood(port: int, data: bytes, stop: threading.Event, *, reads: bool) -> None
 
 
 def connected(port: int) -> socket.socket:
-    return socket.create_connection((LOOPBACK, port), timeout=5)
+    return socket.create_connection((LOOPBACK, port), timeout=60)
 
 
 ATTACKS: tuple[Attack, ...] = (half_open, resets, modes, packets, packets, crumbs)

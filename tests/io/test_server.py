@@ -19,7 +19,7 @@ from openacr.io.server import Address, CardServer, Guests
 from openacr.protocol import terminal
 
 GET = bytes.fromhex("00 30 02 01")
-WAIT_S = 5.0
+WAIT_S = 60.0
 
 
 class Host:
@@ -309,12 +309,20 @@ def test_card_time_follows_the_clock_at_the_chosen_speed() -> None:
     async def body(bench: Bench) -> None:
         host = await bench.connect()
         loop = asyncio.get_running_loop()
-        first = int((await host.ask(b"TICK\r")).split()[1])
-        began = loop.time()
-        await asyncio.sleep(0.3)
-        last = int((await host.ask(b"TICK\r")).split()[1])
-        elapsed_s = loop.time() - began
-        assert (last - first) * bench.card.period_s / 4 == pytest.approx(elapsed_s, abs=0.1)
+
+        async def measured() -> tuple[float, float]:
+            """Seconds of the clock, and of the card at four times its speed."""
+            first = int((await host.ask(b"TICK\r")).split()[1])
+            began = loop.time()
+            await asyncio.sleep(0.3)
+            last = int((await host.ask(b"TICK\r")).split()[1])
+            return loop.time() - began, (last - first) * bench.card.period_s / 4
+
+        async with asyncio.timeout(WAIT_S):  # a loaded computer lets a card be late
+            while True:
+                elapsed_s, card_s = await measured()
+                if card_s == pytest.approx(elapsed_s, rel=0.1):
+                    break
         assert bench.server.report().observations > 50
 
     serve(body, speed=4)
@@ -408,7 +416,9 @@ def test_a_connection_of_a_web_page_is_closed_before_anything_is_executed(
         assert await (await bench.connect()).ask(b"LEN\r") == b"LEN\r\n3\r\nSYS>"
 
     serve(body)
-    refused = [record.message for record in caplog.records if record.levelname == "WARNING"]
+    warnings = [record.message for record in caplog.records if record.levelname == "WARNING"]
+    # on a loaded computer the card may be late, too
+    refused = [each for each in warnings if "cannot keep real time" not in each]
     assert len(refused) == 1
     assert refused[0].endswith(" refused: it speaks HTTP or TLS, as a web page does")
 

@@ -20,7 +20,7 @@ from openacr.io.server import CardServer, Guests
 from openacr.io.status_port import StatusPort
 
 ON = bytes.fromhex("00000001 0000000A")
-WAIT_S = 5.0
+WAIT_S = 60.0
 
 
 @contextmanager

@@ -11,7 +11,7 @@ from tests.io.served import LOOPBACK
 from openacr.channels import StreamKind
 from openacr.io.server import Address, CardServer
 
-WAIT_S = 10.0
+WAIT_S = 60.0
 
 
 @contextmanager

@@ -163,7 +163,7 @@ def test_a_writer_waits_for_the_one_at_work(tmp_path: Path) -> None:
         assert other.poll() is None
         assert store.read(150) == 0.0
         busy.commit()
-        assert other.wait(5) == 0
+        assert other.wait(60) == 0
         assert store.read(150) == 2.0
     busy.close()
 
@@ -178,7 +178,7 @@ def test_many_processes_may_open_a_new_store_at_once(tmp_path: Path) -> None:
     started = [
         subprocess.Popen([sys.executable, "-c", code, str(n)], env=environment) for n in range(4)
     ]
-    assert [each.wait(30) for each in started] == [0, 0, 0, 0]
+    assert [each.wait(60) for each in started] == [0, 0, 0, 0]
     with Store(path) as store:
         assert [store.read(100 + n) for n in range(4)] == [1.0] * 4
 
