@@ -175,41 +175,6 @@ def test_the_first_line_typed_by_any_listener_is_taken(card: Machine) -> None:
     assert card.sent(other).endswith("? 7|")
 
 
-# what programs and channels say
-
-
-@pytest.mark.req("ACR-RUN-02", "ACR-RUN-04", "ACR-RUN-08", "ACR-IMM-07")
-def test_a_program_runs_beside_the_prompt_and_is_heard_by_listen(card: Machine) -> None:
-    card.load(2, "_Loop", "P1 = P1 + 1", "DWL 0.01", 'IF (P1 > 5) THEN PRINT "over" : END',
-              "GOTO Loop")  # fmt: skip
-    assert card.type("PROG 2", "RUN") == "P02>P02>"
-    card.advance(50)
-    assert card.type("?BIT(1088)") == "-1|P02>"
-    card.type("LISTEN")
-    card.advance(20)
-    card.channel.escape()
-    assert card.sent() == "|P02>"
-    assert card.control.is_running(2)
-    card.type("LISTEN")
-    card.advance(200)
-    assert card.sent() == "over|"
-    assert not card.control.is_running(2)
-
-
-@pytest.mark.req("ACR-RUN-05", "ACR-CMD-LRUN")
-def test_lrun_shows_run_time_and_structure_errors(card: Machine) -> None:
-    card.load(1, "P1 = 5", "P1 = 1 / (P1 - 5)")
-    card.type("PROG 1")
-    assert card.type("RUN") == "P01>"
-    card.advance()
-    assert card.sent() == ""
-    assert card.type("LRUN") == ""
-    card.advance()
-    assert card.sent() == "Error in PROG1 line 30: Divide by zero|P01>"
-    card.load(1, "IF (P1)", "P1 = 2")
-    assert card.type("LRUN") == "Error in PROG1 line 20: IF without ENDIF|P01>"
-
-
 @pytest.mark.req("ACR-SYN-15")
 def test_typographic_quotes_apostrophes_and_dashes_are_understood(card: Machine) -> None:
     assert card.type("PRINT \u201ctries\u201d") == "tries|P00>"

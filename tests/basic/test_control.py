@@ -118,29 +118,6 @@ def test_all_programs_that_begin_with_pboot_run_together(card: Machine) -> None:
     assert [card.control.is_running(program) for program in (1, 2, 3)] == [False, True, True]
 
 
-@pytest.mark.req("ACR-RUN-11")
-def test_run_and_halt_all_act_on_all_programs(card: Machine) -> None:
-    card.type("NEW")
-    for program in (1, 2, 3):
-        card.load(program, "_L", f"P{program} = P{program} + 1", "DWL 0.001", "GOTO L")
-    card.type("RUN ALL")
-    card.advance(20)
-    assert min(counts(card)) >= 1
-    card.type("PAUSE ALL")
-    card.advance(20)
-    held = counts(card)
-    card.advance(100)
-    assert counts(card) == held
-    card.type("RESUME ALL")
-    card.advance(100)
-    assert all(now > before for now, before in zip(counts(card), held, strict=True))
-    card.type("HALT ALL")
-    assert card.type("?BIT1056;BIT1088;BIT1120").endswith("000|P01>")
-    ended = counts(card)
-    card.advance(100)
-    assert counts(card) == ended
-
-
 def test_programs_go_on_while_their_text_is_edited(card: Machine) -> None:
     card.type("RUN")
     card.advance(5)

@@ -11,15 +11,6 @@ def bench() -> Bench:
     return bench
 
 
-@pytest.mark.req("ACR-RUN-01")
-@pytest.mark.parametrize("level", ["SYS", "PROG 5", "PLC 1"])
-def test_run_pause_and_halt_work_anywhere_with_a_target(bench: Bench, level: str) -> None:
-    bench.type(level, "RUN PROG2", "PAUSE PROG2", "RESUME PROG 2", "HALT PLC3", "HALT PROG2")
-    assert bench.control.calls == [
-        ("run", 2, None), ("pause", 2), ("resume", 2), ("halt", 19), ("halt", 2),
-    ]  # fmt: skip
-
-
 def test_without_target_the_program_of_the_prompt_is_meant(bench: Bench) -> None:
     assert bench.type("PROG 2", "RUN", "HALT", "RUN 20") == "P02>" * 4
     assert bench.control.calls == [("run", 2, None), ("halt", 2), ("run", 2, 20)]
@@ -37,22 +28,9 @@ def test_run_all_starts_what_is_stored_and_not_running(bench: Bench) -> None:
     assert bench.control.calls == [("run", 2, None), ("run", 0, None)]
 
 
-@pytest.mark.req("ACR-RUN-12")
-def test_a_running_program_is_not_started_again(bench: Bench) -> None:
-    assert bench.type("PROG 0", "RUN", "RUN") == "P00>P00>Program is running|P00>"
-    assert bench.type("LRUN") == "Program is running|P00>"
-
-
 def test_an_empty_program_is_started_silently(bench: Bench) -> None:
     assert bench.type("PROG 7", "RUN", "LRUN") == "P07>" * 3
     assert bench.control.calls == []
-
-
-@pytest.mark.req("ACR-SYN-08")
-def test_halt_accepts_a_program_a_plc_or_all(bench: Bench) -> None:
-    assert bench.type("HALT PROG3", "HALT PLC2", "HALT ALL") == "SYS>" * 3
-    assert bench.control.calls[:3] == [("halt", 3), ("halt", 18), ("halt", 0)]
-    assert bench.type("HALT PROG16") == "Invalid argument|SYS>"
 
 
 def test_stepping_commands_reach_their_program(bench: Bench) -> None:

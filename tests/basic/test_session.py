@@ -76,14 +76,6 @@ def test_axis_and_master_commands_are_unknown_at_sys(line: str) -> None:
     assert card.card.memory.digest() == before
 
 
-@pytest.mark.req("ACR-IMM-01", "ACR-IMM-02")
-def test_commands_without_number_act_at_once() -> None:
-    card = Machine()
-    card.type("PROG 0", "ATTACH MASTER0")
-    assert card.type("VEL", "VEL 1000", "VEL") == "10000|P00>P00>1000|P00>"
-    assert card.type("?BIT32", "SET 32", "?BIT32") == "0|P00>P00>-1|P00>"
-
-
 @pytest.mark.parametrize(
     ("line", "answer"),
     [
@@ -126,13 +118,6 @@ def test_a_lost_connection_ends_the_line_with_its_rest() -> None:
 # storing
 
 
-@pytest.mark.req("ACR-IMM-03", "ACR-IMM-04")
-def test_numbered_lines_are_stored_replaced_and_deleted(bench: Bench) -> None:
-    assert bench.type("PROG 0", "20 DWL 2", "15 VER", "20 DWL 3", "5 MEM") == "P00>" * 5
-    assert bench.type("LIST") == "5 MEM|15 VER|20 DWL 3|P00>"
-    assert bench.type("15", "15", "LIST") == "P00>P00>5 MEM|20 DWL 3|P00>"
-
-
 def test_a_numbered_line_at_sys_has_no_program_to_go_to(bench: Bench) -> None:
     assert bench.type("10 VER") == "Unknown command|SYS>"
 
@@ -157,16 +142,6 @@ def test_program_to_endp_is_stored_with_hidden_numbers(bench: Bench) -> None:
     assert bench.type("PROG 0", *lines) == "P00>" * 9
     assert bench.type("LIST") == "PROGRAM| REM kept| _Loop| DWL 1| GOTO Loop|ENDP|P00>"
     assert [line.number for line in bench.system.programs.lines(0)] == [10, 20, 30, 40, 50, 60]
-
-
-@pytest.mark.req("ACR-IMM-06")
-def test_line_numbers_of_free_form_text_show_with_bit_5651(bench: Bench) -> None:
-    bench.type("PROG 0", "PROGRAM", "DWL 1", "ENDP")
-    assert bench.type("LIST") == "PROGRAM| DWL 1|ENDP|P00>"
-    bench.card.memory.set_bit(5651, True)
-    assert bench.type("LIST") == "10 PROGRAM|20  DWL 1|30 ENDP|P00>"
-    bench.card.memory.set_bit(5651, False)
-    assert bench.type("15 VER", "LIST") == "P00>PROGRAM| VER| DWL 1|ENDP|P00>"
 
 
 @pytest.mark.req("ACR-CMD-PROGRAM")
@@ -242,19 +217,6 @@ def test_a_program_has_as_many_listeners_as_channels_listen_to_it(bench: Bench) 
     bench.sent()
     bench.system.listeners.print(2, "again\r\n")
     assert (bench.sent(), other.take_output()) == ("", b"again\r\n")
-
-
-@pytest.mark.req("ACR-RUN-06")
-def test_escape_in_lrun_gives_one_prompt_and_leaves_the_program_running(bench: Bench) -> None:
-    bench.type("PROG 0", "10 DWL 1")
-    assert bench.type("LRUN") == ""
-    bench.session.escape()
-    assert bench.sent() == "|P00>"
-    assert bench.control.running == {0}
-    bench.session.escape()
-    assert bench.sent() == ""
-    bench.system.listeners.ended(0)
-    assert bench.sent() == ""
 
 
 def test_an_lrun_that_is_refused_gives_the_prompt_back(

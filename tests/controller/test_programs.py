@@ -4,20 +4,6 @@ import pytest
 from tests.controller.hosts import Host, store
 
 
-@pytest.mark.req("ACR-IMM-03", "ACR-IMM-04")
-def test_numbered_lines_are_stored_changed_and_deleted(axes: Host) -> None:
-    axes.type('20 PRINT "b>"', '10 PRINT "a"', "30 VEL 77", '20 PRINT "c>"', "30")
-    listed = axes.type("LIST")
-    assert listed.splitlines() == listed.splitlines()
-    assert '10 PRINT "a"|' in listed
-    assert '20 PRINT "c>"|' in listed
-    assert "30" not in listed
-    assert axes.ask("VEL") == "100"
-    assert axes.type("LRUN") == "a|c>|P00>" or axes.after(100) == "a|c>|P00>"
-    axes.type('10 PRINT "d"')
-    assert axes.type("LRUN") + axes.after(100) == "d|c>|P00>"
-
-
 def test_lrun_shows_the_output_and_gives_the_prompt_back_at_the_end(axes: Host) -> None:
     store(axes, 'PRINT "one"', "DWL 0.1", 'PRINT "two>"')
     assert axes.send("LRUN\r") + axes.after(20) == "LRUN|one|"
@@ -64,15 +50,6 @@ def test_run_starts_what_it_names_and_gives_the_prompt_back(
     owners = (0, 1, 2, 16)
     assert [n for n in owners if axes.card.system.control.is_running(n)] == running
     assert [n for n in (0, 1, 2) if axes.card.bit[1024 + 32 * n]] == [n for n in running if n < 16]
-
-
-@pytest.mark.req("ACR-IMM-07", "ACR-IMM-08")
-def test_commands_work_while_the_program_runs(axes: Host) -> None:
-    store(axes, "_L", "X0", "X5", "GOTO L")
-    axes.type("RUN")
-    axes.card.advance(100)
-    assert axes.type("VEL 55", "SET 33") == "P00>P00>"
-    assert axes.asks("?VEL", "?BIT33", "?BIT516") == ["55", "-1", "-1"]
 
 
 def test_an_endless_goto_does_not_slow_the_terminal(axes: Host) -> None:
