@@ -58,28 +58,6 @@ def test_programs_8_to_15_share_one_slice() -> None:
     assert [count(rig, 8), count(rig, 9)] == [pytest.approx(500, abs=15)] * 2
 
 
-@pytest.mark.req("ACR-INH-03")
-def test_a_wait_of_a_low_priority_program_holds_the_others() -> None:
-    rig = Rig()
-    start(rig, 9, *counting(9))
-    start(rig, 8, "INH 40")
-    rig.pass_ticks(40)
-    held = count(rig, 9)
-    rig.pass_ticks(400)
-    assert count(rig, 9) == held
-    rig.memory.set_bit(40, True)
-    rig.pass_ticks(400)
-    assert count(rig, 9) > held + 100
-
-
-def test_a_wait_of_a_high_priority_program_holds_no_other() -> None:
-    rig = Rig()
-    start(rig, 0, "INH 40")
-    start(rig, 1, *counting(1))
-    rig.pass_ticks(300)
-    assert count(rig, 1) > 200
-
-
 def test_dwell_shows_and_lasts() -> None:
     rig = Rig()
     start(rig, 0, "DWL 0.1", "SET 40")
@@ -98,17 +76,6 @@ def test_a_dwell_of_nothing_returns_at_once() -> None:
     assert rig.bit(40)
 
 
-@pytest.mark.req("ACR-INH-01", "ACR-INH-09")
-def test_inh_waits_for_a_set_flag_and_shows_it() -> None:
-    rig = Rig()
-    start(rig, 0, "INH 40", "SET 41")
-    rig.pass_ticks(100)
-    assert (rig.bit(INHIBITED), rig.bit(41)) == (True, False)
-    rig.memory.set_bit(40, True)
-    rig.pass_ticks(4)
-    assert (rig.bit(INHIBITED), rig.bit(41)) == (False, True)
-
-
 @pytest.mark.req("ACR-INH-02")
 @pytest.mark.parametrize("form", ["INH -516", "INH -BIT516", "P0=-516 : INH (P0)"])
 def test_inh_waits_for_a_clear_flag(form: str) -> None:
@@ -122,17 +89,6 @@ def test_inh_waits_for_a_clear_flag(form: str) -> None:
     assert rig.bit(41)
 
 
-def test_inh_minus_zero_waits_for_flag_0_clear() -> None:
-    rig = Rig()
-    rig.memory.set_bit(0, True)
-    start(rig, 0, "INH -0", "SET 41")
-    rig.pass_ticks(50)
-    assert not rig.bit(41)
-    rig.memory.set_bit(0, False)
-    rig.pass_ticks(4)
-    assert rig.bit(41)
-
-
 def test_inh_gives_up_after_its_timeout() -> None:
     rig = Rig()
     start(rig, 0, "INH 40 (0.05)", "SET 41")
@@ -140,52 +96,6 @@ def test_inh_gives_up_after_its_timeout() -> None:
     assert not rig.bit(41)
     rig.pass_ticks(10)
     assert (rig.bit(41), rig.bit(TIMEOUT), rig.bit(INHIBITED)) == (True, True, False)
-
-
-@pytest.mark.req("ACR-INH-04", "ACR-INH-05", "ACR-INH-07")
-@pytest.mark.parametrize(
-    ("statement", "parameter", "at_setpoint", "beyond"),
-    [
-        ("IHPOS P6160 (40000,5.5)", 6160, 40000, 40001),
-        ("IHPOS -P6160 (40000,5.5)", 6160, 40000, 39999),
-        ("IHPOS P50 (0.5,5.5)", 50, 0.5, 0.50001),
-        ("IHPOS -P8216 (2)", 8216, 2, 1.5),
-    ],
-)
-def test_ihpos_waits_for_a_parameter_strictly_beyond(
-    statement: str, parameter: int, at_setpoint: float, beyond: float
-) -> None:
-    rig = Rig()
-    rig.memory.write(parameter, at_setpoint)
-    start(rig, 0, statement, "SET 41")
-    rig.pass_ticks(60)
-    assert (rig.bit(41), rig.bit(INHIBITED)) == (False, True)
-    rig.memory.write(parameter, beyond)
-    rig.pass_ticks(4)
-    assert (rig.bit(41), rig.bit(TIMEOUT)) == (True, False)
-
-
-@pytest.mark.req("ACR-INH-08")
-def test_ihpos_gives_up_after_its_timeout_and_a_new_one_clears_the_flag() -> None:
-    rig = Rig()
-    start(rig, 0, "IHPOS P6160 (40000,0.05)", "SET 41", "DWL 0.02", "IHPOS P6160 (-1,1)", "SET 42")
-    rig.pass_ticks(110)
-    assert (rig.bit(41), rig.bit(TIMEOUT)) == (True, True)
-    rig.pass_ticks(50)
-    assert (rig.bit(42), rig.bit(TIMEOUT)) == (True, False)
-
-
-@pytest.mark.req("ACR-INH-06")
-def test_ihpos_with_timeout_0_waits_for_ever() -> None:
-    rig = Rig()
-    start(rig, 0, "IHPOS P6160 (40000,0)", "SET 41")
-    rig.memory.write(6160, 40000)
-    rig.pass_ticks(5000)
-    assert rig.bit(INHIBITED)
-    assert not rig.bit(41)
-    rig.memory.write(6160, 40001)
-    rig.pass_ticks(4)
-    assert (rig.bit(41), rig.bit(INHIBITED), rig.bit(TIMEOUT)) == (True, False, False)
 
 
 def test_a_waiting_line_is_answered_when_it_is_done() -> None:
