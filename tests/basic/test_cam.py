@@ -41,23 +41,6 @@ def test_a_cam_runs_in_both_directions() -> None:
     assert offsets(made, -10, -15, -50) == pytest.approx([16, 40, 100])
 
 
-@pytest.mark.parametrize(("scale", "offset"), [("1", 250), ("2", 500), ("-1", -250)])
-@pytest.mark.req("ACR-CAM-04")
-def test_an_incremental_cam_adds_up(scale: str, offset: int) -> None:
-    made = bench(0, 100, lines=(f"CAM SCALE X{scale}", "CAM ON X"))
-    assert turn(made, 250) == offset
-    assert turn(made, -250) == 0.0
-    turn(made, 130)
-    assert made.type("CAM SHIFT X") == str(100 * int(scale))
-
-
-def test_segments_follow_each_other() -> None:
-    made = bench(0, 10, length=100).all("DIM LA1(3)", "LA1(0)=10 : LA1(1)=50 : LA1(2)=0")
-    made.all("CAM CLEAR X", "CAM DIM X2", "CAM SEG X(0,100,LA0)", "CAM SEG X(1,20,LA1)")
-    made.all("CAM SRC X ENC10", "CAM ON X")
-    assert offsets(made, 50, 55, 5, 5, 5) == [5, 30, 50, 25, 0]
-
-
 # settings
 
 

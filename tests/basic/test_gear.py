@@ -10,7 +10,7 @@ from tests.basic.motion_bench import Bench
 from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
-CURRENT, PSP, GEAR, SLIP, ON_OFFSET = 12288, 12294, 12296, 12369, 12396
+PSP, GEAR, SLIP, ON_OFFSET = 12294, 12296, 12369, 12396
 LOCK, AT_SPEED, STOPPING, ACTIVATE, ACTIVE = 781, 782, 783, 788, 789
 ON_ARMED, ON_POSITION, STARTED, OFF_ARMED, OFF_POSITION, MAX, MIN = (
     2312, 2313, 2314, 2316, 2317, 2318, 2319,
@@ -118,19 +118,6 @@ def test_gear_lock_forces_the_programmed_ratio() -> None:
 
 
 # registers
-
-
-@pytest.mark.req("ACR-GEAR-04")
-def test_gear_res_clears_or_preloads_the_register() -> None:
-    made = bench("PPU X10", "GEAR ON X")
-    turn(made, 7)
-    made.all("GEAR RES X").ticks(1)
-    assert (made.p(GEAR), made.p(CURRENT), made.p(PSP)) == (0, 70, 70)
-    made.all("GEAR RES X5").ticks(1)
-    assert (made.p(GEAR), made.p(CURRENT), made.p(PSP)) == (50, 20, 70)
-    made.all("GEAR OFFSET X1").ticks(1)
-    assert (made.p(GEAR), made.p(CURRENT), made.p(PSP)) == (10, 20, 30)
-    assert made.type("GEAR OFFSET X") == "1"
 
 
 def test_gear_res_waits_for_no_move_to_end() -> None:

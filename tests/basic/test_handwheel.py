@@ -134,13 +134,6 @@ def test_flags_do_not_move_a_locked_axis(flag: int) -> None:
     assert (made.psp(1), made.bit(flag)) == (0, False)
 
 
-def test_the_leader_may_have_the_higher_number() -> None:
-    made = bench("LOCK Y X", "JOG INC Y1")
-    for _ in range(100):
-        made.ticks(1)
-        assert made.psp(0) == made.psp(1)
-
-
 def test_res_of_the_leader_moves_nothing() -> None:
     made = bench("LOCK X Y", "JOG INC X1")
     made.until_clear(ACTIVE)

@@ -116,16 +116,6 @@ def test_an_output_switches_in_the_servo_period_of_the_crossing() -> None:
     assert not made.bit(32)
 
 
-@pytest.mark.req("ACR-CMD-OOP")
-def test_the_flag_is_set_within_the_window() -> None:
-    made = Bench().all("OOP1 SRC ENC10", "OOP1 BIT 40", "OOP1 POS (10,20)", "OOP1 ON")
-    seen = [place(made, position).bit(40) for position in (9, 10, 19, 20)]
-    assert seen == [False, True, True, False]
-    place(made, 15).all("OOP1 OFF")
-    assert not made.bit(40)
-    assert made.type("OOP1") == "OOP1 OFF SRC ENC10 BIT 40 POS (10,20)"
-
-
 @pytest.mark.parametrize(("count", "last"), [("", True), (",0", True), (",2", False)])
 def test_windows_repeat(count: str, last: bool) -> None:
     made = Bench().all("OOP0 SRC ENC10", f"OOP0 INC (100,50,10{count})", "OOP0 ON")

@@ -62,13 +62,3 @@ def test_new_of_a_running_program_erases_nothing(bench: Bench) -> None:
 
 def test_lists_of_an_empty_program_print_nothing(bench: Bench) -> None:
     assert bench.type("PROG 9", "LIST") == "P09>P09>"
-
-
-@pytest.mark.req("ACR-PBOOT-03")
-def test_pboot_typed_starts_every_program_that_begins_with_it(bench: Bench) -> None:
-    bench.type("PROG 1", "PROGRAM", "PBOOT", "VER", "ENDP")
-    bench.type("PROG 3", "10 PBOOT", "20 VER", "PROG 4", "10 REM first", "20 PBOOT")
-    bench.type("PROG 5", "10 VER", "20 PBOOT", "PBOOT")
-    assert bench.control.calls == [("run", 1, None), ("run", 3, None)]
-    bench.execute(5, "PBOOT")
-    assert len(bench.control.calls) == 2

@@ -52,22 +52,6 @@ def test_int_ends_a_move_at_its_flag_and_the_next_one_starts() -> None:
     assert made.p(12289) == made.p(12288)
 
 
-def test_int_never_looks_with_a_period_of_minus_1_and_5_is_the_default() -> None:
-    made = bench(f"SET {FLAG}")
-    assert made.p(RESPONSE) == 5
-    made.all(f"P{RESPONSE} = -1", f"INT {FLAG} X5")
-    made.until_clear(IN_MOTION)
-    assert made.psp(0) == 5000
-
-
-def test_int_with_a_minus_waits_for_the_clear_state() -> None:
-    made = bench(f"SET {FLAG}", f"INT -{FLAG} X5")
-    made.until_clear(IN_MOTION)
-    assert made.psp(0) == 5000
-    made.all(f"CLR {FLAG}", f"INT -{FLAG} X50")
-    assert made.until_clear(IN_MOTION) < 20
-
-
 def test_a_hold_during_the_stop_of_int_keeps_it_ended() -> None:
     made = bench()
     made.type(f"INT {FLAG} X100")
