@@ -93,29 +93,9 @@ def test_the_edge_of_step_control_is_a_step_too(card: Machine) -> None:
     assert counts(card) == (1, 0, 0)
 
 
-@pytest.mark.req("ACR-CMD-AUT")
-def test_aut_leaves_block_mode(card: Machine) -> None:
-    card.type("RUN", "BLK")
-    card.advance(100)
-    card.type("AUT")
-    card.advance(100)
-    assert counts(card) == (1, 1, 1)
-    assert bits(card, BLOCK_CONTROL, BLOCK_MODE, BLOCK_WAITING) == [False] * 3
-
-
 def test_step_outside_block_mode_does_nothing(card: Machine) -> None:
     card.type("STEP")
     assert bits(card, PROGRAM_1 + 21) == [False]
-
-
-@pytest.mark.req("ACR-PBOOT-06", "ACR-CMD-PBOOT")
-def test_all_programs_that_begin_with_pboot_run_together(card: Machine) -> None:
-    for program in (2, 3):
-        card.load(program, "PBOOT", f"P{program} = 1", "DWL 1")
-    card.type("PBOOT")
-    card.advance(20)
-    assert counts(card) == (0, 1, 1)
-    assert [card.control.is_running(program) for program in (1, 2, 3)] == [False, True, True]
 
 
 def test_programs_go_on_while_their_text_is_edited(card: Machine) -> None:

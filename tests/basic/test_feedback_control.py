@@ -120,13 +120,6 @@ def test_mseek_returns_to_the_capture_and_makes_it_0() -> None:
     assert (made.bit(CAPTURED), made.p(CURRENT), made.p(ACTUAL)) == (True, 0, 0)
 
 
-@pytest.mark.req("ACR-CMD-MSEEK")
-def test_mseek_without_a_capture_ends_as_a_move() -> None:
-    made = seeking("MSEEK X(-1,2)")
-    made.until_clear(IN_MOTION)
-    assert (made.p(CURRENT), made.bit(CAPTURED), made.type("INTCAP X")) == (-1000, False, "OFF")
-
-
 def test_seeks_of_several_axes_follow_one_another() -> None:
     made = seeking("MSEEK X(0.1,2) Y(0.2,2)")
     made.until_clear(IN_MOTION)

@@ -73,27 +73,6 @@ def test_it_stops_at_a_soft_limit_and_comes_back() -> None:
 # time base of jogs
 
 
-@pytest.mark.req("ACR-CMD-JOG-SRC")
-def test_1000_source_pulses_are_a_second_of_the_jog() -> None:
-    made = bench("JOG SRC X ENC10", "JOG ACC X0 : JOG DEC X0", "JOG INC X1").ticks(50)
-    assert made.p(JOG) == 0
-    turn(made, *([1] * 50))
-    assert made.p(JOG) == 500
-    turn(made, -20, *([1] * 20))
-    assert made.p(JOG) == 500
-    turn(made, *([2] * 25))
-    assert (made.p(JOG), made.bit(ACTIVE)) == (1000, False)
-
-
-@pytest.mark.req("ACR-CMD-JOG-SRC", "ACR-HOME-07")
-def test_homing_needs_the_clock() -> None:
-    made = bench("JOG SRC X ENC10")
-    assert made.type("JOG HOME X1") == "Invalid source"
-    made.all("SET 17160").ticks(2)
-    assert not made.bit(16131)
-    assert made.type("JOG SRC X Y") == "ENC10|CLK"
-
-
 def test_a_kill_stops_by_the_clock() -> None:
     made = bench("JOG SRC X ENC10", "HLDEC X100", "JOG ACC X0", "JOG FWD X")
     turn(made, *([1] * 20))
@@ -102,19 +81,6 @@ def test_a_kill_stops_by_the_clock() -> None:
 
 
 # filtered following
-
-
-@pytest.mark.req("ACR-CMD-FLT")
-def test_a_filter_spreads_each_delta_over_its_ticks() -> None:
-    made = bench("FLT SRC X ENC10", "FLT COEF X4", "FLT ON X")
-    assert made.bit(6404)
-    seen = []
-    for count in (8, 0, 4, 0, 0, 0, 0):
-        turn(made, count)
-        seen.append(made.memory.F[at.AXF_BASE + at.AXF_GEAR_CNT])
-    assert seen == [2, 4, 7, 10, 11, 12, 12]
-    made.all("FLT OFF X")
-    assert (turn(made, 9).p(GEAR), made.bit(6404), made.type("FLT COEF X")) == (12, False, "4")
 
 
 def test_a_filter_may_move_a_parameter() -> None:

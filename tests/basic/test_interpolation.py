@@ -38,16 +38,6 @@ def test_what_follows_a_target_in_its_block_still_shapes_the_move() -> None:
     assert made.until_clear(IN_MOTION) == ticks(0.1)
 
 
-@pytest.mark.req("ACR-CMD-PPU")
-def test_a_move_of_one_unit_changes_the_encoder_by_ppu_counts() -> None:
-    made = bench()
-    made.type("PPU X400 Y-25")
-    made.type("X1 Y1")
-    made.until_clear(IN_MOTION)
-    made.ticks(1)
-    assert (made.p(6144), made.p(6160)) == (400, -25)
-
-
 @pytest.mark.req("ACR-ATT-08", "ACR-MOT-02")
 def test_a_move_without_attachments_is_refused() -> None:
     made = Bench()

@@ -17,20 +17,6 @@ def bench() -> Bench:
     return Bench()
 
 
-@pytest.mark.req("ACR-CMD-ATTACH")
-def test_attachments_are_listed_as_hosts_read_them(bench: Bench) -> None:
-    assert bench.type("PROG 0", "ATTACH") == "P00>P00>"
-    bench.type("ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"', 'ATTACH SLAVE 1 AXIS 1 "Y"')
-    assert bench.type("ATTACH") == (
-        'ATTACH MASTER0|ATTACH SLAVE0 AXIS0 "X"|ATTACH SLAVE1 AXIS1 "Y"|P00>'
-    )
-    assert bench.type("ATTACH MASTER 0") == "Master already attached|P00>"
-    assert bench.type("DETACH SLAVE1", "ATTACH") == (
-        'P00>ATTACH MASTER0|ATTACH SLAVE0 AXIS0 "X"|P00>'
-    )
-    assert bench.type("DETACH", "ATTACH") == "P00>P00>"
-
-
 @pytest.mark.req("ACR-COMM-08")
 @pytest.mark.parametrize("line", ["ATTACH MASTER0", "LIST", "LRUN", "RUN", "STEP"])
 def test_program_commands_are_unknown_at_sys_and_change_nothing(bench: Bench, line: str) -> None:

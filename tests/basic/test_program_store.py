@@ -81,28 +81,6 @@ def test_every_change_sets_program_modified(store: ProgramStore) -> None:
         assert words[at.PF_WORD + 3] == at.PF_PROGRAM_MODIFIED
 
 
-@pytest.mark.req("ACR-PBOOT-02")
-@pytest.mark.parametrize(
-    ("texts", "starts"),
-    [
-        (("PBOOT", "DWL 1"), True),
-        (("PROGRAM", "PBOOT", "ENDP"), True),
-        ((": PBOOT",), True),
-        (("DWL 1", "PBOOT"), False),
-        (("REM first", "PBOOT"), False),
-        (("PROGRAM", "REM first", "PBOOT"), False),
-        (("PROGRAM",), False),
-        ((), False),
-    ],
-)
-def test_only_pboot_as_first_statement_starts_a_program(
-    store: ProgramStore, texts: tuple[str, ...], starts: bool
-) -> None:
-    for number, text in enumerate(texts, start=1):
-        store.put(0, line(number, text))
-    assert store.starts_by_itself(0) is starts
-
-
 @pytest.mark.parametrize(
     ("text", "rest"),
     [

@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.motion_bench import Bench
 
-INDEX, TRIGGER_INDEX, CLOCK, PERIOD = 6912, 6913, 6914, 6915
+INDEX, TRIGGER_INDEX, PERIOD = 6912, 6913, 6915
 ARMED, RUNNING, MODE, LATCHED = 104, 105, 106, 107
 
 
@@ -33,14 +33,6 @@ def test_without_trigger_it_records_every_tick_until_full() -> None:
     live(made, 6, 7, 8)
     assert [made.bit(flag) for flag in (ARMED, RUNNING, LATCHED)] == [False, False, True]
     assert (array(made, "LA0", 3), made.p(INDEX)) == ([5, 6, 7], 3)
-
-
-@pytest.mark.req("ACR-CMD-SAMP")
-def test_the_period_is_kept() -> None:
-    made = bench(3, "SAMP PERIOD 0.002", f"SET {ARMED}")
-    assert (made.p(PERIOD), made.type("SAMP PERIOD")) == (2, "0.002")
-    live(made, *range(12))
-    assert array(made, "LA0", 3) == [0, 4, 8]
 
 
 def test_the_trigger_is_waited_for() -> None:

@@ -5,7 +5,7 @@ from tests.basic.motion_bench import Bench
 
 from openacr.map import numbers as at
 
-D_TERM, OUTPUT = 12314, 12319
+D_TERM = 12314
 
 
 # what they do: a motor that never turns, so that the error is what is commanded
@@ -34,17 +34,6 @@ def test_dgain_puts_the_smoothing_into_effect() -> None:
 
 
 # filters
-
-
-@pytest.mark.req("ACR-CMD-LOPASS")
-def test_a_low_pass_smooths_the_output() -> None:
-    plain, smooth = step(stalled("PGAIN X0.01"), 100), stalled("PGAIN X0.01 : LOPASS X20")
-    step(smooth, 100)
-    assert plain.p(OUTPUT) == 1.0
-    assert 0.0 < smooth.p(OUTPUT) < 0.05
-    smooth.seconds(0.2)
-    assert smooth.p(OUTPUT) == pytest.approx(1.0, abs=1e-3)
-    assert smooth.p(12317) == 1.0
 
 
 def test_a_new_servo_period_keeps_the_frequency_of_a_filter() -> None:

@@ -136,20 +136,6 @@ def test_storing_sets_program_modified(bench: Bench) -> None:
     assert bench.card.memory.bit(1024 + 32 * 3 + 5)
 
 
-@pytest.mark.req("ACR-CMD-PROGRAM")
-def test_program_to_endp_is_stored_with_hidden_numbers(bench: Bench) -> None:
-    lines = ("PROGRAM", "' dropped", "", "REM kept", "_Loop", "DWL 1", "GOTO Loop", "ENDP")
-    assert bench.type("PROG 0", *lines) == "P00>" * 9
-    assert bench.type("LIST") == "PROGRAM| REM kept| _Loop| DWL 1| GOTO Loop|ENDP|P00>"
-    assert [line.number for line in bench.system.programs.lines(0)] == [10, 20, 30, 40, 50, 60]
-
-
-@pytest.mark.req("ACR-CMD-PROGRAM")
-def test_program_erases_the_old_text(bench: Bench) -> None:
-    bench.type("PROG 0", "10 VER", "20 MEM", "PROGRAM", "DWL 1", "ENDP")
-    assert bench.type("LIST").count("|") == 3
-
-
 def test_a_refused_line_inside_program_is_left_out(bench: Bench) -> None:
     answer = bench.type("PROG 0", "PROGRAM", "NONSENSE", "LIST", "REBOOT", "ENDP")
     assert answer == "P00>P00>Unknown command|P00>" + "Not valid at this level|P00>" * 2 + "P00>"
@@ -187,20 +173,6 @@ def test_program_at_sys_is_unknown(bench: Bench) -> None:
 
 
 # listening
-
-
-@pytest.mark.req("ACR-CMD-LISTEN")
-def test_listening_shows_output_and_no_prompt_until_escape(bench: Bench) -> None:
-    assert bench.type("PROG 2", "LISTEN") == "P02>"
-    assert bench.session.attention is Attention.LISTENING
-    bench.system.listeners.print(2, "hello\r\n")
-    bench.system.listeners.print(1, "not for you\r\n")
-    bench.system.listeners.error(2, 30, "Divide by zero")
-    assert bench.sent() == "hello|Error in PROG2 line 30: Divide by zero|"
-    bench.session.escape()
-    assert bench.sent() == "|P02>"
-    bench.system.listeners.print(2, "lost\r\n")
-    assert bench.sent() == ""
 
 
 @pytest.mark.req("ACR-CMD-LISTEN")

@@ -79,12 +79,6 @@ def test_a_spline_meets_its_points_without_velocity_jumps(length: int, mode: int
     assert largest_jump(path) < 0.05
 
 
-@pytest.mark.req("ACR-CMD-SPLINE")
-def test_the_buffer_length_has_its_parameter_and_default() -> None:
-    made = Bench("X")
-    assert (LENGTH, made.p(LENGTH), made.p(LENGTH + 256)) == (8229, 5, 5)
-
-
 def test_a_spline_is_the_hermite_curve_of_five_point_velocities() -> None:
     made = bench("SPLINE MODE 0")
     path = sampled(made, "X1", "X3", "X2", "X5", "X4", "X4.5", "SPLINE END")

@@ -118,20 +118,6 @@ def test_tov_is_limited(value: str) -> None:
 # SRC
 
 
-@pytest.mark.req("ACR-CMD-SRC", "ACR-PROF-18")
-def test_a_move_follows_an_encoder() -> None:
-    made = bench("ACC 0 STP 0 VEL 10", "SRC ENC9", "X1")
-    made.ticks(50)
-    assert made.psp(0) == 0
-    for count in range(1, 51):
-        made.memory.write(6288, 2 * count)
-        made.ticks(1)
-        assert made.psp(0) == pytest.approx(20 * count)
-    made.ticks(50)
-    assert made.psp(0) == 1000
-    assert not made.bit(IN_MOTION)
-
-
 def test_a_source_backwards_takes_the_path_back_to_its_start() -> None:
     made = bench("SRC P6288", "X10")
     made.memory.write(6288, 300)

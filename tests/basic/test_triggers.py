@@ -11,7 +11,7 @@ IN_MOTION, TRG_PENDING = 516, 539
 VELOCITY = at.MA_BASE + at.MA_VECTOR_VELOCITY
 RESPONSE = at.MA_BASE + at.MA_INT_RESPONSE_PERIOD
 FLAG = 128
-REGISTERED, ABORTED = 778, 779
+REGISTERED = 778
 
 
 def bench(*lines: str) -> Bench:
@@ -36,20 +36,6 @@ def smooth(values: list[float], rate_ups2: float = 100.0) -> bool:
 
 
 # INT
-
-
-@pytest.mark.req("ACR-CMD-INT")
-def test_int_ends_a_move_at_its_flag_and_the_next_one_starts() -> None:
-    made = bench()
-    made.type(f"INT {FLAG} X100 : Y1")
-    made.ticks(ticks(1.0)).all(f"SET {FLAG}")
-    at_flag = made.psp(0) / 1000
-    while made.psp(1) == 0:
-        made.ticks(1)
-    assert made.psp(0) / 1000 == pytest.approx(at_flag + 0.5, abs=0.05)
-    made.until_clear(IN_MOTION)
-    assert made.psp(1) == 1000
-    assert made.p(12289) == made.p(12288)
 
 
 def test_a_hold_during_the_stop_of_int_keeps_it_ended() -> None:
@@ -191,31 +177,10 @@ def test_hsint_passes_a_new_end_that_is_too_near_and_returns() -> None:
     assert made.psp(0) == captured + 100
 
 
-@pytest.mark.req("ACR-CMD-HSINT")
-def test_hsint_takes_captures_in_its_window_only() -> None:
-    made = hsint(bench(), "11,30,2,5,15", at_s=1.0)
-    made.ticks(10)
-    assert not made.bit(REGISTERED)
-    made.ticks(ticks(0.8)).all("SET 113").ticks(1)
-    captured = made.p(at.AX_BASE + at.AX_HARDWARE_CAPTURE)
-    assert 15000 < captured < 20000
-    assert made.bit(REGISTERED)
-    made.until_clear(IN_MOTION)
-    assert made.psp(0) == captured + 2000
-
-
 def test_hsint_without_capture_goes_to_its_target() -> None:
     made = bench("HSINT X(11,4,3)")
     made.until_clear(IN_MOTION)
     assert (made.psp(0), made.bit(REGISTERED)) == (4000, False)
-
-
-@pytest.mark.req("ACR-CMD-HSINT")
-def test_hsint_is_aborted_by_its_flag() -> None:
-    made = bench(f"HSINT X(11,100,3,0,0,{FLAG})").ticks(ticks(1.0)).all(f"SET {FLAG}")
-    assert smooth(speeds(made))
-    assert (made.bit(ABORTED), made.bit(REGISTERED)) == (True, False)
-    assert 9000 < made.psp(0) < 11000
 
 
 def test_a_response_period_of_minus_1_never_turns_hsint() -> None:

@@ -34,13 +34,6 @@ def test_a_negative_profile_value_is_refused_and_changes_nothing(word: str) -> N
     assert made.type(word) == "3"
 
 
-@pytest.mark.req("ACR-CMD-ACC", "ACR-CMD-VEL")
-def test_several_profile_commands_fit_in_one_line() -> None:
-    made = Bench("X")
-    assert made.type("ACC500 DEC 400 STP500 VEL(100+5)") == ""
-    assert made.type("ACC : DEC : STP : VEL") == "500|400|500|105"
-
-
 def test_profile_commands_need_a_master_or_a_level() -> None:
     made = Bench()
     assert made.type("ACC 5") == "No master attached"

@@ -32,25 +32,6 @@ def test_halt_stops_a_plc(axes: Host) -> None:
     assert axes.card.bit[41]
 
 
-@pytest.mark.req("ACR-CMD-PAUSE", "ACR-CMD-RESUME")
-@pytest.mark.parametrize("resume", ["RESUME PROG2", f"CLR {PAUSED + 64}"])
-def test_another_program_is_paused_and_resumed_by_its_number(resume: str) -> None:
-    host = connected("DIM P(10)", "PROG2", "ATTACH MASTER2", 'ATTACH SLAVE0 AXIS2 "Z"')
-    host.type("PPU Z1000", "ACC 1000 DEC 1000 STP 1000 VEL 10")
-    assert host.type("PROGRAM", "Z5", "INH -580", "P0=1", "ENDP", "RUN").count("P02>") == 6
-    host.card.advance(400)
-    host.type("SYS", "PAUSE PROG2")
-    host.card.advance(400)
-    held = host.card.p[12800]
-    assert 0 < held < 5000
-    assert [host.card.bit[PAUSED + 32 * n] for n in range(4)] == [False, False, True, False]
-    host.card.advance(2000)
-    assert host.card.p[12800] == held
-    host.type("PROG0", resume)
-    host.card.advance(4000)
-    assert (host.card.p[12800], host.card.p[0], host.card.bit[PAUSED + 64]) == (5000, 1, False)
-
-
 @pytest.mark.req("ACR-KAMR-13", "ACR-KAMR-41", "ACR-KAMR-43")
 @pytest.mark.parametrize("key", ["\x18", "\x1a"])
 def test_they_reach_the_last_of_sixteen_axes_attached_or_not(key: str) -> None:

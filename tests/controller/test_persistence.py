@@ -168,38 +168,9 @@ def test_flash_image_restores_programs_and_variables_at_reboot(model: str) -> No
     assert host.ask("?Count;LV1") == "17"
 
 
-@pytest.mark.req("ACR-CMD-FLASH")
-def test_flash_save_keeps_programs_and_sizes_and_no_values() -> None:
-    host = connected("DIM P(10)", "DIM PLC1(1000)", "P1 = 5", "PROG0")
-    store(host, "PRINT 1")
-    host.type("SYS", "FLASH SAVE", "REBOOT")
-    assert host.type("DIM") == SHARES + "DIM PLC1(1000)|DIM P(10)|SYS>"
-    assert host.ask("?P1") == "0"
-    assert host.type("PROG0", "LIST") == "P00>PROGRAM| PRINT 1|ENDP|P00>"
-
-
 def test_flash_save_leaves_the_variables_of_a_battery_alone() -> None:
     host = connected("DIM P(10)", "P1 = 5", "FLASH SAVE", "P1 = 6", "REBOOT", model="ACR8020")
     assert host.ask("?P1") == "6"
-
-
-@pytest.mark.req("ACR-CMD-FLASH")
-def test_flash_load_erase_and_res() -> None:
-    host = connected("PROG0")
-    store(host, "PBOOT", "SET 40")
-    host.type("SYS", "FLASH SAVE", "NEW ALL", "FLASH LOAD", "PROG0")
-    assert host.type("LIST") == "PROGRAM| PBOOT| SET 40|ENDP|P00>"
-    host.card.advance(100)
-    assert not host.card.bit[40]
-    host.type("NEW", "SYS")
-    assert host.type("FLASH RES") == "SYS>"
-    host.card.advance(100)
-    assert host.card.bit[40]
-    host.type("HALT ALL", "FLASH ERASE", "FLASH LOAD", "PROG0")
-    assert host.type("LIST") == "PROGRAM| PBOOT| SET 40|ENDP|P00>"
-    host.type("REBOOT", "PROG0")
-    assert host.type("LIST") == "P00>"
-    assert host.type("SYS", "FLASH", "FLASH 1") == "SYS>" + "Syntax error|SYS>" * 2
 
 
 def test_a_program_comes_back_that_names_axes_not_attached_yet() -> None:
@@ -237,20 +208,6 @@ def _changes(host: Host) -> int:
 
 
 # reset
-
-
-@pytest.mark.req("ACR-CMD-REBOOT", "ACR-RST-01")
-def test_reboot_drops_outputs_programs_and_connections() -> None:
-    host = connected("PROG0", model="ACR8020")
-    store(host, "SET 33", "DWL 100")
-    host.type("RUN", "ECHO 3")
-    host.card.advance(100)
-    assert host.card.bit[33]
-    host.type("REBOOT")
-    assert not host.card.bit[33]
-    assert not host.card.system.control.is_running(0)
-    assert host.card.tick == 0
-    assert host.type("PROG0", "ECHO", "LIST") == "P00>1|P00>PROGRAM| SET 33| DWL 100|ENDP|P00>"
 
 
 @pytest.mark.req("ACR-RST-03", "ACR-RST-04")

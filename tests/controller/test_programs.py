@@ -26,32 +26,6 @@ def test_run_is_answered_at_once(axes: Host, line: str) -> None:
     assert axes.card.system.control.is_running(0)
 
 
-@pytest.mark.req("ACR-CMD-RUN")
-@pytest.mark.parametrize(
-    ("line", "running"),
-    [("RUN PROG1", [1]), ("RUN PROG0", [0]), ("RUN ALL", [0, 1, 16]), ("RUN PLC0", [16])],
-)
-def test_run_starts_what_it_names_and_gives_the_prompt_back(
-    axes: Host, line: str, running: list[int]
-) -> None:
-    store(axes, "DWL 100")
-    axes.type(
-        "PROG1",
-        "10 DWL 100",
-        "SYS",
-        "DIM PLC0(1000)",
-        "PLC0",
-        "10 LD BIT128",
-        "20 OUT BIT129",
-        "SYS",
-    )
-    assert axes.send(f"{line}\r") == f"{line}|SYS>"
-    axes.card.advance(2)
-    owners = (0, 1, 2, 16)
-    assert [n for n in owners if axes.card.system.control.is_running(n)] == running
-    assert [n for n in (0, 1, 2) if axes.card.bit[1024 + 32 * n]] == [n for n in running if n < 16]
-
-
 def test_an_endless_goto_does_not_slow_the_terminal(axes: Host) -> None:
     store(axes, "_L", "GOTO L")
     axes.type("RUN")

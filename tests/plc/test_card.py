@@ -266,18 +266,6 @@ def test_a_trace_holds_the_outputs_of_its_tick(host: Host) -> None:
 # restart
 
 
-@pytest.mark.req("ACR-PBOOT-04")
-def test_a_plc_with_pboot_starts_at_reboot_and_at_pboot(host: Host) -> None:
-    entered(host, "10 PBOOT", "20 LD 0", "30 OUT 32")
-    host.type("PLC1", "10 LD 0", "20 PBOOT", "SYS", "PBOOT")
-    assert host.card.bit[RUNNING] and not host.card.bit[RUNNING + 32]
-    host.type("HALT ALL", "REBOOT")
-    assert host.card.bit[RUNNING] and not host.card.bit[RUNNING + 32]
-    host.card.set_input(0, True)
-    host.card.advance(1)
-    assert host.card.bit[32]
-
-
 def test_a_plc_that_cannot_boot_keeps_no_other_from_it(host: Host) -> None:
     entered(host, "10 PBOOT", "20 OUT 32")
     host.type("PLC1", "10 PBOOT", "20 LD 0", "SYS")

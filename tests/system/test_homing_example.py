@@ -118,13 +118,6 @@ def guide(joint: str) -> Console:
     return made
 
 
-@pytest.mark.req("ACR-HOME-15", "ACR-HOME-16")
-def test_the_example_of_the_guide_waits_for_both_axes() -> None:
-    made = guide("OR")
-    assert made.listen(0, 30.0) == "Y HOMING SUCCESSFUL|X HOMING SUCCESSFUL"
-    assert (made.card.p[38912], made.card.p[38913]) == (-1, -1)
-
-
 @pytest.mark.req("ACR-MOT-14")
 def test_absolute_targets_count_from_the_home_position() -> None:
     made = console("home = { between = [-4.0, -3.0] }", "home = { between = [3.0, 4.0] }")

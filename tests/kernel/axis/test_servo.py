@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy import signal
-from tests.kernel.rig import Rig, T, row_of
+from tests.kernel.rig import Rig, T
 
 from openacr.map import numbers as at
 
@@ -173,19 +173,6 @@ def test_the_converter_shows_gain_and_offset_and_saturates() -> None:
     assert rig.S[dac + at.DAC_DAC_OUTPUT] == pytest.approx(2.5)
     follow(rig, np.array([20.0]), "output_signal")
     assert rig.S[dac + at.DAC_DAC_OUTPUT] == pytest.approx(32767 / 3276.8)
-
-
-@pytest.mark.req("ACR-SERVO-01", "ACR-SERVO-02", "ACR-SERVO-05", "ACR-SUM-01")
-def test_setpoints_are_the_sums_of_their_parts() -> None:
-    rig = open_loop()
-    parts = {"position": 100.25, "gear": 20.5, "jog": -3.0, "cam": 7.0}
-    for name, value in (parts | {"ballscrew": 2.0, "backlash": -1.5}).items():
-        rig.F[at.AXF_BASE + row_of("AXF", f"{name}_cnt")] = value
-    rig.ticks()
-    assert rig.I[12294] == rig.long("primary_setpoint") == 125
-    assert rig.I[12295] == rig.long("secondary_setpoint") == 125
-    assert rig.real("ssp_cnt") == 125.25
-    assert rig.I[12291] == rig.long("following_error") == 125
 
 
 def test_a_gain_that_is_no_number_leaves_no_trace() -> None:
