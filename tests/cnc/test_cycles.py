@@ -4,9 +4,9 @@ import re
 from pathlib import Path
 
 import pytest
-from tests.cnc.programs import CYCLES, STORE, Bench, Run, errors, made, run
+from tests.cnc.programs import CYCLES, STORE, Bench, errors, made, run
 
-from openacr.cnc.canonical import Dwell, Line, Orient, Probe, Rapid, Spindle
+from openacr.cnc.canonical import Orient, Probe, Spindle
 from openacr.cnc.codes.gcodes.work import clear_zero, preset_zero
 from openacr.cnc.codes.table import DIALECTS
 from openacr.cnc.interpreter.interpreter import Options
@@ -16,31 +16,6 @@ from openacr.cnc.loading.supplied import cycle_part
 from openacr.cnc.reading.parser import parse
 
 Z2 = (0.0, 0.0, 2.0)
-
-
-def story(text: str, start: tuple[float, ...] = Z2, **more: object) -> list[str]:
-    return run(text + CYCLES, start=start, **more).story[:-1]  # type: ignore[arg-type]
-
-
-def levels(done: Run) -> str:
-    """Motion along Z and what stands between, as `R0.1 F-1 M5`."""
-    shown = []
-    for entry in done.entries:
-        if isinstance(entry, Rapid | Line):
-            kind = "F" if isinstance(entry, Line) else "R"
-            shown.append(f"{kind}{round(entry.end[2], 6):g}")
-        elif isinstance(entry, Spindle):
-            shown.append(f"M{entry.spin.value}")
-        elif isinstance(entry, Dwell):
-            shown.append(f"dwell{entry.seconds:g}")
-        elif isinstance(entry, Orient):
-            shown.append("orient" if entry.is_on else "release")
-    return " ".join(shown)
-
-
-def drilled(words: str, before: str = "", **more: object) -> str:
-    text = f"{before}\n{words} F10{CYCLES}"
-    return levels(run(text, start=Z2, **more))  # type: ignore[arg-type]
 
 
 BODIES = [
@@ -69,75 +44,6 @@ CYCLE_IDS = (
 )  # fmt: skip
 
 
-@pytest.mark.req(*CYCLE_IDS)
-@pytest.mark.parametrize(("words", "before", "wanted"), BODIES)
-def test_each_cycle_has_its_steps(words: str, before: str, wanted: str) -> None:
-    assert drilled(words, before) == wanted
-
-
-@pytest.mark.req("MILL-G84-OVERRIDE")
-def test_tapping_locks_the_feed_override() -> None:
-    for words, before in (("G84 Z-1 R.1", "M3"), ("G74 Z-1 R.1", "M4")):
-        done = run(f"{before}\n{words} F10\nG80 X5{CYCLES}", start=Z2)
-        locks = [e.pace.is_locked for e in done.of(Line) if isinstance(e, Line)]
-        assert locks == [True, True, False]
-
-
-def test_tapping_turns_the_spindle_in_the_right_direction_first() -> None:
-    done = run("M4\nG84 Z-1 R.1 F10" + CYCLES, start=Z2)
-    assert levels(done).startswith("M4 M3 R0.1")
-    assert "W215" in done.codes
-
-
-@pytest.mark.req("MILL-G76")
-@pytest.mark.parametrize(
-    ("direction", "shift"), [(0, "X1.2 Y1"), (1, "X0.8 Y1"), (2, "X1 Y1.2"), (3, "X1 Y0.8")]
-)
-def test_fine_boring_shifts_in_its_direction(direction: int, shift: str) -> None:
-    said = story("M3\nG76 X1 Y1 Z-1 R.1 Q.2 F10", cells={250_142: direction})
-    assert said[4:7] == ["orient 1", f"L {shift} Z-1", f"R {shift} Z2"]
-    assert said[7] == "R X1 Y1 Z2"
-
-
-@pytest.mark.req("MILL-G87-G98")
-def test_back_boring_always_returns_to_the_initial_level() -> None:
-    assert drilled("G99 G87 Z-1 R-2 Q.2", "M3").split()[-3:] == ["R2", "release", "M3"]
-
-
-def test_the_hand_retract_goes_on_from_where_the_axes_are() -> None:
-    machine = Bench()
-    text = "M3\nG88 X1 Z-1 R.1 F10" + CYCLES
-    machine.where = None
-    done = run(text, start=Z2, machine=machine)
-    assert "M585" in done.story
-
-
-@pytest.mark.parametrize(
-    ("plane", "words", "ends"),
-    [
-        pytest.param("G17", "X1 Y2 Z-1", [(1, 2, 0), (1, 2, -1)],
-                     marks=pytest.mark.req("MILL-CYC-PLANE-G17")),
-        pytest.param("G18", "Z1 X2 Y-1", [(2, 0, 1), (2, -1, 1)],
-                     marks=pytest.mark.req("MILL-CYC-PLANE-G18")),
-        pytest.param("G19", "Y1 Z2 X-1", [(0, 1, 2), (-1, 1, 2)],
-                     marks=pytest.mark.req("MILL-CYC-PLANE-G19")),
-    ],
-)  # fmt: skip
-def test_cycles_drill_across_the_plane(
-    plane: str, words: str, ends: list[tuple[float, ...]]
-) -> None:
-    done = run(f"{plane} G81 {words} R0 F10" + CYCLES)
-    assert done.ends == [ends[0], ends[1], ends[0]]
-
-
-@pytest.mark.req("MILL-CYC-INCLUDE", "MILL-CYC-INCLUDE-POS")
-def test_cycles_need_their_text_after_the_end() -> None:
-    assert errors("G81 X1 Z-1 R0") == ["E251"]
-    assert errors("$I CYCLES.TXT\nG81 X1 Z-1 R0\nM2") == ["E262"]
-    assert errors("G81 X1 Z-1 R0" + CYCLES) == []
-    assert errors("G81 X1 Z-1 R0", {700_006: 1.0}) == []
-
-
 @pytest.mark.req("MILL-CYC-LABELS")
 def test_labels_of_the_supplied_cycles_begin_at_73000() -> None:
     labels = re.findall(
@@ -162,53 +68,10 @@ def test_programs_may_not_jump_into_a_cycle() -> None:
     assert (found.code, found.line, found.column) == ("E264", 2, 5)
 
 
-@pytest.mark.req("MILL-CYC-VARS", "MILL-CYC-WORDS")
-def test_cells_249_to_270_hold_the_cycle() -> None:
-    done = run("G99 M3\nG83 X1 Y2 Z-1 R.5 Q.3 P4 F10" + CYCLES, start=Z2)
-    cells = [done.p(249 + k) for k in range(22)]
-    assert cells[:9] == pytest.approx([83, 1, 2, -1, 0.5, 2, 0.5, 0.3, 4])
-    assert cells[9:13] == pytest.approx([10, 1, 0.02, 0.05])
-    assert cells[15:19] == [3, 99, 17, 90]
-    assert cells[21] == 1
-
-
-@pytest.mark.req("MILL-CYC-INITIAL")
-def test_the_initial_level_is_where_the_cycle_is_called() -> None:
-    done = run("G0 Z5\nG81 X1 Z-1 R0 F10\nX2" + CYCLES)
-    high = [move for move in done.moves if move.endswith("Z5")]
-    assert high == ["R Z5", "R X1 Z5", "R X1 Z5", "R X2 Z5", "R X2 Z5"]
-
-
-@pytest.mark.req("MILL-G80", "MILL-CYC-MODAL")
-def test_a_cycle_ends_with_g80_or_a_motion_code() -> None:
-    assert run("G81 X1 Z-1 R0 F10\nG80 X2" + CYCLES).moves[3:] == ["L X2"]
-    assert run("G81 X1 Z-1 R0 F10\nG0 X2" + CYCLES).moves[3:] == ["R X2"]
-    repeated = run("G81 X1 Z-1 R0 F10\nM8\nF5\nY1" + CYCLES)
-    assert repeated.moves[3:] == ["R X1 Y1", "L X1 Y1 Z-1", "R X1 Y1"]
-
-
 def test_a_plane_change_ends_a_cycle_with_a_warning() -> None:
     done = run("G81 X1 Z-1 R0 F10\nG18\nX2" + CYCLES)
     assert "W213" in done.codes
     assert done.moves[3:] == ["L X2"]
-
-
-@pytest.mark.parametrize(
-    ("words", "code"),
-    [
-        ("G81 X1 R0", "E250"), ("G81 X1 Z-1", "E250"), ("G73 X1 Z-1 R0", "E250"),
-        ("G83 X1 Z-1 R0 Q0", "E250"), ("G83 X1 Z-1 R0 Q-1", "E250"), ("G76 X1 Z-1 R0", "E252"),
-        ("G87 X1 Z-1 R0", "E252"), ("G81 X1 Z-1 R0 L-1", "E250"), ("G41 D1\nG81 X1 Z-1 R0", "E312"),
-    ],
-)  # fmt: skip
-def test_cycles_need_their_words(words: str, code: str) -> None:
-    assert errors(words + CYCLES) == [code]
-
-
-def test_drilling_backward_is_done_with_a_warning() -> None:
-    done = run("G81 X1 Z1 R0 F10" + CYCLES)
-    assert "W214" in done.codes
-    assert done.moves == ["R X1", "L X1 Z1", "R X1"]
 
 
 @pytest.mark.req("MILL-CYC-DRYRUN")
@@ -246,22 +109,6 @@ def test_the_users_own_cycles_come_first(tmp_path: Path) -> None:
 # --- macros -------------------------------------------------------------------------------
 
 
-@pytest.mark.req("MILL-G65-EXPR")
-def test_arguments_may_be_expressions() -> None:
-    text = "P150=2\nG65 P5 X(P150+1) Y-P150\nM2\nN5 F10 X#1 Y#2\nRET"
-    assert run(text).moves == ["L X3 Y-2"]
-
-
-@pytest.mark.req("MILL-G66", "MILL-G66-NOMOVE", "MILL-G67")
-def test_a_modal_macro_follows_every_move() -> None:
-    text = "F10 G66 P5 A1\nX1\nM8\nP200=0\nX2\nG67\nX3\nM2\nN5 G91 G1 Z#4\nG90\nRET"
-    text = text.replace("F10 G66", "F10\nG66")
-    done = run(text, axes=4)
-    assert [s for s in done.story if s.startswith("L")] == [
-        "L X1", "L X1 Z1", "L X2 Z1", "L X2 Z2", "L X3 Z2",
-    ]  # fmt: skip
-
-
 def test_locals_come_back_after_a_call() -> None:
     text = (
         "G65 P5 X1\nM2\nN5 #1=#1+10\nG65 P6 X99\nP200=#1\nGOSUB 7\nRET\n"
@@ -285,24 +132,6 @@ def test_calls_need_their_label(text: str, code: str) -> None:
 
 def tripped(x: float, y: float = 0.0) -> Bench:
     return Bench(trip=(x, y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-
-
-@pytest.mark.req("MILL-G31-NOTRIG", "MILL-G31-ONESHOT")
-def test_without_a_trip_the_move_ends_at_its_target() -> None:
-    done = run("F10 G31 X5\nX6\nP200=P329", {101: 9.0})
-    assert done.moves == ["P X5", "L X6"]
-    assert (done.p(101), done.p(200)) == (9, 0)
-
-
-@pytest.mark.req("MILL-G31-G91")
-def test_increments_count_from_the_trip() -> None:
-    assert run("F10 G31 G91 X100\nY50", machine=tripped(60)).moves == ["P X100", "L X60 Y50"]
-
-
-@pytest.mark.req("MILL-G31-G90")
-def test_positions_are_reached_straight_from_the_trip() -> None:
-    done = run("F10 G31 G90 X200\nX300 Y100", machine=tripped(60))
-    assert done.moves == ["P X200", "L X300 Y100"]
 
 
 @pytest.mark.req("MILL-G31-STORE", "MILL-G31-USE")
@@ -354,11 +183,6 @@ def test_g92_keeps_what_was_there_before() -> None:
     assert (done.p(801), done.p(809), done.p(817), done.p(825)) == (4, 0, -2, 4)
 
 
-def test_g92_alone_is_set_zero() -> None:
-    done = run("G0 X2 Y3\nG92\nX1")
-    assert done.moves == ["R X2 Y3", "R X3 Y3"]
-
-
 def test_g92_reads_right_under_scaling_and_rotation() -> None:
     done = run("F10 G51 X0 Y0 Z0 P2\nX1\nG92 X5\nX6")
     assert done.moves == ["L X2", "L X4"]
@@ -389,13 +213,6 @@ def test_a_path_between_holes_that_is_deeper_than_r_is_doubted(
 def test_other_controls_go_up_to_r_and_need_no_doubt() -> None:
     done = run("F10\nG0 Z.5\nG98 G81 X1 Z-1 R1", dialect="rs274ngc")
     assert "W219" not in done.codes
-
-
-@pytest.mark.parametrize(("level", "z"), [("G98", 2.0), ("G99", 1.0)])
-def test_boring_by_hand_returns_to_the_level_that_is_asked_for(level: str, z: float) -> None:
-    done = run(f"F10 G0 Z2\n{level} G88 X3 Y4 Z-1 R1{CYCLES}")
-    assert done.ends[-1] == (3.0, 4.0, z)
-    assert [end[2] for end in done.ends] == [2.0, 2.0, 1.0, -1.0, z]
 
 
 def test_the_labels_of_the_supplied_cycles_are_those_the_parser_finds() -> None:

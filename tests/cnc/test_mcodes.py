@@ -3,11 +3,11 @@
 from pathlib import Path
 
 import pytest
-from tests.cnc.programs import STORE, errors, run
+from tests.cnc.programs import errors, run
 
-from openacr.cnc.canonical import End, Rapid, WaitBit
+from openacr.cnc.canonical import End, Rapid
 from openacr.cnc.interpreter.interpreter import Options
-from openacr.cnc.loading.load import Folders, load
+from openacr.cnc.loading.load import Folders
 
 DRY = Options(is_dry=True)
 
@@ -18,17 +18,6 @@ OUTPUT_IDS = (
     "MILL-M28", "MILL-M29", "MILL-M30", "MILL-M31", "MILL-M32", "MILL-M33", "MILL-M34", "MILL-M35",
     "MILL-M36", "MILL-M37",
 )  # fmt: skip
-
-
-@pytest.mark.req(*OUTPUT_IDS)
-@pytest.mark.parametrize("k", range(1, 14))
-def test_discrete_outputs_go_on_and_off(k: int) -> None:
-    cells = {400_100 + k: 40.0 + k}
-    assert run(f"M{11 + k}\nM{24 + k}", cells).story == [
-        f"out {40 + k} 1",
-        f"out {40 + k} 0",
-        "end",
-    ]
 
 
 def test_m30_ends_the_program_where_that_is_chosen() -> None:
@@ -49,22 +38,6 @@ def test_actions_stand_on_their_side_of_the_motion() -> None:
     assert done == ["M3 S5", "coolant 01", "L X1", "M5 S5", "coolant 00", "M0", "end"]
 
 
-def test_coolants_flow_together_until_m9() -> None:
-    assert run("M7\nM8\nM9").story == ["coolant 10", "coolant 11", "coolant 00", "end"]
-
-
-@pytest.mark.req("MILL-M1XX", "MILL-M2XX")
-@pytest.mark.parametrize(
-    ("code", "bit", "is_on"), [(100, 128, 1), (199, 227, 1), (200, 128, 0), (205, 133, 0)]
-)
-def test_waits_name_the_relay(code: int, bit: int, is_on: int) -> None:
-    done = run(f"M{code}")
-    assert done.story == [f"wait {bit} {is_on}", "end"]
-    (wait,) = done.of(WaitBit)
-    assert isinstance(wait, WaitBit)
-    assert f"relay {code % 100}" in wait.reason
-
-
 @pytest.mark.req("MILL-M-DRYRUN")
 def test_dry_runs_leave_the_standard_codes_out() -> None:
     codes = "\n".join(f"M{n}" for n in [0, 1, 3, 4, 5, 7, 8, 9, *range(12, 38)])
@@ -72,14 +45,6 @@ def test_dry_runs_leave_the_standard_codes_out() -> None:
     done = run("M105\nT3 M6\nP200=P235\nG4 F1", options=DRY)
     assert done.story == ["say M105: wait left out", "SetCell", "dwell 1", "end"]
     assert done.p(200) == 3
-
-
-@pytest.mark.req("MILL-M-UNKNOWN")
-@pytest.mark.parametrize("code", ["M38", "M99", "M300", "M590", "M999", "M1000", "M10", "M11"])
-def test_an_unknown_code_is_reported_with_its_line(code: str) -> None:
-    (error,) = load(f"X1 F10\n{code}", STORE).errors
-    assert (error.code, error.line) == ("E205", 2)
-    assert code in error.text
 
 
 @pytest.mark.req("MILL-VAR-CUSTOM")
@@ -128,12 +93,6 @@ def test_the_tool_in_the_spindle_is_known_from_the_last_run(dialect: str) -> Non
     assert "tool 7" in run("M6", cells, dialect=dialect).story
 
 
-def test_an_automatic_change_needs_its_input() -> None:
-    cells = {900_002: 0.0, 900_000: -1.0}
-    assert errors("T1 M6", cells) == ["E223"]
-    assert errors("T1 M6", {**cells, 900_000: 3.0}) == []
-
-
 def test_state_is_readable_by_programs() -> None:
     text = "T3 M6 S500 M4 M7 M8 D2 H3 F20 G55\n" + "\n".join(
         f"P{450 + k}=P{n}" for k, n in enumerate([234, 235, 236, 237, 238, 239, 240, 241, 242, 998])
@@ -164,12 +123,6 @@ def test_the_angle_on_arcs_is_that_of_the_path_in_every_work_coordinate_system()
     assert g54.moves == ["R X6 Y-3", "R X6 Y-3 A90", "A X5 Y-4 A360 about 5,-3 270"]
     back = run("G10 L2 P1 X5 Y-3\nG54\nF10 G0 X1 Y0\nM595\nG2 X0 Y1 I0 J0", TANGENT, axes=4)
     assert back.moves == ["R X6 Y-3", "R X6 Y-3 A-90", "A X5 Y-2 A-360 about 5,-3 -270"]
-
-
-@pytest.mark.req("MILL-M597", "MILL-M598")
-@pytest.mark.parametrize(("code", "angle"), [(597, -90), (598, 90)])
-def test_the_axis_is_held_beside_the_path(code: int, angle: int) -> None:
-    assert run(f"F10 M{code}\nX1", TANGENT, axes=4).moves == [f"R A{angle}", f"L X1 A{angle}"]
 
 
 @pytest.mark.req("MILL-M596", "MILL-M599")
@@ -213,13 +166,6 @@ def test_card_parameters_are_written_and_read_on_the_card(n: int) -> None:
     assert n not in done.cells.written
 
 
-@pytest.mark.req("MILL-P-34-99")
-def test_reserved_card_variables_are_assigned_with_a_warning() -> None:
-    done = run("P40=1")
-    assert done.machine.parameters[40] == 1
-    assert "W220" in done.codes
-
-
 @pytest.mark.req("MILL-P-OUTOFRANGE")
 @pytest.mark.parametrize("n", [20_488, 99_999, 100_007, 1_003_425, 2_000_000])
 def test_numbers_outside_all_ranges_are_errors(n: int) -> None:
@@ -227,17 +173,6 @@ def test_numbers_outside_all_ranges_are_errors(n: int) -> None:
     assert errors(f"X P{n}") == ["E211"]
     assert errors(f"P200={n}\nX P(P200)") == ["E211"]
     assert errors(f"P200={n}\nP(P200)=1") == ["E211"]
-
-
-@pytest.mark.req("MILL-P-1998", "MILL-P-1999", "MILL-P-4000", "MILL-P-4001", "MILL-OFS-CURRENT")
-def test_offsets_in_use_are_set_by_d_and_h_and_reset_at_the_start() -> None:
-    cells = {1003: 0.5, 1503: 0.01, 2004: 7.0, 3004: 0.25, 1998: 9, 1999: 9, 4000: 9, 4001: 9}
-    used = (1998, 1999, 4000, 4001)
-    before = " ".join(f"P{450 + k}=P{n}" for k, n in enumerate(used))
-    after = " ".join(f"P{454 + k}=P{n}" for k, n in enumerate(used))
-    text = f"{before}\nD3 H4\n{after}"
-    done = run(text, cells)
-    assert [done.p(450 + k) for k in range(8)] == [0, 0, 0, 0, 0.5, 0.01, 7, 0.25]
 
 
 def test_the_radius_of_programs_without_d_is_a_setting() -> None:
