@@ -67,8 +67,8 @@ def conform(
     found = chosen(cases or supplied(), areas or [])
     identity = None
     if target is None:
-        logging.getLogger("openacr").setLevel(logging.ERROR)  # warnings are what cases provoke
-        outcomes = _watched(on_virtual_card(found, model), len(found))
+        with _without_warnings():
+            outcomes = _watched(on_virtual_card(found, model), len(found))
     else:
         with _asked(target, found, baud, silence) as (identity, running):
             outcomes = _watched(running, len(found))
@@ -81,6 +81,18 @@ def conform(
         _show(outcomes, record["card"])
     if any(each.result == "differs" for each in outcomes):
         raise typer.Exit(FAILED)
+
+
+@contextmanager
+def _without_warnings() -> Iterator[None]:
+    """Cases provoke what a card warns of."""
+    logger = logging.getLogger("openacr")
+    before = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
 
 
 @contextmanager
