@@ -1,6 +1,7 @@
 """docs/conformance.md: its examples hold, and it names every step there is."""
 
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from openacr.basic.language.registry import commands
 from openacr.conform import read, report, run
 from openacr.conform.form import WORDS
-from openacr.conform.pages import sections, table
+from openacr.conform.pages import NO_CASE, sections, table
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "conformance.md").read_text(encoding="utf-8")
@@ -74,3 +75,17 @@ def test_an_id_counts_for_what_its_strongest_case_rests_on(tmp_path: Path) -> No
         )
     )
     assert "| Format | 4 | 6 | 2 | 2 | 1 | 1 |" in table(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("name", "entry"), tomllib.loads((ROOT / "conformance" / NO_CASE).read_text()).items()
+)
+def test_what_is_no_case_has_a_reason_and_a_test_that_exists(
+    name: str, entry: dict[str, str]
+) -> None:
+    assert set(entry) == {"reason", "test"}
+    assert len(entry["reason"]) > 10
+    file, _, function = entry["test"].partition("::")
+    source = (ROOT / file).read_text()
+    assert f"def {function.partition('[')[0]}(" in source
+    assert f'"{name}"' in source, "the test does not claim it"

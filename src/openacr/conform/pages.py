@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import sys
+import tomllib
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
@@ -20,6 +21,7 @@ MANUALS = {
     "users-guide-2": "User's Guide Part 2",
     "acromill": "Front end's User's Guide",
 }
+NO_CASE = "not-a-case.toml"
 HEAD = """\
 # The cases of the manuals
 
@@ -48,7 +50,19 @@ def table(root: Path) -> str:
         lines.append("")
     lines += ["## Together\n", f"| | cases | ids | {' | '.join(RESTS)} |"]
     lines += ["|---|---|---|" + "---|" * len(RESTS), _row("all", every), ""]
-    return "\n".join(lines)
+    return "\n".join([*lines, *_without_case(root / NO_CASE)])
+
+
+def _without_case(path: Path) -> Iterator[str]:
+    """The table of what no case proves."""
+    if not path.exists():
+        return
+    yield "## No case\n"
+    yield "| id | why | test |"
+    yield "|---|---|---|"
+    for name, entry in tomllib.loads(path.read_text(encoding="utf-8")).items():
+        yield f"| {name} | {entry['reason']} | `{entry['test']}` |"
+    yield ""
 
 
 def _row(title: str, cases: Sequence[Case]) -> str:
