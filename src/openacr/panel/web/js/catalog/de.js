@@ -92,7 +92,14 @@ const SERVICE = {
   "gain.title": "Reglerverstärkung", "gain.warning": "Ein Wert wirkt auf den Regelkreis, sobald er eingegeben ist.", "gain.store": "in den Maschinenparametern behalten", "gain.enter": "EINGABE", "gain.done": "{gain} ist {value}", "gain.later": "{gain} ist {value}; gespeichert wird, sobald die Maschine ruht",
   "board.title": "Kartenparameter", "board.search": "Name oder Nummer", "board.number": "Nummer", "board.name": "Name", "board.value": "Wert", "board.doc": "Bedeutung", "values.set": "SETZEN", "values.clear": "L\u00d6SCHEN", "values.now": "Jetzt: {value}", "values.is": "{name} ist {value}", "board.written": "P{number} ist {value}",
   "pparm.title": "P-Parameter", "pparm.done": "P{n} ist {value}", "servo.title": "Regelkreis", "cpu.title": "CPU-Last", "fast.title": "Fast Status", "memory.title": "Speicheraufteilung",
-  "views.title": "Ansichten", "views.block": "Block", "views.save": "ANSICHT SPEICHERN", "views.saved": "Die Ansichten sind gespeichert", "help.title": "Hilfe", "help.none": "Zu dieser Taste gibt es keine Seite.",
+  "views.title": "Ansichten", "views.block": "Block", "views.save": "ANSICHT SPEICHERN", "views.saved": "Die Ansichten sind gespeichert", "tour.title": "RUNDGANG", "tour.back": "ZURÜCK", "tour.next": "NÄCHSTES", "tour.end": "SCHLUSS",
+  "tour.state": "Was die Maschine jetzt tut. Daneben: wer bedient, und die Einstellungen dieses Browsers; darunter das geladene Programm und seine Alarme.",
+  "tour.status": "Die Positionsanzeige: der Ort jeder Achse. Die Taste einer Achse setzt ihren Nullpunkt; ANSICHT 1 bis 3 zeigen andere Werte.",
+  "tour.display": "Das Anzeigefenster: das Bild der Bahn, das Programm, Ein- und Ausgänge, Alarme. Die Tasten F1 bis F10 öffnen hier ihre Bildschirme.",
+  "tour.prompt": "Was Programm und Maschine ausgeben, warum eine Taste abgelehnt wird, und Fragen an Sie.",
+  "tour.menu": "Die Funktionstasten F1 bis F10. Eine Taste öffnet einen Bildschirm oder ein anderes Menü; F10 führt zurück. EINRICHTEN lädt ein Programm, PROGRAMM startet es.",
+  "tour.stop": "STOP hält den Vorschub an, jederzeit. Es ist nicht der Not-Halt der Maschine.",
+  "help.title": "Hilfe", "help.none": "Zu dieser Taste gibt es keine Seite.",
 };
 
 const ON_CARD = {

@@ -92,7 +92,14 @@ const SERVICE = {
   "gain.title": "Gain", "gain.warning": "A gain acts on the servo loop the moment it is entered.", "gain.store": "keep it in the parameters of the machine", "gain.enter": "ENTER", "gain.done": "{gain} is {value}", "gain.later": "{gain} is {value}; it is stored once the machine rests",
   "board.title": "Board parameters", "board.search": "Name or number", "board.number": "Number", "board.name": "Name", "board.value": "Value", "board.doc": "Meaning", "values.set": "SET", "values.clear": "CLEAR", "values.now": "Now: {value}", "values.is": "{name} is {value}", "board.written": "P{number} is {value}",
   "pparm.title": "P parameters", "pparm.done": "P{n} is {value}", "servo.title": "Servo loop", "cpu.title": "CPU load", "fast.title": "Fast status", "memory.title": "Memory configuration",
-  "views.title": "Setup screen", "views.block": "Block", "views.save": "SAVE VIEW", "views.saved": "The views are saved", "help.title": "Help", "help.none": "There is no page on this key.",
+  "views.title": "Setup screen", "views.block": "Block", "views.save": "SAVE VIEW", "views.saved": "The views are saved", "tour.title": "TOUR", "tour.back": "BACK", "tour.next": "NEXT", "tour.end": "END",
+  "tour.state": "What the machine does now. Beside it: who commands, and the settings of this browser; below, the loaded program and its alarms.",
+  "tour.status": "The read-out: the place of each axis. A key on an axis sets its zero; VIEW 1 to 3 show other values.",
+  "tour.display": "The display window: the picture of the path, the program, inputs and outputs, alarms. The keys F1 to F10 open their screens here.",
+  "tour.prompt": "What the program and the machine print, why a key is refused, and questions to you.",
+  "tour.menu": "The function keys, F1 to F10. A key opens a screen or another menu; F10 goes back. RUN SETUP loads a program, RUN PROG starts it.",
+  "tour.stop": "STOP holds the feed, at any time. It is not the emergency stop of the machine.",
+  "help.title": "Help", "help.none": "There is no page on this key.",
 };
 
 const ON_CARD = {

@@ -3,6 +3,7 @@ import { get, latest } from "../core/api.js";
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { MENUS } from "../frame/menus.js";
+import { closeScreen } from "../frame/screen_host.js";
 
 /** Keys that are explained on a page with others. @type {Record<string, string>} */
 const PAGES = {
@@ -15,12 +16,16 @@ const PAGES = {
 export const screen = {
   title: "help.title",
   area: "full",
-  show({ body, endings }) {
+  show({ body, head, endings }) {
     const newest = latest(endings);
     const text = h("article.help-text.scroll", { tabIndex: 0 });
     const list = h("div.form-tabs.scroll", {});
     body.classList.add("is-tabbed");
     body.append(list, text);
+    head.append(h("button.key", { type: "button", onclick: async () => {
+      await closeScreen();
+      (await import("../tour/tour.js")).startTour();
+    } }, t("tour.title")));
     const show = async (/** @type {HTMLElement} */ item, /** @type {string} */ key, /** @type {string} */ label) => {
       for (const each of list.children) each.setAttribute("aria-current", String(each === item));
       const page = await newest(get(`help/${key}`)).catch(() => ({ title: label, text: t("help.none") }));
