@@ -130,7 +130,8 @@ def test_a_machine_is_stopped_that_another_program_drives(plant: Plant) -> None:
     assert "the machine is at rest at X" in stopped.text
     assert (plant.outputs(SPINDLE, FLOOD), plant.is_at_rest) == ([False, False], True)
     assert run.ended() == 1
-    assert "alarm 14: Card killed moves" in run.text
+    # The kill stays while the host sends more; one that wakes late finds the axes elsewhere.
+    assert run.text.startswith(("alarm 14: Card killed moves", "alarm 16: Machine was moved by"))
     assert plant.mill("acknowledge").ended() == 0
 
 
