@@ -6,33 +6,25 @@ from pathlib import Path
 
 from openacr.cnc.canonical import (
     Arc,
-    Coolant,
-    Dwell,
-    End,
     Entry,
     Line,
     Moves,
-    Orient,
-    Output,
     Point,
     Polyline,
     Probe,
     Rapid,
-    Say,
-    SetBit,
+    SetCell,
     Source,
-    Spindle,
-    Stop,
     Sync,
-    Tool,
+    Tapping,
     Transfer,
-    WaitBit,
 )
 from openacr.cnc.interpreter.interpreter import Interpreter, Options
 from openacr.cnc.loading.load import Folders, load
 from openacr.cnc.reading.findings import BlockError, Finding
 from openacr.cnc.state.hosts import VirtualMachine
 from openacr.cnc.state.shadow import Shadow
+from openacr.conform import entries
 from openacr.sysvar import Store
 
 STORE = Store()
@@ -122,32 +114,12 @@ def shown(entry: Entry) -> str:
             x, y = (round(value, 6) + 0.0 for value in entry.centre)
             centre = f"{x:g},{y:g}"
             return f"A {at(entry.end)} about {centre} {round(entry.sweep_rad * 57.29577951308232)}"
-        case Spindle():
-            return f"M{entry.spin.value} S{entry.rpm:g}"
-        case Coolant():
-            return f"coolant {entry.mist:d}{entry.flood:d}"
-        case Orient():
-            return f"orient {entry.is_on:d}"
-        case Output():
-            return f"out {entry.number} {entry.is_on:d}"
-        case SetBit():
-            return f"bit {entry.bit} {entry.is_on:d}"
-        case WaitBit():
-            return f"wait {entry.bit} {entry.is_on:d}"
-        case Dwell():
-            return f"dwell {entry.seconds:g}"
-        case Tool():
-            return f"tool {entry.number}"
         case Transfer():
             return f"P{entry.parameter}={entry.value:g}"
-        case Say():
-            return f"say {entry.text}"
-        case Stop():
-            return entry.pause.value
-        case End():
-            return "end"
-        case _:
+        case SetCell() | Tapping():
             return type(entry).__name__
+        case _:
+            return entries.shown(entry)
 
 
 def made(
