@@ -20,18 +20,23 @@ SLOW = 150  # plain Python is that many times slower
 FEW = 2
 
 
-def examples(whole: int) -> int:
-    """How many of `whole` cases are tried; plain Python tries few."""
+def examples(whole: int, part: int = PART) -> int:
+    """How many of `whole` cases are tried: one of `part`; plain Python tries few."""
     if not is_compiled:
         return max(FEW, whole // SLOW)
-    return whole if IS_WHOLE else max(FEW, -(-whole // PART))
+    return whole if IS_WHOLE else max(FEW, -(-whole // part))
 
 
-def search(whole: int, **others: Any) -> Callable[[Test], Test]:
-    """A test of Hypothesis with `whole` examples, and other settings of Hypothesis."""
+def search(whole: int, *, part: int = PART, **others: Any) -> Callable[[Test], Test]:
+    """A test of Hypothesis with `whole` examples, and other settings of Hypothesis.
+
+    `make test` tries one of `part` of them: a slow test names a larger one.
+    """
 
     def of(test: Test) -> Test:
-        marked: Test = pytest.mark.search(settings(max_examples=examples(whole), **others)(test))
+        marked: Test = pytest.mark.search(
+            settings(max_examples=examples(whole, part), **others)(test)
+        )
         return marked
 
     return of

@@ -3,9 +3,10 @@
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from msgspec import structs
+from tests.search import search
 
 from openacr.configure import code_files, parse_answers
 from openacr.configure.answers import (
@@ -83,26 +84,14 @@ def typed(files: dict[str, str]) -> Virtual:
     return card
 
 
-def require_answers(answers: Answers) -> None:
-    """Answers become code, and the card on which it was typed gives them back."""
+@search(500, part=33)
+@given(ANSWERS)
+def test_what_was_answered_is_read_back_from_the_card(answers: Answers) -> None:
     text = written(answers)
     assert parse_answers(text) == answers
     card = typed(code_files(answers, text))
     assert recovered(card, "ACR9000") == answers
     assert list(differences(card, answers)) == []
-
-
-@settings(max_examples=15)
-@given(ANSWERS)
-def test_what_was_answered_is_read_back_from_the_card(answers: Answers) -> None:
-    require_answers(answers)
-
-
-@pytest.mark.soak
-@settings(max_examples=500)
-@given(ANSWERS)
-def test_many_answers_are_read_back_from_the_card(answers: Answers) -> None:
-    require_answers(answers)
 
 
 @pytest.mark.parametrize("ppu", ["24.714286", "24.7142857", "(173/7)"])
@@ -116,27 +105,15 @@ def test_a_turn_whose_written_ratio_a_card_rounds_otherwise_is_recovered(ppu: st
     assert (found.units_per_rev, found.counts_per_rev) == (7.0, 173)
 
 
-def require_set_up(answers: Answers) -> None:
-    """Without the text that is kept, answers that set a card up the same are found."""
+@search(300, part=30)
+@given(ANSWERS)
+def test_without_the_kept_text_the_card_is_set_up_the_same(answers: Answers) -> None:
     card = typed({"setup.8k": code_files(answers, "")["setup.8k"]})
     found = recovered(card, "ACR9000")
     assert list(differences(card, found)) == []
     assert structs.replace(found, axis=(), card=CardAnswers()) == structs.replace(
         answers, axis=(), card=CardAnswers()
     )
-
-
-@settings(max_examples=10)
-@given(ANSWERS)
-def test_without_the_kept_text_the_card_is_set_up_the_same(answers: Answers) -> None:
-    require_set_up(answers)
-
-
-@pytest.mark.soak
-@settings(max_examples=300)
-@given(ANSWERS)
-def test_without_the_kept_text_many_cards_are_set_up_the_same(answers: Answers) -> None:
-    require_set_up(answers)
 
 
 @pytest.fixture

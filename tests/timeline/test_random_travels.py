@@ -1,9 +1,9 @@
 """Whatever is done on a timeline, each moment of each branch keeps its state."""
 
-import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from tests.controller.hosts import X_AND_Y, Host
+from tests.search import search
 
 from openacr.controller import Controller
 from openacr.controller.snapshot import Snapshot
@@ -50,8 +50,13 @@ back = st.tuples(st.just("seek"), st.integers(0, 1000))
 other = st.tuples(st.just("branch"), st.integers(0, 5))
 
 
-def require_states(steps: list[tuple[str, int]]) -> None:
-    """Each moment that was seen has its state again when one comes back to it."""
+TRAVELS = st.lists(st.one_of(forward, line, line, write, switch, back, other), max_size=25)
+
+
+@search(1000, part=50)
+@example([("advance", 0), ("line", 10), ("write", 1), ("seek", 0), ("line", 10)])
+@given(TRAVELS)
+def test_each_moment_of_each_branch_keeps_its_state(steps: list[tuple[str, int]]) -> None:
     timeline = Timeline(begun(), keyframe_every_s=0.05)
     card = timeline.card
     known: dict[tuple[int, Moment], str] = {}
@@ -78,20 +83,3 @@ def require_states(steps: list[tuple[str, int]]) -> None:
         timeline.switch(branch)
         timeline.seek(moment)
         assert card.digest() == digest
-
-
-TRAVELS = st.lists(st.one_of(forward, line, line, write, switch, back, other), max_size=25)
-
-
-@settings(max_examples=20)
-@example([("advance", 0), ("line", 10), ("write", 1), ("seek", 0), ("line", 10)])
-@given(TRAVELS)
-def test_each_moment_of_each_branch_keeps_its_state(steps: list[tuple[str, int]]) -> None:
-    require_states(steps)
-
-
-@pytest.mark.soak
-@settings(max_examples=1000)
-@given(TRAVELS)
-def test_in_many_travels_each_moment_keeps_its_state(steps: list[tuple[str, int]]) -> None:
-    require_states(steps)
