@@ -31,6 +31,17 @@ class Wire(ProcessLink):
         super().write(data)
 
 
+class SlowWire(Wire):
+    """A serial line: the bytes of an answer arrive one by one."""
+
+    left = b""
+
+    def read(self, timeout_s: float | None) -> bytes:
+        data = self.left or super().read(timeout_s)
+        self.left = data[1:]
+        return data[:1]
+
+
 def outcomes(wire: Wire, *areas: str) -> list[Outcome]:
     wire.open()
     return list(on_card_in_use(chosen(supplied(), areas), HostCard(wire)))
@@ -60,6 +71,13 @@ def test_cases_that_only_ask_agree_and_change_nothing() -> None:
     assert set(re.findall(rb"^[A-Z]+", wire.typed.replace(b"\r", b"\n"), re.M)) <= {
         b"SYS", b"PROG", b"PLC", b"PRINT"
     }  # fmt: skip
+
+
+def test_answers_that_arrive_byte_by_byte_are_the_same() -> None:
+    found = outcomes(SlowWire(in_use()), "communication", "evaluation")
+    assert [each.result for each in found] == [
+        each.result for each in outcomes(Wire(in_use()), "communication", "evaluation")
+    ]
 
 
 @pytest.mark.parametrize(

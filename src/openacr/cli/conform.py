@@ -38,7 +38,9 @@ def conform(
     areas: Annotated[
         list[str] | None,
         typer.Option(
-            "--area", metavar="TEXT", help="Sections or ids with this beginning; may be repeated."
+            "--area",
+            metavar="TEXT",
+            help="Sections with this in their name, ids that begin so; may be repeated.",
         ),
     ] = None,
     cases: Annotated[

@@ -40,7 +40,7 @@ class Word:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A line of a case with its values and what stands below it."""
+    """A line of a case with its values and what is below it."""
 
     word: Word
     values: tuple[Any, ...]
@@ -241,7 +241,7 @@ def exactly(text: str) -> str:
 
 
 def literal(text: str) -> str:
-    """The line that a line of a case stands for: what is between bars, or itself."""
+    """The line that a line of a case means: what is between bars, or itself."""
     return text[1:-1] if len(text) > 1 and text[0] == text[-1] == "|" else text.removeprefix("|")
 
 

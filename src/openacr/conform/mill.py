@@ -42,7 +42,7 @@ class Mill:
                 self.store.write(AXIS.home_required[axis], 0)
             self.store.write(SPEEDS.max_machine_speed, FASTEST_UPM)
         self.text, self.dialect = "", "acromill"
-        self.heard: list[str] = []  # said to the operator and not compared yet
+        self.heard: list[str] = []  # shown to the operator and not compared yet
         self.are_alarms_expected = False
         self._session: MillSession | None = None
         self._mdi: Mdi | None = None

@@ -49,8 +49,10 @@ class Stage:
 
     def take(self) -> str:
         """All that the terminal has shown since it was last looked at."""
-        data = self.pending.pop(self.channel, b"") + self.card.heard(self.channel)
-        return data.decode("latin-1").replace("\r\n", "\n")
+        return _text(self._heard())
+
+    def _heard(self) -> bytes:
+        return self.pending.pop(self.channel, b"") + self.card.heard(self.channel)
 
     def expect_silence(self) -> None:
         """DifferenceError if the terminal has shown what no line of the case expects."""
@@ -79,16 +81,19 @@ class Stage:
         """
         begun_tk = self.card.tick
         self._send(text)
-        shown = self.take()
+        data = self._heard()
         last_tk = begun_tk + round(PATIENCE_S / self.card.period_s)
-        while not self.card.is_answered(self.channel) and self.card.tick < last_tk:
+        while not (is_answered := self.card.is_answered(self.channel)):
+            if self.card.tick >= last_tk:
+                break
             self.card.advance(1)
-            shown += self.take()
-        shown = (shown + self.take()).removeprefix(f"{text}\n")  # the echo may come in pieces
-        if not self.card.is_answered(self.channel):
-            raise DifferenceError(f"an answer within {PATIENCE_S:g} s", shown or "(nothing)")
+            data += self._heard()
+        data += self._heard()  # over a wire an echo, even a line end, may come in pieces
+        heard = _text(data).removeprefix(f"{text}\n")
+        if not is_answered:
+            raise DifferenceError(f"an answer within {PATIENCE_S:g} s", heard or "(nothing)")
         self.took_tk = self.card.tick - begun_tk
-        return self.answer(shown)
+        return self.answer(heard)
 
     def answer(self, heard: str) -> list[str]:
         """The lines of an answer; its prompt is kept in `prompt`."""
@@ -123,10 +128,14 @@ class Stage:
         For a count of 0, that nothing arrives for a while; else all that did.
         """
         last_tk = self.card.tick + (round(REPLY_S / self.card.period_s) if count else SILENCE_TK)
-        heard = self.pending.pop(self.channel, b"") + self.card.heard(self.channel)
+        heard = self._heard()
         while len(heard) < (count or 1) and self.card.tick < last_tk:
             self.card.advance(1)
             heard += self.card.heard(self.channel)
         if count and heard[count:]:
             self.pending[self.channel] = heard[count:]
         return heard[: count or None]
+
+
+def _text(data: bytes) -> str:
+    return data.decode("latin-1").replace("\r\n", "\n")
