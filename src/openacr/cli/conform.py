@@ -40,7 +40,7 @@ def conform(
         typer.Option(
             "--area",
             metavar="TEXT",
-            help="Sections with this in their name, ids that begin so; may be repeated.",
+            help="Sections with this in their name, or ids that begin so (ACR-LIM).",
         ),
     ] = None,
     cases: Annotated[

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +13,8 @@ from openacr.conform.host import HostCard
 from openacr.conform.read import files, read
 from openacr.conform.run import run
 from openacr.errors import UserError
+
+_MADE_ID = re.compile(r"^proves:(?:[^({\n]|\([^)]*\))*\{", re.MULTILINE)  # an id from a table
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +35,7 @@ class Outcome:
     @property
     def section(self) -> str:
         """Manual and section, as the folders and files are named."""
-        return f"{self.case.path.parent.name}/{self.case.path.stem}"
+        return _section(self.case.path)
 
     def data(self) -> dict[str, object]:
         """The outcome as JSON data."""
@@ -64,19 +67,36 @@ def chosen(folder: Path, areas: Sequence[str]) -> list[Case]:
 
     UserError for a word that nothing has, and for a folder without cases.
     """
-    cases = [case for path in files(folder) for case in read(path)]
-    if not cases:
+    paths = files(folder)
+    if not paths:
         raise UserError(f"{folder}: no files of cases here")
+    likely = [path for path in paths if not areas or any(_may_have(path, area) for area in areas)]
+    cases = [case for path in likely for case in read(path)]
     for area in areas:
         if not any(_is_of(case, area) for case in cases):
-            names = dict.fromkeys(case.path.stem.partition("-")[2] for case in cases)
+            names = dict.fromkeys(path.stem.partition("-")[2] for path in paths)
             raise UserError(f"--area {area}: the sections are {', '.join(names)}; or an id")
     return [case for case in cases if not areas or any(_is_of(case, area) for area in areas)]
 
 
+def _may_have(path: Path, area: str) -> bool:
+    """Whether a file may have cases of an area; to read all files takes a second."""
+    if area.lower() in _section(path).lower():
+        return True
+    if "-" not in area:  # no id
+        return False
+    text = path.read_text(encoding="utf-8", errors="replace")
+    return area.upper() in text or _MADE_ID.search(text) is not None
+
+
 def _is_of(case: Case, area: str) -> bool:
-    place = f"{case.path.parent.name}/{case.path.stem}".lower()
-    return area.lower() in place or any(claim.id.startswith(area.upper()) for claim in case.proves)
+    is_claimed = any(claim.id.startswith(area.upper()) for claim in case.proves)
+    return ("-" in area and is_claimed) or area.lower() in _section(case.path).lower()
+
+
+def _section(path: Path) -> str:
+    """Manual and section, as the folders and files are named."""
+    return f"{path.parent.name}/{path.stem}"
 
 
 def on_virtual_card(cases: Iterable[Case], model: str) -> Iterator[Outcome]:

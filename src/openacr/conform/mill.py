@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 from openacr.client import Card
 from openacr.cnc.interpreter.interpreter import Interpreter
@@ -16,6 +17,7 @@ from openacr.conform.targets import POLL_TK, VirtualCard
 from openacr.engine.watches import Watch, Watched
 from openacr.errors import UserError
 from openacr.map import numbers as n
+from openacr.mill.plan.checking import check_text
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
@@ -69,6 +71,10 @@ class Mill:
         """The value of a cell."""
         return self.store.value(one(name).number)
 
+    def messages(self, text: str) -> list[Finding]:
+        """What `openacr mill check` finds in a text."""
+        return check_text(text, Path("PART.TXT"), self.store, self.dialect)
+
     def entries(self) -> Iterator[str]:
         """What the program becomes, without a machine, or its errors; the last may be one, too."""
         program = load(self.text, self.store, self.dialect)
@@ -109,11 +115,12 @@ class Mill:
             raise UserError("; ".join(map(str, program.errors)))
         self.session.start(program, Start(dialect=self.dialect))
 
-    def wait_for(self, state: State) -> int:
-        """Let time pass until a state is reached; in how many periods there was motion meanwhile.
+    def wait_for(self, name: str) -> int:
+        """Let time pass until a state (IDLE, HOLD ...) is reached; the periods of motion meanwhile.
 
         Counted from the first to the last of them.
         """
+        state = State[name]
         runner, card = self.session.runner, self._target.world
         last_tk = card.lived_tk + round(LIMIT_S / card.period_s)
         begun_tk: int | None = None
@@ -179,7 +186,7 @@ class Mill:
             return [f"{error.finding.code} {error.finding.text}"]
         except UserError as error:
             return [str(error)]
-        self.wait_for(State.IDLE)
+        self.wait_for(State.IDLE.name)
         return []
 
     def alarms(self) -> list[str]:

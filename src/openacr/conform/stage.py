@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from openacr.conform.form import DifferenceError
-from openacr.conform.mill import Mill
 from openacr.conform.targets import CONSOLE, Target, VirtualCard
 from openacr.errors import UserError
 from openacr.lang.characters import as_typed, shown
+
+if TYPE_CHECKING:
+    from openacr.conform.mill import Mill
 
 PATIENCE_S = 60.0  # of the card, for the answer to a line
 REPLY_S = 1.0  # for the bytes of a reply
@@ -34,6 +37,10 @@ class Stage:
         if self._mill is None:
             if not isinstance(self.card, VirtualCard):
                 raise UserError("the front end runs on a virtual card alone")
+            from openacr.conform.mill import (
+                Mill,  # half of all imports, for the cases of parts alone
+            )
+
             self._mill = Mill(self.card)
         return self._mill
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from openacr.conform.form import (
     ANSWERS,
     BLOCK,
@@ -17,8 +15,6 @@ from openacr.conform.form import (
     word,
 )
 from openacr.conform.stage import Stage
-from openacr.mill.plan.checking import check_text
-from openacr.mill.run.lifecycle import State
 from openacr.sysvar import SettingError
 
 AXES = "XYZABCUV"
@@ -65,7 +61,7 @@ def entries(stage: Stage, step: Step, text: str = "") -> None:
 def check_part(stage: Stage, step: Step) -> None:
     """Messages of `openacr mill check`: `# E: E203 ...` or `# W: W212 ...` at their lines."""
     text = "\n".join(messages_taken(step)) + "\n"
-    found = check_text(text, Path("PART.TXT"), stage.mill.store, stage.mill.dialect)
+    found = stage.mill.messages(text)
     compare_messages(
         step, [(each.line, not each.is_error, f"{each.code} {each.text}") for each in found]
     )
@@ -75,13 +71,13 @@ def check_part(stage: Stage, step: Step) -> None:
 def run(stage: Stage, step: Step) -> None:
     """Start the part and wait for its end; `took` is its motion, from first to last."""
     stage.mill.start()
-    stage.took_tk = stage.mill.wait_for(State.IDLE)
+    stage.took_tk = stage.mill.wait_for("IDLE")
 
 
 @word("wait for MODE")
 def wait_for(stage: Stage, step: Step, state: str) -> None:
     """Wait until the machine is in a state; `took` is the motion meanwhile."""
-    stage.took_tk = stage.mill.wait_for(State[state])
+    stage.took_tk = stage.mill.wait_for(state)
 
 
 @word("press BUTTON")
