@@ -55,6 +55,12 @@ def again(page: Page) -> None:
     until_model(page, "model.hello.value.client")
 
 
+def laid_out(page: Page, width: int) -> None:
+    """Wait until the workspace has the form of this width: one place on a narrow screen."""
+    groups = page.locator(".dv-groupview")
+    expect(groups).to_have_count(1) if width <= 900 else expect(groups).not_to_have_count(1)
+
+
 def write(station: Station, parameter: int, value: float) -> None:
     station.machine.card.write(parameter, value)
 
@@ -256,6 +262,7 @@ def test_every_pane_fits_every_size_and_keeps_the_rules_of_accessibility(
     sizes = ((1920, 1080), (1024, 768), (800, 600))
     for width, height in sizes if theme == "light" else sizes[-1:]:  # a theme is colours alone
         page.set_viewport_size({"width": width, "height": height})
+        laid_out(page, width)
         for pane in panes:
             page.evaluate(
                 "(name) => import('/js/bench/workspace.js').then((each) => each.openPane(name))",
@@ -274,8 +281,10 @@ def test_every_pane_fits_every_size_and_keeps_the_rules_of_accessibility(
 def test_a_tablet_shows_one_pane_at_a_time_and_leaves_the_wide_layout_alone(page: Page) -> None:
     page.locator(".dv-tab", has_text="PLC").locator(".bench-close").click()
     expect(page.locator(".bench-tab-text")).to_have_count(len(FIRST) - 1)
+    page.locator(".bench-tab-text", has_text="Watch list").click()
     wide = page.evaluate(KEPT)
     page.set_viewport_size({"width": 800, "height": 600})
+    expect(page.locator("[data-pane=watch]")).to_be_visible()  # the pane in use stays
     expect(page.locator(".dv-groupview")).to_have_count(1)
     expect(page.locator(".bench-tab-text")).to_have_text(FIRST)
     expect(page.locator(".bench-pane")).to_have_count(1)

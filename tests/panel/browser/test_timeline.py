@@ -60,12 +60,11 @@ def test_the_moment_is_dragged_back_and_the_machine_operated_from_there_on_anoth
     until_model(page, "model.moment.value.last > 3000")
     slider = page.get_by_role("slider", name="Moment")
     before = served.call(counted)
-    slider.evaluate(
-        "(slider) => { slider.value = String(Number(slider.max) - 2000);"
-        " slider.dispatchEvent(new Event('input')); }"
+    tick = slider.evaluate(
+        "(slider) => { const tick = Number(slider.max) - 2000; slider.value = String(tick);"
+        " slider.dispatchEvent(new Event('input')); return tick; }"
     )
     until_model(page, "model.timeline.value.away && model.timeline.value.still")
-    tick = int(slider.input_value())
     until_model(page, f"model.moment.value.tick === {tick}")
     assert served.call(lived) == tick
     assert served.call(counted) < before

@@ -78,9 +78,10 @@ def step(station: Station, order: Order, args: OfStep) -> None:
 
 
 @command("timeline.seek", Role.SERVICE)
-def seek(station: Station, order: Order, args: OfTick) -> None:
+def seek(station: Station, order: Order, args: OfTick) -> dict[str, int]:
     """Show the card at a tick of the present branch; the panel leaves it before."""
     station.times.seek(args.tick)
+    return {"tick": args.tick}
 
 
 @command("timeline.branch", Role.SERVICE)

@@ -30,7 +30,9 @@ export function startWorkspace() {
   NARROW.addEventListener("change", () => {
     form = formOf();
     dock.updateOptions({ disableDnd: NARROW.matches });
+    const shown = dock.activePanel?.id ?? "";
     load();
+    dock.getPanel(shown)?.api.setActive(); // a tablet that is turned goes on with the pane in use
   });
 }
 

@@ -77,12 +77,13 @@ export async function mount(host, { head, kept, keep }) {
     showMoment(wanted);
     if (isAsking) return;
     isAsking = true;
+    let isSought = false;
     for (let last = Number.NaN; last !== wanted;) {
       last = wanted;
-      await give("timeline.seek", { tick: last });
+      isSought = Boolean(await give("timeline.seek", { tick: last }));
     }
     isAsking = false;
-    draw();
+    if (!isSought || model.moment.value.tick === wanted) draw(); // else the moment is on its way: the slider stays
   }
 
   /** First and last tick of the branch. @returns {import("../time_view.js").Part} */
