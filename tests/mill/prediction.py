@@ -1,9 +1,11 @@
-"""The predicted time of a list of entries."""
+"""What is planned: the time of a list of entries, the speed in a corner."""
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
+from openacr.mill.plan.planning import CornerRules, PlannedMove, Planner
 from openacr.mill.plan.predicting import Prediction, Predictor
 
 
@@ -20,3 +22,11 @@ def predicted(
         predictor.add(entry)
     predictor.rest()
     return predictor.found
+
+
+def corner_speed(before: PlannedMove, after: PlannedMove, rules: CornerRules) -> float:
+    """The speed from one move into the next, which is long enough to brake."""
+    planner: Planner[PlannedMove] = Planner(rules)
+    planner.add(replace(before))
+    planner.add(replace(after, length_u=1e6))
+    return next(planner.release(1, is_complete=True)).exit_ups

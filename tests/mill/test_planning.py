@@ -1,6 +1,7 @@
 """How fast moves may follow each other."""
 
 import math
+import random
 from dataclasses import replace
 from itertools import pairwise
 
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.mill.prediction import corner_speed
 
 from openacr.cnc.canonical import PathMode
 from openacr.errors import UserError
@@ -15,8 +17,6 @@ from openacr.mill.plan.planning import (
     CornerRules,
     PlannedMove,
     Planner,
-    corner_speed,
-    turn_deg,
 )
 
 FEED = 4.0
@@ -40,10 +40,9 @@ def line(
 
 @given(st.floats(-180.0, 180.0), st.floats(0.0, 180.0))
 def test_the_angle_of_a_corner_is_the_one_between_the_tangents(first: float, turn: float) -> None:
-    before, after = line(first), line(first + turn)
-    assert before.end is not None
-    assert after.start is not None
-    assert turn_deg(before.end, after.start) == pytest.approx(turn, abs=1e-9)
+    """Slowed to 0 from 0 to 180 degrees: the speed says the angle."""
+    speed = corner_speed(line(first), line(first + turn), CornerRules(0.0, 180.0))
+    assert 180.0 * (1.0 - speed / FEED) == pytest.approx(turn, abs=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -139,6 +138,17 @@ def test_nothing_is_lost_by_sending_before_all_is_known(chosen: Chosen) -> None:
     assert np.allclose(whole, pieces, rtol=0, atol=1e-12)
 
 
+def test_long_queues_are_planned_as_short_ones() -> None:
+    chance = random.Random(7)
+    chosen = [
+        (chance.uniform(-180.0, 180.0), chance.uniform(1e-3, 0.3), chance.uniform(1.0, 10.0))
+        for _ in range(700)
+    ]
+    whole = [move.exit_ups for move in planned(chosen, len(chosen) + 1)]
+    for takes in (1, 40, 300):
+        assert [move.exit_ups for move in planned(chosen, takes)] == whole
+
+
 def test_a_chain_of_short_tangent_moves_keeps_the_feed() -> None:
     out = planned([(0.0, 0.01, FEED)] * 400, 10)
     brake = FEED**2 / (2 * RAMP)
@@ -158,13 +168,23 @@ def test_as_many_moves_wait_as_were_asked_for() -> None:
     st.lists(st.tuples(st.floats(0.1, 40.0), st.sampled_from([20.0, 100.0])), min_size=1),
     st.lists(st.integers(0, 5)),
 )
-def test_the_longest_braking_distance_is_that_of_the_moves_in_the_queue(
+def test_moves_wait_over_the_longest_braking_distance_of_those_in_the_queue(
     moves: list[tuple[float, float]], takes: list[int]
 ) -> None:
+    require_held(moves, [*takes, 0])
+
+
+def test_many_moves_wait_over_their_longest_braking_distance() -> None:
+    chance = random.Random(3)
+    moves = [(chance.uniform(5.0, 40.0), chance.choice([20.0, 100.0])) for _ in range(400)]
+    require_held(moves, [0, 1, 3, 5])
+
+
+def require_held(moves: list[tuple[float, float]], takes: list[int]) -> None:
     planner: Planner[PlannedMove] = Planner(CornerRules())
-    takes = [*takes, 0]
     for k, (feed, ramp) in enumerate(moves):
         planner.add(replace(line(0.0, 0.5, feed), ramp_ups2=ramp))
         list(planner.release(takes[k % len(takes)], is_complete=False))
-        wanted = max(each.feed_ups**2 / (2.0 * each.ramp_ups2) for each in planner)
-        assert planner._brakes[0] == wanted
+        longest_u = max(each.feed_ups**2 / (2.0 * each.ramp_ups2) for each in planner)
+        held = min(len(planner), math.ceil(longest_u / 0.5))
+        assert planner.ready() == len(planner) - held

@@ -21,13 +21,14 @@ from tests.mill.planned_rotary import (
     to,
     turned_circle,
 )
+from tests.mill.prediction import corner_speed
 from tests.mill.shop import Shop, end, src
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.encoding import Encoder
 from openacr.mill.plan.geometry import weights
-from openacr.mill.plan.planning import CornerRules, corner_speed
+from openacr.mill.plan.planning import CornerRules
 from openacr.sysvar.tabs import AXIS, SPEEDS
 
 

@@ -15,15 +15,15 @@ from openacr.compiled import pick
 from openacr.mill.config.settings import S_PER_MIN
 from openacr.mill.plan import forecast_cy as core
 from openacr.mill.plan import move_rows_cy as row
+from openacr.mill.plan import planning_cy as plan
 from openacr.mill.plan.geometry import weights
+from openacr.mill.plan.planning import MODES, PASSES, CornerRules, put
 from openacr.mill.plan.predicting import Prediction, Timing
 
 if TYPE_CHECKING:
     from openacr.mill.config.settings import Settings
     from openacr.mill.plan.encoding import Job, Motion
 
-MODES = {c.PathMode.EXACT: core.EXACT, c.PathMode.CORNER: core.CORNER}
-PASSES = 0.0  # corners at the feed
 _moves = pick(core.forecast_moves)
 _add = pick(core.forecast_add)
 _release = pick(core.forecast_release)
@@ -64,6 +64,7 @@ class Forecast(Timing):
         self._J, self._X = integers(core.J_SIZE), doubles(core.X_SIZE)
         self._Y, self._U = doubles(len(settings.axes) * row.Y_SIZE), doubles(row.U_SIZE)
         self._Q, self._B = doubles(core.QUEUE * row.Q_SIZE), doubles(core.QUEUE)
+        self._P = doubles(plan.PHASE * plan.MOST_PHASES)
         self._begin, self._flags = doubles(POINT), integers(MOST_ROWS)
         self._set_up(settings, is_dry=is_dry)
 
@@ -73,9 +74,8 @@ class Forecast(Timing):
         X[row.X_RAPID], X[row.X_RAPID_RAMP] = rapid_ups, speeds.rapid_acc_ups2
         X[row.X_FEED_RAMP], X[row.X_ARC_RAMP] = speeds.feed_acc_ups2, speeds.arc_acc_ups2
         X[row.X_MAX], X[row.X_ROTARY] = speeds.max_ups, speeds.rotary_max
-        X[core.X_ANGLE1], X[core.X_ANGLE2] = speeds.angle1_deg, speeds.angle2_deg
-        X[core.X_SLOWEST], X[core.X_STEP] = speeds.corner_ups, speeds.corner_step_ups
-        self._J[row.J_AXES], self._J[core.J_LEAST] = len(settings.axes), settings.forward_threshold
+        CornerRules.of(speeds).put(X)
+        self._J[row.J_AXES], self._J[plan.J_LEAST] = len(settings.axes), settings.forward_threshold
         each = weights(settings)
         for k, axis in enumerate(settings.axes):
             high, low = axis.soft_limits or (0.0, 0.0)
@@ -91,7 +91,9 @@ class Forecast(Timing):
     def found(self) -> Prediction:
         """The times so far."""
         X = self._X
-        return Prediction(X[core.X_RAPID_S], X[core.X_FEED_S], self._dwell_s, self._J[core.J_MOVES])
+        return Prediction(
+            X[core.X_RAPID_S], X[core.X_FEED_S], self._dwell_s, self._J[core.J_RELEASED]
+        )
 
     def add(self, entry: c.Entry) -> None:
         """Add the next entry of the program."""
@@ -102,8 +104,7 @@ class Forecast(Timing):
 
     def rest(self, dwell_s: float = 0.0) -> None:
         """Add a stop with a dwell."""
-        _release(self._J, self._X, self._Q, self._B, True)
-        self._X[core.X_SPEED] = self._X[core.X_IS_ROUND] = 0.0
+        _release(self._J, self._X, self._Q, self._B, self._P, True)
         self._dwell_s += dwell_s
 
     def close(self) -> None:
@@ -141,8 +142,8 @@ class Forecast(Timing):
         for axis, at in enumerate(self._position):
             self._begin[axis] = at
         flagged = _moves(
-            J, self._X, self._Y, self._U, self._Q, self._B, self._begin, moves.rows, moves.ends,
-            moves.arcs, paces, count, self._flags,
+            J, self._X, self._Y, self._U, self._Q, self._B, self._P, self._begin, moves.rows,
+            moves.ends, moves.arcs, paces, count, self._flags,
         )  # fmt: skip
         if self._desk is not None:
             for k in self._flags[:flagged]:
@@ -157,21 +158,12 @@ class Forecast(Timing):
         self._position = job.finish
         if job.length_u <= 0.0:
             return
-        Q, q, entry = self._Q, self._J[core.J_COUNT] * row.Q_SIZE, job.entry
-        Q[q + row.Q_LENGTH], Q[q + row.Q_FEED] = job.length_u, job.feed_ups
-        Q[q + row.Q_RAMP], Q[q + row.Q_TOLERANCE] = job.ramp_ups2, job.tolerance_u
-        Q[q + row.Q_MODE] = MODES.get(job.mode, PASSES)
-        Q[q + row.Q_IS_RAPID] = job.is_rapid
-        Q[q + row.Q_HAS_TANGENT] = job.start is not None
-        for k, part in enumerate(job.start or ()):
-            Q[q + row.Q_START + k] = part
-        for k, part in enumerate(job.end or ()):
-            Q[q + row.Q_END + k] = part
-        for k, part in enumerate(job.turns):
-            Q[q + row.Q_ROTATION + k] = part
+        Q, entry = self._Q, job.entry
+        q = (self._J[plan.J_HEAD] + self._J[plan.J_COUNT]) * row.Q_SIZE
+        put(Q, q, job)
         Q[q + row.Q_WANTED] = _wanted(entry)
         Q[q + row.Q_LINE], Q[q + row.Q_FILE] = entry.source.line, self._file(entry.source.file)
-        _add(self._J, self._X, Q, self._B)
+        _add(self._J, self._X, Q, self._B, self._P)
 
 
 def _wanted(entry: Motion) -> float:

@@ -14,8 +14,8 @@ from openacr.mill.config.curves import can_plan
 from openacr.mill.config.settings import Settings
 from openacr.mill.config.tabs import AxisSettings
 from openacr.mill.plan import arc_law_cy
-from openacr.mill.plan.rounding import Direction
 
+Direction = tuple[float, ...]  # a unit tangent, a number for each linear axis
 Point = Sequence[float]  # machine position, one value per axis 0..7
 RADIUS_MM = 60.0  # a degree counts as much as it turns a point at about this radius
 MM_PER_INCH = 25.4

@@ -39,7 +39,9 @@ Q_TURN = 23
 Q_REACH = 24
 Q_CAP = 25
 Q_ROTATION = 26  # of rotary axes by length, a degree as a length
-Q_SIZE = 29
+Q_ROUND_RAMP = 29  # of the weaker of the two moves at a rounded corner
+Q_IS_JOINED = 30  # rounded into the next move by the card, or straight on
+Q_SIZE = 31
 
 # An axis of the machine.
 Y_INDEX = 0
@@ -64,6 +66,7 @@ X_MOVES = 6  # numbers before these
 
 J_AXES = 0  # count
 J_UNHOMED = 1  # mask of axes whose first move is to be flagged
+J_MOVES = 2  # integers before these
 
 RAPID = 0
 LINE = 1

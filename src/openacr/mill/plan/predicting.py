@@ -1,22 +1,13 @@
-r"""Prediction of the run time of a program from its plan, without a card.
+"""Prediction of the run time of a program from its plan, without a card.
 
-The card runs each move from the speed the move before it ended with, up to its feed and
-down to the speed it was sent with, at constant acceleration a. Over a length L
-
-    end      v1 = min(planned, sqrt(v0^2 + 2 a L))    what can be reached at all
-    peak     vp = min(feed, sqrt((2 a L + v0^2 + v1^2) / 2))
-    time     (vp - v0)/a + (vp - v1)/a + (L - ramps)/vp
-
-so the sum over all moves is the run time, without the ticks of a card. Corners that the card
-rounds are passed in two halves at a constant acceleration each, the line between two of them
-as above. With a jerk limit the ramps are S-curves (see `jerk_ramps`), and paths that have a
-tolerance as well take the time of their control points, as in a run. Waits for the operator and
+The sum of the times of all moves (`planning_cy`) is the run time, without the ticks of a card.
+With a jerk limit the ramps are S-curves (see `jerk_ramps`), and paths that have a tolerance as well
+take the time of their control points, as in a run. Waits for the operator and
 for signals count as zero.
 """
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -25,9 +16,8 @@ from typing import TYPE_CHECKING, Protocol
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.encoding import Encoder, Job
-from openacr.mill.plan.phases import Phases, duration_s, even
-from openacr.mill.plan.planning import backward_pass
-from openacr.mill.plan.rounding import Corner
+from openacr.mill.plan.phases import Phases, duration_s
+from openacr.mill.plan.planning import Ramps
 from openacr.mill.plan.route import Route
 
 if TYPE_CHECKING:
@@ -129,9 +119,8 @@ class Predictor(Timing):
         super().__init__(settings, begin, is_dry=is_dry, rounds=rounds)
         self._route = Route(settings)
         self._curve: CurveTimes | None = None
-        self._ramps = _jerk_ramps(self._encoder) if settings.speeds.jerk_ups3 > 0.0 else None
-        self._speed_ups = 0.0
-        self._entry_corner: Corner | None = None
+        has_jerk = settings.speeds.jerk_ups3 > 0.0
+        self._ramps: Ramps | JerkRamps = _jerk_ramps(self._encoder) if has_jerk else Ramps()
         self._reader, self._progress = reader, progress
         self.found = Prediction()
 
@@ -147,7 +136,6 @@ class Predictor(Timing):
     def rest(self, dwell_s: float = 0.0) -> None:
         """Add a stop with a dwell."""
         self._release(is_complete=True)
-        self._speed_ups, self._entry_corner = 0.0, None
         self.found.dwell_s += dwell_s
         if self._reader is not None:
             self._reader.rested(dwell_s)
@@ -162,17 +150,11 @@ class Predictor(Timing):
                 self._pass_moves(is_complete=is_complete)
             if not has_more:
                 return
-            self._speed_ups, self._entry_corner = 0.0, None
             self._route.go_on()
 
     def _pass_moves(self, *, is_complete: bool) -> None:
         for job in self._route.release(1 << 30, is_complete=is_complete):
-            if self._ramps is not None:
-                phases = self._ramps.travel(job)
-            else:
-                phases = travel(job, self._speed_ups, self._entry_corner)
-                self._speed_ups, self._entry_corner = phases[-1].end_ups, job.corner
-            self._pass(job, phases)
+            self._pass(job, self._ramps.travel(job))
 
     def _pass_curve(self, path: PlannedPath, *, is_complete: bool) -> None:
         from openacr.mill.plan.curve_times import CurveTimes  # loads numpy: most runs have none
@@ -213,33 +195,3 @@ def _jerk_ramps(encoder: Encoder) -> JerkRamps:
     from openacr.mill.plan.jerk_ramps import JerkRamps  # has a card: most machines have no jerk
 
     return JerkRamps(encoder)
-
-
-def travel(job: Job, begin_ups: float, entry_corner: Corner | None = None) -> Phases:
-    """The phases of a move that begins at a speed, after a rounded corner if there is one."""
-    a, rest_u = job.ramp_ups2, job.length_u
-    begin = min(begin_ups, job.feed_ups)
-    may = backward_pass(job, entry_corner)
-    phases: Phases = []
-    if entry_corner is not None:
-        line = math.sqrt(entry_corner.pass2(begin * begin, may.line))
-        phases.append(even(entry_corner.reach_u, begin, line))
-        begin, rest_u = line, rest_u - entry_corner.reach_u
-    if job.corner is None:
-        return phases + _straight(rest_u, begin, job.exit_ups, job.feed_ups, a)
-    rest_u -= job.corner.reach_u
-    phases += _straight(rest_u, begin, math.sqrt(may.ahead), job.feed_ups, a)
-    entry = phases[-1].end_ups
-    end = math.sqrt(job.corner.pass2(entry * entry, job.exit_ups**2))
-    phases.append(even(job.corner.reach_u, entry, end))
-    return phases
-
-
-def _straight(length: float, begin: float, end: float, feed: float, a: float) -> Phases:
-    """The phases of a straight part: up to the peak speed, constant, down to the end speed."""
-    end = min(end, math.sqrt(begin * begin + 2.0 * a * length))
-    peak = min(feed, math.sqrt(0.5 * (2.0 * a * length + begin * begin + end * end)))
-    up = (peak * peak - begin * begin) / (2.0 * a)
-    down = (peak * peak - end * end) / (2.0 * a)
-    return [even(up, begin, peak), even(max(length - up - down, 0.0), peak, peak),
-            even(down, peak, end)]  # fmt: skip

@@ -4,6 +4,7 @@ The moves are those a run would send. On a machine soft limits act only on homed
 axis is checked as if it were homed, and one warning names those that are not.
 """
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -14,7 +15,6 @@ from openacr.mill.config.capture import capture_of
 from openacr.mill.config.settings import S_PER_MIN, Settings
 from openacr.mill.plan.encoding import LONG_MAX, Encoder, Job
 from openacr.mill.plan.phases import Phases
-from openacr.mill.plan.planning import turn_deg
 from openacr.mill.plan.travel_limits import Excess, excesses, limited
 from openacr.sysvar.tabs import SPEEDS
 from openacr.wording import counted
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from openacr.mill.plan.planned_path import Rows
 
 REACHED = 1.0 - 1e-6  # of the feed; speeds of the plan are results of square roots
-SMOOTH_DEG = 1.0  # less is no corner
+SMOOTH = 2.0 * math.sin(math.radians(0.5 * 1.0))  # apart are tangents of a corner of a degree
 NO_TOLERANCE = f"with one (G64 P, or P{SPEEDS.path_tolerance}) the path keeps its acceleration"
 REACHED_PLANNED = 0.99  # a planned path is somewhat shorter than the programmed one
 
@@ -171,7 +171,7 @@ class Preflight:
         """Note a corner that is passed at speed: the card makes a step of the velocity there."""
         if before is None or before.exit_ups <= 0.0 or before.end is None or job.start is None:
             return
-        if turn_deg(before.end, job.start) > SMOOTH_DEG:
+        if math.dist(before.end, job.start) > SMOOTH:
             first, cnt = self._hard or (job.entry.source, 0)
             self._hard = first, cnt + 1
 

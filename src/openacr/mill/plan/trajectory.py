@@ -20,7 +20,7 @@ from openacr.mill.plan.curve_window import REST
 from openacr.mill.plan.encoding import Job
 from openacr.mill.plan.geometry import linear_axes
 from openacr.mill.plan.phases import Phases, duration_s
-from openacr.mill.plan.rounding import Corner
+from openacr.mill.plan.planning import Corner
 from openacr.plant import schema
 from openacr.trajectory.setpoints import evaluate
 
