@@ -19,15 +19,24 @@ from pathlib import Path
 from tests import warm
 
 from openacr.client import Card
+from openacr.cnc.occupied import TRIPPED, WATCHDOG_PROGRAM
 from openacr.controller.journal import read_journal
 from openacr.controller.replay import Replay
 from openacr.controller.trace import Trace
 from openacr.engine.samples import Sample
-from openacr.map.numbers import AF1_JOG_ACTIVE, AF1_WORD, MF1_IN_MOTION, MF1_WORD
+from openacr.map.numbers import (
+    AF1_JOG_ACTIVE,
+    AF1_WORD,
+    MF1_IN_MOTION,
+    MF1_WORD,
+)
+from openacr.map.numbers import P_GLOBAL_SYSTEM_CLOCK as CLOCK
 from openacr.sysvar import Store
 
 LIMIT_S = 60.0  # for what has to come at all
 AXIS_POSITION, AXIS_STRIDE = 12288, 256
+REST_MS = 300  # of the card, in which nothing has moved
+LONG_AGO_MS = 1_000_000
 PULSES = 10000.0
 SERVE = ("serve", "--ascii-port", "0", "--binary-port", "0")
 
@@ -166,10 +175,19 @@ class Plant:
 
     @property
     def is_at_rest(self) -> bool:
-        """Whether no axis moves for a quarter of a second."""
-        before = self.places()
-        time.sleep(0.25)
+        """Whether no axis moves for a third of a second of the card, however slow the computer."""
+        before, begun_ms = self.places(), self.card.read(CLOCK)
+        until(lambda: self.card.read(CLOCK) - begun_ms >= REST_MS)
         return self.places() == before
+
+    def trip(self) -> None:
+        """Wait until the watchdog has tripped for which the last beat of its host is long ago."""
+
+        def has_tripped() -> bool:
+            self.card.command(f"LV1=LV1-{LONG_AGO_MS}", program=WATCHDOG_PROGRAM)
+            return self.card.read_bit(TRIPPED)
+
+        until(has_tripped)
 
     def lived_again(self, *samples: Sample) -> Trace:
         """The samples of every tick of the card, which is ended and lives again by its journal."""
