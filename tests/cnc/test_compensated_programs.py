@@ -37,21 +37,6 @@ def test_27_a_pocket_narrower_than_the_tool_is_refused_with_its_lines() -> None:
     assert run(text, RADIUS).error is not None
 
 
-@pytest.mark.req("MILL-COMP-16")
-@pytest.mark.parametrize(("geometry", "wear"), [(0.25, 0.0), (0.2, 0.05), (0.3, -0.05)])
-def test_geometry_and_wear_of_d_are_added(geometry: float, wear: float) -> None:
-    text = "G41 D7 F10 G1 X0 Y0\nX1\nY1\nG40 X0 Y1"
-    done = run(text, {1007: geometry, 1507: wear}, start=(0, 1, 0))
-    assert done.moves == ["L Y0.25", "L X0.75 Y0.25", "L X0.75 Y1", "L Y1"]
-
-
-@pytest.mark.req("MILL-COMP-26")
-def test_d_changed_on_the_way_acts_from_the_next_block_on() -> None:
-    text = "G41 D1 F10 G1 X0 Y0\nX1\nD2 Y1\nG40 X0 Y1"
-    done = run(text, {1001: 0.25, 1002: 0.4}, start=(0, 1, 0))
-    assert done.moves == ["L Y0.25", "L X0.6 Y0.25", "L X0.6 Y1", "L Y1"]
-
-
 def test_the_radius_of_the_setup_holds_without_d() -> None:
     text = "G41 F10 G1 X0 Y0\nX1\nY1\nG40 X0 Y1"
     assert run(text, {100_020: 0.25}, start=(0, 1, 0)).moves[1] == "L X0.75 Y0.25"
@@ -71,20 +56,6 @@ def test_compensation_begins_and_ends_with_lines(text: str) -> None:
     assert errors(text, RADIUS) == ["E313"]
 
 
-@pytest.mark.req("MILL-COMP-12", "MILL-COMP-13")
-def test_the_tool_comes_and_goes_off_the_part() -> None:
-    text = "G0 X-1 Y1\nG41 D1 G1 F10 X0 Y0\nX2\nG40 X3 Y1"
-    assert run(text, RADIUS).moves == ["R X-1 Y1", "L Y0.25", "L X2 Y0.25", "L X3 Y1"]
-
-
-@pytest.mark.req("MILL-COMP-15")
-def test_a_negative_radius_cuts_on_the_other_side_with_a_warning() -> None:
-    text = "G41 D1 F10 G1 X0 Y0\nX1\nY1\nG40 X0 Y1"
-    done = run(text, {1001: -0.25}, start=(0, -1, 0))
-    assert done.moves[0] == "L Y-0.25"
-    assert "W310" in done.codes
-
-
 @pytest.mark.req("MILL-COMP-17")
 def test_the_triangle_is_rounded_at_the_top_and_at_the_lower_right() -> None:
     """From above left to the base, around the notch, to the top, to the right corner, back."""
@@ -100,28 +71,6 @@ def test_the_triangle_is_rounded_at_the_top_and_at_the_lower_right() -> None:
     for line in done.entries:
         if isinstance(line, Line) and line.is_compensated and not line.is_inserted:
             assert line.end[2] == 0
-
-
-@pytest.mark.req("MILL-COMP-22")
-def test_a_program_compensated_by_cam_runs_unchanged() -> None:
-    text = "G40\nG1 F10 X1\nG2 X2 Y1 I1 J0 G200 F1\nG1 X3 Y3"
-    assert run(text, RADIUS).moves == run(text.replace("G40\n", "")).moves
-
-
-@pytest.mark.req("MILL-COMP-23")
-@pytest.mark.parametrize(
-    ("plane", "moves"),
-    [
-        ("G17", ["L Y0.25", "L X0.75 Y0.25", "L X0.75 Y1", "L Y1"]),
-        ("G18", ["L X0.25", "L X0.25 Z0.75", "L X1 Z0.75", "L X1"]),
-        ("G19", ["L Z0.25", "L Y0.75 Z0.25", "L Y0.75 Z1", "L Z1"]),
-    ],
-)
-def test_all_planes(plane: str, moves: list[str]) -> None:
-    first, second = {"G17": ("X", "Y"), "G18": ("Z", "X"), "G19": ("Y", "Z")}[plane]
-    text = f"{plane} G41 D1 F10 G1 {first}0 {second}0\n{first}1\n{second}1\nG40 {first}0 {second}1"
-    start = {"G17": (0, 1, 0), "G18": (1, 0, 0), "G19": (0, 0, 1)}[plane]
-    assert run(text, RADIUS, start=start).moves == moves
 
 
 def test_a_z_move_on_the_way_is_made_where_the_tool_is() -> None:

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from tests.cnc.programs import CYCLES, STORE, Bench, errors, made, run
+from tests.cnc.programs import CYCLES, Bench, errors, made, run
 
 from openacr.cnc.canonical import Orient, Probe, Spindle
 from openacr.cnc.codes.gcodes.work import clear_zero, preset_zero
@@ -18,47 +18,12 @@ from openacr.cnc.reading.parser import parse
 Z2 = (0.0, 0.0, 2.0)
 
 
-BODIES = [
-    ("G81 Z-1 R.1", "", "R0.1 F-1 R2"),
-    ("G99 G81 Z-1 R.1", "", "R0.1 F-1 R0.1"),
-    ("G82 Z-1 R.1 P2", "", "R0.1 F-1 dwell2 R2"),
-    ("G99 G82 Z-1 R.1 P2", "", "R0.1 F-1 dwell2 R0.1"),
-    ("G85 Z-1 R.1", "", "R0.1 F-1 F0.1 R2"),
-    ("G99 G85 Z-1 R.1", "", "R0.1 F-1 F0.1"),
-    ("G86 Z-1 R.1", "M3", "M3 R0.1 F-1 R2"),
-    ("G99 G86 Z-1 R.1", "M3", "M3 R0.1 F-1 R0.1"),
-    ("G89 Z-1 R.1 P1", "", "R0.1 F-1 dwell1 R2"),
-    ("G99 G89 Z-1 R.1 P1", "", "R0.1 F-1 dwell1 R0.1"),
-    ("G74 Z-1 R.1", "M4", "M4 R0.1 F-1 M3 F0.1 M4 R2"),
-    ("G99 G74 Z-1 R.1", "M4", "M4 R0.1 F-1 M3 F0.1 M4"),
-    ("G84 Z-1 R.1 P1", "M3", "M3 R0.1 F-1 M4 dwell1 F0.1 M3 R2"),
-    ("G76 Z-1 R.1 Q.2", "M3", "M3 R0.1 F-1 orient F-1 R2 R2 release M3"),
-    ("G87 Z-1 R-2 Q.2", "M3", "M3 orient R2 R-2 R-2 release M3 M3 F-1 orient R-1 R2 R2 release M3"),
-    ("G88 Z-1 R.1 P1", "M3", "M3 R0.1 F-1 dwell1 M5 R2 release M3"),
-    ("G99 G88 Z-1 R.1 P1", "M4", "M4 R0.1 F-1 dwell1 M5 R0.1 release M4"),
-    ("G99 G76 Z-1 R.1 Q.2", "M4", "M4 R0.1 F-1 orient F-1 R0.1 R0.1 release M4"),
-]
-CYCLE_IDS = (
-    "MILL-CYC-SIXSTEP", "MILL-G74", "MILL-G74-SYNC", "MILL-G76", "MILL-G76-ORIENT", "MILL-G81",
-    "MILL-G82", "MILL-G84", "MILL-G85", "MILL-G86", "MILL-G87", "MILL-G88", "MILL-G89",
-)  # fmt: skip
-
-
 @pytest.mark.req("MILL-CYC-LABELS")
 def test_labels_of_the_supplied_cycles_begin_at_73000() -> None:
     labels = re.findall(
         r"^N(\d+)", Path(supplied.__file__).with_name("CYCLES.TXT").read_text(), re.M
     )
     assert min(int(label) for label in labels) == 73_000
-
-
-@pytest.mark.req("MILL-CYC-LABELS")
-@pytest.mark.parametrize("label", [70_001, 81_000, 999_999])
-def test_labels_above_70000_are_those_of_the_cycles(label: int) -> None:
-    codes = {e.code for e in load(f"N{label} X1 F10" + CYCLES, STORE).errors}
-    assert codes & {"E263", "E221"}
-    assert not load(f"N{label} X1 F10", STORE).errors
-    assert not load("N70000 X1 F10" + CYCLES, STORE).errors
 
 
 def test_programs_may_not_jump_into_a_cycle() -> None:
@@ -143,6 +108,12 @@ def test_the_trip_is_stored_in_machine_coordinates() -> None:
     assert done.p(202) == 1
     assert done.p(910) == pytest.approx(3.0)
     assert done.moves[-1] == "R X3"
+
+
+def test_all_eight_axes_of_the_trip_are_stored() -> None:
+    where = (0.75, 0.5, -1.0, 90.0, 10.0, -20.0, 4.0, 0.125)
+    done = run("G31 F10 X1\nP200=P101", axes=8, machine=Bench(trip=where))
+    assert [done.p(number) for number in range(101, 109)] == list(where)
 
 
 def test_a_probe_input_is_needed() -> None:

@@ -19,43 +19,6 @@ def value(expression: str, cells: dict[int, float] | None = None) -> float:
 @pytest.mark.parametrize(
     ("expression", "wanted"),
     [
-        pytest.param("1+2", 3, marks=pytest.mark.req("MILL-MATH-ADD")),
-        pytest.param("5-7", -2, marks=pytest.mark.req("MILL-MATH-SUB")),
-        pytest.param("-3*-2", 6, marks=pytest.mark.req("MILL-MATH-MUL")),
-        pytest.param("7/2", 3.5, marks=pytest.mark.req("MILL-MATH-DIV")),
-        pytest.param("2>1", 1, marks=pytest.mark.req("MILL-MATH-GT")),
-        pytest.param("2<1", 0, marks=pytest.mark.req("MILL-MATH-LT")),
-        pytest.param("2=2", 1, marks=pytest.mark.req("MILL-MATH-EQ")),
-        pytest.param("2>=3", 0, marks=pytest.mark.req("MILL-MATH-GE")),
-        pytest.param("2<=2", 1, marks=pytest.mark.req("MILL-MATH-LE")),
-        pytest.param("2<>2", 0, id="unequal"),
-        pytest.param("2<>1", 1, id="different"),
-        pytest.param("2>2", 0, marks=pytest.mark.req("MILL-MATH-GT")),
-        pytest.param("1<2", 1, marks=pytest.mark.req("MILL-MATH-LT")),
-        pytest.param("2<2", 0, marks=pytest.mark.req("MILL-MATH-LT")),
-        pytest.param("2=3", 0, marks=pytest.mark.req("MILL-MATH-EQ")),
-        pytest.param("2>=2", 1, marks=pytest.mark.req("MILL-MATH-GE")),
-        pytest.param("3>=2", 1, marks=pytest.mark.req("MILL-MATH-GE")),
-        pytest.param("1<=2", 1, marks=pytest.mark.req("MILL-MATH-LE")),
-        pytest.param("3<=2", 0, marks=pytest.mark.req("MILL-MATH-LE")),
-        pytest.param("1<2 AND 2<3", 1, marks=pytest.mark.req("MILL-MATH-AND")),
-        pytest.param("2<1 AND 2<3", 0, marks=pytest.mark.req("MILL-MATH-AND")),
-        pytest.param("2<1 OR 3<2", 0, marks=pytest.mark.req("MILL-MATH-OR")),
-        pytest.param("2<1 OR 2<3", 1, marks=pytest.mark.req("MILL-MATH-OR")),
-        pytest.param("NOT 1=1", 0, marks=pytest.mark.req("MILL-MATH-NOT")),
-        pytest.param("1<2 XOR 3<2", 1, marks=pytest.mark.req("MILL-MATH-XOR")),
-        pytest.param("2<1 XOR 2<3", 1, marks=pytest.mark.req("MILL-MATH-XOR")),
-        pytest.param("2<1 XOR 3<2", 0, marks=pytest.mark.req("MILL-MATH-XOR")),
-        pytest.param("1<2 AND 3<2", 0, marks=pytest.mark.req("MILL-MATH-AND")),
-        pytest.param("1<2 OR 3<2", 1, marks=pytest.mark.req("MILL-MATH-OR")),
-        pytest.param("NOT 1=2", 1, marks=pytest.mark.req("MILL-MATH-NOT")),
-        pytest.param("1<2 XOR 2<3", 0, marks=pytest.mark.req("MILL-MATH-XOR")),
-        pytest.param("Sin(30)", 0.5, marks=pytest.mark.req("MILL-MATH-SIN")),
-        pytest.param("Cos(60)", 0.5, marks=pytest.mark.req("MILL-MATH-COS")),
-        pytest.param("Tan(45)", 1, marks=pytest.mark.req("MILL-MATH-TAN")),
-        pytest.param("Atan(1)", 45, marks=pytest.mark.req("MILL-MATH-ATAN")),
-        pytest.param("2+3*4", 14, marks=pytest.mark.req("MILL-MATH-PREC")),
-        pytest.param("(2+3)*4", 20, marks=pytest.mark.req("MILL-MATH-PREC")),
         ("7 MOD 4", 3),
         ("-7 MOD 4", -3),
         ("10-4-3", 3),
@@ -153,30 +116,3 @@ def test_a_loop_of_several_assignments_acts_once_per_pass() -> None:
     done = run(text, {5: 0.0, 201: 0.0})
     assert done.p(200) == 40
     assert done.p(201) == sum(range(40))
-
-
-@pytest.mark.req("MILL-MATH-ASSIGN-P", "MILL-MATH-ASSIGN-HASH")
-def test_p_and_hash_assign_the_same_cell() -> None:
-    assert run("P150=3").p(150) == 3
-    assert run("#150=4").p(150) == 4
-    assert run("#5=4").machine.parameters[5] == 4
-
-
-@pytest.mark.req("MILL-MATH-AXISEXPR")
-def test_axis_words_take_expressions() -> None:
-    done = run("F10 X(#1+#3) Y(P4+P6)", {1: 1, 3: 2, 4: 3, 6: 4})
-    assert done.moves == ["L X3 Y7"]
-    assert run("F10 X-#3 YP4", {3: 2, 4: 3}).moves == ["L X-2 Y3"]
-
-
-@pytest.mark.req(
-    "MILL-MATH-GT", "MILL-MATH-LT", "MILL-MATH-EQ", "MILL-MATH-GE", "MILL-MATH-LE",
-)  # fmt: skip
-@pytest.mark.parametrize(
-    ("operator", "jumps"), [(">", "001"), ("<", "100"), ("=", "010"), (">=", "011"), ("<=", "110")]
-)
-def test_every_comparison_decides_in_if(operator: str, jumps: str) -> None:
-    for value, is_taken in zip((1, 2, 3), jumps, strict=True):
-        text = f"P200={value}\nIF P200{operator}2 THEN GOTO 9\nG0 X1\nN9 G0 Y1"
-        moves = run(text).moves
-        assert moves == (["R Y1"] if is_taken == "1" else ["R X1", "R X1 Y1"]), (value, operator)

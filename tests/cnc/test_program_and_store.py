@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from tests.cnc.programs import errors, made, run
 
-from openacr.cnc.canonical import Arc, Line, PathMode, Stop
+from openacr.cnc.canonical import Line, Stop
 from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.cnc.loading.load import load
 from openacr.cnc.reading.findings import BlockError
@@ -26,17 +26,6 @@ def finished(text: str, store: Store) -> None:
 
 
 # --- cells ------------------------------------------------------------------------------
-
-
-@pytest.mark.req("MILL-OFS-GLOBALS")
-def test_offsets_are_read_and_written_by_their_numbers(tmp_path: Path) -> None:
-    path = tmp_path / "s.db"
-    with Store(path) as front_end, Store(path) as store:
-        front_end.write(2005, 1.25)
-        finished("P150=P2005*2\nP1007=0.3\nP1507=-P2005/100\nP3005=P650002", store)
-        assert [front_end.read(n) for n in (150, 1007, 1507, 3005)] == [2.5, 0.3, -0.0125, 10.0]
-    with Store(path) as store:
-        assert store.read(1007) == 0.3
 
 
 @pytest.mark.req("MILL-P-OUTOFRANGE")
@@ -61,16 +50,6 @@ def test_numbers_in_statements_are_checked_when_a_program_is_loaded(line: str, f
     (finding,) = made(f"M2\n{line}").interpreter.program.errors
     assert f"{finding.code} {finding.text}" == found
     assert finding.line == 2
-
-
-@pytest.mark.req("MILL-P-34-99")
-def test_internal_cells_of_the_card_are_assigned_with_a_warning() -> None:
-    done = run("P40=1\nP89=2")
-    assert done.codes == ["W220", "W220"]
-    assert done.machine.parameters == {40: 1.0, 89: 2.0}
-    assert not {40, 89} & set(done.cells.written), "they belong to the card"
-    assert run("P33=1").codes == []
-    assert errors("P95=1") == ["E212"]
 
 
 @pytest.mark.req("MILL-P-34-99")
@@ -105,37 +84,6 @@ def test_a_value_the_store_refuses_stops_the_program_before_its_block() -> None:
 # --- tool offsets -----------------------------------------------------------------------
 
 
-@pytest.mark.req("MILL-OFS-CURRENT", "MILL-P-1998", "MILL-P-1999", "MILL-P-4000", "MILL-P-4001")
-def test_d_and_h_copy_geometry_and_wear_and_the_next_start_forgets_them() -> None:
-    store = Store()
-    for n, value in {1003: 0.5, 1503: 0.01, 2005: 2.5, 3005: -0.02}.items():
-        store.write(n, value)
-    first = interpreter("D3 H5\nP150=P1998\nM0\nM2", store)
-    for entry in first.entries():
-        if isinstance(entry, Stop):
-            break
-    assert [store.read(n) for n in (1998, 1999, 4000, 4001)] == [0.5, 0.01, 2.5, -0.02]
-    finished("P151=P1998+P1999+P4000+P4001", store)
-    assert (store.read(150), store.read(151)) == (0.5, 0.0)
-    assert [store.read(n) for n in (1998, 1999, 4000, 4001)] == [0.0] * 4
-
-
-@pytest.mark.req("MILL-OFS-R-400")
-def test_d1_to_d400_use_400_radii() -> None:
-    cells = {1000 + n: float(n) for n in range(1, 401)}
-    text = "P200=1\nP150=0\nN10 D(P200)\nP150=P150+P1998\nP200=P200+1\nIF P200<401 THEN GOTO 10"
-    assert run(text, cells).p(150) == sum(range(1, 401))
-    assert errors("D401") == ["E222"]
-
-
-@pytest.mark.req("MILL-OFS-RW-400")
-@pytest.mark.parametrize("d", [1, 200, 400])
-def test_the_radius_is_always_geometry_plus_wear(d: int) -> None:
-    text = f"F10 G41 D{d} G1 X1\nX2\nX3\nG40 G1 X4 Y0"
-    done = run(text, {1000 + d: 0.25, 1500 + d: -0.05}, start=(0, 0, 0))
-    assert [end[1] for end in done.ends[:3]] == pytest.approx([0.2, 0.2, 0.2])
-
-
 @pytest.mark.req("MILL-OFS-RW-LIVE")
 def test_a_wear_changed_in_production_holds_from_the_next_use_of_the_tool(tmp_path: Path) -> None:
     path = tmp_path / "s.db"
@@ -153,30 +101,7 @@ def test_a_wear_changed_in_production_holds_from_the_next_use_of_the_tool(tmp_pa
         assert operator.read(1001) == 0.25
 
 
-@pytest.mark.req("MILL-OFS-HW-999")
-@pytest.mark.parametrize("h", [1, 500, 999])
-def test_the_length_is_geometry_plus_wear(h: int) -> None:
-    done = run(f"G0 G43 H{h} Z0", {2000 + h: 1.5, 3000 + h: 0.01}, start=(0, 0, 2))
-    assert done.ends == [(0, 0, 1.51)]
-    assert errors("G43 H1000") == ["E222"]
-
-
-@pytest.mark.req("MILL-OFS-NEGATIVE")
-def test_a_negative_radius_is_warned_of() -> None:
-    text = "F10 G41 D1 G1 X1\nX2\nG40 G1 X3 Y0"
-    assert "W310" in run(text, {1001: 0.1, 1501: -0.2}).codes
-    assert "W310" not in run(text, {1001: 0.1, 1501: -0.05}).codes
-
-
 # --- work systems and floating zero -------------------------------------------------------
-
-
-@pytest.mark.req("MILL-WCS-1TO6")
-@pytest.mark.parametrize("system", range(1, 9))
-def test_work_system_n_is_g54_to_g59_2(system: int) -> None:
-    code = f"G{53 + system}" if system < 7 else f"G59.{system - 6}"
-    cells = {900 + 10 * system: 1.0 * system, 901 + 10 * system: -0.5}
-    assert run(f"{code}\nG0 X1 Y1", cells).ends == [(1 + system, 0.5, 0)]
 
 
 @pytest.mark.req("MILL-ZERO-PARAM", "MILL-ZERO-FLZ")
@@ -192,24 +117,6 @@ def test_a_floating_zero_is_visible_and_survives_a_restart(tmp_path: Path) -> No
 
 
 # --- how programs begin -------------------------------------------------------------------
-
-
-@pytest.mark.req("MILL-SYS-CTL-IJ")
-@pytest.mark.parametrize(
-    ("reading", "centre"), [(0, (1, 0)), (1, (1, 2)), (2, (0, 1)), (None, (0, 1))]
-)
-def test_i_and_j_are_read_as_control_says(reading: int | None, centre: tuple[float, float]) -> None:
-    cells = {} if reading is None else {250_003: float(reading)}
-    (arc,) = run("F10 X1 Y1\nG2 X1 Y1 I0 J1", cells).of(Arc)
-    assert isinstance(arc, Arc)
-    assert arc.centre == centre
-
-
-@pytest.mark.req("MILL-SYS-CTL-POWERUP")
-def test_programs_begin_absolute_or_incremental() -> None:
-    text = "F10\nX1\nX1"
-    assert run(text).ends == [(1, 0, 0)]
-    assert run(text, {250_111: 91.0}).ends == [(1, 0, 0), (2, 0, 0)]
 
 
 @pytest.mark.req("MILL-SYS-DISP-MODE")
@@ -241,14 +148,6 @@ def test_default_units_are_those_of_positions_and_of_all_stored_lengths() -> Non
         assert end == x + 2.0
 
 
-@pytest.mark.req("MILL-SYS-SPEED-CUT")
-def test_cut_speed_is_the_feed_where_a_program_sets_none() -> None:
-    for cells, feed in (({}, 10.0), ({650_002: 25.0}, 25.0), ({100_021: 7.0}, 7.0)):
-        (line,) = run("G1 X1", cells).of(Line)
-        assert isinstance(line, Line)
-        assert line.pace.feed_upm == feed
-
-
 @pytest.mark.req("MILL-SYS-AXES-NAME")
 def test_an_axis_is_programmed_by_its_name() -> None:
     shadow = made("", axes=3).cells
@@ -265,14 +164,6 @@ def test_an_axis_is_programmed_by_its_name() -> None:
         store.write_text(201_008, "X")
     with pytest.raises(Exception, match="one of X, Y, Z, A, B, C, U, V"):
         store.write_text(201_008, "Q")
-
-
-@pytest.mark.req("MILL-SYS-COMPAT-TRUE", "MILL-SYS-COMPAT-FALSE")
-@pytest.mark.parametrize(("is_compatible", "mode"), [(0.0, PathMode.FREE), (1.0, PathMode.CORNER)])
-def test_with_compatibility_g64_acts_as_g62(is_compatible: float, mode: PathMode) -> None:
-    done = run("F10 G1 X1\nG64 X2\nG62 X3\nG64 X4", {700_000: is_compatible})
-    modes = [line.pace.mode for line in done.of(Line) if isinstance(line, Line)]
-    assert modes == [mode, mode, PathMode.CORNER, mode]
 
 
 def test_angles_in_programs_are_degrees_and_cells_plain_numbers() -> None:

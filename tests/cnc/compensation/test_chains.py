@@ -117,16 +117,6 @@ def test_a_lead_in_from_far_beyond_the_contour_is_not() -> None:
     assert trace.codes == []
 
 
-@pytest.mark.req("MILL-COMP-15")
-def test_a_negative_radius_is_the_other_side_and_reported() -> None:
-    path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
-    negative = compensate(path.elements, -0.25, Side.LEFT)
-    positive = compensate(path.elements, 0.25, Side.RIGHT)
-    assert negative.ends == positive.ends
-    assert negative.codes == ["W310"]
-    assert positive.codes == []
-
-
 def test_blocks_without_motion_wait_for_the_trimmed_end() -> None:
     trace, compensator = started(side=Side.RIGHT)
     path = Path(0, -1).to(0, 0).to(1, 0).to(1, 0, 3).to(1, 1).to(0, 1)
@@ -185,19 +175,6 @@ def test_after_a_waiting_block_an_inside_corner_is_reached_straight() -> None:
     assert trace.codes == ["W324"]
 
 
-@pytest.mark.req("MILL-COMP-26")
-def test_another_radius_acts_from_the_next_element_on() -> None:
-    trace, compensator = started()
-    path = Path(0, 1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
-    for element in path.elements[:2]:
-        trace.out += compensator.add(element)
-    trace.out += compensator.switch(Side.LEFT, 0.4)
-    for element in path.elements[2:]:
-        trace.out += compensator.add(element)
-    trace.out += compensator.stop()
-    assert trace.ends[1:3] == [(0.6, 0.25), (0.6, 0.6)]
-
-
 def test_another_radius_at_an_outside_corner_is_reached_straight() -> None:
     trace, compensator = started(side=Side.RIGHT)
     path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
@@ -247,17 +224,6 @@ def test_a_full_circle_stays_one(side: Side) -> None:
     circle = trace.elements[1]
     assert circle.sweep_rad == pytest.approx(-2 * pi)
     assert circle.start[:2] == pytest.approx((2.25 if side is Side.LEFT else 1.75, 0))
-
-
-@pytest.mark.req("MILL-COMP-22")
-def test_without_g41_elements_pass_unchanged() -> None:
-    trace = Trace()
-    compensator: Compensator[str] = Compensator(EXACT, trace.report)
-    path = Path(0, 0).to(1, 0).arc(2, 1, 1, 1, 1).rapid(0, 0, 5)
-    for element in path.elements:
-        assert compensator.add(element) == [element]
-    assert compensator.hold("M5") == ["M5"]
-    assert compensator.flush() == []
 
 
 def test_stop_ends_compensation_without_a_move() -> None:

@@ -13,14 +13,6 @@ def near(point: tuple[float, float]) -> object:
     return pytest.approx(point, abs=1e-9)
 
 
-@pytest.mark.req("MILL-COMP-01")
-def test_two_lines_at_an_inside_corner_are_cut_where_their_offsets_cross() -> None:
-    path = Path(0, 1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
-    trace = compensate(path.elements, 0.25)
-    assert trace.ends == [(0, 0.25), (0.75, 0.25), (0.75, 1), (0, 1)]
-    assert trace.findings == []
-
-
 @pytest.mark.req("MILL-COMP-02", "MILL-COMP-11")
 def test_the_tool_rolls_around_an_outside_corner() -> None:
     path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
@@ -31,66 +23,6 @@ def test_the_tool_rolls_around_an_outside_corner() -> None:
     assert corner.sweep_rad == pytest.approx(pi / 2)
     assert corner.pace is FEED
     assert corner.source.line == 3
-
-
-@pytest.mark.req("MILL-COMP-04")
-def test_a_line_and_an_arc_are_cut_where_their_offsets_cross() -> None:
-    # Along the x axis into a counter-clockwise arc about (0, 2) that starts to the left.
-    x, y = 2 * sin(0.5), 2 - 2 * cos(0.5)
-    path = Path(-2, 1 + y).to(-2, y).to(x, y).arc(0, 4, 0, 2, 1).to(0, 3)
-    trace = compensate(path.elements, 0.25)
-    # The line y + 0.25 meets the circle of radius 1.75 about (0, 2).
-    height = y + 0.25
-    assert trace.ends[1] == near((sqrt(1.75**2 - (2 - height) ** 2), height))
-    assert trace.elements[2].centre == near((0, 2))
-    assert trace.findings == []
-
-
-@pytest.mark.req("MILL-COMP-04")
-def test_a_line_runs_into_a_tangent_arc_without_more() -> None:
-    path = Path(-1, 1).to(-1, 0).to(0, 0).arc(1, 1, 0, 1, 1).to(0, 1)
-    trace = compensate(path.elements, 0.25)
-    assert trace.ends == [(-1, 0.25), (0, 0.25), (0.75, 1), (0, 1)]
-    assert trace.elements[2].sweep_rad == pytest.approx(pi / 2)
-
-
-@pytest.mark.req("MILL-COMP-05")
-def test_an_arc_and_a_line_are_cut_where_their_offsets_cross() -> None:
-    # Down a quarter about (0, 0), then to the left along y = -1... of an inside corner.
-    path = Path(-2, 0).to(-1, 0).arc(0, -1, 0, 0, 1).to(0, 1).to(-0.5, 1)
-    trace = compensate(path.elements, 0.25)
-    assert trace.ends[1] == near((-0.25, -sqrt(0.75**2 - 0.25**2)))
-    assert trace.ends[2] == (-0.25, 1)
-
-
-@pytest.mark.req("MILL-COMP-05")
-def test_an_arc_runs_into_a_tangent_line_without_more() -> None:
-    path = Path(0, -2).to(0, -1).arc(1, 0, 0, 0, 1).to(1, 1).to(0, 1)
-    trace = compensate(path.elements, 0.25, Side.RIGHT)
-    assert trace.ends == [(0, -1.25), (1.25, 0), (1.25, 1), (0, 1)]
-
-
-@pytest.mark.req("MILL-COMP-03")
-def test_two_arcs_are_cut_where_their_offsets_cross() -> None:
-    # A lens: two circles of radius 2 about (-1, 0) and (1, 0) meet at (0, sqrt 3).
-    top = sqrt(3)
-    path = Path(0, 0).to(1, 0).arc(0, top, -1, 0, 1).arc(-1, 0, 1, 0, 1).to(0, 0)
-    trace = compensate(path.elements, 0.5)
-    assert trace.ends[1] == near((0, sqrt(1.5**2 - 1)))
-    first, second = trace.elements[1:3]
-    assert first.end == pytest.approx(second.start)
-    assert first.sweep_rad == pytest.approx(second.sweep_rad)
-    assert trace.findings == []
-
-
-@pytest.mark.req("MILL-COMP-06")
-def test_tangent_joins_insert_nothing() -> None:
-    path = Path(-1, -1).to(0, 0).to(3, 0).arc(4, 1, 3, 1, 1).to(4, 2).arc(5, 3, 5, 2, -1)
-    path.to(7, 3).to(8, 8)
-    for side in Side:
-        trace = compensate(path.elements, 0.25, side)
-        assert trace.inserted == []
-        assert len(trace.elements) == len(path.elements)
 
 
 @pytest.mark.req("MILL-COMP-07")
@@ -128,15 +60,6 @@ def test_feet_that_are_nearer_than_epsilon_are_joined() -> None:
     assert joined.elements[1].end == joined.elements[2].start
     apart = compensate(path.elements, 0.25, rules=Rules(epsilon=0.0001))
     assert len(apart.inserted) == 1
-
-
-@pytest.mark.req("MILL-COMP-19")
-@pytest.mark.parametrize(("sweep", "is_arc"), [(0.009, False), (0.011, True)])
-def test_an_arc_below_the_sweep_epsilon_is_a_line(sweep: float, is_arc: bool) -> None:
-    path = Path(-1, 3).to(-1, 0).to(0, 0).arc(10 * sin(sweep), 10 - 10 * cos(sweep), 0, 10, 1)
-    path.to(3, 3)
-    trace = compensate(path.elements, 0.25, rules=Rules())
-    assert (trace.elements[2].centre is not None) is is_arc
 
 
 @pytest.mark.req("MILL-COMP-20")
@@ -234,17 +157,6 @@ def test_every_plane_is_compensated_alike(plane: Plane) -> None:
     trace = compensate(path.elements, 0.25, Side.RIGHT)
     assert trace.ends == compensate(flat.elements, 0.25, Side.RIGHT).ends
     assert all(each.plane is plane for each in trace.elements)
-
-
-@pytest.mark.req("MILL-COMP-24")
-def test_the_mirrored_contour_on_the_other_side_gives_the_mirrored_path() -> None:
-    path = Path(0, -1).to(0, 0).to(1, 0).arc(2, 1, 1, 1, 1).to(2, 2).to(1, 2).to(0, 0.5).to(-1, 0)
-    mirrored = Path(0, 1).to(0, 0).to(1, 0).arc(2, -1, 1, -1, -1).to(2, -2).to(1, -2)
-    mirrored.to(0, -0.5).to(-1, 0)
-    right = compensate(path.elements, 0.2, Side.RIGHT)
-    left = compensate(mirrored.elements, 0.2, Side.LEFT)
-    assert right.ends == [(x, -y + 0.0) for x, y in left.ends]
-    assert right.codes == left.codes
 
 
 @pytest.mark.req("MILL-COMP-25")
