@@ -4,10 +4,6 @@ from collections.abc import Iterator
 
 import pytest
 
-from openacr.client import Card
-from openacr.controller import Controller
-from openacr.mill.card.setup import prepare
-from openacr.mill.config.settings import Settings
 from openacr.sysvar import Store
 from openacr.sysvar.schema import CellKind
 from openacr.sysvar.tabs import AXIS, HOME, JOG, SERVO
@@ -68,29 +64,3 @@ def test_every_value_of_an_axis_is_its_own() -> None:
         assert after.pop(axis) == given
         assert all(one != other for one, other in zip(given, before.pop(axis), strict=True))
         assert after == before
-
-
-@pytest.mark.req("MILL-SYS-AXISPAGE")
-def test_a_machine_of_eight_axes_uses_the_values_of_each() -> None:
-    store = Store()
-    for axis in range(8):
-        store.write(AXIS.configured[axis], 1)
-        store.write(AXIS.pulses_per_unit[axis], 1000 + axis)
-        store.write(SERVO.p_gain[axis], (1 + axis) / 1024)
-        store.write(SERVO.d_gain[axis], (1 + axis) / 65536)
-        store.write(JOG.acceleration[axis], 100 + axis)
-        store.write(JOG.feedrate[axis], 60 * (1 + axis))
-        store.write(HOME.fast_speed[axis], 60 * (10 + axis))
-        store.write(HOME.preset[axis], 0.5 * axis)
-    settings = Settings(store)
-    card = Card.open(Controller("ACR8020"))
-    prepare(card, settings)
-    for axis in range(8):
-        words = ("PPU", "PGAIN", "DGAIN", "JOG ACC")
-        found = [float(card.ask(f"AXIS{axis} {word}")) for word in words]
-        assert found == pytest.approx(
-            [1000 + axis, (1 + axis) / 1024, (1 + axis) / 65536, 100 + axis], rel=1e-6
-        )
-        assert settings.axes[axis].jog_ups == 1 + axis
-        home = settings.home(axis)
-        assert (home.fast_ups, home.preset_u) == (10 + axis, 0.5 * axis)

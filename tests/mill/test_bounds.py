@@ -27,9 +27,9 @@ def details(shop: Shop) -> list[str]:
 def test_the_card_never_holds_much_more_motion_than_the_link_timeout() -> None:
     """Moves of 1 s each: 2 s of link timeout and 2 s more wait after the executed one."""
     shop = Shop()
-    shop.load("F60\n" + "G1 X1\nX0\n" * 30 + "M2\n")
+    shop.load("F60\n" + "G1 X1\nX0\n" * 10 + "M2\n")
     most = 0
-    for _ in range(40):
+    for _ in range(20):
         shop.pass_time(0.2)
         most = max(most, shop.runner.stream.tracker.waiting)
         assert shop.runner.stream.tracker.waiting_s <= 5.0
@@ -39,7 +39,7 @@ def test_the_card_never_holds_much_more_motion_than_the_link_timeout() -> None:
 def test_a_trace_is_bounded_like_the_program() -> None:
     """Moves of 1 s each back along the path: the same 4 s wait at most, and all are made."""
     shop = Shop(P650_006=60.0)
-    shop.load("F600\n" + "G1 X1\nX0\n" * 10 + "X5\nM2\n")
+    shop.load("F600\n" + "G1 X1\nX0\n" * 4 + "X5\nM2\n")
     while shop.place()[0] < 2.0:
         shop.pass_time(0.005)
     shop.runner.stop()
@@ -204,7 +204,7 @@ def test_an_increment_ends_soon_when_no_program_polls() -> None:
 
 @pytest.mark.parametrize("travel", [3.0, -3.0, 0.001])
 def test_an_increment_ends_exactly(travel: float) -> None:
-    shop = Shop()
+    shop = Shop(P351_000=600.0)
     shop.runner.jog(lambda jog: jog.move(1, travel))
     for _ in range(4000):
         if not shop.runner.is_busy:
@@ -256,14 +256,3 @@ def test_an_aborted_run_is_known_as_such() -> None:
     assert shop.runner.was_aborted
     shop.run_text("F600\nG1 X0\nM2\n")
     assert not shop.runner.was_aborted
-
-
-def test_m4_waits_for_the_speed_as_m3_does() -> None:
-    shop = Shop(**{"P800_000": 1 + 2 + 4, "P800_004": 9, "P800_006": 42})
-    shop.load("M4 S500\nG1 F600 X1\nM2\n")
-    shop.pass_time(1.0)
-    assert (shop.runner.state, shop.runner.reason) == (State.WAIT, "spindle at speed")
-    assert (shop.pulses(), shop.outputs([42])) == ((0, 0, 0), [True])
-    shop.controller.set_input(9, True)
-    shop.until(State.IDLE)
-    assert shop.pulses()[0] == 10_000

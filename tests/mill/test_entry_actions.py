@@ -1,7 +1,7 @@
 """Spindle, coolant, tools, waits, reference points and probing in a run."""
 
 import pytest
-from tests.mill.shop import Shop, at, end, line, rapid, src
+from tests.mill.shop import Shop, at, end, line, src
 
 from openacr.cnc import canonical as c
 from openacr.mill.run.lifecycle import State
@@ -20,41 +20,6 @@ def spindle(spin: c.Spin, rpm: float = 1500.0) -> c.Spindle:
 
 def codes(shop: Shop) -> list[int]:
     return [alarm.kind.code for alarm in shop.runner.alarms.active]
-
-
-@pytest.mark.parametrize(
-    ("code", "spin", "volts", "outputs"),
-    [
-        (0, c.Spin.CLOCKWISE, 4.995, [True, False]),
-        (0, c.Spin.COUNTER_CLOCKWISE, 4.995, [False, True]),
-        (1, c.Spin.CLOCKWISE, 4.995, [True, False]),
-        (1, c.Spin.COUNTER_CLOCKWISE, -4.995, [False, True]),
-    ],
-)
-def test_the_spindle_gets_its_voltage_and_direction(
-    code: int, spin: c.Spin, volts: float, outputs: list[bool]
-) -> None:
-    shop = Shop(P800_000=code, **SPINDLE)
-    shop.start(spindle(spin), c.Stop(src(2), c.Pause.STOP), end())
-    shop.until(State.HOLD)
-    assert shop.controller.p[DAC_VALUE] == pytest.approx(volts)
-    assert shop.outputs((CW, CCW)) == outputs
-    shop.runner.start()
-    shop.until(State.IDLE)
-    assert shop.controller.p[DAC_VALUE] == 0.0
-    assert shop.outputs((CW, CCW)) == [False, False]
-
-
-def test_the_program_waits_for_the_spindle_to_be_at_speed() -> None:
-    shop = Shop(P800_000=6, **SPINDLE)
-    shop.start(spindle(c.Spin.CLOCKWISE), line(2, at(1)), end())
-    shop.pass_time(1.0)
-    assert shop.runner.state is State.WAIT
-    assert shop.runner.reason == "spindle at speed"
-    assert shop.pulses() == (0, 0, 0)
-    shop.controller.set_input(11, True)
-    shop.until(State.IDLE)
-    assert shop.pulses() == (10000, 0, 0)
 
 
 def test_a_spindle_that_never_gets_there_is_an_alarm() -> None:
@@ -76,16 +41,6 @@ def test_a_new_speed_acts_without_handshake() -> None:
     assert shop.controller.p[DAC_VALUE] == pytest.approx(2.997)
 
 
-def test_a_spindle_exception_ends_the_program() -> None:
-    shop = Shop(P800_000=0, P800_008=12, **SPINDLE)
-    shop.start(spindle(c.Spin.CLOCKWISE), line(2, at(20)), end())
-    shop.pass_time(0.3)
-    shop.controller.set_input(12, True)
-    shop.until(State.ALARM)
-    assert codes(shop) == [41]
-    assert shop.place()[0] < 10
-
-
 def test_a_manual_tool_change_waits_for_the_signal() -> None:
     shop = Shop(P900_000=14, P900_001=42)
     shop.store.write(235, 1)
@@ -104,24 +59,6 @@ def test_a_manual_tool_change_waits_for_the_signal() -> None:
     assert shop.controller.p[91] == 7
 
 
-def test_the_tool_that_is_there_is_not_changed() -> None:
-    shop = Shop(P900_001=42)
-    shop.store.write(235, 7)
-    shop.finish(c.Tool(src(1), 7), line(2, at(1)), end())
-    assert shop.outputs((42,)) == [False]
-
-
-def test_abort_in_a_tool_change_keeps_the_old_tool() -> None:
-    shop = Shop(P900_000=14, P900_001=42)
-    shop.store.write(235, 1)
-    shop.start(c.Tool(src(1), 7), end())
-    shop.pass_time(0.2)
-    shop.runner.abort()
-    shop.until(State.IDLE)
-    assert shop.outputs((42,)) == [False]
-    assert shop.store.read(235) == 1
-
-
 def test_outputs_transfers_and_waits_happen_at_rest_and_in_order() -> None:
     shop = Shop()
     shop.start(
@@ -137,45 +74,6 @@ def test_outputs_transfers_and_waits_happen_at_rest_and_in_order() -> None:
     shop.controller.bit[150] = True
     shop.until(State.IDLE)
     assert shop.pulses() == (20000, 0, 0)
-
-
-def confirm(check: c.Check, x: float) -> c.Confirm:
-    return c.Confirm(src(2), check, (0,), at(x))
-
-
-def test_a_reference_point_is_confirmed_by_its_switch() -> None:
-    shop = Shop(P400_010=15, P400_011=46, P600_005=1.0)
-    shop.start(rapid(1, at(1)), confirm(c.Check.REFERENCE_INPUT, 1.0), end())
-    shop.pass_time(0.5)
-    assert shop.outputs((46,)) == [True]
-    shop.controller.set_input(15, True)
-    shop.until(State.IDLE)
-    assert shop.outputs((46,)) == [False]
-    shop.controller.set_input(15, False)
-    shop.start(confirm(c.Check.REFERENCE_INPUT, 1.0), end())
-    shop.until(State.ALARM)
-    assert codes(shop) == [31]
-    assert shop.outputs((46,)) == [True]
-
-
-@pytest.mark.parametrize(("x", "state"), [(1.0, State.IDLE), (1.1, State.ALARM)])
-def test_a_reference_point_that_is_missed_is_an_alarm(x: float, state: State) -> None:
-    shop = Shop(P400_019=47)
-    shop.start(rapid(1, at(1)), c.Dwell(src(1), 0.2), confirm(c.Check.AT_REFERENCE, x), end())
-    assert shop.until(state) is state
-    assert shop.outputs((47,)) == [state is State.ALARM]
-
-
-def test_feed_override_changes_the_speed_and_not_the_rapids() -> None:
-    shop = Shop(P450_017=5)  # 50 percent
-    took_s = shop.finish(line(1, at(10)), end())
-    assert took_s == pytest.approx(10 / 5 + 0.05, abs=0.03)
-    fast = Shop()
-    fast.store.write(650_000, 600.0)
-    slow = Shop(P450_017=5)
-    assert slow.finish(rapid(1, at(5)), end()) == pytest.approx(
-        Shop().finish(rapid(1, at(5)), end()), abs=0.02
-    )
 
 
 @pytest.mark.parametrize(("inputs", "is_software"), [((24, 25, 26), 0), ((24,), 0), ((16,), 1)])
@@ -198,13 +96,6 @@ def test_a_probe_that_trips_stops_and_comes_back_to_the_point(
     assert point[0] == pytest.approx(x_trip, abs=0.01)
     assert point[1] == pytest.approx(point[0] / 2, abs=3e-3)
     assert shop.place() == pytest.approx(point[:3], abs=1.01e-4)
-
-
-def test_a_probe_that_finds_nothing_ends_at_its_target() -> None:
-    shop = Shop(P600_000=16)
-    shop.finish(c.Probe(src(1), at(1), c.Pace(600.0)), c.Sync(src(1)), end())
-    assert shop.runner.stream.host.tripped() is None
-    assert shop.pulses() == (10000, 0, 0)
 
 
 def test_a_probe_that_is_tripped_at_the_start_does_not_move() -> None:

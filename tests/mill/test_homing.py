@@ -59,14 +59,7 @@ def test_an_axis_finds_its_switch_and_then_its_marker(world: Controller) -> None
     assert abs(shop.controller.axis(0).actual_cnt) <= 8
 
 
-@pytest.mark.req("MILL-HOME-ZERO")
-def test_the_homed_axis_reads_its_preset(world: Controller) -> None:
-    shop = homing_shop(world, **{f"P{HOME + PRESET}": 12.5})
-    assert home(shop, 0) is State.IDLE
-    assert shop.controller.p[12288] == 10000
-
-
-@pytest.mark.req("MILL-HOME-PRIORITY")
+@pytest.mark.req("MILL-HOME-PRIORITY", "MILL-SYS-HOME-PRIORITY")
 def test_axes_home_by_priority_and_priority_0_not_at_all(world: Controller) -> None:
     shop = homing_shop(world, P300_009=2, P301_009=1, P302_009=0)
     shop.runner.home([0, 1, 2])

@@ -35,7 +35,7 @@ def test_a_held_jog_moves_until_it_is_released_and_then_ramps_to_rest() -> None:
 def test_a_stop_while_no_axis_is_jogged_sets_no_limit_for_a_later_jog() -> None:
     shop = shop_for_jogs()
     shop.runner.jogging.stop_all()
-    shop.pass_time(60.0)
+    shop.controller.advance(seconds=60.0)
     shop.runner.jog(lambda jog: jog.hold(0, 1))
     shop.pass_time(1.0)
     assert shop.runner.state is State.IDLE
@@ -69,6 +69,7 @@ def test_without_other_settings_the_speeds_are_10_and_100_per_minute(
 
 
 @pytest.mark.req("MILL-JOG-SLOWFAST", "MILL-JOG-MAXSPEED")
+@pytest.mark.req("MILL-SYS-JOG-FEED", "MILL-SYS-JOG-RAPID")
 @pytest.mark.parametrize(
     ("fast", "most", "speed"), [(False, 6e3, 1), (True, 6e3, 10), (True, 300, 5)]
 )

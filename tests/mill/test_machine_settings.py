@@ -8,7 +8,6 @@ from tests.mill.test_homing import MACHINE, homing_shop
 
 from openacr.client import Card
 from openacr.controller import Controller
-from openacr.mill.card import alarms
 from openacr.mill.card.setup import prepare
 from openacr.mill.config.settings import Settings
 from openacr.mill.run.lifecycle import State
@@ -48,26 +47,6 @@ def test_saved_values_survive_a_restart_and_are_sent_to_the_card(tmp_path: Path)
             float(card.ask(text, program=0)) for text in ("AXIS0 PPU", "AXIS0 PGAIN", "JOG ACC X")
         ]
     assert asked == pytest.approx([4000.0, 0.005, 77.0])
-
-
-@pytest.mark.req("MILL-SYS-CTL-LEADIN")
-@pytest.mark.parametrize("radius", [0.1, 0.4])
-def test_the_lead_in_radius_is_that_of_the_return_to_a_path(radius: float) -> None:
-    shop = Shop(P250_005=radius)
-    shop.load("G90 F600\nG41 D0 G1 X1\nX10\nG40 Y5\nM2\n")
-    shop.pass_time(0.5)
-    shop.runner.stop()
-    shop.pass_time(0.5)
-    left = shop.place()[0]
-    assert left > 1.0
-    shop.runner.jog(lambda jog: jog.move(1, 1.0, fast=True))
-    shop.runner.jog(lambda jog: jog.move(2, 0.5, fast=True))
-    shop.pass_time(3.0)
-    shop.runner.resume()
-    shop.path.clear()
-    shop.until(State.IDLE)
-    onto = [(x, y) for x, y, z in shop.path if x < left - 1e-3 and z < 1e-4]
-    assert min(x for x, _ in onto) == pytest.approx(left - radius, abs=2e-3)
 
 
 @pytest.mark.req("MILL-HOME-SELECT")
@@ -127,19 +106,3 @@ def test_g87_bores_back_with_a_shifted_and_oriented_spindle() -> None:
     assert cut == sorted(cut)  # fed upwards
     assert max(cut) == pytest.approx(-0.2, abs=2e-3)
     assert shop.pulses() == (10000, 0, 10000)
-
-
-@pytest.mark.req("MILL-SYS-CTL-ERRFILE")
-@pytest.mark.parametrize("is_disabled", [1, 0])
-def test_alarms_are_written_to_a_file_unless_that_is_disabled(
-    tmp_path: Path, is_disabled: int
-) -> None:
-    with Store(tmp_path / "sysvar.db") as store:
-        store.write(250_118, is_disabled)
-        card = Card.open(Controller())
-        shop = MillSession(card, store, print, is_virtual=False, folder=tmp_path)
-        shop.runner.alarms.raise_alarm(alarms.LUBRICATION, "", 0.0)
-        shop.close()
-    log = tmp_path / "MILL.LOG"
-    assert log.exists() != bool(is_disabled)
-    assert is_disabled or "alarm 43  Lubrication error" in log.read_text()

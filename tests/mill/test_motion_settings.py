@@ -2,11 +2,10 @@
 
 import itertools
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from tests.mill.shop import Shop, at, end, line, rapid
+from tests.mill.shop import Shop
 from tests.mill.test_homing import MACHINE, homing_shop
 
 from openacr.controller import Controller
@@ -36,24 +35,6 @@ def ramp(found: list[float], period_s: float, *, is_up: bool) -> float:
 # --- jog --------------------------------------------------------------------------------
 
 
-@pytest.mark.req("MILL-SYS-JOG-FEED", "MILL-SYS-JOG-RAPID")
-@pytest.mark.parametrize(
-    ("cells", "is_fast", "speed"),
-    [
-        ({}, False, 10 / 60),
-        ({}, True, 100 / 60),
-        ({f"P{JOG}": 30}, False, 0.5),
-        ({f"P{JOG + 1}": 240}, True, 4.0),
-    ],
-)
-def test_a_jog_goes_at_jog_feedrate_or_jog_rapid(
-    cells: dict[str, float], is_fast: bool, speed: float
-) -> None:
-    shop = Shop(**cells)
-    shop.runner.jog(lambda jog: jog.hold(0, 1, fast=is_fast))
-    assert speeds(shop, 0.3)[-1] == pytest.approx(speed, rel=1e-5)
-
-
 @pytest.mark.req("MILL-SYS-JOG-ACC", "MILL-SYS-JOG-DEC")
 @pytest.mark.parametrize(
     ("cells", "up", "down"),
@@ -68,14 +49,6 @@ def test_a_jog_ramps_as_the_tab_says(cells: dict[str, float], up: float, down: f
     found = speeds(shop, 0.5)
     assert ramp(found, period_s, is_up=False) == pytest.approx(down, rel=0.01)
     assert found[-1] == 0.0
-
-
-@pytest.mark.req("MILL-SYS-JOG-DIR")
-@pytest.mark.parametrize(("is_turned", "sign"), [(0, 1), (1, -1)])
-def test_jog_direction_is_that_of_the_plus_key(is_turned: int, sign: int) -> None:
-    shop = Shop(**{f"P{JOG + 5}": is_turned})
-    shop.runner.jog(lambda jog: jog.hold(0, 1))
-    assert speeds(shop, 0.1)[-1] * sign > 0
 
 
 @pytest.mark.req(
@@ -169,48 +142,3 @@ def test_the_homed_position_reads_the_preset(
                                     "P200001": 0, "P200002": 0})  # fmt: skip
     unwired.runner.home([0])
     assert unwired.until(State.IDLE, State.ALARM) is State.ALARM
-
-
-@pytest.mark.req("MILL-SYS-HOME-PRIORITY")
-def test_priority_1_homes_before_2_and_0_is_left_out(world: Controller) -> None:
-    shop = homing_shop(world, **{f"P{HOME + 9}": 2, f"P{HOME + 1009}": 1})
-    shop.runner.home([0, 1])
-    shop.pass_time(0.3)
-    assert shop.runner.reason == "homing Y"
-    shop.until(State.IDLE)
-    assert shop.runner.settings.is_homed(0)
-    shop = homing_shop(world, **{f"P{HOME + 9}": 0})
-    shop.runner.home([0])
-    shop.until(State.IDLE, State.ALARM)
-    assert not shop.runner.settings.is_homed(0)
-
-
-# --- speeds -----------------------------------------------------------------------------
-
-
-def peak(entry: Callable[[], object], **cells: float) -> tuple[float, float]:
-    """Largest speed and acceleration of a move of two units."""
-    shop = Shop(**cells)
-    shop.start(entry(), end())  # type: ignore[arg-type]
-    found = speeds(shop, 1.2)
-    return max(found), ramp(found, shop.controller.period_s, is_up=True)
-
-
-@pytest.mark.req("MILL-SYS-SPEED-MAX")
-@pytest.mark.parametrize("most", [200.0, 120.0])
-def test_max_machine_speed_bounds_feed_and_rapid(most: float) -> None:
-    cells = {f"P{SPEEDS}": most}
-    assert peak(lambda: line(1, at(2.0), 6000.0), **cells)[0] == pytest.approx(most / 60)
-    assert peak(lambda: rapid(1, at(2.0)), **cells)[0] == pytest.approx(most / 60)
-
-
-@pytest.mark.req("MILL-SYS-SPEED-FEEDRAMP", "MILL-SYS-SPEED-RAPIDRAMP")
-@pytest.mark.parametrize(
-    ("cells", "of_rapid", "of_feed"),
-    [({}, 100.0, 100.0), ({f"P{SPEEDS + 7}": 80, f"P{SPEEDS + 8}": 30}, 80.0, 30.0)],
-)
-def test_rapids_and_feed_moves_have_ramps_of_their_own(
-    cells: dict[str, float], of_rapid: float, of_feed: float
-) -> None:
-    assert peak(lambda: rapid(1, at(2.0)), **cells)[1] == pytest.approx(of_rapid, rel=0.01)
-    assert peak(lambda: line(1, at(2.0), 300.0), **cells)[1] == pytest.approx(of_feed, rel=0.01)

@@ -4,7 +4,6 @@ import pytest
 from tests.mill.shop import Shop
 
 from openacr.errors import UserError
-from openacr.mill.card.alarms import AlarmError
 from openacr.mill.run.lifecycle import State
 
 FEED_HOLD, CYCLE_START, LUBRICATION = "P400_002", "P400_003", "P400_012"
@@ -126,24 +125,6 @@ def test_the_feed_hold_input_stops_a_jog_and_bars_the_next_one() -> None:
     assert 0 < shop.pulses()[0] < 40000
     with pytest.raises(UserError, match="feed hold input is active"):
         shop.runner.jog(lambda jog: jog.move(0, 0.5))
-
-
-@pytest.mark.req("MILL-ALM-STOPRUN")
-def test_a_paused_program_does_not_resume_under_an_alarm() -> None:
-    shop = Shop(**{LUBRICATION: 8})
-    shop.load("G1 F600 X5\nM2\n")
-    shop.pass_time(0.2)
-    shop.controller.set_input(8, True)
-    shop.pass_time(0.3)
-    assert shop.runner.state is State.PAUSED
-    with pytest.raises(AlarmError, match="Lubrication error"):
-        shop.runner.resume()
-    shop.controller.set_input(8, False)
-    shop.pass_time(0.1)
-    assert shop.runner.acknowledge() == []
-    shop.runner.resume()
-    shop.until(State.IDLE)
-    assert shop.pulses()[0] == 50000
 
 
 # --- single block -----------------------------------------------------------------------

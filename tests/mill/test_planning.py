@@ -57,7 +57,7 @@ def test_the_angle_of_a_corner_is_the_one_between_the_tangents(first: float, tur
         (180.0, 30.0, 0.0, 1.0),
     ],
 )
-@pytest.mark.req("MILL-LOOK-CORNER")
+@pytest.mark.req("MILL-LOOK-CORNER", "MILL-SYS-CTL-ACUTE1", "MILL-SYS-CTL-ACUTE2")
 def test_g62_slows_from_the_first_angle_and_stops_from_the_second(
     turn: float, angle1: float, angle2: float, speed: float
 ) -> None:

@@ -6,29 +6,15 @@ import pytest
 from tests.mill.shop import Shop, at, end, src
 
 from openacr.cnc import canonical as c
-from openacr.controller import Controller
 from openacr.mill.config.capture import Capture, capture_of
 from openacr.mill.config.overrides import Override
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.predicting import Predictor
 from openacr.mill.plan.preflight import Preflight
 from openacr.mill.run.lifecycle import State
-from openacr.plant.load import parse_world
 from openacr.protocol.move import Move
 
 PROBE, EDGE, SOFTWARE, EACH = "P600_000", "P600_001", "P600_002", "P600_006"
-WALL = """
-[card]
-model = "ACR8020"
-[[axis]]
-number = 0
-name = "X"
-encoder_lines = 250
-units_per_rev = 1.0
-drive = { mode = "exact" }
-travel = [-10.0, 10.0]
-home = { between = [2.0, 4.0], input = 24 }
-"""  # 1000 counts to an inch; the probe trips at 2
 FEED = 60.0  # 1 inch per second
 BLIND_S = 0.05  # between the contact and the next poll
 
@@ -282,13 +268,3 @@ def test_a_probing_move_takes_as_long_as_its_override_makes_it() -> None:
     shop.runner.overrides.choose(Override.FEED, 10)
     shop.until(State.IDLE)
     assert shop.pulses() == (10_000, 0, 0)
-
-
-@pytest.mark.req("MILL-G31-INTCAP")
-@pytest.mark.parametrize("feed", [100, 1000])
-def test_a_captured_edge_is_stored_to_the_count_at_any_feed(feed: int) -> None:
-    world = parse_world(WALL)
-    shop = Shop.on(Controller(world=world), {PROBE: 24, "P200_006": 1000.0})
-    shop.run_text(f"F{feed}\nG31 X5\nM2\n")
-    assert shop.store.read(101) == pytest.approx(2.0, abs=1.0e-3)  # of 1000 counts
-    assert shop.said == []

@@ -27,13 +27,6 @@ def test_moves_without_corners_run_at_constant_speed() -> None:
     assert took_s == pytest.approx(1.1, abs=0.02)
 
 
-def test_exact_stops_take_the_ramps_of_each_move() -> None:
-    shop = Shop()
-    moves = [line(n, at(n), mode=c.PathMode.EXACT) for n in range(1, 4)]
-    took_s = shop.finish(*moves, end())
-    assert took_s == pytest.approx(3 * 0.2, abs=0.03)
-
-
 def test_an_arc_stays_on_its_circle() -> None:
     shop = Shop()
     half = c.Arc(src(2), at(-1, 0), c.Plane.XY, (0.0, 0.0), math.pi, 1.0, 1.0, c.Pace(300.0))
@@ -64,38 +57,6 @@ def test_an_arc_the_card_does_not_know_becomes_chords() -> None:
     assert shop.pulses() == (0, 5000, 0)
 
 
-def test_a_dwell_waits_at_rest_and_a_hold_freezes_it() -> None:
-    shop = Shop()
-    shop.start(line(1, at(0.1)), c.Dwell(src(2), 1.0), line(3, at(0.2)), end())
-    assert shop.until(State.WAIT) is State.WAIT
-    assert shop.pulses() == (1000, 0, 0)
-    shop.pass_time(0.5)
-    shop.runner.stop()
-    shop.pass_time(5.0)
-    assert shop.runner.state is State.PAUSED
-    shop.runner.resume()
-    shop.pass_time(0.4)
-    assert shop.pulses() == (1000, 0, 0)
-    shop.pass_time(0.3)
-    assert shop.until(State.IDLE) is State.IDLE
-
-
-def test_stop_holds_on_the_path_and_resume_goes_on() -> None:
-    shop = Shop()
-    shop.start(line(1, at(4, 3)), end())
-    shop.pass_time(0.25)
-    shop.runner.stop()
-    shop.pass_time(0.5)
-    x, y, _ = place = shop.place()
-    assert 0.5 < x < 3.5
-    assert y == pytest.approx(0.75 * x, abs=2e-4)
-    shop.pass_time(1.0)
-    assert shop.place() == place
-    shop.runner.resume()
-    shop.until(State.IDLE)
-    assert shop.pulses() == (40000, 30000, 0)
-
-
 def test_abort_comes_to_rest_on_the_path_and_the_next_program_starts_there() -> None:
     shop = Shop()
     shop.start(*(line(n, at(n / 10)) for n in range(1, 100)), end())
@@ -106,16 +67,6 @@ def test_abort_comes_to_rest_on_the_path_and_the_next_program_starts_there() -> 
     assert 1.0 < x < 4.0
     shop.finish(line(1, at(0, 1)), end())
     assert shop.pulses() == (0, 10000, 0)
-
-
-def test_m0_holds_until_start() -> None:
-    shop = Shop()
-    shop.start(line(1, at(1)), c.Stop(src(2), c.Pause.STOP), line(3, at(2)), end())
-    assert shop.until(State.HOLD) is State.HOLD
-    assert shop.pulses() == (10000, 0, 0)
-    shop.runner.start()
-    shop.until(State.IDLE)
-    assert shop.pulses() == (20000, 0, 0)
 
 
 @pytest.mark.parametrize(("stops", "state"), [(True, State.HOLD), (False, State.IDLE)])
@@ -169,13 +120,7 @@ def test_what_is_said_is_said_when_the_motion_gets_there() -> None:
     assert shop.said == ["half", "done"]
 
 
-def test_a_dry_run_moves_at_trial_speed() -> None:
-    shop = Shop(P650_001=120.0)  # 2 units/s
-    took_s = shop.finish(line(1, at(2), feed=6.0), end(), options=Options(is_dry=True))
-    assert took_s == pytest.approx(1.0, abs=0.05)
-
-
-@pytest.mark.req("MILL-RUN-DRY-GOTOSTART")
+@pytest.mark.req("MILL-RUN-DRY-GOTOSTART", "MILL-SYS-CTL-GOTOSTART")
 @pytest.mark.parametrize(("returns", "pulses"), [(1, (0, 0, 0)), (0, (20000, 0, 5000))])
 def test_a_dry_run_returns_to_its_start_where_the_store_says_so(
     returns: int, pulses: tuple[int, int, int]
@@ -185,7 +130,7 @@ def test_a_dry_run_returns_to_its_start_where_the_store_says_so(
     assert shop.pulses() == pulses
 
 
-@pytest.mark.req("MILL-RUN-REPEAT")
+@pytest.mark.req("MILL-RUN-REPEAT", "MILL-SYS-CTL-REPEAT")
 def test_the_run_can_be_repeated_until_stopped() -> None:
     shop = Shop(P250_013=1)
     shop.start(line(1, at(1)), line(2, at(0)), end())

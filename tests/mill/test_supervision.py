@@ -12,7 +12,6 @@ from openacr.cnc.reading.findings import BlockError, Finding
 from openacr.controller import Controller
 from openacr.errors import StoreError
 from openacr.mill.card import alarms
-from openacr.mill.card.alarms import AlarmError
 from openacr.mill.card.stopping import stop_all
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
@@ -71,26 +70,6 @@ def test_the_emergency_stop_ends_a_dwell() -> None:
     assert shop.pulses() == (0, 10000, 0)
 
 
-@pytest.mark.req("MILL-ALM-CLEAR", "MILL-ALM-STOPRUN")
-def test_an_alarm_bars_the_start_until_it_is_acknowledged() -> None:
-    shop = Shop(**{ESTOP: 5})
-    shop.controller.set_input(5, True)
-    shop.pass_time(0.02)
-    with pytest.raises(AlarmError, match="Emergency stop"):
-        shop.start(*long_path())
-    assert [alarm.kind.code for alarm in shop.runner.acknowledge()] == [10]
-    shop.controller.set_input(5, False)
-    shop.pass_time(0.5)
-    assert codes(shop) == [10]  # until it is acknowledged
-    with pytest.raises(AlarmError, match="Emergency stop"):
-        shop.start(*long_path())
-    assert shop.runner.acknowledge() == []
-    assert shop.runner.state is State.IDLE
-    shop.pass_time(0.2)
-    shop.finish(line(1, at(1)), end())
-    assert shop.pulses() == (10000, 0, 0)
-
-
 @pytest.mark.req("MILL-SYS-IO-FEEDHOLD", "MILL-SYS-IO-CYCSTART", "MILL-RUN-FEEDHOLD")
 def test_the_feed_hold_input_pauses_and_cycle_start_goes_on() -> None:
     shop = Shop(**{FEED_HOLD: 6, CYCLE_START: 7})
@@ -111,39 +90,12 @@ def test_the_feed_hold_input_pauses_and_cycle_start_goes_on() -> None:
     assert shop.pulses()[0] == 500000
 
 
-def test_a_lubrication_error_holds() -> None:
-    shop = Shop(**{LUBRICATION: 8})
-    shop.start(*long_path())
-    shop.pass_time(0.2)
-    shop.controller.set_input(8, True)
-    shop.pass_time(0.3)
-    assert shop.runner.state is State.PAUSED
-    assert codes(shop) == [43]
-
-
-def test_a_target_beyond_a_soft_limit_stops_in_front_of_its_block() -> None:
-    shop = Shop(P200_000=2.0, P200_001=-2.0, P200_002=0, P271=1)
-    shop.start(line(1, at(1)), line(2, at(3)), end())
-    assert shop.until(State.ALARM) is State.ALARM
-    assert codes(shop) == [21]
-    assert "line 2, axis X would go to 3, 1 beyond its limit 2" in shop.runner.alarms.active[0].text
-    assert shop.pulses() == (10000, 0, 0)
-
-
 def test_the_bulge_of_an_arc_counts_for_the_limits() -> None:
     shop = Shop(P200_000=2.0, P200_001=-2.0, P200_002=0, P271=1)
     bulge = c.Arc(src(2), at(1.5, 1), c.Plane.XY, (1.5, 0.0), 3.14159265, 1.0, 1.0, c.Pace(60.0))
     shop.start(line(1, at(1.5, -1)), bulge, end())
     shop.until(State.ALARM)
     assert "axis X would go to 2.5, 0.5 beyond its limit 2" in shop.runner.alarms.active[0].text
-
-
-def test_an_axis_that_must_be_homed_does_not_move_before() -> None:
-    shop = Shop(P201_007=1)
-    shop.start(line(1, at(1, 0)), line(2, at(1, 1)), end())
-    shop.until(State.ALARM)
-    assert codes(shop) == [33]
-    assert shop.pulses() == (10000, 0, 0)
 
 
 def test_a_program_error_stops_after_the_block_before() -> None:
@@ -188,37 +140,7 @@ def test_exact_stops_wait_for_the_in_position_band(width: float, state: State) -
     assert codes(shop) == ([24] if state is State.ALARM else [])
 
 
-TURNS = "M3 S500\nG1 F60 X50\nM2\n"
 CUTS = "G1 F60 X50\nM2\n"
-
-
-@pytest.mark.req("MILL-ALM-SOURCES")
-@pytest.mark.parametrize(
-    ("cells", "text", "input_number", "code"),
-    [
-        pytest.param({ESTOP: 5}, CUTS, 5, 10, id="emergency stop"),
-        pytest.param({LUBRICATION: 5}, CUTS, 5, 43, id="lubrication error"),
-        pytest.param({"P800_008": 5}, TURNS, 5, 41, id="spindle exception"),
-        pytest.param({"P400_010": 6}, "G27 X1 Y0 Z0\nM2\n", None, 31, id="G27 unconfirmed"),
-        pytest.param({"P280": 1.0, "P150_000": 0.0001}, "G28 X1\nM2\n", None, 32, id="G28 missed"),
-        pytest.param({"P200_004": 0.0005}, "G1 F6000 X5\nM2\n", None, 11, id="excess error"),
-        pytest.param(
-            {"P200_000": 2.0, "P200_001": -2.0, "P200_002": 0, "P271": 1},
-            "G1 F600 X3\nM2\n", None, 21, id="soft limit",
-        ),
-    ],
-)  # fmt: skip
-def test_what_goes_wrong_is_an_alarm(
-    cells: dict[str, float], text: str, input_number: int | None, code: int
-) -> None:
-    shop = Shop(**cells)
-    shop.load(text)
-    shop.pass_time(0.5)
-    if input_number is not None:
-        assert codes(shop) == []
-        shop.controller.set_input(input_number, True)
-    shop.until(State.ALARM, State.PAUSED)
-    assert code in codes(shop)
 
 
 @pytest.mark.req("MILL-ALM-SOURCES")
