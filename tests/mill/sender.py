@@ -6,6 +6,7 @@ import sys
 import termios
 import time
 
+LIMIT_S = 60.0
 FULL_LINE = 4095  # bytes that a pseudo-terminal keeps
 
 
@@ -46,6 +47,13 @@ class Sender:
         except BlockingIOError:
             pass
         return self.heard
+
+    def hears(self, wanted: bytes) -> bool:
+        """Whether this comes back and nothing else; the kernel hands it on in its own time."""
+        end_s = time.monotonic() + LIMIT_S
+        while self.listen() != wanted and time.monotonic() < end_s:
+            time.sleep(0.001)
+        return self.heard == wanted
 
     def close(self) -> None:
         for end in (self._master, self._slave):

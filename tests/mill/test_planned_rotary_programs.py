@@ -221,7 +221,7 @@ def test_turns_that_arrive_slowly_rest_on_the_path_and_go_on(sender: Sender) -> 
 def test_turns_run_over_a_link_to_the_last_count_of_the_encoders(tmp_path: Path) -> None:
     plant = Plant(tmp_path, is_journalled=True)
     try:
-        plant.wire(cells() | CELLS)
+        plant.wire(cells() | CELLS | {CONTROL.link_timeout: 60.0})
         part = plant.part(HEAD + "".join(BLOCKS) + "M2\n")
         run = plant.mill("run", part, "--dialect", "rs274ngc", "--quiet")
         assert run.ended() == 0, run.text

@@ -7,6 +7,7 @@ from tests.mill.live import Plant, serial_line, until
 
 from openacr.client import Card
 
+LINK_TIMEOUT = 250_126
 LOOP = ("PROGRAM", "_again", "X3", "X0", "GOTO again", "ENDP")
 SETUP = (
     "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"', "PPU X1000", "DRIVE ON X",
@@ -25,6 +26,7 @@ def test_a_program_of_another_host_stops_over_each_link(tmp_path: Path, is_seria
     with serial_line() as (near, far):
         plant = Plant(tmp_path, *(("--serial", far) if is_serial else ()))
         try:
+            plant.wire({LINK_TIMEOUT: 60.0})
             begin(plant.card)
             until(lambda: plant.is_moving)
             stop = plant.mill("stop", host=near if is_serial else "")

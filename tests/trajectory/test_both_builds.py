@@ -34,6 +34,6 @@ def test_both_builds_give_the_same_bits() -> None:
     run = subprocess.run(
         [sys.executable, "-c", f"from {__name__} import digest; print(digest())"],
         env={**os.environ, "OPENACR_PURE": "1"}, cwd=ROOT, capture_output=True, text=True,
-        check=True, timeout=100,
+        check=True,
     )  # fmt: skip
     assert run.stdout.strip() == digest()

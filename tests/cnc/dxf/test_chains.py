@@ -1,5 +1,6 @@
 """Pieces of random outlines, shuffled, turned and a little apart, become the outline again."""
 
+import cProfile
 import math
 import random
 
@@ -172,13 +173,14 @@ def test_a_bulge_is_the_tangent_of_a_quarter_of_the_sweep(bulge: float) -> None:
     assert (x, y) == pytest.approx(arc.end)
 
 
-def test_ten_thousand_pieces_are_joined_quickly() -> None:
-    import time
+def test_the_work_of_joining_grows_no_faster_than_the_pieces() -> None:
+    def calls(count: int) -> int:
+        """Functions that are called on the way."""
+        pieces, profile = torn(outline(5, count), 5, 1e-5), cProfile.Profile()
+        assert len(profile.runcall(joined, pieces, 2e-5)) >= 1
+        return sum(each.callcount for each in profile.getstats())
 
-    segments = outline(5, 10_000)
-    begin = time.perf_counter()
-    assert len(joined(torn(segments, 5, 1e-5), 2e-5)) >= 1
-    assert time.perf_counter() - begin < 10.0
+    assert calls(4000) < 5 * calls(1000)
 
 
 def ring(x: float, y: float, radius: float) -> tuple[Segment, ...]:
