@@ -26,7 +26,7 @@ from tests.kernel.path.test_late_corners import (
     late_rig,
 )
 from tests.kernel.rig import Reals, Rig, T
-from tests.search import search, stride
+from tests.search import search, sparse, stride
 
 from openacr.map import numbers as at
 from openacr.motion.path import buffer
@@ -65,10 +65,13 @@ def keeps_acceleration(places: Reals, points: list[Point], tolerance: float) -> 
     assert accelerations(places).max() <= 1000 * (1 + 1e-4)
 
 
+WHATS = ["on", "off", "neglect", "0.02", "0.1"]
+
+
 @pytest.mark.search
-@pytest.mark.parametrize("jrk", [0.0, JRK])
-@pytest.mark.parametrize("depth", [2, 10])
-@pytest.mark.parametrize("what", ["on", "off", "neglect", "0.02", "0.1"])
+@pytest.mark.parametrize(
+    ("what", "depth", "jrk"), sparse(list(itertools.product(WHATS, [2, 10], [0.0, JRK])), 3)
+)
 def test_a_switch_at_any_tick_keeps_all_limits(what: str, depth: int, jrk: float) -> None:
     def made() -> Rig:
         it = rig(TOLERANCE, jrk=jrk)
@@ -180,11 +183,14 @@ def ramps(made: Rig, points: list[Point], tick: int, what: str) -> Reals:
     return np.asarray(np.abs(np.diff([*speeds, made.path_velocity])) / T)
 
 
+SHARES = [(1.0, 1.0), (1.0, 0.5), (0.6, 1.0)]
+
+
 @pytest.mark.search
-@pytest.mark.parametrize("share", [(1.0, 1.0), (1.0, 0.5), (0.6, 1.0)])
-@pytest.mark.parametrize("what", ["off", "neglect"])
-@pytest.mark.parametrize("jrk", [0.0, JRK])
-@pytest.mark.parametrize("legs", EXACT)
+@pytest.mark.parametrize(
+    ("legs", "jrk", "what", "share"),
+    sparse(list(itertools.product(EXACT, [0.0, JRK], ["off", "neglect"], SHARES)), 5),
+)
 def test_look_off_at_any_tick_leaves_exact_corners_their_room_to_brake(
     legs: list[tuple[float, float]], jrk: float, what: str, share: tuple[float, float]
 ) -> None:
