@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from tests.cnc.programs import STORE, made
+from tests.cnc.test_many_blocks import one_by_one
 
 from openacr.cnc.canonical import Line
 from openacr.cnc.interpreter import execution, loops
@@ -76,18 +77,31 @@ def test_a_loop_without_motion_ends_at_the_line_that_jumps(
     assert found(of(text, dialect)) == [("endless loop", line, "")]
 
 
-@pytest.mark.parametrize(
-    ("text", "line"),
+ENDED = pytest.mark.parametrize(
+    ("text", "line", "less"),
     [
-        # the loop has ended: 1 + 2*49,999 lines, then two more
-        ("P200=0|N10 P200=P200+1|IF P200<49999 THEN GOTO 10|P201=1|P202=1|P203=1|G0 X1|M2", 5),
-        # the loop has ended, and the jump back around it was one: 6 + 2*49,996, then three more
-        ("P200=0|N10 P201=1|P202=1|P203=1|P200=P200+1|N20 P204=P204+1|IF P204<49996 THEN GOTO 20|"
-         "GOTO 10|M2", 4),
+        # the loop has ended: 1 + 2*(half - 1) lines, then two more
+        ("P200=0|N10 P200=P200+1|IF P200<{} THEN GOTO 10|P201=1|P202=1|P203=1|G0 X1|M2", 5, 1),
+        # the loop has ended, and the jump back around it was one: 6 + 2*(half - 4), then three more
+        ("P200=0|N10 P201=1|P202=1|P203=1|P200=P200+1|N20 P204=P204+1|IF P204<{} THEN GOTO 20|"
+         "GOTO 10|M2", 4, 4),
     ],
 )  # fmt: skip
-def test_lines_without_motion_after_a_loop_are_named_themselves(text: str, line: int) -> None:
-    assert found(of(text)) == [("endless loop", line, "")]
+
+
+@ENDED
+@pytest.mark.usefixtures("few")
+def test_lines_without_motion_after_a_loop_are_named_themselves(
+    monkeypatch: pytest.MonkeyPatch, text: str, line: int, less: int
+) -> None:
+    one_by_one(monkeypatch)
+    assert found(of(text.format(500 - less))) == [("endless loop", line, "")]
+
+
+@pytest.mark.soak
+@ENDED
+def test_they_are_named_by_the_core_too(text: str, line: int, less: int) -> None:
+    assert found(of(text.format(50_000 - less))) == [("endless loop", line, "")]
 
 
 def test_lines_without_motion_and_without_a_jump_are_named_themselves(
