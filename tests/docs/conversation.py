@@ -1,9 +1,14 @@
 """Pages that show commands and what they print: read as data, compared with what is printed."""
 
+import os
 import re
-import sys
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
 
-OPENACR = (sys.executable, "-u", "-m", "openacr")
+from tests import warm
+
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 ANY = "..."
 
@@ -29,3 +34,12 @@ def matches(shown: list[str], printed: str) -> bool:
         else:
             pattern += re.escape(line.rstrip()).replace(re.escape(ANY), ".*") + r" *\n"
     return re.fullmatch(pattern, printed) is not None
+
+
+def openacr(words: Sequence[str], folder: Path, typed: str) -> subprocess.CompletedProcess[Any]:
+    """Perform a command of a page; only a terminal is typed at. `stdout` is all that it prints."""
+    return warm.run(
+        words, cwd=folder, text=True, encoding="utf-8", input=typed if words[0] == "term" else "",
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        env=os.environ | {"PYTHONUNBUFFERED": "1"},
+    )  # fmt: skip

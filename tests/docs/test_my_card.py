@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.docs.conversation import OPENACR, conversations, matches
+from tests import warm
+from tests.docs.conversation import conversations, matches, openacr
 
 from openacr.cli.commands import COMMANDS
 
@@ -20,8 +21,8 @@ DIFFERS = "different: "
 def card() -> Iterator[str]:
     """The card of the page: a gantry with normally closed limit switches."""
     ports = ["--ascii-port", "0", "--binary-port", "0", "--status-port", "0"]
-    command = [*OPENACR, "serve", str(ROOT / "examples" / "gantry"), "--no-journal", *ports]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
+    words = ["serve", ROOT / "examples" / "gantry", "--no-journal", *ports]
+    with warm.Popen(words, stdout=subprocess.PIPE, text=True) as server:
         assert server.stdout is not None
         yield server.stdout.readline().split("ascii=")[1].split()[0]
         server.terminate()
@@ -36,11 +37,7 @@ def test_every_command_of_the_page_prints_what_it_shows(card: str, tmp_path: Pat
         if words[1] != "ip":
             words = [word.replace(ADDRESS, card) for word in words]
         typed = "".join(f"{re.sub(r'^SYS>', '', line)}\n" for line in shown if line != "SYS>")
-        result = subprocess.run(
-            [*OPENACR, *words[1:]], cwd=tmp_path, text=True, check=False, encoding="utf-8",
-            input=typed if words[1] == "term" else "",
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-        )  # fmt: skip
+        result = openacr(words[1:], tmp_path, typed)
         printed = result.stdout.replace(card, ADDRESS)
         assert matches(shown, printed.rstrip("\n") + "\n"), f"$ {command}\n{printed}"
         is_different = any(line.startswith(DIFFERS) for line in shown)

@@ -4,14 +4,13 @@ import re
 import shlex
 import shutil
 import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from tests import warm
 
 ROOT = Path(__file__).parents[2]
-OPENACR = (sys.executable, "-m", "openacr.cli.main")
 PROMPT = re.compile(r"(?:SYS|P\d\d)>")
 
 
@@ -45,9 +44,7 @@ def test_the_tour_shows_all_kinds_of_commands() -> None:
 
 @pytest.mark.parametrize("words", [c for c in commands() if not is_interactive(c)], ids=" ".join)
 def test_a_command_of_the_tour_works(folder: Path, words: list[str]) -> None:
-    result = subprocess.run(
-        [*OPENACR, *words], cwd=folder, capture_output=True, text=True, check=False
-    )
+    result = warm.run(words, cwd=folder, capture_output=True, text=True)
     assert result.returncode == 0, result.stderr
     assert result.stdout.strip()
     for option in ("--plot", "--summary", "--trace"):
@@ -60,8 +57,8 @@ def served(folder: Path) -> Iterator[str]:
     """The card of the tour on a free port."""
     (words,) = (c for c in commands() if c[0] == "serve")
     project = words[1]
-    command = [*OPENACR, "serve", project, "--ascii-port", "0", "--binary-port", "0"]
-    with subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, text=True) as process:
+    command = ["serve", project, "--ascii-port", "0", "--binary-port", "0"]
+    with warm.Popen(command, cwd=folder, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         yield process.stdout.readline().split("ascii=")[1].split()[0]
         process.terminate()
@@ -72,12 +69,8 @@ def test_the_conversation_of_the_tour_takes_place(served: str) -> None:
     (block,) = (block for block in blocks("") if PROMPT.match(block))
     shown = [PROMPT.sub("", line) for line in block.splitlines()]
     typed = [PROMPT.sub("", line) for line in block.splitlines() if PROMPT.match(line)]
-    result = subprocess.run(
-        [*OPENACR, "term", served],
-        input="\n".join(typed) + "\n",
-        capture_output=True,
-        text=True,
-        check=True,
+    result = warm.run(
+        ["term", served], input="\n".join(typed) + "\n", capture_output=True, text=True, check=True
     )
     lines = iter(PROMPT.sub("", line).rstrip() for line in result.stdout.splitlines())
     for line in shown:
@@ -85,11 +78,11 @@ def test_the_conversation_of_the_tour_takes_place(served: str) -> None:
 
 
 @pytest.mark.parametrize("code", blocks("python"))
-def test_the_python_of_the_readme_runs(folder: Path, code: str) -> None:
-    result = subprocess.run(
-        [sys.executable, "-c", code], cwd=folder, capture_output=True, text=True, check=False
-    )
-    assert result.returncode == 0, result.stderr
+def test_the_python_of_the_readme_runs(
+    folder: Path, code: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(folder)
+    exec(compile(code, "README.md", "exec"), {"__name__": "__main__"})
 
 
 def planned(target: str) -> str:

@@ -64,15 +64,25 @@ def room_of(path: Path) -> str:
 ROOMS = sorted({room_of(path) for path in FILES})
 SPLIT = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+")
 PATTERN = re.compile(r"\b(?:" + "|".join(map(re.escape, WORDS)) + r")\b", re.IGNORECASE)
-PHRASE = re.compile(r"\b(?:" + "|".join(each.replace(" ", r"\s+") for each in PHRASES) + r")\b")
+SPACED = [each.replace(" ", r"[\s_]+") for each in PHRASES]
+PHRASE = re.compile(r"\b(?:" + "|".join(SPACED) + r")\b")
+
+# Only files that have a word, in a part of a name too, or a phrase are read by tokens.
+ANYWHERE = re.compile(
+    rf"(?:(?<![A-Za-z])|(?=[A-Z]))(?i:{'|'.join(map(re.escape, WORDS))})(?![a-z])"
+    rf"|{'|'.join(SPACED)}"
+)
 
 
 def texts_and_names(path: Path) -> Iterator[tuple[int, str, bool]]:
     """Line, text, and whether it is a name: of a page the lines, of a module its tokens."""
+    whole = path.read_text(encoding="utf-8")
     if path.suffix == ".md":
-        yield 1, path.read_text(encoding="utf-8"), False
+        yield 1, whole, False
         return
-    for token in tokenize.generate_tokens(io.StringIO(path.read_text("utf-8")).readline):
+    if not ANYWHERE.search(ALLOWED.sub(blank, whole)):
+        return
+    for token in tokenize.generate_tokens(io.StringIO(whole).readline):
         if token.type == tokenize.NAME:
             yield token.start[0], token.string, True
         elif token.type in (tokenize.STRING, tokenize.COMMENT):

@@ -1,11 +1,11 @@
 """Lives of a whole card: what is typed, switched and pressed at which tick.
 
-Run as a module it prints the digests of one of them, so that another process (and build)
-can live it too:  python -m tests.parity.journeys <name>
+Run as a module it prints the digests of all of them, so that another process (and build)
+can live them too:  python -m tests.parity.journeys
 """
 
+import json
 import random
-import sys
 from collections.abc import Iterator
 
 from openacr.controller import Controller
@@ -147,5 +147,4 @@ def random_split(ticks: int, seed: int) -> list[int]:
 
 
 if __name__ == "__main__":
-    for digest in live(sys.argv[1]):
-        print(digest)
+    print(json.dumps({name: list(live(name)) for name in JOURNEYS}))
