@@ -21,7 +21,7 @@ DIFFERS = "different: "
 def card() -> Iterator[str]:
     """The card of the page: a gantry with normally closed limit switches."""
     ports = ["--ascii-port", "0", "--binary-port", "0", "--status-port", "0"]
-    words = ["serve", ROOT / "examples" / "gantry", "--no-journal", *ports]
+    words = ["serve", str(ROOT / "examples" / "gantry"), "--no-journal", *ports]
     with warm.Popen(words, stdout=subprocess.PIPE, text=True) as server:
         assert server.stdout is not None
         yield server.stdout.readline().split("ascii=")[1].split()[0]
