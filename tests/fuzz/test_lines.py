@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from tests.basic.parsing import parse_line
 from tests.controller.hosts import X_AND_Y, Host
 from tests.fuzz.programs import BROKEN, Programs
-from tests.search import search
+from tests.search import examples, search
 
 from openacr.basic.language.nodes import Number, Parameter
 from openacr.basic.language.registry import Level
@@ -104,12 +104,14 @@ def stored(seed: int, count: int) -> int:
     return done
 
 
-def test_ten_thousand_lines_at_the_prompt() -> None:
-    at_the_prompt(1, 10_000)
+@pytest.mark.search
+def test_thousands_of_lines_at_the_prompt() -> None:
+    at_the_prompt(1, examples(10_000, 4))
 
 
-def test_ten_thousand_lines_in_stored_programs() -> None:
-    assert stored(2, 10_000) >= 10_000
+@pytest.mark.search
+def test_thousands_of_lines_in_stored_programs() -> None:
+    assert stored(2, examples(10_000, 4)) >= examples(10_000, 4)
 
 
 @pytest.mark.soak
