@@ -1,7 +1,9 @@
 """What all tests need."""
 
+import gc
 import os
 import signal
+from collections.abc import Iterator
 
 import pytest
 from hypothesis import settings
@@ -24,6 +26,17 @@ if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_I
 def _journals(tmp_path_factory: pytest.TempPathFactory) -> None:
     """Journals of cards that tests serve stay out of the folders of the user."""
     os.environ["OPENACR_JOURNALS"] = str(tmp_path_factory.mktemp("journals"))
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Iterator[None]:
+    """Twenty thousand tests are no garbage: it is not looked for while they are made, nor later."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 @pytest.hookimpl(trylast=True)

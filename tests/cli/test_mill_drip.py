@@ -1,7 +1,6 @@
 """`openacr mill drip` and `receive`, and the console of `mill run`."""
 
 import os
-import termios
 import threading
 import time
 from collections.abc import Iterator
@@ -10,6 +9,8 @@ from types import SimpleNamespace
 from typing import cast
 
 import pytest
+import serial
+from tests.cli.keys import arrived
 from tests.mill.shop import Shop
 from typer.testing import CliRunner
 
@@ -36,13 +37,24 @@ def line() -> Iterator[tuple[int, str]]:
         os.close(end)
 
 
-def sending(master: int, data: bytes) -> None:
+@pytest.fixture
+def is_open(monkeypatch: pytest.MonkeyPatch) -> threading.Event:
+    """Set when a port has been opened, which ends with forgetting what has arrived."""
+    opened, event = serial.Serial.open, threading.Event()
+
+    def open_port(port: serial.Serial) -> None:
+        opened(port)
+        event.set()
+
+    monkeypatch.setattr(serial.Serial, "open", open_port)
+    return event
+
+
+def sending(master: int, data: bytes, is_open: threading.Event) -> None:
     """Send in pieces, when the far end has opened its port."""
 
     def work() -> None:
-        while termios.tcgetattr(master)[3] & termios.ECHO:
-            time.sleep(0.02)
-        time.sleep(0.3)  # opening a port ends with forgetting what has arrived
+        is_open.wait()
         for n in range(0, len(data), 9):
             os.write(master, data[n : n + 9])
             time.sleep(0.01)
@@ -55,24 +67,30 @@ def run(*words: str, typed: str = "") -> tuple[int, str]:
     return result.exit_code, result.output
 
 
-def test_a_program_is_run_from_a_serial_line(line: tuple[int, str]) -> None:
+def test_a_program_is_run_from_a_serial_line(
+    line: tuple[int, str], is_open: threading.Event
+) -> None:
     master, port = line
-    sending(master, PROGRAM)
+    sending(master, PROGRAM, is_open)
     assert run("drip", "--port", port) == (0, "3 moves\n")
 
 
-def test_an_error_in_what_arrives_names_its_line(line: tuple[int, str]) -> None:
+def test_an_error_in_what_arrives_names_its_line(
+    line: tuple[int, str], is_open: threading.Event
+) -> None:
     master, port = line
-    sending(master, b"G90 F6000\nG1 X1\nG1 X\nM2\n")
+    sending(master, b"G90 F6000\nG1 X1\nG1 X\nM2\n", is_open)
     code, said = run("drip", "--port", port)
     assert code == 1
     assert "DRIP:3:" in said
 
 
-def test_a_part_file_is_received_once(line: tuple[int, str], tmp_path: Path) -> None:
+def test_a_part_file_is_received_once(
+    line: tuple[int, str], is_open: threading.Event, tmp_path: Path
+) -> None:
     master, port = line
     target = tmp_path / "PART.TXT"
-    sending(master, PROGRAM + b"\x1a")
+    sending(master, PROGRAM + b"\x1a", is_open)
     assert run("receive", str(target), "--port", port)[0] == 0
     assert target.read_bytes() == PROGRAM
     code, said = run("receive", str(target), "--port", port)
@@ -153,7 +171,7 @@ def test_the_console_traces_back_and_forward_and_resumes() -> None:
 
         def after(line: str, seconds: float) -> tuple[float, float, float]:
             keys.write(line + "\n")
-            time.sleep(0.05)
+            arrived(console._lines)
             for _ in range(round(seconds / 0.05)):
                 console.attend(place)
                 shop.pass_time(0.05)

@@ -37,7 +37,7 @@ def address(tmp_path: Path) -> Iterator[str]:
     lines = iter(served.stdout.readline, "")
     yield next(found[1] for line in lines if (found := re.search(r"ascii=(\S+)", line)))
     served.terminate()
-    served.wait(20)
+    served.wait(60)
     served.stdout.close()
 
 
@@ -64,7 +64,7 @@ def test_a_run_that_is_signalled_to_end_brings_the_machine_to_rest(
         for _ in range(times):  # an impatient operator
             run.send_signal(number)
             time.sleep(0.01)
-        output, _ = run.communicate(timeout=30)
+        output, _ = run.communicate(timeout=60)
         assert (run.returncode, "the machine is at rest at X" in output) == (130, True)
         assert not card.read_bit(41)
         places = {int(card.read(12288)) for _ in range(5)}

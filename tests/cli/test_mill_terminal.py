@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TextIO
 
 import pytest
+from tests.cli.keys import arrived
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
@@ -65,7 +66,7 @@ class Bench:
 
     def type(self, line: str) -> None:
         self.keys.write(f"{line}\n")
-        time.sleep(0.05)
+        arrived(self.attend._lines)
         self.steps()
 
 
@@ -345,7 +346,7 @@ def test_stop_ramps_to_rest_and_the_status_line_shows_the_pause(
     assert capsys.readouterr().err == "RUN\n"
     cruise_ups = bench.controller.axis(0).velocity_ups
     bench.keys.write("stop\n")
-    time.sleep(0.05)
+    arrived(console._lines)
     console.attend(bench.shop)
     speeds = [bench.controller.axis(0).velocity_ups]
     while speeds[-1] > 0.0:
@@ -358,7 +359,7 @@ def test_stop_ramps_to_rest_and_the_status_line_shows_the_pause(
     bench.steps(5)
     assert capsys.readouterr().err == "----PAUSE----\n"
     bench.keys.write("resume\n")
-    time.sleep(0.05)
+    arrived(console._lines)
     bench.steps(300)
     assert capsys.readouterr().err == "RUN\nIDLE\n"
     assert bench.controller.p[12288] == 80_000

@@ -33,7 +33,7 @@ def running(*words: object) -> Iterator[str]:
             yield process.stdout.readline()
         finally:
             process.terminate()
-            assert process.wait(30) == 0
+            assert process.wait(60) == 0
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
@@ -84,7 +84,7 @@ def refused(file: Path, most_bytes: int, *options: str) -> str:
             if most_bytes:
                 ask(process.stdout.readline().split()[1])
                 process.terminate()
-            _, said = process.communicate(timeout=30)
+            _, said = process.communicate(timeout=60)
     assert process.returncode == 2
     assert said.splitlines()[-1] == f"error: {file}: cannot be written: file too large"
     return str(said)
@@ -191,7 +191,7 @@ def test_a_serial_line_goes_on_when_the_disk_is_full(tmp_path: Path, is_forced: 
                 assert received(receiver, 5) == b"?6*7\r"
         assert process.poll() is None
         process.terminate()
-        _, said = process.communicate(timeout=30)
+        _, said = process.communicate(timeout=60)
     for each in (host, host_line, card, card_line):
         os.close(each)
     assert process.returncode == 2

@@ -145,7 +145,7 @@ def test_a_journal_that_cannot_be_written_is_refused_before_the_run(blink: Path)
 
 def await_digest(journal: Path) -> None:
     """Wait for the first digest; long before that is due everything has been typed."""
-    for _ in range(200):
+    for _ in range(600):
         if b'"digest", "' in journal.read_bytes():
             return
         time.sleep(0.1)

@@ -41,11 +41,11 @@ def test_it_announces_its_ports_and_ends_cleanly_on_a_signal(name: str) -> None:
         found = re.fullmatch(r"listening ascii=127.0.0.1:(\d+) binary=127.0.0.1:(\d+)\n", line)
         assert found is not None, line
         for port in found.groups():
-            with socket.create_connection(("127.0.0.1", int(port)), 5) as connection:
+            with socket.create_connection(("127.0.0.1", int(port)), 60) as connection:
                 connection.sendall(bytes.fromhex("00 30 02 01"))
                 assert connection.recv(8)[:4] == bytes.fromhex("00 30 02 01")
         process.send_signal(getattr(signal, name))
-        out, err = process.communicate(timeout=10)
+        out, err = process.communicate(timeout=60)
         assert (process.returncode, out, err) == (0, "", "")
 
 
@@ -56,11 +56,11 @@ def test_with_nohup_it_outlives_its_terminal() -> None:
         port = re.search(r"binary=127.0.0.1:(\d+)", process.stdout.readline())
         assert port is not None
         process.send_signal(signal.SIGHUP)
-        with socket.create_connection(("127.0.0.1", int(port[1])), 5) as connection:
+        with socket.create_connection(("127.0.0.1", int(port[1])), 60) as connection:
             connection.sendall(bytes.fromhex("00 30 02 01"))
             assert connection.recv(8)[:4] == bytes.fromhex("00 30 02 01")
         process.terminate()
-        process.communicate(timeout=10)
+        process.communicate(timeout=60)
         assert process.returncode == 0
 
 
@@ -73,7 +73,7 @@ def test_it_names_the_serial_port_it_serves() -> None:
             line = process.stdout.readline()
             assert line.endswith(f" serial={os.ttyname(theirs)}\n")
             process.terminate()
-            process.communicate(timeout=10)
+            process.communicate(timeout=60)
     finally:
         os.close(ours)
         os.close(theirs)
@@ -84,6 +84,6 @@ def test_it_warns_when_other_machines_can_reach_it() -> None:
         assert process.stdout is not None
         assert "ascii=0.0.0.0:" in process.stdout.readline()
         process.terminate()
-        _, err = process.communicate(timeout=10)
+        _, err = process.communicate(timeout=60)
         assert "WARNING" in err
         assert "trusted network" in err

@@ -35,7 +35,7 @@ def test_a_server_stops_on_a_termination() -> None:
         stop = asyncio.Event()
         stop_on_signals(stop.set)
         os.kill(os.getpid(), signal.SIGTERM)
-        await asyncio.wait_for(stop.wait(), 30)
+        await asyncio.wait_for(stop.wait(), 60)
 
     asyncio.run(run())
 
@@ -57,7 +57,7 @@ def test_where_a_loop_takes_no_signals_a_handler_of_python_stops_the_server(
         stop = asyncio.Event()
         stop_on_signals(stop.set)
         os.kill(os.getpid(), signal.SIGUSR1)
-        await asyncio.wait_for(stop.wait(), 30)
+        await asyncio.wait_for(stop.wait(), 60)
 
     try:
         asyncio.run(run())

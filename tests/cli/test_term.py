@@ -9,27 +9,22 @@ import time
 from pathlib import Path
 
 import pytest
+from tests import warm
 from tests.io.fake_card import FakeCard
 from tests.io.threaded import served
-
-COMMAND = [
-    sys.executable,
-    "-c",
-    "import typer; from openacr.cli.live.term import term; typer.run(term)",
-]
 
 
 def test_piped_lines_are_answered_and_the_end_of_input_ends_it() -> None:
     with served(FakeCard()) as at:
-        done = subprocess.run(
-            [*COMMAND, str(at)], input=b"LEN 12\nSLEEP 50\n", capture_output=True, timeout=20
+        done = warm.run(
+            ["term", str(at)], input=b"LEN 12\nSLEEP 50\n", capture_output=True, timeout=60
         )
     assert done.stdout == b"LEN 12\n6\nSYS>SLEEP 50\nok\nSYS>"
     assert (done.returncode, done.stderr) == (0, b"")
 
 
 def read_until(fd: int, end: bytes) -> bytes:
-    seen, deadline = b"", time.monotonic() + 10
+    seen, deadline = b"", time.monotonic() + 60
     while end not in seen and time.monotonic() < deadline:
         if select.select([fd], [], [], 0.1)[0]:
             seen += os.read(fd, 1000)
@@ -45,8 +40,8 @@ def test_keys_pass_through_arrows_recall_and_ctrl_c_leaves(tmp_path: Path) -> No
     ours, theirs = pty.openpty()
     with (
         served(card) as at,
-        subprocess.Popen(
-            [*COMMAND, str(at)],
+        warm.Popen(
+            ["term", str(at)],
             stdin=theirs,
             stdout=theirs,
             stderr=subprocess.PIPE,
@@ -62,7 +57,7 @@ def test_keys_pass_through_arrows_recall_and_ctrl_c_leaves(tmp_path: Path) -> No
         assert read_until(ours, b"SYS>") == b"LEN 12\r\n6\r\nSYS>"
         assert card.controls == ["CTRL_X", "CTRL_Z"]
         os.write(ours, b"\x03")
-        assert process.wait(10) == 0
+        assert process.wait(60) == 0
     assert (tmp_path / "openacr" / "term_history").read_bytes() == b"LEN 12\n"
     os.close(ours)
     os.close(theirs)
@@ -71,8 +66,8 @@ def test_keys_pass_through_arrows_recall_and_ctrl_c_leaves(tmp_path: Path) -> No
 @pytest.mark.skipif(sys.platform == "win32", reason="pseudo terminals of POSIX")
 def test_it_says_when_the_card_ends_the_connection(tmp_path: Path) -> None:
     with served(FakeCard()) as at:
-        process = subprocess.Popen(
-            [*COMMAND, str(at)],
+        process = warm.Popen(
+            ["term", str(at)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -83,7 +78,7 @@ def test_it_says_when_the_card_ends_the_connection(tmp_path: Path) -> None:
         process.stdin.flush()
         assert process.stdout.readline() == b"LEN\n"
         time.sleep(0.2)
-    _, err = process.communicate(timeout=10)
+    _, err = process.communicate(timeout=60)
     assert process.returncode == 1
     assert b"connection ended" in err
 
@@ -91,12 +86,12 @@ def test_it_says_when_the_card_ends_the_connection(tmp_path: Path) -> None:
 def test_a_card_that_is_not_there_is_an_error_of_the_user() -> None:
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
-    done = subprocess.run(
-        [sys.executable, "-m", "openacr", "term", f"127.0.0.1:{port}"],
+    done = warm.run(
+        ["term", f"127.0.0.1:{port}"],
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
-        timeout=20,
+        timeout=60,
     )
     assert done.returncode == 2
     assert done.stderr.startswith(f"error: cannot connect to 127.0.0.1:{port}: ")
@@ -108,8 +103,8 @@ def test_a_serial_line_does_as_well(tmp_path: Path) -> None:
 
     card_end, line = pty.openpty()
     ours, theirs = pty.openpty()
-    with subprocess.Popen(
-        [*COMMAND, os.ttyname(line)],
+    with warm.Popen(
+        ["term", os.ttyname(line)],
         stdin=theirs,
         stdout=theirs,
         stderr=subprocess.PIPE,
@@ -123,6 +118,6 @@ def test_a_serial_line_does_as_well(tmp_path: Path) -> None:
         os.write(card_end, b"VER\r\n1.18\r\nSYS>")
         assert read_until(ours, b"SYS>") == b"VER\r\n1.18\r\nSYS>"
         os.write(ours, b"\x03")
-        assert process.wait(10) == 0
+        assert process.wait(60) == 0
     for end in (card_end, line, ours, theirs):
         os.close(end)

@@ -4,6 +4,7 @@ import json
 import random
 from base64 import b64encode
 from pathlib import Path
+from typing import Any
 
 import pytest
 from msgspec.structs import replace
@@ -80,7 +81,7 @@ def test_a_row_outside_its_range_is_refused_by_name(memory: Memory, row) -> None
         (block.count - 1) * place_of(f"{block.prefix}{view}_STRIDE") + offset + size - 1
     )
     wrong = (low - 1, high + 1) if view == "I" else (low - max(1.0, abs(low)), 2 * high + 1.0)
-    views = {"F": memory.F, "I": memory.I}[view]
+    views: Any = memory.F if view == "F" else memory.I
     before = views[last]
     try:
         for value in wrong:

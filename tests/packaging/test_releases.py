@@ -94,7 +94,7 @@ def test_the_container_serves_card_and_panel_until_it_is_stopped(tmp_path: Path)
         lines = sorted(process.stdout.readline() for _ in range(2))
         assert lines[0].startswith("listening ascii=127.0.0.1:")
         url = lines[1].removeprefix("panel ").strip()
-        with urllib.request.urlopen(url, timeout=30) as page:
+        with urllib.request.urlopen(url, timeout=60) as page:
             assert page.status == 200
         process.send_signal(signal.SIGTERM)
         assert process.wait(60) == 0

@@ -24,11 +24,10 @@ def test_every_task_has_its_result_once() -> None:
     assert multiprocessing.active_children() == []
 
 
-def test_the_tasks_are_spread_over_as_many_processes_as_given() -> None:
+def test_the_tasks_are_spread_over_as_many_processes_as_given(tmp_path: Path) -> None:
     with LocalPool(2) as pool:
-        found = {
-            each.result for each in pool.results(own_process, range(20)) if isinstance(each, Done)
-        }
+        tasks = pool.results(own_process, [str(tmp_path)] * 20)
+        found = {each.result for each in tasks if isinstance(each, Done)}
     assert len(found) == 2
     assert os.getpid() not in found
 
@@ -77,12 +76,14 @@ def test_an_error_of_a_task_is_a_result_without_value() -> None:
 def test_processes_end_with_a_parent_that_is_killed() -> None:
     children = left_by(
         """
+        import tempfile
         import time
         from openacr.workers import LocalPool
         from tests.workers.calls import own_process
         if __name__ == "__main__":
-            with LocalPool(2) as pool:
-                found = {each.result for each in pool.results(own_process, range(20))}
+            with tempfile.TemporaryDirectory() as folder, LocalPool(2) as pool:
+                tasks = pool.results(own_process, [folder] * 20)
+                found = {each.result for each in tasks}
                 print(*found, flush=True)
                 time.sleep(60)
         """
