@@ -91,21 +91,6 @@ def test_without_segments_or_array_there_is_no_table() -> None:
 # backlash
 
 
-@pytest.mark.req(
-    "ACR-CMD-BKL", "ACR-SERVO-03", "ACR-SERVO-04", "ACR-SERVO-02", "MILL-OFS-BACKLASH-CTL"
-)
-def test_backlash_is_added_while_the_primary_setpoint_is_positive() -> None:
-    made = Bench("X").all("PPU X1000", "BKL X0.01")
-    assert made.p(12332) == pytest.approx(0.01)
-    assert (made.type("BKL X"), made.type("BKL")) == ("0.01", "X 0.01")
-    at_place(made, 500)
-    made.seconds(0.02)
-    assert (made.p(PSP), made.p(SSP), made.p(BACKLASH)) == (500, 510, 10)
-    at_place(made, -500)
-    made.seconds(0.02)
-    assert (made.p(PSP), made.p(SSP), made.p(BACKLASH)) == (-500, -500, 0)
-
-
 def test_the_step_is_spread_over_10_ms() -> None:
     made = Bench("X").all("BKL X100")
     offsets = []

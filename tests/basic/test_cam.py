@@ -87,14 +87,6 @@ def test_writing_the_shown_offset_replaces_it() -> None:
 # triggers
 
 
-@pytest.mark.req("ACR-CMD-CAM")
-def test_on_ihpos_starts_with_the_overshoot() -> None:
-    made = bench(0, 100, 0, lines=("CAM ON IHPOS X(P6304, 15)",))
-    assert made.bit(TRIGGER_MODE)
-    assert offsets(made, 10, 10, 10) == [0, 10, 30]
-    assert made.bit(ACTIVATE)
-
-
 def test_on_trg_starts_at_the_captured_position() -> None:
     made = bench(0, 100, 0, lines=("CAM ON TRG X(2)",))
     turn(made, 10)

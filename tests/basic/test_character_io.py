@@ -3,53 +3,12 @@
 import pytest
 from tests.basic.machine import Machine
 
-from openacr.map.numbers import P_COM1_COMMAND_COUNTER
-
 
 @pytest.fixture
 def card() -> Machine:
     machine = Machine()
     machine.type("DIM P(100)", "PROG 0")
     return machine
-
-
-@pytest.mark.req("ACR-SYN-13", "ACR-SYN-14", "ACR-CMD-PRINT")
-@pytest.mark.parametrize(
-    ("line", "output"),
-    [
-        ('PRINT "text"', "text|"),
-        ("PRINT", "|"),
-        ("?", "|"),
-        ("?1+2", "3|"),
-        ('PRINT "A=";P1;" B"', "A=437.25 B|"),
-        ('PRINT "a","b"', "a\tb|"),
-        ('PRINT "open";', "open"),
-        ('PRINT "tab",', "tab\t"),
-        ("? P1", "437.25|"),
-        ("?P12304", "0.002441406|"),
-        ("?P12304*1", "0.002441406017|"),
-        ("?BIT5;BIT6", "-10|"),
-        ("?BIT(5)", "-1|"),
-        ("?P(1)", "437.25|"),
-        ("?-P1", "-437.25|"),
-        ("?NOT 5", "-6|"),
-        ("?SQRT(16);ABS(-2)", "42|"),
-        ('?UCASE$("ab")+CHR$(67)', "ABC|"),
-        ('?"say ""hi"""', 'say "hi"|'),
-        ('PRINT USING "##";5', " 5|"),
-        ('PRINT USING "##";P2;":";USING "##";7;".";P3', " 5: 7.5|"),
-        ('PRINT USING "+##.#";"x=";1.25', "x= +1.3|"),
-        ('?"a" "b";1', "ab1|"),
-        ("?0.1+0.2", "0.3|"),
-        ("?1/3", "0.3333333333|"),
-    ],
-)
-def test_print_sends_items_as_documented(card: Machine, line: str, output: str) -> None:
-    card.card.memory.write(1, 437.25)
-    card.card.memory.write(2, 5)
-    card.card.memory.write(3, 5)
-    card.card.memory.set_bit(5, True)
-    assert card.type(line) == output + "P00>"
 
 
 def test_print_of_a_command_word_prints_its_report(card: Machine) -> None:
@@ -87,15 +46,6 @@ def test_print_of_a_program_goes_to_its_listeners(card: Machine) -> None:
 
 
 # devices
-
-
-@pytest.mark.req("ACR-APP-OPEN-03")
-def test_inkey_takes_one_waiting_character_and_never_waits(card: Machine) -> None:
-    network = card.connect("STREAM2")
-    card.type('OPEN "STREAM2:" AS #1')
-    assert card.type("?LEN(INKEY$(1));KBHIT(1)") == "00|P00>"
-    card.key("a\x1b", on=network)
-    assert card.type("?KBHIT(1);UCASE$(INKEY$(1));ASC(INKEY$(1));KBHIT(1)") == "-1A270|P00>"
 
 
 def test_getch_waits_for_a_key_as_an_inhibited_program(card: Machine) -> None:
@@ -138,18 +88,6 @@ def test_backspace_does_not_take_back_a_line_that_is_complete(card: Machine) -> 
     assert card.sent() == "? ? 5\t6|P01>"
 
 
-@pytest.mark.req("ACR-CMD-INPUT")
-def test_input_with_a_semicolon_keeps_the_cursor_in_its_line(card: Machine) -> None:
-    card.load(1, 'INPUT; "Value = ";P1', "DWL 1")
-    card.type("PROG 1", "LRUN")
-    card.advance()
-    assert not card.channel.echo_line_end
-    card.key("5\r")
-    card.advance()
-    assert card.channel.echo_line_end
-    assert card.sent() == "Value = "
-
-
 def test_input_from_a_device_ends_at_cr_or_cr_lf(card: Machine) -> None:
     network = card.connect("STREAM2")
     card.load(
@@ -173,21 +111,6 @@ def test_the_first_line_typed_by_any_listener_is_taken(card: Machine) -> None:
     card.advance()
     assert card.sent() == "? 7|P01>"
     assert card.sent(other).endswith("? 7|")
-
-
-@pytest.mark.req("ACR-SYN-15")
-def test_typographic_quotes_apostrophes_and_dashes_are_understood(card: Machine) -> None:
-    assert card.type("PRINT \u201ctries\u201d") == "tries|P00>"
-    assert card.type("?\u201e5\u201c;5\u20132") == "53|P00>"
-    assert card.type("\u2018 a comment") == "P00>"
-
-
-@pytest.mark.req("ACR-SYN-16")
-def test_an_unknown_mnemonic_changes_nothing(card: Machine) -> None:
-    before = card.card.memory.digest()
-    assert card.type("P1 = 5 : NONSENSE 5") == "Unknown command|P00>"
-    card.card.memory.I[P_COM1_COMMAND_COUNTER] -= 1  # all that may change
-    assert card.card.memory.digest() == before
 
 
 def test_a_line_that_dwells_is_answered_afterwards(card: Machine) -> None:

@@ -5,7 +5,6 @@ from tests.basic.machine import Machine
 
 PROGRAM_1 = 1024 + 32
 RUNNING, MODIFIED, RUN_REQUEST, HALT_REQUEST = (PROGRAM_1 + n for n in (0, 5, 8, 9))
-BLOCK_CONTROL, BLOCK_MODE, BLOCK_WAITING, STEP_FIRST = (PROGRAM_1 + n for n in (16, 18, 19, 20))
 STEP_CONTROL, PAUSE_CONTROL, PAUSE_MODE, PAUSE_WAITING = (PROGRAM_1 + n for n in (22, 24, 26, 27))
 
 
@@ -25,16 +24,6 @@ def bits(card: Machine, *numbers: int) -> list[bool]:
     return [card.card.memory.bit(number) for number in numbers]
 
 
-@pytest.mark.req("ACR-CMD-RUN")
-def test_run_clears_modified_and_sets_running(card: Machine) -> None:
-    assert bits(card, MODIFIED, RUNNING) == [True, False]
-    card.type("RUN")
-    assert bits(card, MODIFIED, RUNNING) == [False, True]
-    card.advance(100)
-    assert bits(card, RUNNING) == [False]
-    assert counts(card) == (1, 1, 1)
-
-
 def test_halt_ends_a_program_in_the_middle_of_a_dwell(card: Machine) -> None:
     card.type("RUN")
     card.advance(5)
@@ -42,16 +31,6 @@ def test_halt_ends_a_program_in_the_middle_of_a_dwell(card: Machine) -> None:
     card.advance(100)
     assert counts(card) == (1, 0, 0)
     assert bits(card, RUNNING, PROGRAM_1 + 1) == [False, False]
-
-
-@pytest.mark.req("ACR-ERR-17")
-def test_request_flags_run_and_halt_a_program(card: Machine) -> None:
-    card.type(f"SET {RUN_REQUEST}")
-    card.advance(105)
-    assert bits(card, RUN_REQUEST, RUNNING) == [False, True]
-    card.type(f"SET {HALT_REQUEST}")
-    card.advance(100)
-    assert bits(card, HALT_REQUEST, RUNNING) == [False, False]
 
 
 def test_pause_stops_before_the_next_line_and_resume_goes_on(card: Machine) -> None:
@@ -91,11 +70,6 @@ def test_the_edge_of_step_control_is_a_step_too(card: Machine) -> None:
     card.type(f"SET {STEP_CONTROL}")
     card.advance(100)
     assert counts(card) == (1, 0, 0)
-
-
-def test_step_outside_block_mode_does_nothing(card: Machine) -> None:
-    card.type("STEP")
-    assert bits(card, PROGRAM_1 + 21) == [False]
 
 
 def test_programs_go_on_while_their_text_is_edited(card: Machine) -> None:

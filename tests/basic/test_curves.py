@@ -45,17 +45,6 @@ def points(made: Bench, line: str, every: int = 20) -> np.ndarray:
 # circles
 
 
-@pytest.mark.req("ACR-CMD-CIRCCW")
-def test_equal_start_and_end_is_a_full_circle() -> None:
-    made = bench()
-    path = points(made, "CIRCCW X(0,10) Y(0,0)")
-    assert made.p(LENGTH) == pytest.approx(62.83185)
-    assert np.hypot(path[:, 0] - 10, path[:, 1]) == pytest.approx(10, abs=1 / CNT)
-    angles = np.unwrap(np.arctan2(path[:, 1], path[:, 0] - 10))
-    assert np.all(np.diff(angles[:-1]) > 0)
-    assert (made.psp(0), made.psp(1)) == (0, 0)
-
-
 def test_another_axis_of_the_block_makes_a_helix() -> None:
     made = bench()
     path = points(made, "CIRCCW X(0,3) Y(0,0) Z5")
@@ -168,58 +157,7 @@ def test_feedhold_on_a_circle_stays_on_it_and_goes_on() -> None:
 # arcs in space
 
 
-@pytest.mark.req("ACR-CMD-TARC")
-def test_tarc_goes_through_its_three_points() -> None:
-    made = bench()
-    path = points(made, "TARC X(2,1) Y(2,2) Z(1,2)", every=1)
-    mid = np.array([1.0, 2.0, 2.0])
-    assert np.min(np.linalg.norm(path - mid, axis=1)) < 0.01
-    assert [made.psp(axis) for axis in range(3)] == [2000, 2000, 1000]
-    center, radius = _circle_through(np.zeros(3), mid, np.array([2.0, 2.0, 1.0]))
-    assert np.linalg.norm(path - center, axis=1) == pytest.approx(radius, abs=1e-6)
-    steps = np.linalg.norm(np.diff(path, axis=0), axis=1)[:-1]
-    assert steps == pytest.approx(10 * 0.0005, rel=1e-4)
-
-
-def _circle_through(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, float]:
-    """The centre solves three linear equations: two bisecting planes and the plane itself."""
-    normal = np.cross(b - a, c - a)
-    rows = np.array([b - a, c - a, normal])
-    center = np.linalg.solve(rows, [(b - a) @ (a + b) / 2, (c - a) @ (a + c) / 2, normal @ a])
-    return center, float(np.linalg.norm(a - center))
-
-
-def test_tarc_mode_is_a_flag() -> None:
-    made = bench("TARC ON")
-    assert made.bit(2077)
-    made.all("TARC OFF")
-    assert not made.bit(2077)
-
-
-@pytest.mark.parametrize("line", ["TARC X(2,1) Y(2,1) Z(2,1)", "TARC X(0,1) Y(0,1) Z(0,1)"])
-def test_three_points_in_line_are_no_arc(line: str) -> None:
-    assert bench().type(line) == "Invalid arc"
-
-
 # sines
-
-
-@pytest.mark.req("ACR-CMD-SINE", "ACR-MOT-13")
-def test_a_sine_swings_beside_a_straight_move() -> None:
-    made = go(bench(), "Y100")
-    path = points(made, "X2 SINE Y(0,90,90,100)")
-    assert made.p(LENGTH) == 2
-    assert path[:, 1] == pytest.approx(100 * np.cos(math.pi / 4 * path[:, 0]), abs=1e-6)
-    assert (made.psp(0), made.psp(1)) == (2000, 0)
-
-
-def test_a_sine_alone_runs_in_degrees_per_second() -> None:
-    made = bench("VEL 90")
-    made.type("SINE X(0,0,180,5)")
-    made.ticks(ticks(1.0))
-    assert made.psp(0) == pytest.approx(5 * CNT)
-    assert made.until_clear(IN_MOTION) == ticks(1.0)
-    assert (made.p(LENGTH), made.psp(0)) == (180, 0)
 
 
 def test_a_sine_off_its_line_is_tilted_and_never_jumps() -> None:

@@ -28,61 +28,26 @@ def rig() -> Rig:
 @pytest.mark.parametrize(
     ("text", "result"),
     [
-        pytest.param("4 + 6 / 2", "7", marks=pytest.mark.req("ACR-EVAL-01")),
-        pytest.param("2 + 6 / 3 * 5 - 9", "3", marks=pytest.mark.req("ACR-EVAL-02")),
-        pytest.param("(2 + 6 / 3) * 5 - 9", "11", marks=pytest.mark.req("ACR-EVAL-03")),
-        pytest.param("(2 + 6 / 3) * (5 - 9)", "-16", marks=pytest.mark.req("ACR-EVAL-04")),
-        pytest.param(
-            "((7 + 3) / 2) * 3", "15", marks=pytest.mark.req("ACR-EVAL-05", "ACR-EVAL-08")
-        ),
-        pytest.param("93784005 MOD 1000", "5", marks=pytest.mark.req("ACR-EVAL-16")),
-        pytest.param("1 + 2 * 3 ** 2 > 18", "-1", marks=pytest.mark.req("ACR-EVAL-06")),
-        pytest.param("7 / 2 + 1", "4.5", marks=pytest.mark.req("ACR-EVAL-09")),
-        ("2**3**2", "64"),
         ("2**3**2**0.5", "8"),
         ("2**-1**2", "0.25"),
         ("-2**2**3", "-64"),
-        ("-2**2", "-4"),
         ("2**-1", "0.5"),
-        ("7 MOD 3", "1"),
-        ("-7 MOD 3", "-1"),
         ("-6 MOD 3", "0"),
         ("7.5 MOD 2", "1.5"),
-        ("5 AND 3", "1"),
-        ("5 OR 3", "7"),
-        ("5 XOR 3", "6"),
-        ("NOT 0", "-1"),
-        ("NOT 5", "-6"),
-        ("5 NAND 3", "-2"),
-        ("5 NOR 3", "-8"),
-        ("5 XNOR 3", "-7"),
-        ("1 << 4", "16"),
-        ("-8 >> 1", "-4"),
         ("1 << 31", "-2147483648"),
-        ("3 > 2", "-1"),
-        ("3 < 2", "0"),
         ("2 >= 2", "-1"),
         ("2 <> 2", "0"),
-        ("NOT 1 = 2", "-1"),
         ("5 + NOT 1", "3"),
         ("1 OR 0 AND 0", "1"),
-        ("&HFF", "255"),
         ("4294967295 AND 255", "255"),
         ("3.9 AND 7", "3"),
         ("-3.9 AND -1", "-3"),
-        ("ROUND(2.5)", "3"),
-        ("ROUND(-2.5)", "-3"),
         ("ROUND(0.49999999999999994)", "0"),
-        ("TRUNC(-2.7)", "-2"),
-        ("FLOOR(-2.7)", "-3"),
-        ("CEIL(-2.7)", "-2"),
         ("INT(-2.7)", "-3"),
         ("SGN(-3)", "-1"),
         ("FRAC(-2.75)", "-0.75"),
         ("ABS(-4)", "4"),
         ("SQRT(16)", "4"),
-        ("SIN(30)", "0.5"),
-        ("ATAN(1)", "45"),
         ("COS(60)", "0.5"),
         ("COS(90)", "0"),
         ("TAN(45)", "1"),
@@ -95,15 +60,9 @@ def rig() -> Rig:
         ("LOG(1000)", "3"),
         ("TANH(0)", "0"),
         ("RND(1)", "0"),
-        ('MID$("ABCDEF",2,3)', "BCD"),
-        ('INSTR("ABCABC","C")', "3"),
-        ('VAL("12X")', "12"),
-        ('LEN("")', "0"),
         ('"ab" < "b"', "-1"),
         ('"a"+"b" = "ab"', "-1"),
         ('LEN("abc") * 2 + 1', "7"),
-        ("1/3", "0.3333333333"),
-        ("P12304", "0.002441406"),
         ("BIT(24)", "0"),
         ("P(12288 + 2 * 256)", "0"),
     ],
@@ -164,12 +123,6 @@ def test_stores_convert_to_the_kind_of_the_variable(rig: Rig) -> None:
     assert rig.type("SV0=1e39") == "Math error|"
 
 
-def test_array_elements_and_computed_indexes(rig: Rig) -> None:
-    rig.type("LA0(4)=7", "LV0=4", "DA0(LV0-1)=0.25", "SA0(2)=0.5", "P(LV0)=LA0(LV0)+DA0(3)+SA0(2)")
-    assert rig.value("P4") == "7.75"
-    assert rig.value("LA0(LA0(4)-3)") == "7"
-
-
 def test_bits_read_minus_one_and_any_number_sets_them(rig: Rig) -> None:
     for command in ("SET 40", "SET BIT40", "BIT40=1", "BIT40=-1", "BIT(20*2)=0.5", "SET(40)"):
         rig.type("CLR 40", command)
@@ -179,14 +132,6 @@ def test_bits_read_minus_one_and_any_number_sets_them(rig: Rig) -> None:
     rig.type("SET 32 SET 63", "CLR32")
     assert rig.value("P4097") == "-2147483648"
     rig.type("CLR 63")
-
-
-@pytest.mark.req("ACR-EVAL-12")
-def test_strings_are_joined_and_cut_to_the_dimensioned_length(rig: Rig) -> None:
-    rig.type('$V1="abc"', '$V2="def"', "$V0=$V1+$V2")
-    assert rig.value("$V0") == "abcdef"
-    rig.type('$V(3)="0123456789"+"0123456789"+"x"')
-    assert rig.value("LEN($V3)") == "20"
 
 
 def test_random_numbers_are_uniform_and_repeatable() -> None:
@@ -202,12 +147,6 @@ def test_random_numbers_are_uniform_and_repeatable() -> None:
     assert 470 < sum(draws(1000.0)) / 4000 < 530
     assert max(draws(4294967295.0)) > 4.2e9
     assert set(draws(0.0)) == {0}
-
-
-def test_locals_belong_to_the_program_of_the_prompt(rig: Rig) -> None:
-    rig.type("LV0=5", "PROG1", "DIM LV(1)", "LV0=6", "PROG0")
-    assert rig.value("LV0") == "5"
-    assert rig.type("SYS", "?LV0", "PROG0") == "Not valid at this level|"
 
 
 # Python as the judge

@@ -109,17 +109,6 @@ def seeking(line: str = "MSEEK X(1,2)") -> Bench:
     return Bench("X", "Y").all("PPU X1000 Y1000", "ACC 0 DEC 0 STP 100 VEL 2", "CLR 24", line)
 
 
-@pytest.mark.req("ACR-CMD-MSEEK")
-def test_mseek_returns_to_the_capture_and_makes_it_0() -> None:
-    made = seeking().seconds(0.2)
-    made.all("SET 24").ticks(1)
-    captured = made.p(CAPTURE)
-    assert captured == pytest.approx(400, abs=2)
-    made.until_clear(IN_MOTION)
-    made.ticks(2)
-    assert (made.bit(CAPTURED), made.p(CURRENT), made.p(ACTUAL)) == (True, 0, 0)
-
-
 def test_seeks_of_several_axes_follow_one_another() -> None:
     made = seeking("MSEEK X(0.1,2) Y(0.2,2)")
     made.until_clear(IN_MOTION)

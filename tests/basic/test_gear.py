@@ -38,17 +38,6 @@ def gear(made: Bench) -> float:
 # offsets
 
 
-def test_the_clock_is_a_source_of_1000_pulses_per_second() -> None:
-    made = Bench("X").all("GEAR SRC X CLK", "GEAR RATIO X2", "GEAR ON X").seconds(0.5)
-    assert gear(made) == pytest.approx(1000.0)
-
-
-def test_an_axis_follows_the_primary_setpoint_of_another() -> None:
-    made = Bench("X", "Y").all("GEAR SRC X AXIS1", "GEAR RATIO X3", "GEAR ON X")
-    made.all("ACC 0 DEC 0 STP 0 VEL 1000", "Y100").seconds(0.2)
-    assert made.p(GEAR) == 300
-
-
 def test_a_counter_that_runs_over_is_no_jump() -> None:
     made = bench()
     made.memory.I[WHEEL] = 2**31 - 5
@@ -153,18 +142,6 @@ def test_an_offset_beyond_max_is_no_jump() -> None:
     assert gear(made) == 50.0
     turn(made, -40)
     assert gear(made) == 10.0
-
-
-def test_gear_clear_forgets_settings_and_keeps_the_offset() -> None:
-    made = bench("GEAR RATIO X3", "GEAR ACC X7", "GEAR MAX X9", "GEAR ON X", "GEAR ACC X0")
-    turn(made, 2)
-    assert made.type("GEAR X Y") == "ON|OFF"
-    made.all("GEAR CLEAR X").ticks(2)
-    assert made.type("GEAR RATIO X") == "1"
-    assert made.type("GEAR MAX X") == "0"
-    assert made.type("GEAR SRC X") == "NONE"
-    assert made.type("GEAR X") == "OFF"
-    assert (gear(made), made.bit(ACTIVE)) == (6.0, False)
 
 
 @pytest.mark.parametrize(
@@ -286,13 +263,6 @@ def test_off_trg_disengages_at_the_captured_position() -> None:
     turn(made, 10)
     turn(made, 10)
     assert (gear(made), made.bit(OFF_ARMED), made.bit(ACTIVE)) == (20.0, False, False)
-
-
-def test_gear_off_disarms() -> None:
-    made = bench("GEAR ON IHPOS X(P6304, 25)", "GEAR OFF X")
-    assert not made.bit(ON_POSITION)
-    turn(made, 100)
-    assert gear(made) == 0.0
 
 
 # flags and kills

@@ -3,7 +3,6 @@
 import pytest
 from tests.basic.motion_bench import Bench, ticks
 
-from openacr.basic.language.registry import Level
 from openacr.motion.axis import settings
 
 IN_MOTION, BUFFERED = 516, 517
@@ -36,14 +35,6 @@ def test_what_follows_a_target_in_its_block_still_shapes_the_move() -> None:
     made = bench()
     made.type("X10 VEL 100")
     assert made.until_clear(IN_MOTION) == ticks(0.1)
-
-
-@pytest.mark.req("ACR-ATT-08", "ACR-MOT-02")
-def test_a_move_without_attachments_is_refused() -> None:
-    made = Bench()
-    assert made.type("X10") == "Unknown command"
-    assert made.at(Level.SYS).type("X10") == "Unknown command"
-    assert Bench("X").at(Level.PROG, 1).type("X10") == "Unknown command"
 
 
 # the buffer

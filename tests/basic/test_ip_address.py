@@ -6,20 +6,11 @@ from typer.testing import CliRunner
 
 from openacr.basic.memory.ip_address import IpAddress
 from openacr.cli.main import app
-from openacr.errors import CardError
 
 
 def explained(*arguments: str) -> list[str]:
     ended = CliRunner().invoke(app, ["ip", *arguments])
     return (ended.stdout + ended.stderr).splitlines()
-
-
-@pytest.mark.req("ACR-IP-03")
-@pytest.mark.parametrize("text", ["1.2.3", "1.2.3.4.5", "1.2.3.256", "1.2.-3.4", "a.b.c.d", ""])
-def test_an_address_has_four_octets(text: str) -> None:
-    with pytest.raises(CardError, match="Invalid argument"):
-        IpAddress.read(text)
-    assert Bench().type(f'IP "{text}"') == "Invalid argument|SYS>"
 
 
 @pytest.mark.req("ACR-IP-04")

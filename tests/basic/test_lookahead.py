@@ -66,25 +66,6 @@ class Path:
 # MBUF
 
 
-@pytest.mark.req("ACR-CMD-MBUF")
-def test_dim_mbuf_makes_the_buffer_longer() -> None:
-    made = Bench("X").all("DIM MBUF(100)", "MBUF ON", "VEL 100")
-    assert made.bit(USER_RAM)
-    free = int(made.type("MEM"))
-    for number in range(101):
-        made.type(f"X{number + 1}")
-        assert not made.is_waiting
-    made.ticks(1)
-    assert made.p(FILLED) == 100
-    made.type("MBUF OFF")
-    assert made.is_waiting
-    made.until_clear(IN_MOTION)
-    made.ticks(3)
-    assert made.p(12288) == 101
-    assert [made.bit(flag) for flag in (MBUF_MODE, USER_RAM)] == [False, False]
-    assert int(made.type("MEM")) == free + 100 * 136
-
-
 def test_long_buffers_of_two_masters_do_not_meet_and_a_third_is_refused() -> None:
     made = Bench("X").all("DIM MBUF(200)", "MBUF ON", "VEL 100")
     made.attach(1, (1, "Y"))

@@ -5,8 +5,6 @@ from tests.basic.bench import Bench
 
 from openacr.models import ACR9000
 
-FACTORY_FREE = 1048576 - 524288
-
 
 @pytest.fixture
 def bench() -> Bench:
@@ -28,16 +26,6 @@ def test_hosts_may_leave_the_parentheses_out(bench: Bench) -> None:
     assert bench.type("DIM") == answer(listed)
 
 
-@pytest.mark.req("ACR-MEM-32", "ACR-CMD-DIM")
-def test_dim_at_sys_reports_programs_plcs_streams_globals_and_aliases(bench: Bench) -> None:
-    bench.type("DIM PROG0(8192)", "DIM PLC1(1000)", "DIM P (100)", "DIM DEF(5)", "DIM COM1(1000)")
-    bench.type("DIM FIFO(512)")
-    assert bench.type("DIM") == answer(
-        f"DIM PROG0(8192)\n{shares(1)}DIM PLC1(1000)\nDIM P(100)\nDIM DEF(5)\n"
-        "DIM FIFO(512)\nDIM COM1(1000)\n"
-    )
-
-
 def test_clear_waits_for_running_programs(bench: Bench) -> None:
     bench.control.running.add(3)
     assert bench.type("CLEAR") == answer("Program in memory\n")
@@ -53,17 +41,6 @@ def test_clear_with_anything_it_does_not_know_changes_nothing(bench: Bench, line
     assert bench.type("SYS", line) == f"SYS>{message}|SYS>"
     assert bench.type("PROG 3", line) == f"P03>{message}|P03>"
     assert bench.type("SYS", "DIM", "MEM", "DEF", "PROG 3", "DIM") == kept
-
-
-@pytest.mark.req("ACR-MEM-37", "ACR-CMD-CLEAR")
-@pytest.mark.parametrize("name", ["COM1", "COM2", "FIFO", "DPCB"])
-def test_stream_buffers_can_be_enlarged_and_cleared(bench: Bench, name: str) -> None:
-    sizes = bench.system.storage.stream_size
-    bench.type("DIM COM1(500)", "DIM COM2(501)", "DIM FIFO(502)", "DIM DPCB(503)")
-    before = {each: sizes(each) for each in ("COM1", "COM2", "FIFO", "DPCB")}
-    assert before == {"COM1": 500, "COM2": 501, "FIFO": 502, "DPCB": 503}
-    bench.type(f"CLEAR {name}")
-    assert {each: sizes(each) for each in before} == {**before, name: 256}
 
 
 def test_a_channel_the_model_lacks_is_an_invalid_device() -> None:

@@ -8,23 +8,12 @@ from openacr.basic.language import registry
 from openacr.basic.language.registry import Level
 from openacr.basic.language.scope import Scope
 from openacr.errors import CardError
-from openacr.map.numbers import P_COM1_COMMAND_COUNTER
 from openacr.messages import UNDEFINED_SYMBOL, UNKNOWN_COMMAND
 
 
 @pytest.fixture
 def bench() -> Bench:
     return Bench()
-
-
-@pytest.mark.req("ACR-COMM-08")
-@pytest.mark.parametrize("line", ["ATTACH MASTER0", "LIST", "LRUN", "RUN", "STEP"])
-def test_program_commands_are_unknown_at_sys_and_change_nothing(bench: Bench, line: str) -> None:
-    before = bench.card.memory.digest()
-    assert bench.type(line) == "Unknown command|SYS>"
-    bench.card.memory.I[P_COM1_COMMAND_COUNTER] -= 1  # all that may change
-    assert bench.card.memory.digest() == before
-    assert bench.control.calls == []
 
 
 # aliases
@@ -94,27 +83,6 @@ def test_no_help_contains_a_prompt_character() -> None:
 def test_period_is_not_changed_in_motion(bench: Bench) -> None:
     bench.card.memory.set_bit(792, True)
     assert bench.type("PERIOD 0.001") == "Not valid while in motion|SYS>"
-
-
-@pytest.mark.req("ACR-CMD-CONFIG")
-def test_config_is_shown_set_and_returned_to_default(bench: Bench) -> None:
-    notice = "CONFIG acts after ESAVE and REBOOT|"
-    assert bench.type("CONFIG") == "CONFIG ENC8 DAC4 DAC4 ADC8|SYS>"
-    assert bench.type("CONFIG ENC 6 DACSTEP4 NONE ADC8") == f"{notice}SYS>"
-    assert bench.type("CONFIG") == "CONFIG ENC6 DACSTEP4 NONE ADC8|SYS>"
-    assert bench.type("CONFIG ENC8 DAC4 DACSTEP2 ADC8") == "Invalid argument|SYS>"
-    assert bench.type("CONFIG CLEAR") == f"{notice}SYS>", "this card has no fewer modules"
-    assert bench.type("CONFIG") == "CONFIG ENC8 DAC4 DAC4 ADC8|SYS>"
-
-
-@pytest.mark.req("ACR-CMD-DIAG")
-def test_diag_reports_supplies_boards_and_network(bench: Bench) -> None:
-    lines = bench.type("DIAG").split("|")
-    assert lines[0] == "ISO PASS"
-    assert lines[7] == "BOARD0 ABSENT"
-    assert len(lines) == 13
-    bench.card.memory.I[7044] = 0b10
-    assert bench.type("DIAG").split("|")[1] == "EXT FAIL"
 
 
 def test_eplc_without_a_network_card_fails_to_start(bench: Bench) -> None:

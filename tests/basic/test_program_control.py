@@ -46,14 +46,6 @@ def test_inside_a_program_its_own_program_is_meant(bench: Bench) -> None:
     assert bench.control.calls == [("pause", 3), ("run", 2, None)]
 
 
-@pytest.mark.req("ACR-CMD-NEW")
-def test_new_erases_text_and_keeps_variables(bench: Bench) -> None:
-    bench.type("PROG 0", "DIM LV(2)", "NEW")
-    assert bench.type("LIST", "DIM") == "P00>DIM LV(2)|P00>"
-    assert bench.card.memory.bit(1024 + 5)
-    assert bench.type("NEW ALL", "PROG 2", "LIST") == "P00>P02>P02>"
-
-
 def test_new_of_a_running_program_erases_nothing(bench: Bench) -> None:
     bench.type("RUN PROG2")
     assert bench.type("NEW PROG2", "NEW ALL") == "Program is running|SYS>" * 2

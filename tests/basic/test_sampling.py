@@ -1,6 +1,5 @@
 """The sampler: channels, trigger, period, modes, and its end."""
 
-import pytest
 from tests.basic.motion_bench import Bench
 
 INDEX, TRIGGER_INDEX, PERIOD = 6912, 6913, 6915
@@ -23,16 +22,6 @@ def live(made: Bench, *values: int) -> Bench:
 
 def array(made: Bench, name: str, count: int) -> list[float]:
     return [float(made.type(f"?{name}({place})")) for place in range(count)]
-
-
-@pytest.mark.req("ACR-CMD-SAMP")
-def test_without_trigger_it_records_every_tick_until_full() -> None:
-    made = bench(3, f"SET {ARMED}")
-    live(made, 5)
-    assert (made.bit(RUNNING), made.bit(LATCHED), made.p(INDEX)) == (True, True, 1)
-    live(made, 6, 7, 8)
-    assert [made.bit(flag) for flag in (ARMED, RUNNING, LATCHED)] == [False, False, True]
-    assert (array(made, "LA0", 3), made.p(INDEX)) == ([5, 6, 7], 3)
 
 
 def test_the_trigger_is_waited_for() -> None:

@@ -76,19 +76,6 @@ def test_a_dwell_of_nothing_returns_at_once() -> None:
     assert rig.bit(40)
 
 
-@pytest.mark.req("ACR-INH-02")
-@pytest.mark.parametrize("form", ["INH -516", "INH -BIT516", "P0=-516 : INH (P0)"])
-def test_inh_waits_for_a_clear_flag(form: str) -> None:
-    rig = Rig()
-    rig.memory.set_bit(516, True)
-    start(rig, 0, form, "SET 41")
-    rig.pass_ticks(100)
-    assert not rig.bit(41)
-    rig.memory.set_bit(516, False)
-    rig.pass_ticks(4)
-    assert rig.bit(41)
-
-
 def test_inh_gives_up_after_its_timeout() -> None:
     rig = Rig()
     start(rig, 0, "INH 40 (0.05)", "SET 41")

@@ -7,7 +7,6 @@ from tests.basic.machine import Machine
 from openacr.basic.vm.run import Wait, WaitKind
 from openacr.channels import Attention
 from openacr.errors import CardError
-from openacr.map.numbers import P_COM1_COMMAND_COUNTER
 from openacr.messages import DIVIDE_BY_ZERO
 
 
@@ -63,17 +62,6 @@ def test_an_error_at_the_end_of_a_long_line_is_reported(bench: Bench) -> None:
     bench.session.busy = True
     bench.session.finished(CardError(DIVIDE_BY_ZERO))
     assert bench.sent() == "Divide by zero|SYS>"
-
-
-@pytest.mark.req("ACR-COMM-09")
-@pytest.mark.parametrize("line", ["X10", "ACC 5", "JOG FWD X", "HLIM X3", "LIST", "VEL", "10 X1"])
-def test_axis_and_master_commands_are_unknown_at_sys(line: str) -> None:
-    card = Machine()
-    card.type("PROG 0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"', "SYS")
-    before = card.card.memory.digest()
-    assert card.type(line) == "Unknown command|SYS>"
-    card.card.memory.I[P_COM1_COMMAND_COUNTER] -= 1  # all that may change
-    assert card.card.memory.digest() == before
 
 
 @pytest.mark.parametrize(

@@ -61,15 +61,6 @@ def test_the_number_of_globals_is_limited(storage: Storage, count: int) -> None:
         storage.dimension_globals(count)
 
 
-@pytest.mark.req("ACR-MEM-08")
-def test_4096_globals_hold_64_bit_floats(storage: Storage) -> None:
-    storage.dimension_globals(4096)
-    storage.memory.write(4095, 0.1)
-    assert storage.memory.read(4095) == 0.1
-    assert storage.memory.read(0) == 0
-    assert storage.free_system() == FACTORY_FREE - 8 * 4096
-
-
 def test_aliases_cost_48_bytes_each_and_16_together(storage: Storage) -> None:
     storage.dimension_defines(20)
     assert storage.free_system() == FACTORY_FREE - 20 * 48 - 16

@@ -1,14 +1,11 @@
 """SYNC: moves of several masters begin and end together."""
 
-import pytest
-from tests.basic.motion_bench import PERIOD_S, Bench
+from tests.basic.motion_bench import Bench
 
 from openacr.basic.language.registry import Level
-from openacr.map import numbers as at
 
 MOVING = (516, 548)  # In Motion of masters 0 and 1
 SYNC, MANUAL, LOADED = 2064, 2065, 2067
-DELTA = at.MA_BASE + at.MA_DELTA_TMOV_TIME
 
 
 def bench(*lines: str) -> Bench:
@@ -38,22 +35,6 @@ def course(made: Bench, limit: int = 20000) -> list[tuple[bool, bool]]:
         if not any(made.bit(flag) for flag in MOVING):
             return found
     raise AssertionError("still moving")
-
-
-@pytest.mark.req("ACR-CMD-SYNC")
-def test_moves_begin_in_one_tick_and_end_in_one() -> None:
-    made = bench()
-    made.at(Level.PROG, 1).all("Y1000")
-    made.ticks(500)
-    assert made.psp(1) == 0  # waits for the other
-    assert made.bit(LOADED + 32)
-    made.at(Level.PROG, 0).all("X100")
-    moved = course(made)
-    assert all(x == y for x, y in moved)
-    assert (made.psp(0), made.psp(1)) == (100, 1000)
-    least = 1000 / 500 + 500 / 1000
-    assert len(moved) == least / PERIOD_S
-    assert made.p(DELTA) == made.p(DELTA + 256) == pytest.approx(least)
 
 
 def test_chains_of_moves_begin_together_again() -> None:

@@ -56,18 +56,6 @@ def test_int_refuses_flags_that_are_none() -> None:
 
 
 @pytest.mark.req("ACR-CMD-TRJ")
-def test_trj_replaces_the_running_and_the_buffered_move_with_the_speed_kept() -> None:
-    made = bench()
-    made.type("X100 : X200")
-    made.ticks(ticks(0.5))
-    assert made.type("TRJ X20 Y3") == ""
-    found = speeds(made)
-    assert smooth(found)
-    assert found[0] == pytest.approx(10)
-    assert (made.psp(0), made.psp(1)) == (20000, 3000)
-
-
-@pytest.mark.req("ACR-CMD-TRJ")
 def test_trj_backwards_comes_to_rest_first() -> None:
     made = bench()
     made.type("X100")

@@ -84,7 +84,7 @@ def typed(files: dict[str, str]) -> Virtual:
     return card
 
 
-@search(500, part=33)
+@search(500, part=60)
 @given(ANSWERS)
 def test_what_was_answered_is_read_back_from_the_card(answers: Answers) -> None:
     text = written(answers)
@@ -105,7 +105,7 @@ def test_a_turn_whose_written_ratio_a_card_rounds_otherwise_is_recovered(ppu: st
     assert (found.units_per_rev, found.counts_per_rev) == (7.0, 173)
 
 
-@search(300, part=30)
+@search(300, part=50)
 @given(ANSWERS)
 def test_without_the_kept_text_the_card_is_set_up_the_same(answers: Answers) -> None:
     card = typed({"setup.8k": code_files(answers, "")["setup.8k"]})

@@ -133,41 +133,6 @@ def track(sender: Sender) -> list[tuple[float, ...]]:
     return found
 
 
-@pytest.mark.req("BIN-143", "BIN-149", "BIN-150")
-@pytest.mark.parametrize(("plane", "axes"), [(0, (0, 1)), (1, (1, 2)), (2, (2, 0))])
-def test_an_arc_goes_round_its_centre_in_its_plane(plane: int, axes: tuple[int, int]) -> None:
-    sender = Sender()
-    sender.move({axes[0]: 1000}).rest()
-    sender.move(
-        {axes[0]: 0, axes[1]: 1000},
-        vel=5.0,
-        centers=(0, 0),
-        code1=plane << 6 | Code1.COUNTERCLOCKWISE,
-    )
-    points = track(sender)
-    for point in points:
-        assert math.hypot(point[axes[0]], point[axes[1]]) == pytest.approx(1000, abs=1e-6)
-        assert point[axes[1]] >= -1e-6  # a quarter, not three
-    assert (points[-1][axes[0]], points[-1][axes[1]]) == (0, 1000)
-    assert len(points) == pytest.approx(math.pi / 2 / 5.0 / 0.0005, abs=2)
-
-
-@pytest.mark.req("BIN-144", "BIN-151")
-def test_equal_ends_make_a_full_circle_and_other_slaves_a_helix() -> None:
-    sender = Sender()
-    sender.move({0: 1000}).rest()
-    sender.move({0: 1000, 1: 0, 2: 600}, vel=20.0, centers=(0, 0))
-    points = track(sender)
-    assert min(point[0] for point in points) == pytest.approx(-1000, abs=1)
-    assert min(point[1] for point in points[: len(points) // 3]) < -500  # clockwise
-    turned = [math.atan2(-y, x) % (2 * math.pi) for x, y, _ in points[1:-1]]
-    assert all(
-        z == pytest.approx(600 * angle / (2 * math.pi), abs=0.5)
-        for angle, (_, _, z) in zip(turned, points[1:-1], strict=True)
-    )
-    assert points[-1] == (1000, 0, 600)
-
-
 @pytest.mark.req("BIN-152")
 def test_a_start_beside_the_arc_jumps_onto_it_or_spirals_in_spiral_mode() -> None:
     arc = {"vel": 5.0, "centers": (0, 0), "code1": Code1.COUNTERCLOCKWISE}
@@ -180,19 +145,6 @@ def test_a_start_beside_the_arc_jumps_onto_it_or_spirals_in_spiral_mode() -> Non
     radii = [math.hypot(x, y) for x, y, _ in track(sender)]
     assert radii == sorted(radii, reverse=True)
     assert max(a - b for a, b in pairwise(radii)) < 1
-
-
-@pytest.mark.req("BIN-153")
-def test_scaled_radii_make_an_ellipse() -> None:
-    sender = Sender()
-    sender.move({0: 2000}).rest()
-    sender.move(
-        {0: 2000, 1: 0}, vel=20.0, centers=(0, 0), scaling=(2.0, 0.5), code1=Code1.COUNTERCLOCKWISE
-    )
-    points = track(sender)
-    for x, y, _ in points:
-        assert (x / 2000) ** 2 + (y / 500) ** 2 == pytest.approx(1.0, abs=1e-9)
-    assert max(y for _, y, _ in points) == pytest.approx(500, abs=0.1)
 
 
 def test_nothing_is_lost_and_nothing_waits_when_a_host_sends_as_fast_as_it_can() -> None:

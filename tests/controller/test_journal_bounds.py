@@ -77,8 +77,8 @@ def test_a_card_that_may_wait_does_so_and_misses_no_fingerprint(tmp_path: Path, 
 
 def test_a_ring_begins_no_new_file_while_the_thread_is_late(tmp_path: Path, slow: Slow) -> None:
     card = Controller()
-    card.recorder = Ring(card, tmp_path, waits=False)
-    card.advance(seconds=4000.0)
+    card.recorder = Ring(card, tmp_path, file_s=30.0, waits=False)
+    card.advance(seconds=400.0)
     assert len(journals(tmp_path)) == 1
     slow.go.set()
     wait(list(recorder._WORKER._open))

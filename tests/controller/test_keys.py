@@ -42,18 +42,6 @@ def test_ctrl_y_alone_sends_nothing_and_with_cr_one_prompt(axes: Host) -> None:
     assert kills(axes) == [False] * 3
 
 
-@pytest.mark.req("ACR-KAMR-22")
-def test_motion_is_refused_while_killed_and_allowed_after_ctrl_y(axes: Host) -> None:
-    axes.send(CTRL_X)
-    refused = "Associated Slave Kill Motion Request Active|P00>"
-    assert axes.type("X10", "Y10", "JOG FWD X") == refused * 3
-    axes.card.advance(500)
-    assert axes.asks("?P12288", "?P12544", "?BIT516") == ["0", "0", "0"]
-    assert axes.send(f"{CTRL_Y}:AXIS0 JOG ABS 5.0\r") == ":AXIS0 JOG ABS 5.0|P00>"
-    axes.card.advance(4000)
-    assert axes.ask("?P12294") == "5000"
-
-
 def test_ctrl_x_acts_ahead_of_lines_that_wait(axes: Host) -> None:
     axes.send("DWL 1\rX10\r")
     axes.send(CTRL_X)

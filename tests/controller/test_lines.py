@@ -13,12 +13,6 @@ def test_nothing_is_sent_before_the_host_says_something(host: Host) -> None:
     assert host.after(2000) == ""
 
 
-@pytest.mark.req("ACR-COMM-01")
-def test_a_new_connection_is_at_the_system_level_with_echo(host: Host) -> None:
-    assert host.send("\r") == "|SYS>"
-    assert host.send("?1+1\r") == "?1+1|2|SYS>"
-
-
 def test_the_complete_picture_of_the_first_query(host: Host) -> None:
     host.send("PROG0\r")
     assert host.send("?P12288\r") == "?P12288|0|P00>"
@@ -46,14 +40,6 @@ def test_an_empty_line_gives_one_prompt(host: Host) -> None:
     assert host.send("\r\r") == "|SYS>|SYS>"
 
 
-@pytest.mark.req("ACR-IMM-01")
-def test_value_and_prompt_leave_in_one_write(host: Host) -> None:
-    host.send("?P6916")
-    host.send("")
-    host.card.receive(host.stream, b"\r")
-    assert host.writes() == ["|0|SYS>"]
-
-
 def test_case_and_blanks_are_free() -> None:
     axes = at_axes()
     assert axes.type("prog0", "Prog 0", "PROG  0", "ppu x 1000") == "P00>" * 4
@@ -62,50 +48,6 @@ def test_case_and_blanks_are_free() -> None:
     assert axes.asks("?BIT32", "? BIT 33", "?BIT(34)") == ["-1", "-1", "-1"]
     axes.type("CLR32", "CLR 33", "BIT34=0")
     assert axes.asks("?BIT32", "?BIT33", "?BIT34") == ["0", "0", "0"]
-
-
-@pytest.mark.req("ACR-SYN-01")
-def test_a_line_feed_separates_commands_too() -> None:
-    axes = at_axes()
-    assert axes.send("ACC 3\nDEC 4\r") == "ACC 3|P00>DEC 4|P00>"
-    assert axes.asks("?ACC", "?DEC") == ["3", "4"]
-
-
-@pytest.mark.req("ACR-SYN-01")
-def test_several_commands_share_a_line() -> None:
-    axes = at_axes()
-    assert axes.type("ACC 5 DEC 6 VEL 15 STP 100") == "P00>"
-    assert axes.asks("?ACC", "?DEC", "?VEL", "?STP") == ["5", "6", "15", "100"]
-    assert axes.type("RES X RES Y", "RES X 3.0 RES Y -4.0") == "P00>P00>"
-    assert axes.asks("?P12288", "?P12544") == ["3000", "-4000"]
-    assert axes.type(":ACC 7::DEC 8:", "ACC 9 : REM : DEC 1") == "P00>P00>"
-    assert axes.asks("?ACC", "?DEC") == ["9", "8"]
-
-
-def test_two_axes_move_with_one_line() -> None:
-    axes = at_axes()
-    assert axes.type("X10 Y20") == "P00>"
-    axes.card.advance(4000)
-    assert axes.type("X/1 Y/-2") == "P00>"
-    axes.card.advance(4000)
-    assert axes.asks("?P12288", "?P12544") == ["11000", "18000"]
-
-
-def test_signed_and_exponent_numbers_need_no_parentheses() -> None:
-    axes = at_axes()
-    for line in ("X-1.25", "Y/-0.5", "X1e-03", "AXIS1 JOG INC -1.500000", "RES X -4.0"):
-        assert axes.type(line) == "P00>"
-        axes.card.advance(1000)
-    assert axes.asks("?P12288", "?P12544", "?P12550") == ["-4000", "-500", "-2000"]
-
-
-def test_expressions_stand_in_parentheses_after_p_and_bit(host: Host) -> None:
-    host.card.p[12544] = 77
-    assert host.asks("?P(12288 + 1 * 256)", "?BIT(516)", "?BIT(512+4)") == ["77", "0", "0"]
-    host.type("SET BIT(8467)")
-    assert host.card.bit[8467]
-    host.type("CLR BIT(8467)")
-    assert not host.card.bit[8467]
 
 
 def test_hosts_that_never_leave_sys_have_what_they_need(host: Host) -> None:

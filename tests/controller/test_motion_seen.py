@@ -70,22 +70,6 @@ def test_halt_prog_stops_moves_typed_at_its_prompt(axes: Host) -> None:
     assert axes.asks("?BIT516", "?BIT8467") == ["0", "0"]
 
 
-@pytest.mark.req("ACR-KAMR-23")
-def test_the_kill_flag_stops_the_axis_and_clearing_it_allows_moves(axes: Host) -> None:
-    axes.type("X1000")
-    axes.card.advance(500)
-    assert axes.type("SET BIT(8467)") == "P00>"
-    axes.card.advance(2000)
-    stopped = axes.ask("?P12288")
-    axes.card.advance(1000)
-    assert axes.ask("?P12288") == stopped != "1000000"
-    assert axes.type("Y1") == "Associated Slave Kill Motion Request Active|P00>"
-    assert axes.ask("?P12544") == "0"
-    assert axes.type("CLR BIT(8467)", "CLR 8499", "CLR 522", "X0") == "P00>" * 4
-    axes.card.advance(8000)
-    assert axes.asks("?P12288", "?BIT516") == ["0", "0"]
-
-
 def test_no_limit_shows_while_no_switch_is_active(axes: Host) -> None:
     assert axes.asks("?P4600", "?P4601") == ["0", "0"]
 

@@ -62,39 +62,6 @@ def notices(host: Host) -> str:
 # ESAVE, ELOAD, ERASE
 
 
-@pytest.mark.req("ACR-CMD-ESAVE", "ACR-RST-02", "ACR-PROF-08")
-def test_saved_parameters_are_back_after_reboot_others_are_not() -> None:
-    host = connected(*SETTINGS)
-    before = answers(host)
-    attached = host.type("ATTACH")
-    host.type("ESAVE", "ACC 5", "REBOOT", "PROG0")
-    assert host.type("ATTACH") == attached
-    assert answers(host) == before
-    assert host.type("ACC") == "123.456|P00>"
-
-
-@pytest.mark.req("ACR-CMD-ESAVE", "ACR-RST-02", "ACR-PROF-08")
-def test_without_esave_parameters_are_defaults_after_reboot() -> None:
-    host = connected(*SETTINGS, "SYS", 'IP "10.0.0.7"', "CONFIG NONE NONE NONE NONE")
-    host.type("REBOOT", "PROG0")
-    assert host.type("ATTACH") == "P00>"
-    assert host.asks("AXIS0 PPU", "AXIS0 PGAIN", "AXIS0 HLIM", "DAC1 GAIN", "?P32768") == [
-        "1", "0.002441406", "0", "3276.8", "5",
-    ]  # fmt: skip
-    assert host.type("SYS", "CONFIG", "IP").startswith(
-        "SYS>CONFIG ENC8 DAC4 DAC4 ADC8|SYS>IP 192.168.10.40|"
-    )
-
-
-@pytest.mark.req("ACR-CMD-ELOAD")
-def test_eload_brings_the_saved_parameters_back() -> None:
-    host = connected(*SETTINGS)
-    before = answers(host)
-    host.type("ESAVE", "PPU X1", "ACC 5", "MULT X1", "NOTCH X0", "DETACH", "SYS")
-    assert host.type("ELOAD") == "SYS>"
-    assert answers(host) == before
-
-
 def test_eload_is_refused_while_something_runs_or_moves() -> None:
     host = connected(*SETTINGS, "DRIVE ON X", "ESAVE")
     host.card.advance(100)
@@ -109,15 +76,6 @@ def test_eload_is_refused_while_something_runs_or_moves() -> None:
     assert host.type("FLASH SAVE", "FLASH ERASE") == "Programs running|SYS>" * 2
 
 
-@pytest.mark.req("ACR-CMD-ERASE")
-def test_after_erase_the_next_boot_uses_defaults_but_stream_modes_stay() -> None:
-    host = connected(*SETTINGS, "P7013=128", "ESAVE", "SYS", "ERASE")
-    assert host.ask("AXIS0 PPU") == "1000"
-    host.type("REBOOT")
-    assert host.asks("AXIS0 PPU", "?P32768", "?P7013") == ["1", "5", "128"]
-    assert host.type("ELOAD") == "SYS>"
-
-
 def test_a_program_can_save() -> None:
     host = connected("PROG0", "ATTACH MASTER0")
     store(host, "ACC 55", "ESAVE")
@@ -125,12 +83,6 @@ def test_a_program_can_save() -> None:
     host.card.advance(100)
     host.type("REBOOT", "PROG0")
     assert host.ask("ACC") == "55"
-
-
-def test_the_servo_period_is_saved() -> None:
-    host = connected("PERIOD 0.001", "ESAVE", "REBOOT")
-    assert host.ask("PERIOD") == "0.001"
-    assert host.card.period_s == 0.001
 
 
 @pytest.mark.req("ACR-IP-02")
@@ -153,19 +105,6 @@ def test_a_stepper_card_stays_one(model: str) -> None:
 
 
 # FLASH
-
-
-@pytest.mark.req("ACR-CMD-FLASH")
-@pytest.mark.parametrize("model", ["ACR9000", "ACR8020"])
-def test_flash_image_restores_programs_and_variables_at_reboot(model: str) -> None:
-    host = connected("DIM P(10)", "DIM DEF(2)", "#DEFINE Count P1", "PROG0", model=model)
-    store(host, "DIM LV(2)", "Count = Count + 1", "LV1 = 7")
-    host.type("RUN")
-    host.card.advance(100)
-    listing = host.type("LIST")
-    host.type("SYS", "FLASH IMAGE", "PROG0", "NEW", "SYS", "P1 = 99", "REBOOT", "PROG0")
-    assert host.type("LIST") == listing
-    assert host.ask("?Count;LV1") == "17"
 
 
 def test_flash_save_leaves_the_variables_of_a_battery_alone() -> None:
@@ -306,44 +245,8 @@ def test_breset_takes_the_battery_away_until_power_is_removed(power_up: PowerUp)
 # FIRMWARE and PROM
 
 
-@pytest.mark.req("ACR-CMD-FIRMWARE")
-def test_firmware_checksums_and_flags() -> None:
-    host = connected("FIRMWARE CHECKSUM")
-    assert _flags(host) == [False, False, True, True, False]
-    assert host.ask("?P7104") == host.ask("?P7042") == "11806"
-    assert host.ask("?P7105") != "0"
-    assert host.asks("?P7112", "?P7113", "?P7117") == ["0", "0", "0"]
-    host.type("FIRMWARE BACKUP", "FLASH SAVE", "FIRMWARE CHECKSUM")
-    assert _flags(host) == [False, False, False, False, True]
-    assert host.ask("?P7113") == host.ask("?P7109") != "0"
-    first = host.ask("?P7117")
-    host.type("DIM P(5)", "FLASH SAVE", "FIRMWARE CHECKSUM")
-    assert host.ask("?P7117") != first != "0"
-    assert host.type("FIRMWARE UPGRADE", "FIRMWARE LOAD") == "Not supported|SYS>" * 2
-
-
 def _flags(host: Host) -> list[bool]:
     return [host.card.bit[number] for number in range(5656, 5661)]
-
-
-@pytest.mark.req("ACR-CMD-PROM")
-def test_prom_prints_records_whose_sums_are_right() -> None:
-    host = connected("PROG0", "10 PRINT 12345", "SYS")
-    *records, end, prompt = host.type("PROM 0").split("|")
-    assert (end, prompt) == (":00000001FF", "SYS>")
-    image = b""
-    for record in records:
-        content = bytes.fromhex(record.removeprefix(":"))
-        assert sum(content) % 256 == 0
-        assert (len(content) - 5, content[1:3], content[3]) == (
-            content[0], len(image).to_bytes(2, "big"), 0,
-        )  # fmt: skip
-        image += content[4:-1]
-    assert b"PRINT 12345" in image
-    assert host.type("PROM 1") == ":00000001FF|SYS>"
-    assert host.type("PROM 16") == "Invalid argument|SYS>"
-    host.type('PASSWORD ON "x"')
-    assert host.type("PROM 0") == "Program is protected|SYS>"
 
 
 # damage

@@ -11,19 +11,6 @@ from openacr.map import numbers as at
 DATA = bytes.fromhex("00 30 02 01")
 
 
-@pytest.mark.req("ACR-COMM-06", "ACR-COMM-07")
-def test_streams_have_their_own_level_line_echo_and_output(host: Host) -> None:
-    second, third = Host(host.card), Host(host.card)
-    assert second.type("PROG3", "ECHO 4") == "P03>"
-    assert host.send("PROG5\r?BIT") == "PROG5|P05>?BIT"
-    assert third.send("PLC1\r") == "PLC1|PLC1>"
-    assert second.send("10 VEL 5\r?1\r") == "1|"
-    assert host.send("32\r") == "32|0|P05>"
-    assert third.send("?2\r") == "?2|2|PLC1>"
-    assert second.send("LIST\r") == "10 VEL 5|"
-    assert (host.heard(), third.heard()) == ("", "")
-
-
 def test_four_network_hosts_at_once_then_no_stream_is_free(host: Host) -> None:
     others = [Host(host.card) for _ in range(3)]
     names = [host.card.streams.session(each.stream) for each in (host, *others)]

@@ -45,15 +45,6 @@ def test_question_mark_and_print_are_the_same(axes: Host) -> None:
     assert axes.asks("? ACC", "?ACC", "PRINT ACC") == ["1000"] * 3
 
 
-@pytest.mark.req("ACR-SYN-05", "ACR-IMM-02")
-def test_a_command_without_its_value_reports(axes: Host) -> None:
-    assert axes.asks("ACC", "VEL", "PPU X", "AXIS0 PPU") == ["1000", "100", "1000", "1000"]
-    axes.type("SYS")
-    assert axes.ask("AXIS0 PPU") == "1000"
-    axes.type("PROG0", "VEL 250", "SET 32")
-    assert axes.asks("VEL", "?BIT32") == ["250", "-1"]
-
-
 def test_drive_reports_begin_with_the_words_hosts_look_for(axes: Host) -> None:
     assert axes.ask("DRIVE X").startswith("DRIVE ON")
     assert axes.ask("DRIVE AXIS0").startswith("DRIVE ON")

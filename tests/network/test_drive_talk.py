@@ -4,7 +4,6 @@ import pytest
 from tests.network.talk import (
     ADDRESS_ERROR,
     COM2,
-    LOST,
     TIMEOUT,
     VELOCITY,
     Bench,
@@ -34,12 +33,6 @@ def test_open_takes_the_port_and_close_gives_it_back() -> None:
     bench.card.p[28674] = 0
     bench.request(0, GET)
     assert bench.card.p[28674] == 0, "no drive carries it any more"
-
-
-@pytest.mark.req("ACR-DTALK-01")
-@pytest.mark.parametrize("device", ["COM3:", "LPT1:", "COM2:9601,N,8,1", "STREAM1:", "FIFO:", "?"])
-def test_ports_without_drive_talk_are_refused(device: str) -> None:
-    assert Bench(axes=1).type(f'OPEN DTALK "{device}" AS #1') == "Invalid device"
 
 
 @pytest.mark.req("ACR-DTALK-01")
@@ -87,12 +80,6 @@ def test_requests_clear_themselves_with_a_drive_and_without(axis: int, index: in
     bench.card.bit[control(other, TPE)] = True
     assert 1.0 <= bench.request(other, index) < 1.1
     assert bench.troubles() == [TIMEOUT]
-
-
-@pytest.mark.req("ACR-DTALK-07")
-def test_requests_without_an_open_line_time_out_too() -> None:
-    bench = Bench(talking(0, address=1))
-    assert 1.0 <= bench.request(0, GET) < 1.1
 
 
 @pytest.mark.req("ACR-DTALK-08")
@@ -243,31 +230,6 @@ def test_a_drive_tells_that_the_card_has_switched_it_off_and_on(axis: int) -> No
         bench.request(axis, DATA)
         shown.append(bench.card.bit[9472 + 32 * axis])
     assert shown == [True, False, True]
-
-
-@pytest.mark.req("ACR-DTALK-14")
-def test_two_drives_with_one_address_are_an_address_error() -> None:
-    bench = Bench(talking(0, address=1), talking(1, address=1))
-    bench.open(0, 1)
-    bench.request(0, GET)
-    assert (bench.troubles(), bench.card.p[28674]) == ([ADDRESS_ERROR], 0)
-    bench.type("CLR 11124")
-    bench.request(1, AUTO)
-    bench.request(0, GET)
-    assert (bench.troubles(), bench.card.p[28674]) == ([], 2)
-
-
-@pytest.mark.req("ACR-DTALK-15")
-@pytest.mark.parametrize(
-    ("first", "object_"),
-    [(11040, "LPT1"), (11072, "COM1"), (11104, "COM2"), (11168, "STREAM3"), (11200, "STREAM4"),
-     (11232, "STREAM5")],
-)  # fmt: skip
-def test_the_stream_flags_lie_where_the_guide_says(first: int, object_: str) -> None:
-    ends = flag(first), flag(first + 31)
-    assert [(end.section, end.object) for end in ends] == [("Drive Talk Stream Flags", object_)] * 2
-    names = [flag(first + index).name for index in (LOST, TIMEOUT, ADDRESS_ERROR)]
-    assert names == ["Stream Drive Lost", "Stream Drive Timeout", "Stream Address Error"]
 
 
 @pytest.mark.req("ACR-DTALK-16")

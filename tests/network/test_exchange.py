@@ -103,19 +103,6 @@ def test_each_node_has_its_own_blocks(slave: int) -> None:
         assert made.bit[DO[slave] + terminal]
 
 
-@pytest.mark.req("ACR-CANIO-03")
-def test_twelve_inputs_of_node_two_are_two_bytes() -> None:
-    world = node(1) + node(2) + node(3, digital_inputs=12)
-    made = running(world, 1, 2, 3)
-    for terminal in range(12):
-        made.set_input(13568 + terminal, True)
-    with pytest.raises(UserError, match="input 13580: no CANopen node"):
-        made.set_input(13568 + 12, True)
-    made.advance(seconds=0.01)
-    assert made.p[4520] == 0xFFF
-    assert made.p[33057] == 2
-
-
 @pytest.mark.req("ACR-CANIO-04")
 @pytest.mark.parametrize("slave", range(4))
 @pytest.mark.parametrize("channel", [0, 1, 7, 31])
@@ -166,29 +153,6 @@ def test_an_output_stays_within_sixteen_bits() -> None:
     made.advance(seconds=0.06)
     assert [converted(made, 0, 0), converted(made, 0, 1)] == [32767, -32768]
     assert terminals.output_value(made.memory, 0, 1) == -10.0
-
-
-@pytest.mark.req("ACR-CANIO-07")
-@pytest.mark.parametrize(
-    ("full_scale", "gain", "offset", "at_terminal", "shown"),
-    [(10.0, 10.0, 0.0, 5.0, 5.0), (20.0, 20.0, 0.0, -12.0, -12.0), (20.0, 100.0, 3.0, 20.0, 103.0)],
-)
-def test_an_analog_input_is_shown_in_the_users_unit(
-    full_scale: float, gain: float, offset: float, at_terminal: float, shown: float
-) -> None:
-    made = running(node(1, analog_inputs=1, input_range=[-full_scale, full_scale]))
-    made.p[33290], made.p[33291] = gain, offset
-    made.set_analog(33288, at_terminal)
-    made.advance(seconds=0.12)
-    assert made.p[33288] == pytest.approx(shown, abs=gain / 32767)
-
-
-@pytest.mark.req("ACR-CANIO-08")
-def test_gains_and_offsets_have_defaults() -> None:
-    made = running()
-    for block in range(33280, 33280 + 128 * 16, 16):
-        assert made.p[block + 2] == pytest.approx(3276.8)
-        assert [made.p[block + row] for row in (3, 10, 11)] == [0.0, 10.0, 0.0]
 
 
 @pytest.mark.req("ACR-CAN-21")

@@ -6,7 +6,6 @@ import pytest
 from tests.network.rig import (
     DI,
     DO,
-    NODE_ID,
     PANEL,
     STATE,
     card,
@@ -22,32 +21,10 @@ from openacr.controller.journal import read_journal
 from openacr.controller.recorder import Recorder
 from openacr.controller.replay import Replay
 
-SETTINGS = (32768, 32769, 32770, 32771, 32772, *NODE_ID)
-SCALES = (33282, 33283, 33290, 33291, 33282 + 2032, 33283 + 2032, 33290 + 2032, 33291 + 2032)
-
 
 def reboot(made: Controller) -> None:
     made.send("REBOOT\r")
     made.advance(seconds=0.2)
-
-
-@pytest.mark.req("ACR-CAN-09", "ACR-CANIO-09")
-def test_esave_keeps_settings_totals_and_scales() -> None:
-    made = card(PANEL.replace("id = 1", "id = 17"))
-    for place, number in enumerate((*SETTINGS, *SCALES), 1):
-        made.p[number] = place + 10
-    made.p[32769], made.p[32770], made.p[32771], made.p[33024] = 125, 1, 2, 17
-    assert start(made) == 2
-    made.send("ESAVE\r")
-    kept = {number: made.p[number] for number in (*range(32768, 32774), *range(32775, 32779))}
-    kept |= {number: made.p[number] for number in (*NODE_ID, *SCALES)}
-    assert kept[32775] == 2 and kept[33040] != 0
-    for number in kept:
-        made.p[number] = 99
-    reboot(made)
-    assert {number: made.p[number] for number in kept} == kept
-    assert made.p[STATE] == 1
-    assert start(made) == 2
 
 
 @pytest.mark.req("ACR-CAN-09")

@@ -42,21 +42,6 @@ def test_the_first_words_of_nodes_move(mapping: int, table: list[tuple[int, int]
 
 
 @pytest.mark.req("ACR-CAN-06")
-@pytest.mark.parametrize(
-    ("mapping", "slave", "terminal"), [(1, 1, 0), (2, 0, 64), (2, 1, 127), (2, 2, 0), (3, 0, 32)]
-)
-def test_bits_beyond_the_moved_block_stay_at_their_place(
-    mapping: int, slave: int, terminal: int
-) -> None:
-    made = mapped(mapping)
-    made.set_input(DI[slave] + terminal, True)
-    made.bit[DO[slave] + terminal] = True
-    made.advance(seconds=0.06)
-    assert made.bit[DI[slave] + terminal] and output(made, slave, terminal)
-    assert [made.p[number] for number in range(4104, 4112)] == [0] * 8
-
-
-@pytest.mark.req("ACR-CAN-06")
 def test_a_moved_output_is_controlled_by_one_flag_alone() -> None:
     made = mapped(1)
     made.bit[DO[0]] = True

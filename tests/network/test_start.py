@@ -82,17 +82,6 @@ def test_a_node_that_does_not_answer_is_missed_but_the_bus_can_be_started(
     assert made.bit[FAILED] is not repaired
 
 
-@pytest.mark.req("ACR-CAN-STATE-8")
-def test_a_broken_controller_is_an_internal_error() -> None:
-    made = card(PANEL + fault("controller", at_s=0.5))
-    assert made.p[STATE] == 1
-    made.advance(seconds=0.5)
-    assert start(made) == 8
-    assert made.bit[FAILED]
-    broken = card(PANEL + fault("controller"))
-    assert broken.p[STATE] == 8
-
-
 @pytest.mark.req("ACR-CAN-NODE-6", "ACR-CAN-NODE-7")
 def test_slaves_that_are_not_expected_are_not_present() -> None:
     made = card(FOUR)

@@ -62,62 +62,7 @@ def test_a_listing_read_again_is_the_same_plc(host: Host) -> None:
     assert listed(host) == first
 
 
-def test_an_output_follows_two_pairs_of_contacts(host: Host) -> None:
-    card = entered(host, *EXAMPLE, "RUN").card
-    for inputs in range(16):
-        for bit in range(4):
-            card.set_input(bit, bool(inputs >> bit & 1))
-        card.advance(1)
-        a, b, c, d = (bool(inputs >> bit & 1) for bit in range(4))
-        assert card.bit[32] == ((a and not b) or (c and d))
-
-
-def test_the_timed_output_comes_500_ms_later_to_the_tick(host: Host) -> None:
-    card = entered(host, *EXAMPLE, "RUN").card
-    card.advance(13)
-    card.set_input(0, True)
-    card.advance(1)
-    assert card.bit[32] and not card.bit[33]
-    assert card.until(33, timeout_s=1.0, ticks=None)
-    start = 14
-    assert card.tick - start == 1000
-    card.set_input(1, True)
-    card.advance(1)
-    assert not card.bit[32] and card.bit[33]
-    card.advance(1)
-    assert not card.bit[33]
-
-
-def test_the_counter_counts_ten_rises_and_the_latch_keeps_its_state(host: Host) -> None:
-    card = entered(host, *EXAMPLE, "RUN").card
-    for pulse in range(10):
-        assert not card.bit[1556 + 32], pulse
-        card.set_input(4, True)
-        card.advance(3)
-        card.set_input(4, False)
-        card.advance(3)
-    assert card.bit[1556 + 32]
-    card.set_input(5, True)
-    card.advance(2)
-    assert not card.bit[1556 + 32]
-    for bit, state in ((6, True), (7, False)):
-        card.set_input(bit, True)
-        card.advance(2)
-        card.set_input(bit, False)
-        card.advance(2)
-        assert card.bit[1628] == state
-
-
 # entry and memory
-
-
-@pytest.mark.req("ACR-MEM-06")
-def test_a_plc_without_memory_stores_nothing(host: Host) -> None:
-    assert host.type("PLC3") == "PLC3>"
-    refused = "Out of memory|PLC3>"
-    assert host.type("10 LD 0", "PROGRAM", "LD 0", "ENDP", "MEM") == 4 * refused + "0|PLC3>"
-    host.type("SYS", "DIM PLC3(80)", "PLC3")
-    assert host.type("10 LD 0", "MEM") == "PLC3>72|PLC3>"
 
 
 def test_an_instruction_costs_eight_bytes_and_a_remark_nothing(host: Host) -> None:
@@ -147,15 +92,6 @@ def test_a_line_is_replaced_and_deleted_by_its_number(host: Host) -> None:
     assert host.type("LIST 10", "LIST 20-") == "PLC0>20 OUT 33|PLC0>"
 
 
-@pytest.mark.req("ACR-CAN-05")
-def test_flags_above_8191_are_refused_in_a_plc_and_known_to_programs(host: Host) -> None:
-    assert host.type("10 LD 11520") == "Invalid bit|PLC0>"
-    entered(host, "10 LD 256", "20 OUT 32", "RUN", "SET 256")
-    host.card.advance(1)
-    assert host.card.bit[32]
-    assert host.type("SET 11520", "?BIT 11520") == "PLC0>-1|PLC0>"
-
-
 def test_words_of_acrobasic_are_not_valid_and_others_unknown(host: Host) -> None:
     assert host.type("10 ACC 5", "10 JMP 20", "LD 0") == (
         "Not valid at this level|PLC0>" + "Unknown command|PLC0>" + "Unknown command|PLC0>"
@@ -173,25 +109,6 @@ def test_aliases_name_flags_and_numbers(host: Host) -> None:
 
 
 # run and halt
-
-
-@pytest.mark.req("ACR-SYN-08")
-def test_plcs_are_run_and_halted_from_any_prompt(host: Host) -> None:
-    entered(host, "10 LD 0", "20 OUT 32")
-    host.type("PLC1", "10 LD 1", "20 OUT 33")
-    card = host.card
-    for prompt in ("SYS", "PROG3", "PLC4"):
-        host.type(prompt, "RUN PLC0")
-        assert card.bit[RUNNING] and not card.bit[RUNNING + 32]
-        host.type("RUN PLC1", "HALT PLC0")
-        assert not card.bit[RUNNING] and card.bit[RUNNING + 32]
-        host.type("HALT PLC1")
-    host.type("RUN ALL")
-    assert card.bit[RUNNING] and card.bit[RUNNING + 32]
-    assert host.type("RUN PLC0").startswith("Program is running|")
-    host.type("HALT ALL")
-    assert not card.bit[RUNNING] and not card.bit[RUNNING + 32]
-    assert host.type("RUN PLC5") == "PLC4>"
 
 
 def test_at_its_prompt_a_plc_needs_no_target(host: Host) -> None:

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from openacr.protocol import packets
-from openacr.protocol.move import Move, unpadded
+from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code1, Code3, Curve
 from openacr.protocol.packets import PacketError
 
@@ -76,16 +76,6 @@ def test_a_path_tolerance_is_the_last_field_and_a_bit_that_cards_reserve() -> No
     assert move.encode() == bytes.fromhex("04 08 00 01 80 00 01 00 00") + words(1, 0.5)
     assert Move.of({0: 1}).encode() == bytes.fromhex("04 00 00 01") + words(1)
     assert "path tolerance" in packets.explain(move.encode())
-
-
-@pytest.mark.req("BIN-112")
-def test_a_header_padded_to_eight_is_recognized_by_length() -> None:
-    documented = bytes.fromhex("04 08 00 01 04") + words(2.5)
-    padded = documented[:5] + bytes(3) + documented[5:]
-    assert unpadded(padded) == documented
-    assert unpadded(documented) is None
-    assert unpadded(padded + b"\r") is None
-    assert unpadded(documented[:5] + b"\0\1\0" + documented[5:]) is None
 
 
 def test_fields_that_the_codes_do_not_announce_are_refused() -> None:

@@ -247,17 +247,6 @@ def test_an_open_stream_gives_its_program_every_byte_but_the_control_keys() -> N
     assert sent(stream) == b""
 
 
-@pytest.mark.req("BIN-003", "BIN-004")
-def test_a_gap_beyond_the_timeout_discards_the_started_packet() -> None:
-    stream = terminal()
-    stream.receive_data(b"AB" + GET[:2], 0)
-    assert list(events(stream)) == []
-    stream.receive_data(GET[2:3], TIMEOUT_TK)
-    assert list(events(stream)) == []
-    stream.receive_data(b",C\r", 2 * TIMEOUT_TK + 1)
-    assert list(events(stream)) == [ReceivedLine("AB,C")]
-
-
 def test_the_timeout_follows_the_setting_of_the_channel() -> None:
     stream = terminal()
     stream.timeout_tk = 2 * TIMEOUT_TK
@@ -274,17 +263,6 @@ def test_a_flag_packet_after_a_move_is_not_taken_for_its_last_bytes(
     stream = terminal()
     stream.receive_data(move.encode() + flag.encode(), 0)
     assert list(events(stream)) == [Received(move), Received(flag)]
-
-
-@pytest.mark.req("BIN-112")
-def test_both_forms_of_a_short_move_are_understood() -> None:
-    documented = Move.of({0: 2.5})
-    wire = documented.encode()
-    stream = terminal()
-    stream.receive_data(wire, 0)
-    stream.receive_data(wire[:5] + bytes(3) + wire[5:], 0)
-    stream.receive_data(b"A\r", 0)
-    assert list(events(stream)) == [Received(documented), Received(documented), ReceivedLine("A")]
 
 
 def test_xoff_holds_the_output_of_a_serial_stream_only() -> None:

@@ -70,15 +70,6 @@ def test_gain_offset_and_full_scale() -> None:
     assert made.p[ADC[1]] == pytest.approx(-1.25, abs=STEP_V)
 
 
-@pytest.mark.req("ACR-CMD-ADC")
-def test_twelve_bits_see_steps_of_five_millivolts() -> None:
-    world = FIXED.replace("4.0", "0.0061")
-    coarse, fine = (card(world, f"ADC MODE {mode}", model="ACR8020") for mode in (0, 1))
-    assert coarse.p[ADC[0]] == pytest.approx(10 / 2047, rel=1e-6)
-    assert fine.p[ADC[0]] == pytest.approx(20 * STEP_V, rel=1e-6)
-    assert card(world).p[ADC[0]] == fine.p[ADC[0]]  # this family always has 16 bits
-
-
 def test_off_holds_and_max_leaves_inputs_out() -> None:
     made = card(FIXED)
     made.send("ADC OFF\r")

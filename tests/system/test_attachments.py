@@ -4,12 +4,6 @@ import pytest
 from tests.system.terminal import Console
 
 
-def attached(*lines: str) -> Console:
-    console = Console()
-    assert console.type("PROG0", *lines) == ""
-    return console
-
-
 @pytest.mark.req("ACR-ATT-03")
 @pytest.mark.parametrize("word", ["ENC", "ADC", "STEPPER"])
 @pytest.mark.parametrize(("model", "steppers"), [("ACR9000", 8), ("ACR8020", 16)])
@@ -24,11 +18,3 @@ def test_the_position_is_any_encoder_analog_input_or_stepper_of_the_card(
         shown = console.type("ATTACH").split("|")[2]
         assert shown == f"ATTACH AXIS2 {given} {word}{number}"
     assert console.type(f"ATTACH AXIS2 {word}{count} DAC2") == "Invalid argument"
-
-
-@pytest.mark.req("ACR-ATT-17", "ACR-ATT-19")
-@pytest.mark.parametrize("name", ["", "ABCDE", "X1", "P", "F", "p", "_"])
-def test_a_name_is_one_to_four_letters_and_not_p_or_f(name: str) -> None:
-    console = attached("ATTACH MASTER0")
-    assert console.type(f'ATTACH SLAVE0 AXIS0 "{name}"') == "Illegal name"
-    assert console.type('ATTACH SLAVE0 AXIS0 "ABCD"') == ""

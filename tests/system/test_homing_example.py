@@ -118,22 +118,6 @@ def guide(joint: str) -> Console:
     return made
 
 
-@pytest.mark.req("ACR-MOT-14")
-def test_absolute_targets_count_from_the_home_position() -> None:
-    made = console("home = { between = [-4.0, -3.0] }", "home = { between = [3.0, 4.0] }")
-    made.listen(0, 12.0)
-    card = made.card
-
-    def stands_u() -> float:
-        return position_of(card.world.axis[0], card.memory.F[PLF_BASE + PLF_POSITION_CNT])
-
-    home_u = stands_u()
-    made.type("X2.5")
-    card.advance(seconds=8.0)
-    assert card.p[12288] == 2.5 * 4000
-    assert stands_u() - home_u == pytest.approx(2.5, abs=2 / 4000)
-
-
 @pytest.mark.req("ACR-SERVO-07")
 def test_a_step_of_one_unit_settles_with_the_default_gains() -> None:
     made = console("", "")
