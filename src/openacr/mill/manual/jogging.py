@@ -103,8 +103,10 @@ class Jogging:
         """Where a move by a distance ends; AlarmError beyond a soft limit."""
         limit = self.limit(row, 1 if distance_u > 0 else -1)
         end = self.position(row) + distance_u
-        if limit is not None and (end - limit) * distance_u > 0.0:
-            raise AlarmError(alarms.SOFT_LIMIT, row.name)
+        if limit is not None:
+            beyond_u = end - limit if distance_u > 0.0 else limit - end
+            if beyond_u * abs(row.pulses_per_unit) >= 0.5:  # of a pulse: -0.2 - 0.1 is at -0.3
+                raise AlarmError(alarms.SOFT_LIMIT, row.name)
         return end
 
     def index(self, profile: Profile) -> None:
