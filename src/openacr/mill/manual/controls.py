@@ -64,7 +64,7 @@ class Controls:
                 self.release(one, axis)
 
     def poll(self, sample: CardState) -> None:
-        """Read the joystick, and release controls holderse holder is silent."""
+        """Read the joystick, and release controls whose holder is silent."""
         self._read_stick(sample)
         now_s = self._io.machine.now_s
         for (holder, axis), grip in list(self._grips.items()):
