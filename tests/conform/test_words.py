@@ -89,6 +89,25 @@ ONE = "part:\n    G1 X1 F60\n    M2\n"
         "part:\n    P130 = 5\nrun\nstore ? P130; P131 -> 5; 0",
         "part:\n    PRINT(1)\nrun\nsays: 1\nsays:",
         "part:\n    G28 X1\nentries:\n    rapid X1\n    rapid 0\n    confirm at reference",
+        ONE + "start dry\nwait for IDLE\ntook 0.616666 s +- 1 periods  # 100/60 u/s",
+        "part:\n    G0 Z1\n    G1 X1 F60\n    X2\nstart line 3, free at 2\nwait until P12288 > 0"
+        " within 3 s\n? P12800 -> 20000\nwait for IDLE\nat X2 Z1",
+        ONE
+        + "start line 9\nline 9: the program has lines 1 to 2\nstart at once\nat once: a program"
+        " starts with dry, block, skipping, optional stop, any tool, line 5, free at 2",
+        "press STOP\nnothing runs: the state is IDLE",
+        ONE + "start block\nwait for HOLD\nat X1\nblock off\npress START\nwait for IDLE",
+        ONE + "start\nclick FOV 5\nwait for IDLE\ntook 2.005 s +- 120 periods  # when it acts",
+        ONE + "start\nwait 0.5 s\npress STOP\nwait for PAUSED\nwait 0.1 s\ntrace back\nwait 5 s\n"
+        "? P12288 -> 0\ntrace aside\naside: a path is traced back, forward, stop",
+        "jog X+\nwait 0.5 s\njog X off\nwait 0.5 s\n? P12288 > 0; P12346 -> -1; 0",
+        "jog X+0.01\njog Y- fast increment 4\nwait 1 s\nat X0.01 Y-0.001",
+        "jog X\nX: jogs are X+, X- fast, X off, X+0.5, X- increment 3",
+        "home B\naxis B is not configured; configured are X Y Z",
+        "wheel X\nno hand wheel is installed for axis X\nwheel",
+        "zero X Y5\nreads Y5\nat 0\ngo to zero Y\nat Y-5\nreads 0\nclear zero\nreads Y-5",
+        "jog X+\nwait 1 s\n? P12346 <> 0 -> -1\nlose panel\nwait 1 s\n? P12346; P12297 -> 0; 0",
+        "jog X+\nlose host\nwait 3 s\n? P12346; P12297 > 0 -> 0; -1",
         "mdi G91 G1 X0.1 F600\nmdi G1 Q1\nE206 word has no meaning in this block: Q\nat X0.1",
         "check part:\n    G1 X1 F1\n    G77  # E: E203 unknown G code: G77",
         "check setup:\n    DIM P(1)\n    BLAH  # E: Unknown command",
@@ -113,6 +132,9 @@ def test_a_case_that_holds(tmp_path: Path, steps: str) -> None:
         ("flag 32 on\nwait until BIT32 <> -1 within 0 s",
          "2|wait until BIT32 <> -1 within 0 s|expected: BIT32 <> -1 within 0 s|shown: BIT32 <> 1"
          " did not hold within 0 s: BIT32 (OUTPUT: OUT 32) is 1|time 0.0000 s"),
+        ("zero X5\nreads X4", "2|reads X4|expected: X4 Y0 Z0|shown: X5 Y0 Z0"),
+        ("click AOV 1", "1|click AOV 1|expected: a step that can be done|shown: AOV: the overrides"
+         " are FOV, ROV, SOV"),
         ("P00> VER", "1|P00> VER|expected: P00>|shown: SYS>"),
         ("> DWL 61", "1|> DWL 61|expected: an answer within 60 s|shown: (nothing)"),
         ("type ?1\n> ?2\n2", "2|> ?2|expected: (nothing before this line)|shown: 1"),

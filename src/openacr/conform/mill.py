@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 from openacr.client import Card
 from openacr.cnc.interpreter.interpreter import Interpreter
@@ -12,11 +14,13 @@ from openacr.cnc.loading.load import load
 from openacr.cnc.reading.findings import BlockError, Finding
 from openacr.cnc.state.hosts import VirtualMachine
 from openacr.conform import entries
-from openacr.conform.form import DifferenceError
+from openacr.conform.form import NUMBER, DifferenceError
 from openacr.conform.targets import POLL_TK, VirtualCard
 from openacr.engine.watches import Watch, Watched
 from openacr.errors import UserError
 from openacr.map import numbers as n
+from openacr.mill import zeroing
+from openacr.mill.config.overrides import Override
 from openacr.mill.plan.checking import check_text
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
@@ -28,6 +32,17 @@ from openacr.sysvar.values import parsed
 AXES = 3
 FASTEST_UPM = 6000.0
 LIMIT_S = 10.0  # for a state to be reached
+PANEL = "panel"  # that holds the keys of jogs
+STARTS = {
+    "dry": "is_dry",
+    "block": "is_single",
+    "skipping": "is_skipping",
+    "optional stop": "stops_optionally",
+    "any tool": "accepts_tool",
+}
+TRACES = {"back": -1, "forward": 1, "stop": 0}
+_START = re.compile(rf"line (\d+)|free at ({NUMBER})")
+_JOG = re.compile(r"([A-Z])(?: (off)|([+-])([\d.]*)( fast)?(?: increment (\d))?)")
 
 
 class Mill:
@@ -46,6 +61,8 @@ class Mill:
         self.text, self.dialect = "", "acromill"
         self.heard: list[str] = []  # shown to the operator and not compared yet
         self.are_alarms_expected = False
+        self.is_panel_there = True
+        self.took_tk = 0  # in motion, by the latest block of MDI
         self._session: MillSession | None = None
         self._mdi: Mdi | None = None
 
@@ -97,23 +114,41 @@ class Mill:
             self._session = MillSession(card, self.store, self.heard.append, is_virtual=False)
             names = " ".join(axis.name for axis in self._session.runner.settings.axes)
             card.command(f"DRIVE ON {names}", program=self._session.machine.master)
-            self._target.attend = self._session.poll
+            self._target.attend = self._poll
         return self._session
+
+    def _poll(self) -> None:
+        self.session.poll()
+        if self.is_panel_there:
+            self.session.runner.controls.renew(PANEL)
 
     @property
     def state(self) -> State:
         """The state of the machine."""
         return self.session.runner.state
 
-    def start(self) -> None:
-        """Start the part program, or go on where it holds."""
-        if self.state is not State.IDLE:
-            self.session.runner.start()
-            return
+    def start(self, options: str = "") -> None:
+        """Start the part program: `dry`, `block`, `skipping`, `line 5`, `free at 2` ..."""
         program = load(self.text, self.store, self.dialect)
         if program.errors:
             raise UserError("; ".join(map(str, program.errors)))
-        self.session.start(program, Start(dialect=self.dialect))
+        chosen: dict[str, Any] = {"dialect": self.dialect}
+        for option in filter(None, options.split(", ")):
+            if match := _START.fullmatch(option):
+                chosen |= {"line": int(match[1])} if match[1] else {"safe_z": float(match[2])}
+            elif option in STARTS:
+                chosen[STARTS[option]] = True
+            else:
+                known = ", ".join([*STARTS, "line 5", "free at 2"])
+                raise UserError(f"{option}: a program starts with {known}")
+        self.session.start(program, Start(**chosen))
+
+    def _go_on(self) -> None:
+        """START: where the program holds, else from its first line."""
+        if self.state is State.IDLE and self.text:
+            self.start()
+        else:
+            self.session.runner.start()
 
     def wait_for(self, name: str) -> int:
         """Let time pass until a state (IDLE, HOLD ...) is reached; the periods of motion meanwhile.
@@ -129,7 +164,7 @@ class Mill:
         while runner.state is not state or self._is_ending():
             if card.lived_tk >= last_tk or self._is_stuck(state):
                 raise DifferenceError(state.name, self.shown_state())
-            for let_pass in (self.session.poll, self._advance):
+            for let_pass in (self._poll, self._advance):
                 let_pass()
                 is_moving = bool(card.memory.I[self._motion.row] & self._motion.mask)
                 if is_moving and begun_tk is None:
@@ -168,16 +203,89 @@ class Mill:
         """Press a button of the front end."""
         runner = self.session.runner
         buttons: dict[str, Callable[[], object]] = {
-            "START": self.start,
+            "START": self._go_on,
             "STOP": runner.stop,
             "RESUME": runner.resume,
             "ABORT": runner.abort,
             "ACKNOWLEDGE": runner.acknowledge,
+            "CONFIRM": runner.entry_actions.changer.confirm,
         }
         buttons[button]()
 
+    def switch(self, name: str, click: int) -> None:
+        """Turn the switch of an override (FOV, ROV, SOV) to a click."""
+        by_tab = dict(zip(("FOV", "ROV", "SOV"), Override, strict=True))
+        if name not in by_tab:
+            raise UserError(f"{name}: the overrides are {', '.join(by_tab)}")
+        self.session.runner.overrides.choose(by_tab[name], click)
+
+    def jog(self, text: str) -> None:
+        """Hold or release a key (`X+`, `X- fast`, `X off`), or jog by a distance or increment."""
+        match = _JOG.fullmatch(text)
+        if match is None:
+            raise UserError(f"{text}: jogs are X+, X- fast, X off, X+0.5, X- increment 3")
+        name, is_off, sign, distance, fast, preset = match.groups()
+        runner = self.session.runner
+        axis = runner.settings.named(name).index
+        direction, is_fast = (-1 if sign == "-" else 1), bool(fast)
+        if is_off:
+            runner.controls.release(PANEL, axis)
+        elif preset:
+            runner.jog(lambda jog: jog.increment(axis, direction, int(preset), fast=is_fast))
+        elif distance:
+            runner.jog(lambda jog: jog.move(axis, direction * float(distance), fast=is_fast))
+        else:
+            runner.controls.press(PANEL, axis, direction, fast=is_fast)
+
+    def home(self, names: str) -> None:
+        """Begin to home the axes named, or all."""
+        self.session.runner.home(self._axes(names))
+
+    def turn(self, names: str) -> None:
+        """Connect the hand wheel to axes, or to none."""
+        self.session.runner.turn(self._axes(names) if names else [])
+
+    def zero(self, words: str) -> None:
+        """Set the floating zero so that axes read 0 (`X`) or a value (`X5`); `` is all."""
+        values = {word[0]: float(word[1:] or 0.0) for word in words.split()}
+        axes = self.session.runner.settings
+        zeroing.preset(
+            self.session, {axes.named(name).index: value for name, value in values.items()}
+        )
+
+    def clear_zero(self) -> None:
+        """Clear the floating zero of all axes."""
+        zeroing.clear_all(self.session)
+
+    def go_to_zero(self, names: str) -> None:
+        """Move axes, or all, to program 0."""
+        for block in zeroing.goto_blocks(self.session, self._axes(names)):
+            if refusals := self.type(block):
+                raise UserError("; ".join(refusals))
+
+    def reading(self) -> dict[str, float]:
+        """What each axis reads: its position in the program's coordinates, in default units."""
+        place = zeroing.reader(self.session).position
+        return {axis.name: place[axis.index] for axis in self.session.runner.settings.axes}
+
+    def _axes(self, names: str) -> list[int]:
+        settings = self.session.runner.settings
+        return [settings.named(name).index for name in names.split() or settings.names()]
+
+    def trace(self, direction: str) -> None:
+        """Trace the path of a pause `back` or `forward`, or `stop`."""
+        if direction not in TRACES:
+            raise UserError(f"{direction}: a path is traced {', '.join(TRACES)}")
+        self.session.runner.trace(TRACES[direction])
+
+    def lose(self, what: str) -> None:
+        """The panel that holds keys, or the whole host, is not heard any more."""
+        if what == "host":
+            self._target.attend = None
+        self.is_panel_there = False
+
     def type(self, block: str) -> list[str]:
-        """Run a block of MDI to its end; the errors it was refused with."""
+        """Run a block of MDI to its end (`took_tk` is its motion); why it was refused."""
         if self._mdi is None:
             self._mdi = self.session.mdi(self.dialect)
         try:
@@ -186,7 +294,7 @@ class Mill:
             return [f"{error.finding.code} {error.finding.text}"]
         except UserError as error:
             return [str(error)]
-        self.wait_for(State.IDLE.name)
+        self.took_tk = self.wait_for(State.IDLE.name)
         return []
 
     def alarms(self) -> list[str]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from openacr.conform.form import (
     ANSWERS,
     BLOCK,
@@ -15,6 +17,7 @@ from openacr.conform.form import (
     word,
 )
 from openacr.conform.stage import Stage
+from openacr.errors import UserError
 from openacr.sysvar import SettingError
 
 AXES = "XYZABCUV"
@@ -80,16 +83,112 @@ def wait_for(stage: Stage, step: Step, state: str) -> None:
     stage.took_tk = stage.mill.wait_for(state)
 
 
-@word("press BUTTON")
+def _try(step: Step, act: Callable[[], object]) -> None:
+    """Do something that the operator asks for; the lines below are why it is refused."""
+    try:
+        act()
+    except UserError as error:
+        compare(step, str(error).split("\n"))
+    else:
+        compare(step, [])
+
+
+@word("start", ANSWERS)
+@word("start TEXT", ANSWERS)
+def start(stage: Stage, step: Step, options: str = "") -> None:
+    """Start the part: with `dry`, `block`, `skipping`, `line 5` ...; below: why it is refused."""
+    _try(step, lambda: stage.mill.start(options))
+
+
+@word("press BUTTON", ANSWERS)
 def press_button(stage: Stage, step: Step, button: str) -> None:
-    """Press a button of the front end: START, STOP, RESUME, ABORT, ACKNOWLEDGE."""
-    stage.mill.press(button)
+    """Press a button of the front end; below: why it is refused."""
+    _try(step, lambda: stage.mill.press(button))
+
+
+@word("block STATE")
+def block(stage: Stage, step: Step, on: bool) -> None:
+    """Switch block mode, also while a program runs."""
+    stage.mill.session.runner.block(on)
+
+
+@word("click NAME NUMBER")
+def click(stage: Stage, step: Step, override: str, number: int) -> None:
+    """Turn the switch of an override (FOV, ROV, SOV) to a click."""
+    stage.mill.switch(override, number)
+
+
+@word("trace NAME", ANSWERS)
+def trace(stage: Stage, step: Step, direction: str) -> None:
+    """Trace the path of a pause `back`, `forward`, or `stop`; below: why it is refused."""
+    _try(step, lambda: stage.mill.trace(direction))
+
+
+@word("jog TEXT", ANSWERS)
+def jog(stage: Stage, step: Step, text: str) -> None:
+    """Hold or release a key (`X+`, `X- fast`, `X off`), jog by `X+0.5`, `X- increment 3`."""
+    _try(step, lambda: stage.mill.jog(text))
+
+
+@word("home", ANSWERS)
+@word("home TEXT", ANSWERS)
+def home(stage: Stage, step: Step, names: str = "") -> None:
+    """Begin to home axes, or all; below: why it is refused."""
+    _try(step, lambda: stage.mill.home(names))
+
+
+@word("wheel", ANSWERS)
+@word("wheel TEXT", ANSWERS)
+def wheel(stage: Stage, step: Step, names: str = "") -> None:
+    """Connect the hand wheel to axes; `wheel` alone leaves it."""
+    _try(step, lambda: stage.mill.turn(names))
+
+
+@word("lose NAME")
+def lose(stage: Stage, step: Step, what: str) -> None:
+    """The `panel` whose keys are held, or the `host` itself, is not heard any more."""
+    stage.mill.lose(what)
+
+
+@word("zero TEXT", ANSWERS)
+def zero(stage: Stage, step: Step, words: str) -> None:
+    """Set the floating zero: the axes named read 0 (`X`), or a value (`X5`)."""
+    _try(step, lambda: stage.mill.zero(words))
+
+
+@word("clear zero", ANSWERS)
+def clear_zero(stage: Stage, step: Step) -> None:
+    """Clear the floating zero of all axes."""
+    _try(step, stage.mill.clear_zero)
+
+
+@word("go to zero", ANSWERS)
+@word("go to zero TEXT", ANSWERS)
+def go_to_zero(stage: Stage, step: Step, names: str = "") -> None:
+    """Move axes, or all, to the zero of the program."""
+    _try(step, lambda: stage.mill.go_to_zero(names))
+
+
+@word("reads TEXT")
+def reads(stage: Stage, step: Step, text: str) -> None:
+    """What the axes read in the program's coordinates, to 4 digits; others read 0."""
+    shown = {name: round(value, 4) + 0.0 for name, value in stage.mill.reading().items()}
+    wanted = dict.fromkeys(shown, 0.0) | {
+        word[0]: float(word[1:]) for word in text.split() if text != "0"
+    }
+    if wanted != shown:
+        raise DifferenceError(_words(wanted), _words(shown))
+
+
+def _words(places: dict[str, float]) -> str:
+    return " ".join(f"{name}{value:g}" for name, value in places.items())
 
 
 @word("mdi LINE", ANSWERS, takes_remark=False)
 def mdi(stage: Stage, step: Step, block: str) -> None:
     """Run a block of MDI to its end; the lines below are the errors it is refused with."""
     compare(step, stage.mill.type(block))
+    stage.took_tk = stage.mill.took_tk
 
 
 @word("state: TEXT")
