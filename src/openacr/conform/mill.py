@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from openacr.conform import entries
 from openacr.conform.form import NUMBER, DifferenceError
 from openacr.conform.targets import POLL_TK, VirtualCard
 from openacr.engine.watches import Watch, Watched
-from openacr.errors import UserError
+from openacr.errors import OpenacrError, UserError
 from openacr.map import numbers as n
 from openacr.mill import zeroing
 from openacr.mill.config.overrides import Override
@@ -70,6 +71,8 @@ class Mill:
         """Leave the card."""
         self._target.attend = None
         if self._session:
+            with suppress(OpenacrError):  # the card of a case that failed may refuse it
+                self._session.runner.bring_to_rest()
             self._session.close()
         self.store.close()
 
