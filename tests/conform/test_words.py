@@ -92,9 +92,9 @@ ONE = "part:\n    G1 X1 F60\n    M2\n"
         ONE + "start dry\nwait for IDLE\ntook 0.616666 s +- 1 periods  # 100/60 u/s",
         "part:\n    G0 Z1\n    G1 X1 F60\n    X2\nstart line 3, free at 2\nwait until P12288 > 0"
         " within 3 s\n? P12800 -> 20000\nwait for IDLE\nat X2 Z1",
-        ONE
-        + "start line 9\nline 9: the program has lines 1 to 2\nstart at once\nat once: a program"
-        " starts with dry, block, skipping, optional stop, any tool, line 5, free at 2",
+        ONE + "start line 9\nline 9: the program has lines 1 to 2",
+        ONE + "start soon\nsoon: a program starts with dry, block, skipping, optional stop,"
+        " any tool, line 5, free at 2",
         "press STOP\nnothing runs: the state is IDLE",
         ONE + "start block\nwait for HOLD\nat X1\nblock off\npress START\nwait for IDLE",
         ONE + "start\nclick FOV 5\nwait for IDLE\ntook 2.005 s +- 120 periods  # when it acts",
