@@ -9,7 +9,7 @@ import pytest
 from openacr.basic.language.registry import commands
 from openacr.conform import read, report, run
 from openacr.conform.form import WORDS
-from openacr.conform.pages import NO_CASE, sections, table
+from openacr.conform.pages import NO_CASE, SCREENS, claims, sections, table
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "conformance.md").read_text(encoding="utf-8")
@@ -75,6 +75,26 @@ def test_an_id_counts_for_what_its_strongest_case_rests_on(tmp_path: Path) -> No
         )
     )
     assert "| Format | 4 | 6 | 2 | 2 | 1 | 1 |" in table(tmp_path)
+
+
+def test_a_screen_is_proved_by_the_tests_in_a_browser_that_claim_its_id(tmp_path: Path) -> None:
+    (tmp_path / "conformance").mkdir()
+    folder = tmp_path / SCREENS
+    folder.mkdir(parents=True)
+    (folder / "test_keys.py").write_text(
+        'IDS = ("A-2", "A-1")\n\n\n@pytest.mark.req(*IDS)\n@pytest.mark.req("B-1", *("B-2",))\n'
+        'def test_one() -> None: ...\n\n\n@other("A-9")\n@pytest.mark.req("A-2")\n'
+        "def test_two() -> None: ...\n"
+    )
+    assert claims(folder) == {
+        "A-1": ["test_keys.py::test_one"],
+        "A-2": ["test_keys.py::test_one", "test_keys.py::test_two"],
+        "B-1": ["test_keys.py::test_one"],
+        "B-2": ["test_keys.py::test_one"],
+    }
+    page = table(tmp_path / "conformance")
+    assert "\n| A-2 | `test_keys.py::test_one`, `test_keys.py::test_two` |\n" in page
+    assert "## Screens" not in table(tmp_path / "not" / "there")
 
 
 @pytest.mark.parametrize(

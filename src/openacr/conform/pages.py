@@ -1,16 +1,18 @@
 """The cases as pages: `python -m openacr.conform.pages FILE [FOLDER]`.
 
 FILE gets the table of all sections: how many cases each has, how many ids they prove and what they
-rest on. FOLDER gets a page for each section with the text of its cases.
+rest on; then the ids that tests of the screens prove, and those with a test of their own. FOLDER
+gets a page for each section with the text of its cases.
 """
 
 from __future__ import annotations
 
+import ast
 import re
 import sys
 import tomllib
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from openacr.conform.form import Case
@@ -22,6 +24,7 @@ MANUALS = {
     "acromill": "Front end's User's Guide",
 }
 NO_CASE = "not-a-case.toml"
+SCREENS = "tests/panel/browser"  # beside the folder of the manuals, in the source tree alone
 HEAD = """\
 # The cases of the manuals
 
@@ -50,7 +53,54 @@ def table(root: Path) -> str:
         lines.append("")
     lines += ["## Together\n", f"| | cases | ids | {' | '.join(RESTS)} |"]
     lines += ["|---|---|---|" + "---|" * len(RESTS), _row("all", every), ""]
-    return "\n".join([*lines, *_without_case(root / NO_CASE)])
+    return "\n".join([*lines, *_of_screens(root.parent), *_without_case(root / NO_CASE)])
+
+
+def claims(folder: Path) -> dict[str, list[str]]:
+    """The ids that the tests of a folder claim (`pytest.mark.req`), each with its tests."""
+    found: dict[str, list[str]] = {}
+    for path in sorted(folder.rglob("test_*.py")):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        names = {
+            target.id: each.value
+            for each in tree.body
+            if isinstance(each, ast.Assign)
+            for target in each.targets
+            if isinstance(target, ast.Name)
+        }
+        for test in ast.walk(tree):
+            if isinstance(test, ast.FunctionDef):
+                for name in dict.fromkeys(_claimed(test, names)):
+                    found.setdefault(name, []).append(f"{path.name}::{test.name}")
+    return dict(sorted(found.items()))
+
+
+def _claimed(test: ast.FunctionDef, names: Mapping[str, ast.expr]) -> Iterator[str]:
+    """The ids of a test's marks; `*IDS` are those of a tuple of the file."""
+    for mark in test.decorator_list:
+        if isinstance(mark, ast.Call) and ast.unparse(mark.func) == "pytest.mark.req":
+            for each in mark.args:
+                if isinstance(each, ast.Starred):
+                    yield from ast.literal_eval(names.get(ast.unparse(each.value), each.value))
+                else:
+                    yield ast.literal_eval(each)
+
+
+def _of_screens(tree: Path) -> Iterator[str]:
+    """The table of what tests of the screens prove."""
+    found = claims(tree / SCREENS)
+    if not found:
+        return
+    yield "## Screens\n"
+    yield (
+        "What a screen shows and does is no dialogue with a card: tests in a browser prove it, on a"
+        f" panel with a virtual mill (`{SCREENS}`).\n"
+    )
+    yield "| id | tests |"
+    yield "|---|---|"
+    for name, tests in found.items():
+        yield f"| {name} | {', '.join(f'`{each}`' for each in tests)} |"
+    yield ""
 
 
 def _without_case(path: Path) -> Iterator[str]:
