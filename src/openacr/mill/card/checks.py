@@ -19,7 +19,8 @@ def check_firmware(card: Card) -> None:
     """Refuse a card whose firmware is too old for move packets."""
     version = int(card.read(n.P_FIRMWARE_VERSION))
     if version < OLDEST_FIRMWARE:
-        raise AlarmError(alarms.OLD_FIRMWARE, f"{version / 10000:.2f}")
+        major, minor, update = version // 10000, version // 100 % 100, version % 100
+        raise AlarmError(alarms.OLD_FIRMWARE, f"{major}.{minor:02}.{update:02}")
 
 
 def check_axes(model: Model, settings: Settings) -> None:
