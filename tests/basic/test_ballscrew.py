@@ -141,14 +141,3 @@ def test_ballscrew_and_backlash_add_up() -> None:
     assert made.p(SSP) - made.p(PSP) - made.p(BACKLASH) == 20
     made.all("RES X").ticks(1)
     assert (made.p(PSP), made.p(SSP), made.p(ACTUAL)) == (0, 0, 0)
-
-
-@pytest.mark.req("MILL-BSC-AXES")
-def test_the_setpoints_of_every_axis_can_be_watched() -> None:
-    made = Bench(*"XYZABCUV").all("DIM LA(1)", "DIM LA0(3)", "LA0(1)=20 : LA0(2)=-10")
-    for axis, name in enumerate("XYZABCUV"):
-        made.all(f"BSC DIM {name}1", f"BSC SEG {name}(0,200,LA0)", f"BSC ON {name}")
-        made.memory.F[at.AXF_BASE + axis * at.AXF_STRIDE + at.AXF_JOG_CNT] = 10.0 * axis
-    made.ticks(1)
-    watched = [(made.p(PSP + 256 * n), made.p(SSP + 256 * n)) for n in range(8)]
-    assert watched == [(10 * n, 12 * n) for n in range(8)]

@@ -192,23 +192,6 @@ def test_without_d_the_tool_is_that_of_the_run_set_up(name: str) -> None:
     _assert_shape(model, ready, run(ready, store), 0.125)
 
 
-@pytest.mark.req("MILL-LIB-TRIANGLE")
-def test_the_triangle_of_the_guide_goes_its_path_and_closes_on_its_start() -> None:
-    """Down right at 45 degrees, up to the base, CCW arc, up to the apex, to the right corner."""
-    store = Store()
-    ready = ready_for("TRIANGLE", {221: 1.0}, 0.0, store)
-    done = run(ready, store)
-    d, base, height, arc = ready.values[233] + 0.01, 4.0, 3.0, 0.5
-    (path,) = done.runs
-    assert path[0] == path[-1] == (0.0, 0.0)
-    assert path[1] == pytest.approx((d, -d))
-    assert path[2] == pytest.approx((d, 0))
-    assert max(x for x, _ in path[3:-4]) == pytest.approx(d + arc)  # the arc bulges to the right
-    assert path[-5] == pytest.approx((d, 2 * arc))
-    assert path[-4] == pytest.approx((d, height))
-    assert path[-3] == pytest.approx((d + base, 0))
-
-
 def test_parts_work_in_millimetres_as_in_inches() -> None:
     inch, metric = Store(), Store(is_metric=True)
     part = part_named("RECTANGLE")
@@ -235,16 +218,3 @@ def test_arcs_of_a_part_are_read_by_the_setting_for_parts(
         store.write(250_004, code)
         done = run(prepared(read_part(path), {}, store, is_metric=False), store)
         assert max(y for _, y in done.runs[0]) == pytest.approx(3.0)
-
-
-@pytest.mark.req("MILL-LIB-LEADIN")
-@pytest.mark.parametrize("lead", [0.25, 0.75])
-def test_the_lead_in_of_a_part_is_that_of_the_store(lead: float) -> None:
-    store = Store()
-    store.write(250_005, lead)
-    ready = ready_for("RECTANGLE", {}, 0.125, store)
-    done = run(ready, store)
-    arc = 0.125 + lead + 0.01  # of the programmed path; that of the tool is a radius less
-    assert min(x for x, _ in done.runs[0]) == pytest.approx(-2 * arc)
-    starts = [x for x, y in done.runs[0] if y < 1 - arc + 0.125 + 1e-9 and x < -0.125]
-    assert max(starts) == pytest.approx(-arc, abs=0.02)

@@ -7,9 +7,7 @@ from tests.mill.shop import Shop, at, end, line
 
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.map.numbers import AX_BALLSCREW_OFFSET
-from openacr.mill.card.ballscrew import Table, errors, install, measured, parse, read, wrapped
-from openacr.mill.card.setup import prepare
+from openacr.mill.card.ballscrew import Table, install, measured, parse, read
 from openacr.mill.config.settings import Settings
 from openacr.mill.session import MillSession
 from openacr.sysvar import Store
@@ -18,48 +16,8 @@ PSP, SSP, PER_AXIS = 12294, 12295, 256
 GUIDE = "X0E.00325\nX1E.00175\nX2E-.00250\n"
 
 
-@pytest.mark.req("MILL-BSC-FILE")
-def test_a_file_has_one_line_per_position() -> None:
-    table = parse(GUIDE, "X")
-    assert table.entries == ((0, 0.00325), (1, 0.00175), (2, -0.0025))
-    assert table.text() == GUIDE
-    printed = "X0E.00325\n\n x 1 E 0.00175\nX2E\u2212.00250\n"
-    assert parse(printed, "X") == table
+def test_positions_below_0_and_more_digits_than_five_are_written_as_they_are() -> None:
     assert parse("A-90E1\nA90E-.123456\n", "A").text() == "A-90E1.00000\nA90E-.123456\n"
-
-
-@pytest.mark.req("MILL-BSC-FILE-BAD")
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("X0E.1\nX1\n", "table:2: 'X1' is not like X1E.00175"),
-        ("X0E.1\nX1E.2 X3E4\n", "table:2: 'X1E.2 X3E4' is not like"),
-        ("X0E.1\nY1E.2\n", "table:2: axis Y, but the table is that of X"),
-        ("X0E.1\nX1E.2\nX0E.3\n", "table:3: position 0 occurs twice"),
-        ("", "table: 0 entries; a table needs 2"),
-        ("X0E.1\n", "table: 1 entry; a table needs 2"),
-    ],
-)
-def test_a_line_that_is_wrong_is_named_and_nothing_is_loaded(text: str, said: str) -> None:
-    with pytest.raises(UserError) as caught:
-        parse(text, "X")
-    assert str(caught.value).startswith(said)
-
-
-@pytest.mark.req("MILL-BSC-TABLE", "MILL-BSC-TABLE2")
-@pytest.mark.parametrize(
-    ("setpoint", "values", "entry"),
-    [
-        (1.0, (0.979, 1.000, 0.997, 0.999), 0.00625),
-        (2.0, (1.996, 1.998, 1.995, 1.998), 0.00325),
-        (3.0, (2.997, 3.000, 2.997, 2.999), 0.00175),
-        (4.0, (4.004, 4.001, 4.004, 4.001), -0.00250),
-    ],
-)
-def test_an_entry_is_the_setpoint_minus_the_mean(
-    setpoint: float, values: tuple[float, ...], entry: float
-) -> None:
-    assert errors(setpoint, values) == pytest.approx(entry, abs=1e-9)
 
 
 MEASURED = """\
@@ -70,21 +28,6 @@ setpoint; n1; n2; n3; n4
 3;2.997;3.000;2.997;2.999
 4;4.004;4.001;4.004;4.001
 """
-
-
-@pytest.mark.req("MILL-BSC-WRAP")
-def test_positions_before_home_follow_at_the_end(tmp_path: Path) -> None:
-    physical = {float(n): 0.0 for n in range(42)} | {
-        0.0: 0.0, 1.0: 0.00625, 2.0: 0.00325, 3.0: 0.00175, 4.0: -0.0025, 41.0: 0.0025
-    }  # fmt: skip
-    lines = wrapped("X", physical, 2.0).text().splitlines()
-    assert lines[:3] == ["X0E.00325", "X1E.00175", "X2E-.00250"]
-    assert lines[-3:] == ["X39E.00250", "X40E.00000", "X41E.00625"]
-    file = tmp_path / "measured.csv"
-    file.write_text(MEASURED)
-    small = measured(file, "X", 2.0)
-    assert small.text() == GUIDE + "X3E.00000\nX4E.00625\n"
-    assert small.period_u == 5.0
 
 
 # The table of Appendix A as it is printed, with the position of its last row, which the guide
@@ -99,16 +42,6 @@ Primary Setpoint Actual 1 Actual 2 Actual 3 Actual 4 Actual Mean Actual Differen
 3 2.997 3.000 2.997 2.999 2.99825 0.00175
 4 4.004 4.001 4.004 4.001 4.00250 \u22120.00250
 """
-
-
-def test_the_table_of_the_guide_is_read_as_it_is_printed(tmp_path: Path) -> None:
-    between = "".join(f"{n} {n} {n} {n} {n} {n} 0\n" for n in range(5, 41))
-    file = tmp_path / "x.txt"
-    file.write_text(f"{PRINTED}{between}41 40.996 40.999 40.996 40.999 40.9975 0.00250\n")
-    lines = measured(file, "X", 2.0).text().splitlines()
-    assert lines[:3] == ["X0E.00325", "X1E.00175", "X2E-.00250"]
-    assert lines[-3:] == ["X39E.00250", "X40E.00000", "X41E.00625"]
-    assert len(lines) == 42
 
 
 @pytest.mark.parametrize("separator", [" ", ",", ";", "\t"])
@@ -177,21 +110,6 @@ def compensation(shop: Shop, axis: int = 0) -> float:
     )
 
 
-@pytest.mark.req("MILL-BSC-APPLY", "MILL-BSC-INTERP")
-@pytest.mark.parametrize(
-    ("place", "expected_cnt"),
-    [(0, 32.5), (1, 17.5), (2, -25), (0.5, 25), (1.5, -3.75), (-1, 62.5), (-2, 0), (-0.5, 47.5)],
-)
-def test_the_axis_is_compensated_where_the_table_says(place: float, expected_cnt: float) -> None:
-    table = parse(GUIDE + "X3E.00000\nX4E.00625\n", "X")
-    shop = equipped({0: table})
-    shop.finish(line(1, at(place, 1.0)), end())
-    shop.pass_time(0.2)
-    assert shop.pulses()[0] == place * 10_000  # programs do not feel the table
-    assert compensation(shop) == pytest.approx(expected_cnt, abs=1.0)  # shown in whole pulses
-    assert compensation(shop, 1) == 0
-
-
 def test_soft_limits_say_which_entries_lie_beyond_the_reference_point() -> None:
     table = parse(GUIDE + "X3E.00000\nX4E.00625\n", "X")
     assert [p for p, _ in table.along((2.0, -2.0))] == [-2, -1, 0, 1, 2]
@@ -256,18 +174,3 @@ def test_a_card_that_lost_its_position_gets_its_table_only_after_homing(tmp_path
         shop = MillSession.real(Controller(), store, lambda _text: None)
         assert shop.card.command("BSC X", program=0) == ["OFF"]
         assert store.read(271) == 0
-
-
-@pytest.mark.req("MILL-BSC-AXES")
-def test_eight_axes_are_compensated_and_watched() -> None:
-    letters = "XYZABCUV"
-    tables = {k: parse(f"{x}0E.00{k + 1}\n{x}1E0\n", x) for k, x in enumerate(letters)}
-    shop = Shop(P100001=8, P271=255)
-    for axis in range(8):
-        shop.store.write(200_012 + 1000 * axis, 1)
-    install(shop.card, Settings(shop.store), {})
-    prepare(shop.card, Settings(shop.store), tables)
-    shop.pass_time(0.1)
-    assert [compensation(shop, axis) for axis in range(8)] == [10 * (k + 1) for k in range(8)]
-    shown = [shop.controller.p[12288 + AX_BALLSCREW_OFFSET + 256 * k] for k in range(8)]
-    assert shown == [10 * (k + 1) for k in range(8)]

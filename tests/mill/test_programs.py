@@ -1,17 +1,12 @@
 """Programs written as text, run on the virtual machine: what the operator sees of them."""
 
-import json
 import math
-import statistics
-from itertools import groupby, pairwise
-from pathlib import Path
+from itertools import pairwise
 
 import pytest
-from shapely.geometry import LinearRing, MultiPoint, Point
+from shapely.geometry import MultiPoint
 from tests.mill.shop import STEP_S, Shop
-from typer.testing import CliRunner
 
-from openacr.cli.main import app
 from openacr.errors import UserError
 from openacr.mill.config.overrides import Override
 from openacr.mill.run.lifecycle import Options, State
@@ -80,27 +75,6 @@ def test_block_mode_runs_one_block_for_each_start() -> None:
     shop.runner.start()
     shop.until(State.IDLE)
     assert shop.pulses()[0] == 40000
-
-
-@pytest.mark.req("MILL-EDIT-SAMPLE")
-def test_the_sample_program_of_the_guide_cuts_a_closed_square(tmp_path: Path) -> None:
-    file = tmp_path / "1111.txt"
-    file.write_text("F100 G91\r\nG1X1 \r\nG1Y1 \r\nG1X-1\r\nG1Y-1\r\n")
-    checked = CliRunner().invoke(app, ["mill", "check", str(file), "--json"])
-    findings = json.loads(checked.stdout)
-    assert (checked.exit_code, findings["errors"], findings["warnings"]) == (0, [], [])
-    shop = Shop()
-    shop.load(file.read_text())
-    shop.pass_time(0.3)
-    shop.until(State.IDLE)
-    square = LinearRing([(0, 0), (1, 0), (1, 1), (0, 1)])
-    assert max(Point(x, y).distance(square) for x, y, _ in shop.path) < 1e-4
-    near = [(round(x), round(y)) for x, y, _ in shop.path if Point(x, y).distance(CORNERS) < 0.01]
-    assert [corner for corner, _ in groupby(near)] == [(1, 0), (1, 1), (0, 1), (0, 0)]
-    sides = [math.dist(a[:2], b[:2]) / STEP_S for a, b in pairwise(shop.path)]
-    assert statistics.median(sides) == pytest.approx(100 / 60, abs=0.02)  # a pulse in 5 ms
-    assert max(sides) == pytest.approx(100 / 60, abs=0.03)
-    assert shop.pulses() == (0, 0, 0)
 
 
 @pytest.mark.req("MILL-RUN-RESUME")

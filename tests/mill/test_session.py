@@ -43,23 +43,11 @@ def test_a_card_that_answers_takes_commands_at_once() -> None:
 @pytest.mark.req("MILL-START-FWVER")
 def test_a_card_older_than_1_18_is_refused() -> None:
     controller = Controller()
-    controller.memory.I[P_FIRMWARE_VERSION] = 11706
-    with pytest.raises(UserError, match=r"alarm 2: Firmware older than 1\.18: 1\.17"):
+    controller.memory.I[P_FIRMWARE_VERSION] = 11799
+    with pytest.raises(UserError, match=r"alarm 2: Firmware older than 1\.18: 1\.17\.99$"):
         shop_on(controller)
-
-
-@pytest.mark.req("MILL-START-OFFSETS-RESET")
-@pytest.mark.parametrize("is_virtual", [False, True])
-def test_offsets_in_use_are_forgotten_at_every_start(is_virtual: bool) -> None:
-    store = Store()
-    for n in (1998, 1999, 4000, 4001):
-        store.write(n, 0.25)
-    store.write(2001, 0.5)
-    if is_virtual:
-        cells = MillSession.virtual(store).cells
-    else:
-        cells = MillSession.real(Controller(), store, say=print).cells
-    assert [cells.read(n) for n in (1998, 1999, 4000, 4001, 2001)] == [0, 0, 0, 0, 0.5]
+    controller.memory.I[P_FIRMWARE_VERSION] = 11800
+    shop_on(controller)
 
 
 @pytest.mark.req("MILL-START-SERVOSAFE")
@@ -71,20 +59,6 @@ def test_nothing_is_enabled_and_nothing_moves_at_the_start_with_defaults() -> No
     axes = range(controller.model.axes)
     assert not any(controller.memory.I[AF4_WORD + axis] & AF4_DRIVE_ENABLED for axis in axes)
     assert {controller.axis(axis).actual_cnt for axis in axes} == {0}
-
-
-@pytest.mark.req("MILL-START-POWERMODE")
-@pytest.mark.parametrize(
-    ("distance", "mode", "end"), [(90, 20, 2.0), (91, 20, 3.0), (90, 21, 2 / 25.4)]
-)
-def test_the_store_says_how_the_control_starts(distance: int, mode: int, end: float) -> None:
-    store = Store()
-    store.write(POWER_UP_DISTANCE, distance)
-    store.write(CONTROL_MODE, mode)
-    shop = MillSession.virtual(store, say=lambda _text: None)
-    shop.start(load("F100\nG1 X1\nX2\nM2\n", shop.cells), Start())
-    finish(shop)
-    assert shop.runner.stream.host.position()[0] == pytest.approx(end, abs=1e-4)
 
 
 @pytest.mark.req("MILL-OV-CONTROLLERS")

@@ -99,21 +99,6 @@ def test_axes_have_values_of_their_own(base: int) -> None:
     assert [store.read(base + 1000 * axis) for axis in range(8)] == [0.5 + a for a in range(8)]
 
 
-@pytest.mark.req("MILL-OV-AXES")
-@pytest.mark.parametrize("count", range(2, 9))
-def test_a_machine_has_2_to_8_axes(count: int) -> None:
-    store = Store()
-    store.write(100_001, count)
-    assert list(Settings(store).names()) == list("XYZABCUV"[:count])
-
-
-@pytest.mark.req("MILL-OV-AXES")
-@pytest.mark.parametrize("count", [1, 9])
-def test_1_or_9_axes_are_refused(count: int) -> None:
-    with pytest.raises(SettingError, match=r"Axis count cannot be \d: a whole number from 2 to 8"):
-        Store().write(100_001, count)
-
-
 def test_cells_of_the_card_are_not_in_the_store() -> None:
     with pytest.raises(MapError, match="P5 is not in the store: it is a variable of the card"):
         Store().read(5)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ from openacr.client import Card
 from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.cnc.interpreter.mdi import Mdi
 from openacr.cnc.loading.load import load
+from openacr.cnc.parts.library import begins_metric, part_named, prepared
 from openacr.cnc.reading.findings import BlockError, Finding
 from openacr.cnc.state.hosts import VirtualMachine
 from openacr.conform import entries
@@ -21,6 +22,7 @@ from openacr.engine.watches import Watch, Watched
 from openacr.errors import OpenacrError, UserError
 from openacr.map import numbers as n
 from openacr.mill import zeroing
+from openacr.mill.card.ballscrew import Table, computed, install, parse
 from openacr.mill.config.overrides import Override
 from openacr.mill.plan.checking import check_text
 from openacr.mill.run.lifecycle import State
@@ -60,6 +62,8 @@ class Mill:
                 self.store.write(AXIS.home_required[axis], 0)
             self.store.write(SPEEDS.max_machine_speed, FASTEST_UPM)
         self.text, self.dialect = "", "acromill"
+        self.tables: dict[int, Table] = {}  # of ballscrews, by axis
+        self.made = ""  # the file of a table, of measurements
         self.heard: list[str] = []  # shown to the operator and not compared yet
         self.are_alarms_expected = False
         self.is_panel_there = True
@@ -107,7 +111,25 @@ class Mill:
         except BlockError as error:
             yield _placed(error.finding)
 
+    def load_part(self, name: str, sizes: Mapping[int, float], d_number: int) -> None:
+        """Load a library part with these sizes, in their own units; UserError or PartError."""
+        is_metric = begins_metric(self.store)
+        part = part_named(name)
+        self.text = prepared(
+            part, sizes, self.store, is_metric=is_metric, d_number=d_number
+        ).program
+
+    def table_of(self, letter: str, measurements: str, home_u: float) -> str:
+        """The file of a ballscrew table that measurements become."""
+        return computed(measurements, letter, home_u).text()
+
     # On the card.
+
+    def load_table(self, letter: str, text: str) -> None:
+        """Load the table of a ballscrew from the text of its file, beside those of other axes."""
+        table, settings = parse(text, letter), self.session.runner.settings
+        self.tables[settings.named(letter).index] = table
+        install(self.session.card, settings, self.tables)
 
     @property
     def session(self) -> MillSession:

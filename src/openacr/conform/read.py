@@ -14,6 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from openacr.conform import words as _words  # noqa: F401  (declares the words)
+from openacr.conform import words_loaded as _loaded  # noqa: F401
 from openacr.conform import words_part as _part  # noqa: F401
 from openacr.conform.form import ANSWERS, BLOCK, Case, Claim, Line, Machine, Step, step_of
 from openacr.errors import FaultyFileError, SourceError, UserError, read_bytes

@@ -124,7 +124,12 @@ def parse(text: str, letter: str, name: str = "table") -> Table:
 
 
 def measured(path: Path, letter: str, home_u: float) -> Table:
-    """Compute a table from a file of measurements: lines of a position and its measured values.
+    """Compute a table from a file of measurements; `computed` says what its lines are."""
+    return computed(_content(path), letter, home_u, str(path))
+
+
+def computed(text: str, letter: str, home_u: float, name: str = "measurements") -> Table:
+    """Compute a table from measurements: lines of a position and its measured values.
 
     Numbers are separated by commas, semicolons, tabs or blanks; lines that begin with # and
     a heading are skipped. A position may have several measurements, in one line or in separate
@@ -132,30 +137,30 @@ def measured(path: Path, letter: str, home_u: float) -> Table:
     (Appendix A). Positions are physical, `home_u` is the reference point.
     """
     rows: dict[float, list[float]] = {}
-    for place, values in _measurements(path):
+    for place, values in _measurements(text, name):
         if len(values) < LEAST_ENTRIES:
             raise UserError(f"{place}: a position and at least one measurement are needed")
         rows.setdefault(values[0], []).extend(values[1:])
     if len(rows) < LEAST_ENTRIES:
-        raise UserError(f"{path}: {counted(len(rows), 'position')}; a table needs {LEAST_ENTRIES}")
+        raise UserError(f"{name}: {counted(len(rows), 'position')}; a table needs {LEAST_ENTRIES}")
     if not min(rows) <= home_u <= max(rows):
-        raise UserError(f"{path}: home {home_u:g} is not between {min(rows):g} and {max(rows):g}")
+        raise UserError(f"{name}: home {home_u:g} is not between {min(rows):g} and {max(rows):g}")
     return wrapped(letter, {n: errors(n, values) for n, values in rows.items()}, home_u)
 
 
-def _measurements(path: Path) -> list[tuple[str, list[float]]]:
-    """Location of each line in the file, and its position with the measurements."""
+def _measurements(text: str, name: str) -> list[tuple[str, list[float]]]:
+    """Location of each line in the text, and its position with the measurements."""
     found: list[tuple[str, list[float]]] = []
     has_results = False
-    for number, line in enumerate(_content(path).translate(MINUS_SIGNS).splitlines(), 1):
+    for number, line in enumerate(text.translate(MINUS_SIGNS).splitlines(), 1):
         words = re.split(r"[,;\s]+", line.strip().strip(",;"))
         if not words[0] or words[0].startswith("#"):
             continue
         values = _numbers(words)
         if values is not None:
-            found.append((f"{path}:{number}", values))
+            found.append((f"{name}:{number}", values))
         elif found:
-            raise UserError(f"{path}:{number}: a position and at least one measurement are needed")
+            raise UserError(f"{name}:{number}: a position and at least one measurement are needed")
         else:
             has_results |= "mean" in line.lower() or "difference" in line.lower()
     if has_results or (found and all(_has_results(values) for _, values in found)):
