@@ -29,7 +29,7 @@ from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 from openacr.sysvar.lookup import one
-from openacr.sysvar.tabs import AXIS, SPEEDS
+from openacr.sysvar.tabs import AXIS, GENERAL, SPEEDS
 from openacr.sysvar.values import parsed
 
 AXES = 3
@@ -61,6 +61,7 @@ class Mill:
             for axis in range(AXES):
                 self.store.write(AXIS.home_required[axis], 0)
             self.store.write(SPEEDS.max_machine_speed, FASTEST_UPM)
+            self.store.write_text(GENERAL.card_model, card.world.model.name)
         self.text, self.dialect = "", "acromill"
         self.tables: dict[int, Table] = {}  # of ballscrews, by axis
         self.made = ""  # the file of a table, of measurements
