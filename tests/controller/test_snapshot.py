@@ -87,6 +87,17 @@ def test_a_battery_that_was_reset_stays_so() -> None:
     assert first.digest() == second.digest()
 
 
+def test_a_battery_that_was_reset_acts_again_in_a_state_from_before() -> None:
+    card = Controller("ACR8020")
+    before = card.snapshot()
+    for _ in range(2):
+        card.send("BRESET\rREBOOT\r")
+        card.take_over(before)
+        card.send("PROG0\r10 PRINT 1\rSYS\rREBOOT\r")
+        assert not card.system.programs.is_empty(0)
+        card.take_over(before)
+
+
 # text
 
 

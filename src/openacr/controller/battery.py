@@ -34,8 +34,7 @@ class Battery:
 
     def __init__(self, system: System, store: ImageStore) -> None:
         self._system, self._store = system, store
-        self.is_on = system.card.model.has_battery
-        self._follows = self.is_on and store.images.is_durable
+        self.enable()
         self._retries = False  # the last write failed: tried again once a second
         self._written_tk = 0
         self._shape: object = None
@@ -59,6 +58,11 @@ class Battery:
         texts = [self._store.decoded(name, Text) for name in names if name != BATTERY]
         found = [text for text in texts if text is not None]
         return UserMemory(found, backed.data), tuple(backed.config)
+
+    def enable(self) -> None:
+        """As at power-up, where the card has a battery."""
+        self.is_on = self._system.card.model.has_battery
+        self._follows = self.is_on and self._store.images.is_durable
 
     def disable(self) -> None:
         """Stop storing anything until the next power-up (BRESET)."""

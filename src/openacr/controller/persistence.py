@@ -204,6 +204,7 @@ class Persistence:
         gone: dict[str, bytes | None] = dict.fromkeys(self._others())
         wanted = {name: data for name, data in state.items() if name != NO_BATTERY}
         self.store.write(gone | wanted)
+        self.battery.enable()
         if NO_BATTERY in state:
             self.battery.disable()
 
