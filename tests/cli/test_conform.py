@@ -57,16 +57,19 @@ def test_a_table_of_sections_and_what_differs(cases: Path) -> None:
     good = CliRunner().invoke(app, ["conform", "--cases", str(cases)])
     assert good.exit_code == 0
     assert good.stdout.splitlines() == [
-        "section           agrees  differs  not run",
-        "manual/01-first        2        -        -",
-        "manual/02-second       2        -        -",
-        "virtual ACR9000: 4 cases, 4 agree, 0 differ, 0 not run",
+        "section           agrees  differs  not run  not for this model",
+        "manual/01-first        2        -        -                   -",
+        "manual/02-second       2        -        -                   -",
+        "virtual ACR9000: 4 cases, 4 agree, 0 differ, 0 not run, 0 not for this model",
     ]
     file = cases / "manual" / "02-second.txt"
     file.write_text(file.read_text().replace("?P0\n7", "?P0\n8"))
     bad = CliRunner().invoke(app, ["conform", "--cases", str(cases), "--area", "second"])
     assert bad.exit_code == 1
-    assert bad.stdout.splitlines()[-1] == "virtual ACR9000: 2 cases, 1 agree, 1 differ, 0 not run"
+    assert (
+        bad.stdout.splitlines()[-1]
+        == "virtual ACR9000: 2 cases, 1 agree, 1 differ, 0 not run, 0 not for this model"
+    )
     assert bad.stderr.splitlines() == [
         f'{file}:14: in "Variables"', "  8", "expected: 8", "shown:    7",
         "  rests on: manual (000 L2494)",
@@ -80,7 +83,7 @@ def test_a_report_holds_card_and_outcomes(cases: Path, tmp_path: Path) -> None:
     assert json.loads(result.stdout) == json.loads(report.read_text())
     found = json.loads(report.read_text())
     assert found["card"] == {"kind": "virtual", "model": "ACR8020"}
-    assert found["counts"] == {"agrees": 2, "differs": 0, "not run": 0}
+    assert found["counts"] == {"agrees": 2, "differs": 0, "not run": 0, "not for this model": 0}
     assert found["cases"][0] == {
         "section": "manual/01-first", "case": "Sums", "line": 3, "result": "agrees",
         "proves": ["ACR-EVAL-01"], "source": "000 L2494", "rests_on": "manual",
@@ -92,7 +95,7 @@ def test_a_card_in_use_is_asked_and_keeps_what_it_has(cases: Path, card: Served)
     address = f"{LOOPBACK}:{card.ascii_port}"
     result = CliRunner().invoke(app, ["conform", address, "--cases", str(cases), "--json"])
     found = json.loads(result.stdout)
-    assert found["counts"] == {"agrees": 2, "differs": 0, "not run": 2}
+    assert found["counts"] == {"agrees": 2, "differs": 0, "not run": 2, "not for this model": 0}
     assert found["card"]["version"] == "ACR9000 Version 1.18.06 Update 15"
     assert found["cases"][1]["why"] == "line 11: `DIM P(1)` may change the card"
     assert typed(card, "?P0") == "?P0\r\n3\r\nSYS>"

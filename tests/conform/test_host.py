@@ -42,9 +42,9 @@ class SlowWire(Wire):
         return data[:1]
 
 
-def outcomes(wire: Wire, *areas: str) -> list[Outcome]:
+def outcomes(wire: Wire, *areas: str, model: str = "ACR9000") -> list[Outcome]:
     wire.open()
-    return list(on_card_in_use(chosen(supplied(), areas), HostCard(wire)))
+    return list(on_card_in_use(chosen(supplied(), areas), HostCard(wire), model))
 
 
 def in_use() -> Controller:
@@ -104,7 +104,7 @@ def test_a_card_without_a_prompt_and_one_that_is_gone_end_the_run() -> None:
         outcomes(Wire(in_use(), rb"SYS>", b"?"), "evaluation")
     wire = Wire(in_use())
     wire.open()
-    running = on_card_in_use(chosen(supplied(), ["evaluation"]), HostCard(wire))
+    running = on_card_in_use(chosen(supplied(), ["evaluation"]), HostCard(wire), "")
     next(each for each in running if not each.bar)
     wire.close()
     with pytest.raises(ConnectionLostError):
@@ -130,7 +130,7 @@ def test_cases_of_one_model_do_not_run_on_another(tmp_path: Path) -> None:
     head = "[case A]\nsource: 000 L7\nrests on: manual\nmodel: {}\n> VER\n...\n"
     (tmp_path / "one.txt").write_text(head.format("ACR8020"))
     (found,) = on_virtual_card(chosen(tmp_path, []), "ACR9000")
-    assert (found.result, found.bar) == ("not run", "it is about the ACR8020")
+    assert (found.result, found.bar) == ("not for this model", "it is about the ACR8020")
     (found,) = on_virtual_card(chosen(tmp_path, []), "ACR8020")
     assert found.result == "agrees"
 

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from openacr.conform.form import Case
 
 MOST_SHOWN = 20  # differences in full
-RESULTS = ("agrees", "differs", "not run")
 
 
 def conform(
@@ -117,7 +116,7 @@ def _asked(
     link = link_to(target, baud)
     try:
         link.open()
-        yield identity, on_card_in_use(cases, HostCard(link))
+        yield identity, on_card_in_use(cases, HostCard(link), identity.model)
     except ClientError as lost:
         raise UserError(f"{target}: {lost}") from None
     finally:
@@ -136,6 +135,8 @@ def _watched(running: "Iterator[Outcome]", total: int) -> "list[Outcome]":
 
 def _record(outcomes: "list[Outcome]", identity: "Identity | None", model: str) -> dict[str, Any]:
     """What was asked of which card, and what it answered, as JSON data."""
+    from openacr.conform.campaign import RESULTS
+
     card: dict[str, Any] = {"kind": "virtual", "model": model}
     if identity is not None:
         card = {
@@ -175,11 +176,13 @@ def _put(path: Path, text: str) -> None:
 
 def _show(outcomes: "list[Outcome]", card: dict[str, Any]) -> None:
     """A line for each section, what differs, and the sum."""
+    from openacr.conform.campaign import RESULTS
+
     sections: dict[str, Counter[str]] = {}
     for each in outcomes:
         sections.setdefault(each.section, Counter())[each.result] += 1
     width = max(map(len, sections))
-    typer.echo(f"{'section':<{width}}  agrees  differs  not run")
+    typer.echo(f"{'section':<{width}}  {'  '.join(RESULTS)}")
     for name, counts in sections.items():
         cells = (f"{counts[result] or '-':>{len(result)}}" for result in RESULTS)
         typer.echo(f"{name:<{width}}  {'  '.join(cells)}")
@@ -188,7 +191,8 @@ def _show(outcomes: "list[Outcome]", card: dict[str, Any]) -> None:
     name = card.get("version") or f"virtual {card['model']}"
     typer.echo(
         f"{name}: {counted(len(outcomes), 'case')}, {count['agrees']} agree,"
-        f" {count['differs']} differ, {count['not run']} not run"
+        f" {count['differs']} differ, {count['not run']} not run,"
+        f" {count['not for this model']} not for this model"
     )
 
 

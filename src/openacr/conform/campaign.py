@@ -8,12 +8,17 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from openacr.conform.asking import bar
+from openacr.conform.facts import lacking
 from openacr.conform.form import Case, DifferenceError
 from openacr.conform.host import HostCard
 from openacr.conform.read import files, read
 from openacr.conform.run import run
+from openacr.conform.targets import world_of
 from openacr.errors import UserError
+from openacr.models import MODELS, Model
 
+OTHER_MODEL = "not for this model"
+RESULTS = ("agrees", "differs", "not run", OTHER_MODEL)
 _MADE_ID = re.compile(r"^proves:(?:[^({\n]|\([^)]*\))*\{", re.MULTILINE)  # an id from a table
 
 
@@ -24,10 +29,13 @@ class Outcome:
     case: Case
     difference: DifferenceError | None = None
     bar: str = ""
+    is_of_others: bool = False  # it is about cards of other models
 
     @property
     def result(self) -> str:
-        """`agrees`, `differs` or `not run`."""
+        """One of RESULTS."""
+        if self.is_of_others:
+            return OTHER_MODEL
         if self.bar:
             return "not run"
         return "differs" if self.difference else "agrees"
@@ -102,15 +110,32 @@ def _section(path: Path) -> str:
 def on_virtual_card(cases: Iterable[Case], model: str) -> Iterator[Outcome]:
     """Each case on a virtual card of a model, as new."""
     for case in cases:
-        if case.model not in ("", model):
-            yield Outcome(case, bar=f"it is about the {case.model}")
+        if reason := other_model(case, world_of(case.machine, model).card.board):
+            yield Outcome(case, bar=reason, is_of_others=True)
         else:
             yield Outcome(case, run(case, model=model))
 
 
-def on_card_in_use(cases: Iterable[Case], card: HostCard) -> Iterator[Outcome]:
-    """Each case that only asks, on a card that others use; a link error ends it."""
+def other_model(case: Case, model: Model) -> str:
+    """Why a case is about cards of other models; empty if it is not."""
+    if case.model not in ("", model.name):
+        return f"it is about the {case.model}"
+    return lacking(case.needs, model)
+
+
+def on_card_in_use(cases: Iterable[Case], card: HostCard, model: str) -> Iterator[Outcome]:
+    """Each case that only asks, on a card of a model that others use; a link error ends it.
+
+    Of a card whose model is none of those known only cases that hold for all are asked.
+    """
     for case in cases:
+        is_of_one = bool(case.model or case.needs)
+        if is_of_one and model not in MODELS:
+            yield Outcome(case, bar="it is about some models, and that of the card is not known")
+            continue
+        if is_of_one and (reason := other_model(case, MODELS[model])):
+            yield Outcome(case, bar=reason, is_of_others=True)
+            continue
         if reason := bar(case):
             yield Outcome(case, bar=reason)
             continue

@@ -76,6 +76,7 @@ class Case:
     rests: str  # one of RESTS, and after a colon on what
     machine: Machine
     model: str  # whose answers it holds, where they differ from those of others
+    needs: tuple[str, ...]  # what its model must have (facts.py)
     only: str  # "virtual": it needs the world around a virtual card
     moves: str  # the axes it moves
     steps: tuple[Step, ...]

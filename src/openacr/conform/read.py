@@ -16,6 +16,7 @@ from pathlib import Path
 from openacr.conform import words as _words  # noqa: F401  (declares the words)
 from openacr.conform import words_loaded as _loaded  # noqa: F401
 from openacr.conform import words_part as _part  # noqa: F401
+from openacr.conform.facts import needs_of
 from openacr.conform.form import ANSWERS, BLOCK, Case, Claim, Line, Machine, Step, step_of
 from openacr.errors import FaultyFileError, SourceError, UserError, read_bytes
 from openacr.models import DEFAULT_MODEL, MODELS
@@ -26,7 +27,7 @@ RESTS = ("manual", "oracle", "client", "inferred")
 MACHINES = "machines"  # the folder of machines, in the folder of the manuals or above it
 MAY_BE_EMPTY = ("shows:", "prints:", "says:", "alarm:", "entries:")
 _CASE = re.compile(r"\[case (.+)\]")
-_ABOUT = re.compile(r"(proves|source|rests on|machine|model|only|moves):(?:\s+(.*))?")
+_ABOUT = re.compile(r"(proves|source|rests on|machine|model|needs|only|moves):(?:\s+(.*))?")
 _CLAIM = re.compile(r"\s*([A-Z]+(?:-[A-Z0-9]+)+)\s*(?:\(([^()]*)\))?\s*(?:,|$)")
 _MANUAL = re.compile(r"\b00[013] L\d+")
 _COLUMN = re.compile(r"\{([^{}]+)\}")
@@ -110,6 +111,10 @@ class _Reader:
         if texts.get("model", DEFAULT_MODEL.name) not in MODELS:
             names = ", ".join(MODELS)
             raise _FaultError(about["model"][0], f"model: {texts['model']}: expected {names}")
+        try:
+            needs = needs_of(texts["needs"]) if "needs" in texts else ()
+        except ValueError as error:
+            raise _FaultError(about["needs"][0], f"needs: {texts['needs']}: {error}") from None
         steps = tuple(self._steps(lines))
         if not steps:
             raise _FaultError(
@@ -124,6 +129,7 @@ class _Reader:
             rests,
             self._machine(about["machine"]) if "machine" in about else Machine(),
             texts.get("model", ""),
+            needs,
             texts.get("only", ""),
             texts.get("moves", ""),
             steps,

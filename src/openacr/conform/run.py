@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
+from openacr.conform.facts import suited
 from openacr.conform.form import Case, DifferenceError
 from openacr.conform.stage import Stage
 from openacr.conform.targets import Target, virtual
 from openacr.errors import OpenacrError
-from openacr.models import DEFAULT_MODEL
 
 
-def run(
-    case: Case, card: Target | None = None, *, model: str = DEFAULT_MODEL.name
-) -> DifferenceError | None:
-    """Run a case on a card, by default on a virtual one of a model, as new; what differs first."""
+def run(case: Case, card: Target | None = None, *, model: str = "") -> DifferenceError | None:
+    """Run a case on a card, by default on a virtual one as new; what differs first.
+
+    The virtual card is of this model, or of one that has what the case needs.
+    """
     if card is not None:
         return _run(case, Stage(card))
     try:
-        with virtual(case.machine, case.model or model) as new:
+        with virtual(case.machine, case.model or model or suited(case.needs)) as new:
             return _run(case, Stage(new))
     except OpenacrError as error:
         return DifferenceError("a machine that can be loaded", error)

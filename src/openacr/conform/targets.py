@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from typing import Protocol
+
+from msgspec.structs import replace
 
 from openacr.channels import CHANNELS, StreamKind
 from openacr.conform.form import DifferenceError, Machine
@@ -15,7 +18,7 @@ from openacr.controller.snapshot import Snapshot
 from openacr.errors import UserError
 from openacr.models import DEFAULT_MODEL, MODELS
 from openacr.plant.load import parse_world
-from openacr.plant.schema import default_world
+from openacr.plant.schema import ModelName, World, default_world
 from openacr.project import find_project
 from openacr.testing import machine as under_test
 
@@ -161,15 +164,27 @@ def _plain(condition: str) -> str:
     return _SET.sub(r"\g<1>1", condition)
 
 
+@lru_cache(maxsize=64)
+def world_of(machine: Machine, model: str) -> World:
+    """The world of a machine, with a card of a model where it names none itself."""
+    text = machine.text
+    if machine.folder and (file := find_project(machine.folder).machine):
+        text = file.read_text(encoding="utf-8")
+    if not text:
+        return default_world(MODELS[model])
+    world = parse_world(text)
+    if "model" in tomllib.loads(text).get("card", {}):
+        return world
+    return replace(world, card=replace(world.card, model=ModelName(model)))
+
+
 @lru_cache(maxsize=16)
 def _loaded(machine: Machine, model: str) -> tuple[Controller, Snapshot]:
     """The card of a machine, and what it is after loading."""
-    bare = default_world(MODELS[model])
+    world = world_of(machine, model)
     if machine.folder:
-        has_world = find_project(machine.folder).machine is not None
-        card = Controller.from_project(machine.folder, world=None if has_world else bare)
+        card = Controller.from_project(machine.folder, world=world)
     else:
-        world = parse_world(machine.text) if machine.text else bare
         card = Controller(world.card.board, world=world)
     card.is_journalled = False
     return card, card.snapshot()
