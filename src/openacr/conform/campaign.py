@@ -126,7 +126,7 @@ def other_model(case: Case, model: Model) -> str:
 def on_card_in_use(cases: Iterable[Case], card: HostCard, model: str) -> Iterator[Outcome]:
     """Each case that only asks, on a card of a model that others use; a link error ends it.
 
-    Of a card whose model is none of those known only cases that hold for all are asked.
+    A card of a model that is not known is asked only what holds for all models.
     """
     for case in cases:
         is_of_one = bool(case.model or case.needs)
