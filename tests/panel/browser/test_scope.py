@@ -13,7 +13,7 @@ from playwright.sync_api import BrowserContext, Locator, Page, expect
 from pyarrow import parquet
 from scipy import integrate, signal
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import LONGEST_MS, open_page, until_model
+from tests.panel.browser.conftest import LONGEST_MS, left_over, open_page, until_model
 
 from openacr.panel.control.station import Station
 
@@ -32,6 +32,20 @@ def call(page: Page, place: str, name: str, *args: Any) -> Any:
     """Call a function of a module of the scope; arrays of numbers are arrays of doubles there."""
     plain = [each.tolist() if isinstance(each, np.ndarray) else each for each in args]
     return page.evaluate(ARRAYS, [f"/js/scope/{place}.js", name, plain])
+
+
+@pytest.fixture(scope="module")
+def page(context: BrowserContext, served: Served) -> Page:
+    """The scope in the engineer's workspace, opened once for the file."""
+    page = open_page(context, f"{served.url}/bench")
+    show_scope(page)
+    return page
+
+
+def show_scope(page: Page) -> None:
+    """The scope alone in its place."""
+    page.evaluate("import('/js/bench/workspace.js').then((each) => each.openPane('scope'))")
+    expect(page.locator("[data-pane=scope] .scope-rows")).to_be_visible()
 
 
 # --- spectrum -------------------------------------------------------------------------
@@ -444,23 +458,6 @@ def test_a_text_that_is_no_expression_is_refused_with_the_word(
 RECORD = """() => import('/js/scope/screen.js').then(({ shown }) => shown.value)"""
 
 
-@pytest.fixture(scope="module")
-def bench(context: BrowserContext, served: Served) -> Page:
-    """The scope alone in its place, for the tests of the pane."""
-    return open_scope(context, served)
-
-
-def open_scope(
-    context: BrowserContext, served: Served, size: tuple[int, int] | None = None
-) -> Page:
-    page = open_page(context, f"{served.url}/bench")
-    if size:
-        page.set_viewport_size({"width": size[0], "height": size[1]})
-    page.evaluate("import('/js/bench/workspace.js').then((each) => each.openPane('scope'))")
-    expect(page.locator("[data-pane=scope] .scope-rows")).to_be_visible()
-    return page
-
-
 def write(station: Station, value: float) -> None:
     station.machine.card.write(7, value)
 
@@ -477,9 +474,8 @@ def fill(page: Page, values: dict[str, str]) -> None:
 
 
 def test_a_single_sweep_of_a_flag_and_a_parameter_is_measured_and_exported(
-    bench: Page, served: Served
+    page: Page, served: Served
 ) -> None:
-    page = bench
     served.call(lambda station: station.machine.card.write(7, 0.0))
     served.call(lambda station: station.machine.card.write_bit(1920, True))
     fill(page, {
@@ -554,22 +550,20 @@ def arm_on_flag(page: Page, flag: int, mode: str, **more: str) -> None:
 
 @pytest.mark.parametrize("mode", ["normal", "single"])
 def test_a_sweep_without_a_trigger_is_not_shown_and_the_pane_says_that_it_waits(
-    bench: Page, served: Served, mode: str
+    page: Page, served: Served, mode: str
 ) -> None:
-    page = bench
     served.call(partial(switch, flag=1922, on=False))
     arm_on_flag(page, 1922, mode)
     expect(status(page)).to_have_text(re.compile(r"^WAITING for a trigger, [1-9]\d{2,} samples$"))
-    shown = page.evaluate(RECORD)
-    assert (shown["times"], shown["x"]) == ([], [-10, 40])  # 0 is where the trigger will be
+    empty = until(page, lambda: page.evaluate(RECORD), lambda found: not found["times"])
+    assert empty["x"] == [-10, 40]  # 0 is where the trigger will be
     press(page, "STOP SCOPE")
     expect(status(page)).to_contain_text("Stopped at")
 
 
 def test_the_last_whole_sweep_stays_with_its_measures_until_the_next_one_is_whole(
-    bench: Page, served: Served
+    page: Page, served: Served
 ) -> None:
-    page = bench
     served.call(partial(write, value=1.0))
     served.call(partial(switch, flag=1922, on=False))
     arm_on_flag(page, 1922, "normal")
@@ -592,12 +586,12 @@ def test_the_last_whole_sweep_stays_with_its_measures_until_the_next_one_is_whol
 
 
 def test_a_second_browser_asks_before_it_takes_the_scope_and_the_first_one_says_so(
-    bench: Page, context: BrowserContext, served: Served
+    page: Page, context: BrowserContext, served: Served
 ) -> None:
-    page = bench
     arm_on_flag(page, 1922, "auto")
     expect(status(page)).to_contain_text("samples")
-    other = open_scope(context, served)
+    other = open_page(context, f"{served.url}/bench")
+    show_scope(other)
     fill(other, {"CH1 source": "P7", "CH2 source": "BIT1921", "CH3 source": ""})
     press(other, "START")
     dialog = other.get_by_role("dialog", name="TAKE THE SCOPE")
@@ -621,26 +615,14 @@ def test_a_second_browser_asks_before_it_takes_the_scope_and_the_first_one_says_
     press(page, "STOP SCOPE")
 
 
+# Numbers that are cut off, and a plot that is less than so wide and high.
+CUT = """() => [...document.querySelectorAll('.scope-side input.number')]
+  .filter((each) => each.scrollWidth > each.clientWidth).map((each) => each.value)"""
+ROOM = """([wide, high]) => {
+  const { width, height } = document.querySelector('[data-view=time] .u-over').getBoundingClientRect();
+  return width >= wide && height >= high ? [] : [`${innerWidth}: ${width} x ${height}`];
+}"""  # noqa: E501
 FIRST_NAME = "import('/js/core/app.js').then(({ model }) => model.capture.value.channels[1])"
-
-
-@pytest.mark.parametrize("size", [(1366, 768), (1920, 1080), (390, 844)])
-def test_numbers_of_a_channel_are_shown_whole_and_the_plot_has_room(
-    context: BrowserContext, served: Served, size: tuple[int, int]
-) -> None:
-    page = open_scope(context, served, size)
-    fill(page, {
-        "CH1 units/div": "200000", "CH2 units/div": "0.000125", "CH1 offset": "-1234567",
-        "CH2 offset": "40000.25", "Trigger level": "-1234567",
-    })  # fmt: skip
-    cut = page.evaluate("""() => [...document.querySelectorAll('.scope-side input.number')]
-      .filter((each) => each.scrollWidth > each.clientWidth).map((each) => each.value)""")
-    assert cut == []
-    box = page.locator("[data-view=time] .u-over").bounding_box()
-    assert box is not None
-    least = {1366: (550, 170), 1920: (800, 400), 390: (250, 120)}[size[0]]
-    assert (box["width"] >= least[0], box["height"] >= least[1]) == (True, True), box
-    page.close()
 
 
 def until(page: Page, look: Callable[[], Any], holds: Callable[[Any], bool]) -> Any:
@@ -658,8 +640,7 @@ def until_shown(page: Page, first_ms: float, last_ms: float) -> None:
     until(page, lambda: page.evaluate(RECORD)["x"], lambda found: bool(found == expected))
 
 
-def test_a_record_at_rest_is_zoomed_by_the_wheel_and_dragged(bench: Page, served: Served) -> None:
-    page = bench
+def test_a_record_at_rest_is_zoomed_by_the_wheel_and_dragged(page: Page, served: Served) -> None:
     served.call(partial(switch, flag=1922, on=False))
     arm_on_flag(page, 1922, "single")
     served.call(lambda station: station.machine.card.pause(0.1))
@@ -694,8 +675,7 @@ def test_a_record_at_rest_is_zoomed_by_the_wheel_and_dragged(bench: Page, served
     until_shown(page, -10, 40)
 
 
-def test_the_level_of_the_trigger_is_dragged_and_acts_at_once(bench: Page, served: Served) -> None:
-    page = bench
+def test_the_level_of_the_trigger_is_dragged_and_acts_at_once(page: Page, served: Served) -> None:
     served.call(partial(write, value=1.0))
     arm_on_flag(page, 1922, "normal", **{"CH1 units/div": "1", "CH1 offset": "0"})
     page.get_by_label("Trigger source", exact=True).select_option("CH1")
@@ -729,8 +709,7 @@ def trigger_level(station: Station) -> float | None:
     return None if capture is None or capture.trigger is None else capture.trigger.level
 
 
-def test_a_reference_is_compared_with_the_next_record(bench: Page, served: Served) -> None:
-    page = bench
+def test_a_reference_is_compared_with_the_next_record(page: Page, served: Served) -> None:
     for value in (1.0, 4.25):
         served.call(partial(write, value=value))
         fill(page, {"CH1 source": "P7", "CH2 source": "", "CH8 source": "", "M source": ""})
@@ -757,8 +736,7 @@ def begin_branches(station: Station) -> None:
     times.operate(station.now_s)
 
 
-def test_another_branch_is_compared_at_the_ticks_of_the_record(bench: Page, served: Served) -> None:
-    page = bench
+def test_another_branch_is_compared_at_the_ticks_of_the_record(page: Page, served: Served) -> None:
     served.call(begin_branches)
     until_model(page, "model.timeline.value.branches.length === 3 && !model.timeline.value.away")
     clock, pulse = "P6916", "BIT81"  # equal on all branches at equal ticks only
@@ -780,8 +758,7 @@ def test_another_branch_is_compared_at_the_ticks_of_the_record(bench: Page, serv
     expect(cells.last).to_have_text("\u2013")
 
 
-def test_xy_and_spectrum_are_views_of_the_same_record(bench: Page) -> None:
-    page = bench
+def test_xy_and_spectrum_are_views_of_the_same_record(page: Page) -> None:
     press(page, "XY")
     expect(page.locator("[data-view=xy] canvas")).to_be_visible()
     press(page, "FFT")
@@ -795,3 +772,16 @@ def test_xy_and_spectrum_are_views_of_the_same_record(bench: Page) -> None:
     expect(page.locator("[data-pane=scope] .scope-rows")).to_be_hidden()
     press(page, "SETTINGS")
     assert page.complaints == []  # type: ignore[attr-defined]
+
+
+def test_numbers_of_a_channel_are_shown_whole_and_the_plot_has_room(page: Page) -> None:
+    for size, least in (
+        ((1366, 768), (550, 170)), ((1920, 1080), (800, 400)), ((390, 844), (250, 120)),
+    ):  # fmt: skip
+        page.set_viewport_size({"width": size[0], "height": size[1]})
+        show_scope(page)
+        fill(page, {
+            "CH1 units/div": "200000", "CH2 units/div": "0.000125", "CH1 offset": "-1234567",
+            "CH2 offset": "40000.25", "Trigger level": "-1234567",
+        })  # fmt: skip
+        assert left_over(page, CUT, f"() => ({ROOM})([{least[0]}, {least[1]}])") == []
