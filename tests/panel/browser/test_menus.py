@@ -8,8 +8,10 @@ import pytest
 from playwright.sync_api import BrowserContext, Page, Route, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import (
+    READY,
     give,
     hold_answers,
+    left_over,
     open_page,
     release_answers,
     until_model,
@@ -112,7 +114,16 @@ def by_finger(page: Page, key: int) -> None:
     page.tap(f"[data-fkey=F{key}]")
 
 
-DEVICES = [by_key, by_mouse, by_finger]
+# What each press of a menu key by mouse or finger arrives at; it has no effect.
+CAUGHT = """() => {
+  window.caught = [];
+  window.catching = (event) => {
+    event.stopImmediatePropagation();
+    window.caught.push([event.target.closest('[data-fkey]')?.dataset.fkey, event.pointerType]);
+  };
+  window.addEventListener('click', window.catching, { capture: true });
+}"""
+LET_GO = "() => window.removeEventListener('click', window.catching, { capture: true })"
 
 
 @pytest.fixture
@@ -120,9 +131,7 @@ def recorded(page: Page) -> Iterator[Page]:
     """The workspace, with the commands that it sends."""
     page.evaluate(RECORD)
     yield page
-    page.evaluate("localStorage.clear()")
-    page.reload()
-    page.wait_for_selector("body:not(.is-stale) #menu .menu-key")
+    page.evaluate("import('/js/core/app.js').then(({ link }) => { delete link.send; })")
 
 
 MENU_IDS = (
@@ -134,11 +143,29 @@ MENU_IDS = (
 )  # fmt: skip
 
 
-@pytest.mark.req(*MENU_IDS)
-@pytest.mark.parametrize("press", DEVICES)
-def test_every_key_of_every_menu_does_the_same_by_every_device(
-    recorded: Page, press: Callable[[Page, int], None]
+def does(
+    page: Page, menu: str, press: Callable[[Page, int], None], number: int, effect: str
 ) -> None:
+    """Press a key of a shown menu and wait for what it does, which is put back."""
+    kind, _, what = effect.partition(" ")
+    if kind == "appearance":
+        page.evaluate("localStorage.setItem('openacr.panel.tab', 'plc')")
+    press(page, number)
+    page.wait_for_function(HAPPENED, arg=[kind, what, ""])
+    if kind == "appearance":
+        page.wait_for_function(READY)
+        page.evaluate(RECORD)
+    if kind == "form":
+        form = page.request.get(f"{page.url}api/forms/{what}").json()
+        expect(page.locator("#screen-title")).to_have_text(form["title"])
+    if effect in ("screen edit", "dialog OPEN"):  # which asks for a file
+        expect(page.get_by_role("dialog", name="OPEN")).to_be_visible()
+        expect(page.locator("#screen")).to_have_attribute("data-screen", "edit")
+    page.evaluate(CLEAN, menu)
+
+
+@pytest.mark.req(*MENU_IDS)
+def test_every_key_of_every_menu_does_what_the_guide_says(recorded: Page) -> None:
     page = recorded
     defined: dict[str, Any] = page.evaluate(
         "() => import('/js/frame/menus.js').then((module) => module.MENUS)"
@@ -149,21 +176,43 @@ def test_every_key_of_every_menu_does_the_same_by_every_device(
         bar = page.evaluate(BAR)
         assert [(n, plain(label)) for n, _, label in bar] == [(n, plain(x)) for n, x, _ in keys]
         assert [small for _, small, _ in bar] == [f"F{n}" for n, _, _ in keys]
-        for number, _label, does in keys:
-            kind, _, what = does.partition(" ")
-            if kind == "appearance":
-                page.evaluate("localStorage.setItem('openacr.panel.tab', 'plc')")
+        for number, _label, effect in keys:
+            does(page, menu, by_key, number, effect)
+
+
+@pytest.mark.req(*MENU_IDS)
+@pytest.mark.parametrize(("press", "kind"), [(by_mouse, "mouse"), (by_finger, "touch")])
+def test_mouse_and_finger_reach_every_key_of_every_menu_and_press_it(
+    recorded: Page, press: Callable[[Page, int], None], kind: str
+) -> None:
+    """Two keys of each menu with their effect: what is done is the same by every device."""
+    page = recorded
+    for menu, keys in MENUS.items():
+        page.evaluate(SHOW, menu)
+        page.evaluate(CAUGHT)
+        for number, _, _ in keys:
             press(page, number)
-            page.wait_for_function(HAPPENED, arg=[kind, what, ""])
-            if kind == "appearance":
-                page.wait_for_selector("body:not(.is-stale) #menu .menu-key")
-                page.evaluate(RECORD)
-            if kind == "form":
-                title = page.locator("#screen-title").text_content()
-                assert title == page.request.get(f"{page.url}api/forms/{what}").json()["title"]
-            if does == "dialog OPEN":  # over the screen of the editor
-                assert page.locator("#screen").get_attribute("data-screen") == "edit"
-            page.evaluate(CLEAN, menu)
+        page.evaluate(LET_GO)
+        assert page.evaluate("window.caught") == [[f"F{number}", kind] for number, _, _ in keys]
+        for number, _, effect in (keys[1], keys[-1]):
+            does(page, menu, press, number, effect)
+
+
+def test_an_editor_that_is_left_before_it_is_loaded_asks_for_no_file(
+    context: BrowserContext, served: Served
+) -> None:
+    page = open_page(context, served.url)
+    held: list[Route] = []
+    page.route("**/js/edit/editor.js", lambda route: held.append(route))
+    with page.expect_request("**/js/edit/editor.js"):
+        page.keyboard.press("F4")
+    page.keyboard.press("Escape")
+    expect(page.locator("#screen")).to_be_hidden()
+    held[0].continue_()
+    page.evaluate("import('/js/edit/editor.js')")
+    page.evaluate("() => new Promise((done) => setTimeout(done))")
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    page.close()
 
 
 def test_of_two_screens_the_one_that_was_asked_for_last_is_shown(
@@ -230,64 +279,58 @@ def test_no_menu_is_deeper_than_two_levels_and_each_leads_back_to_main(page: Pag
             assert [key["menu"] for key in keys if key["key"] == 10] == ["main"]
 
 
+# Keys of the menu that are no place for a finger or outside, and parts that overlap or are outside.
+CRAMPED = """() => {
+  const box = (each) => each.getBoundingClientRect();
+  const places = ['#status', '#display', '#prompt', '#menu', '#stop'].map((name) => document.querySelector(name));
+  const keys = [...document.querySelectorAll('#menu .menu-key:not(.empty)')];
+  const outside = [...places, ...keys].filter((each) => box(each).x < 0 || box(each).y < 0 || box(each).right > 800 || box(each).bottom > 600);
+  const small = keys.filter((each) => box(each).width < 44 || box(each).height < 44);
+  const [status, display, prompt, menu] = places.map(box);
+  const { scrollWidth, scrollHeight } = document.documentElement;
+  return [
+    ...outside.map((each) => `${each.id || each.textContent} is outside`), ...small.map((each) => `${each.textContent} is small`),
+    ...(keys.length ? [] : ['no keys']), ...(scrollWidth === 800 && scrollHeight === 600 ? [] : [`${scrollWidth} x ${scrollHeight}`]),
+    ...(status.right <= display.x && display.bottom <= prompt.y && prompt.bottom <= menu.y ? [] : ['parts overlap']),
+  ];
+}"""  # noqa: E501
+
+
 @pytest.mark.req("MILL-OV-TOUCH", "MILL-OV-800X600", "MILL-SCR-MAIN")
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_the_main_screen_with_every_menu_fits_800_x_600_with_keys_for_fingers(
-    page: Page, theme: Any
-) -> None:
-    page.emulate_media(color_scheme=theme)
+def test_the_main_screen_with_every_menu_fits_800_x_600_with_keys_for_fingers(page: Page) -> None:
     page.set_viewport_size({"width": 800, "height": 600})
-    root = page.locator("html")
-    boxes = {}
     for name in MENUS:
         page.evaluate(SHOW, name)
-        for key in page.locator("#menu .menu-key:not(.empty)").all():
-            box = key.bounding_box()
-            assert box is not None
-            assert box["width"] >= 44
-            assert box["height"] >= 44
-            assert box["x"] >= 0
-            assert box["x"] + box["width"] <= 800
-            assert box["y"] + box["height"] <= 600
-        assert root.evaluate("(e) => [e.scrollWidth, e.scrollHeight]") == [800, 600]
-    for place in ("#status", "#display", "#prompt", "#menu", "#stop"):
-        box = page.locator(place).bounding_box()
-        assert box is not None
-        assert box["x"] >= 0
-        assert box["x"] + box["width"] <= 800
-        assert box["y"] + box["height"] <= 600
-        boxes[place] = box
-    status, display, prompt, menu = (
-        boxes[name] for name in ("#status", "#display", "#prompt", "#menu")
+        assert left_over(page, CRAMPED) == []
+    expect(page.locator("#status [role=tab]")).to_have_text(["VIEW 1", "VIEW 2", "VIEW 3"])
+    expect(page.locator("#display [role=tab]")).to_have_text(
+        ["GRAPHICS", "PROGRAM", "I/O STATUS", "PLC", "ALARMS"]
     )
-    assert status["x"] + status["width"] <= display["x"]  # beside each other
-    assert display["y"] + display["height"] <= prompt["y"]
-    assert prompt["y"] + prompt["height"] <= menu["y"]
-    tabs = page.locator("#status [role=tab]").all_inner_texts()
-    assert tabs == ["VIEW 1", "VIEW 2", "VIEW 3"]
-    tabs = page.locator("#display [role=tab]").all_inner_texts()
-    assert tabs == ["GRAPHICS", "PROGRAM", "I/O STATUS", "PLC", "ALARMS"]
     page.set_viewport_size({"width": 1024, "height": 768})
+
+
+# The help text of every key in the list.
+HELP = """async () => {
+  const text = document.querySelector('.help-text');
+  const title = async () => { while (!text.querySelector('h2')) await new Promise((done) => setTimeout(done, 5)); };
+  const found = {};
+  for (const item of document.querySelectorAll('#screen .form-tabs .item')) {
+    await title();
+    text.replaceChildren();
+    item.click();
+    await title();
+    found[item.querySelector('.name').textContent] = text.innerText;
+  }
+  return found;
+}"""  # noqa: E501
 
 
 @pytest.mark.req("MILL-MENU-HELP-TEXT")
 def test_help_has_a_text_for_every_key_of_every_menu(page: Page) -> None:
     page.keyboard.press("F9")
+    expect(page.locator("#screen .form-tabs .item").first).to_be_visible()
+    shown = {plain(name): text for name, text in page.evaluate(HELP).items()}
     labels = {plain(label) for keys in MENUS.values() for _, label, _ in keys}
-    items = page.locator("#screen .form-tabs .item")
-    expect(items.first).to_be_visible()
-    shown: dict[str, str] = {}
-    for item in items.all():
-        name = plain(item.locator(".name").inner_text())
-        item.click()
-        text = page.locator(".help-text")
-        expect(text.locator("h2")).to_be_visible()
-        page.wait_for_function(
-            "(before) => document.querySelector('.help-text').textContent !== before",
-            arg=shown.get("last", ""),
-        )
-        shown[name] = shown["last"] = text.inner_text()
-    del shown["last"]
     assert labels - set(shown) == {"MAINMENU"}
     assert {name for name, text in shown.items() if len(text) < 40} == set()
 
@@ -317,7 +360,7 @@ def test_exit_while_a_program_runs_asks_and_brings_the_machine_to_rest(
     place = served.call(lambda station: station.machine.runner.stream.host.position()[0])
     assert 0.0 < place < 50.0
     page.get_by_role("button", name="COME BACK").click()
-    page.wait_for_selector("body:not(.is-stale) #menu .menu-key")
+    page.wait_for_function(READY)
 
 
 def test_a_screen_that_only_watches_leaves_without_stopping_the_machine(

@@ -14,6 +14,7 @@ export const screen = {
   area: "full",
   async show({ body, head, endings, args, setTitle, beforeClose }) {
     const { createEditor } = await import("../edit/editor.js");
+    if (!body.isConnected) return; // the screen was left meanwhile
     let [path, saved] = ["", ""];
     /** @type {string | null} */
     let version = null;
