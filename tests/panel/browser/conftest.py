@@ -1,9 +1,11 @@
-"""A Chromium, a panel and a page for each file of tests.
+"""A Chromium for each process of tests, a panel and a page for each file of them.
 
 Playwright keeps an event loop running in the thread of the tests for as long as its browser is
-open; other tests of the process start loops of their own, so no browser outlives its file.
+open. Other tests of the process start loops of their own: between files of browsers it is
+taken for one that does not run.
 """
 
+import asyncio
 import json
 import os
 import time
@@ -56,16 +58,27 @@ def pytest_runtest_makereport(
     return report
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    """The browser of the machine."""
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[tuple[Browser, asyncio.AbstractEventLoop]]:
+    """The browser of the machine, and the loop that it runs in."""
     path = found()
     if path is None:
         pytest.fail(MISSING)
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=path, args=OPTIONS)
-        yield browser
+        loop = asyncio.get_running_loop()
+        yield browser, loop
+        asyncio._set_running_loop(loop)
         browser.close()
+
+
+@pytest.fixture(scope="module")
+def browser(chromium: tuple[Browser, asyncio.AbstractEventLoop]) -> Iterator[Browser]:
+    """The browser for the tests of a file."""
+    browser, loop = chromium
+    asyncio._set_running_loop(loop)
+    yield browser
+    asyncio._set_running_loop(None)
 
 
 @pytest.fixture(scope="module")
