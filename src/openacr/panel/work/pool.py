@@ -1,13 +1,16 @@
 """Processes that compute for the screens, of low priority: programs read, motors identified."""
 
 import asyncio
+import multiprocessing
 import os
+import sys
 import threading
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
-from multiprocessing.context import SpawnContext, SpawnProcess
+from multiprocessing.context import BaseContext
+from multiprocessing.process import BaseProcess
 from typing import Any, TypeVar
 
 from openacr.errors import UserError
@@ -15,6 +18,11 @@ from openacr.workers.parent import follow_parent
 
 T = TypeVar("T")
 NICER = 5
+# Importing what reads programs takes half a second: on Linux each is forked from one that has.
+METHOD = "forkserver" if sys.platform == "linux" else "spawn"
+_starts: Any = multiprocessing.get_context(METHOD)
+if METHOD == "forkserver":
+    _starts.set_forkserver_preload(["openacr.panel.work.paths"])
 ENDED = "the computation was ended: another took its place, or the server ends"
 KILLED = "the program is too big for the memory of this computer, or its reading was killed"
 
@@ -35,15 +43,17 @@ def report(share: float) -> None:
         _share.value = share
 
 
-class _Context(SpawnContext):
+class _Context(BaseContext):
     """Starts processes and notes them: an executor does not say which are its own."""
+
+    _name = METHOD
 
     def __init__(self) -> None:
         super().__init__()
-        self.started: list[SpawnProcess] = []
+        self.started: list[BaseProcess] = []
 
-    def Process(self, *args: Any, **options: Any) -> SpawnProcess:  # type: ignore[override]
-        process = SpawnProcess(*args, **options)
+    def Process(self, *args: Any, **options: Any) -> BaseProcess:
+        process: BaseProcess = _starts.Process(*args, **options)
         self.started.append(process)
         return process
 
@@ -89,7 +99,7 @@ class Pool:
     def __init__(self, nicer: int = NICER, killed: str = KILLED) -> None:
         """`nicer`: how much lower its priority is than that of the server; `killed`: its error."""
         self._nicer, self._killed = nicer, killed
-        self._share = SpawnContext().Value("d", 0.0, lock=False)
+        self._share = _Context().Value("d", 0.0, lock=False)
         self._worker: _Worker | None = None
         self._takes_work = True
         self._changes = threading.Lock()  # of the two above
