@@ -120,6 +120,6 @@ class WebServer:
         self.is_ending.set()
         if self._server is None or self._task is None:
             return
-        self._server.should_exit = True
+        self._server.end()
         with suppress(asyncio.CancelledError):
             await self._task

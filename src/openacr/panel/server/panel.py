@@ -117,6 +117,8 @@ class Panel:
         """Say goodbye to all browsers, and end what is computed for them."""
         self.control.end_soon()
         self._end_work()
+        if not self.connections:
+            return
         self.hub.broadcast({"event": "bye", "text": ENDS})
         await asyncio.sleep(0.05)
         for connection in list(self.connections):

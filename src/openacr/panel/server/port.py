@@ -1,16 +1,46 @@
 """The port of a web server, and the server that leaves signals to its caller."""
 
+import asyncio
 import socket
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from itertools import count
 
 import uvicorn
 
 from openacr.io.listening import bound_socket
 
+TICK_S = 0.1  # uvicorn counts its housekeeping in these
+
 
 class QuietServer(uvicorn.Server):
-    """A web server that leaves signals to the caller."""
+    """A web server that leaves signals to the caller, and ends at once when it is asked to."""
+
+    def __init__(self, config: uvicorn.Config) -> None:
+        super().__init__(config)
+        self._ends = asyncio.Event()
+
+    def end(self) -> None:
+        """End it; call it in its loop."""
+        self.should_exit = True
+        self._ends.set()
+
+    async def main_loop(self) -> None:
+        """Serve until the end; uvicorn would look for it every tick alone."""
+        ticks = count()
+        while not await self.on_tick(next(ticks)):
+            with suppress(TimeoutError):
+                async with asyncio.timeout(TICK_S):
+                    await self._ends.wait()
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """Close everything; only connections that are still open are given time."""
+        if self.server_state.connections or self.server_state.tasks:
+            await super().shutdown(sockets)
+            return
+        for listening in (*self.servers, *(sockets or ())):
+            listening.close()
+        await self.lifespan.shutdown()
 
     @contextmanager
     def capture_signals(self) -> Iterator[None]:

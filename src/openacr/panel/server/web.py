@@ -3,7 +3,6 @@
 import asyncio
 from collections.abc import AsyncIterator, Awaitable, Callable, Collection
 from contextlib import asynccontextmanager
-from typing import TYPE_CHECKING
 
 import uvicorn
 from starlette.applications import Starlette
@@ -20,9 +19,6 @@ from openacr.panel.server.panel import Panel
 from openacr.panel.server.port import QuietServer, bound
 from openacr.panel.server.socket import serve_socket
 from openacr.panel.server.static import static_file
-
-if TYPE_CHECKING:
-    from uvicorn.server import Server
 
 PING_S = 5.0
 MOST_TEXT = 64 << 10
@@ -88,7 +84,7 @@ class PanelServer:
             timeout_graceful_shutdown=GRACE_S,
             limit_concurrency=MOST_CONNECTIONS,
         )
-        self.server: Server = QuietServer(config)
+        self.server = QuietServer(config)
         panel.station.on_end = self._end_soon
         self._loop: asyncio.AbstractEventLoop | None = None
 
@@ -116,4 +112,4 @@ class PanelServer:
     def stop(self) -> None:
         """End the server; call it in its loop."""
         task = asyncio.ensure_future(self.panel.end())
-        task.add_done_callback(lambda _task: setattr(self.server, "should_exit", True))
+        task.add_done_callback(lambda _task: self.server.end())
