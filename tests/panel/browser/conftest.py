@@ -9,7 +9,7 @@ import asyncio
 import json
 import os
 import time
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -148,6 +148,20 @@ def until_model(page: Page, holds: str) -> None:
     while not page.evaluate(asked):
         assert time.monotonic() < end_s, holds
         page.wait_for_timeout(20)
+
+
+def until(page: Page, holds: Callable[[], object]) -> None:
+    """Wait until something holds outside the browser, whose events are heard meanwhile."""
+    end_s = time.monotonic() + SETTLED_S
+    while not holds():
+        assert time.monotonic() < end_s
+        page.wait_for_timeout(20)
+
+
+def at_rest(page: Page, served: Served) -> None:
+    """Wait until the machine rests, and the page knows it."""
+    until_model(page, "!model.state.value.busy")
+    until(page, lambda: not served.call(lambda station: station.machine.runner.is_busy))
 
 
 def left_over(page: Page, *checks: str) -> list[str]:

@@ -1,13 +1,13 @@
 """The screens of DIAGNOSTICS on a running virtual mill."""
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 
 import pytest
 from playwright.sync_api import Page, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import give, until_model
+from tests.panel.browser.conftest import at_rest, give, until, until_model
 
 from openacr.client import Level
 from openacr.map import parameters
@@ -15,6 +15,7 @@ from openacr.panel.control.station import Station
 from openacr.sysvar.tabs import CONTROL, OFFSETS
 
 SHOW = "(name) => import('/js/frame/menu_bar.js').then(({ openMenu }) => openMenu(name))"
+BITS = "(rows) => rows.map((row) => Number(row.dataset.bit))"
 LISTED = """() => [...document.querySelectorAll('#screen tbody tr')].map((row) =>
   [row.cells[0].textContent, row.cells[1].textContent, row.cells[2].querySelector('strong').textContent])"""  # noqa: E501
 
@@ -25,29 +26,14 @@ def open_diagnostics(page: Page, key: int, screen: str) -> None:
     page.wait_for_selector(f"#screen[data-screen={screen}]:not([hidden]) .screen-body > *")
 
 
-def at_rest(page: Page, served: Served) -> None:
-    until_model(page, "!model.state.value.busy")
-    until(page, lambda: not served.call(lambda station: station.machine.runner.is_busy))
-
-
-def until(page: Page, holds: Callable[[], bool]) -> None:
-    """Wait for something outside the browser; the test runs into its time-out otherwise."""
-    while not holds():
-        page.wait_for_timeout(50)
-
-
 @pytest.fixture
 def running(page: Page, served: Served) -> Iterator[Page]:
     """The workspace while X moves slowly."""
-    give(page, "mdi.execute", line="G21 G91 G1 X60 F60")
+    give(page, "mdi.execute", line="G21 G91 G1 X60 F20")
     until_model(page, "model.state.value.state === 'RUN'")
     yield page
     give(page, "stop.all")
     at_rest(page, served)
-
-
-def state_of(page: Page, bit: int) -> str:
-    return str(page.locator(f"#screen [data-bit='{bit}'] .io-state").text_content())
 
 
 @pytest.mark.req("MILL-DIAG-IO", "MILL-DIAG-IO-NAMES")
@@ -98,7 +84,7 @@ def test_the_terminal_sends_lines_as_they_are_also_while_a_program_runs(
     line.fill("?P3")
     line.press("Enter")
     expect(text).to_contain_text("41.5")
-    give(page, "mdi.execute", line="G21 G91 G1 X60 F60")
+    give(page, "mdi.execute", line="G21 G91 G1 X60 F20")
     until_model(page, "model.state.value.state === 'RUN'")
     served.call(lambda station: station.machine.card.write(3, 42.25))
     line.fill("?P3")
@@ -317,9 +303,7 @@ def test_cpu_load_is_shown_in_per_cent_also_while_a_program_runs(
     lines = served.call(lambda station: station.machine.card.command("CPU"))
     open_diagnostics(page, 7, "cpu")
     shares = page.locator("#screen .cpu-row strong")
-    expect(shares).to_have_count(2)
-    wanted = [line.split()[1].replace("%", " %") for line in lines]
-    assert shares.all_inner_texts() == wanted
+    expect(shares).to_have_text([line.split()[1].replace("%", " %") for line in lines])
     assert page.locator("#prompt").get_attribute("data-kind") != "error"
     meters = page.locator("#screen meter").evaluate_all("(all) => all.map((each) => each.value)")
     assert sum(meters) == pytest.approx(100.0)
@@ -363,7 +347,7 @@ def test_the_memory_is_divided_with_a_warning_and_not_while_a_program_runs(
     expect(page.locator("#prompt")).to_have_text("⚠ PROG1: a whole number of bytes")
     field.fill("16384")
     page.locator("#memory-PLC0").fill("2048")
-    give(page, "mdi.execute", line="G21 G91 G1 X30 F60")
+    give(page, "mdi.execute", line="G21 G91 G1 X30 F10")
     until_model(page, "model.state.value.state === 'RUN'")
     dialog = page.get_by_role("dialog", name="Memory configuration")
     save = page.get_by_role("button", name="SAVE AND CLEAR THE CARD")
