@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 from hypothesis import settings
-from tests import longest
+from tests import longest, warm
 
 # How long an example takes depends on who else computes; pytest-timeout ends what hangs.
 settings.register_profile("patient", deadline=None)
@@ -26,6 +26,12 @@ if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_I
 def _journals(tmp_path_factory: pytest.TempPathFactory) -> None:
     """Journals of cards that tests serve stay out of the folders of the user."""
     os.environ["OPENACR_JOURNALS"] = str(tmp_path_factory.mktemp("journals"))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _workers() -> None:
+    """Processes of pools begin warm."""
+    warm.fork_workers()
 
 
 @pytest.hookimpl(wrapper=True)

@@ -32,6 +32,10 @@ IMPORTED = (
     "openacr.debugger.real_cards", "openacr.language_server.server", "openacr.mill.session",
     "openacr.panel.server.web", "openacr.project", "openacr.bridge.process",
 )  # fmt: skip
+IMPORTED_BY_WORKERS = (
+    "openacr.panel.work.tuning", "openacr.panel.control.tuning", "openacr.panel.server.web",
+    "openacr.sweep.campaign", "openacr.verify.checking", "scipy.optimize",
+)  # fmt: skip
 LENGTH = struct.Struct("<I")
 MOST_FDS = 4  # standard streams, and where the number of the process and its end are written
 CAN_FORK = hasattr(os, "fork") and hasattr(socket, "send_fds")
@@ -104,6 +108,31 @@ class Popen(subprocess.Popen[Any]):
                 self._heard += data
             line, _, self._heard = self._heard.partition(b"\n")
             return line
+
+
+def fork_workers() -> None:
+    """Have the processes of pools forked, too, by a server that has imported what they import."""
+    if CAN_FORK:
+        from multiprocessing.context import SpawnProcess
+        from multiprocessing.forkserver import set_forkserver_preload
+
+        set_forkserver_preload(list(IMPORTED_BY_WORKERS))
+        SpawnProcess._Popen = staticmethod(_forked)  # type: ignore[assignment]
+
+
+def _forked(process: Any) -> Any:
+    from multiprocessing.popen_forkserver import Popen as Forked
+
+    process._args = (dict(os.environ), process._target, *process._args)
+    process._target = _in_environment
+    return Forked(process)
+
+
+def _in_environment(env: dict[str, str], target: Any, /, *args: Any, **options: Any) -> None:
+    """In the process: its server has the environment of an earlier test."""
+    os.environ.clear()
+    os.environ.update(env)
+    target(*args, **options)
 
 
 def run(
