@@ -14,6 +14,7 @@ from openacr.mill.run.receiving import Patience
 from openacr.panel.control.installation import Installation
 from openacr.panel.roles import Role
 from openacr.panel.server import receptions
+from openacr.panel.server.receptions import Receptions
 from openacr.sysvar.tabs import COMMUNICATIONS
 
 PROGRAM = b"%\r\nG21 G90\r\nG0 X1\r\nM2\r\n"
@@ -23,15 +24,21 @@ LONGEST_S = 60.0
 
 @pytest.fixture
 def sender() -> Iterator[Sender]:
-    one = Sender()
+    one = Sender(is_read=True)
     yield one
     one.close()
 
 
 @pytest.fixture
-def web(quiet_panel: Served) -> Iterator[httpx.Client]:
-    with httpx.Client(base_url=quiet_panel.url, timeout=LONGEST_S) as client:
+def web(kept_quiet_panel: Served, sender: Sender) -> Iterator[httpx.Client]:
+    """Calls of the panel of this file, which has received nothing yet."""
+    panel = kept_quiet_panel.panel
+    panel.receptions = Receptions()
+    with httpx.Client(base_url=kept_quiet_panel.url, timeout=LONGEST_S) as client:
         yield client
+    panel.accounts._hashes = {}
+    with httpx.Client(base_url=kept_quiet_panel.url, timeout=LONGEST_S) as client:
+        client.delete("/api/link")  # of what is under way: it ends with its port
 
 
 def until(web: httpx.Client, holds: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
@@ -63,7 +70,7 @@ def names(served: Served) -> list[str]:
 
 @pytest.mark.req("MILL-LOAD-LINK")
 def test_a_received_program_is_a_file_that_is_loaded_like_any_other(
-    web: httpx.Client, sender: Sender, quiet_panel: Served
+    web: httpx.Client, sender: Sender, kept_quiet_panel: Served
 ) -> None:
     nothing = {"state": "", "path": "", "port": "", "bytes": 0, "lines": 0, "text": ""}
     assert web.get("/api/link").json() == nothing
@@ -73,43 +80,43 @@ def test_a_received_program_is_a_file_that_is_loaded_like_any_other(
     sender.send(PROGRAM)
     amid = until(web, lambda found: found["lines"] == 4)
     assert amid == {"state": "receiving", "bytes": 23, "lines": 4, **about}
-    assert not (quiet_panel.programs / "jobs").exists()
+    assert not (kept_quiet_panel.programs / "jobs").exists()
     sender.send(b"%")
     assert until(web, ended) == {"state": "kept", "bytes": 24, "lines": 4, **about}
-    assert (quiet_panel.programs / "jobs" / "NEW.TXT").read_bytes() == KEPT
+    assert (kept_quiet_panel.programs / "jobs" / "NEW.TXT").read_bytes() == KEPT
     listed = web.get("/api/programs", params={"folder": "jobs"}).json()["entries"]
     assert [(each["path"], each["bytes"]) for each in listed] == [("jobs/NEW.TXT", len(KEPT))]
 
 
 def test_the_port_is_that_of_the_communications_page(
-    web: httpx.Client, sender: Sender, quiet_panel: Served
+    web: httpx.Client, sender: Sender, kept_quiet_panel: Served
 ) -> None:
     missing = web.post("/api/link", json={"path": "A.TXT"})
     assert error_of(missing) == (
         422, "no serial port is configured: set P750000, or name a port",
     )  # fmt: skip
-    quiet_panel.panel.installation.store.write_text(COMMUNICATIONS.port, sender.port)
+    kept_quiet_panel.panel.installation.store.write_text(COMMUNICATIONS.port, sender.port)
     assert web.post("/api/link", json={"path": "A.TXT"}).json()["port"] == sender.port
 
 
 def test_a_cancelled_reception_keeps_nothing_and_frees_the_port(
-    web: httpx.Client, sender: Sender, quiet_panel: Served
+    web: httpx.Client, sender: Sender, kept_quiet_panel: Served
 ) -> None:
-    before = names(quiet_panel)
+    before = names(kept_quiet_panel)
     assert error_of(web.delete("/api/link")) == (422, "nothing is being received")
     begin(web, sender, "A.TXT")
     sender.send(PROGRAM)
     until(web, lambda found: found["lines"] == 4)
     assert web.delete("/api/link").json()["state"] == "cancelled"
     assert error_of(web.delete("/api/link")) == (422, "nothing is being received")
-    assert names(quiet_panel) == before
+    assert names(kept_quiet_panel) == before
     assert begin(web, sender, "A.TXT").json()["state"] == "receiving"
 
 
 def test_an_existing_file_is_replaced_only_when_that_is_confirmed(
-    web: httpx.Client, sender: Sender, quiet_panel: Served
+    web: httpx.Client, sender: Sender, kept_quiet_panel: Served
 ) -> None:
-    file = quiet_panel.programs / "A.TXT"
+    file = kept_quiet_panel.programs / "A.TXT"
     file.write_bytes(b"OLD\n")
     refused = begin(web, sender, "A.TXT")
     assert error_of(refused) == (409, "A.TXT is there already")
@@ -124,22 +131,22 @@ def test_an_existing_file_is_replaced_only_when_that_is_confirmed(
 
 
 def test_a_file_that_came_meanwhile_is_kept(
-    web: httpx.Client, sender: Sender, quiet_panel: Served
+    web: httpx.Client, sender: Sender, kept_quiet_panel: Served
 ) -> None:
     begin(web, sender, "A.TXT")
-    (quiet_panel.programs / "A.TXT").write_bytes(b"OTHER\n")
+    (kept_quiet_panel.programs / "A.TXT").write_bytes(b"OTHER\n")
     sender.send(PROGRAM + b"%")
     found = until(web, ended)
     assert (found["state"], found["text"]) == (
         "failed", "A.TXT is there already: nothing was kept",
     )  # fmt: skip
-    assert (quiet_panel.programs / "A.TXT").read_bytes() == b"OTHER\n"
+    assert (kept_quiet_panel.programs / "A.TXT").read_bytes() == b"OTHER\n"
 
 
 def test_a_line_that_fails_in_the_middle_leaves_nothing(
-    web: httpx.Client, sender: Sender, quiet_panel: Served
+    web: httpx.Client, sender: Sender, kept_quiet_panel: Served
 ) -> None:
-    before = names(quiet_panel)
+    before = names(kept_quiet_panel)
     begin(web, sender, "A.TXT")
     sender.send(PROGRAM)
     until(web, lambda found: found["lines"] == 4)
@@ -148,14 +155,14 @@ def test_a_line_that_fails_in_the_middle_leaves_nothing(
     assert found["state"] == "failed"
     assert found["text"].startswith(f"{sender.port} failed: ")
     assert found["text"].endswith(": nothing was kept")
-    assert names(quiet_panel) == before
+    assert names(kept_quiet_panel) == before
 
 
 def test_a_sender_that_stops_in_the_middle_leaves_nothing(
-    web: httpx.Client, sender: Sender, quiet_panel: Served, monkeypatch: pytest.MonkeyPatch
+    web: httpx.Client, sender: Sender, kept_quiet_panel: Served, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(receptions, "PATIENCE", Patience(amid_s=0.2))
-    before = names(quiet_panel)
+    before = names(kept_quiet_panel)
     begin(web, sender, "A.TXT")
     sender.send(PROGRAM)
     found = until(web, ended)
@@ -163,7 +170,7 @@ def test_a_sender_that_stops_in_the_middle_leaves_nothing(
     assert (found["state"], found["text"]) == (
         "failed", f"{sender.port}: {why}: nothing was kept",
     )  # fmt: skip
-    assert names(quiet_panel) == before
+    assert names(kept_quiet_panel) == before
 
 
 @pytest.mark.parametrize(
@@ -202,9 +209,9 @@ def test_a_port_that_cannot_be_opened_leaves_the_last_reception_as_it_was(
 
 
 def test_the_line_of_the_card_is_not_read(
-    web: httpx.Client, sender: Sender, quiet_panel: Served
+    web: httpx.Client, sender: Sender, kept_quiet_panel: Served
 ) -> None:
-    panel = quiet_panel.panel
+    panel = kept_quiet_panel.panel
     own = panel.installation
     panel.installation = Installation.at(sender.port, own.store, own.programs)
     answer = begin(web, sender, "A.TXT")
@@ -213,9 +220,9 @@ def test_the_line_of_the_card_is_not_read(
 
 
 def test_receiving_needs_the_role_operate(
-    web: httpx.Client, sender: Sender, quiet_panel: Served
+    web: httpx.Client, sender: Sender, kept_quiet_panel: Served
 ) -> None:
-    accounts = quiet_panel.panel.accounts
+    accounts = kept_quiet_panel.panel.accounts
     for role in (Role.VIEW, Role.OPERATE):
         accounts.set_password(role, "a password")
         log_in = {"role": role.word, "password": "a password"}
