@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from tests.mill.shop import PULSES, Shop, at, end, line
 
 from openacr.cnc import canonical as c
+from openacr.engine.samples import Sample
+from openacr.engine.watches import Watched
 from openacr.map import numbers as n
 from openacr.mill.config.overrides import Override
 from openacr.mill.run.lifecycle import Options
@@ -80,20 +82,29 @@ def follow(
     limit_s: float = 60.0,
 ) -> Reals:
     """Where X Y Z are commanded to stand, tick by tick, with what is done at which second."""
-    rows = [n.AXF_BASE + axis * n.AXF_STRIDE + n.AXF_PSP_CNT for axis in range(3)]
-    F, places, left = shop.controller.memory.F, [], list(actions)
     if entries:
         shop.start(*entries, options=options)
+    return recorded(shop, 3, actions, limit_s) / PULSES
+
+
+def recorded(
+    shop: Shop, axes: int, actions: Sequence[tuple[float, Action]], limit_s: float = 60.0
+) -> Reals:
+    """Where axes are commanded to stand in a run, tick by tick [pulses]."""
+    card, left, ticks = shop.controller, list(actions), 0
+    rows = [n.AXF_BASE + axis * n.AXF_STRIDE + n.AXF_PSP_CNT for axis in range(axes)]
+    card.record(samples=[Sample(Watched.FP64, row) for row in rows])
     while shop.runner.is_busy or left:
-        for _ in range(TICKS):
-            shop.controller.advance(1)
-            places.append([F[row] / PULSES for row in rows])
-        now_s = len(places) * shop.controller.period_s
+        card.advance(TICKS)
+        ticks += TICKS
+        now_s = ticks * card.period_s
         assert now_s < limit_s, shop.runner.state
         while left and left[0][0] <= now_s:
             left.pop(0)[1](shop)
         shop.runner.step()
-    return np.array(places)
+    found: Reals = card.trace().values
+    card.end_record()
+    return found
 
 
 def highest(places: Reals, period_s: float, every: int = 1) -> tuple[float, float, float]:

@@ -4,12 +4,21 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from tests.mill.planned import ACCEL, FEED, JERK, SPEED, TOLERANCE, Action, Reals, planned_shop
+from tests.mill.planned import (
+    ACCEL,
+    FEED,
+    JERK,
+    SPEED,
+    TOLERANCE,
+    Action,
+    Reals,
+    planned_shop,
+    recorded,
+)
 from tests.mill.shop import PULSES, Shop, end, src
 from tests.trajectory.measures import off
 
 from openacr.cnc import canonical as c
-from openacr.map import numbers as n
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.arcs import along
 from openacr.mill.plan.geometry import weights
@@ -99,19 +108,7 @@ def counts(program: Sequence[c.Entry], scales: Reals = SCALES) -> list[float]:
 
 def follow(shop: Shop, *actions: tuple[float, Action], limit_s: float = 30.0) -> Reals:
     """Where X Y Z A are commanded to stand, tick by tick, with what is done at which second."""
-    rows = [n.AXF_BASE + axis * n.AXF_STRIDE + n.AXF_PSP_CNT for axis in range(A + 1)]
-    F, places, left = shop.controller.memory.F, [], list(actions)
-    while shop.runner.is_busy or left:
-        for _ in range(10):
-            shop.controller.advance(1)
-            places.append([F[row] for row in rows])
-        now_s = len(places) * shop.controller.period_s
-        assert now_s < limit_s, shop.runner.state
-        while left and left[0][0] <= now_s:
-            left.pop(0)[1](shop)
-        shop.runner.step()
-    found: Reals = np.array(places) / scales_of(shop)
-    return found
+    return recorded(shop, A + 1, actions, limit_s) / scales_of(shop)
 
 
 def assert_limits(places: Reals, period_s: float) -> None:

@@ -40,7 +40,7 @@ def test_with_memory_for_the_buffer_a_late_host_brings_it_to_rest_within_the_lim
     for late_s in (0.1, 0.25, 0.6):
         host.silent(late_s)
         host.live(0.6)
-    host.live(3.0)
+    host.finish()
     _, accel, jerk = highest(host.places, host.card.period_s)
     assert accel <= ACCEL * (1 + 1e-4)
     assert jerk <= JERK * (1 + ROUNDING)

@@ -87,22 +87,3 @@ def test_g88_stops_the_spindle_and_waits_for_a_retract_by_hand(level: str, z: in
             shop.runner.start()
     shop.until(State.IDLE)
     assert lowest > 0.0  # it is not sent back down
-
-
-@pytest.mark.req("MILL-G87")
-def test_g87_bores_back_with_a_shifted_and_oriented_spindle() -> None:
-    shop = Shop(P800_012=46, P800_013=12, P800_005=40, P250_142=0)
-    shop.controller.set_input(12, True)
-    shop.load("G90 F300 G0 Z1\nM3 S500\nG87 X1 Z-.2 R-.6 Q.1\nG80\nM2\n$I CYCLES.TXT\n")
-    shifted, cut = set(), []
-    while shop.runner.is_busy:
-        shop.pass_time(0.005)
-        x, _, z = shop.place()
-        if -0.55 < z < 0.9:
-            shifted.add((round(x, 2), bool(shop.controller.bit[46])))
-            if shop.controller.bit[40] and x == 1.0:
-                cut.append(z)
-    assert (1.1, True) in shifted or (0.9, True) in shifted  # in and out beside the hole
-    assert cut == sorted(cut)  # fed upwards
-    assert max(cut) == pytest.approx(-0.2, abs=2e-3)
-    assert shop.pulses() == (10000, 0, 10000)

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tests.mill.planned import motion_s
+from tests.mill.planned import motion_s, recorded
 from tests.mill.prediction import predicted
 from tests.mill.shop import PULSES, Shop, at, end, line, rapid, src
 from tests.search import sparse
@@ -16,7 +16,6 @@ from tests.search import sparse
 from openacr.cnc import canonical as c
 from openacr.cnc.loading.load import load
 from openacr.controller import Controller
-from openacr.map import numbers as n
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.encoding import Encoder
 from openacr.mill.run.lifecycle import State
@@ -25,22 +24,14 @@ from openacr.sysvar import Store
 from openacr.sysvar.tabs import AXIS, SPEEDS
 
 ACCEL = 100.0  # units/s2 of feed moves
-LOOK_TICKS = 10
 Reals = NDArray[np.float64]
 Point = tuple[float, float]
 
 
 def followed(shop: Shop, *entries: c.Entry) -> Reals:
     """Where X and Y are commanded to stand, tick by tick."""
-    rows = [n.AXF_BASE + axis * n.AXF_STRIDE + n.AXF_PSP_CNT for axis in (0, 1)]
-    F, places = shop.controller.memory.F, []
     shop.start(*entries)
-    while shop.runner.is_busy:
-        for _ in range(LOOK_TICKS):
-            shop.controller.advance(1)
-            places.append([F[row] / PULSES for row in rows])
-        shop.runner.step()
-    return np.array(places)
+    return recorded(shop, 2, ()) / PULSES
 
 
 def lines(points: Sequence[Point], feed: float = 900.0, **pace: object) -> list[c.Entry]:

@@ -29,7 +29,7 @@ from openacr.map import numbers as n
 from openacr.mill.config.curves import PERIOD_S, can_plan
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.planned_path import PlannedPath
-from openacr.mill.run.lifecycle import Options, State
+from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import GENERAL, SPEEDS
@@ -198,17 +198,6 @@ def test_notes_act_when_their_move_is_done() -> None:
     first, second, *others = square()
     follow(shop, first, second, c.Say(src(2), "half"), *others)
     assert shop.said == ["half"]
-
-
-def test_single_block_rests_at_the_end_of_every_block() -> None:
-    shop = planned_shop()
-    blocks = [each for e in square()[:-1] for each in (e, c.BlockEnd(e.source))]
-    shop.start(*blocks, end(), options=Options(is_single=True))
-    for x, y in SQUARE:
-        assert shop.until(State.HOLD) is State.HOLD
-        assert shop.place() == (x, y, 0.0)
-        shop.runner.start()
-    assert shop.until(State.IDLE) is State.IDLE
 
 
 def test_the_card_never_runs_out_of_points() -> None:

@@ -1,7 +1,5 @@
 """Feed hold, override, abort and losses while a planned curve is on the card."""
 
-import random
-
 import numpy as np
 import pytest
 from tests.mill.planned import (
@@ -10,7 +8,6 @@ from tests.mill.planned import (
     SPEED,
     SQUARE,
     TOLERANCE,
-    feed,
     follow,
     go_on,
     highest,
@@ -22,8 +19,7 @@ from tests.mill.planned import (
     stop,
     wave,
 )
-from tests.mill.shop import Shop, end, src
-from tests.search import sparse
+from tests.mill.shop import Shop, end
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.overrides import Override
@@ -56,16 +52,6 @@ def test_a_hold_rests_within_the_limits_and_the_path_goes_on(at_s: float) -> Non
     assert first - at_s <= 0.35  # the hold itself, what is on the card, and two polls
 
 
-@pytest.mark.parametrize("percent", [93.0, 97.0, 99.0])
-def test_an_override_just_below_100_percent_is_the_speed_of_the_run(percent: float) -> None:
-    shop = planned_shop(**{f"P{FOV.percents[9]}": percent})  # 90 by default
-    places = follow(shop, *square(), actions=[(0.0, feed(percent))])
-    limits(places, shop)
-    speeds = np.linalg.norm(np.diff(places, axis=0), axis=1) / shop.controller.period_s
-    assert speeds.max() == pytest.approx(percent * SPEED / 100, rel=1e-3)
-    assert shop.pulses() == (0, 0, 0)
-
-
 def test_two_holds_in_one_program() -> None:
     shop = planned_shop()
     actions = [(0.2, stop), (0.7, go_on), (1.1, stop), (1.6, go_on)]
@@ -87,21 +73,6 @@ def test_a_hold_is_over_only_when_the_card_rests() -> None:
     actions = [(0.25, stop), (0.3, refuse), (0.8, refuse), (0.9, go_on)]
     follow(shop, *square(), actions=actions)
     assert states == [False, True]
-
-
-@pytest.mark.parametrize("seed", sparse(range(6), 3))
-def test_overrides_of_any_course_keep_the_limits(seed: int) -> None:
-    chance, now_s, actions = random.Random(seed), 0.1, []
-    clicks = [10.0, 30.0, 50.0, 70.0, 100.0]
-    shop = planned_shop()
-    offered = {shop.store.read(cell) for cell in FOV.percents}
-    for _ in range(12):
-        actions.append((now_s, feed(chance.choice([p for p in clicks if p in offered]))))
-        now_s += chance.uniform(0.03, 0.4)
-    places = follow(shop, *square(), actions=[*actions, (now_s, feed(100.0))])
-    limits(places, shop)
-    assert shop.pulses() == (0, 0, 0)
-    assert off_path(places, SQUARE) <= TOLERANCE + 0.002
 
 
 def test_an_override_scales_the_time_of_the_curve() -> None:
@@ -151,40 +122,6 @@ def test_a_hold_of_the_card_itself_is_no_jump() -> None:
     )  # fmt: skip
     assert shop.pulses() == (0, 0, 0)
     assert highest(places, shop.controller.period_s)[1] < 3 * ACCEL
-
-
-def test_the_path_is_traced_back_in_a_hold() -> None:
-    shop = planned_shop()
-    seen: list[tuple[float, ...]] = []
-
-    def back(shop: Shop) -> None:
-        shop.runner.trace(-1)
-
-    def halt(shop: Shop) -> None:
-        shop.runner.trace(0)
-
-    def note(shop: Shop) -> None:
-        seen.append(shop.place())
-
-    places = follow(
-        shop, *square(), actions=[(0.6, stop), (1.0, note), (1.1, back), (2.2, halt), (2.6, note),
-                                  (2.7, go_on)],
-    )  # fmt: skip
-    assert shop.pulses() == (0, 0, 0)
-    assert off_path(places, SQUARE) <= 2 * TOLERANCE
-    assert seen[0] != seen[1]
-
-
-def test_a_dwell_a_stop_and_a_probe_come_between_curves() -> None:
-    shop = planned_shop()
-    entries: list[c.Entry] = [*path(SQUARE[:1]), c.Dwell(src(1), 0.05), *path(SQUARE[1:2]),
-               c.Stop(src(2), c.Pause.STOP), *path(SQUARE[2:]), end()]  # fmt: skip
-    shop.start(*entries)
-    assert shop.until(State.HOLD) is State.HOLD
-    assert shop.place() == (30.0, 30.0, 0.0)
-    shop.runner.start()
-    assert shop.until(State.IDLE) is State.IDLE
-    assert shop.pulses() == (0, 0, 0)
 
 
 def test_a_path_that_cannot_be_planned_ends_at_rest_before_that(

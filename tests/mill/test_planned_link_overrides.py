@@ -67,7 +67,7 @@ def test_a_faster_feed_acts_after_what_waits_on_the_card(kind: str, at_s: float)
     host.live(at_s)
     now, waits_s = len(host.places), waiting_s(host)
     turn(host, MOST)
-    host.live(8.0)
+    host.finish()
     faster = np.flatnonzero(speeds(host) > 1.001 * HALF)[0] - now
     acts_s = faster * host.card.period_s
     assert waits_s < acts_s <= waits_s + ON_THE_WAY_S + RISES_S
@@ -101,7 +101,7 @@ def test_a_host_that_is_a_little_late_keeps_path_and_limits_under_any_overrides(
         turn(host, chance.choice([MOST, MOST, 120.0, 100.0, 70.0, 30.0]))
         host.silent(chance.uniform(0.0, 0.06))
     turn(host, 100.0)
-    host.live(12.0)
+    host.finish()
     require_path(host, PATHS[kind])
     require_end(host, PATHS[kind])
 
@@ -120,6 +120,6 @@ def test_a_feed_hold_after_a_faster_feed_keeps_path_and_limits(kind: str, hold_s
     still = np.flatnonzero(speeds(host)[before:] == 0.0)[0] * host.card.period_s
     assert still <= 0.35
     host.session.runner.resume()
-    host.live(8.0)
+    host.finish()
     require_path(host, PATHS[kind], 2 * TOLERANCE)
     require_end(host, PATHS[kind])

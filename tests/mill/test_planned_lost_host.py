@@ -86,6 +86,12 @@ class Host:
             self.silent(TICKS * self.card.period_s)
             self.session.poll()
 
+    def finish(self, limit_s: float = 15.0) -> None:
+        """Poll to the end of the program."""
+        end_s = self.card.time_s + limit_s
+        while self.session.runner.is_busy and self.card.time_s < end_s:
+            self.live(TICKS * self.card.period_s)
+
     def silent(self, seconds: float) -> None:
         """Let the card run alone."""
         self.card.advance(seconds=seconds)
@@ -137,7 +143,7 @@ def test_a_host_that_was_late_goes_on_from_where_the_card_rests() -> None:
     host.live(0.4)
     host.silent(0.9)
     rested = host.places[-1]
-    host.live(6.0)
+    host.finish()
     assert host.session.runner.state is State.IDLE
     assert host.places[-1] == pytest.approx(points[-1], abs=0.5 / PULSES)
     assert math.dist(rested, host.places[-1]) > 1.0
@@ -152,7 +158,7 @@ def test_a_host_that_is_a_little_late_is_not_noticed(points: list[Point]) -> Non
     for _ in range(40):
         host.live(0.03)
         host.silent(0.06)
-    host.live(3.0)
+    host.finish()
     assert host.session.runner.state is State.IDLE
     assert host.said == []
     host.require_limits(points)
@@ -163,7 +169,7 @@ def test_a_host_that_is_late_again_and_again_has_sent_more_ahead(points: list[Po
     for _ in range(40):
         host.live(0.02)
         host.silent(0.12)
-    host.live(3.0)
+    host.finish()
     assert host.session.runner.state is State.IDLE
     assert len(host.said) == 1  # the first time, when it was not known
     host.require_limits(points, 3 * TOLERANCE)  # it went on from beside chords
@@ -171,7 +177,7 @@ def test_a_host_that_is_late_again_and_again_has_sent_more_ahead(points: list[Po
 
 def test_the_end_of_a_path_is_no_lack_of_it(points: list[Point]) -> None:
     host = Host(points)
-    host.live(8.0)
+    host.finish()
     assert (host.session.runner.state, host.said) == (State.IDLE, [])
     assert host.card.p[HOLD_AT] == 0
     assert host.places[-1] == pytest.approx([*(*points[-1], 0.0)[:3]], abs=0.5 / PULSES)

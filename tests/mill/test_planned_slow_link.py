@@ -161,7 +161,7 @@ def test_what_a_host_left_that_was_lost_before_its_curve_began_does_not_bar_the_
     card.p[HOLD_AT] = 1
     host = Host(PATHS["square"], card=card)
     assert not card.bit[INHIBIT]  # the first move may be none of a curve
-    host.live(2.2)
+    host.finish()
     assert host.session.runner.state is State.IDLE
     assert host.said == []
     Limits().require(host.places * PULSES, card.period_s, "to its end")

@@ -46,17 +46,6 @@ def test_a_dry_run_moves_at_trial_speed_and_switches_nothing_on() -> None:
     shop.until(State.IDLE)
 
 
-@pytest.mark.req("MILL-RUN-FEEDDEFAULT")
-@pytest.mark.parametrize(("setup", "speed"), [(0.0, 10.0), (30.0, 30.0)])
-def test_a_program_without_f_runs_at_cut_speed_or_that_of_the_run_setup(
-    setup: float, speed: float
-) -> None:
-    shop = Shop(P100_021=setup)
-    shop.load("G90\nG1 X1\nM2\n")
-    shop.pass_time(0.5)
-    assert shop.controller.axis(0).velocity_ups == pytest.approx(speed / 60, rel=1e-6)
-
-
 @pytest.mark.req("MILL-RUN-BLOCK", "MILL-RUN-BLOCK-MID")
 def test_block_mode_runs_one_block_for_each_start() -> None:
     shop = Shop()
@@ -168,19 +157,6 @@ def test_tangent_moves_run_into_each_other_at_the_feed() -> None:
     moving = speeds[30:-40]
     assert min(moving) > 0.95 * 5
     assert max(moving) < 1.01 * 5
-
-
-@pytest.mark.req("MILL-RUN-FOV")
-@pytest.mark.parametrize("code", ["G2", "G3"])
-def test_the_feed_override_acts_on_arcs_of_both_directions(code: str) -> None:
-    shop = Shop()
-    shop.load(f"F240\n{code} X0 Y0 I20 J0\nM2\n")
-    found = []
-    for click in (10, 5, 0, 15):  # 100, 50, 0 and 150 %
-        shop.runner.overrides.choose(Override.FEED, click)
-        shop.pass_time(0.5)
-        found.append(math.hypot(*(shop.controller.axis(n).velocity_ups for n in range(2))))
-    assert found == pytest.approx([4.0, 2.0, 0.0, 6.0])
 
 
 @pytest.mark.req("MILL-RUN-FOV", "MILL-RUN-ROV", "MILL-RUN-MAXSPEED")
