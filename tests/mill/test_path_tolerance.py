@@ -102,7 +102,7 @@ def some_program(seed: int) -> list[c.Entry]:
     return [*entries, end()]
 
 
-@pytest.mark.parametrize("seed", sparse(range(4), 3))
+@pytest.mark.parametrize("seed", sparse(range(4), 4))
 def test_the_prediction_is_what_the_card_takes(seed: int) -> None:
     shop = Shop(P250_010=20.0, P250_011=120.0, P650_003=120.0)
     entries = some_program(seed)

@@ -77,8 +77,7 @@ def test_a_faster_feed_acts_after_what_waits_on_the_card(kind: str, at_s: float)
     assert speeds(host).max() == pytest.approx(0.01 * MOST * HALF, rel=2e-3)
 
 
-@pytest.mark.parametrize("kind", ["leg", "chords", "bent"])
-@pytest.mark.parametrize("percent", [30.0, 70.0])
+@pytest.mark.parametrize(("kind", "percent"), [("leg", 30.0), ("chords", 70.0), ("bent", 30.0)])
 def test_a_slower_feed_acts_after_what_waits_on_the_card(kind: str, percent: float) -> None:
     host = Host(PATHS[kind], 0.5 * FEED)
     host.live(0.627)

@@ -58,7 +58,7 @@ def test_every_axis_keeps_its_limits_ends_on_its_count_and_takes_the_time_predic
 
 @pytest.mark.parametrize(
     ("place", "seconds"),
-    [((30.0, 40.0, 0.0, 50.0), 10.0), ((0.0, 0.0, 0.0, 50.0), 10.0), ((30.0, 40.0), 10.0)],
+    [((30.0, 40.0, 0.0, 50.0), 2.0), ((0.0, 0.0, 0.0, 50.0), 2.0), ((30.0, 40.0), 2.0)],
 )
 def test_the_feed_is_that_of_the_tool_and_of_the_turn_where_it_rests(
     place: tuple[float, ...], seconds: float

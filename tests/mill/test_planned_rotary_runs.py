@@ -42,11 +42,13 @@ def rests_at_s(places: Reals, period_s: float, from_s: float) -> float:
     return float(still[still > from_s][0])
 
 
-@pytest.mark.parametrize("pulses", [10_000.0, 50.0])
+HELD = [("wave", 0.4), ("mixed", 0.3), ("mixed", 0.75), ("turns", 0.5), ("circle", 1.2)]
+
+
 @pytest.mark.parametrize(
-    ("name", "at_s"), [("wave", 0.4), ("mixed", 0.3), ("mixed", 0.75), ("turns", 0.5),
-                       ("circle", 1.2)],
-)  # fmt: skip
+    ("name", "at_s", "pulses"),
+    sparse([(*held, pulses) for held, pulses in itertools.product(HELD, [10_000.0, 50.0])], 3),
+)
 def test_a_hold_among_turns_keeps_the_limits_and_the_path_goes_on(
     name: str, at_s: float, pulses: float
 ) -> None:
@@ -114,7 +116,7 @@ def test_an_override_above_100_percent_ends_at_the_limit_of_the_table(turn_deg: 
     shop = rotary_shop()
     percent = max(shop.store.read(cell) for cell in FOV.percents)
     assert percent > 100.0
-    legs = [(30.0 * (k % 2), 0.0, 0.0, turn_deg * (k % 2)) for k in range(1, 9)]
+    legs = [(30.0 * (k % 2), 0.0, 0.0, turn_deg * (k % 2)) for k in range(1, 5)]
     program: list[c.Entry] = [
         *(line(k, *place, feed=HALF * FEED) for k, place in enumerate(legs)), end()
     ]  # fmt: skip
