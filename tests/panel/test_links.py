@@ -8,11 +8,11 @@ import json
 import os
 import signal
 import struct
-import subprocess
-import sys
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from multiprocessing import Pipe, get_context
+from multiprocessing.connection import Connection
 from typing import Any
 
 import pytest
@@ -22,6 +22,8 @@ from tests.proxy import Proxy
 
 from openacr.panel.control.place import read_place
 from openacr.panel.control.station import Station
+
+LATE_MS = 400.0  # longer than a key is held without a sign
 
 
 def until(holds: Callable[[], bool]) -> None:
@@ -42,6 +44,10 @@ def place(panel: Served) -> tuple[float, ...]:
 def _commanded(station: Station) -> tuple[float, ...]:
     machine = station.machine
     return read_place(machine.runner.settings, machine.machine.read_rows).commanded
+
+
+def tick_ms(panel: Served) -> float:
+    return panel.call(lambda station: station.snapshot.tick_ms)
 
 
 def held(panel: Served) -> bool:
@@ -118,90 +124,82 @@ async def rests_for_good(panel: Served) -> None:
     """No key is held any more, the axis comes to rest and does not begin again."""
     await asyncio.to_thread(until, lambda: not held(panel))
     await asyncio.to_thread(until, lambda: not is_moving(panel))
-    at = place(panel)
-    await asyncio.sleep(0.6)
+    at, end_ms = place(panel), tick_ms(panel) + LATE_MS
+    await asyncio.to_thread(until, lambda: tick_ms(panel) > end_ms)
     assert place(panel) == at
     assert not is_moving(panel)
 
 
 @pytest.mark.parametrize("direction", ["freeze_up", "freeze_down", "freeze"])
 def test_a_frozen_link_stops_the_axis_and_a_late_thaw_moves_nothing(
-    panel: Served, direction: str
+    one_panel: Served, direction: str
 ) -> None:
     async def what(proxy: Proxy, finger: Finger) -> None:
         getattr(proxy, direction)()
-        await rests_for_good(panel)
+        await rests_for_good(one_panel)
         proxy.thaw()  # all the signs that were held back arrive, and the finger is still down
-        await rests_for_good(panel)
+        await rests_for_good(one_panel)
 
-    scene(panel, what)
+    scene(one_panel, what)
 
 
 @pytest.mark.parametrize("how", ["cut", "reset"])
-def test_a_broken_link_stops_the_axis(panel: Served, how: str) -> None:
+def test_a_broken_link_stops_the_axis(one_panel: Served, how: str) -> None:
     async def what(proxy: Proxy, finger: Finger) -> None:
         getattr(proxy, how)()
-        await rests_for_good(panel)
-        assert panel.call(lambda station: station.people.holder) is None
+        await rests_for_good(one_panel)
+        until(lambda: one_panel.call(lambda station: station.people.holder) is None)
 
-    scene(panel, what)
+    scene(one_panel, what)
 
 
-def test_a_release_that_is_lost_stops_the_axis_as_well(panel: Served) -> None:
+def test_a_release_that_is_lost_stops_the_axis_as_well(one_panel: Served) -> None:
     async def what(proxy: Proxy, finger: Finger) -> None:
         proxy.freeze_up()
         await finger.lift()  # its release never arrives
-        await rests_for_good(panel)
+        await rests_for_good(one_panel)
 
-    scene(panel, what)
+    scene(one_panel, what)
 
 
-def test_another_browser_stops_what_a_frozen_one_moves(panel: Served) -> None:
+def test_another_browser_stops_what_a_frozen_one_moves(one_panel: Served) -> None:
     async def what(proxy: Proxy, finger: Finger) -> None:
-        async with websockets.connect(panel.ws_url) as socket:
+        async with websockets.connect(one_panel.ws_url) as socket:
             assert (await Client(socket).do("stop.hold"))["ok"]
-        await rests_for_good(panel)
+        await rests_for_good(one_panel)
 
-    scene(panel, what)
+    scene(one_panel, what)
 
 
-HOLDER = """
-import asyncio, sys
-sys.path.insert(0, sys.argv[2])
-import websockets
-from tests.panel.bench import Client
-from tests.panel.test_links import Finger
+def hold(url: str, pressed: Connection) -> None:
+    """In a process of its own: hold the key until the end of the process."""
 
-async def main():
-    async with websockets.connect(sys.argv[1]) as socket:
-        finger = Finger(Client(socket))
-        await finger.press()
-        print("held", flush=True)
-        await asyncio.sleep(600)
+    async def held() -> None:
+        async with websockets.connect(url) as socket:
+            await Finger(Client(socket)).press()
+            pressed.send(True)
+            await asyncio.sleep(600)
 
-asyncio.run(main())
-"""
+    asyncio.run(held())
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
 def test_a_browser_that_is_killed_or_suspended_stops_the_axis(
-    panel: Served, number: signal.Signals, request: pytest.FixtureRequest
+    one_panel: Served, number: signal.Signals
 ) -> None:
-    root = str(request.config.rootpath)
-    browser = subprocess.Popen(
-        [sys.executable, "-c", HOLDER, panel.ws_url, root],
-        stdout=subprocess.PIPE,
-        env={**os.environ, "PYTHONPATH": f"{root}:{root}/src"},
-    )
+    is_pressed, pressed = Pipe(duplex=False)
+    browser = get_context("spawn").Process(target=hold, args=(one_panel.ws_url, pressed))
+    browser.start()
     try:
-        assert browser.stdout is not None
-        assert browser.stdout.readline() == b"held\n"
-        browser.send_signal(number)
-        asyncio.run(rests_for_good(panel))
+        assert is_pressed.poll(LIMIT_S)
+        assert browser.pid is not None
+        os.kill(browser.pid, number)
+        asyncio.run(rests_for_good(one_panel))
         if number is signal.SIGSTOP:
-            browser.send_signal(signal.SIGCONT)
-            asyncio.run(rests_for_good(panel))
+            os.kill(browser.pid, signal.SIGCONT)
+            asyncio.run(rests_for_good(one_panel))
     finally:
         browser.kill()
-        browser.wait(LIMIT_S)
-        browser.stdout.close()  # type: ignore[union-attr]
+        browser.join(LIMIT_S)
+        for end in (is_pressed, pressed):
+            end.close()

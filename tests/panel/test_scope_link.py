@@ -12,8 +12,10 @@ from tests.panel.remote import Remote
 from tests.proxy import Proxy
 
 from openacr.client import Card
+from openacr.panel.control import live
 from openacr.panel.control.scope import Samples
-from openacr.panel.machine import FOLDER
+from openacr.panel.machine import FOLDER, opened
+from openacr.sysvar.tabs import CONTROL
 
 PROGRAM, COUNT = 5, 200
 CLOCK = "P6916"  # ms
@@ -32,41 +34,45 @@ class Line:
 @pytest.fixture(scope="module")
 def line(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Line]:
     folder = tmp_path_factory.mktemp("card")
-    with ExitStack() as opened:
-        near, far = opened.enter_context(serial_line())
+    with ExitStack() as opens:
+        near, far = opens.enter_context(serial_line())
         words = (*SERVE[1:], "--no-journal", "--serial", far)
         process = Process(SERVE[0], str(FOLDER), *words, store=folder / "card.db")
-        opened.callback(process.close)
+        opens.callback(process.close)
         until(lambda: "ascii=" in process.text, about="the card is served")
         found = re.search(r"ascii=(\S+)", process.text)
         assert found is not None
-        other = opened.enter_context(Card.open(found[1]))
+        other = opens.enter_context(Card.open(found[1]))
         for text in ("DIM LA(2)", f"DIM LA0({COUNT})", f"DIM LA1({COUNT})"):
             other.command(text, program=PROGRAM)
-        proxy = opened.enter_context(Proxy(found[1]))
+        proxy = opens.enter_context(Proxy(found[1]))
         yield Line(process, proxy, near, other)
 
 
-@pytest.fixture
-def reached(line: Line, tmp_path: Path) -> Iterator[Callable[[str], tuple[Remote, list[Samples]]]]:
-    """Stations of the card at an address, with what their scopes record."""
-    with ExitStack() as opened:
+Reach = Callable[..., tuple[Remote, list[Samples]]]
 
-        def reach(address: str) -> tuple[Remote, list[Samples]]:
+
+@pytest.fixture
+def reached(line: Line, tmp_path: Path) -> Iterator[Reach]:
+    """Stations of the card at an address, with what their scopes record."""
+    with ExitStack() as opens:
+
+        def reach(address: str, timeout_s: float = 60.0) -> tuple[Remote, list[Samples]]:
+            with opened(tmp_path / "sysvar.db") as store:
+                store.write(CONTROL.link_timeout, timeout_s)
             remote, records = Remote(address, tmp_path), list[Samples]()
-            opened.callback(remote.close)
-            until(lambda: remote.station.snapshot.number > 0, limit_s=60.0)
+            opens.callback(remote.close)
+            until(lambda: remote.station.snapshot.number > 0)
             remote.station.sampled = records.append
             return remote, records
 
         yield reach
 
 
-def begin(remote: Remote) -> None:
-    """Record the clock of the card and a flag in every millisecond."""
+def begin(remote: Remote) -> bool:
+    """Record the clock of the card and a flag in every millisecond; False while it is lost."""
     args = {"channels": [CLOCK, "BIT1921"], "period_ms": 1, "samples": COUNT, "program": PROGRAM}
-    answer = remote.send("scope.arm", **args)
-    assert answer["ok"], answer
+    return bool(remote.send("scope.arm", **args)["ok"])
 
 
 def require_whole(records: list[Samples]) -> None:
@@ -79,39 +85,47 @@ def require_whole(records: list[Samples]) -> None:
 
 
 @pytest.mark.parametrize("kind", ["tcp", "serial"])
-def test_records_over_a_link_have_every_millisecond(
-    line: Line, reached: Callable[[str], tuple[Remote, list[Samples]]], kind: str
-) -> None:
+def test_records_over_a_link_have_every_millisecond(line: Line, reached: Reach, kind: str) -> None:
     remote, records = reached(line.proxy.address if kind == "tcp" else line.serial)
     assert remote.installation.kind == kind
     line.other.write_bit(1921, True)
-    begin(remote)
-    until(lambda: len(records) > 1, limit_s=60.0, about="two records")
+    assert begin(remote)
+    until(lambda: len(records) > 1, about="two records")
     require_whole(records)
     assert {each for _, block, _ in records for each in block[1].tolist()} == {1.0}
     assert remote.send("scope.stop")["ok"]
     until(lambda: not line.other.read_bit(104), about="the sampler is disarmed")
 
 
-def test_records_go_on_after_a_link_that_was_cut_shortly_and_end_with_a_session(
-    line: Line, reached: Callable[[str], tuple[Remote, list[Samples]]]
-) -> None:
+def test_records_go_on_after_a_link_that_was_cut_shortly(line: Line, reached: Reach) -> None:
     remote, records = reached(line.proxy.address)
-    begin(remote)
-    for _ in range(4):
+    assert begin(remote)
+    for _ in range(3):
         line.proxy.reset()
         records.clear()
-        until(lambda: len(records) > 1, limit_s=60.0, about="records after a reset")
+        until(lambda: len(records) > 1, about="records after a reset")
         require_whole(records)
+
+
+def test_records_end_with_a_session(
+    line: Line, reached: Reach, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(live, "RETRY_S", 0.1)
+    remote, records = reached(line.proxy.address, 1.5)
+    scope = remote.station.scope
+
+    def record() -> None:
+        records.clear()
+        until(
+            lambda: bool(records) or (scope.running is None and begin(remote) and False),
+            about="a record",
+        )
+        require_whole(records)
+
+    record()
     line.proxy.cut()
-    until(lambda: remote.station.lost != "", limit_s=60.0, about="the card is lost")
-    assert remote.station.scope.running is None
+    until(lambda: remote.station.lost != "" and scope.running is None, about="the card is lost")
     line.proxy.mend()
-    until(lambda: remote.station.lost == "", limit_s=90.0, about="the card is found")
-    records.clear()
-    begin(remote)
-    until(lambda: bool(records), limit_s=60.0, about="a record of the new session")
-    require_whole(records)
+    record()  # in the new session
     line.process.close()  # in the middle of a record, or while it is read
-    until(lambda: remote.station.lost != "", limit_s=60.0, about="the card has ended")
-    assert remote.station.scope.running is None
+    until(lambda: remote.station.lost != "" and scope.running is None, about="it has ended")
