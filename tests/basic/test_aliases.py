@@ -5,7 +5,7 @@ from tests.basic.bench import Bench
 
 import openacr.basic.commands.strings  # noqa: F401 - enters its functions
 from openacr.basic.language.aliases import Aliases
-from openacr.basic.language.nodes import Flag, Number, Parameter
+from openacr.basic.language.nodes import Number, Parameter
 from openacr.basic.language.scope import join_names
 from openacr.errors import CardError
 from openacr.lang.lexer import tokens
@@ -34,31 +34,6 @@ def test_names_of_24_letters_are_accepted_and_case_matters(aliases: Aliases) -> 
     aliases.define("A" * 24, P0, "P0")
     aliases.define("a" * 24, P1, "P1")
     assert aliases.nodes == {"A" * 24: P0, "a" * 24: P1}
-
-
-def test_one_more_than_reserved_is_refused(aliases: Aliases) -> None:
-    aliases.define("One", P0, "P0")
-    aliases.define("Two", P1, "P1")
-    with pytest.raises(CardError, match="Out of define space"):
-        aliases.define("Three", P1, "P1")
-    aliases.define("Two", Flag(Number(5)), "BIT5")
-    assert aliases.nodes["Two"] == Flag(Number(5))
-
-
-def test_without_reserved_space_there_is_none() -> None:
-    with pytest.raises(CardError, match="Out of define space"):
-        Aliases(lambda: 0).define("One", P0, "P0")
-
-
-def test_definitions_are_listed_as_typed(aliases: Aliases) -> None:
-    aliases.define("Time", P0, "P0")
-    aliases.define("Count", P1, "P1")
-    assert list(aliases.lines()) == ["#DEFINE Time P0", "#DEFINE Count P1"]
-    assert aliases.line("Count") == "#DEFINE Count P1"
-    assert aliases.line("Other") is None
-    aliases.clear()
-    assert list(aliases.lines()) == []
-    assert not aliases.nodes
 
 
 @pytest.mark.parametrize("name", ["Count1", "a2b3", "Stn12x", "x" * 22 + "24"])

@@ -119,29 +119,9 @@ def test_the_position_of_an_encoder_is_copied_in_every_servo_period() -> None:
 # analog outputs and inputs
 
 
-def test_dac_settings_are_parameters() -> None:
-    made = Bench()
-    assert made.type("DAC0 GAIN : DAC0 OFFSET") == "3276.8|0"
-    made.all("DAC1 GAIN -3276.8 DAC1 OFFSET 0.25")
-    assert [made.p(6418), made.p(6419)] == pytest.approx([-3276.8, 0.25])
-    assert made.type("DAC1 GAIN : DAC1 OFFSET") == "-3276.8|0.25"
-
-
 def test_the_offset_is_added_to_the_output_of_an_axis() -> None:
     made = Bench().all("DAC0 OFFSET 0.5").ticks(2)
     assert made.type("DAC0") == "0.5"
-
-
-def test_a_dac_without_axis_keeps_what_is_written() -> None:
-    made = Bench().all("P6640 = 2.5").ticks(5)
-    assert made.type("DAC15") == "2.5"
-
-
-def test_adc_values_and_settings_are_parameters() -> None:
-    made = Bench()
-    assert made.type("ADC2 GAIN : ADC2 OFFSET") == "10|0"
-    made.all("P6440 = 1.25", "ADC2 GAIN 5 ADC2 OFFSET -1")
-    assert made.type("ADC2 : ADC2 GAIN : ADC2 OFFSET") == "1.25|5|-1"
 
 
 # steppers

@@ -19,14 +19,6 @@ def bench() -> Bench:
 # aliases
 
 
-@pytest.mark.req("ACR-ALIAS-04")
-@pytest.mark.parametrize("name", ["Count1", "my_name", "a,b", "DIM", "BIT"])
-def test_digits_symbols_and_keywords_are_no_alias_names(bench: Bench, name: str) -> None:
-    bench.type("DIM DEF(5)")
-    assert bench.type(f"#DEFINE {name} P0") in ("Illegal name|SYS>", "Syntax error|SYS>")
-    assert bench.type("DEF") == "SYS>"
-
-
 def test_listed_programs_show_aliases_in_their_case(bench: Bench) -> None:
     bench.type("DIM DEF(5)", "#DEFINE EndOfTravel BIT16132", "PROG 0", "10 set EndOfTravel")
     assert bench.type("LIST") == "10 SET EndOfTravel|P00>"
@@ -92,13 +84,6 @@ def test_eplc_without_a_network_card_fails_to_start(bench: Bench) -> None:
         False, False, False, True,
     ]  # fmt: skip
     assert bench.type("EPLC", "EPLC OFF", "EPLC") == "FAILED|SYS>SYS>OFF|SYS>"
-
-
-def test_reboot_restarts_the_card(bench: Bench) -> None:
-    restarted = []
-    bench.system.reboot = lambda: restarted.append(True)
-    bench.type("REBOOT")
-    assert restarted == [True]
 
 
 def test_expansion_boards_are_enabled_by_config(bench: Bench) -> None:

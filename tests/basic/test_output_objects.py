@@ -105,17 +105,6 @@ def test_a_limit_switch_needs_an_array_and_a_long_parameter() -> None:
 # output objects
 
 
-@pytest.mark.req("ACR-CMD-OOP")
-def test_an_output_switches_in_the_servo_period_of_the_crossing() -> None:
-    made = Bench("X").all("PPU X1", "ACC 0 DEC 0 STP 0 VEL 2000", "OOP0 POS (100,200)", "OOP0 ON")
-    made.all("X300")
-    while made.bit(516):
-        made.ticks(1)
-        # Outputs follow the encoder as it was read in this tick.
-        assert made.bit(32) == (100 <= made.p(12290) < 200)
-    assert not made.bit(32)
-
-
 @pytest.mark.parametrize(("count", "last"), [("", True), (",0", True), (",2", False)])
 def test_windows_repeat(count: str, last: bool) -> None:
     made = Bench().all("OOP0 SRC ENC10", f"OOP0 INC (100,50,10{count})", "OOP0 ON")

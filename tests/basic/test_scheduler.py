@@ -7,7 +7,6 @@ from openacr.basic.execute.language_state import put_back, take
 from openacr.basic.vm import scheduler_cy, vm_cy
 from openacr.compiled import counterpart, is_compiled
 
-RUNNING, DWELLING, INHIBITED, TIMEOUT = 1024, 1025, 1026, 1028
 COUNT_FOREVER = ("_a", "P{0}=P{0}+1", "GOTO a")
 
 
@@ -58,43 +57,11 @@ def test_programs_8_to_15_share_one_slice() -> None:
     assert [count(rig, 8), count(rig, 9)] == [pytest.approx(500, abs=15)] * 2
 
 
-def test_dwell_shows_and_lasts() -> None:
-    rig = Rig()
-    start(rig, 0, "DWL 0.1", "SET 40")
-    rig.pass_ticks(20)
-    assert (rig.bit(RUNNING), rig.bit(DWELLING)) == (True, True)
-    rig.pass_ticks(178)
-    assert not rig.bit(40)
-    rig.pass_ticks(12)
-    assert (rig.bit(40), rig.bit(DWELLING), rig.bit(RUNNING)) == (True, False, False)
-
-
 def test_a_dwell_of_nothing_returns_at_once() -> None:
     rig = Rig()
     start(rig, 0, "DWL 0", "DWL -1", "SET 40")
     rig.pass_ticks(4)
     assert rig.bit(40)
-
-
-def test_inh_gives_up_after_its_timeout() -> None:
-    rig = Rig()
-    start(rig, 0, "INH 40 (0.05)", "SET 41")
-    rig.pass_ticks(98)
-    assert not rig.bit(41)
-    rig.pass_ticks(10)
-    assert (rig.bit(41), rig.bit(TIMEOUT), rig.bit(INHIBITED)) == (True, True, False)
-
-
-def test_a_waiting_line_is_answered_when_it_is_done() -> None:
-    rig = Rig()
-    rig.session.echo = 0
-    assert rig.type("DWL 0.1 : PRINT 1") == ""
-    assert rig.session.busy
-    rig.pass_ticks(190)
-    assert rig.sent() == ""
-    rig.pass_ticks(14)
-    assert rig.sent() == "1|P00>"
-    assert not rig.bit(DWELLING)
 
 
 def test_channels_are_served_while_programs_run() -> None:
@@ -107,46 +74,6 @@ def test_channels_are_served_while_programs_run() -> None:
     rig.memory.set_bit(40, True)
     rig.pass_ticks(2)
     assert rig.bit(41)
-
-
-def test_pause_holds_before_the_next_statement_and_resume_goes_on() -> None:
-    rig = Rig()
-    start(rig, 0, *counting(0))
-    rig.pass_ticks(20)
-    rig.type("PAUSE PROG0")
-    rig.pass_ticks(4)
-    held = count(rig, 0)
-    rig.pass_ticks(100)
-    assert count(rig, 0) == held
-    assert rig.bit(1051)
-    rig.type("RESUME PROG0")
-    rig.pass_ticks(20)
-    assert count(rig, 0) > held
-    assert not rig.bit(1051)
-
-
-def test_block_mode_executes_one_line_per_step() -> None:
-    rig = Rig()
-    start(rig, 0, "DWL 0.01", "P0=1 : P1=1", "P0=2", "P0=3")
-    rig.pass_ticks(6)
-    rig.type("BLK PROG0")
-    rig.pass_ticks(40)
-    assert (rig.bit(1043), rig.value("P0")) == (True, "0")
-    rig.type("STEP PROG0")
-    rig.pass_ticks(10)
-    assert (rig.value("P0"), rig.value("P1"), rig.bit(1043)) == ("1", "1", True)
-    rig.type("STEP PROG0")
-    rig.pass_ticks(10)
-    assert rig.value("P0") == "2"
-    rig.type("AUT PROG0")
-    rig.pass_ticks(10)
-    assert (rig.value("P0"), rig.is_running()) == ("3", False)
-
-
-def test_trace_shows_the_number_of_each_line() -> None:
-    rig = Rig()
-    rig.type("TRON PROG0")
-    assert rig.run("PRINT 1 : PRINT 2", "PRINT 3") == "[10][20]1|2|[30]3|[40]"
 
 
 def test_the_line_number_is_a_parameter() -> None:

@@ -15,10 +15,6 @@ def bench() -> Bench:
     return Bench()
 
 
-def test_nothing_is_sent_when_a_host_connects(bench: Bench) -> None:
-    assert bench.sent() == ""
-
-
 @pytest.mark.parametrize(
     "line", ["", "   ", ":", "REM any text: here", "' a comment", "NONSENSE", "P0 = ", "(", '"']
 )
@@ -106,10 +102,6 @@ def test_a_lost_connection_ends_the_line_with_its_rest() -> None:
 # storing
 
 
-def test_a_numbered_line_at_sys_has_no_program_to_go_to(bench: Bench) -> None:
-    assert bench.type("10 VER") == "Unknown command|SYS>"
-
-
 @pytest.mark.parametrize("line", ["0 VER", "1000000 VER", "1.5 VER", "10 20 VER", "10 20"])
 def test_a_line_has_one_number_whole_and_of_six_digits(bench: Bench, line: str) -> None:
     assert bench.type("PROG 0", line, "LIST") == "P00>Syntax error|P00>P00>"
@@ -156,27 +148,7 @@ def test_the_text_of_a_running_program_is_not_replaced(bench: Bench) -> None:
     assert bench.type("PROGRAM", "LIST") == "Program is running|P00>10 VER|P00>"
 
 
-def test_program_at_sys_is_unknown(bench: Bench) -> None:
-    assert bench.type("PROGRAM") == "Unknown command|SYS>"
-
-
 # listening
-
-
-@pytest.mark.req("ACR-CMD-LISTEN")
-def test_a_program_has_as_many_listeners_as_channels_listen_to_it(bench: Bench) -> None:
-    other = bench.system.sessions["STREAM3"]
-    other.connect()
-    bench.type("PROG 2", "LISTEN")
-    other.feed_line("PROG 2")
-    other.feed_line("LISTEN")
-    other.take_output()
-    bench.system.listeners.print(2, "hello\r\n")
-    assert (bench.sent(), other.take_output()) == ("hello|", b"hello\r\n")
-    bench.session.escape()
-    bench.sent()
-    bench.system.listeners.print(2, "again\r\n")
-    assert (bench.sent(), other.take_output()) == ("", b"again\r\n")
 
 
 def test_an_lrun_that_is_refused_gives_the_prompt_back(
@@ -198,15 +170,6 @@ def test_the_prompt_returns_once_when_a_program_followed_with_lrun_ends(bench: B
     bench.system.listeners.ended(0)
     assert bench.sent() == "done|P00>"
     assert bench.session.attention is Attention.COMMANDS
-
-
-def test_several_channels_may_listen_to_one_program(bench: Bench) -> None:
-    other = bench.connect("COM2")
-    bench.type("PROG 1", "LISTEN")
-    bench.type("PROG 1", "LISTEN", on=other)
-    bench.system.listeners.print(1, "both\r\n")
-    assert bench.sent() == "both|"
-    assert bench.sent(other) == "both|"
 
 
 def test_the_other_side_may_end_talk_to_as_well(bench: Bench) -> None:

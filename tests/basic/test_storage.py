@@ -13,7 +13,6 @@ from openacr.map import numbers as at
 from openacr.map.memory import Memory
 
 FACTORY_FREE = 1048576 - 8 * 65536
-SHARES = [f"DIM PROG{program}(65536)" for program in range(8)]
 
 
 @pytest.fixture
@@ -23,14 +22,6 @@ def storage() -> Storage:
 
 def row(storage: Storage, program: int, offset: int) -> int:
     return storage.heap.row(program, offset)
-
-
-def test_a_new_card_shares_half_its_memory_among_eight_programs(storage: Storage) -> None:
-    assert [storage.size(owner) for owner in range(24)] == [65536] * 8 + [0] * 16
-    assert storage.free_system() == FACTORY_FREE
-    assert storage.global_count == 0
-    assert storage.stream_size("COM1") == 256
-    assert list(storage.system_lines()) == SHARES
 
 
 def test_the_first_dim_of_a_program_replaces_its_share(storage: Storage) -> None:
@@ -61,111 +52,12 @@ def test_the_number_of_globals_is_limited(storage: Storage, count: int) -> None:
         storage.dimension_globals(count)
 
 
-def test_aliases_cost_48_bytes_each_and_16_together(storage: Storage) -> None:
-    storage.dimension_defines(20)
-    assert storage.free_system() == FACTORY_FREE - 20 * 48 - 16
-
-
-def test_stream_buffers_can_be_enlarged_and_returned(storage: Storage) -> None:
-    storage.dimension_stream("COM1", 1000)
-    assert storage.stream_size("COM1") == 1000
-    assert storage.memory.bit(1869)
-    assert storage.free_system() == FACTORY_FREE - 1000
-    with pytest.raises(CardError, match="Re-dimensioned block"):
-        storage.dimension_stream("COM1", 1000)
-    storage.clear_stream("COM1")
-    assert storage.stream_size("COM1") == 256
-    assert not storage.memory.bit(1869)
-
-
 def test_a_channel_the_card_lacks_is_an_invalid_device() -> None:
     storage = Storage(Memory(), streams=("COM1",))
     with pytest.raises(CardError, match="Invalid device"):
         storage.dimension_stream("DPCB", 1000)
     with pytest.raises(CardError, match="Invalid device"):
         storage.clear_stream("FIFO")
-
-
-def test_dim_at_sys_lists_what_was_dimensioned(storage: Storage) -> None:
-    storage.dimension_plc(3, 2000)
-    storage.dimension_program(15, 16384)
-    storage.dimension_defines(20)
-    storage.dimension_globals(100)
-    storage.dimension_stream("COM1", 1000)
-    assert list(storage.system_lines()) == [
-        *SHARES, "DIM PROG15(16384)",
-        "DIM PLC3(2000)", "DIM P(100)", "DIM DEF(20)", "DIM COM1(1000)",
-    ]  # fmt: skip
-
-
-def test_system_clear_returns_to_the_factory_allocation(storage: Storage) -> None:
-    storage.dimension_program(0, 8192)
-    storage.dimension_plc(0, 2000)
-    storage.dimension_globals(100)
-    storage.dimension_defines(20)
-    storage.locals.variables(1, "LV", 10)
-    storage.clear_system()
-    assert storage.free_system() == FACTORY_FREE
-    assert list(storage.system_lines()) == SHARES
-    assert storage.free_program(1) == 65536
-    storage.dimension_program(0, 8192)
-    assert storage.size(0) == 8192
-
-
-def test_system_clear_needs_erased_programs(storage: Storage) -> None:
-    storage.set_code_bytes(1, 8)
-    with pytest.raises(CardError, match="Program in memory"):
-        storage.clear_system()
-
-
-@pytest.mark.parametrize(
-    ("name", "count", "cost"), [("LV", 10, 40), ("SV", 10, 40), ("DV", 10, 80)]
-)
-def test_variables_cost_their_size(storage: Storage, name: str, count: int, cost: int) -> None:
-    storage.locals.variables(0, name, count)
-    assert storage.free_program(0) == 65536 - cost
-
-
-def test_strings_and_arrays_cost_what_the_table_says(storage: Storage) -> None:
-    free = [storage.free_program(0)]
-
-    def spent() -> int:
-        free.append(storage.free_program(0))
-        return free[-2] - free[-1]
-
-    storage.locals.string_variables(0, 10, 80)
-    assert spent() == 10 * (4 + 80)
-    storage.locals.references(0, "LA", 3)
-    assert spent() == 4 * 3 + 4
-    storage.locals.array(0, "LA", 0, 100)
-    assert spent() == 4 * 100 + 4
-    storage.locals.references(0, "SA", 1)
-    storage.locals.array(0, "SA", 0, 7)
-    assert spent() == 8 + 4 * 7 + 4
-    storage.locals.references(0, "DA", 1)
-    storage.locals.array(0, "DA", 0, 7)
-    assert spent() == 8 + 8 * 7 + 4
-    storage.locals.references(0, "$A", 2)
-    storage.locals.string_array(0, 1, 5, 20)
-    assert spent() == 12 + 5 * 20
-    storage.locals.move_buffer(0, 10)
-    assert spent() == 1360
-
-
-def test_dim_at_a_program_lists_its_locals(storage: Storage) -> None:
-    storage.locals.string_variables(2, 10, 80)
-    storage.locals.variables(2, "DV", 5)
-    storage.locals.variables(2, "LV", 3)
-    storage.locals.references(2, "LA", 2)
-    storage.locals.array(2, "LA", 1, 500)
-    storage.locals.references(2, "$A", 1)
-    storage.locals.string_array(2, 0, 4, 16)
-    storage.locals.move_buffer(2, 7)
-    assert list(storage.locals.lines(2)) == [
-        "DIM LV(3)", "DIM DV(5)", "DIM $V(10,80)", "DIM LA(2)", "DIM LA1(500)",
-        "DIM $A(1)", "DIM $A0(4,16)", "DIM MBUF(7)",
-    ]  # fmt: skip
-    assert list(storage.locals.lines(3)) == []
 
 
 def test_a_refused_dim_leaves_the_old_state_usable(storage: Storage) -> None:
@@ -217,22 +109,6 @@ def test_text_is_refused_beyond_the_memory_of_the_program(storage: Storage) -> N
         storage.set_code_bytes(0, 65540)
     storage.set_code_bytes(0, 4)
     assert storage.free_program(0) == 65532
-
-
-def test_open_flow_levels_take_four_bytes_each(storage: Storage) -> None:
-    storage.memory.I[at.THI_BASE + at.THI_DEPTH] = 3
-    assert storage.free_program(0) == 65536 - 12
-
-
-def test_program_clear_frees_locals_of_that_program_only(storage: Storage) -> None:
-    for program in (0, 1):
-        storage.locals.variables(program, "LV", 10)
-        storage.locals.string_variables(program, 1, 10)
-    storage.locals.clear(0)
-    assert storage.free_program(0) == 65536
-    assert storage.free_program(1) == 65536 - 40 - 14
-    storage.locals.variables(0, "LV", 20)
-    storage.locals.string_variables(0, 3, 5)
 
 
 def test_strings_are_cut_to_their_dimensioned_length(storage: Storage) -> None:

@@ -165,12 +165,6 @@ def test_hsint_passes_a_new_end_that_is_too_near_and_returns() -> None:
     assert made.psp(0) == captured + 100
 
 
-def test_hsint_without_capture_goes_to_its_target() -> None:
-    made = bench("HSINT X(11,4,3)")
-    made.until_clear(IN_MOTION)
-    assert (made.psp(0), made.bit(REGISTERED)) == (4000, False)
-
-
 def test_a_response_period_of_minus_1_never_turns_hsint() -> None:
     made = hsint(bench(f"P{RESPONSE} = -1"), "11,12,3", at_s=0.5)
     made.until_clear(IN_MOTION)
