@@ -4,7 +4,7 @@ import pytest
 from tests.basic.machine import Machine
 
 PROGRAM_1 = 1024 + 32
-RUNNING, MODIFIED, RUN_REQUEST, HALT_REQUEST = (PROGRAM_1 + n for n in (0, 5, 8, 9))
+RUNNING = PROGRAM_1
 STEP_CONTROL, PAUSE_CONTROL, PAUSE_MODE, PAUSE_WAITING = (PROGRAM_1 + n for n in (22, 24, 26, 27))
 
 

@@ -6,9 +6,9 @@ from tests.basic.motion_bench import Bench
 from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
-CURRENT, ACTUAL, CAPTURE = 12288, 12290, 12292
+CURRENT, ACTUAL = 12288, 12290
 PSP, JOG = 12294, 12297
-CAPTURED, IN_MOTION = 777, 516
+IN_MOTION = 516
 MOVING = "Not valid while in motion"
 
 

@@ -16,7 +16,7 @@ from openacr.motion.path import moves
 from openacr.motion.path.move_request import Target
 
 IN_MOTION = 516
-MBUF_MODE, LOOK_MODE, USER_RAM, NEGLECT, SLOWDOWN = (5888 + n for n in (4, 5, 10, 11, 1))
+LOOK_MODE, NEGLECT, SLOWDOWN = (5888 + n for n in (5, 11, 1))
 FILLED = at.MA_BASE + at.MA_MBUF_FILLED
 VELOCITY = at.MA_BASE + at.MA_VECTOR_VELOCITY
 ANGLE = at.MA_BASE + at.MA_LOOK_AHEAD_VECTOR_ANGLE

@@ -3,7 +3,7 @@
 from tests.basic.motion_bench import Bench
 
 INDEX, TRIGGER_INDEX, PERIOD = 6912, 6913, 6915
-ARMED, RUNNING, MODE, LATCHED = 104, 105, 106, 107
+ARMED, RUNNING, MODE = 104, 105, 106
 
 
 def bench(count: int, *lines: str) -> Bench:

@@ -16,7 +16,7 @@ from openacr.protocol.events import ControlKey
 from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code0, Code1, Code3
 
-IN_MOTION, RAPID_MODES, SPIRAL, BLOCK_SKIP_CHECK, BLOCK_SKIP_INPUT = 516, 2053, 2072, 2048, 2049
+IN_MOTION, SPIRAL = 516, 2072
 VELOCITY, COUNTER = 8193, 8208
 SET_UP = (
     "PROG0",

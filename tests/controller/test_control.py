@@ -1,35 +1,11 @@
 """Programs and motion started, held and ended from a terminal, and the card restarted."""
 
 import pytest
-from tests.controller.hosts import X_AND_Y, Host, connected, store
+from tests.controller.hosts import X_AND_Y, Host, connected
 
 from openacr.controller import Controller
 from openacr.models import MODELS
 from openacr.plant import schema
-
-PAUSED = 1048
-
-
-def shuttle(host: Host) -> None:
-    """A program that is always under distance; it counts its rounds in P0."""
-    host.type("SYS", "DIM P(10)", "PROG0")
-    store(host, "_L", "X50", "X0", "P0=P0+1", "GOTO L")
-    host.type("RUN")
-    host.card.advance(400)
-    assert host.ask("?BIT516") == "-1"
-
-
-def test_halt_stops_a_plc(axes: Host) -> None:
-    axes.type("SYS", "DIM PLC0(1000)", "PLC0")
-    axes.type("10 LD 40", "20 OUT 41")
-    axes.type("RUN")
-    axes.card.bit[40] = True
-    axes.card.advance(200)
-    assert axes.card.bit[41]
-    axes.type("SYS", "HALT PLC0")
-    axes.card.bit[40] = False
-    axes.card.advance(200)
-    assert axes.card.bit[41]
 
 
 @pytest.mark.req("ACR-KAMR-13", "ACR-KAMR-41", "ACR-KAMR-43")
@@ -79,20 +55,6 @@ def test_a_limit_switch_stops_the_axis_and_the_host_gets_it_going_again() -> Non
     host.card.advance(4000)
     assert int(host.ask("?P4600")) & 7 == 0
     assert host.ask("?BIT8467") == "0"
-
-
-@pytest.mark.req("ACR-RST-01", "ACR-IMM-05")
-def test_a_reboot_ends_everything_and_forgets_programs_without_a_battery(axes: Host) -> None:
-    shuttle(axes)
-    axes.type("SET 32")
-    other = Host(axes.card)
-    other.type("PROG5")
-    axes.send("REBOOT\r")
-    axes.heard()
-    axes.card.advance(1000)
-    assert axes.asks("?BIT1024", "?BIT32", "?BIT516", "?P4097") == ["0"] * 4
-    assert other.send("\r") == "|SYS>"
-    assert axes.type("PROG0", "LIST") == "P00>P00>"
 
 
 def test_a_plc_reads_names_with_digits() -> None:

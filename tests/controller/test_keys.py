@@ -96,21 +96,6 @@ def test_an_open_request_opens_nothing(axes: Host) -> None:
     assert line.ask("?1") == "1"
 
 
-@pytest.mark.parametrize("listen", ["LRUN", "LISTEN"])
-def test_esc_ends_listening_with_exactly_one_prompt(axes: Host, listen: str) -> None:
-    store(axes, "_L", 'PRINT "tick"', "DWL 0.1", "GOTO L")
-    if listen == "LISTEN":
-        axes.type("RUN")
-    assert axes.type(listen) == ""
-    assert "tick|" in axes.after(500)
-    assert axes.send(ESC) == "|P00>"
-    assert axes.after(1000) == ""
-    assert axes.ask("?BIT516") == "0"
-    assert axes.card.system.control.is_running(0)
-    assert axes.type("HALT") == "P00>"
-    assert not axes.card.system.control.is_running(0)
-
-
 def test_esc_while_no_program_listens_discards_the_typed_text(host: Host) -> None:
     assert host.send(f"SET 32{ESC}") == "SET 32"
     assert host.send("\r") == "|SYS>"
@@ -145,13 +130,3 @@ def test_a_command_begun_while_a_program_ends_is_typed_on_at_the_prompt(axes: Ho
     assert axes.send("1\r") == "1|2|P00>"
     store(axes, "PRINT KBHIT")
     assert axes.type("LRUN") + axes.after(100) == "0|P00>"
-
-
-def test_what_is_typed_in_talk_to_arrives_at_once(axes: Host) -> None:
-    other = Host(axes.card)
-    other.send("PROG1\r")
-    assert axes.send("TALK TO STREAM3\r") == "TALK TO STREAM3|"
-    assert (axes.send("hello"), other.heard()) == ("", "hello")
-    assert (other.send("hi\r"), axes.heard()) == ("", "hi\r")
-    assert (other.send(ESC), axes.heard()) == ("|P01>", "|P00>")
-    assert (axes.ask("?1"), other.ask("?2")) == ("1", "2")

@@ -26,12 +26,6 @@ def test_the_jog_flag_clears_when_the_position_is_final(axes: Host) -> None:
     assert axes.asks("?P12294", "?P12290", "?P12288") == ["1500", "1500", "0"]
 
 
-def test_a_second_move_is_queued_and_answered_at_once(axes: Host) -> None:
-    assert axes.type("X10", "X20") == "P00>P00>"
-    axes.card.advance(8000)
-    assert axes.ask("?P12288") == "20000"
-
-
 def test_jog_abs_counts_in_the_jog_offset(axes: Host) -> None:
     axes.type("X10")
     axes.card.advance(4000)

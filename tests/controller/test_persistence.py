@@ -18,10 +18,6 @@ SETTINGS = (
     "ACC 123.456", "VEL 7", "JOG VEL X3.5", "EXC X(0.5,-0.25)", "HLIM X3", "SLM X(9,-1)",
     "DAC1 GAIN 3000", "MULT X-4", "P32768=9", "P33024=3", "NOTCH X(100,20)", "VECDEF X0",
 )  # fmt: skip
-QUERIES = (
-    "?PPU X", "PGAIN X", "ACC", "VEL", "JOG VEL X", "EXC X", "HLIM X", "SLM X", "DAC1 GAIN",
-    "MULT X", "?P32768", "?P33024", "NOTCH X", "VECDEF X",
-)  # fmt: skip
 FACTORY_DEFAULT = (
     "HALT ALL", "NEW ALL", "DETACH ALL", "CLEAR", "ERASE", "FLASH ERASE", "CONFIG CLEAR",
     "CLEAR DPCB", "CLEAR FIFO", "CLEAR COM1", "CLEAR COM2", "BRESET",
@@ -48,11 +44,6 @@ def power_up(tmp_path: Path) -> PowerUp:
         return Host(cards[-1])
 
     return switch
-
-
-def answers(host: Host) -> list[str]:
-    host.type("PROG0")
-    return [host.type(query) for query in QUERIES]
 
 
 def notices(host: Host) -> str:
@@ -240,13 +231,6 @@ def test_breset_takes_the_battery_away_until_power_is_removed(power_up: PowerUp)
     host.type("10 PRINT 4", "REBOOT", "PROG0")
     assert host.type("LIST") == "10 PRINT 4|P00>"
     assert power_up().type("PROG0", "LIST") == "P00>10 PRINT 4|P00>"
-
-
-# FIRMWARE and PROM
-
-
-def _flags(host: Host) -> list[bool]:
-    return [host.card.bit[number] for number in range(5656, 5661)]
 
 
 # damage

@@ -6,11 +6,6 @@ import pytest
 from tests.controller.hosts import Host
 
 
-def test_bits_print_minus_one_and_zero(host: Host) -> None:
-    host.type("SET 32")
-    assert host.asks("?BIT32", "?BIT33") == ["-1", "0"]
-
-
 def test_positions_and_flag_words_are_plain_integers(axes: Host) -> None:
     axes.type("X-12.345")
     axes.card.advance(2000)
@@ -18,11 +13,6 @@ def test_positions_and_flag_words_are_plain_integers(axes: Host) -> None:
     for value in axes.asks(*(f"?P{number}" for number in integers)):
         assert re.fullmatch(r"-?\d+", value)
     assert axes.ask("?P12288") == "-12345"
-
-
-def test_flag_words_are_signed(host: Host) -> None:
-    host.type("SET 63")
-    assert host.ask("?P4097") == "-2147483648"
 
 
 def test_floats_print_with_the_digits_they_need(axes: Host) -> None:
@@ -38,11 +28,6 @@ def test_a_float_of_the_system_has_seven_digits(host: Host) -> None:
     host.card.p[8192 + 21] = 1 / 3  # any FP32 parameter
     value = host.ask("?P8213")
     assert len(value.lstrip("0.")) <= 7
-
-
-def test_question_mark_and_print_are_the_same(axes: Host) -> None:
-    assert axes.asks("?P12288", "? P12288", "PRINT P12288", "print p12288") == ["0"] * 4
-    assert axes.asks("? ACC", "?ACC", "PRINT ACC") == ["1000"] * 3
 
 
 def test_drive_reports_begin_with_the_words_hosts_look_for(axes: Host) -> None:
@@ -62,25 +47,6 @@ def test_drives_are_switched_in_all_forms(axes: Host, line: str) -> None:
     axes.type(line)
     axes.card.advance(100)
     assert axes.ask("DRIVE X").startswith("DRIVE ON")
-
-
-def test_attach_alone_prints_the_attachments(axes: Host) -> None:
-    assert axes.type("ATTACH") == (
-        'ATTACH MASTER0|ATTACH SLAVE0 AXIS0 "X"|ATTACH SLAVE1 AXIS1 "Y"|P00>'
-    )
-    assert axes.type("PROG5", "ATTACH") == "P05>P05>"
-
-
-def test_print_joins_text_and_numbers_without_blanks(host: Host) -> None:
-    host.type("DIM P(4)", "P0=1.5")
-    assert host.ask('PRINT "A=";P0;" B"') == "A=1.5 B"
-
-
-def test_aliases_can_be_asked_for(host: Host) -> None:
-    host.type("DIM P(4)", "DIM DEF(4)", "#DEFINE started P3", "#DEFINE lamp BIT32")
-    host.type("P3=7", "SET lamp")
-    assert host.asks("? started", "?lamp", "?P3") == ["7", "-1", "7"]
-    assert host.ask("?STARTED") == "Undefined symbol"
 
 
 def test_errors_stand_on_a_line_of_their_own(axes: Host) -> None:

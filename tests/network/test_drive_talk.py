@@ -17,7 +17,7 @@ from openacr.map.tables.drivetalk import CONFIGURATION, STATUS_ITEMS
 from openacr.plant.aries import SETTINGS
 
 AUTO, GET, SEND, ERRORL, DATA = range(5)
-TPE, STATUS_1, STATUS_2 = 9, 28, 29
+TPE, STATUS_1 = 9, 28
 
 
 @pytest.mark.req("ACR-DTALK-01")

@@ -18,9 +18,6 @@ def rack() -> Rack:
     return Rack()
 
 
-# logic
-
-
 # scans
 
 

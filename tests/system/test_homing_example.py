@@ -18,8 +18,8 @@ initial = 0.0
 marker = {marker}
 travel = [-20.0, 20.0]
 drive = {{ mode = "ideal", revs_per_s_per_volt = 25.0 }}
-positive_limit = {{ at = 15.0{contact} }}
-negative_limit = {{ at = -15.0{contact} }}
+positive_limit = {{ at = 15.0 }}
+negative_limit = {{ at = -15.0 }}
 {home}
 """
 
@@ -54,9 +54,9 @@ LISTING = (
 )
 
 
-def console(x_home: str, y_home: str, contact: str = "") -> Console:
-    text = AXIS.format(number=0, name="X", marker=0.3, home=x_home, contact=contact)
-    text += AXIS.format(number=1, name="Y", marker=0.3, home=y_home, contact=contact)
+def console(x_home: str, y_home: str) -> Console:
+    text = AXIS.format(number=0, name="X", marker=0.3, home=x_home)
+    text += AXIS.format(number=1, name="Y", marker=0.3, home=y_home)
     made = Console()
     made.card = Controller(world=parse_world(text))
     made.card.send("ECHO 4\r")
@@ -79,43 +79,6 @@ def test_both_axes_home_and_x_then_stands_on_its_marker() -> None:
     assert stands_u % 1.0 == pytest.approx(0.3, abs=1.5 / 4000)  # on the marker, not elsewhere
     assert -4.0 < stands_u < -2.0  # within one revolution of the home switch
     assert card.p[12544] == 0  # Y: rest position of the search is 0
-
-
-GUIDE = (
-    "JOG VEL X10 Y10",
-    "JOG ACC X100 Y100",
-    "JOG DEC X100 Y100",
-    "HLBIT X0 Y3",
-    "HLIM X3 Y3",
-    "JOG HOMVF X0.1 Y0.1",
-    "SET 16144 SET 16145",
-    "SET 16176 SET 16177",
-    "CLR 16152 CLR 16184",
-    "CLR 16153 CLR 16185",
-    "CLR 16154 CLR 16186",
-    "JOG HOME X-1 Y1",
-    "WHILE (((NOT BIT 16134) AND (NOT BIT 16135)) {joint} ((NOT BIT 16166) AND (NOT BIT 16167)))",
-    "WEND",
-    "P38912=BIT16134 : P38913=BIT16166",
-    'IF (BIT 16166) THEN PRINT "Y HOMING SUCCESSFUL"',
-    "IF (BIT 16134)",
-    "MSEEK X(1,0)",
-    "INH -516",
-    "IF (BIT 777)",
-    'PRINT "X HOMING SUCCESSFUL"',
-    "ENDIF",
-    "ENDIF",
-)
-
-
-def guide(joint: str) -> Console:
-    """The homing example of the guide; its limit switches are closed at rest."""
-    closed = ', contact = "closed"'
-    x_home, y_home = "home = { between = [-4.0, -3.0] }", "home = { between = [8.0, 9.0] }"
-    made = console(x_home, y_home, closed)
-    made.type("ACC 10 DEC 10 STP 10 VEL 0.5", "NEW")
-    made.program(0, *[line.format(joint=joint) for line in GUIDE])
-    return made
 
 
 @pytest.mark.req("ACR-SERVO-07")

@@ -7,17 +7,6 @@ from openacr.plant.load import parse_world
 
 STEPPERS = range(6156, 6271, 16)  # P6156 + 16 n: the pulses of stepper output n
 
-SERVOS_AND_STEPPERS = """
-CONFIG ENC4 DAC4 STEPPER4 NONE
-ATTACH AXIS0 ENC0 DAC0
-ATTACH AXIS1 ENC1 DAC1
-ATTACH AXIS2 ENC2 DAC2
-ATTACH AXIS3 ENC3 DAC3
-ATTACH AXIS4 STEPPER4 STEPPER4
-ATTACH AXIS5 STEPPER5 STEPPER5
-ATTACH AXIS6 STEPPER6 STEPPER6
-ATTACH AXIS7 STEPPER7 STEPPER7
-"""
 
 BRUSHLESS_AND_STEPPERS = """
 CONFIG ENC4 DAC4 STEPPER4 NONE
@@ -35,14 +24,6 @@ CMT1 ENC2 ENC3
 CMT1 DAC2 DAC3
 """
 
-FOUR_STEPPERS = """
-CONFIG NONE STEPPER4 NONE ADC8
-ATTACH AXIS0 STEPPER0 STEPPER0
-ATTACH AXIS1 STEPPER1 STEPPER1
-ATTACH AXIS2 STEPPER2 STEPPER2
-ATTACH AXIS3 STEPPER3 STEPPER3
-ESAVE
-"""
 
 # Two brushless motors on encoders 0 and 2 whose magnets stand where their commutators begin.
 BRUSHLESS = "".join(
@@ -95,15 +76,6 @@ def actual(card: Controller, axis: int) -> float:
     return card.p[12290 + 256 * axis]
 
 
-@pytest.mark.req("ACR-OUTMOD-02")
-def test_example_2_moves_four_servos_and_the_four_steppers_of_module_1() -> None:
-    card = restarted(SERVOS_AND_STEPPERS)
-    move(card, {axis: 500 + axis for axis in range(8)})
-    assert pulses(card) == [0, 0, 0, 0, 504, 505, 506, 507]
-    assert [actual(card, axis) for axis in range(8)] == pytest.approx(range(500, 508), abs=1)
-    assert [actual(card, axis) for axis in range(4, 8)] == [504, 505, 506, 507]
-
-
 @pytest.mark.req("ACR-OUTMOD-03")
 def test_example_3_moves_two_brushless_servos_and_four_steppers() -> None:
     card = restarted(BRUSHLESS_AND_STEPPERS, Controller(world=parse_world(BRUSHLESS)))
@@ -118,17 +90,6 @@ def test_example_3_moves_two_brushless_servos_and_four_steppers() -> None:
     assert pulses(card) == [0, 0, 0, 0, 400, 500, 600, 700]
     assert [actual(card, axis) for axis in (0, 1)] == pytest.approx([1000, 1100], abs=1)
     assert [actual(card, axis) for axis in (4, 5, 6, 7)] == [400, 500, 600, 700]
-
-
-@pytest.mark.req("ACR-OUTMOD-04", "ACR-OUTMOD-05")
-@pytest.mark.parametrize("model", ["ACR1200", "ACR1500", "ACR2000"])
-def test_examples_4_and_5_move_the_steppers_of_module_0_of_the_small_cards(model: str) -> None:
-    card = restarted(FOUR_STEPPERS, Controller(model))
-    move(card, {axis: 300 - axis for axis in range(4)})
-    assert pulses(card) == [300, 299, 298, 297, 0, 0, 0, 0]
-    assert [actual(card, axis) for axis in range(4)] == [300, 299, 298, 297]
-    left = card.send("SYS\rATTACH\r").splitlines()[4:]
-    assert left == [f"ATTACH AXIS{n} ENC{n} DAC{n} ENC{n}" for n in range(4, 8)]
 
 
 @pytest.mark.parametrize(
