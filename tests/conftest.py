@@ -1,14 +1,18 @@
 """What all tests need."""
 
 import gc
+import importlib
 import os
 import signal
 from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
 from tests import longest, warm
 
+TESTS = Path(__file__).parent
 # How long an example takes depends on who else computes; pytest-timeout ends what hangs.
 settings.register_profile("patient", deadline=None)
 settings.load_profile("patient")
@@ -35,14 +39,26 @@ def _workers() -> None:
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_collection() -> Iterator[None]:
+def pytest_collection(session: pytest.Session) -> Iterator[None]:
     """Twenty thousand tests are no garbage: it is not looked for while they are made, nor later."""
     gc.disable()
     try:
+        _import_from_the_end(session.config)
         return (yield)
     finally:
         gc.freeze()
         gc.enable()
+
+
+def _import_from_the_end(config: pytest.Config) -> None:
+    """In every other process: what has never been compiled is then compiled once, not in each."""
+    worker = getattr(config, "workerinput", {"workerid": "gw0"})["workerid"]
+    if int(worker.removeprefix("gw")) % 2 and config.args_source is config.ArgsSource.TESTPATHS:
+        for path in sorted(TESTS.rglob("test_*.py"), reverse=True):
+            with suppress(Exception, pytest.skip.Exception):  # which its collection shows
+                importlib.import_module(
+                    ".".join(path.relative_to(TESTS.parent).with_suffix("").parts)
+                )
 
 
 @pytest.hookimpl(trylast=True)
