@@ -104,6 +104,10 @@ ONE = "part:\n    G1 X1 F60\n    M2\n"
         "jog X+0.01\njog Y- fast increment 4\nwait 1 s\nat X0.01 Y-0.001",
         "jog X\nX: jogs are X+, X- fast, X off, X+0.5, X- increment 3",
         "home B\naxis B is not configured; configured are X Y Z",
+        "parm P5 = 2.5\nparm ? P5; P150 -> 2.5; 0\nparm P200 = 1\nP200 is not an operator variable:"
+        " P0 to P199 are (`openacr sysvar` has the others)",
+        "file M300.TXT:\n    G0 X#3\n    RET\npart:\n    M300 Z2\nrun\nat X2",
+        "store on disk\nstore P130 = 5\nrestart\nstore ? P130; P650000 -> 5; 6000",
         "wheel X\nno hand wheel is installed for axis X\nwheel",
         "zero X Y5\nreads Y5\nat 0\ngo to zero Y\nat Y-5\nreads 0\nclear zero\nreads Y-5",
         "jog X+\nwait 1 s\n? P12346 <> 0 -> -1\nlose panel\nwait 1 s\n? P12346; P12297 -> 0; 0",
@@ -139,6 +143,8 @@ def test_a_case_that_holds(tmp_path: Path, steps: str) -> None:
         ("flag 32 on\nwait until BIT32 <> -1 within 0 s",
          "2|wait until BIT32 <> -1 within 0 s|expected: BIT32 <> -1 within 0 s|shown: BIT32 <> 1"
          " did not hold within 0 s: BIT32 (OUTPUT: OUT 32) is 1|time 0.0000 s"),
+        ("restart", "1|restart|expected: a step that can be done|shown: `store on disk` has to come"
+         " first: a store in memory is lost"),
         ("zero X5\nreads X4", "2|reads X4|expected: X4 Y0 Z0|shown: X5 Y0 Z0"),
         ("click AOV 1", "1|click AOV 1|expected: a step that can be done|shown: AOV: the overrides"
          " are FOV, ROV, SOV"),

@@ -166,7 +166,7 @@ KINDS: dict[str, tuple[str, Callable[[str], Any]]] = {
     "VALUE": (f"(?:{NUMBER})", float),
     "NUMBER": (r"\d+", int),
     "STATE": (r"on|off", lambda text: text == "on"),
-    "NAME": (r"[A-Za-z0-9-]+", str),
+    "NAME": (r"[A-Za-z0-9.-]+", str),
     "KEY": (r"\^[XYZ]|Esc", str),
     "BUTTON": (r"START|STOP|RESUME|ABORT|ACKNOWLEDGE|CONFIRM", str),
     "MODE": (r"IDLE|RUN|WAIT|HOMING|PAUSED|HOLD|ALARM", str),

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from openacr.client import Card
@@ -24,12 +25,13 @@ from openacr.map import numbers as n
 from openacr.mill import zeroing
 from openacr.mill.card.ballscrew import Table, computed, install, parse
 from openacr.mill.config.overrides import Override
+from openacr.mill.config.pparm import OperatorParameters
 from openacr.mill.plan.checking import check_text
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 from openacr.sysvar.lookup import one
-from openacr.sysvar.tabs import AXIS, GENERAL, SPEEDS
+from openacr.sysvar.tabs import AXIS, GENERAL, SPEEDS, TOOL
 from openacr.sysvar.values import parsed
 
 AXES = 3
@@ -56,12 +58,7 @@ class Mill:
 
     def __init__(self, card: VirtualCard) -> None:
         self._target = card
-        self.store = Store()
-        with self.store.transaction():
-            for axis in range(AXES):
-                self.store.write(AXIS.home_required[axis], 0)
-            self.store.write(SPEEDS.max_machine_speed, FASTEST_UPM)
-            self.store.write_text(GENERAL.card_model, card.world.model.name)
+        self.store = self._set_up(Store())
         self.text, self.dialect = "", "acromill"
         self.tables: dict[int, Table] = {}  # of ballscrews, by axis
         self.made = ""  # the file of a table, of measurements
@@ -71,17 +68,62 @@ class Mill:
         self.took_tk = 0  # in motion, by the latest block of MDI
         self._session: MillSession | None = None
         self._mdi: Mdi | None = None
+        self._folder: TemporaryDirectory[str] | None = None  # of its files
+
+    def _set_up(self, store: Store) -> Store:
+        with store.transaction():
+            for axis in range(AXES):
+                store.write(AXIS.home_required[axis], 0)
+            store.write(SPEEDS.max_machine_speed, FASTEST_UPM)
+            store.write_text(GENERAL.card_model, self._target.world.model.name)
+        return store
+
+    def keep_on_disk(self) -> None:
+        """Use a new store on disk, which outlives a restart, in place of the one in memory."""
+        self.store.close()
+        self.store = self._set_up(Store(self._place / "sysvar.db"))
+
+    def restart(self) -> None:
+        """End the front end and start it again, with what its store has kept."""
+        path = self.store.path
+        if path is None:
+            raise UserError("`store on disk` has to come first: a store in memory is lost")
+        self._leave()
+        self.store = Store(path)
 
     def close(self) -> None:
         """Leave the card."""
+        self._leave()
+        if self._folder:
+            self._folder.cleanup()
+
+    def _leave(self) -> None:
         self._target.attend = None
         if self._session:
             with suppress(OpenacrError):  # the card of a case that failed may refuse it
                 self._session.runner.bring_to_rest()
             self._session.close()
+        self._session = self._mdi = None
         self.store.close()
 
+    @property
+    def _place(self) -> Path:
+        """The folder of the files of this case, made when it is first needed."""
+        if self._folder is None:
+            self._folder = TemporaryDirectory()
+        return Path(self._folder.name)
+
     # Without a machine.
+
+    def put_file(self, name: str, text: str) -> None:
+        """Put a file into the folder of the M codes of the user."""
+        self.store.write_text(TOOL.custom_m_folder, str(self._place))
+        (self._place / name).write_text(text, encoding="utf-8")
+
+    @property
+    def operator(self) -> OperatorParameters:
+        """The variables of P PARM."""
+        return OperatorParameters(self.store, self.session.card)
 
     def write(self, name: str, text: str) -> None:
         """Set a cell, by its number or name, to a value as users write it."""

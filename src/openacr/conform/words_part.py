@@ -40,6 +40,37 @@ def read_cell(stage: Stage, step: Step, names: str, expected: str) -> None:
     compare_values(stage.mill.value, names, expected)
 
 
+@word("store on disk")
+def keep_on_disk(stage: Stage, step: Step) -> None:
+    """The store is a new one on disk: `restart` needs it."""
+    stage.mill.keep_on_disk()
+
+
+@word("restart")
+def restart(stage: Stage, step: Step) -> None:
+    """End the front end, and start it again with the store on disk; the card goes on."""
+    stage.mill.restart()
+
+
+@word("parm PNUMBER = VALUE", ANSWERS)
+def write_operator(stage: Stage, step: Step, number: int, value: float) -> None:
+    """Set a variable on the P PARM screen: P0 to P99 of the card, P100 to P199 of the store."""
+    _try(step, lambda: stage.mill.operator.write(number, value))
+
+
+@word("parm ? WHAT -> RESULT")
+def read_operator(stage: Stage, step: Step, names: str, expected: str) -> None:
+    """What P PARM shows now, with `;` between several."""
+    operator = stage.mill.operator
+    compare_values(lambda name: operator.read(int(name.removeprefix("P"))), names, expected)
+
+
+@word("file NAME:", BLOCK)
+def file(stage: Stage, step: Step, name: str) -> None:
+    """A file in the folder of the M codes of the user: M300.TXT."""
+    stage.mill.put_file(name, "".join(f"{line.text}\n" for line in step.below))
+
+
 @word("part:", BLOCK)
 def part(stage: Stage, step: Step) -> None:
     """Load a part program; nothing runs."""
