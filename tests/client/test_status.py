@@ -68,9 +68,19 @@ def test_lights_by_flags_alone() -> None:
     assert [axis_light(is_faulty=a, is_enabled=b) for a, b in states] == [
         Light.OFF, Light.GREEN, Light.RED, Light.RED,
     ]  # fmt: skip
-    shown = [bus_light(state, is_installed=True) for state in (0, 1, 2, 6, 7, 11)]
-    assert shown == ["off", "blinking green", "green", "one red flash", "two red flashes", "off"]
-    assert bus_light(2, is_installed=False) is Light.OFF
+
+
+@pytest.mark.req("ACR-TRB-03")
+def test_the_light_of_the_bus_by_its_state() -> None:
+    """P32779 from 0; no value of it is a sync error, so three flashes are not shown."""
+    shown = [bus_light(state, is_installed=True) for state in range(-1, 12)]
+    assert shown == [
+        "off",  # unknown
+        "off", "blinking green", "green", "red", "red", "blinking green",
+        "one red flash", "two red flashes", "blinking red", "blinking red", "red",
+        "off",  # unknown
+    ]  # fmt: skip
+    assert [bus_light(state, is_installed=False) for state in (2, 6, 7)] == ["off"] * 3
 
 
 @pytest.mark.req("ACR-TRB-09")
