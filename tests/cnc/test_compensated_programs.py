@@ -3,9 +3,9 @@
 from math import hypot, sqrt
 
 import pytest
-from tests.cnc.programs import STORE, Run, errors, run
+from tests.cnc.programs import STORE, errors, run
 
-from openacr.cnc.canonical import Arc, BlockEnd, Entry, Line, Rapid, Sync
+from openacr.cnc.canonical import Arc, BlockEnd, Line, Sync
 from openacr.cnc.interpreter.interpreter import Options
 from openacr.cnc.interpreter.survey import Survey, survey
 from openacr.cnc.loading.load import load
@@ -19,10 +19,6 @@ def surveyed(text: str, cells: dict[int, float]) -> Survey:
     for n, value in cells.items():
         shadow.write(n, value)
     return survey(load(text, shadow), shadow)
-
-
-def inserted(done: Run) -> list[Entry]:
-    return [e for e in done.entries if isinstance(e, Rapid | Line | Arc) and e.is_inserted]
 
 
 @pytest.mark.req("MILL-COMP-09", "MILL-COMP-27")
@@ -54,23 +50,6 @@ def test_the_radius_of_the_setup_holds_without_d() -> None:
 )
 def test_compensation_begins_and_ends_with_lines(text: str) -> None:
     assert errors(text, RADIUS) == ["E313"]
-
-
-@pytest.mark.req("MILL-COMP-17")
-def test_the_triangle_is_rounded_at_the_top_and_at_the_lower_right() -> None:
-    """From above left to the base, around the notch, to the top, to the right corner, back."""
-    text = (
-        "G0 X-1 Y1\nG41 D1 G1 F20 X0 Y0\nY2\nG3 Y4 I0 J1 G200 F1\nG1 Y6\nX6 Y0\nX-1\nG40 X-2 Y1\nM2"
-    )
-    done = run(text, RADIUS)
-    corners = inserted(done)
-    centres = [each.centre for each in corners if isinstance(each, Arc)]
-    assert len(corners) == len(centres)
-    assert centres == [(0, 2), (0, 4), (0, 6), (6, 0)]  # both ends of the notch, too
-    assert done.error is None
-    for line in done.entries:
-        if isinstance(line, Line) and line.is_compensated and not line.is_inserted:
-            assert line.end[2] == 0
 
 
 def test_a_z_move_on_the_way_is_made_where_the_tool_is() -> None:

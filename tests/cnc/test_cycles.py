@@ -7,7 +7,6 @@ import pytest
 from tests.cnc.programs import CYCLES, Bench, errors, made, run
 
 from openacr.cnc.canonical import Orient, Probe, Spindle
-from openacr.cnc.codes.gcodes.work import clear_zero, preset_zero
 from openacr.cnc.codes.table import DIALECTS
 from openacr.cnc.interpreter.interpreter import Options
 from openacr.cnc.loading import supplied
@@ -132,20 +131,6 @@ def test_the_probe_runs_at_feed_to_rest() -> None:
 
 
 # --- floating zero --------------------------------------------------------------------------
-
-
-@pytest.mark.req("MILL-ZERO-SET", "MILL-ZERO-CLR", "MILL-ZERO-FLZ", "MILL-ZERO-PARAM")
-def test_set_zero_reads_zero_and_clr_zero_what_it_was() -> None:
-    done = run("G0 X1.588 Y-2.12")
-    interpreter = done.interpreter
-    preset_zero(interpreter, {0: 0.0, 1: 0.0})
-    assert interpreter.position[:2] == (0, 0)
-    assert (done.p(800), done.p(801), done.p(802)) == (1, 1.588, -2.12)
-    clear_zero(interpreter)
-    assert interpreter.position[:2] == pytest.approx((1.588, -2.12))
-    assert done.p(800) == 0
-    preset_zero(interpreter, {0: 5.0})
-    assert interpreter.position[0] == pytest.approx(5)
 
 
 def test_g92_keeps_what_was_there_before() -> None:

@@ -22,13 +22,6 @@ def does(typed: Mdi, line: str) -> list[str]:
     return [shown(entry) for entry in typed.execute(line)]
 
 
-@pytest.mark.req("MILL-MDI-EXEC")
-def test_a_line_acts_at_once() -> None:
-    typed = mdi()
-    assert does(typed, "G1 F50 X5.6 Y3.5") == ["L X5.6 Y3.5"]
-    assert typed._run.modal.feed == 50
-
-
 def test_the_modal_state_stays_from_line_to_line() -> None:
     typed = mdi()
     does(typed, "G91 G0")

@@ -46,33 +46,6 @@ def turn(shop: Shop, clicks: int) -> None:
 # --- keys -------------------------------------------------------------------------------
 
 
-@pytest.mark.req("MILL-JOG-LOSTLINK")
-def test_an_axis_stops_when_the_holder_of_its_key_is_silent() -> None:
-    shop = handy()
-    shop.runner.controls.press("screen 1", 0, 1)
-    for _ in range(10):
-        shop.pass_time(0.3)
-        shop.runner.controls.renew("screen 1")
-    assert speed(shop) == pytest.approx(1.0)
-    before = position(shop)
-    shop.pass_time(1.0)
-    assert speed(shop) == 0.0
-    assert position(shop) == pytest.approx(before + 0.5, abs=0.02)
-    assert not shop.runner.is_busy
-
-
-@pytest.mark.req("MILL-JOG-LOSTLINK")
-def test_an_axis_stops_by_itself_when_the_host_is_gone() -> None:
-    shop = handy()
-    shop.runner.jog(lambda jog: jog.hold(0, 1))
-    shop.pass_time(3.0)
-    assert speed(shop) == pytest.approx(1.0)
-    before = position(shop)
-    shop.controller.advance(seconds=2.0)  # nothing polls any more
-    assert speed(shop) == 0.0
-    assert before + 0.3 < position(shop) < before + 0.52
-
-
 def test_a_lost_panel_releases_its_own_keys_and_no_others() -> None:
     shop = handy()
     shop.runner.controls.press("screen 1", 0, 1)
@@ -131,45 +104,6 @@ def test_programs_keep_to_the_limits_whatever_the_key_says() -> None:
 # --- joystick ---------------------------------------------------------------------------
 
 
-@pytest.mark.req("MILL-JOY-BANK", "MILL-SYS-IO-JOYSTICK")
-@pytest.mark.parametrize(
-    ("which", "axis", "sign"), [(0, 0, 1.0), (1, 0, -1.0), (2, 1, 1.0), (3, 1, -1.0)]
-)
-def test_each_input_of_the_joystick_jogs_one_axis_in_one_direction(
-    which: int, axis: int, sign: float
-) -> None:
-    shop = handy(P400_006=STICK)
-    shop.pass_time(0.02)
-    stick(shop, which, True)
-    shop.pass_time(1.0)
-    assert speed(shop, axis) == pytest.approx(sign)
-    assert speed(shop, 1 - axis) == 0.0
-
-
-@pytest.mark.req("MILL-JOY-RELEASE")
-def test_an_axis_ramps_to_rest_when_the_stick_is_let_go() -> None:
-    shop = handy(P400_006=STICK, P350_003=2.0)
-    shop.pass_time(0.02)
-    stick(shop, 0, True)
-    shop.pass_time(1.0)
-    stick(shop, 0, False)
-    shop.pass_time(0.25)
-    assert 0.4 < speed(shop) < 0.6  # 2 units/s2
-    shop.pass_time(0.5)
-    assert speed(shop) == 0.0
-    assert shop.place()[0] == pytest.approx(position(shop), abs=1e-4)
-
-
-@pytest.mark.req("MILL-JOY-DISABLED")
-def test_without_a_joystick_its_inputs_do_nothing() -> None:
-    shop = handy()
-    for which in range(4):
-        stick(shop, which, True)
-    shop.pass_time(0.5)
-    assert position(shop, 0) == position(shop, 1) == 0.0
-    assert not shop.runner.is_busy
-
-
 def test_the_stick_has_no_effect_while_a_program_runs() -> None:
     shop = handy(P400_006=STICK)
     shop.start(line(1, at(2)), end())
@@ -179,54 +113,7 @@ def test_the_stick_has_no_effect_while_a_program_runs() -> None:
     assert shop.pulses() == (20000, 0, 0)
 
 
-@pytest.mark.req("MILL-JOG-DEVICES")
-@pytest.mark.parametrize("device", ["key", "stick"])
-def test_keys_and_stick_have_the_same_speed_and_limits(device: str) -> None:
-    shop = handy(P400_006=STICK, **LIMITS)
-    shop.pass_time(0.02)
-    if device == "key":
-        shop.runner.controls.press("screen", 0, 1)
-    stick(shop, 0, device == "stick")
-    fastest = 0.0
-    for _ in range(200):
-        shop.pass_time(STEP_S)
-        shop.runner.controls.renew("screen")
-        fastest = max(fastest, speed(shop))
-    assert fastest == pytest.approx(1.0)
-    assert shop.pulses()[0] == 5000
-
-
 # --- hand wheel -------------------------------------------------------------------------
-
-
-@pytest.mark.req("MILL-HW-SELECT", "MILL-HW-RATIO", "MILL-SYS-AXES-HWRATIO")
-@pytest.mark.parametrize("clicks", [7, -7])
-def test_the_wheel_moves_the_chosen_axes_by_their_ratios(clicks: int) -> None:
-    shop = handy()
-    shop.runner.turn([0, 1])
-    turn(shop, clicks)
-    shop.pass_time(0.5)
-    assert position(shop, 0) == pytest.approx(clicks * 0.005)  # the default
-    assert position(shop, 1) == pytest.approx(clicks * 0.02)
-    shop.runner.turn([1])
-    turn(shop, clicks)
-    shop.pass_time(0.5)
-    assert position(shop, 0) == pytest.approx(clicks * 0.005)
-    assert position(shop, 1) == pytest.approx(2 * clicks * 0.02)
-    assert position(shop, 2) == 0.0
-
-
-@pytest.mark.req("MILL-HW-SOURCE", "MILL-SYS-AXES-HWSRC")
-def test_the_wheel_is_the_encoder_of_the_store_or_none() -> None:
-    shop = handy(P200_009=11)
-    with pytest.raises(UserError, match="no hand wheel is installed for axis Z"):
-        shop.runner.turn([0, 2])
-    shop.runner.turn([0])
-    turn(shop, 5)  # encoder 10
-    assert position(shop) == 0.0
-    shop.controller.p[ENC_BASE + 11 * ENC_STRIDE] += 40
-    shop.pass_time(0.5)
-    assert position(shop) == pytest.approx(0.05)
 
 
 @pytest.mark.req("MILL-HW-LEAVE")
@@ -246,18 +133,6 @@ def test_leaving_the_wheel_disconnects_it_without_a_jump() -> None:
 
 
 @pytest.mark.req("MILL-HW-LIMITS")
-def test_the_wheel_ends_at_a_soft_limit_and_turns_back_from_it_at_once() -> None:
-    shop = handy(P200_010=0.1, **LIMITS)
-    shop.runner.turn([0])
-    turn(shop, 12)
-    shop.pass_time(1.0)
-    assert position(shop) == 0.5
-    turn(shop, -1)
-    shop.pass_time(0.5)
-    assert position(shop) == pytest.approx(0.4)
-
-
-@pytest.mark.req("MILL-HW-LIMITS")
 def test_each_axis_of_the_wheel_ends_at_its_own_limits() -> None:
     limits = {"P200_000": 0.5, "P200_001": -0.3, "P201_000": 0.2, "P201_001": -0.7}
     limits |= {"P200_002": 0.0, "P201_002": 0.0, "P271": 3.0}
@@ -269,24 +144,6 @@ def test_each_axis_of_the_wheel_ends_at_its_own_limits() -> None:
         shop.pass_time(1.5)
         found.append((position(shop, 0), position(shop, 1)))
     assert found == [(0.5, 0.2), (-0.3, -0.7)]
-
-
-@pytest.mark.req("MILL-HW-LIMITS")
-def test_the_wheel_turns_no_axis_that_is_to_be_homed_first() -> None:
-    shop = handy(P200_007=1.0)
-    for axes in ([0], [1, 0]):
-        with pytest.raises(AlarmError, match="Axis X not homed"):
-            shop.runner.turn(axes)
-        turn(shop, 5)
-        shop.pass_time(0.2)
-        assert (position(shop, 0), position(shop, 1)) == (0.0, 0.0)
-    shop.runner.turn([1])  # not required of Y
-    shop.runner.turn([])
-    homed = handy(P200_007=1.0, P271=1.0)
-    homed.runner.turn([0])
-    turn(homed, 5)
-    homed.pass_time(0.2)
-    assert position(homed) == pytest.approx(0.025)
 
 
 def test_one_hand_at_a_time() -> None:

@@ -5,7 +5,6 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
-from tests.mill.shop import Shop
 
 from openacr.client import Card
 from openacr.controller import Controller
@@ -14,7 +13,6 @@ from openacr.mill.card.driver import MachineDriver
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.card.setup import prepare
 from openacr.mill.config.settings import HOMED, Settings
-from openacr.mill.run.lifecycle import State
 from openacr.sysvar import Store
 
 
@@ -62,12 +60,3 @@ def test_a_card_whose_battery_keeps_its_variables_loses_its_position_all_the_sam
         after_power = connected(card, store)
         assert after_power.machine.read(50) == 7.0
         assert not after_power.settings.is_homed(0)
-
-
-@pytest.mark.req("MILL-HOME-POWERCYCLE", "MILL-HOME-REFPOINT")
-@pytest.mark.parametrize("mask", [0, 7])
-def test_g30_needs_homed_axes_and_g53_counts_from_the_reference_point(mask: int) -> None:
-    shop = Shop(P271=mask, P290=1.5, P900=4.0, P910=2.0)
-    shop.load("G90 F600 G53\nG30 P2 X0\nG1 X1\nM2\n")
-    assert shop.until(State.IDLE, State.ALARM) is (State.IDLE if mask else State.ALARM)
-    assert shop.pulses()[0] == (10000 if mask else 0)

@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from tests.mill.shop import Shop, at, end, line
+from tests.mill.shop import Shop
 
 from openacr.controller import Controller
 from openacr.mill.run.lifecycle import State
@@ -44,34 +44,6 @@ def codes(shop: Shop) -> list[int]:
     return [alarm.kind.code for alarm in shop.runner.alarms.active]
 
 
-@pytest.mark.req("MILL-HOME-SEQ", "MILL-HOME-ZERO", "MILL-HOME-START")
-def test_an_axis_finds_its_switch_and_then_its_marker(world: Controller) -> None:
-    shop = homing_shop(world)
-    shop.runner.home([0])
-    seen = []
-    while shop.runner.state is State.HOMING:
-        shop.pass_time(0.02)
-        seen.append(shop.runner.reason)
-    assert [text for text in dict.fromkeys(seen) if text] == ["homing X"]
-    assert shop.said == ["X: + to its switch at input 2, at most 1050 units"]
-    assert shop.controller.p[12288] == 0
-    assert shop.runner.settings.is_homed(0)
-    assert abs(shop.controller.axis(0).actual_cnt) <= 8
-
-
-@pytest.mark.req("MILL-HOME-PRIORITY", "MILL-SYS-HOME-PRIORITY")
-def test_axes_home_by_priority_and_priority_0_not_at_all(world: Controller) -> None:
-    shop = homing_shop(world, P300_009=2, P301_009=1, P302_009=0)
-    shop.runner.home([0, 1, 2])
-    shop.pass_time(0.3)
-    assert shop.runner.reason == "homing Y"
-    x_cnt = shop.controller.axis(0).actual_cnt
-    shop.pass_time(0.2)
-    assert abs(shop.controller.axis(0).actual_cnt - x_cnt) <= 2  # X waits for Y
-    shop.until(State.IDLE)
-    assert [shop.runner.settings.is_homed(axis) for axis in range(3)] == [True, True, False]
-
-
 @pytest.mark.req("MILL-HOME-NOSWITCH")
 def test_an_axis_that_never_finds_its_switch_is_an_alarm(world: Controller) -> None:
     shop = homing_shop(
@@ -80,44 +52,6 @@ def test_an_axis_that_never_finds_its_switch_is_an_alarm(world: Controller) -> N
     assert home(shop, 0) is State.ALARM
     assert 34 in codes(shop)
     assert not shop.runner.settings.is_homed(0)
-
-
-@pytest.mark.req("MILL-HOME-STOP")
-def test_stop_ends_homing_with_a_ramp_and_the_axis_counts_as_not_homed(world: Controller) -> None:
-    shop = homing_shop(world)
-    shop.runner.home([0])
-    shop.pass_time(0.3)
-    shop.runner.stop()
-    shop.until(State.ALARM)
-    assert codes(shop) == [34]
-    assert not shop.runner.settings.is_homed(0)
-    shop.pass_time(0.5)
-    place = shop.controller.axis(0).actual_cnt
-    shop.pass_time(0.5)
-    assert abs(shop.controller.axis(0).actual_cnt - place) <= 1
-
-
-@pytest.mark.req("MILL-HOME-REQUIRED")
-def test_a_homed_axis_may_move_and_another_may_not(world: Controller) -> None:
-    shop = homing_shop(world, P200_007=1, P201_007=1)
-    home(shop, 0)
-    shop.finish(line(1, at(-5)), end())
-    assert shop.controller.p[12288] == -4000
-    shop.start(line(1, at(-5, 1)), end())
-    shop.until(State.ALARM)
-    assert codes(shop) == [33]
-
-
-@pytest.mark.req("MILL-HOME-RAMPS")
-def test_homing_uses_its_own_ramps_and_gives_those_of_the_jog_back(world: Controller) -> None:
-    shop = homing_shop(world, P350_002=1234.0, P350_003=1235.0)
-    shop.runner.home([0])
-    shop.pass_time(0.3)
-    during = [shop.card.command(f"AXIS0 JOG {word}", program=0) for word in ("ACC", "DEC")]
-    shop.until(State.IDLE)
-    after = [shop.card.command(f"AXIS0 JOG {word}", program=0) for word in ("ACC", "DEC")]
-    assert [float(lines[0]) for lines in during] == [500.0, 500.0]
-    assert [float(lines[0]) for lines in after] == [1234.0, 1235.0]
 
 
 def test_an_axis_that_does_not_move_is_not_waited_for(world: Controller) -> None:

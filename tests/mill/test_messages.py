@@ -115,11 +115,3 @@ def test_p_parm_shows_what_is_there_now_and_changes_it_at_once() -> None:
             values.write(n, 1.0)
     with pytest.raises(UserError, match="P5 is on the card: name the card with --host"):
         OperatorParameters(shop.store).read(5)
-
-
-@pytest.mark.req("MILL-PPARM-P100")
-def test_p100_to_p199_survive_a_restart(tmp_path: Path) -> None:
-    with Store(tmp_path / "s.db") as store:
-        OperatorParameters(store).write(123, 4.5)
-    with Store(tmp_path / "s.db") as store:
-        assert OperatorParameters(store).read(123) == 4.5

@@ -7,9 +7,7 @@ import pytest
 from shapely.geometry import MultiPoint
 from tests.mill.shop import STEP_S, Shop
 
-from openacr.errors import UserError
-from openacr.mill.config.overrides import Override
-from openacr.mill.run.lifecycle import Options, State
+from openacr.mill.run.lifecycle import State
 
 pytestmark = pytest.mark.evidence("oracle", "the square of the guide in shapely")
 
@@ -22,84 +20,6 @@ CORNERS = MultiPoint([(0, 0), (1, 0), (1, 1), (0, 1)])
 def volts(shop: Shop) -> float:
     shop.pass_time(0.05)
     return float(shop.controller.p[DAC_VALUE])
-
-
-@pytest.mark.req("MILL-RUN-RUN", "MILL-RUN-END", "MILL-SYS-SPINDLE-CWOUT")
-def test_run_moves_at_the_programmed_feed_with_m_codes_active_and_can_be_repeated() -> None:
-    shop = Shop(**SPINDLE)
-    for _ in range(2):
-        shop.load("G90 F60\nM3 S1000\nG1 X1\nX0\nM2\n")
-        shop.pass_time(0.5)
-        assert shop.outputs((40,)) == [True]
-        assert shop.controller.axis(0).velocity_ups == pytest.approx(1.0)
-        shop.until(State.IDLE)
-        assert shop.outputs((40,)) == [False]
-
-
-@pytest.mark.req("MILL-RUN-DRY", "MILL-RUN-DRY-SPEED", "MILL-SYS-SPEED-TRIAL")
-def test_a_dry_run_moves_at_trial_speed_and_switches_nothing_on() -> None:
-    shop = Shop(**SPINDLE, **COOLANT)
-    shop.load("G90 F6\nM3 S1000\nM8\nM12\nG1 X5\nM2\n", Options(is_dry=True))
-    shop.pass_time(1.0)
-    assert shop.controller.axis(0).velocity_ups == pytest.approx(100 / 60, rel=1e-6)
-    assert not any(shop.outputs(range(32, 64)))
-    shop.until(State.IDLE)
-
-
-@pytest.mark.req("MILL-RUN-BLOCK", "MILL-RUN-BLOCK-MID")
-def test_block_mode_runs_one_block_for_each_start() -> None:
-    shop = Shop()
-    shop.load("G90 F600\nG1 X1\nX2\nX3\nX4\nM2\n")
-    shop.pass_time(0.05)
-    shop.runner.block(True)
-    shop.until(State.HOLD)
-    assert shop.runner.reason == "block"
-    seen: list[float] = []
-    while shop.runner.state is State.HOLD and len(seen) < 2:
-        seen.append(shop.pulses()[0])
-        shop.runner.start()
-        shop.until(State.HOLD, State.IDLE)
-    assert seen == [10000, 20000]
-    shop.runner.block(False)
-    shop.runner.start()
-    shop.until(State.IDLE)
-    assert shop.pulses()[0] == 40000
-
-
-@pytest.mark.req("MILL-RUN-RESUME")
-def test_stop_ramps_to_rest_and_resume_goes_to_the_same_end() -> None:
-    shop = Shop()
-    shop.load("G90 F600\nG1 X8 Y6\nM2\n")
-    shop.pass_time(0.3)
-    shop.runner.stop()
-    shop.pass_time(0.01)
-    assert 0 < shop.controller.axis(0).velocity_ups < 8  # a ramp, no jump
-    shop.pass_time(0.5)
-    assert shop.runner.state is State.PAUSED
-    assert shop.controller.axis(0).velocity_ups == 0
-    shop.runner.resume()
-    shop.path.clear()
-    shop.until(State.IDLE)
-    assert all(y == pytest.approx(0.75 * x, abs=2e-4) for x, y, _ in shop.path)
-    assert shop.pulses() == (80000, 60000, 0)
-
-
-@pytest.mark.req("MILL-RUN-ABORT", "MILL-COOL-ABORT")
-def test_abort_ends_the_program_and_the_next_run_starts_at_its_beginning() -> None:
-    shop = Shop(**COOLANT)
-    text = "G90 F600\nM8\nG1 X5\nX0\nM2\n"
-    shop.load(text)
-    shop.pass_time(0.2)
-    assert shop.outputs((43,)) == [True]
-    shop.runner.abort()
-    shop.until(State.IDLE)
-    assert shop.outputs((43,)) == [False]
-    shop.load(text)
-    shop.pass_time(0.1)
-    assert shop.runner.source is not None
-    assert shop.runner.source.line == 3
-    shop.until(State.IDLE)
-    assert shop.pulses() == (0, 0, 0)
 
 
 @pytest.mark.req("MILL-RUN-RESUME-OFFPATH", "MILL-SYS-CTL-LEADIN")
@@ -123,26 +43,6 @@ def test_a_tool_moved_aside_in_a_pause_comes_back_with_the_lead_in_radius() -> N
     assert shop.pulses()[0] == 100000
 
 
-@pytest.mark.req("MILL-RUN-OPTSTOP")
-@pytest.mark.parametrize("is_on", [True, False])
-def test_m1_stops_only_with_the_optional_stop_input(is_on: bool) -> None:
-    shop = Shop(P400_001=9)
-    shop.controller.set_input(9, is_on)
-    shop.load("F600\nG1 X1\nM1\nX2\nM2\n")
-    assert shop.until(State.HOLD, State.IDLE) is (State.HOLD if is_on else State.IDLE)
-    assert shop.pulses()[0] == (10000 if is_on else 20000)
-
-
-@pytest.mark.req("MILL-RUN-BLKSKIP")
-@pytest.mark.parametrize("is_on", [True, False])
-def test_blocks_with_a_slash_are_skipped_with_the_input(is_on: bool) -> None:
-    shop = Shop(P400_000=9)
-    shop.controller.set_input(9, is_on)
-    shop.pass_time(0.02)
-    shop.run_text("F600\nG1 X1\n/X2\nY1\nM2\n")
-    assert shop.pulses() == ((10000 if is_on else 20000), 10000, 0)
-
-
 @pytest.mark.req("MILL-RUN-NOGAP", "MILL-LOOK-TANGENT")
 def test_tangent_moves_run_into_each_other_at_the_feed() -> None:
     shop = Shop()
@@ -157,58 +57,6 @@ def test_tangent_moves_run_into_each_other_at_the_feed() -> None:
     moving = speeds[30:-40]
     assert min(moving) > 0.95 * 5
     assert max(moving) < 1.01 * 5
-
-
-@pytest.mark.req("MILL-RUN-FOV", "MILL-RUN-ROV", "MILL-RUN-MAXSPEED")
-def test_each_override_acts_on_its_own_moves_and_never_beyond_the_machine() -> None:
-    shop = Shop(P650_000=300.0, P450_017=15)  # 150 % of 240 would be 360
-    shop.load("F240\nG1 X20\nG0 X0\nM2\n")
-    shop.pass_time(0.5)
-    assert shop.controller.axis(0).velocity_ups == pytest.approx(5.0)
-    shop.runner.overrides.choose(Override.FEED, 5)  # 50 %
-    shop.pass_time(0.5)
-    assert shop.controller.axis(0).velocity_ups == pytest.approx(2.0)
-    shop.runner.overrides.choose(Override.RAPID, 10)  # 60 %
-    shop.pass_time(0.2)
-    assert shop.controller.axis(0).velocity_ups == pytest.approx(2.0)
-    while shop.controller.axis(0).velocity_ups >= 0:
-        shop.pass_time(0.1)
-    shop.pass_time(0.3)
-    assert shop.controller.axis(0).velocity_ups == pytest.approx(-3.0)
-
-
-@pytest.mark.req(
-    "MILL-RUN-SOV", "MILL-SPINDLE-1500", "MILL-SPINDLE-CLAMP", "MILL-SYS-SPINDLE-SCALING"
-)
-def test_the_spindle_voltage_follows_s_and_its_override() -> None:
-    shop = Shop(**SPINDLE)
-    shop.load("S1500 M3\nM0\nS3000\nM0\nS9999\nM0\nS1000\nM0\nM2\n")
-    seen = []
-    for click in (10, 10, 10, 0):
-        shop.runner.overrides.choose(Override.SPINDLE, click)
-        shop.until(State.HOLD)
-        shop.pass_time(0.1)
-        seen.append(volts(shop))
-        shop.runner.start()
-    assert seen == pytest.approx([5.0, 10.0, 10.0, 1.665], abs=0.02)
-
-
-@pytest.mark.req("MILL-RUN-NOTLOADED")
-def test_nothing_loaded_nothing_runs() -> None:
-    shop = Shop()
-    with pytest.raises(UserError):
-        shop.runner.start()
-    assert shop.pulses() == (0, 0, 0)
-
-
-@pytest.mark.req("MILL-SPINDLE-BIT0", "MILL-SYS-SPINDLE-CCWOUT", "MILL-SYS-SPINDLE-CODE")
-@pytest.mark.parametrize(("code", "sign"), [(0, 1.0), (1, -1.0)])
-def test_the_sign_of_the_voltage_is_the_direction_with_bit_0(code: int, sign: float) -> None:
-    shop = Shop(P800_000=code, **SPINDLE)
-    shop.load("M4 S1000\nM0\nM2\n")
-    shop.until(State.HOLD)
-    assert volts(shop) == pytest.approx(sign * 3.33)
-    assert shop.outputs((40, 41)) == [False, True]
 
 
 @pytest.mark.req("MILL-SPINDLE-EXCEPTION", "MILL-SYS-SPINDLE-EXCEPT")
@@ -303,17 +151,6 @@ def test_without_an_oriented_input_the_orientation_has_its_time(orient_s: float)
         shop.pass_time(STEP_S)
         elapsed_s += STEP_S
     assert elapsed_s == pytest.approx(orient_s, abs=0.02)
-
-
-@pytest.mark.req("MILL-TOOL-NOINPUT")
-def test_without_a_signal_a_manual_change_is_confirmed_by_hand() -> None:
-    shop = Shop(P900_001=47)
-    shop.load("F600 T5 M6\nG1 X1\nM2\n")
-    shop.pass_time(1.0)
-    assert shop.runner.state is State.WAIT
-    shop.runner.entry_actions.changer.confirm()
-    shop.until(State.IDLE)
-    assert shop.pulses()[0] == 10000
 
 
 @pytest.mark.req("MILL-LOOK-ACCEL")

@@ -120,27 +120,6 @@ def test_what_is_said_is_said_when_the_motion_gets_there() -> None:
     assert shop.said == ["half", "done"]
 
 
-@pytest.mark.req("MILL-RUN-DRY-GOTOSTART", "MILL-SYS-CTL-GOTOSTART")
-@pytest.mark.parametrize(("returns", "pulses"), [(1, (0, 0, 0)), (0, (20000, 0, 5000))])
-def test_a_dry_run_returns_to_its_start_where_the_store_says_so(
-    returns: int, pulses: tuple[int, int, int]
-) -> None:
-    shop = Shop(P250_006=returns)
-    shop.finish(line(1, at(2, 0, 0.5)), end(), options=Options(is_dry=True))
-    assert shop.pulses() == pulses
-
-
-@pytest.mark.req("MILL-RUN-REPEAT", "MILL-SYS-CTL-REPEAT")
-def test_the_run_can_be_repeated_until_stopped() -> None:
-    shop = Shop(P250_013=1)
-    shop.start(line(1, at(1)), line(2, at(0)), end())
-    shop.pass_time(3.0)
-    assert shop.runner.passes > 3
-    assert shop.store.read(245) == shop.runner.passes
-    shop.runner.abort()
-    shop.until(State.IDLE)
-
-
 def test_commands_that_do_not_fit_the_state_are_refused() -> None:
     shop = Shop()
     for command in (shop.runner.stop, shop.runner.resume, shop.runner.start, shop.runner.abort):

@@ -17,6 +17,8 @@ from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
 from openacr.sysvar import Store
 
+ESTOP, LUBRICATION = "P400_004", "P400_012"
+
 ESTOP, LUBRICATION, FEED_HOLD, CYCLE_START = "P400_004", "P400_012", "P400_002", "P400_003"
 
 
@@ -29,65 +31,6 @@ def codes(shop: Shop) -> list[int]:
 
 def long_path() -> tuple[c.Entry, ...]:
     return (line(1, at(50)), end())
-
-
-@pytest.mark.req("MILL-SYS-IO-ESTOP", "MILL-RUN-ESTOP")
-def test_the_emergency_stop_kills_everything() -> None:
-    shop = Shop(**{ESTOP: 5, "P800_005": 40, "P800_009": 41})
-    shop.start(
-        c.Spindle(src(1), c.Spin.CLOCKWISE, 500), c.Coolant(src(1), True, False), *long_path()
-    )
-    shop.pass_time(0.5)
-    assert shop.outputs((40, 41)) == [True, True]
-    shop.controller.set_input(5, True)
-    shop.pass_time(0.02)
-    assert shop.runner.state is State.ALARM
-    assert codes(shop)[0] == 10
-    assert shop.outputs((40, 41)) == [False, False]
-    place = shop.place()
-    shop.pass_time(0.5)
-    assert shop.place() == pytest.approx(place, abs=0.6)
-    before = shop.place()
-    shop.pass_time(0.5)
-    assert shop.place() == before
-    shop.controller.set_input(5, False)
-    shop.pass_time(1.0)
-    assert shop.place() == before
-    assert shop.runner.state is State.ALARM
-
-
-@pytest.mark.req("MILL-RUN-ESTOP")
-def test_the_emergency_stop_ends_a_dwell() -> None:
-    shop = Shop(**{ESTOP: 5})
-    shop.load("G4 F100\nG1 F600 X1\nM2\n")
-    shop.pass_time(0.5)
-    shop.controller.set_input(5, True)
-    shop.pass_time(0.1)
-    shop.controller.set_input(5, False)
-    shop.pass_time(0.1)
-    assert shop.runner.acknowledge() == []
-    shop.run_text("G1 F600 Y1\nM2\n")
-    assert shop.pulses() == (0, 10000, 0)
-
-
-@pytest.mark.req("MILL-SYS-IO-FEEDHOLD", "MILL-SYS-IO-CYCSTART", "MILL-RUN-FEEDHOLD")
-def test_the_feed_hold_input_pauses_and_cycle_start_goes_on() -> None:
-    shop = Shop(**{FEED_HOLD: 6, CYCLE_START: 7})
-    shop.start(*long_path())
-    shop.pass_time(0.3)
-    shop.controller.set_input(6, True)
-    shop.pass_time(0.3)
-    assert shop.runner.state is State.PAUSED
-    held = shop.place()
-    shop.controller.set_input(7, True)
-    shop.pass_time(0.1)
-    assert shop.place() == held  # refused while the hold is on
-    shop.controller.set_input(6, False)
-    shop.controller.set_input(7, False)
-    shop.pass_time(0.1)
-    shop.controller.set_input(7, True)
-    assert shop.until(State.IDLE) is State.IDLE
-    assert shop.pulses()[0] == 500000
 
 
 def test_the_bulge_of_an_arc_counts_for_the_limits() -> None:
@@ -138,6 +81,9 @@ def test_exact_stops_wait_for_the_in_position_band(width: float, state: State) -
     shop.start(c.Line(src(1), at(1), pace), rapid(2, at(0)), end())
     assert shop.until(state) is state
     assert codes(shop) == ([24] if state is State.ALARM else [])
+
+
+TURNS = "M3 S500\nG1 F60 X50\nM2\n"
 
 
 CUTS = "G1 F60 X50\nM2\n"

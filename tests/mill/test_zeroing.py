@@ -44,31 +44,6 @@ def gone(shop: MillSession, *axes: int) -> list[tuple[float, ...]]:
     return [rounded(p) for p in goto_zero(shop, axes or AXES, lambda _shop: None)]
 
 
-@pytest.mark.req("MILL-ZERO-SET", "MILL-ZERO-CLR", "MILL-ZERO-GOTO")
-def test_the_zero_is_set_reached_and_cleared_at_a_place_reached_by_jogging() -> None:
-    shop = shop_at()
-    shop.jog([("X", 1.588), ("Y", -2.12)], lambda _shop: None)
-    there = machine_place(shop)
-    assert there == (1.588, -2.12, 0.0)
-    assert rounded(set_zero(shop, AXES)) == (0.0, 0.0, 0.0)
-    assert machine_place(shop) == there  # nothing has moved
-    assert [shop.cells.read(SHIFT + axis) for axis in AXES] == [1.588, -2.12, 0.0]
-    mdi(shop, "G0 X1 Y1")
-    assert gone(shop) == [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0)]
-    assert machine_place(shop) == there
-    assert rounded(clear_all(shop)) == (1.588, -2.12, 0.0)
-    assert machine_place(shop) == there
-    assert [shop.cells.read(ACTIVE + k) for k in range(4)] == [0.0] * 4
-
-
-@pytest.mark.req("MILL-ZERO-SET")
-def test_single_axes_are_set_to_zero_and_the_others_stay() -> None:
-    shop = shop_at("G0 X1 Y2 Z3")
-    assert rounded(set_zero(shop, [1])) == (1.0, 0.0, 3.0)
-    assert rounded(set_zero(shop, [0])) == (0.0, 0.0, 3.0)
-    assert shop.cells.read(ACTIVE) == 1.0
-
-
 @pytest.mark.parametrize(
     ("z", "outcomes"),
     [

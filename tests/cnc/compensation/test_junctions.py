@@ -1,6 +1,6 @@
 """How the tool gets from one element to the next, for every pair of forms."""
 
-from math import cos, hypot, pi, sin, sqrt
+from math import pi, sqrt
 
 import pytest
 from tests.cnc.compensation.tools import EXACT, FEED, Path, compensate
@@ -49,17 +49,6 @@ def test_a_cusp_that_closes_on_the_tool_is_an_inside_corner() -> None:
     trace = compensate(path.elements, 0.25)
     assert trace.inserted == []
     assert trace.ends[1] == near((4 - sqrt(2.25**2 - 1.75**2), 0.25))
-
-
-@pytest.mark.req("MILL-COMP-18")
-def test_feet_that_are_nearer_than_epsilon_are_joined() -> None:
-    angle = 0.0007 / 0.25  # the feet of a tool of radius 0.25 are 0.0007 apart
-    path = Path(0, 2).to(0, 0).to(1, 0).to(1 + cos(angle), -sin(angle)).to(3, 2)
-    joined = compensate(path.elements, 0.25, rules=Rules(epsilon=0.001))
-    assert joined.inserted == []
-    assert joined.elements[1].end == joined.elements[2].start
-    apart = compensate(path.elements, 0.25, rules=Rules(epsilon=0.0001))
-    assert len(apart.inserted) == 1
 
 
 @pytest.mark.req("MILL-COMP-20")
@@ -126,29 +115,6 @@ def test_a_line_and_an_arc_that_no_longer_cross_are_joined_where_they_are_neares
         assert one.end == pytest.approx(other.start)
 
 
-@pytest.mark.req("MILL-COMP-21")
-def test_a_spiral_within_epsilon_gets_the_nearest_centre() -> None:
-    path = Path(0, -2).to(0, -1).arc(1.0005, 0, 0, 0, 1).to(1, 1).to(0, 1)
-    trace = compensate(path.elements, 0.25, Side.RIGHT, Rules(epsilon=0.001))
-    arc = trace.elements[1]
-    assert trace.findings == []
-    assert arc.centre is not None
-    radii = [hypot(p[0] - arc.centre[0], p[1] - arc.centre[1]) for p in (arc.start, arc.end)]
-    assert radii[0] == pytest.approx(radii[1], abs=1e-3)
-    assert radii[0] == pytest.approx(1.25, abs=1e-3)
-
-
-@pytest.mark.req("MILL-COMP-21")
-def test_a_spiral_beyond_epsilon_is_refused() -> None:
-    path = Path(0, -2).to(0, -1).arc(1.01, 0, 0, 0, 1).to(1, 1).to(0, 1)
-    trace = compensate(path.elements, 0.25, Side.RIGHT, Rules(epsilon=0.001))
-    assert trace.findings[0] == (
-        "E315",
-        "start and end radius differ by more than 0.001",
-        2,
-    )
-
-
 @pytest.mark.req("MILL-COMP-23")
 @pytest.mark.parametrize("plane", list(Plane))
 def test_every_plane_is_compensated_alike(plane: Plane) -> None:
@@ -157,19 +123,6 @@ def test_every_plane_is_compensated_alike(plane: Plane) -> None:
     trace = compensate(path.elements, 0.25, Side.RIGHT)
     assert trace.ends == compensate(flat.elements, 0.25, Side.RIGHT).ends
     assert all(each.plane is plane for each in trace.elements)
-
-
-@pytest.mark.req("MILL-COMP-25")
-@pytest.mark.parametrize("scale", [0.001, 1.0, 1000.0])
-def test_small_and_large_parts_run_alike_with_fitting_epsilons(scale: float) -> None:
-    s = scale
-    path = Path(0, -s).to(0, 0).to(s, 0).arc(2 * s, s, s, s, 1).to(2 * s, 2 * s)
-    path.to(0.5 * s, 2 * s).to(-s, s)
-    rules = Rules(epsilon=1e-5 * s if s < 1 else 1e-4 * s, root_epsilon=-12)
-    trace = compensate(path.elements, 0.25 * s, Side.RIGHT, rules)
-    assert trace.findings == []
-    wanted = [(0, -0.25), (1, -0.25), (2.25, 1), (2.25, 2), (2, 2.25), (0.5, 2.25), (-1, 1)]
-    assert [(x / s, y / s) for x, y in trace.ends] == [pytest.approx(w, abs=1e-4) for w in wanted]
 
 
 def test_default_rules_are_those_of_a_new_store() -> None:
