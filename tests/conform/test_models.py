@@ -57,6 +57,7 @@ def case_of(folder: Path, text: str) -> Case:
         ("at least 16 axes", "ACR8020", "ACR8010"),
         ("at most 8 axes", "ACR8010", "ACR8020"),
         ("at most 15 axes", "ACR8010", "ACR8020"),
+        ("at least 32 inputs", "ACR8010", "ACR2000"),
         ("at least 9 masters", "ACR1505", "ACR1500"),
         ("at least 1 commutators", "ACR8010", "ACR8000"),
         ("at least 20 encoders, user flash", "ACR8010", "ACR8000"),

@@ -14,6 +14,7 @@ FEATURES = {
 }
 COUNTS = {
     "axes": "axes",
+    "inputs": "lines",  # digital; as many outputs
     "masters": "masters",
     "encoders": "encoders",
     "analog inputs": "adcs",
