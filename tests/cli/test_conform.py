@@ -3,8 +3,10 @@
 import json
 import time
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, contextmanager
 from pathlib import Path
+from signal import SIGINT
+from subprocess import PIPE, Popen
 
 import pytest
 from tests import warm
@@ -146,3 +148,144 @@ def test_what_cannot_be_done_is_refused_in_one_line(
     assert result.exit_code == 2
     assert result.stderr.startswith(f"error: {refusal}")
     assert result.stderr.count("\n") == 1
+
+
+JOGS = """\
+rests on: manual
+source: 000 L4287
+
+[case A jog by a length]
+moves: 1 units at 2 units/s
+changes: P12348, P12349, P12350
+> AXIS0 JOG VEL 2
+> AXIS0 JOG ACC 50
+> AXIS0 JOG DEC 50
+note P12297 as begin
+> AXIS0 JOG INC 1
+wait until BIT792 = 0 within 5 s
+? (P12297-<begin>)/P12375 -> 1
+
+[case A flag of the user]
+changes: BIT128
+> SET 128
+? BIT128 -> -1
+
+[case A sum]
+> ?1+2
+3
+"""
+SETTINGS = ("?P12604", "?P12605", "?P12606", "?BIT128", "?P12553", "?BIT824", "?BIT8499")
+
+
+@pytest.fixture
+def jogs(tmp_path: Path, card: Served) -> Path:
+    """The cases, and axis 1 of the card at rest with settings of its user."""
+    folder = tmp_path / "manual"
+    folder.mkdir()
+    (folder / "01-jogs.txt").write_text(JOGS)
+    typed(card, "HALT ALL", "AXIS1 PPU 1000", "AXIS1 JOG VEL 7", "AXIS1 JOG ACC 30", "CLR 128")
+    return tmp_path
+
+
+def values(card: Served) -> list[float]:
+    with card.call() as terminal:
+        return [float(terminal.value(line)) for line in SETTINGS]
+
+
+def test_an_axis_is_jogged_after_one_question_and_everything_is_put_back(
+    jogs: Path, card: Served
+) -> None:
+    before = values(card)
+    report = jogs / "report.json"
+    words = ["conform", f"{LOOPBACK}:{card.ascii_port}", "--cases", str(jogs)]
+    words += ["--report", str(report)]
+    for options, answer, counts in (
+        ([], "", (1, 2)), (["--setting"], "", (2, 1)),
+        (["--moving", "axis1"], "y\n", (2, 1)), (["--moving", "1", "--setting"], "y\n", (3, 0)),
+    ):  # fmt: skip
+        result = CliRunner().invoke(app, [*words, *options], input=answer)
+        assert result.exit_code == 0, result.output
+        found = json.loads(report.read_text())["counts"]
+        assert (found["agrees"], found["not run"]) == counts
+        assert values(card) == before
+        assert result.stderr.count("?") == bool(answer)
+    assert "1 case will jog AXIS1 of 127.0.0.1:" in result.stderr
+    assert "up to 1 units to either side of where it is, at up to 2 units/s" in result.stderr
+
+
+def test_without_a_yes_nothing_moves(jogs: Path, card: Served) -> None:
+    before = values(card)
+    words = ["conform", f"{LOOPBACK}:{card.ascii_port}", "--cases", str(jogs), "--moving", "1"]
+    for answer in ("n\n", ""):
+        result = CliRunner().invoke(app, words, input=answer)
+        assert (result.exit_code, result.stdout.strip(" yn\n")) == (1, "")
+        assert values(card) == before
+
+
+@contextmanager
+def jogging(jogs: Path, card: Served) -> Iterator[tuple[Proxy, "Popen[str]"]]:
+    """A run over a line while it jogs axis 1."""
+    text = JOGS.replace("JOG INC 1", "JOG INC 8").replace("1 units at 2", "8 units at 2")
+    (jogs / "manual" / "01-jogs.txt").write_text(text)
+    before = values(card)[4]
+    with closing(Proxy(f"{LOOPBACK}:{card.ascii_port}")) as line:
+        words = ["conform", line.address, "--cases", str(jogs), "--moving", "1"]
+        process = warm.Popen(words, stdin=PIPE, stderr=PIPE, text=True)
+        assert process.stdin is not None
+        process.stdin.write("y\n")
+        process.stdin.flush()
+        while values(card)[4] < before + 200:
+            assert process.poll() is None
+        try:
+            yield line, process
+        finally:
+            process.kill()
+            process.wait()
+            for stream in (process.stdin, process.stderr):
+                if stream is not None:
+                    stream.close()
+
+
+def test_ctrl_c_kills_the_motion_and_puts_the_settings_back(jogs: Path, card: Served) -> None:
+    before = values(card)
+    with jogging(jogs, card) as (_, process):
+        process.send_signal(SIGINT)
+        process.wait()
+    after = values(card)
+    assert after[:4] == before[:4]
+    assert before[4] < after[4] < before[4] + 8000
+    assert values(card) == after  # at rest, and the kill is taken back
+    assert after[5:] == [0, 0]
+
+
+def test_a_cut_line_ends_within_the_travel_and_the_settings_are_named(
+    jogs: Path, card: Served
+) -> None:
+    before = values(card)
+    with jogging(jogs, card) as (line, process):
+        line.cut()
+        _, error = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert "not put back: P12604=7, P12605=30, P12606=10" in error
+    with card.call() as terminal:
+        while terminal.value("?BIT824") != "0":
+            pass
+        assert float(terminal.value("?P12553")) == before[4] + 8000
+        terminal.ask("AXIS1 JOG VEL 100")
+        terminal.ask("AXIS1 JOG INC -8")
+        while terminal.value("?BIT824") != "0":
+            pass
+
+
+@pytest.mark.parametrize("axis", ["X", "16", "AXIS16", "AXIS", "-1"])
+def test_an_axis_is_a_number_of_the_card(axis: str) -> None:
+    result = CliRunner().invoke(app, ["conform", LOOPBACK, f"--moving={axis}"])
+    assert result.exit_code == 2
+    assert result.stderr == f"error: --moving {axis}: expected AXIS0 to AXIS15\n"
+
+
+def test_only_a_card_with_a_host_is_moved_and_set() -> None:
+    for words in (["--moving", "1"], ["--setting"]):
+        result = CliRunner().invoke(app, ["conform", *words])
+        assert result.exit_code == 2
+        assert "--moving and --setting are for a card with a HOST" in result.stderr

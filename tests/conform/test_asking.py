@@ -55,7 +55,8 @@ def test_a_case_that_prints_what_no_card_stores_only_asks(tmp_path: Path, steps:
         (">> 00", "line 4: `>>BYTES` does more than ask"),
         ("press ^Z", "line 4: `press KEY` does more than ask"),
         ("machine:\n    [card]\n> ?1\n1", "it needs a machine that is set up"),
-        ("moves: X\n> ?1\n1", "it moves X"),
+        ("moves: 1 units at 1 units/s\n> ?1\n1", "it moves a motor (--moving AXIS)"),
+        ("changes: P5, BIT128\n> ?1\n1", "it sets P5, BIT128 and puts them back (--setting)"),
         ("only: virtual\n> ?1\n1", "it needs the world around a virtual card"),
     ],
 )

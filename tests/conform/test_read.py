@@ -31,12 +31,14 @@ def test_a_case_has_its_line_its_ids_with_clauses_and_its_source(tmp_path: Path)
     path = tmp_path / "cases.txt"
     path.write_text(
         "# A chapter\nrests on: manual\n\n[case One]\nproves: ACR-X-1 (first, second), ACR-Y\n"
-        "source: 001 L12-15\nonly: virtual\nmoves: X Y\n> VER\n"
+        "source: 001 L12-15\nonly: virtual\nmoves: 2.5 units at 1 units/s\n"
+        "changes: P12348, BIT128\n> VER\n"
     )
     (case,) = read(path)
     assert (case.name, case.line, case.source) == ("One", 4, "001 L12-15")
     assert case.proves == (Claim("ACR-X-1", "first, second"), Claim("ACR-Y"))
-    assert (case.rests, case.only, case.moves) == ("manual", "virtual", "X Y")
+    assert (case.rests, case.only) == ("manual", "virtual")
+    assert (case.moves, case.changes) == ((2.5, 1.0), ("P12348", "BIT128"))
 
 
 def test_lines_above_the_first_case_hold_where_a_case_says_nothing(tmp_path: Path) -> None:

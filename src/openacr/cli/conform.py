@@ -11,16 +11,27 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from openacr.cli.live.online import BAUD, FAILED, SILENCE_S, Baud, Silence, progress_bar
+from openacr.cli.live.online import (
+    BAUD,
+    FAILED,
+    SILENCE_S,
+    Baud,
+    Silence,
+    connected,
+    progress_bar,
+)
 from openacr.errors import UserError
 from openacr.models import DEFAULT_MODEL, MODELS
 from openacr.wording import counted
 
 if TYPE_CHECKING:
+    from openacr.client import Card
     from openacr.client.identity import Identity
     from openacr.conform.campaign import Outcome
     from openacr.conform.form import Case
+    from openacr.conform.moving import Permission
 
+MOST_AXES = 16
 MOST_SHOWN = 20  # differences in full
 
 
@@ -48,6 +59,16 @@ def conform(
     report: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Write all outcomes to a JSON file.")
     ] = None,
+    moving: Annotated[
+        str | None,
+        typer.Option(
+            metavar="AXIS",
+            help="Also cases that jog this axis (AXIS2 or 2), whose motor must be free.",
+        ),
+    ] = None,
+    setting: Annotated[
+        bool, typer.Option("--setting", help="Also cases that set something and put it back.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object.")] = False,
     baud: Baud = BAUD,
     silence: Silence = SILENCE_S,
@@ -55,15 +76,21 @@ def conform(
     """Compare a card with its manuals: the cases of all sections, and what differs.
 
     On a card with a HOST only those cases run that ask and change nothing; a card on which a
-    program runs or an axis moves is refused. Exit code 1: something differs.
+    program runs or an axis moves is refused. With --moving, after a question, one axis is jogged as
+    far and as fast as the question says; Ctrl-C kills its motion. What cases set is put back at the
+    end. Exit code 1: something differs.
     """
     from openacr.conform.campaign import chosen, on_virtual_card
+    from openacr.conform.moving import Permission
     from openacr.conform.read import supplied
 
     if model not in MODELS:
         raise UserError(f"--model {model}: the models are {', '.join(MODELS)}")
     if target and model != DEFAULT_MODEL.name:
         raise UserError("--model is that of a virtual card; a card with a HOST has its own")
+    if target is None and (moving or setting):
+        raise UserError("--moving and --setting are for a card with a HOST; a virtual one runs all")
+    permission = Permission(None if moving is None else _axis_of(moving), setting)
     _check_output(report)
     found = chosen(cases or supplied(), areas or [])
     identity = None
@@ -71,7 +98,7 @@ def conform(
         with _without_warnings():
             outcomes = _watched(on_virtual_card(found, model), len(found))
     else:
-        with _asked(target, found, baud, silence) as (identity, running):
+        with _asked(target, found, permission, baud, silence) as (identity, running):
             outcomes = _watched(running, len(found))
     record = _record(outcomes, identity, model)
     if report is not None:
@@ -96,31 +123,98 @@ def _without_warnings() -> Iterator[None]:
         logger.setLevel(before)
 
 
+def _axis_of(text: str) -> int:
+    """The number of an axis; UserError for anything else."""
+    digits = text.upper().removeprefix("AXIS")
+    if not digits.isdecimal() or int(digits) >= MOST_AXES:
+        raise UserError(f"--moving {text}: expected AXIS0 to AXIS{MOST_AXES - 1}")
+    return int(digits)
+
+
 @contextmanager
 def _asked(
-    target: str, cases: "list[Case]", baud: int, silence_s: float
+    target: str, cases: "list[Case]", permission: "Permission", baud: int, silence_s: float
 ) -> "Iterator[tuple[Identity, Iterator[Outcome]]]":
-    """The outcomes of a card that others use; UserError if something runs there."""
-    from openacr.cli.live.online import connected
+    """The outcomes of a card that others use; UserError if something runs there.
+
+    What cases set is read before, and put back afterwards, whatever happens.
+    """
     from openacr.client.errors import ClientError
     from openacr.client.identity import identify
     from openacr.client.links import link_to
     from openacr.client.options import Options
+    from openacr.conform.asking import bar
     from openacr.conform.campaign import on_card_in_use
+    from openacr.conform.form import DifferenceError
     from openacr.conform.host import HostCard, occupation
 
     identity = identify(target, Options(timeout_s=silence_s), baud=baud)
     with connected(target, baud, silence_s) as card:
         if busy := occupation(card):
             raise UserError(f"{target}: {busy}: stop it first, then ask the card")
+        allowed = [each for each in cases if not bar(each, permission)]
+        before = _read(card, _changed(allowed, permission.axis))
+    if permission.axis is not None:
+        _confirm(target, permission.axis, [each for each in allowed if each.moves])
     link = link_to(target, baud)
     try:
         link.open()
-        yield identity, on_card_in_use(cases, HostCard(link), identity.model)
+        yield identity, on_card_in_use(cases, HostCard(link), identity.model, permission)
     except ClientError as lost:
         raise UserError(f"{target}: {lost}") from None
+    except DifferenceError as late:
+        raise UserError(f"{target}: the axis did not come to rest: {late}") from None
     finally:
         link.close()
+        _put_back(target, before, baud, silence_s)
+
+
+def _changed(cases: "list[Case]", axis: int | None) -> list[str]:
+    """What cases set on a card, for those that move on this axis."""
+    from openacr.conform.moving import changed, of_axis
+
+    names = changed(cases)
+    return names if axis is None else [of_axis(name, axis) for name in names]
+
+
+def _read(card: "Card", names: list[str]) -> dict[str, float]:
+    """The values of parameters and flags."""
+    return {
+        name: card.read(int(name[1:])) if name[0] == "P" else card.read_bit(int(name[3:]))
+        for name in names
+    }
+
+
+def _put_back(target: str, before: dict[str, float], baud: int, silence_s: float) -> None:
+    """Set what cases have set to what it was; UserError with the values that could not be."""
+    if not before:
+        return
+    try:
+        with connected(target, baud, silence_s) as card:
+            for name, value in before.items():
+                if name[0] == "P":
+                    card.write(int(name[1:]), value)
+                else:
+                    card.write_bit(int(name[3:]), bool(value))
+    except UserError as lost:
+        values = ", ".join(f"{name}={value:.9g}" for name, value in before.items())
+        raise UserError(f"{lost}; not put back: {values}") from None
+
+
+def _confirm(target: str, axis: int, cases: "list[Case]") -> None:
+    """Ask once whether an axis may move; UserError if there is nothing to ask for."""
+    from openacr.conform.moving import reach_of
+
+    if not cases:
+        raise UserError(f"--moving AXIS{axis}: none of the cases moves an axis")
+    travel_u, speed_ups = reach_of(cases)
+    typer.confirm(
+        f"{counted(len(cases), 'case')} will jog AXIS{axis} of {target}: up to {travel_u:g} units"
+        f" to either side of where it is, at up to {speed_ups:g} units/s. Ctrl-C kills its motion."
+        " Is its motor free, and its way?",
+        abort=True,
+        err=True,
+    )
 
 
 def _watched(running: "Iterator[Outcome]", total: int) -> "list[Outcome]":

@@ -7,16 +7,18 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from openacr.conform.asking import bar
+from openacr.conform.asking import NOTHING, bar
 from openacr.conform.facts import lacking
 from openacr.conform.form import Case, DifferenceError
 from openacr.conform.host import HostCard
+from openacr.conform.moving import AT_REST, Permission, for_axis, of_axis
 from openacr.conform.read import files, read
 from openacr.conform.run import run
 from openacr.conform.targets import world_of
 from openacr.errors import UserError
 from openacr.models import MODELS, Model
 
+RETURN_S = 60.0  # for the way back after a case that moves an axis
 OTHER_MODEL = "not for this model"
 RESULTS = ("agrees", "differs", "not run", OTHER_MODEL)
 _MADE_ID = re.compile(r"^proves:(?:[^({\n]|\([^)]*\))*\{", re.MULTILINE)  # an id from a table
@@ -123,10 +125,14 @@ def other_model(case: Case, model: Model) -> str:
     return lacking(case.needs, model)
 
 
-def on_card_in_use(cases: Iterable[Case], card: HostCard, model: str) -> Iterator[Outcome]:
-    """Each case that only asks, on a card of a model that others use; a link error ends it.
+def on_card_in_use(
+    cases: Iterable[Case], card: HostCard, model: str, permission: Permission = NOTHING
+) -> Iterator[Outcome]:
+    """Each case that is permitted, on a card of a model that others use; a link error ends it.
 
-    A card of a model that is not known is asked only what holds for all models.
+    After a case that moves an axis it is jogged to where it was. If the run ends meanwhile, by an
+    error or by Ctrl-C, all motion of the axis is killed. A card of a model that is not known is
+    asked only what holds for all models.
     """
     for case in cases:
         is_of_one = bool(case.model or case.needs)
@@ -136,9 +142,26 @@ def on_card_in_use(cases: Iterable[Case], card: HostCard, model: str) -> Iterato
         if is_of_one and (reason := other_model(case, MODELS[model])):
             yield Outcome(case, bar=reason, is_of_others=True)
             continue
-        if reason := bar(case):
+        if reason := bar(case, permission):
             yield Outcome(case, bar=reason)
             continue
         card.align()
-        yield Outcome(case, run(case, card))
+        if case.moves is None or permission.axis is None:
+            yield Outcome(case, run(case, card))
+        else:
+            yield Outcome(case, _moved(for_axis(case, permission.axis), card, permission.axis))
     card.align()
+
+
+def _moved(case: Case, card: HostCard, axis: int) -> DifferenceError | None:
+    """Run a case that moves an axis, and return the axis to where it was."""
+    try:
+        begin_u = card.ask(of_axis("P12297/P12375", axis))
+        difference = run(case, card)
+        card.align()
+        card.type(f"AXIS{axis} JOG ABS {begin_u:.9g}")
+        card.until(of_axis(AT_REST, axis), RETURN_S)
+    except BaseException:
+        card.stop(axis)
+        raise
+    return difference

@@ -64,6 +64,13 @@ class Claim:
     clause: str = ""
 
 
+class Reach(NamedTuple):
+    """How far a case moves axis 0 from where it is, and how fast."""
+
+    travel_u: float
+    speed_ups: float
+
+
 @dataclass(frozen=True, slots=True)
 class Case:
     """A case, or one row of its table."""
@@ -78,7 +85,8 @@ class Case:
     model: str  # whose answers it holds, where they differ from those of others
     needs: tuple[str, ...]  # what its model must have (facts.py)
     only: str  # "virtual": it needs the world around a virtual card
-    moves: str  # the axes it moves
+    moves: Reach | None  # axis 0 of a card in use
+    changes: tuple[str, ...]  # parameters and flags of a card in use, which are put back
     steps: tuple[Step, ...]
 
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import operator
 import re
+from collections.abc import Callable
 
 from openacr.client import Card
 from openacr.client.errors import GarbledError
 from openacr.client.links import Link
 from openacr.client.program_states import ROWS, program_states
 from openacr.client.standstill import KNOWN, MOVES
+from openacr.conform.form import NUMBER, DifferenceError
+from openacr.conform.moving import JOG_ACTIVE, of_axis
 from openacr.conform.stage import PROMPT
 from openacr.conform.targets import CONSOLE
 from openacr.controller import Controller
@@ -18,6 +22,12 @@ from openacr.map.words import af1, mf1
 PERIOD_S = 0.001  # of the clock by which answers are awaited; the card's own is not asked for
 QUIET_S = 0.05  # after a prompt: one in the middle of a text is followed by more at once
 ALIGN_S = 5.0
+KILL = "BIT8467"  # all motion of axis 0
+RELATIONS: dict[str, Callable[[float, float], bool]] = {
+    "=": operator.eq, "<>": operator.ne, "<": operator.lt, ">": operator.gt,
+    "<=": operator.le, ">=": operator.ge,
+}  # fmt: skip
+_CONDITION = re.compile(rf"((?:P|BIT) ?\d+) ?(<>|<=|>=|=|<|>) ?({NUMBER})")
 _ALIGNED = re.compile(rb"SYS>\Z")
 
 
@@ -81,8 +91,43 @@ class HostCard:
         self._take(ticks * PERIOD_S)
 
     def until(self, condition: str, limit_s: float) -> None:
-        """Not on a card in use."""
-        raise UserError(f"wait until {condition}: only on a virtual card")
+        """Ask again and again until a condition holds; DifferenceError if it does not in time."""
+        found = _CONDITION.fullmatch(condition)
+        if found is None:
+            raise UserError(f"wait until {condition}: expected P or BIT, a relation and a number")
+        last_s = self._link.now_s() + limit_s
+        while not RELATIONS[found[2]](value := self.ask(found[1]), float(found[3])):
+            if self._link.now_s() > last_s:
+                wanted = f"{condition} within {limit_s:g} s"
+                raise DifferenceError(wanted, f"{found[1]} = {value:g}")
+
+    def ask(self, expression: str) -> float:
+        """The value of an expression; GarbledError for any other answer."""
+        kept, self._waiting = self._waiting, bytearray()
+        answer = self.type(f"?{expression}")
+        self._waiting = kept
+        try:
+            return float(answer)
+        except ValueError:
+            raise GarbledError(self._link.name, expression, answer.encode("latin-1")) from None
+
+    def type(self, line: str) -> str:
+        """Type a line; its answer, without echo and prompt. GarbledError where no prompt comes."""
+        self.send(CONSOLE, f"{line}\r".encode("latin-1"))
+        last_s = self._link.now_s() + ALIGN_S
+        while not self.is_answered(CONSOLE):
+            if self._link.now_s() > last_s:
+                raise GarbledError(self._link.name, line, bytes(self._heard))
+        heard = self.heard(CONSOLE).decode("latin-1").replace("\r\n", "\n")
+        return PROMPT.sub("", heard.removeprefix(f"{line}\n")).strip()
+
+    def stop(self, axis: int) -> None:
+        """Kill all motion of an axis, wait for its rest, and take the request back."""
+        kill, active = (of_axis(name, axis).removeprefix("BIT") for name in (KILL, JOG_ACTIVE))
+        self._link.write(f"\x1b\rSET {kill}\r".encode())
+        self.align()
+        self.until(f"BIT{active} = 0", ALIGN_S)
+        self.type(f"CLR {kill}")
 
     def number(self, what: str) -> float | None:
         """Nothing is read but by lines that are typed."""

@@ -17,7 +17,17 @@ from openacr.conform import words as _words  # noqa: F401  (declares the words)
 from openacr.conform import words_loaded as _loaded  # noqa: F401
 from openacr.conform import words_part as _part  # noqa: F401
 from openacr.conform.facts import needs_of
-from openacr.conform.form import ANSWERS, BLOCK, Case, Claim, Line, Machine, Step, step_of
+from openacr.conform.form import (
+    ANSWERS,
+    BLOCK,
+    Case,
+    Claim,
+    Line,
+    Machine,
+    Reach,
+    Step,
+    step_of,
+)
 from openacr.errors import FaultyFileError, SourceError, UserError, read_bytes
 from openacr.models import DEFAULT_MODEL, MODELS
 
@@ -27,9 +37,11 @@ RESTS = ("manual", "oracle", "client", "inferred")
 MACHINES = "machines"  # the folder of machines, in the folder of the manuals or above it
 MAY_BE_EMPTY = ("shows:", "prints:", "says:", "alarm:", "entries:")
 _CASE = re.compile(r"\[case (.+)\]")
-_ABOUT = re.compile(r"(proves|source|rests on|machine|model|needs|only|moves):(?:\s+(.*))?")
+_ABOUT = re.compile(r"(proves|source|rests on|machine|model|needs|only|moves|changes):(?:\s+(.*))?")
 _CLAIM = re.compile(r"\s*([A-Z]+(?:-[A-Z0-9]+)+)\s*(?:\(([^()]*)\))?\s*(?:,|$)")
 _MANUAL = re.compile(r"\b00[013] L\d+")
+_REACH = re.compile(r"(\d+\.?\d*) units? at (\d+\.?\d*) units/s")
+_CHANGED = re.compile(r"(?:P|BIT)\d+")
 _COLUMN = re.compile(r"\{([^{}]+)\}")
 
 
@@ -131,9 +143,23 @@ class _Reader:
             texts.get("model", ""),
             needs,
             texts.get("only", ""),
-            texts.get("moves", ""),
+            self._reach(about["moves"][0]) if "moves" in about else None,
+            self._changes(about["changes"][0]) if "changes" in about else (),
             steps,
         )
+
+    def _reach(self, line: Line) -> Reach | None:
+        found = _REACH.fullmatch(line.text)
+        if line.text and not found:
+            raise _FaultError(line, f"moves: {line.text}: expected 1 units at 2 units/s")
+        return Reach(float(found[1]), float(found[2])) if found else None
+
+    def _changes(self, line: Line) -> tuple[str, ...]:
+        names = tuple(each.strip() for each in line.text.split(",")) if line.text else ()
+        for name in names:
+            if not _CHANGED.fullmatch(name):
+                raise _FaultError(line, f"changes: {name}: expected P or BIT with a number, ...")
+        return names
 
     def _machine(self, lines: Sequence[Line]) -> Machine:
         name, *below = lines

@@ -29,6 +29,7 @@ class Stage:
     took_tk: int = 0  # by the latest line or wait
     pending: dict[str, bytes] = field(default_factory=dict)  # heard and not yet compared
     prompts: dict[str, str] = field(default_factory=dict)
+    notes: dict[str, float] = field(default_factory=dict)  # values that a case refers to
     _mill: Mill | None = None
 
     @property
@@ -117,7 +118,12 @@ class Stage:
             raise DifferenceError(f"{text}: no message", "\n".join(answer))
 
     def value(self, text: str) -> float | str:
-        """The value of an expression as the card computes it: a number, or a text."""
+        """The value of an expression as the card computes it: a number, or a text.
+
+        `<NAME>` in it is a value that was noted.
+        """
+        for name, value in self.notes.items():
+            text = text.replace(f"<{name}>", f"({value!r})")
         number = self.card.number(text)
         if number is not None:
             return number

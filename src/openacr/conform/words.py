@@ -166,6 +166,15 @@ def value_within(stage: Stage, step: Step, what: str, expected: str, tolerance: 
     compare_values(stage.value, what, expected, tolerance)
 
 
+@word("note WHAT as NAME")
+def note(stage: Stage, step: Step, what: str, name: str) -> None:
+    """Keep a value for the expressions of `?` below, where it is `<NAME>`."""
+    value = stage.value(what)
+    if isinstance(value, str):
+        raise DifferenceError("a number", value)
+    stage.notes[name] = value
+
+
 # Time.
 
 
