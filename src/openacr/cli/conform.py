@@ -211,7 +211,7 @@ def _confirm(target: str, axis: int, cases: "list[Case]") -> None:
     typer.confirm(
         f"{counted(len(cases), 'case')} will jog AXIS{axis} of {target}: up to {travel_u:g} units"
         f" to either side of where it is, at up to {speed_ups:g} units/s. Ctrl-C kills its motion."
-        " Is its motor free, and its way?",
+        " Is it free to move?",
         abort=True,
         err=True,
     )

@@ -18,7 +18,7 @@ from openacr.conform.targets import world_of
 from openacr.errors import UserError
 from openacr.models import MODELS, Model
 
-RETURN_S = 60.0  # for the way back after a case that moves an axis
+RETURN_S = 60.0  # for the return after a case that moves an axis
 OTHER_MODEL = "not for this model"
 RESULTS = ("agrees", "differs", "not run", OTHER_MODEL)
 _MADE_ID = re.compile(r"^proves:(?:[^({\n]|\([^)]*\))*\{", re.MULTILINE)  # an id from a table

@@ -2,8 +2,8 @@
 
 Such a case says with `moves: 1 units at 2 units/s` how far axis 0 goes from where it is, and how
 fast, and with `changes: P12348, BIT128` what it sets. It jogs by lengths that are written in it
-(JOG INC), so that a card whose host is gone ends its motion by itself within that travel. Its `machine:` is
-that of a virtual card; on one in use it is what is there.
+(JOG INC), so that a card whose host is gone ends its motion by itself within that travel. Its
+`machine:` is that of a virtual card; on one in use it is what is there.
 """
 
 from __future__ import annotations
