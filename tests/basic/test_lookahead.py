@@ -120,28 +120,10 @@ def test_a_straight_chain_takes_as_long_as_one_move(jerk: int) -> None:
     assert path.steepest() <= 100.001
 
 
-@pytest.mark.parametrize(
-    ("degrees", "speed"), [(0, 10), (45, 5.5), (60, 4), (90, 1), (120, 1), (180, 1)]
-)
-@pytest.mark.req("ACR-CMD-LOOK")
-def test_corners_are_taken_at_the_speed_of_the_law(degrees: int, speed: float) -> None:
-    turn = math.radians(degrees)
-    path = Path(bench("LOOK MINVEL 1"), [(5.0, 0.0), (5 + 5 * math.cos(turn), 5 * math.sin(turn))])
-    assert path.speed_near((5.0, 0.0)) == pytest.approx(speed, abs=0.06)
-    assert path.steepest() <= 100.1
-    assert path.made.p(ANGLE) == pytest.approx(0)
-
-
 def test_the_angle_of_the_present_corner_is_shown() -> None:
     made = bench("X5", "X5 Y5").ticks(10)
     assert made.p(ANGLE) == pytest.approx(90)
     assert not made.bit(SLOWDOWN) or made.p(VELOCITY) < 10
-
-
-def test_free_angles_do_not_slow_down() -> None:
-    path = Path(bench("LOOK ANG (91,120)"), [(5.0, 0.0), (5.0, 5.0), (0.0, 5.0)])
-    assert path.speed_near((5.0, 0.0)) == pytest.approx(10)
-    assert path.ticks == ticks(1.6)
 
 
 def test_arcs_join_lines_along_their_tangents() -> None:

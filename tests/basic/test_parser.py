@@ -158,26 +158,10 @@ def test_unknown_words_have_two_messages() -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "FBVEL",
-        "X",
-        "X(1,2)",
-        "X10+5",
-        "P0=",
-        "P0=(1",
-        "P0=1)",
-        "SET",
-        "LV0",
-        "X10 5",
-        "P0=1 2",
-        "=1",
-        "LET P0=1 2",
-        "P0=SIN 30",
-        "DWL",
-        "INH",
-        "IHPOS P1",
-        "MASK P4097 (1)",
+        "FBVEL", "X", "X(1,2)", "X10+5", "P0=", "P0=(1", "P0=1)", "SET", "LV0", "X10 5", "P0=1 2",
+        "=1", "LET P0=1 2", "P0=SIN 30", "DWL", "INH", "IHPOS P1", "MASK P4097 (1)",
     ],
-)
+)  # fmt: skip
 def test_malformed_statements_are_refused(text: str) -> None:
     assert refusal(text) in ("Syntax error", "Unknown command")
 
@@ -185,16 +169,10 @@ def test_malformed_statements_are_refused(text: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        'P0="a"',
-        "$V0=1",
-        'P0=1+"a"',
-        'P0="a"="b"+1',
-        'P0=SIN("a")',
-        "P0=LEN(1)",
-        'P0=NOT "a"',
+        'P0="a"', "$V0=1", 'P0=1+"a"', 'P0="a"="b"+1', 'P0=SIN("a")', "P0=LEN(1)", 'P0=NOT "a"',
         '$V0="a"*"b"',
     ],
-)
+)  # fmt: skip
 def test_strings_and_numbers_do_not_mix(text: str) -> None:
     assert refusal(text) == "Type mismatch"
 
@@ -202,20 +180,10 @@ def test_strings_and_numbers_do_not_mix(text: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "ACC 5",
-        "HLIM X3",
-        "X10",
-        "PPU X 1",
-        "FBVEL",
-        "WHILE (P0)",
-        "GOTO a",
-        "_label",
-        "IF (P0)",
-        "ENDIF",
-        "HLIM",
-        "NEXT",
+        "ACC 5", "HLIM X3", "X10", "PPU X 1", "FBVEL", "WHILE (P0)", "GOTO a", "_label", "IF (P0)",
+        "ENDIF", "HLIM", "NEXT",
     ],
-)
+)  # fmt: skip
 def test_what_is_not_valid_at_sys_is_an_unknown_command_there(text: str) -> None:
     assert refusal(text, SYS) == "Unknown command"
 
@@ -239,18 +207,10 @@ def test_named_objects_are_valid_at_sys(text: str, command: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "WHILE (P0)",
-        "WEND",
-        "IF (P0)",
-        "ENDIF",
-        "GOTO a",
-        "_label",
-        "FOR LV0=1 TO 2",
-        "RETURN",
-        "BREAK",
-        "END",
+        "WHILE (P0)", "WEND", "IF (P0)", "ENDIF", "GOTO a", "_label", "FOR LV0=1 TO 2", "RETURN",
+        "BREAK", "END",
     ],
-)
+)  # fmt: skip
 def test_flow_is_for_programs_only(text: str) -> None:
     assert refusal(text) == "Not valid at this level"
 

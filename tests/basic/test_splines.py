@@ -238,16 +238,6 @@ def test_long_splines_are_fed_by_the_buffer() -> None:
 # NURBs
 
 
-@pytest.mark.req("ACR-CMD-NURB")
-@pytest.mark.parametrize("mode", [0, 1, 4])
-def test_a_quarter_circle_keeps_its_radius(mode: int) -> None:
-    made = bench("X1")
-    made.until_clear(IN_MOTION)
-    path = sampled(made.all(f"NURB MODE {mode}", "NURB RANK 3"), *QUARTER, "NURB END")
-    assert np.hypot(path[:, 0], path[:, 1]) == pytest.approx(1, abs=1e-9)
-    assert _place(made) == [0, 1, 0]
-
-
 def written(knots: Sequence[float], weights: Sequence[float], form: str) -> list[str]:
     points = ("X1 Y0", "X1 Y1", "X0 Y1")
     return [

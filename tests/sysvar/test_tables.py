@@ -153,13 +153,6 @@ def test_a_default_and_its_unit(n: int) -> None:
     assert (Store().value(n), found.row.unit) == (value, unit)
 
 
-@pytest.mark.req("MILL-SYS-DISP-RES-DEFAULT")
-def test_read_outs_are_3_4_in_inches_and_4_5_in_millimetres_on_every_axis() -> None:
-    store = Store()
-    formats = {(store.read(850_000 + 1000 * a), store.read(850_001 + 1000 * a)) for a in range(8)}
-    assert formats == {(3.4, 4.5)}
-
-
 def test_per_axis_tabs_repeat_every_1000() -> None:
     for base in (150_000, 200_000, 300_000, 350_000):
         names = {parameter(base + 1000 * axis + 1).name for axis in range(8)}  # type: ignore[union-attr]
