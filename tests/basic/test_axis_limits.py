@@ -3,14 +3,6 @@
 import pytest
 from tests.basic.motion_bench import Bench
 
-POSITIVE_HARD, KAMR = 16132, 8467
-
-POSITIVE_HARD, NEGATIVE_HARD, POSITIVE_SOFT = 16132, 16133, 16140
-KAMR, KILL_MOVES = 8467, 522
-ACTIVE, IN_MOTION = 792, 516
-PSP = 12294
-CURRENT, PSP, JOG = 12288, 12294, 12297
-
 
 def bench(*lines: str) -> Bench:
     """Axes X and Y of 1000 pulses per unit on one master, Z on another."""

@@ -10,7 +10,7 @@ from openacr.basic.execute.language_state import put_back, take
 from openacr.basic.language.registry import Level
 from openacr.map import numbers as at
 
-IN_MOTION, KINEMATICS = 516, (at.MF4_WORD - 4096) * 32 + 16
+IN_MOTION = 516
 PPU = 2000
 CIRCLE = ("P12361=SIN(P12360)", "P12617=COS(P12360)")
 ARM = (  # two links of length 1: X is the shoulder, Y the elbow, both in degrees

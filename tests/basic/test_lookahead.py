@@ -57,11 +57,6 @@ class Path:
         """The largest change of speed per second; the last one may be a rest of a tick."""
         return float(np.max(np.abs(np.diff([0.0, *self.speeds])))) / PERIOD_S
 
-    def speed_near(self, corner: Point) -> float:
-        """Speed of the tick nearest to a corner."""
-        far = [math.dist(place, corner) for place in self.places]
-        return self.speeds[far.index(min(far))]
-
 
 # MBUF
 

@@ -11,7 +11,7 @@ from tests.search import search
 
 from openacr.map import numbers as at
 
-LEADER = 1  # axis Y jogs and leads gear and cam of X
+# axis Y jogs and leads gear and cam of X
 LEADER_CPS = 1 / PERIOD_S  # of 1000; as whole counts: one in a period at most
 FASTEST_CPS = 2000 + 1500 + 2 * LEADER_CPS + LEADER_CPS  # move at twice its feed, jog, gear, cam
 ROWS = [

@@ -5,7 +5,7 @@ from tests.basic.motion_bench import Bench, largest
 
 from openacr.map import numbers as at
 
-ACTIVE, DIRECTION, AT_SPEED, STOPPING, FORWARD, REVERSE, LIMIT_CHECK, LOCKOUT = range(792, 800)
+ACTIVE, DIRECTION, FORWARD = 792, 793, 796
 HOMING, HOME_REQUEST, VELOCITY = 16131, 17160, 12346
 CURRENT, PSP, JOG = 12288, 12294, 12297
 

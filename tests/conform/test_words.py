@@ -7,7 +7,6 @@ import pytest
 from openacr.conform import read, report, run
 
 HEAD = "[case A]\nsource: 000 L7\nrests on: manual\n"
-ROOT = Path(__file__).parents[2]
 
 
 def differs(folder: Path, steps: str, about: str = "") -> str:

@@ -13,10 +13,6 @@ def values(line: str | bytes) -> list[object]:
     return [token.value for token in tokens(line) if token.kind is not TokenKind.END]
 
 
-def kinds(line: str | bytes) -> str:
-    return "".join(token.kind.name[0] for token in tokens(line)[:-1])
-
-
 @pytest.mark.parametrize(
     ("line", "expected"),
     [

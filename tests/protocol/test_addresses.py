@@ -57,11 +57,6 @@ def card() -> Card:
     return Card()
 
 
-def single(word: int) -> float:
-    value: float = struct.unpack("<f", struct.pack("<I", word))[0]
-    return value
-
-
 def test_counts_and_references_cannot_be_poked(card: Card) -> None:
     card.storage.locals.references(2, "LA", 2)
     card.storage.locals.array(2, "LA", 1, 10)

@@ -7,8 +7,6 @@ from tests.system.terminal import Console
 
 from openacr import Controller
 
-DEFAULT = "CONFIG ENC8 DAC4 DAC4 ADC8"
-
 NOTICE = "CONFIG acts after ESAVE and REBOOT"
 
 
@@ -29,11 +27,6 @@ def test_config_says_that_it_is_not_in_effect_yet(card: Console) -> None:
     card.type("ECHO 4")
     assert card.type("CONFIG ENC8 DACSTEP4 DAC4 ADC8") == ""
     assert card.type("CONFIG CLEAR") == NOTICE
-
-
-def set_up(card: Console, *lines: str) -> None:
-    """Lines that the card takes without a word."""
-    assert card.type(*lines) == ""
 
 
 def attached(card: Console, axis: int) -> str:

@@ -7,7 +7,7 @@ from openacr.plant.schema import exact_world
 
 ENCODER, THEORY, FLAGS, LIMITS = 12290, 12294, 4120, 4600
 CTRL_Y = "\x19"
-JOG_ACTIVE, KILL_ALL = 1 << 24, 1 << 19
+JOG_ACTIVE = 1 << 24
 
 
 class Poller(Host):
