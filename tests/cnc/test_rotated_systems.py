@@ -66,14 +66,6 @@ def test_long_runs_of_plain_lines_are_rotated_too() -> None:
     assert not done.of(Polyline)
 
 
-def test_the_arc_keeps_its_radius_and_sweep() -> None:
-    (arc,) = ngc("G10 L2 P1 X10 R30|G0 X0 Y0|F10 G3 X0 Y2 I0 J1").of(Arc)
-    assert isinstance(arc, Arc)
-    assert arc.centre == pytest.approx((10 - 0.5, HALF))
-    assert (arc.start_radius, arc.sweep_rad) == pytest.approx((1, math.pi))
-    assert arc.end[:2] == pytest.approx((10 - 1, 2 * HALF))
-
-
 def test_compensation_lies_beside_the_turned_contour() -> None:
     straight = ngc("G41 D1 F10 G1 X1|X2|Y2|G40 X0", {1001: 0.25})
     turned = ngc("G10 L2 P1 R90|G41 D1 F10 G1 X1|X2|Y2|G40 X0", {1001: 0.25})
@@ -148,11 +140,6 @@ def test_turns_are_a_whole_number(text: str, found: str) -> None:
             assert fault(words, dialect) == places
         else:
             assert errors(text.replace("|", "\n"), dialect=dialect) == [found]
-
-
-def test_p_of_a_dwell_is_no_turn() -> None:
-    done = ngc("F10 G2 X2 I1|G4 P2 X4 I1")
-    assert done.story[:3] == ["A X2 about 1,0 -180", "dwell 2", "A X4 about 3,0 -180"]
 
 
 def test_turns_of_a_spiral_share_its_growth() -> None:
