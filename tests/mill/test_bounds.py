@@ -163,12 +163,6 @@ def test_a_jog_of_another_host_is_noticed_at_the_next_halt() -> None:
     assert "axis Y is at 0.01, its program position is 0" in details(shop)[0]
 
 
-def test_a_machine_in_its_place_is_not_noticed() -> None:
-    shop = Shop()
-    shop.run_text("F600\nG1 X.5 Y.25\nM8\nG2 X1.5 I1 Y.25 J.25\nG4 F.1\nG0 X0\nM2\n")
-    assert codes(shop) == []
-
-
 def test_a_poll_gap_longer_than_the_link_timeout_pauses_the_program() -> None:
     shop = Shop()
     shop.load("F60\nG1 X20\nM2\n")

@@ -16,25 +16,15 @@ SPINDLE = {
 # --- parameters of the card ---------------------------------------------------------------
 
 
-@pytest.mark.req("MILL-P-0-33", "MILL-P-NONPERSIST")
+@pytest.mark.req("MILL-P-0-33", "MILL-P-34-99", "MILL-P-NONPERSIST")
 def test_p0_to_p33_are_variables_of_the_card_and_go_with_its_power() -> None:
     shop = Shop()
-    shop.run_text("P0=1.5\nP33=P0*2\nG1 F600 X(P33)\nM2\n")
-    assert [shop.controller.p[k] for k in (0, 33)] == [1.5, 3.0]
+    shop.run_text("P0=1.5\nP33=P0*2\nP34=2.5\nP89=P34*2\nG1 F600 X(P33)\nM2\n")
+    assert [shop.controller.p[k] for k in (0, 33, 34, 89)] == [1.5, 3.0, 2.5, 5.0]
     assert shop.pulses()[0] == 30_000
     shop.controller.send("SYS\rREBOOT\r")
     again = Shop.on(shop.controller, {})
-    assert [again.controller.p[k] for k in (0, 33)] == [0.0, 0.0]
-
-
-@pytest.mark.req("MILL-P-34-99", "MILL-P-NONPERSIST")
-def test_p34_to_p89_go_with_the_power_of_the_card() -> None:
-    shop = Shop()
-    shop.run_text("P34=1.5\nP89=P34*2\nM2\n")
-    assert [shop.controller.p[k] for k in (34, 89)] == [1.5, 3.0]
-    shop.controller.send("SYS\rREBOOT\r")
-    again = Shop.on(shop.controller, {})
-    assert [again.controller.p[k] for k in (34, 89)] == [0.0, 0.0]
+    assert [again.controller.p[k] for k in (0, 33, 34, 89)] == [0.0] * 4
 
 
 # --- numbers of outputs -------------------------------------------------------------------

@@ -51,13 +51,8 @@ def test_a_jog_ramps_as_the_tab_says(cells: dict[str, float], up: float, down: f
     assert found[-1] == 0.0
 
 
-@pytest.mark.req(
-    "MILL-SYS-JOG-INC1",
-    "MILL-SYS-JOG-INC2",
-    "MILL-SYS-JOG-INC3",
-    "MILL-SYS-JOG-INC4",
-    "MILL-SYS-JOG-INC5",
-)
+@pytest.mark.req("MILL-JOG-INC", "MILL-SYS-JOG-INC1", "MILL-SYS-JOG-INC2", "MILL-SYS-JOG-INC3")
+@pytest.mark.req("MILL-SYS-JOG-INC4", "MILL-SYS-JOG-INC5")
 @pytest.mark.parametrize(("preset", "pulses"), [(1, 10_000), (2, 1000), (3, 100), (4, 10), (5, 1)])
 def test_a_press_goes_one_increment(preset: int, pulses: int) -> None:
     fast = {f"P{JOG}": 600.0, f"P{JOG + 3}": 150.0}

@@ -6,7 +6,6 @@ import pytest
 from tests.mill.shop import Shop, at, end, line, rapid, src
 
 from openacr.cnc import canonical as c
-from openacr.errors import UserError
 from openacr.mill.run.lifecycle import Options, State
 
 
@@ -25,16 +24,6 @@ def test_moves_without_corners_run_at_constant_speed() -> None:
     took_s = shop.finish(*(line(n, at(n / 100)) for n in range(1, 1001)), end())
     assert shop.pulses() == (100000, 0, 0)
     assert took_s == pytest.approx(1.1, abs=0.02)
-
-
-def test_an_arc_stays_on_its_circle() -> None:
-    shop = Shop()
-    half = c.Arc(src(2), at(-1, 0), c.Plane.XY, (0.0, 0.0), math.pi, 1.0, 1.0, c.Pace(300.0))
-    shop.finish(rapid(1, at(1, 0)), half, end())
-    on_arc = [point for point in shop.path if point[1] > 0.001]
-    assert len(on_arc) > 20
-    assert all(math.hypot(x, y) == pytest.approx(1.0, abs=3e-4) for x, y, _ in on_arc)
-    assert shop.pulses() == (-10000, 0, 0)
 
 
 @pytest.mark.parametrize("plane", list(c.Plane))
@@ -57,18 +46,6 @@ def test_an_arc_the_card_does_not_know_becomes_chords() -> None:
     assert shop.pulses() == (0, 5000, 0)
 
 
-def test_abort_comes_to_rest_on_the_path_and_the_next_program_starts_there() -> None:
-    shop = Shop()
-    shop.start(*(line(n, at(n / 10)) for n in range(1, 100)), end())
-    shop.pass_time(0.3)
-    shop.runner.abort()
-    assert shop.until(State.IDLE) is State.IDLE
-    x = shop.place()[0]
-    assert 1.0 < x < 4.0
-    shop.finish(line(1, at(0, 1)), end())
-    assert shop.pulses() == (0, 10000, 0)
-
-
 @pytest.mark.parametrize(("stops", "state"), [(True, State.HOLD), (False, State.IDLE)])
 def test_m1_holds_only_with_optional_stop(stops: bool, state: State) -> None:
     shop = Shop()
@@ -77,17 +54,6 @@ def test_m1_holds_only_with_optional_stop(stops: bool, state: State) -> None:
         options=Options(stops_optionally=stops),
     )  # fmt: skip
     assert shop.until(State.HOLD, State.IDLE) is state
-
-
-def test_single_block_stops_after_each_block() -> None:
-    shop = Shop()
-    blocks = [entry for n in range(1, 4) for entry in (line(n, at(n)), c.BlockEnd(src(n)))]
-    shop.start(*blocks, end(), options=Options(is_single=True))
-    for n in range(1, 4):
-        assert shop.until(State.HOLD) is State.HOLD
-        assert shop.pulses() == (10000 * n, 0, 0)
-        shop.runner.start()
-    shop.until(State.IDLE)
 
 
 def test_single_block_switched_on_in_a_run_finishes_the_block_that_runs() -> None:
@@ -118,16 +84,6 @@ def test_what_is_said_is_said_when_the_motion_gets_there() -> None:
     assert shop.said == ["half"]
     shop.until(State.IDLE)
     assert shop.said == ["half", "done"]
-
-
-def test_commands_that_do_not_fit_the_state_are_refused() -> None:
-    shop = Shop()
-    for command in (shop.runner.stop, shop.runner.resume, shop.runner.start, shop.runner.abort):
-        with pytest.raises(UserError):
-            command()
-    shop.start(line(1, at(1)), end())
-    with pytest.raises(UserError, match="cannot start a program: the state is RUN"):
-        shop.start(end())
 
 
 def test_the_line_of_the_move_being_made_is_always_known() -> None:

@@ -54,24 +54,6 @@ def test_a_program_error_stops_after_the_block_before() -> None:
     assert shop.pulses() == (10000, 0, 0)
 
 
-def test_moves_the_card_kills_by_itself_end_the_program() -> None:
-    shop = Shop()
-    shop.start(*long_path())
-    shop.pass_time(0.3)
-    shop.controller.bit[522] = True
-    shop.pass_time(0.3)
-    assert shop.until(State.ALARM) is State.ALARM
-    assert 14 in codes(shop)
-
-
-def test_a_following_error_out_of_its_band_is_an_alarm() -> None:
-    shop = Shop(P200_004=0.001)
-    shop.start(*long_path())
-    shop.until(State.ALARM)
-    assert 11 in codes(shop)
-    assert "axis X" in shop.runner.alarms.active[0].text
-
-
 @pytest.mark.parametrize(
     ("width", "state"), [(0.00001, State.ALARM), (0.05, State.IDLE), (0.0, State.IDLE)]
 )

@@ -3,36 +3,13 @@
 from math import pi, sqrt
 
 import pytest
-from tests.cnc.compensation.tools import EXACT, FEED, Path, compensate
+from tests.cnc.compensation.tools import EXACT, Path, compensate
 
-from openacr.cnc.canonical import Plane
 from openacr.cnc.compensation import Rules, Side
 
 
 def near(point: tuple[float, float]) -> object:
     return pytest.approx(point, abs=1e-9)
-
-
-@pytest.mark.req("MILL-COMP-02", "MILL-COMP-11")
-def test_the_tool_rolls_around_an_outside_corner() -> None:
-    path = Path(0, -1).to(0, 0).to(1, 0).to(1, 1).to(0, 1)
-    trace = compensate(path.elements, 0.25, Side.RIGHT)
-    assert trace.ends == [(0, -0.25), (1, -0.25), (1.25, 0), (1.25, 1), (0, 1)]
-    (corner,) = trace.inserted
-    assert corner.centre == (1, 0)
-    assert corner.sweep_rad == pytest.approx(pi / 2)
-    assert corner.pace is FEED
-    assert corner.source.line == 3
-
-
-@pytest.mark.req("MILL-COMP-07")
-def test_without_a_radius_the_tool_runs_on_the_contour() -> None:
-    path = Path(0, 0).to(1, 0).to(2, 1).arc(4, 1, 3, 1, -1).arc(6, 1, 5, 1, 1).to(0, 3).to(0, 0)
-    trace = compensate(path.elements, 0.0)
-    assert [each.end for each in trace.elements] == [each.end for each in path.elements]
-    for out, programmed in zip(trace.elements, path.elements, strict=True):
-        assert out.sweep_rad == pytest.approx(programmed.sweep_rad)
-        assert out.centre == programmed.centre
 
 
 def test_a_reversal_is_rounded_by_half_a_turn() -> None:
@@ -113,16 +90,6 @@ def test_a_line_and_an_arc_that_no_longer_cross_are_joined_where_they_are_neares
     assert trace.codes.count("W320") == len(joins)
     for one, other in zip(trace.elements, trace.elements[1:], strict=False):
         assert one.end == pytest.approx(other.start)
-
-
-@pytest.mark.req("MILL-COMP-23")
-@pytest.mark.parametrize("plane", list(Plane))
-def test_every_plane_is_compensated_alike(plane: Plane) -> None:
-    path = Path(0, -1, plane=plane).to(0, 0).to(1, 0).arc(2, 1, 1, 1, 1).to(2, 2).to(0, 2).to(0, 3)
-    flat = Path(0, -1).to(0, 0).to(1, 0).arc(2, 1, 1, 1, 1).to(2, 2).to(0, 2).to(0, 3)
-    trace = compensate(path.elements, 0.25, Side.RIGHT)
-    assert trace.ends == compensate(flat.elements, 0.25, Side.RIGHT).ends
-    assert all(each.plane is plane for each in trace.elements)
 
 
 def test_default_rules_are_those_of_a_new_store() -> None:

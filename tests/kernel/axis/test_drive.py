@@ -8,7 +8,6 @@ from tests.kernel.rig import Rig
 from openacr.map import numbers as at
 from openacr.motion.axis import attach, drive
 from openacr.motion.axis.attach import Feedback, Signal
-from openacr.motion.jog import jog
 
 FAULT_INPUT, INVERT = 8448, 8453
 ENABLED, RESET_REQUEST, KAMR, IO, EXC_RESPONSE = 8465, 8466, 8467, 8468, 8469
@@ -37,20 +36,6 @@ def test_the_flag_follows_the_command_after_ten_milliseconds() -> None:
     assert rig.bit(ENABLED)
     drive.off(rig.card, 0)
     assert not rig.bit(ENABLED)
-
-
-@pytest.mark.req("ACR-KAMR-15")
-def test_a_fault_latches_kills_and_disables() -> None:
-    rig = enabled()
-    rig.bit(FAULT_INPUT, True)
-    rig.ticks()
-    assert (rig.bit(FAULT), rig.bit(KAMR), rig.bit(ENABLED)) == (True, True, False)
-    rig.bit(FAULT_INPUT, False)
-    rig.ticks(5)
-    assert rig.bit(FAULT)
-    drive.on(rig.card, 0)
-    rig.ticks(21)
-    assert (rig.bit(FAULT), rig.bit(KAMR), rig.bit(ENABLED)) == (False, False, True)
 
 
 def test_a_fault_flag_set_by_hand_stays_without_a_fault_line() -> None:
@@ -119,36 +104,6 @@ def test_an_open_motion_enable_input_latches_and_kills_everything() -> None:
     assert (rig.bit(5645), rig.bit(5647)) == (False, False)
     drive.on(rig.card, 0)
     assert rig.ticks(21).bit(ENABLED)
-
-
-@pytest.mark.req("ACR-KAMR-26", "ACR-KAMR-27")
-def test_drive_on_lifts_kills_only_if_the_drive_was_off() -> None:
-    rig = Rig(2)
-    for axis in (0, 1):
-        rig.bit(IO + 32 * axis, True)
-        drive.on(rig.card, axis)
-    rig.ticks(21).bit(KAMR, True)
-    rig.ticks()
-    drive.on(rig.card, 0)
-    assert (rig.bit(KAMR), rig.bit(KAMR + 32), rig.bit(522)) == (True, True, True)
-    drive.disable(rig.card, 0)
-    rig.I[at.AF5_WORD] |= at.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED
-    drive.on(rig.card, 0)
-    assert (rig.bit(KAMR), rig.bit(KAMR + 32), rig.bit(522), rig.bit(16132)) == (0, 0, 0, 0)
-
-
-@pytest.mark.req("ACR-KAMR-16")
-@pytest.mark.parametrize("answers", [True, False])
-def test_excess_error_is_answered_where_enabled(answers: bool) -> None:
-    rig = enabled()
-    rig.axis(plus_excess_error=0.1, minus_excess_error=-0.1)
-    rig.axis(plus_torque_limit=0.0, minus_torque_limit=0.0)  # the feedback stands still
-    rig.bit(EXC_RESPONSE, answers)
-    rig.jog(vel=10, acc=100, dec=100)
-    jog.incremental(rig.card, 0, 1.0)
-    rig.seconds(0.3)
-    assert not rig.bit(769)
-    assert (rig.bit(KAMR), rig.bit(EXCESS), rig.bit(ENABLED)) == (answers, answers, not answers)
 
 
 def test_a_kill_disables_the_drive_where_asked() -> None:

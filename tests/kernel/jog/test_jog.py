@@ -38,18 +38,6 @@ def jogged(rig: Rig) -> float:
     return rig.real("jog_cnt") / 1000
 
 
-@pytest.mark.req("ACR-JOG-09")
-def test_flags_set_and_cleared_by_hand_start_and_stop_a_jog() -> None:
-    rig = jogging()
-    rig.bit(FORWARD, True)
-    assert flags(rig.seconds(0.15)) == "AMF"
-    rig.bit(FORWARD, False)
-    assert flags(rig.ticks()) == "AS"
-    rig.bit(FORWARD, True)
-    rig.bit(REVERSE, True)  # both: stop
-    assert flags(rig.seconds(0.25)) == "FR"
-
-
 def test_a_changed_acceleration_waits_for_the_next_ramp() -> None:
     rig = jogging()
     jog.continuous(rig.card, 0, 1)

@@ -5,13 +5,10 @@ from tests.kernel.rig import Rig, T
 
 from openacr.errors import CardError
 from openacr.map import numbers as at
-from openacr.motion.axis import attach, drive
 from openacr.motion.jog import jog
 from openacr.motion.path import moves
-from openacr.motion.path.move_request import Target
 
 ACTIVE, KAMR, KILL_ALL_MOVES, IN_MOTION = 792, 8467, 522, 516
-POSITIVE_INPUT, HARD_POSITIVE = 0, 16148
 
 
 def travelling(axes: int = 2) -> Rig:
@@ -52,50 +49,6 @@ def test_a_kill_ramps_all_axes_of_the_master_down_with_hldec() -> None:
         jog.continuous(rig.card, 1, 1)
 
 
-@pytest.mark.req("ACR-KAMR-19")
-def test_jog_res_moves_the_offset_of_a_stop_into_the_position() -> None:
-    rig = travelling()
-    rig.move(50.0)
-    rig.seconds(1.0).bit(KAMR, True)
-    rig.seconds(0.2)
-    here = rig.real("psp_cnt")
-    jog.reset(rig.card, 0, 0.0)
-    rig.ticks(3)
-    assert rig.real("jog_cnt") == 0.0
-    assert rig.real("psp_cnt") == pytest.approx(here, abs=1e-9)
-
-
-@pytest.mark.req("ACR-KAMR-08", "ACR-LIM-02")
-def test_axes_of_another_master_go_on() -> None:
-    rig = travelling()
-    attach.detach_slave(rig.card, 0, 1)
-    attach.master(rig.card, 1, 1)
-    attach.slave(rig.card, 1, 0, 1, "Y")
-    rig.I[at.KRI_BASE + at.KRI_MASTERS] = 2
-    rig.S[at.MA_BASE + at.MA_STRIDE + at.MA_USER_VELOCITY] = 5.0
-    rig.move(50.0)
-    moves.issue(rig.card, 1, [Target(1, 50.0)])
-    rig.seconds(1.0).bit(KAMR, True)
-    rig.seconds(0.2)
-    assert rig.real("psp_velocity_cps", 0) == 0.0
-    assert rig.real("psp_velocity_cps", 1) == pytest.approx(5000)
-
-
-@pytest.mark.req("ACR-KAMR-31", "ACR-KAMR-35", "ACR-KAMR-37")
-def test_kill_all_moves_stops_at_once_and_leaves_jogs_alone() -> None:
-    rig = travelling()
-    rig.move(50.0)
-    jog.continuous(rig.card, 1, 1)
-    rig.seconds(1.0)
-    before = rig.real("position_cnt")
-    rig.bit(KILL_ALL_MOVES, True)
-    rig.ticks()
-    assert rig.real("position_cnt") == before == rig.real("target_cnt")
-    rig.seconds(0.2)
-    assert rig.real("psp_velocity_cps", 1) == pytest.approx(10_000)
-    assert rig.bit(KILL_ALL_MOVES)
-
-
 @pytest.mark.req("ACR-KAMR-33", "ACR-KAMR-39")
 @pytest.mark.parametrize("held", [False, True])
 def test_stop_all_moves_decelerates_then_kills(held: bool) -> None:
@@ -110,25 +63,6 @@ def test_stop_all_moves_decelerates_then_kills(held: bool) -> None:
     rig.seconds(0.3)
     assert (rig.bit(523), rig.bit(KILL_ALL_MOVES), rig.bit(IN_MOTION)) == (0, 1, 0)
     assert rig.real("psp_velocity_cps") == 0.0
-
-
-@pytest.mark.req("ACR-LIM-03", "ACR-LIM-04", "ACR-LIM-19", "ACR-KAMR-12")
-def test_a_hard_limit_latches_kills_and_bars_one_direction() -> None:
-    rig = travelling()
-    rig.bit(HARD_POSITIVE, True)
-    rig.move(50.0)
-    rig.seconds(1.0).bit(POSITIVE_INPUT, True)
-    rig.ticks(2)
-    assert (rig.bit(16132), rig.bit(KAMR), rig.bit(KAMR + 32)) == (1, 1, 1)
-    assert ticks_to_rest(rig) == pytest.approx(10 / 200 / T, abs=3)
-    drive.clear_kills(rig.card)
-    rig.ticks()
-    with pytest.raises(CardError, match="Hard limit"):
-        jog.continuous(rig.card, 0, 1)
-    jog.continuous(rig.card, 0, -1)
-    rig.seconds(0.1)
-    assert rig.real("psp_velocity_cps") < 0
-    assert (rig.bit(KAMR), rig.bit(16132)) == (False, True)
 
 
 @pytest.mark.parametrize("first", [-5, 3, 30, 40, 17661, 17663, 17664, 2_000_000_000])
