@@ -15,15 +15,15 @@ pytestmark = pytest.mark.evidence("reading", "events recorded from the card itse
 # Name, what is typed, ticks: long enough for motion, short enough for the slow core.
 SHORT_RUNS = (
     ("gantry", "PROG 0\rRUN\rPROG 1\rRUN\r", 10_400),
-    ("square", "PROG0\rRUN\r", 2_600),
-    ("diamonds", "PROG0\rRUN\r", 1_800),
-    ("basic_motion", "PROG0\rRUN\r", 1_600),
+    ("square", "PROG0\rRUN\r", 800),
+    ("diamonds", "PROG0\rRUN\r", 800),
+    ("basic_motion", "PROG0\rRUN\r", 800),
     ("homing_xyz", "PROG0\rRUN\r", 1_000),
     ("error_handler", "PROG0\rRUN\r", 2_400),
     ("plc_excess_error", "PROG0\rPGAIN X0\rX20\r", 1_000),
-    ("canopen_io", "PROG0\rRUN\r", 1_200),
+    ("canopen_io", "PROG0\rRUN\r", 600),
     ("brushless", "PROG0\rRUN\r", 1_600),
-    ("pick_and_label", "PROG0\rRUN\r", 1_600),
+    ("pick_and_label", "PROG0\rRUN\r", 800),
 )
 _PURE = """
 import sys

@@ -14,7 +14,7 @@ from tests.mill.planned import Point, Reals, highest
 from tests.mill.slow_card import SlowCard, alone
 from tests.mill.test_planned_link_overrides import turn
 from tests.mill.test_planned_lost_host import PATHS, PULSES, ROUNDING, Host
-from tests.search import sparse
+from tests.search import IS_WHOLE, sparse
 
 from openacr.cnc.occupied import HOLD_AT, RAN_SHORT
 from openacr.controller import Controller
@@ -23,7 +23,7 @@ from openacr.mill.run.lifecycle import State
 from openacr.sysvar.tabs import SPEEDS
 
 LIVES_S, REST_S = 2.5, 1.5
-KILLS = 12
+KILLS = 12 if IS_WHOLE else 5
 SHORT = 500  # bytes: no batch of points
 INHIBIT = 540
 
