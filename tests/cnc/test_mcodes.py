@@ -117,6 +117,12 @@ def test_the_angle_on_arcs_is_that_of_the_path_in_every_work_coordinate_system()
     assert back.moves == ["R X6 Y-3", "R X6 Y-3 A-90", "A X5 Y-2 A-360 about 5,-3 -270"]
 
 
+@pytest.mark.parametrize(("on", "off"), [(595, 599), (597, 596), (598, 596)])
+def test_the_end_code_of_another_leaves_the_axis_turning(on: int, off: int) -> None:
+    done = run(f"F10 M{on}\nX1\nM{off}\nY1", TANGENT, axes=4)
+    assert "".join(move[0] for move in done.moves)[-3:] == "LRL"
+
+
 @pytest.mark.req("MILL-BEY-PERPEPS")
 def test_small_changes_of_direction_are_spread_over_the_move() -> None:
     text = "F10 M595\nX1\nX2 Y.1\nX3 Y1"
