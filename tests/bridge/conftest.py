@@ -48,6 +48,12 @@ def quiet_panel(tmp_path: Path) -> Iterator[Served]:
     served.close()
 
 
+@pytest.fixture(autouse=True)
+def quick_node(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A Sparkplug node soon tries again to reach its broker."""
+    monkeypatch.setattr("openacr.bridge.sparkplug.node.RETRY_S", (0.1, 0.5))
+
+
 @pytest.fixture(scope="module", autouse=True)
 def swept(request: pytest.FixtureRequest) -> Iterator[None]:
     """Collect what libraries leave open at the end of a file, before other tests are blamed."""

@@ -174,16 +174,20 @@ def test_too_many_subscribers_are_refused_with_one_warning(
         hosts = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(19)]
         for host in hosts:
             host.sendto(ON, (LOOPBACK, at.port))
-        await asyncio.sleep(0.1)
+        async with asyncio.timeout(WAIT_S):
+            while not warned():
+                await asyncio.sleep(0.005)
         stop.set()
         await asyncio.wait_for(running, WAIT_S)
         for host in hosts:
             host.close()
 
+    def warned() -> list[str]:
+        return [record.message for record in caplog.records if record.levelname == "WARNING"]
+
     asyncio.run(body())
-    warned = [record.message for record in caplog.records if record.levelname == "WARNING"]
-    assert len(warned) == 1
-    assert re.fullmatch(r"127\.0\.0\.1:\d+ gets no status: 16 others do", warned[0])
+    assert len(warned()) == 1
+    assert re.fullmatch(r"127\.0\.0\.1:\d+ gets no status: 16 others do", warned()[0])
 
 
 def test_a_status_port_in_use_is_a_user_error_unless_it_was_not_requested() -> None:
