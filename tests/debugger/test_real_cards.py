@@ -391,22 +391,22 @@ def test_what_an_editor_does_not_take_waits_on_the_card_and_nothing_is_lost(
     card: Card, served: Served, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(followers, "MOST_HEARD", 2)
-    lines = ["INH 34", "P9=0", "_NEXT", "P9=P9+1", "PRINT P9", "IF (P9<5000) THEN GOTO NEXT"]
+    lines = ["INH 34", "P9=0", "_NEXT", "P9=P9+1", "PRINT P9", "IF (P9<500) THEN GOTO NEXT"]
     card.download("\n".join(["PROGRAM", *lines, "ENDP", ""]), to=Level.program(5))
     listeners, text = followers.Followers(served.address), ""
     try:
         listeners.follow(5)
         card.run(5)
         card.write_bit(34, True)
-        until(lambda: float(card.read(9)) == 5000, "the program has printed all")
+        until(lambda: float(card.read(9)) == 500, "the program has printed all")
         assert listeners._heard.qsize() <= 2
 
         def is_heard() -> bool:
             nonlocal text
             text += "".join(each.text for each in listeners.heard())
-            return text.split()[-1:] == ["5000"]
+            return text.split()[-1:] == ["500"]
 
         until(is_heard, "all is heard")
     finally:
         listeners.close()
-    assert text.split() == [str(number) for number in range(1, 5001)]
+    assert text.split() == [str(number) for number in range(1, 501)]

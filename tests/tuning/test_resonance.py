@@ -39,7 +39,6 @@ def found(motor: Motor, high_hz: float = 500.0) -> Identified:
         Shaft(35.0, 0.02, 0.5),
         Shaft(90.0, 0.01, 1.5),
         Shaft(140.0, 0.05, 0.2),
-        Shaft(300.0, 0.02, 0.5),
         Shaft(420.0, 0.03, 1.0),
     ],
 )
@@ -61,7 +60,7 @@ def test_a_resonance_is_found_within_one_per_cent(shaft: Shaft) -> None:
 
 @pytest.mark.parametrize(
     "motor",
-    [RIGID, Motor(3.27e6, 50.0), Motor(3.27e6, 5.0, 5e4, 0.02, 1.5), Motor(2e6, 5.0, 3e5)],
+    [RIGID, Motor(3.27e6, 50.0), Motor(3.27e6, 5.0, 5e4, 0.02, 1.5)],
 )
 def test_an_axis_with_a_rigid_load_has_none(motor: Motor) -> None:
     result = found(motor)

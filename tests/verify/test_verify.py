@@ -12,6 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
+from openacr.cnc.interpreter import loops
 from openacr.cnc.state.cells import LAST_RADIUS, RADII
 from openacr.verify import checking
 from openacr.verify.checking import Status, Task, check, check_all
@@ -180,7 +181,10 @@ def test_a_program_that_does_not_end_is_stopped_at_its_limit_of_machine_time(sho
     assert f"{shop}/good.nc: it takes more than 0.5 s of machine time" in text
 
 
-def test_a_program_that_does_not_move_and_not_end_is_an_error_of_its_jump(shop: Path) -> None:
+def test_a_program_that_does_not_move_and_not_end_is_an_error_of_its_jump(
+    shop: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(loops, "MOST_PASSES", 1000)
     (shop / "silent.nc").write_text(SILENT)
     (note,) = check(Task(shop / "silent.nc")).notes
     assert (note.code, note.line) == ("A62", 2)
