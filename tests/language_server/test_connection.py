@@ -18,7 +18,7 @@ from openacr.language_server import features
 from openacr.language_server.conversions import MOST_FINDINGS, Columns, path_of, uri_of
 from openacr.language_server.server import Server
 
-PATIENCE_S = 50.0
+PATIENCE_S = 60.0
 INITIALIZE = {"id": 0, "method": "initialize", "params": {"capabilities": {}}}
 INITIALIZED: dict[str, Any] = {"method": "initialized", "params": {}}
 SHUTDOWN = {"id": 1, "method": "shutdown"}

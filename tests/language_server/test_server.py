@@ -18,7 +18,7 @@ from tests import warm
 from openacr.source_check import check
 
 COMMAND = [sys.executable, "-m", "openacr", "lsp"]
-PATIENCE_S = 50.0
+PATIENCE_S = 60.0
 SETUP = "SYS\nDIM PROG0(4000)\nDIM DEF(5)\n#DEFINE lamp BIT34\nPROG0\nATTACH MASTER0\n"
 PROGRAM = (
     'PROGRAM\r\n_Head\r\nPRINT "\U0001d11e\u00e9" : SET lamp : lmp = 1\r\nGOTO Head\r\nENDP\r\n'

@@ -14,7 +14,7 @@ from tests.workers.orphans import left_by
 from openacr.errors import UserError
 from openacr.panel.work.pool import ENDED, Pool, result_of
 
-NAP_S = 60.0
+NAP_S = 120.0
 
 
 def test_work_is_refused_when_its_process_is_killed_also_beside_work_that_was_dropped(
