@@ -1,6 +1,7 @@
 """Zero, jog keys, MDI, what programs print and ask, editing beside a run."""
 
 import re
+import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -9,8 +10,10 @@ from playwright.sync_api import Page, Route, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import (
     READY,
+    SETTLED_S,
     begin_run,
     give,
+    let_through,
     load_file,
     to_main_menu,
     until_model,
@@ -25,7 +28,9 @@ PLACE = (1.588, -2.12, 60.0)  # the guide's example of CLR ZERO
 
 def at_rest(page: Page, served: Served) -> None:
     until_model(page, "!model.state.value.busy")
+    end_s = time.monotonic() + SETTLED_S
     while served.call(lambda station: station.machine.runner.is_busy):
+        assert time.monotonic() < end_s
         page.wait_for_timeout(20)
 
 
@@ -163,7 +168,10 @@ def test_a_tool_that_is_asked_for_is_confirmed_by_its_key_or_by_start(
 def test_a_start_where_no_line_frees_the_tool_takes_a_safe_z(placed: Page, served: Served) -> None:
     page = placed
     (served.programs / "DEEP.TXT").write_text("G21 G90 G54\nG1 X3 F600\nX7\nM2\n")
-    load_file(page, "DEEP.TXT")
+    late: list[Route] = []  # what reading the program found, which arrives after the refusal
+    page.route("**/api/program", lambda route: late.append(route))
+    with page.expect_request("**/api/program"):
+        load_file(page, "DEEP.TXT")
     page.keyboard.press("F3")
     dialog = page.get_by_role("dialog", name="RUN")
     line = dialog.get_by_role("textbox", name="Start line")
@@ -171,7 +179,11 @@ def test_a_start_where_no_line_frees_the_tool_takes_a_safe_z(placed: Page, serve
     expect(level).to_be_hidden()
     line.fill("3")
     page.keyboard.press("Enter")
-    expect(page.locator("#prompt")).to_contain_text("its machine position has to be given (Safe Z")
+    refused = "its machine position has to be given (Safe Z"
+    expect(page.locator("#prompt")).to_contain_text(refused)
+    let_through(page, late[0])
+    page.unroute_all()
+    expect(page.locator("#prompt")).to_contain_text(refused)
     page.keyboard.press("F3")
     line.fill("3")
     level.fill("high")
@@ -186,7 +198,7 @@ def test_a_start_where_no_line_frees_the_tool_takes_a_safe_z(placed: Page, serve
 
 def test_no_enter_meant_for_the_start_line_moves_the_machine(placed: Page, served: Served) -> None:
     page = placed
-    (served.programs / "LATER.TXT").write_text("G21 G90 G54\nG0 Z20\nG0 X7\nM2\n")
+    (served.programs / "LATER.TXT").write_text("G21 G90 G54\nG0 Z58\nG0 X7\nM2\n")
     load_file(page, "LATER.TXT")
     page.keyboard.press("F3")
     page.get_by_role("dialog", name="RUN").get_by_role("textbox", name="Start line").fill("3")

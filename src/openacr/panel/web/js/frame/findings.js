@@ -48,18 +48,21 @@ let said = () => {}; // ends the wait for the reading of the program before
  */
 export function sayFindings(id) {
   said();
+  const before = prompt.value;
   said = model.program.watch(({ loaded }) => {
     if (loaded?.id !== id || !loaded.checked) return;
     queueMicrotask(() => said());
-    if (loaded.errors || loaded.warnings) void sayFirst();
+    if (loaded.errors || loaded.warnings) void sayFirst(before);
   });
 }
 
-async function sayFirst() {
+/** @param {object} before what was said when the program was loaded */
+async function sayFirst(before) {
   /** @type {Found | null} */
   const found = await get("program").catch(refuse);
   const first = found?.findings.find((each) => each.severity === "error") ?? found?.findings[0];
   if (model.state.value.running) return; // the line is for what the program says now
+  if (prompt.value.kind === "error" && prompt.value !== before) return; // or for a refusal since then
   if (found && first) prompt.set({ kind: found.errors ? "error" : "say", text: `${summary(found)}: ${first.line}:${first.column} ${first.code} ${first.text}` });
 }
 
