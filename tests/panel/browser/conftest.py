@@ -139,15 +139,11 @@ def to_main_menu(page: Page) -> None:
 
 
 def until_model(page: Page, holds: str) -> None:
-    """Wait until something holds of `model`, what the browser knows of the machine.
-
-    The browser's own wait takes the promise of an import for the value.
-    """
-    asked = f"import('/js/core/app.js').then(({{ model }}) => Boolean({holds}))"
-    end_s = time.monotonic() + LONGEST_MS / 1000.0
-    while not page.evaluate(asked):
-        assert time.monotonic() < end_s, holds
-        page.wait_for_timeout(20)
+    """Wait until something holds of `model`, what the browser knows of the machine."""
+    page.evaluate("import('/js/core/app.js').then(({ model }) => { window.known = model; })")
+    page.wait_for_function(
+        f"() => {{ const model = window.known; return Boolean({holds}); }}", polling=20
+    )
 
 
 def until(page: Page, holds: Callable[[], object]) -> None:
