@@ -63,6 +63,15 @@ def again(page: Page) -> None:
     until_model(page, "model.hello.value.client")
 
 
+def kept(page: Page, count: int) -> dict[str, Any]:
+    """The layout that the browser keeps, once it has so many panes: it writes a moment later."""
+    page.wait_for_function(
+        f"(count) => Object.keys(({KEPT})()?.panels ?? {{}}).length === count", arg=count
+    )
+    layout: dict[str, Any] = page.evaluate(KEPT)
+    return layout
+
+
 def laid_out(page: Page, width: int) -> None:
     """Wait until the workspace has the form of this width: one place on a narrow screen."""
     groups = page.locator(".dv-groupview")
@@ -107,6 +116,7 @@ def test_panes_are_closed_and_opened_and_the_browser_keeps_what_is_open(page: Pa
     open_pane(page, "Gains")  # the one that is open is shown
     shown = tabs(page)
     assert sorted(shown) == sorted([*left, "Gains"])
+    kept(page, len(shown))
     again(page)
     expect(page.locator(".bench-tab-text")).to_have_text(shown)
     expect(page.locator("[data-pane=gain] .gain-row").first).to_be_visible()
@@ -125,6 +135,7 @@ def test_a_layout_is_kept_under_a_name_taken_again_and_deleted(page: Page) -> No
     expect(page.locator("#prompt")).to_have_text('The layout is kept as without "PLC"')
     page.locator(".dv-tab", has_text="ALARMS").locator(".bench-close").click()
     expect(page.locator(".bench-tab-text")).to_have_count(len(FIRST) - 2)
+    kept(page, len(FIRST) - 2)
     again(page)
     expect(page.locator(".bench-tab-text")).to_have_count(len(FIRST) - 2)
     page.get_by_role("button", name="LAYOUTS").click()
@@ -147,7 +158,7 @@ def test_a_kept_layout_that_cannot_be_used_is_replaced_by_the_first(
     if broken is None:  # of another version, with a pane that is gone
         page.locator(".dv-tab", has_text="PLC").locator(".bench-close").click()
         expect(page.locator(".bench-tab-text")).to_have_count(len(FIRST) - 1)
-        broken = json.dumps(page.evaluate(KEPT)).replace('"terminal"', '"teleprinter"')
+        broken = json.dumps(kept(page, len(FIRST) - 1)).replace('"terminal"', '"teleprinter"')
         assert "teleprinter" in broken
     page.evaluate("(text) => localStorage.setItem('openacr.panel.bench.wide', text)", broken)
     page.evaluate(OPENED)
@@ -160,11 +171,11 @@ def test_the_operator_resizing_the_screen_forgets_no_layout(
 ) -> None:
     page.locator(".dv-tab", has_text="PLC").locator(".bench-close").click()
     expect(page.locator(".bench-tab-text")).to_have_count(len(FIRST) - 1)
-    kept = page.evaluate(KEPT)
+    layout = kept(page, len(FIRST) - 1)
     page.evaluate("localStorage.setItem('openacr.panel.split', '0.5')")
     page.evaluate("import('/js/core/settings.js').then((each) => each.forgetSettings())")
     assert page.evaluate("localStorage.getItem('openacr.panel.split')") is None
-    assert page.evaluate(KEPT) == kept
+    assert page.evaluate(KEPT) == layout
 
 
 def test_stop_holds_the_machine_from_the_workspace_also_over_a_dialog(page: Page) -> None:
@@ -332,7 +343,7 @@ def search(page: Page, text: str) -> None:
 def watches(page: Page, parameters: list[int], words: list[int]) -> None:
     """Wait until exactly these are asked of the card."""
     end = [sorted(parameters), sorted(words)]
-    for _ in range(400):
+    for _ in range(1200):
         asked = [sorted(each) for each in page.evaluate(WATCHED)]
         if asked == end:
             break
@@ -375,7 +386,7 @@ def test_the_tree_of_values_is_opened_by_keys_and_only_rows_that_are_seen_are_wa
     box.press("End")
     expect(page.get_by_role("treeitem", selected=True)).to_contain_text("BIT")
     asked: list[list[int]] = []
-    for _ in range(400):  # flags take the place of parameters
+    for _ in range(1200):  # flags take the place of parameters
         asked = page.evaluate(WATCHED)
         if not asked[0]:
             break
@@ -439,8 +450,10 @@ def test_the_watch_list_shows_formats_and_is_kept_with_the_layout(
     expect(value).to_have_text("7.000")
     page.get_by_role("button", name="Delete P12322").click()
     expect(rows).to_have_count(2)
-    kept = [{"id": "P5", "format": "fixed"}, {"id": "BIT516", "format": "plain"}]
-    assert page.evaluate(KEPT)["panels"]["watch-1"]["params"]["rows"] == kept
+    page.wait_for_function(
+        f"(rows) => JSON.stringify(({KEPT})()?.panels['watch-1'].params?.rows) === rows",
+        arg='[{"id":"P5","format":"fixed"},{"id":"BIT516","format":"plain"}]',
+    )
     again(page)
     expect(page.locator("[data-item=P5] .live")).to_have_text("7.000")
     expect(page.locator("[data-item=BIT516] .live")).to_have_text("off")
