@@ -1,13 +1,12 @@
 """The configuration wizard of the workspace: from nothing to code, and back from code."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import open_page
-from tests.panel.browser.test_bench import again, forget, open_pane
+from tests.panel.browser.test_bench import again, open_pane
 
 from openacr.configure import parse_answers
 from openacr.controller import Controller
@@ -15,15 +14,21 @@ from openacr.controller import Controller
 GANTRY = Path(__file__).parents[3] / "examples" / "gantry"
 
 
-@pytest.fixture
-def page(context: BrowserContext, served: Served) -> Iterator[Page]:
-    """The workspace with the wizard alone."""
+@pytest.fixture(scope="module")
+def workspace(context: BrowserContext, served: Served) -> Page:
+    """The workspace with the wizard."""
     page = open_page(context, f"{served.url}/bench")
     page.set_viewport_size({"width": 1280, "height": 800})
-    forget(page)
     open_pane(page, "Configuration")
-    yield page
-    page.close()
+    return page
+
+
+@pytest.fixture
+def page(workspace: Page) -> Page:
+    """The wizard with the answers it begins with."""
+    workspace.get_by_role("button", name="NEW", exact=True).click()
+    expect(workspace.locator(".wizard-title")).to_have_text(["Card", "Axis 0: X", "Master 0"])
+    return workspace
 
 
 def dialog(page: Page, where: str) -> None:
