@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, Route, expect
+from playwright.sync_api import BrowserContext, Page, Route, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import LONGEST_MS, give, open_page, until_model
+from tests.panel.browser.conftest import LONGEST_MS, READY, give, open_page, until_model
 
 from openacr.controller import Controller
 from openacr.panel.control.installation import Installation
@@ -174,7 +174,7 @@ def test_devices_are_commanded_by_hand_and_bodies_come_from_files(
     page.set_default_timeout(LONGEST_MS)
     with page.expect_response(lambda answer: "/api/world/body" in answer.url) as answer:
         page.goto(f"{cell.url}/bench")
-        page.wait_for_selector("body:not(.is-stale) #menu .menu-key")
+        page.wait_for_function(READY)
         open_world(page)
     assert (answer.value.status, answer.value.url.partition("?")[2]) == (200, "axis=2")
     assert answer.value.text() == STL
@@ -188,9 +188,8 @@ def test_devices_are_commanded_by_hand_and_bodies_come_from_files(
 
 
 def test_of_a_card_elsewhere_the_axes_are_drawn_and_the_pane_says_why_nothing_can_be_changed(
-    browser: Browser, served: Served
+    context: BrowserContext, served: Served
 ) -> None:
-    context = browser.new_context()
     page = context.new_page()
     page.set_default_timeout(LONGEST_MS)
 
@@ -203,7 +202,7 @@ def test_of_a_card_elsewhere_the_axes_are_drawn_and_the_pane_says_why_nothing_ca
 
     page.route("**/api/world", elsewhere)
     page.goto(f"{served.url}/bench")
-    page.wait_for_selector("body:not(.is-stale) #menu .menu-key")
+    page.wait_for_function(READY)
     open_world(page)
     pane = page.locator("[data-pane=world]")
     expect(pane.locator(".world-note")).to_have_text("it is elsewhere")
@@ -214,7 +213,7 @@ def test_of_a_card_elsewhere_the_axes_are_drawn_and_the_pane_says_why_nothing_ca
         shown = pane.locator(f".world-name[data-axis={name}]")
         expect(shown).to_have_text(re.compile(rf"^{name} {place}\d mm$"))
     until_model(page, "!model.state.value.busy")
-    context.close()
+    page.close()
 
 
 def open_world(page: Page) -> None:
