@@ -41,7 +41,11 @@ def page(context: BrowserContext, served: Served) -> Iterator[Page]:
     yield page
 
 
+BACK_TK = 2000  # to where the moment is dragged: before STOP, which also holds the program
+
+
 def test_stop_ends_a_pause(page: Page, served: Served) -> None:
+    until_model(page, f"model.moment.value.last > {BACK_TK + 500}")
     page.get_by_role("button", name="PAUSE", exact=True).click()
     run = page.locator("[data-pane=timeline]").get_by_role("button", name="RUN", exact=True)
     expect(run).to_be_visible()
@@ -97,7 +101,7 @@ def go_to(page: Page, text: str) -> None:
 
 def test_a_typed_time_is_shown_and_keys_go_by_seconds(page: Page, served: Served) -> None:
     period_s = served.call(lambda station: station.times.history.period_s)
-    until_model(page, f"model.moment.value.last > {round(4.5 / period_s)}")
+    until_model(page, f"model.moment.value.last > {round(3.6 / period_s)}")
     go_to(page, "2,5")
     until_model(page, f"model.moment.value.tick === {round(2.5 / period_s)}")
     assert served.call(lived) == round(2.5 / period_s)
