@@ -304,7 +304,7 @@ def test_a_tablet_shows_one_pane_at_a_time_and_leaves_the_wide_layout_alone(page
     page.locator(".dv-tab", has_text="PLC").locator(".bench-close").click()
     expect(page.locator(".bench-tab-text")).to_have_count(len(FIRST) - 1)
     page.locator(".bench-tab-text", has_text="Watch list").click()
-    wide = page.evaluate(KEPT)
+    wide = kept(page, len(FIRST) - 1)
     page.set_viewport_size({"width": 800, "height": 600})
     expect(page.locator("[data-pane=watch]")).to_be_visible()  # the pane in use stays
     expect(page.locator(".dv-groupview")).to_have_count(1)

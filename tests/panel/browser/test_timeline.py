@@ -61,20 +61,20 @@ def test_stop_ends_a_pause(page: Page, served: Served) -> None:
 def test_the_moment_is_dragged_back_and_the_machine_operated_from_there_on_another_branch(
     page: Page, served: Served
 ) -> None:
-    until_model(page, "model.moment.value.last > 3000")
     slider = page.get_by_role("slider", name="Moment")
     before = served.call(counted)
-    tick = slider.evaluate(
-        "(slider) => { const tick = Number(slider.max) - 2000; slider.value = String(tick);"
-        " slider.dispatchEvent(new Event('input')); return tick; }"
+    slider.evaluate(
+        "(slider, tick) => { slider.value = tick; slider.dispatchEvent(new Event('input')); }",
+        BACK_TK,
     )
     until_model(page, "model.timeline.value.away && model.timeline.value.still")
-    until_model(page, f"model.moment.value.tick === {tick}")
-    assert served.call(lived) == tick
+    until_model(page, f"model.moment.value.tick === {BACK_TK}")
+    expect(slider).to_have_value(str(BACK_TK))
+    assert served.call(lived) == BACK_TK
     assert served.call(counted) < before
     slider.focus()
     page.keyboard.press("ArrowLeft")
-    until_model(page, f"model.moment.value.tick === {tick - 1}")
+    until_model(page, f"model.moment.value.tick === {BACK_TK - 1}")
     page.get_by_role("button", name="OPERATE FROM HERE").click()
     until_model(page, "!model.timeline.value.away && model.timeline.value.branches.length === 2")
     expect(page.locator("[data-branch='1'] strong")).to_contain_text("branch 1")
