@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from openacr.errors import UserError
-from openacr.map import numbers as n
+from openacr.map.rows import encoders
 from openacr.mill.card.actions import Steps, Until
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.config.settings import NONE
@@ -77,7 +77,7 @@ class HandWheel:
         return _Follower(row, encoder, ratio, self._counts(encoder), self._jogging.position(row))
 
     def _counts(self, encoder: int) -> int:
-        return int(self._machine.read(n.ENC_BASE + encoder * n.ENC_STRIDE))
+        return int(self._machine.read(encoders.encoder_position[encoder]))
 
     def _turned(self) -> bool:
         """Move every axis by the turn of its wheel; always False, so that the wait continues."""
