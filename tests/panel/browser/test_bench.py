@@ -64,7 +64,7 @@ def again(page: Page) -> None:
 
 
 def kept(page: Page, count: int) -> dict[str, Any]:
-    """The layout that the browser keeps, once it has this count of panes: it writes a moment later."""
+    """The layout that the browser keeps, once it has this count of panes: it writes late."""
     page.wait_for_function(
         f"(count) => Object.keys(({KEPT})()?.panels ?? {{}}).length === count", arg=count
     )
