@@ -5,6 +5,7 @@ import signal
 import socket
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
+from http.client import HTTPConnection
 from pathlib import Path
 
 import httpx
@@ -15,6 +16,8 @@ from typer.testing import CliRunner
 
 from openacr.cli.main import app
 from openacr.client import Card
+
+JSON = {"Content-Type": "application/json"}
 
 
 def test_the_panel_starts_without_configuration_and_ends_cleanly_while_it_computes_a_path(
@@ -32,14 +35,13 @@ def test_the_panel_starts_without_configuration_and_ends_cleanly_while_it_comput
         assert "plate.nc" in [entry["name"] for entry in names]
         parts = f"{found[1]}api/parts"
         name = httpx.get(parts, timeout=LIMIT_S).json()["parts"][0]["name"]
-        with ThreadPoolExecutor() as waiting:
-            path = waiting.submit(
-                httpx.post, f"{parts}/{name}/path", json={"values": {}}, timeout=LIMIT_S
-            )
-            assert httpx.get(parts, timeout=LIMIT_S).status_code == 200  # the call has arrived
-            process.signal(signal.SIGTERM)
-            assert process.ended() == 0
-            assert path.result().status_code in (422, 200)  # 200: it was quicker than the signal
+        waiting = HTTPConnection("127.0.0.1", httpx.URL(parts).port, timeout=LIMIT_S)
+        waiting.request("POST", f"/api/parts/{name}/path", '{"values": {}}', JSON)
+        assert httpx.get(parts, timeout=LIMIT_S).status_code == 200  # the other one has arrived
+        process.signal(signal.SIGTERM)
+        assert process.ended() == 0
+        assert waiting.getresponse().status in (422, 200)  # 200: it was quicker than the signal
+        waiting.close()
         assert "Traceback" not in process.text
     finally:
         process.close()
