@@ -3,7 +3,6 @@
 import re
 import signal
 import socket
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from http.client import HTTPConnection
 from pathlib import Path
@@ -18,6 +17,14 @@ from openacr.cli.main import app
 from openacr.client import Card
 
 JSON = {"Content-Type": "application/json"}
+
+
+def asked(url: str, body: str | None = None) -> HTTPConnection:
+    """A call that is on its way; its answer is not waited for."""
+    at = httpx.URL(url)
+    connection = HTTPConnection(at.host, at.port, timeout=LIMIT_S)
+    connection.request("POST" if body else "GET", at.path, body, JSON if body else {})
+    return connection
 
 
 def test_the_panel_starts_without_configuration_and_ends_cleanly_while_it_computes_a_path(
@@ -35,13 +42,11 @@ def test_the_panel_starts_without_configuration_and_ends_cleanly_while_it_comput
         assert "plate.nc" in [entry["name"] for entry in names]
         parts = f"{found[1]}api/parts"
         name = httpx.get(parts, timeout=LIMIT_S).json()["parts"][0]["name"]
-        waiting = HTTPConnection("127.0.0.1", httpx.URL(parts).port, timeout=LIMIT_S)
-        waiting.request("POST", f"/api/parts/{name}/path", '{"values": {}}', JSON)
+        waiting = asked(f"{parts}/{name}/path", '{"values": {}}')
         assert httpx.get(parts, timeout=LIMIT_S).status_code == 200  # the other one has arrived
         process.signal(signal.SIGTERM)
         assert process.ended() == 0
         assert waiting.getresponse().status in (422, 200)  # 200: it was quicker than the signal
-        waiting.close()
         assert "Traceback" not in process.text
     finally:
         process.close()
@@ -130,15 +135,11 @@ def test_the_panel_ends_in_one_line_while_it_opens_a_card_that_does_not_answer(
             until(lambda: "panel http" in process.text, about="the panel listens")
             found = re.search(r"panel (http://127\.0\.0\.1:\d+/)", process.text)
             assert found is not None
-            with ThreadPoolExecutor() as waiting:
-                calls = [
-                    waiting.submit(httpx.get, f"{found[1]}api/{path}", timeout=LIMIT_S)
-                    for path in ("pparm", "card/programs")
-                ]
-                assert httpx.get(f"{found[1]}api/me", timeout=LIMIT_S).status_code == 200
-                process.signal(signal.SIGTERM)
-                assert process.ended() == 0
-                assert {call.result().status_code for call in calls} <= {422, 503}
+            calls = [asked(f"{found[1]}api/{path}") for path in ("pparm", "card/programs")]
+            assert httpx.get(f"{found[1]}api/me", timeout=LIMIT_S).status_code == 200
+            process.signal(signal.SIGTERM)
+            assert process.ended() == 0
+            assert {call.getresponse().status for call in calls} <= {422, 503}
             assert "Traceback" not in process.text
             assert "Exception" not in process.text
         finally:
