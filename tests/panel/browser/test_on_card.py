@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import BrowserContext, Locator, Page, Route, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import open_page, to_main_menu
+from tests.panel.browser.conftest import open_page, to_main_menu, until
 
 from openacr.client import Level
 from openacr.panel.control.station import Station
@@ -200,6 +200,7 @@ def test_a_text_is_edited_only_once_it_has_been_read(programs: Page) -> None:
     expect(rows).to_have_count(0)
     expect(key(page, "EDIT")).to_be_disabled()
     expect(key(page, "CLEAR")).to_be_disabled()
+    until(page, lambda: asked)
     asked[0].continue_()
     expect(rows).to_have_count(7)
     expect(key(page, "CLEAR")).to_be_enabled()
@@ -207,6 +208,7 @@ def test_a_text_is_edited_only_once_it_has_been_read(programs: Page) -> None:
     expect(rows).to_have_count(8)
     with page.expect_request(listing):
         item(page, "PLC0").click()
+    until(page, lambda: asked[1:])
     asked[1].abort()
     expect(page.locator("#prompt")).to_contain_text("⚠")
     expect(rows).to_have_count(0)
