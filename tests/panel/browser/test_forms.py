@@ -3,7 +3,7 @@
 import pytest
 from playwright.sync_api import Page, Route, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import let_through
+from tests.panel.browser.conftest import let_through, until
 
 from openacr.sysvar.tabs import JOG, SPEEDS
 
@@ -154,6 +154,7 @@ def test_the_axis_of_a_form_that_was_chosen_last_is_shown(page: Page) -> None:
     axis.filter(has_text="Z").click()
     expect(axis.filter(has_text="Z")).to_be_checked()
     of_z = field.get_attribute("id")
+    until(page, lambda: held)
     let_through(page, held[0])
     expect(axis.filter(has_text="Z")).to_be_checked()
     assert field.get_attribute("id") == of_z != of_x
@@ -172,6 +173,7 @@ def test_a_search_shows_what_was_typed_last(page: Page) -> None:
     field.fill("no such parameter")
     found = page.locator(".search-results")
     expect(found).to_have_text("Nothing found")
+    until(page, lambda: held)
     let_through(page, held[0])
     expect(found).to_have_text("Nothing found")
     page.unroute(early)

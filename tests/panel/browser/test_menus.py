@@ -14,6 +14,7 @@ from tests.panel.browser.conftest import (
     left_over,
     open_page,
     release_answers,
+    until,
     until_model,
 )
 
@@ -208,6 +209,7 @@ def test_an_editor_that_is_left_before_it_is_loaded_asks_for_no_file(
         page.keyboard.press("F4")
     page.keyboard.press("Escape")
     expect(page.locator("#screen")).to_be_hidden()
+    until(page, lambda: held)
     held[0].continue_()
     page.evaluate("import('/js/edit/editor.js')")
     page.evaluate("() => new Promise((done) => setTimeout(done))")
@@ -227,6 +229,7 @@ def test_of_two_screens_the_one_that_was_asked_for_last_is_shown(
         page.keyboard.press("F9")
     page.keyboard.press("F1")
     page.wait_for_function(HAPPENED, arg=["form", "BUTTONS", ""])
+    until(page, lambda: held)
     held[0].continue_()
     page.evaluate("import('/js/screens/views.js')")  # is there, and what waited for it goes on
     page.evaluate("() => new Promise((done) => setTimeout(done))")
@@ -236,6 +239,7 @@ def test_of_two_screens_the_one_that_was_asked_for_last_is_shown(
     with page.expect_request("**/js/screens/mdi.js"):
         page.keyboard.press("F1")
     page.keyboard.press("F10")
+    until(page, lambda: held[1:])
     held[1].continue_()
     page.evaluate("import('/js/screens/mdi.js')")
     page.evaluate("() => new Promise((done) => setTimeout(done))")

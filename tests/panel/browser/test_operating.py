@@ -16,6 +16,7 @@ from tests.panel.browser.conftest import (
     let_through,
     load_file,
     to_main_menu,
+    until,
     until_model,
 )
 
@@ -108,6 +109,7 @@ def test_what_a_program_prints_and_asks_is_in_one_line_and_another_is_edited_mea
     begin_run(page)
     expect(line).to_have_text("Clamp the part")
     with page.expect_response("**/api/program"):
+        until(page, lambda: late)
         late[0].continue_()
     page.unroute_all()
     page.evaluate("() => new Promise(requestAnimationFrame)")

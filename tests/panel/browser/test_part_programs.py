@@ -64,6 +64,7 @@ def test_a_file_that_is_begun_while_another_is_saved_is_a_new_one(
     page.get_by_role("button", name="NEW", exact=True).click()
     page.get_by_role("dialog", name="Not saved").get_by_role("button", name="DROP").click()
     expect(page.locator("#screen-title")).to_have_text("Edit: new file")
+    until(page, lambda: held)
     held[0].continue_()
     expect(page.locator("#prompt")).to_have_text("SLOW.TXT is saved")
     assert (served.programs / "SLOW.TXT").read_text() == "G0 X1\n"
