@@ -48,7 +48,7 @@ def keep_on_disk(stage: Stage, step: Step) -> None:
 
 @word("restart")
 def restart(stage: Stage, step: Step) -> None:
-    """End the front end, and start it again with the store on disk; the card goes on."""
+    """End the front end, and start it again with the store on disk; the card runs all the while."""
     stage.mill.restart()
 
 

@@ -32,7 +32,7 @@ export function startWorkspace() {
     dock.updateOptions({ disableDnd: NARROW.matches });
     const shown = dock.activePanel?.id ?? "";
     load();
-    dock.getPanel(shown)?.api.setActive(); // a tablet that is turned goes on with the pane in use
+    dock.getPanel(shown)?.api.setActive(); // a tablet that is turned keeps the pane in use
   });
 }
 
