@@ -119,6 +119,9 @@ def test_a_case_about_axis_0_is_about_the_axis_that_is_allowed(tmp_path: Path) -
         "P12800 P13055 P12544 P12287 BIT832 BIT863 BIT800 BIT8512 BIT8543 BIT128 P5"
     )
     assert of_axis(text, 0) == text
+    assert of_axis("P12288 BIT768 BIT799 BIT8448", 7) == "P14080 BIT992 BIT1023 BIT8672"
+    assert of_axis("P12288 BIT768 BIT799 BIT8448", 8) == "P14336 BIT7680 BIT7711 BIT8704"
+    assert of_axis("BIT792 BIT8467", 15) == "BIT7928 BIT8947"
     case = for_axis(case_of(tmp_path, JOG), 1)
     assert case.changes == ("P12604", "P12605", "P12606")
     assert [step.at.text for step in case.steps][4:7] == [

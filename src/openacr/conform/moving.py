@@ -13,10 +13,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from openacr.conform.form import NUMBER, Case, Line, Reach, Step
+from openacr.map.block import BITS_PER_WORD, FLAG_WORD_BASE
+from openacr.map.numbers import AX_BASE, AX_STRIDE
+from openacr.map.words import af1, af2, af3, af4, af5, af6
 
-AXIS_PARAMETERS, AXIS_STEP = range(12288, 12288 + 256), 256
-AXIS_FLAGS = (range(768, 768 + 32), range(8448, 8448 + 32))
-FLAG_STEP = 32
+AXIS_WORDS = tuple(each.word for each in (af1, af2, af3, af4, af5, af6))  # of flags, by axis
 JOG_ACTIVE = "BIT792"
 SETTINGS = {"VEL": "P12348", "ACC": "P12349", "DEC": "P12350", "JRK": "P12351"}
 AT_REST = f"{JOG_ACTIVE} = 0"
@@ -117,11 +118,13 @@ def of_axis(text: str, axis: int) -> str:
 
     def place(found: re.Match[str]) -> str:
         number = int(found[2])
-        if found[1] == "P" and number in AXIS_PARAMETERS:
-            number += AXIS_STEP * axis
-        elif found[1] == "BIT" and any(number in part for part in AXIS_FLAGS):
-            number += FLAG_STEP * axis
-        return f"{found[1]}{number}"
+        if found[1] == "P":
+            return f"P{number + AX_STRIDE * axis if 0 <= number - AX_BASE < AX_STRIDE else number}"
+        word, bit = divmod(number, BITS_PER_WORD)
+        for words in AXIS_WORDS:
+            if word + FLAG_WORD_BASE == words[0]:
+                number = BITS_PER_WORD * (words[axis] - FLAG_WORD_BASE) + bit
+        return f"BIT{number}"
 
     return _PLACE.sub(place, text)
 
