@@ -21,6 +21,18 @@ def test_a_termination_is_an_interrupt(number: signal.Signals) -> None:
     assert signal.getsignal(number) is before
 
 
+def test_a_second_termination_does_not_interrupt_the_cleanup_of_the_first() -> None:
+    before, done = signal.getsignal(signal.SIGTERM), ""
+    with pytest.raises(KeyboardInterrupt), terminations_as_interrupts():
+        try:
+            signal.raise_signal(signal.SIGTERM)
+        finally:
+            signal.raise_signal(signal.SIGTERM)
+            done = "all"
+    assert done == "all"
+    assert signal.getsignal(signal.SIGTERM) is before
+
+
 def test_a_hang_up_that_nohup_has_ignored_stays_ignored() -> None:
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:

@@ -32,7 +32,10 @@ def stop_on_signals(
 
 
 def terminations_as_interrupts() -> AbstractContextManager[None]:
-    """Context in which SIGTERM and SIGHUP raise KeyboardInterrupt, so that cleanup runs."""
+    """Context in which SIGTERM and SIGHUP raise KeyboardInterrupt, so that cleanup runs.
+
+    The first alone does: one that followed could interrupt the cleanup before it is `deaf`.
+    """
     return _handling(endings(), _interrupt)
 
 
@@ -57,4 +60,6 @@ def _handling(
 
 
 def _interrupt(_number: int, _frame: FrameType | None) -> None:
+    for number in endings():
+        signal.signal(number, signal.SIG_IGN)
     raise KeyboardInterrupt
