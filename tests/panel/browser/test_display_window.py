@@ -7,7 +7,14 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, Route, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import begin_run, give, load_file, to_main_menu, until_model
+from tests.panel.browser.conftest import (
+    at_rest,
+    begin_run,
+    give,
+    load_file,
+    to_main_menu,
+    until_model,
+)
 from tests.panel.browser.test_files import path_lines
 
 from openacr.sysvar.tabs import CONTROL, IO
@@ -222,6 +229,7 @@ def test_lines_alarms_and_emergency_stop_are_live_at_rest_and_during_a_run(
         write(STOP, False)
         expect(view).to_contain_text("Emergency stop is off again")
         expect(active).to_have_count(1)
+        at_rest(page, served)
         panel.get_by_role("button", name="ACKNOWLEDGE").click()
         expect(active).to_have_count(0)
         expect(view).to_have_text(re.compile("Emergency stop is off$"))

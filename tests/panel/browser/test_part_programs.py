@@ -5,7 +5,14 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, Route, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import load_file, picture, to_main_menu, until, until_model
+from tests.panel.browser.conftest import (
+    at_rest,
+    load_file,
+    picture,
+    to_main_menu,
+    until,
+    until_model,
+)
 
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import CELLS, OFFSETS
@@ -306,6 +313,7 @@ def test_an_error_found_by_reading_is_said_after_the_load_and_asked_about_at_the
     assert served.call(lambda station: station.machine.runner.is_busy) is False
     dialog.get_by_role("button", name="START ANYWAY").click()
     until_model(page, "model.alarms.value.active.length")
+    at_rest(page, served)
     page.get_by_role("button", name="ACKNOWLEDGE").click()
     until_model(page, "!model.alarms.value.active.length")
 
