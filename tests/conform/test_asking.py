@@ -3,19 +3,14 @@
 from pathlib import Path
 
 import pytest
+from tests.conform.one_case import case_of
 
-from openacr.conform import read
 from openacr.conform.asking import bar
 from openacr.conform.read import supplied
 
-HEAD = "[case A]\nsource: 000 L7\nrests on: manual\n"
-
 
 def bar_of(folder: Path, text: str) -> str:
-    path = folder / "cases.txt"
-    path.write_text(HEAD + text, encoding="utf-8")
-    (case,) = read(path)
-    return bar(case)
+    return bar(case_of(folder, text))
 
 
 @pytest.mark.parametrize(

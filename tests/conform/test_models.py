@@ -4,9 +4,10 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from tests.conform.one_case import case_of
 
 from openacr.client.links import ProcessLink
-from openacr.conform import Case, read, report, run
+from openacr.conform import Case, report, run
 from openacr.conform.campaign import chosen, on_card_in_use, on_virtual_card
 from openacr.conform.facts import lacking, suited
 from openacr.conform.host import HostCard
@@ -15,7 +16,6 @@ from openacr.controller import Controller
 from openacr.errors import FaultyFileError
 from openacr.models import MODELS
 
-HEAD = "[case A]\nsource: 000 L7\nrests on: manual\n"
 EVERY = 149  # case, beginning with another one for each model
 
 
@@ -36,13 +36,6 @@ def test_a_sample_of_the_cases_agrees_with_a_card_of_each_model(model: str) -> N
     counts = {name: sum(each.result == name for each in found) for name in ("agrees", "not run")}
     assert counts["agrees"] > 30
     assert counts["not run"] == 0
-
-
-def case_of(folder: Path, text: str) -> Case:
-    path = folder / "cases.txt"
-    path.write_text(HEAD + text, encoding="utf-8")
-    (case,) = read(path)
-    return case
 
 
 @pytest.mark.parametrize(

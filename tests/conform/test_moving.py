@@ -3,18 +3,18 @@
 from pathlib import Path
 
 import pytest
+from tests.conform.one_case import case_of
 from tests.conform.test_host import Wire
 
 from openacr import Controller
 from openacr.client.errors import GarbledError
-from openacr.conform import Case, read
+from openacr.conform import Case
 from openacr.conform.asking import bar
 from openacr.conform.campaign import Outcome, on_card_in_use
 from openacr.conform.host import HostCard
 from openacr.conform.moving import Permission, for_axis, of_axis
 from openacr.errors import FaultyFileError
 
-HEAD = "[case A]\nsource: 000 L7\nrests on: manual\n"
 MOVES = "moves: 1 units at 2 units/s\nchanges: P12348, P12349, P12350\n"
 VEL = "> AXIS0 JOG VEL 2\n"
 REST = "wait until BIT792 = 0 within 5 s\n"
@@ -23,13 +23,6 @@ JOG = (
     f"{MOVES}{VEL}> AXIS0 JOG ACC 50\n> AXIS0 JOG DEC 50\nnote P12297 as begin\n"
     f"> AXIS0 JOG INC 1\n? BIT792 -> -1\n{REST}? (P12297-<begin>)/P12375 -> 1\n"
 )
-
-
-def case_of(folder: Path, text: str) -> Case:
-    path = folder / "cases.txt"
-    path.write_text(HEAD + text, encoding="utf-8")
-    (case,) = read(path)
-    return case
 
 
 @pytest.mark.parametrize(

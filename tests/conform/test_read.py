@@ -3,12 +3,11 @@
 from pathlib import Path
 
 import pytest
+from tests.conform.one_case import HEAD
 
 from openacr.conform import Claim, files, read
 from openacr.conform.ids import by_id, main
 from openacr.errors import FaultyFileError, UserError
-
-HEAD = "[case A]\nsource: 000 L7\nrests on: manual\n"
 
 
 def faults(folder: Path, text: str) -> list[str]:

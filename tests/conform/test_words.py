@@ -3,17 +3,14 @@
 from pathlib import Path
 
 import pytest
+from tests.conform.one_case import HEAD, case_of
 
 from openacr.conform import read, report, run
-
-HEAD = "[case A]\nsource: 000 L7\nrests on: manual\n"
 
 
 def differs(folder: Path, steps: str, about: str = "") -> str:
     """What is reported of a case of these steps, without its file; empty where it holds."""
-    path = folder / "cases.txt"
-    path.write_text(HEAD + about + steps, encoding="utf-8")
-    (case,) = read(path)
+    case, path = case_of(folder, about + steps), folder / "cases.txt"
     difference = run(case)
     if difference is None:
         return ""
