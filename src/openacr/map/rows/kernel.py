@@ -11,6 +11,7 @@ axes = 440559
 masters = 440560
 adc_mode = 440561
 adc_channels = 440562
+moves_waiting = 440563
 linked_encoders = 440564
 filtered_encoders = 440565
 kinematics = 440566
