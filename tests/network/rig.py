@@ -1,7 +1,7 @@
 """Cards with nodes on their CANopen bus."""
 
 from openacr.controller import Controller
-from openacr.map import numbers as at
+from openacr.map.rows import bus_nodes
 from openacr.plant import terminals
 from openacr.plant.load import parse_world
 
@@ -74,15 +74,15 @@ def running(nodes: str = PANEL, *ids: int, bit_rate: int = 125, cycle_ms: int = 
 
 def output(made: Controller, place: int, terminal: int) -> bool:
     """Whether a digital output of a node is on, at its terminal."""
-    row = terminals.terminal_row(place, terminal, at.BUSNI_OUTPUTS)
+    row = terminals.terminal_row(place, terminal, bus_nodes.outputs)
     return bool(made.memory.I[row] >> terminal % 32 & 1)
 
 
 def converted(made: Controller, place: int, channel: int) -> int:
     """The counts an analog output of a node converts."""
-    return made.memory.I[terminals.ints(place) + at.BUSNI_CONVERTED + channel]
+    return made.memory.I[bus_nodes.converted[place] + channel]
 
 
 def node_state(made: Controller, place: int) -> int:
     """What a node is doing."""
-    return made.memory.I[terminals.ints(place) + at.BUSNI_STATE]
+    return made.memory.I[bus_nodes.state[place]]

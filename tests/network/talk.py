@@ -1,7 +1,7 @@
 """Cards with drives that talk."""
 
 from openacr.controller import Controller
-from openacr.map import numbers as at
+from openacr.map.rows import bus_drives
 from openacr.plant.load import parse_world
 
 LOST, TIMEOUT, ADDRESS_ERROR = 18, 19, 20
@@ -71,7 +71,7 @@ class Bench:
 
     def address(self, axis: int) -> int:
         """The address a drive has."""
-        return self.card.memory.I[at.BUSDI_BASE + axis * at.BUSDI_STRIDE + at.BUSDI_ADDRESS]
+        return self.card.memory.I[bus_drives.address[axis]]
 
 
 def control(axis: int, index: int) -> int:

@@ -12,7 +12,7 @@ from tests.network.talk import (
 )
 
 from openacr.map import flag
-from openacr.map import numbers as at
+from openacr.map.rows import motors
 from openacr.map.tables.drivetalk import CONFIGURATION, STATUS_ITEMS
 from openacr.plant.aries import SETTINGS
 
@@ -123,7 +123,7 @@ def test_a_downloaded_configuration_changes_the_drive_and_its_motor() -> None:
         made.type("AXIS0 OFF")
         made.card.p[6400] = 1.0  # a volt at the drive
         made.card.advance(seconds=0.1)
-        speeds.append(made.card.memory.F[at.PLF_BASE + at.PLF_VELOCITY_CPS])
+        speeds.append(made.card.memory.F[motors.velocity_cps[0]])
     assert speeds[0] == pytest.approx(2 * speeds[1]) != 0.0
 
 

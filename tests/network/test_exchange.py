@@ -16,10 +16,10 @@ from tests.network.rig import (
 
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.map import numbers as at
+from openacr.map.rows import network_master
 from openacr.plant import terminals
 
-SYNC = at.NETMF_BASE + at.NETMF_SYNC_TK
+SYNC = network_master.sync_tk
 MESSAGE_S = 0.001  # 125 bits at 125 kbit/s
 
 

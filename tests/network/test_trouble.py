@@ -15,7 +15,7 @@ from tests.network.rig import (
     start,
 )
 
-from openacr.map import numbers as at
+from openacr.map.rows import network_master
 from openacr.network.canopen.rows import Phase
 
 TWO = PANEL + node(2, digital_inputs=8, digital_outputs=8)
@@ -120,9 +120,14 @@ def test_too_many_errors_switch_the_controller_off_until_the_next_start() -> Non
     made.set_input(DI[0], True)
     made.advance(seconds=0.5)
     assert not made.bit[DI[0]], "nothing is exchanged without one"
-    due = (at.NETMF_PHASE_TK, at.NETMF_SYNC_TK, at.NETMF_ARRIVAL_TK, at.NETMF_HEALTH_TK)
-    assert [made.memory.F[at.NETMF_BASE + row] for row in due] == [0.0] * 4
-    assert made.memory.I[at.NETMI_BASE + at.NETMI_PHASE] == Phase.IDLE
+    due = (
+        network_master.phase_tk,
+        network_master.sync_tk,
+        network_master.arrival_tk,
+        network_master.health_tk,
+    )
+    assert [made.memory.F[row] for row in due] == [0.0] * 4
+    assert made.memory.I[network_master.phase] == Phase.IDLE
     assert start(made) == 2
     made.advance(seconds=1.0)
     assert made.p[STATE] == 2

@@ -7,10 +7,10 @@ from tests.network.rig import DI, PANEL, RESET, START, running
 
 from openacr.compiled import counterpart, is_compiled
 from openacr.controller import Controller
-from openacr.map import numbers as at
+from openacr.map.rows import networks, system
 from openacr.network.wake_cy import networks_due
 
-SLOW_PHASE = at.SYSI_BASE + at.SYSI_SLOW_PHASE
+SLOW_PHASE = system.slow_phase
 BUILDS = [networks_due, *([counterpart(networks_due)] if is_compiled else [])]
 
 
@@ -29,7 +29,7 @@ def due(build: Callable[..., bool], made: Controller, after_tk: int = 0) -> bool
 def test_only_what_is_due_wakes(build: Callable[..., bool]) -> None:
     made = quiet()
     assert not due(build, made)
-    wait_tk = int(made.memory.F[at.NETF_BASE + at.NETF_DUE_TK]) - made.tick
+    wait_tk = int(made.memory.F[networks.due_tk]) - made.tick
     assert [due(build, made, wait_tk + n) for n in (-1, 0, 1)] == [False, True, True]
 
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 import pytest
 
 from openacr import compiled
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import dacs, motors
 from openacr.plant.apply import apply_world
 from openacr.plant.load import parse_world
 from openacr.plant.step_cy import plant_step
@@ -38,36 +38,36 @@ class Rig:
             self.enable(n)
 
     def enable(self, n: int, on: bool = True) -> None:
-        self.memory.I[at.PLI_BASE + n * at.PLI_STRIDE + at.PLI_DRIVE_ENABLED] = int(on)
+        self.memory.I[motors.drive_enabled[n]] = int(on)
 
     def turn(self, volts: float = 0.0, ticks: int = 1, axis: int = 0) -> None:
         m = self.memory
-        m.S[at.DAC_BASE + axis * at.DAC_STRIDE + at.DAC_DAC_OUTPUT] = volts
+        m.S[dacs.dac_output[axis]] = volts
         for _ in range(ticks):
             STEP(m.F, m.I, m.S, 8, self.period_s)
 
-    def get(self, row: int, axis: int = 0) -> float:
-        return self.memory.F[at.PLF_BASE + axis * at.PLF_STRIDE + row]
+    def get(self, row: tuple[int, ...], axis: int = 0) -> float:
+        return self.memory.F[row[axis]]
 
-    def put(self, row: int, value: float, axis: int = 0) -> None:
-        self.memory.F[at.PLF_BASE + axis * at.PLF_STRIDE + row] = value
+    def put(self, row: tuple[int, ...], value: float, axis: int = 0) -> None:
+        self.memory.F[row[axis]] = value
 
-    def flag(self, row: int, axis: int = 0) -> int:
-        return self.memory.I[at.PLI_BASE + axis * at.PLI_STRIDE + row]
+    def flag(self, row: tuple[int, ...], axis: int = 0) -> int:
+        return self.memory.I[row[axis]]
 
     @property
     def position(self) -> float:
-        return self.get(at.PLF_POSITION_CNT)
+        return self.get(motors.position_cnt)
 
     @property
     def velocity(self) -> float:
-        return self.get(at.PLF_VELOCITY_CPS)
+        return self.get(motors.velocity_cps)
 
     def throw(self, velocity_cps: float, axis: int = 0) -> None:
-        self.put(at.PLF_VELOCITY_CPS, velocity_cps, axis)
+        self.put(motors.velocity_cps, velocity_cps, axis)
 
     def general(self, row: int) -> int:
-        return self.memory.I[at.PLGI_BASE + row]
+        return self.memory.I[row]
 
 
 @pytest.fixture

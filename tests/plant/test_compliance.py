@@ -9,8 +9,7 @@ from tests.plant.conftest import DRIVE, MOTOR, Build, Rig
 
 from openacr.controller import Controller
 from openacr.controller import snapshot_file as snapshot
-from openacr.map import numbers as at
-from openacr.map.rows import compliant_loads
+from openacr.map.rows import axes, compliant_loads
 from openacr.plant.apply import put_state, take_state
 from openacr.plant.load import parse_world
 
@@ -142,7 +141,7 @@ SET_UP = 'PROG0\rATTACH MASTER0\rATTACH SLAVE0 AXIS1 "Y"\rPGAIN Y0.002 DGAIN Y0.
 def swinging() -> Controller:
     card = Controller(world=parse_world(WORLD))
     card.send(SET_UP)
-    card.p[at.AX_BASE + at.AX_STRIDE + at.AX_JOG_OFFSET] = 300
+    card.p[axes.jog_offset[1]] = 300
     card.advance(40)
     return card
 

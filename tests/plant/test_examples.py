@@ -8,6 +8,7 @@ import pytest
 from openacr import compiled
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import dacs, motors
 from openacr.plant.apply import apply_world
 from openacr.plant.counts import count_of
 from openacr.plant.load import load_world
@@ -29,15 +30,15 @@ class Servo:
     def __init__(self, world: World, axis: int) -> None:
         self.memory = Memory()
         apply_world(world, self.memory)
-        self.row = at.PLF_BASE + axis * at.PLF_STRIDE
-        self.dac = at.DAC_BASE + axis * at.DAC_STRIDE + at.DAC_DAC_OUTPUT
-        self.memory.I[at.PLI_BASE + axis * at.PLI_STRIDE + at.PLI_DRIVE_ENABLED] = 1
+        self.axis = axis
+        self.dac = dacs.dac_output[axis]
+        self.memory.I[motors.drive_enabled[axis]] = 1
         self.error = 0.0
 
     def follow(self, setpoint_cnt: float) -> float:
         """Advance one tick towards a setpoint; the following error in counts."""
         m = self.memory
-        error = round(setpoint_cnt) - m.F[self.row + at.PLF_RAW_COUNT]
+        error = round(setpoint_cnt) - m.F[motors.raw_count[self.axis]]
         volts = PGAIN * error + DGAIN * (error - self.error) / PERIOD_S
         m.S[self.dac] = max(-TLM, min(TLM, volts))
         self.error = error
@@ -86,7 +87,7 @@ def test_the_gains_of_the_manual_move_the_axis_well(
     worst = servo.trapezoid(distance * per_unit, velocity * per_unit, accel * per_unit)
     assert worst < allowed_u * per_unit
     assert abs(servo.error) <= rest_cnt
-    assert servo.memory.F[servo.row + at.PLF_VELOCITY_CPS] == 0.0
+    assert servo.memory.F[motors.velocity_cps[servo.axis]] == 0.0
 
 
 def test_the_gantry_has_its_limit_switches_closed_and_the_curtain_dark() -> None:

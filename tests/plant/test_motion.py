@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from tests.plant.conftest import Build, Rig
 
-from openacr.map import numbers as at
+from openacr.map.rows import motors
 
 pytestmark = pytest.mark.evidence("oracle", "closed forms, differential equations solved by scipy")
 
@@ -139,18 +139,18 @@ def test_a_disabled_drive_gives_no_torque_and_the_motor_coasts(motor: Build) -> 
     rig.throw(1000.0)
     rig.turn(10.0, ticks=100)
     assert rig.velocity == pytest.approx(1000 * math.exp(-1), rel=1e-12)
-    assert rig.flag(at.PLI_DRIVE_READY) == 0
+    assert rig.flag(motors.drive_ready) == 0
 
 
 def test_a_drive_with_an_active_fault_line_gives_no_torque(motor: Build) -> None:
     drive = 'drive = { mode = "torque", amps_per_volt = 1.0, peak_amps = 20.0, fault_input = 16 }\n'
     rig = motor(drive=drive)
     rig.turn(1.0)
-    assert (rig.flag(at.PLI_DRIVE_READY), rig.flag(at.PLI_DRIVE_FAULT)) == (1, 0)
+    assert (rig.flag(motors.drive_ready), rig.flag(motors.drive_fault)) == (1, 0)
     speed = rig.velocity
     rig.memory.set_bit(16, True)
     rig.turn(1.0, ticks=10)
-    assert (rig.flag(at.PLI_DRIVE_READY), rig.flag(at.PLI_DRIVE_FAULT)) == (0, 1)
+    assert (rig.flag(motors.drive_ready), rig.flag(motors.drive_fault)) == (0, 1)
     assert rig.velocity == speed
 
 
@@ -168,22 +168,22 @@ def test_the_encoder_shows_whole_counts_rounded_down(motor: Build) -> None:
     rig = motor()
     rig.throw(-700.0)
     rig.turn(ticks=3)  # 0.5 - 1.05
-    assert rig.get(at.PLF_RAW_COUNT) == -1.0
+    assert rig.get(motors.raw_count) == -1.0
     rig.turn(ticks=2)  # -1.25
-    assert rig.get(at.PLF_RAW_COUNT) == -2.0
+    assert rig.get(motors.raw_count) == -2.0
 
 
 def test_the_encoder_of_a_motor_starts_at_zero_wherever_it_stands(motor: Build) -> None:
     rig = motor("initial = 12.25")
     rig.turn()
-    assert rig.get(at.PLF_RAW_COUNT) == 0.0
+    assert rig.get(motors.raw_count) == 0.0
 
 
 def test_a_positive_voltage_makes_the_encoder_count_up_or_down_as_wired(motor: Build) -> None:
     up, down = motor(), motor('encoder_direction = "down"')
     up.turn(1.0, ticks=50)
     down.turn(1.0, ticks=50)
-    assert up.get(at.PLF_RAW_COUNT) > 100
+    assert up.get(motors.raw_count) > 100
     assert down.position - 0.5 == -(up.position - 0.5)
 
 
@@ -205,7 +205,7 @@ def test_volts_come_in_steps_of_the_converter(
 ) -> None:
     rig = motor(tables=f"[card]\ndac_bits = {bits}\n")
     rig.turn(asked)
-    assert rig.get(at.PLF_VOLTS) == pytest.approx(given, rel=1e-12)
+    assert rig.get(motors.volts) == pytest.approx(given, rel=1e-12)
 
 
 def test_the_offset_of_a_drive_makes_the_motor_drift(motor: Build) -> None:
@@ -250,7 +250,7 @@ def test_a_servo_loop_behaves_as_an_independent_integration_says(motor: Build) -
 @pytest.mark.parametrize(("fault", "edges"), [(0, 3), (1, 3), (2, 0), (4, 0)])
 def test_an_encoder_without_signals_has_no_marker(motor: Build, fault: int, edges: int) -> None:
     rig = motor("marker = 0.0\n")
-    rig.memory.I[at.PLI_BASE + at.PLI_ENCODER_FAULT] = fault
+    rig.memory.I[motors.encoder_fault[0]] = fault
     rig.throw(4000 / 0.0005)  # a turn in a period
     rig.turn(ticks=1)
-    assert rig.flag(at.PLI_MARKER_EDGES) == edges
+    assert rig.flag(motors.marker_edges) == edges

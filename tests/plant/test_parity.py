@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from openacr import compiled
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import axes, encoders, motors, stepper_outputs
+from openacr.map.rows import dacs as dac_rows
 from openacr.plant.apply import apply_world
 from openacr.plant.schema import (
     LOADLESS,
@@ -116,18 +117,18 @@ def play(step: Callable[..., None], world: World, journal: list[float]) -> Memor
     apply_world(world, memory)
     n = world.axis[0].number
     for tick, value in enumerate(journal):
-        memory.I[at.PLI_BASE + n * at.PLI_STRIDE + at.PLI_DRIVE_ENABLED] = int(tick % 9 < 7)
+        memory.I[motors.drive_enabled[n]] = int(tick % 9 < 7)
         memory.set_bit(32, tick % 7 < 5)
         commanded = min(max(value, -100.0), 100.0) if math.isfinite(value) else 0.0
         for output in range(16):
-            row = at.STOF_BASE + output * at.STOF_STRIDE + at.STOF_PULSES
+            row = stepper_outputs.pulses[output]
             memory.F[row] += round(commanded * (output + 1))
-        memory.I[at.AXI_BASE + n * at.AXI_STRIDE + at.AXI_ON] = 1
-        memory.I[at.AXI_BASE + n * at.AXI_STRIDE + at.AXI_POSITION_INDEX] = n
-        memory.I[at.ENI_BASE + n * at.ENI_STRIDE + at.ENI_MULT] = 3
-        memory.F[at.AXF_BASE + n * at.AXF_STRIDE + at.AXF_SSP_CNT] = commanded * 7
+        memory.I[axes.on[n]] = 1
+        memory.I[axes.position_index[n]] = n
+        memory.I[encoders.mult[n]] = 3
+        memory.F[axes.ssp_cnt[n]] = commanded * 7
         for dac in range(8):
-            memory.S[at.DAC_BASE + dac * at.DAC_STRIDE + at.DAC_DAC_OUTPUT] = value * (n - dac + 1)
+            memory.S[dac_rows.dac_output[dac]] = value * (n - dac + 1)
         step(memory.F, memory.I, memory.S, 8, 0.0005)
     return memory
 
@@ -149,8 +150,8 @@ def test_no_configuration_and_no_output_makes_a_value_that_is_no_number(
     world: World, journal: list[float]
 ) -> None:
     memory = play(compiled.pick(plant_step), world, journal)
-    base = at.PLF_BASE + world.axis[0].number * at.PLF_STRIDE
-    assert all(math.isfinite(value) for value in memory.F[base : base + at.PLF_STRIDE])
+    base = motors.reals[world.axis[0].number]
+    assert all(math.isfinite(value) for value in memory.F[base : base + motors.REALS_SIZE])
 
 
 @settings(max_examples=80, deadline=None)
@@ -158,7 +159,7 @@ def test_no_configuration_and_no_output_makes_a_value_that_is_no_number(
 def test_a_motor_without_torque_never_gains_speed(world: World, speed: float, ticks: int) -> None:
     memory = Memory()
     apply_world(world, memory)
-    at_speed = at.PLF_BASE + world.axis[0].number * at.PLF_STRIDE + at.PLF_VELOCITY_CPS
+    at_speed = motors.velocity_cps[world.axis[0].number]
     memory.F[at_speed] = speed
     for _ in range(ticks):
         old = memory.F[at_speed]

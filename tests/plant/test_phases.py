@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from tests.plant.conftest import Rig
 
 from openacr.errors import SourceError
-from openacr.map import numbers as at
+from openacr.map.rows import dacs, motors
 from openacr.plant.load import parse_world
 
 COUNTS = 4000
@@ -33,7 +33,7 @@ def brushless(
 def put(rig: Rig, first_v: float, second_v: float) -> None:
     """Put voltages on both phases and let one tick pass."""
     for dac, volts in ((2, first_v), (5, second_v)):
-        rig.memory.S[at.DAC_BASE + dac * at.DAC_STRIDE + at.DAC_DAC_OUTPUT] = volts
+        rig.memory.S[dacs.dac_output[dac]] = volts
     rig.turn()
 
 
@@ -105,7 +105,7 @@ def test_three_phases_are_two_and_what_they_leave_for_the_third(
     wanted = 2 / 3 * sum(v * shape for v, shape in zip(volts, shapes, strict=True))
     amplitude = math.sqrt(2 / 3 * sum(v * v for v in volts))
     limited = wanted * min(1.0, 4.0 / max(amplitude, 1e-9))  # 6 A at 1.5 A/V
-    assert rig.get(at.PLF_VOLTS) == pytest.approx(limited, abs=1e-3)
+    assert rig.get(motors.volts) == pytest.approx(limited, abs=1e-3)
 
 
 def test_the_rotor_settles_where_a_standing_field_holds_it() -> None:

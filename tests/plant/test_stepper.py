@@ -5,7 +5,7 @@ import math
 import pytest
 from tests.plant.conftest import Rig
 
-from openacr.map import numbers as at
+from openacr.map.rows import stepper_outputs
 
 COUNTS = 2000
 INERTIA = 5e-5
@@ -25,7 +25,7 @@ def rig(load: str = "", torque: str = "[[0.0, 0.5]]", damping: float = 0.2) -> R
 def send(made: Rig, pulses: float, ticks: int = 1) -> None:
     """Pulses on the stepper output, the same count in every period."""
     for _ in range(ticks):
-        made.memory.F[at.STOF_BASE + 3 * at.STOF_STRIDE + at.STOF_PULSES] += pulses
+        made.memory.F[stepper_outputs.pulses[3]] += pulses
         made.turn()
 
 

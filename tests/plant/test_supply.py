@@ -6,7 +6,7 @@ import pytest
 
 from openacr.controller import Controller
 from openacr.errors import SourceError, UserError
-from openacr.map import numbers as at
+from openacr.map.rows import motors
 from openacr.plant.load import parse_world
 from openacr.scenario import parse_scenario
 
@@ -34,7 +34,6 @@ SET_UP = (
     "ENC1 MULT 4", "PROG0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS1 "Y"', "PPU Y4000", "PGAIN Y0.01",
     "DGAIN Y0.00001", "TLM Y10", "DRIVE ON Y", "JOG ACC Y2000", "JOG DEC Y2000", "JOG VEL Y120",
 )  # fmt: skip
-MOTOR = at.PLF_BASE + at.PLF_STRIDE
 
 
 def card(machine: str = MACHINE) -> Controller:
@@ -52,7 +51,7 @@ def jogged(made: Controller) -> Controller:
 
 
 def speed_rev_s(made: Controller) -> float:
-    return made.memory.F[MOTOR + at.PLF_VELOCITY_CPS] / 4000.0
+    return made.memory.F[motors.velocity_cps[1]] / 4000.0
 
 
 def no_load_speed_rev_s(volts: float) -> float:
@@ -73,17 +72,17 @@ def test_a_motor_goes_no_faster_than_the_supply_that_is_left() -> None:
 
 def test_a_supply_that_recovers_is_the_one_of_the_machine_file() -> None:
     made = card()
-    full = made.memory.F[MOTOR + at.PLF_SUPPLY_ACCEL]
+    full = made.memory.F[motors.supply_accel[1]]
     assert full == pytest.approx(SUPPLY_V / 4.0 * TORQUE_NM_PER_A / 2.0e-5 * 4000 / (2.0 * pi))
     made.fault(1, "supply", 20.0)
     made.fault(1, "supply", 40.0)  # it replaces the one before
-    assert made.memory.F[MOTOR + at.PLF_SUPPLY_ACCEL] == pytest.approx(full / 2.0)
+    assert made.memory.F[motors.supply_accel[1]] == pytest.approx(full / 2.0)
     made.mend(1, "friction")
-    assert made.memory.F[MOTOR + at.PLF_SUPPLY_ACCEL] == pytest.approx(full / 2.0)
+    assert made.memory.F[motors.supply_accel[1]] == pytest.approx(full / 2.0)
     made.mend(1)
-    assert made.memory.F[MOTOR + at.PLF_SUPPLY_ACCEL] == full
+    assert made.memory.F[motors.supply_accel[1]] == full
     made.fault(1, "supply", SUPPLY_V)
-    assert made.memory.F[MOTOR + at.PLF_SUPPLY_ACCEL] == full
+    assert made.memory.F[motors.supply_accel[1]] == full
 
 
 @pytest.mark.parametrize("volts", [0.0, -1.0, 80.1])
@@ -99,9 +98,9 @@ def test_an_axis_without_a_modelled_supply_refuses_the_fault_and_mends(line: str
     made = card(text if "supply" in line else text.replace("supply_v = 80.0", ""))
     with pytest.raises(UserError, match="axis Y: a supply that falls has no effect"):
         made.fault(1, "supply", 40.0)
-    before = made.memory.F[MOTOR + at.PLF_SUPPLY_ACCEL]
+    before = made.memory.F[motors.supply_accel[1]]
     made.mend(1)
-    assert made.memory.F[MOTOR + at.PLF_SUPPLY_ACCEL] == before
+    assert made.memory.F[motors.supply_accel[1]] == before
 
 
 def test_a_scenario_names_the_volts() -> None:

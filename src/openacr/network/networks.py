@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import networks
 from openacr.network.canopen import master as canopen
 from openacr.network.drivetalk import service as drivetalk
 
@@ -34,4 +34,4 @@ class Networks:
     def _set_due(self) -> None:
         times = canopen.next_tk(self._memory), drivetalk.next_tk(self._memory)
         due_tk = min((time for time in times if time), default=0.0)
-        self._memory.F[at.NETF_BASE + at.NETF_DUE_TK] = due_tk
+        self._memory.F[networks.due_tk] = due_tk

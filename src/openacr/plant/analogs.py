@@ -1,42 +1,39 @@
 """The terminals of the card's analog inputs, set by the machine file and by scenarios."""
 
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.map.rows import adcs, analogs
+from openacr.map.rows import adcs, analogs, plant
 from openacr.plant.counts import count_of
 from openacr.plant.schema import Analog, Axis, World
 
 FULL_DAC_BITS = 16
-_FIRST, _LAST = (adcs.adc_input[n] for n in (0, at.PLA_COUNT - 1))
+_FIRST, _LAST = (adcs.adc_input[n] for n in (0, analogs.COUNT - 1))
 
 
 def write_analogs(memory: Memory, world: World) -> None:
     """Wire the analog inputs; the voltage of an axis is stored per encoder count."""
     by_number = {axis.number: axis for axis in world.axis}
     for analog in world.analog:
-        row = at.PLAF_BASE + analog.input * at.PLAF_STRIDE
-        memory.F[row + at.PLAF_BASE_V] = analog.volts
-        memory.F[row + at.PLAF_DAC_STEP] = 2.0 ** (FULL_DAC_BITS - world.card.dac_bits)
-        wired = at.PLAI_BASE + analog.input * at.PLAI_STRIDE
-        memory.I[wired + at.PLAI_DAC] = 0 if analog.dac is None else analog.dac + 1
+        memory.F[analogs.base_v[analog.input]] = analog.volts
+        memory.F[analogs.dac_step[analog.input]] = 2.0 ** (FULL_DAC_BITS - world.card.dac_bits)
+        memory.I[analogs.dac[analog.input]] = 0 if analog.dac is None else analog.dac + 1
         if analog.axis is not None:
-            memory.I[wired + at.PLAI_AXIS] = analog.axis + 1
-            _follow(memory, row, analog, by_number[analog.axis])
-    memory.I[at.PLGI_BASE + at.PLGI_ANALOGS] = len(world.analog)
+            memory.I[analogs.axis[analog.input]] = analog.axis + 1
+            _follow(memory, analog, by_number[analog.axis])
+    memory.I[plant.analogs] = len(world.analog)
 
 
-def _follow(memory: Memory, row: int, analog: Analog, axis: Axis) -> None:
+def _follow(memory: Memory, analog: Analog, axis: Axis) -> None:
     origin, unit = count_of(axis, 0.0), count_of(axis, 1.0)
     per_count = analog.volts_per_unit / (unit - origin)
-    memory.F[row + at.PLAF_VOLTS_PER_CNT] = per_count
-    memory.F[row + at.PLAF_BASE_V] -= per_count * origin
+    memory.F[analogs.volts_per_cnt[analog.input]] = per_count
+    memory.F[analogs.base_v[analog.input]] -= per_count * origin
 
 
 def terminal(parameter: int) -> int | None:
     """The analog input of the card that a parameter shows; None for other parameters."""
-    if not _FIRST <= parameter <= _LAST or (parameter - _FIRST) % at.ADC_STRIDE:
+    if not _FIRST <= parameter <= _LAST or (parameter - _FIRST) % adcs.PARAMETERS_SIZE:
         return None
-    return (parameter - _FIRST) // at.ADC_STRIDE
+    return (parameter - _FIRST) // adcs.PARAMETERS_SIZE
 
 
 def put_volts(memory: Memory, channel: int, volts: float) -> None:
@@ -44,4 +41,4 @@ def put_volts(memory: Memory, channel: int, volts: float) -> None:
     memory.F[analogs.base_v[channel]] = volts
     memory.F[analogs.volts_per_cnt[channel]] = 0.0
     memory.I[analogs.axis[channel]] = memory.I[analogs.dac[channel]] = 0
-    memory.I[at.PLGI_BASE + at.PLGI_ANALOGS] |= 1
+    memory.I[plant.analogs] |= 1

@@ -17,10 +17,23 @@ from dataclasses import dataclass
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory, flag_place
-from openacr.map.rows import compliant_loads, encoders, motors, stepper_motors, wires
+from openacr.map.rows import analogs as analog_rows
+from openacr.map.rows import bus as bus_rows
+from openacr.map.rows import (
+    compliant_loads,
+    encoders,
+    every,
+    input_words,
+    motors,
+    phases,
+    plant,
+    stepper_motors,
+    system,
+    wires,
+)
 from openacr.plant import analogs, apply_networks, apply_phases, apply_stepper, bus
 from openacr.plant.counts import count_of
-from openacr.plant.inputs import WORD_BITS, input_place, output_place, word_row
+from openacr.plant.inputs import WORD_BITS, input_place, output_place
 from openacr.plant.schema import (
     LOADLESS,
     Axis,
@@ -59,12 +72,13 @@ _KINDS = {
     ExactDrive: EXACT_DRIVE,
 }
 FULL_DAC_BITS = 16
+_Row = tuple[int, ...]  # the place of a row for each motor
 
 
 def apply_world(world: World, memory: Memory) -> None:
     """Connect a machine to the card of `memory`, at rest at its initial positions."""
     _clear(memory)
-    memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S] = world.card.period_s
+    memory.F[system.period_s] = world.card.period_s
     for axis in world.axis:
         _write_motor(memory, axis, world)
     analogs.write_analogs(memory, world)
@@ -72,55 +86,55 @@ def apply_world(world: World, memory: Memory) -> None:
     apply_networks.write_drives(memory, world)
     slots = _write_input_words(memory, world)
     _write_wires(memory, world, slots)
-    plant_refresh(memory.F, memory.I, at.PL_COUNT)
+    plant_refresh(memory.F, memory.I, motors.COUNT)
 
 
 _REALS = (
-    (at.PLF_BASE, at.PL_COUNT * at.PLF_STRIDE),
-    (at.PLBF_BASE, at.PLB_COUNT * at.PLBF_STRIDE),
-    (at.PLTF_BASE, at.PLT_COUNT * at.PLTF_STRIDE),
-    (at.PLRF_BASE, at.PLR_COUNT * at.PLRF_STRIDE),
-    (at.PLAF_BASE, at.PLA_COUNT * at.PLAF_STRIDE),
-    (at.PLWF_BASE, at.PLW_COUNT * at.PLWF_STRIDE),
-    (at.PLGF_BASE, at.PLGF_STRIDE),
+    every(motors.reals, motors.REALS_SIZE),
+    every(phases.reals, phases.REALS_SIZE),
+    every(stepper_motors.reals, stepper_motors.REALS_SIZE),
+    every(compliant_loads.reals, compliant_loads.REALS_SIZE),
+    every(analog_rows.reals, analog_rows.REALS_SIZE),
+    every(wires.reals, wires.REALS_SIZE),
+    every(plant.reals, plant.REALS_SIZE),
     *apply_networks.REALS,
 )
 _INTS = (
-    (at.PLI_BASE, at.PL_COUNT * at.PLI_STRIDE),
-    (at.PLBI_BASE, at.PLB_COUNT * at.PLBI_STRIDE),
-    (at.PLTI_BASE, at.PLT_COUNT * at.PLTI_STRIDE),
-    (at.PLAI_BASE, at.PLA_COUNT * at.PLAI_STRIDE),
-    (at.PLWI_BASE, at.PLW_COUNT * at.PLWI_STRIDE),
-    (at.PLNI_BASE, at.PLN_COUNT * at.PLNI_STRIDE),
-    (at.PLGI_BASE, at.PLGI_STRIDE),
+    every(motors.ints, motors.INTS_SIZE),
+    every(phases.ints, phases.INTS_SIZE),
+    every(stepper_motors.ints, stepper_motors.INTS_SIZE),
+    every(analog_rows.ints, analog_rows.INTS_SIZE),
+    every(wires.ints, wires.INTS_SIZE),
+    every(input_words.ints, input_words.INTS_SIZE),
+    every(plant.ints, plant.INTS_SIZE),
     *apply_networks.INTS,
-    (at.W_INPUTS, 1),  # the onboard inputs
+    slice(at.W_INPUTS, at.W_INPUTS + 1),  # the onboard inputs
 )
 
 
 def take_state(memory: Memory) -> tuple[list[list[float]], list[list[int]]]:
     """The state of the machine, which survives a restart of the card."""
-    memory.F[at.BUSF_BASE + at.BUSF_BEFORE_S] = bus.now_s(memory)
+    memory.F[bus_rows.before_s] = bus.now_s(memory)
     return (
-        [list(memory.F[base : base + length]) for base, length in _REALS],
-        [memory.I[base : base + length].tolist() for base, length in _INTS],
+        [list(memory.F[places]) for places in _REALS],
+        [memory.I[places].tolist() for places in _INTS],
     )
 
 
 def put_state(memory: Memory, state: tuple[list[list[float]], list[list[int]]]) -> None:
     """Restore the state of the machine; encoders continue from the motor positions."""
-    for (base, _), reals in zip(_REALS, state[0], strict=True):
-        for index, real in enumerate(reals, base):
+    for places, reals in zip(_REALS, state[0], strict=True):
+        for index, real in enumerate(reals, places.start):
             memory.F[index] = real
-    for (base, _), ints in zip(_INTS, state[1], strict=True):
-        for index, number in enumerate(ints, base):
+    for places, ints in zip(_INTS, state[1], strict=True):
+        for index, number in enumerate(ints, places.start):
             memory.I[index] = number
-    for motor in range(at.PL_COUNT):
+    for motor in range(motors.COUNT):
         raw = memory.F[motors.raw_count[motor]]
         memory.F[encoders.raw_old_cnt[motor]] = raw
         memory.F[stepper_motors.pulses_seen[motor]] = 0.0
-        for row in (at.ENXF_FILTER_OLD_CNT, at.ENXF_FILTER_LEVEL_CNT):
-            memory.F[at.ENXF_BASE + motor * at.ENXF_STRIDE + row] = raw
+        memory.F[encoders.filter_old_cnt[motor]] = raw
+        memory.F[encoders.filter_level_cnt[motor]] = raw
 
 
 def push(memory: Memory, motor: int, by_cnt: float) -> bool:
@@ -132,12 +146,10 @@ def push(memory: Memory, motor: int, by_cnt: float) -> bool:
 
 
 def _clear(memory: Memory) -> None:
-    for base, length in _REALS:
-        for index in range(base, base + length):
-            memory.F[index] = 0.0
-    for base, length in _INTS[:-1]:
-        for index in range(base, base + length):
-            memory.I[index] = 0
+    for places in _REALS:
+        memory.F[places] = memoryview(bytes(memory.F[places].nbytes)).cast("d")
+    for places in _INTS[:-1]:
+        memory.I[places] = memoryview(bytes(memory.I[places].nbytes)).cast("i")
 
 
 # -- motors --------------------------------------------------------------------------------
@@ -145,44 +157,41 @@ def _clear(memory: Memory) -> None:
 
 def _write_motor(memory: Memory, axis: Axis, world: World) -> None:
     doubles = {
-        at.PLF_DAC_STEP: 2.0 ** (FULL_DAC_BITS - world.card.dac_bits),
-        at.PLF_POSITION_CNT: count_of(axis, axis.initial),
+        motors.dac_step: 2.0 ** (FULL_DAC_BITS - world.card.dac_bits),
+        motors.position_cnt: count_of(axis, axis.initial),
         **_drive_rows(axis),
         **load_rows(axis),
         **stop_rows(axis),
         **_marker_rows(axis),
+        **_compliance(axis),
     }
-    base = at.PLF_BASE + axis.number * at.PLF_STRIDE
     for row, value in doubles.items():
-        memory.F[base + row] = value
-    for places, value in _compliance(axis):
-        memory.F[places[axis.number]] = value
-    base = at.PLI_BASE + axis.number * at.PLI_STRIDE
+        memory.F[row[axis.number]] = value
     for row, number in _int_rows(axis).items():
-        memory.I[base + row] = number
+        memory.I[row[axis.number]] = number
     if isinstance(axis.drive, PhaseDrive):
         apply_phases.write_phases(memory, axis, axis.drive)
     elif isinstance(axis.drive, StepperDrive):
         apply_stepper.write_stepper(memory, axis, axis.drive, accel_per_nm(axis))
 
 
-def _int_rows(axis: Axis) -> dict[int, int]:
+def _int_rows(axis: Axis) -> dict[_Row, int]:
     drive = axis.drive
-    rows = {at.PLI_DAC: axis.number if axis.dac is None else axis.dac}
-    rows[at.PLI_KIND] = _KINDS[type(drive)]
+    rows = {motors.dac: axis.number if axis.dac is None else axis.dac}
+    rows[motors.kind] = _KINDS[type(drive)]
     if isinstance(drive, PhaseDrive):
-        rows[at.PLI_DAC] = drive.dacs[0]
+        rows[motors.dac] = drive.dacs[0]
     elif isinstance(drive, StepperDrive):
-        rows[at.PLI_DAC] = drive.output
+        rows[motors.dac] = drive.output
     if not axis.has_encoder:
-        rows[at.PLI_ENCODER_FAULT] = NO_ENCODER
+        rows[motors.encoder_fault] = NO_ENCODER
     if drive.fault_input is not None:
-        rows[at.PLI_FAULT_WORD], rows[at.PLI_FAULT_MASK] = flag_place(drive.fault_input)
-        rows[at.PLI_FAULT_CLOSED] = int(drive.fault_contact is Contact.CLOSED)
+        rows[motors.fault_word], rows[motors.fault_mask] = flag_place(drive.fault_input)
+        rows[motors.fault_closed] = int(drive.fault_contact is Contact.CLOSED)
     return rows
 
 
-def _drive_rows(axis: Axis) -> dict[int, float]:
+def _drive_rows(axis: Axis) -> dict[_Row, float]:
     """The effect of a volt: an acceleration, or a speed with a lag and a peak acceleration.
 
     A stepper drive has no voltage input (`apply_stepper` writes its rows); an exact drive
@@ -192,55 +201,57 @@ def _drive_rows(axis: Axis) -> dict[int, float]:
     sign = 1 if axis.encoder_direction is Direction.UP else -1
     if isinstance(drive, StepperDrive | ExactDrive):
         return {}
-    rows = {at.PLF_OFFSET_V: drive.offset_v}
+    rows = {motors.offset_v: drive.offset_v}
     if isinstance(drive, IdealDrive):
         speed = sign * drive.revs_per_s_per_volt * axis.counts
-        return rows | {at.PLF_SPEED_PER_VOLT_CPS: speed, at.PLF_LAG_S: drive.lag_s}
+        return rows | {motors.speed_per_volt_cps: speed, motors.lag_s: drive.lag_s}
     motor = _motor(axis)
     torque_nm_per_a = motor.torque_nm_per_a or 0.0
     per_amp = torque_nm_per_a * accel_per_nm(axis)
-    rows[at.PLF_PEAK_ACCEL] = drive.peak_amps * per_amp
+    rows[motors.peak_accel] = drive.peak_amps * per_amp
     if isinstance(drive, VelocityDrive):
         speed = sign * drive.revs_per_s_per_volt * axis.counts
-        return rows | {at.PLF_SPEED_PER_VOLT_CPS: speed, at.PLF_LAG_S: drive.lag_s}
-    rows[at.PLF_ACCEL_PER_VOLT] = sign * drive.amps_per_volt * per_amp
+        return rows | {motors.speed_per_volt_cps: speed, motors.lag_s: drive.lag_s}
+    rows[motors.accel_per_volt] = sign * drive.amps_per_volt * per_amp
     if drive.supply_v is not None and motor.resistance_ohm is not None:
         # In SI units the back-EMF constant (V per rad/s) is the torque constant (Nm per A).
         rows |= supply_rows(axis, drive.supply_v)
-        rows[at.PLF_BACK_EMF_PER_S] = torque_nm_per_a**2 / (
+        rows[motors.back_emf_per_s] = torque_nm_per_a**2 / (
             motor.resistance_ohm * _inertia_kgm2(axis)
         )
     return rows
 
 
-def supply_rows(axis: Axis, supply_v: float) -> dict[int, float]:
+def supply_rows(axis: Axis, supply_v: float) -> dict[_Row, float]:
     """What the supply of a drive can press into its motor, by row; the motor has a resistance."""
     motor = _motor(axis)
     per_amp = (motor.torque_nm_per_a or 0.0) * accel_per_nm(axis)
-    return {at.PLF_SUPPLY_ACCEL: supply_v / (motor.resistance_ohm or 1.0) * per_amp}
+    return {motors.supply_accel: supply_v / (motor.resistance_ohm or 1.0) * per_amp}
 
 
-def load_rows(axis: Axis) -> dict[int, float]:
+def load_rows(axis: Axis) -> dict[_Row, float]:
     """Friction per inertia, by row; some drives have no load model."""
     if isinstance(axis.drive, LOADLESS):
         return {}
     load = axis.load
     static_nm = load.coulomb_nm if load.static_nm is None else load.static_nm
     return {
-        at.PLF_VISCOUS_PER_S: load.viscous_nms / _inertia_kgm2(axis),
-        at.PLF_COULOMB_ACCEL: load.coulomb_nm * accel_per_nm(axis),
-        at.PLF_STATIC_ACCEL: static_nm * accel_per_nm(axis),
+        motors.viscous_per_s: load.viscous_nms / _inertia_kgm2(axis),
+        motors.coulomb_accel: load.coulomb_nm * accel_per_nm(axis),
+        motors.static_accel: static_nm * accel_per_nm(axis),
     }
 
 
-def _compliance(axis: Axis) -> Iterator[tuple[tuple[int, ...], float]]:
+def _compliance(axis: Axis) -> dict[_Row, float]:
     """What a load on an elastic shaft has on top, by row."""
-    resonance_hz = axis.load.resonance_hz
-    if resonance_hz is not None:
-        resonance_rad_s = 2.0 * math.pi * resonance_hz
-        yield compliant_loads.resonance_rad_s, resonance_rad_s
-        yield compliant_loads.damping_per_s, axis.load.damping_ratio * resonance_rad_s
-        yield compliant_loads.inertia_ratio, axis.load.inertia_kgm2 / _motor(axis).inertia_kgm2
+    if axis.load.resonance_hz is None:
+        return {}
+    resonance_rad_s = 2.0 * math.pi * axis.load.resonance_hz
+    return {
+        compliant_loads.resonance_rad_s: resonance_rad_s,
+        compliant_loads.damping_per_s: axis.load.damping_ratio * resonance_rad_s,
+        compliant_loads.inertia_ratio: axis.load.inertia_kgm2 / _motor(axis).inertia_kgm2,
+    }
 
 
 def _motor(axis: Axis) -> Motor:
@@ -258,20 +269,20 @@ def accel_per_nm(axis: Axis) -> float:
     return axis.counts / (2 * math.pi * _inertia_kgm2(axis))
 
 
-def stop_rows(axis: Axis) -> dict[int, float]:
+def stop_rows(axis: Axis) -> dict[_Row, float]:
     """The counts between which an axis can move, by row."""
     if axis.travel is None:
-        return {at.PLF_LOW_STOP_CNT: -NO_BORDER_CNT, at.PLF_HIGH_STOP_CNT: NO_BORDER_CNT}
+        return {motors.low_stop_cnt: -NO_BORDER_CNT, motors.high_stop_cnt: NO_BORDER_CNT}
     low, high = sorted(count_of(axis, end) for end in axis.travel)
-    return {at.PLF_LOW_STOP_CNT: low, at.PLF_HIGH_STOP_CNT: high}
+    return {motors.low_stop_cnt: low, motors.high_stop_cnt: high}
 
 
-def _marker_rows(axis: Axis) -> dict[int, float]:
+def _marker_rows(axis: Axis) -> dict[_Row, float]:
     """Place the marker: it is present in one count of each revolution."""
     if axis.marker is None:
         return {}
     phase = math.floor(count_of(axis, axis.marker)) % axis.counts
-    return {at.PLF_MARKER_PITCH_CNT: float(axis.counts), at.PLF_MARKER_PHASE_CNT: float(phase)}
+    return {motors.marker_pitch_cnt: float(axis.counts), motors.marker_phase_cnt: float(phase)}
 
 
 # -- inputs --------------------------------------------------------------------------------
@@ -336,14 +347,14 @@ def _write_input_words(memory: Memory, world: World) -> dict[int, int]:
     words = sorted({input_place(number)[0] for number in wired} | {at.W_INPUTS})
     slots = {word: slot for slot, word in enumerate(words)}
     for word, slot in slots.items():
-        memory.I[word_row(slot) + at.PLNI_WORD] = word
+        memory.I[input_words.word[slot]] = word
     for number in wired:
         word, mask = input_place(number)
-        memory.I[word_row(slots[word]) + at.PLNI_WIRED] |= mask
+        memory.I[input_words.wired[slots[word]]] |= mask
     for number in on:
         word, mask = input_place(number)
-        memory.I[word_row(slots[word]) + at.PLNI_LEVEL] |= mask
-    memory.I[at.PLGI_BASE + at.PLGI_WORDS] = len(slots)
+        memory.I[input_words.level[slots[word]]] |= mask
+    memory.I[plant.words] = len(slots)
     return slots
 
 
@@ -356,8 +367,8 @@ def _write_wires(memory: Memory, world: World, slots: dict[int, int]) -> None:
     entry = len(follows)
     for box in _boxes(world):
         entry = _write_box(memory, entry, box, slots)
-    memory.I[at.PLGI_BASE + at.PLGI_FOLLOWS] = len(follows)
-    memory.I[at.PLGI_BASE + at.PLGI_WIRES] = entry
+    memory.I[plant.follows] = len(follows)
+    memory.I[plant.wires] = entry
 
 
 def _write_target(
@@ -369,7 +380,7 @@ def _write_target(
     memory.I[wires.bit[entry]] = number % WORD_BITS
     if contact is Contact.CLOSED:
         memory.I[wires.closed[entry]] = 1
-        memory.I[word_row(slots[word]) + at.PLNI_LEVEL] |= mask
+        memory.I[input_words.level[slots[word]]] |= mask
 
 
 def _write_output(memory: Memory, entry: int, wire: Wire) -> None:
@@ -382,12 +393,9 @@ def _write_box(memory: Memory, entry: int, box: _Box, slots: dict[int, int]) -> 
     """Write one box and return the next free entry."""
     _write_target(memory, entry, box.input, box.contact, slots)
     for side, more in zip(box.sides, _all_but_last(box.sides), strict=True):
-        base = at.PLWI_BASE + entry * at.PLWI_STRIDE
-        memory.I[base + at.PLWI_AXIS] = side.axis
-        memory.I[base + at.PLWI_MORE] = int(more)
-        base = at.PLWF_BASE + entry * at.PLWF_STRIDE
-        memory.F[base + at.PLWF_LOW_CNT] = side.low_cnt
-        memory.F[base + at.PLWF_HIGH_CNT] = side.high_cnt
+        memory.I[wires.axis[entry]], memory.I[wires.more[entry]] = side.axis, int(more)
+        memory.F[wires.low_cnt[entry]] = side.low_cnt
+        memory.F[wires.high_cnt[entry]] = side.high_cnt
         entry += 1
     return entry
 

@@ -1,8 +1,8 @@
 """Write the CANopen nodes and communicating drives of a machine into the memory of a card."""
 
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.map.rows import bus_faults, bus_signals
+from openacr.map.rows import bus as bus_rows
+from openacr.map.rows import bus_drives, bus_faults, bus_nodes, bus_signals, every
 from openacr.plant import aries, bus, terminals
 from openacr.plant.counts import position_of
 from openacr.plant.network_schema import (
@@ -29,18 +29,18 @@ TROUBLES = {
 }
 PORTS = {DrivePort.COM1: 1, DrivePort.COM2: 2}
 REALS = (
-    (at.BUSDF_BASE, at.BUSD_COUNT * at.BUSDF_STRIDE),
-    (at.BUSNF_BASE, at.BUSN_COUNT * at.BUSNF_STRIDE),
-    (at.BUSSF_BASE, at.BUSS_COUNT * at.BUSSF_STRIDE),
-    (at.BUSXF_BASE, at.BUSX_COUNT * at.BUSXF_STRIDE),
-    (at.BUSF_BASE, at.BUSF_STRIDE),
+    every(bus_drives.reals, bus_drives.REALS_SIZE),
+    every(bus_nodes.reals, bus_nodes.REALS_SIZE),
+    every(bus_signals.reals, bus_signals.REALS_SIZE),
+    every(bus_faults.reals, bus_faults.REALS_SIZE),
+    every(bus_rows.reals, bus_rows.REALS_SIZE),
 )
 INTS = (
-    (at.BUSDI_BASE, at.BUSD_COUNT * at.BUSDI_STRIDE),
-    (at.BUSNI_BASE, at.BUSN_COUNT * at.BUSNI_STRIDE),
-    (at.BUSSI_BASE, at.BUSS_COUNT * at.BUSSI_STRIDE),
-    (at.BUSXI_BASE, at.BUSX_COUNT * at.BUSXI_STRIDE),
-    (at.BUSI_BASE, at.BUSI_STRIDE),
+    every(bus_drives.ints, bus_drives.INTS_SIZE),
+    every(bus_nodes.ints, bus_nodes.INTS_SIZE),
+    every(bus_signals.ints, bus_signals.INTS_SIZE),
+    every(bus_faults.ints, bus_faults.INTS_SIZE),
+    every(bus_rows.ints, bus_rows.INTS_SIZE),
 )
 
 
@@ -48,7 +48,7 @@ def write_nodes(memory: Memory, world: World) -> None:
     """Put the nodes of a machine on the bus, with outputs off."""
     if world.canopen is None:
         return
-    memory.I[at.BUSI_BASE + at.BUSI_FITTED] = 1
+    memory.I[bus_rows.fitted] = 1
     places = {node.id: place for place, node in enumerate(world.canopen.node)}
     for place, node in enumerate(world.canopen.node):
         _write_node(memory, place, node)
@@ -64,27 +64,28 @@ def write_nodes(memory: Memory, world: World) -> None:
 
 def _write_node(memory: Memory, place: int, node: Node) -> None:
     ints = {
-        at.BUSNI_ID: node.id,
-        at.BUSNI_BIT_RATE: int(node.bit_rate),
-        at.BUSNI_COUPLER: COUPLERS[node.coupler],
-        at.BUSNI_HEALTH: HEALTH[node.health],
-        at.BUSNI_DIGITAL_INPUTS: node.digital_inputs,
-        at.BUSNI_DIGITAL_OUTPUTS: node.digital_outputs,
-        at.BUSNI_ANALOG_INPUTS: node.analog_inputs,
-        at.BUSNI_ANALOG_OUTPUTS: node.analog_outputs,
-        at.BUSNI_ANALOG_BITS: node.analog_bits,
+        bus_nodes.id: node.id,
+        bus_nodes.bit_rate: int(node.bit_rate),
+        bus_nodes.coupler: COUPLERS[node.coupler],
+        bus_nodes.health: HEALTH[node.health],
+        bus_nodes.digital_inputs: node.digital_inputs,
+        bus_nodes.digital_outputs: node.digital_outputs,
+        bus_nodes.analog_inputs: node.analog_inputs,
+        bus_nodes.analog_outputs: node.analog_outputs,
+        bus_nodes.analog_bits: node.analog_bits,
     }
     for row, number in ints.items():
-        memory.I[terminals.ints(place) + row] = number
+        memory.I[row[place]] = number
     reals = {
-        at.BUSNF_INPUT_LOW: node.input_range[0],
-        at.BUSNF_INPUT_HIGH: node.input_range[1],
-        at.BUSNF_OUTPUT_LOW: node.output_range[0],
-        at.BUSNF_OUTPUT_HIGH: node.output_range[1],
-        **{at.BUSNF_MEASURED + n: value for n, value in enumerate(node.analog_values)},
+        bus_nodes.input_low: node.input_range[0],
+        bus_nodes.input_high: node.input_range[1],
+        bus_nodes.output_low: node.output_range[0],
+        bus_nodes.output_high: node.output_range[1],
     }
     for row, value in reals.items():
-        memory.F[terminals.reals(place) + row] = value
+        memory.F[row[place]] = value
+    for index, value in enumerate(node.analog_values, bus_nodes.measured[place]):
+        memory.F[index] = value
 
 
 def _write_fault(memory: Memory, place: int, fault: Fault, places: dict[int, int]) -> None:
@@ -121,26 +122,27 @@ def write_drives(memory: Memory, world: World) -> None:
 
 def _write_drive(drive: aries.Drive, talking: TalkingDrive, axis: Axis) -> None:
     wholes = {
-        at.BUSDI_KIND: aries.ARIES,
-        at.BUSDI_PORT: PORTS[talking.port],
-        at.BUSDI_BAUD: int(talking.baud),
-        at.BUSDI_ADDRESS: talking.address,
-        at.BUSDI_REVISION: int(talking.revision.replace(".", "")),
+        bus_drives.kind: aries.ARIES,
+        bus_drives.port: PORTS[talking.port],
+        bus_drives.baud: int(talking.baud),
+        bus_drives.address: talking.address,
+        bus_drives.revision: int(talking.revision.replace(".", "")),
     }
     for row, number in wholes.items():
         drive.put_whole(row, number)
     reals = {
-        at.BUSDF_CONNECTED_S: talking.connected_s,
-        at.BUSDF_POWERED_S: talking.powered_s,
-        at.BUSDF_LOST_S: bus.NEVER_S if talking.lost_s is None else talking.lost_s,
-        at.BUSDF_BACK_S: bus.NEVER_S if talking.back_s is None else talking.back_s,
-        at.BUSDF_DRIVE_TEMP_C: talking.drive_temp_c,
-        at.BUSDF_MOTOR_TEMP_C: talking.motor_temp_c,
-        at.BUSDF_BUS_V: talking.bus_v,
-        **{at.BUSDF_SETTINGS + n: value for n, value in enumerate(_settings(axis))},
+        bus_drives.connected_s: talking.connected_s,
+        bus_drives.powered_s: talking.powered_s,
+        bus_drives.lost_s: bus.NEVER_S if talking.lost_s is None else talking.lost_s,
+        bus_drives.back_s: bus.NEVER_S if talking.back_s is None else talking.back_s,
+        bus_drives.drive_temp_c: talking.drive_temp_c,
+        bus_drives.motor_temp_c: talking.motor_temp_c,
+        bus_drives.bus_v: talking.bus_v,
     }
     for row, value in reals.items():
         drive.put_real(row, value)
+    for index, value in enumerate(_settings(axis)):
+        drive.put_real(bus_drives.settings, value, index)
 
 
 def _settings(axis: Axis) -> tuple[float, ...]:

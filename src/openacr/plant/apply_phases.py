@@ -2,8 +2,8 @@
 
 import math
 
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import phases as phase_rows
 from openacr.plant.schema import Axis, Direction, Motor, PhaseDrive
 
 
@@ -17,13 +17,12 @@ def write_phases(memory: Memory, axis: Axis, drive: PhaseDrive) -> None:
     sign = 1 if axis.encoder_direction is Direction.UP else -1
     at_start = math.fmod(zero + turn * axis.initial / axis.units_per_rev, math.tau)
     per_count = sign * turn / axis.counts
-    base = at.PLBF_BASE + axis.number * at.PLBF_STRIDE
-    memory.F[base + at.PLBF_RADIANS_PER_CNT] = per_count
-    memory.F[base + at.PLBF_ZERO_RAD] = at_start - 0.5 * per_count
-    memory.F[base + at.PLBF_PEAK_V] = drive.peak_amps / drive.amps_per_volt
-    base = at.PLBI_BASE + axis.number * at.PLBI_STRIDE
-    memory.I[base + at.PLBI_SECOND_DAC] = drive.dacs[1]
-    memory.I[base + at.PLBI_PHASES] = phases
+    number = axis.number
+    memory.F[phase_rows.radians_per_cnt[number]] = per_count
+    memory.F[phase_rows.zero_rad[number]] = at_start - 0.5 * per_count
+    memory.F[phase_rows.peak_v[number]] = drive.peak_amps / drive.amps_per_volt
+    memory.I[phase_rows.second_dac[number]] = drive.dacs[1]
+    memory.I[phase_rows.phases[number]] = phases
 
 
 def _rotor(motor: Motor | None) -> tuple[float, float, int]:

@@ -2,7 +2,6 @@
 
 import math
 
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.map.rows import stepper_motors
 from openacr.plant.counts import count_of
@@ -17,17 +16,16 @@ def write_stepper(memory: Memory, axis: Axis, drive: StepperDrive, accel_per_nm:
     pitch_cnt = FULL_STEPS_OF_PITCH * axis.counts / drive.full_steps_per_rev
     per_count = math.tau / pitch_cnt
     stiffness = math.sqrt(max(torque for _, torque in drive.torque_nm) * accel_per_nm * per_count)
-    base = at.PLTF_BASE + axis.number * at.PLTF_STRIDE
     rows = {
-        at.PLTF_COUNTS_PER_PULSE: sign * axis.counts / drive.steps_per_rev,
-        at.PLTF_FIELD_CNT: count_of(axis, axis.initial),
-        at.PLTF_RADIANS_PER_CNT: per_count,
-        at.PLTF_STIFFNESS_PER_S: stiffness,
-        at.PLTF_DAMPING_PER_S: 2.0 * drive.damping * stiffness,
+        stepper_motors.counts_per_pulse: sign * axis.counts / drive.steps_per_rev,
+        stepper_motors.field_cnt: count_of(axis, axis.initial),
+        stepper_motors.radians_per_cnt: per_count,
+        stepper_motors.stiffness_per_s: stiffness,
+        stepper_motors.damping_per_s: 2.0 * drive.damping * stiffness,
     }
-    for point, (speed_rps, torque_nm) in enumerate(drive.torque_nm):
-        rows[at.PLTF_SPEED_CPS + point] = speed_rps * axis.counts
-        rows[at.PLTF_ACCEL + point] = torque_nm * accel_per_nm
     for row, value in rows.items():
-        memory.F[base + row] = value
+        memory.F[row[axis.number]] = value
+    for point, (speed_rps, torque_nm) in enumerate(drive.torque_nm):
+        memory.F[stepper_motors.speed_cps[axis.number] + point] = speed_rps * axis.counts
+        memory.F[stepper_motors.accel[axis.number] + point] = torque_nm * accel_per_nm
     memory.I[stepper_motors.points[axis.number]] = len(drive.torque_nm)

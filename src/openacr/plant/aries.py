@@ -11,9 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.map.rows import axes
+from openacr.map.rows import axes, bus_drives, motors
 from openacr.plant.bus import NEVER_S, now_s
 
 ARIES = 1
@@ -50,41 +49,41 @@ class Drive:
     memory: Memory
     axis: int
 
-    def real(self, row: int) -> float:
-        """Read a row of the drive."""
-        return self.memory.F[at.BUSDF_BASE + self.axis * at.BUSDF_STRIDE + row]
+    def real(self, row: tuple[int, ...], place: int = 0) -> float:
+        """Read a row of the drive, or one place of an array row."""
+        return self.memory.F[row[self.axis] + place]
 
-    def put_real(self, row: int, value: float) -> None:
-        """Write a row of the drive."""
-        self.memory.F[at.BUSDF_BASE + self.axis * at.BUSDF_STRIDE + row] = value
+    def put_real(self, row: tuple[int, ...], value: float, place: int = 0) -> None:
+        """Write a row of the drive, or one place of an array row."""
+        self.memory.F[row[self.axis] + place] = value
 
-    def whole(self, row: int) -> int:
-        """Read a row of the drive."""
-        return self.memory.I[at.BUSDI_BASE + self.axis * at.BUSDI_STRIDE + row]
+    def whole(self, row: tuple[int, ...], place: int = 0) -> int:
+        """Read a row of the drive, or one place of an array row."""
+        return self.memory.I[row[self.axis] + place]
 
-    def put_whole(self, row: int, value: int) -> None:
-        """Write a row of the drive."""
-        self.memory.I[at.BUSDI_BASE + self.axis * at.BUSDI_STRIDE + row] = value
+    def put_whole(self, row: tuple[int, ...], value: int, place: int = 0) -> None:
+        """Write a row of the drive, or one place of an array row."""
+        self.memory.I[row[self.axis] + place] = value
 
     def setting(self, index: int) -> float:
         """Read a setting."""
-        return self.real(at.BUSDF_SETTINGS + index)
+        return self.real(bus_drives.settings, index)
 
-    def motor(self, row: int) -> float:
+    def motor(self, row: tuple[int, ...]) -> float:
         """Read a row of the motor."""
-        return self.memory.F[at.PLF_BASE + self.axis * at.PLF_STRIDE + row]
+        return self.memory.F[row[self.axis]]
 
-    def motor_int(self, row: int) -> int:
+    def motor_int(self, row: tuple[int, ...]) -> int:
         """Read a row of the motor."""
-        return self.memory.I[at.PLI_BASE + self.axis * at.PLI_STRIDE + row]
+        return self.memory.I[row[self.axis]]
 
     @property
     def powered_s(self) -> float | None:
         """Time of the latest power-up; None without power."""
-        now, powered = now_s(self.memory), self.real(at.BUSDF_POWERED_S)
-        if now >= self.real(at.BUSDF_BACK_S):
-            powered = self.real(at.BUSDF_BACK_S)
-        elif now >= self.real(at.BUSDF_LOST_S):
+        now, powered = now_s(self.memory), self.real(bus_drives.powered_s)
+        if now >= self.real(bus_drives.back_s):
+            powered = self.real(bus_drives.back_s)
+        elif now >= self.real(bus_drives.lost_s):
             return None
         return powered if now >= powered else None
 
@@ -92,13 +91,13 @@ class Drive:
     def hears(self) -> bool:
         """Whether the drive listens to the line: it must be connected before it is powered up."""
         powered_s = self.powered_s
-        return powered_s is not None and self.real(at.BUSDF_CONNECTED_S) <= powered_s < NEVER_S
+        return powered_s is not None and self.real(bus_drives.connected_s) <= powered_s < NEVER_S
 
 
 def drives(memory: Memory) -> list[Drive]:
     """All drives with a serial port."""
-    found = (Drive(memory, axis) for axis in range(at.BUSD_COUNT))
-    return [drive for drive in found if drive.whole(at.BUSDI_KIND) == ARIES]
+    found = (Drive(memory, axis) for axis in range(bus_drives.COUNT))
+    return [drive for drive in found if drive.whole(bus_drives.kind) == ARIES]
 
 
 # status
@@ -110,24 +109,24 @@ def _speed(drive: Drive, counts_per_s: float) -> float:
 
 def commanded_speed(drive: Drive) -> float:
     """The speed commanded by the voltage of a velocity drive [rev/s]."""
-    return _speed(drive, drive.motor(at.PLF_VOLTS) * drive.motor(at.PLF_SPEED_PER_VOLT_CPS))
+    return _speed(drive, drive.motor(motors.volts) * drive.motor(motors.speed_per_volt_cps))
 
 
 def speed_error(drive: Drive) -> float:
     """Commanded minus actual speed of a velocity drive [rev/s]."""
-    has_velocity = drive.motor(at.PLF_SPEED_PER_VOLT_CPS) != 0.0
+    has_velocity = drive.motor(motors.speed_per_volt_cps) != 0.0
     return commanded_speed(drive) - velocity(drive) if has_velocity else 0.0
 
 
 def velocity(drive: Drive) -> float:
     """Actual speed of the motor [rev/s]."""
-    return _speed(drive, drive.motor(at.PLF_VELOCITY_CPS))
+    return _speed(drive, drive.motor(motors.velocity_cps))
 
 
 def current(drive: Drive) -> float:
     """The current commanded by the voltage of a torque drive [A]."""
     peak = drive.setting(DMTIP)
-    return min(max(drive.motor(at.PLF_VOLTS) * drive.setting(DMTSCL), -peak), peak)
+    return min(max(drive.motor(motors.volts) * drive.setting(DMTSCL), -peak), peak)
 
 
 def torque(drive: Drive) -> float:
@@ -143,8 +142,7 @@ def following_error(drive: Drive) -> int:
 
 def commanded(drive: Drive) -> int:
     """The commanded position in counts."""
-    reals = at.AXF_BASE + drive.axis * at.AXF_STRIDE
-    return round(drive.memory.F[reals + at.AXF_SSP_CNT])
+    return round(drive.memory.F[axes.ssp_cnt[drive.axis]])
 
 
 def age_s(drive: Drive) -> int:
@@ -154,18 +152,18 @@ def age_s(drive: Drive) -> int:
 
 def is_enabled(drive: Drive) -> bool:
     """Whether the drive is enabled."""
-    return bool(drive.motor_int(at.PLI_DRIVE_READY))
+    return bool(drive.motor_int(motors.drive_ready))
 
 
 def errors(drive: Drive) -> int:
     """The present errors, as bits."""
     limit = drive.setting(SMPER)
-    temperature, bus_v = drive.real(at.BUSDF_DRIVE_TEMP_C), drive.real(at.BUSDF_BUS_V)
+    temperature, bus_v = drive.real(bus_drives.drive_temp_c), drive.real(bus_drives.bus_v)
     found = {
-        Errors.FAULT: bool(drive.motor_int(at.PLI_DRIVE_FAULT)),
+        Errors.FAULT: bool(drive.motor_int(motors.drive_fault)),
         Errors.POSITION: 0.0 < limit < abs(following_error(drive)),
         Errors.DRIVE_TEMPERATURE: temperature > HOTTEST_DRIVE_C,
-        Errors.MOTOR_TEMPERATURE: drive.real(at.BUSDF_MOTOR_TEMP_C) > HOTTEST_MOTOR_C,
+        Errors.MOTOR_TEMPERATURE: drive.real(bus_drives.motor_temp_c) > HOTTEST_MOTOR_C,
         Errors.UNDERVOLTAGE: bus_v < LOWEST_BUS_V,
         Errors.OVERVOLTAGE: bus_v > HIGHEST_BUS_V,
     }
@@ -174,7 +172,7 @@ def errors(drive: Drive) -> int:
 
 def status(drive: Drive) -> int:
     """Status bits of TAS: 0 enabled, 1 moving, 2 in the negative direction, 3 any error."""
-    speed = drive.motor(at.PLF_VELOCITY_CPS)
+    speed = drive.motor(motors.velocity_cps)
     bits = (is_enabled(drive), speed != 0.0, speed < 0.0, errors(drive) != 0)
     return sum(1 << bit for bit, is_set in enumerate(bits) if is_set)
 
@@ -185,24 +183,24 @@ def status(drive: Drive) -> int:
 def notice_errors(drive: Drive) -> None:
     """Log new errors that are selected; the oldest of eight entries is dropped."""
     now = errors(drive)
-    new = now & ~drive.whole(at.BUSDI_ERRORS) & drive.whole(at.BUSDI_SELECTION)
-    drive.put_whole(at.BUSDI_ERRORS, now)
+    new = now & ~drive.whole(bus_drives.errors) & drive.whole(bus_drives.selection)
+    drive.put_whole(bus_drives.errors, now)
     for error in Errors:
         if new >> error & 1:
-            count = drive.whole(at.BUSDI_LOG_COUNT)
-            place = count % at.BUSDI_LOG_ERROR_SIZE
-            drive.put_whole(at.BUSDI_LOG_ERROR + place, error)
-            drive.put_real(at.BUSDF_LOG_S + place, age_s(drive))
-            drive.put_whole(at.BUSDI_LOG_COUNT, count + 1)
+            count = drive.whole(bus_drives.log_count)
+            place = count % bus_drives.LOG_ERROR_SIZE
+            drive.put_whole(bus_drives.log_error, error, place)
+            drive.put_real(bus_drives.log_s, age_s(drive), place)
+            drive.put_whole(bus_drives.log_count, count + 1)
 
 
 def log(drive: Drive) -> list[str]:
     """The entries of the log, the oldest first."""
-    count, size = drive.whole(at.BUSDI_LOG_COUNT), at.BUSDI_LOG_ERROR_SIZE
+    count, size = drive.whole(bus_drives.log_count), bus_drives.LOG_ERROR_SIZE
     places = [entry % size for entry in range(max(count - size, 0), count)]
     return [
-        f"{_clock(drive.real(at.BUSDF_LOG_S + place))} "
-        f"{ERROR_TEXTS[drive.whole(at.BUSDI_LOG_ERROR + place)]}"
+        f"{_clock(drive.real(bus_drives.log_s, place))} "
+        f"{ERROR_TEXTS[drive.whole(bus_drives.log_error, place)]}"
         for place in places
     ]
 
@@ -221,16 +219,16 @@ class Setting:
 
     word: str
     highest: float
-    motor_row: int | None = None
+    motor_row: tuple[int, ...] | None = None
 
 
 SETTINGS = (
     Setting("DMODE", 0.0),  # determined by the type of drive
     Setting("ERES", 1e9),
     Setting("SMPER", 2147483647.0),
-    Setting("DMTIP", 1e4, at.PLF_PEAK_ACCEL),
-    Setting("DMTSCL", 1e4, at.PLF_ACCEL_PER_VOLT),
-    Setting("DMVSCL", 1e4, at.PLF_SPEED_PER_VOLT_CPS),
+    Setting("DMTIP", 1e4, motors.peak_accel),
+    Setting("DMTSCL", 1e4, motors.accel_per_volt),
+    Setting("DMVSCL", 1e4, motors.speed_per_volt_cps),
 )
 SMALLEST_SCALE = 0.001
 DMODE, ERES, SMPER, DMTIP, DMTSCL, DMVSCL = range(len(SETTINGS))
@@ -246,7 +244,6 @@ def change_setting(drive: Drive, index: int, value: float) -> bool:
     if setting.motor_row is not None:
         if not present or value < SMALLEST_SCALE:
             return False  # this kind of drive lacks it
-        row = at.PLF_BASE + drive.axis * at.PLF_STRIDE + setting.motor_row
-        drive.memory.F[row] *= value / present
-    drive.put_real(at.BUSDF_SETTINGS + index, value)
+        drive.memory.F[setting.motor_row[drive.axis]] *= value / present
+    drive.put_real(bus_drives.settings, value, index)
     return True

@@ -13,7 +13,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from openacr.map import numbers as at
+from openacr.map.rows import bus_drives, motors
 from openacr.plant import aries
 from openacr.plant.aries import SETTINGS, Drive
 
@@ -77,7 +77,7 @@ def _set(index: int) -> Callable[[Drive, str], bool]:
 def _set_address(drive: Drive, text: str) -> bool:
     if not text.isdigit() or int(text) > HIGHEST_ADDRESS:
         return False
-    drive.put_whole(at.BUSDI_ADDRESS, int(text))
+    drive.put_whole(bus_drives.address, int(text))
     return True
 
 
@@ -85,7 +85,7 @@ def _select_errors(drive: Drive, text: str) -> bool:
     bits = bits_of(text)
     if bits is None:
         return False
-    drive.put_whole(at.BUSDI_SELECTION, bits if bits < 2**31 else bits - 2**32)
+    drive.put_whole(bus_drives.selection, bits if bits < 2**31 else bits - 2**32)
     return True
 
 
@@ -105,26 +105,26 @@ def _setting(index: int) -> Callable[[Drive], str]:
 _READERS: dict[str, Callable[[Drive], str]] = {
     "TPC": lambda drive: str(aries.commanded(drive)),
     "TPE": lambda drive: str(aries.following_error(drive)),
-    "TENC": lambda drive: str(round(drive.motor(at.PLF_RAW_COUNT))),
+    "TENC": lambda drive: str(round(drive.motor(motors.raw_count))),
     "TVEL": _number(aries.velocity),
     "TVELC": _number(aries.commanded_speed),
     "TVE": _number(aries.speed_error),
-    "TANI": _number(lambda drive: drive.motor(at.PLF_VOLTS)),
+    "TANI": _number(lambda drive: drive.motor(motors.volts)),
     "TCI": _number(aries.current),
     "TTRQ": _number(aries.torque),
     "TDIMAX": _number(lambda drive: drive.setting(aries.DMTIP)),
-    "TDTEMP": _number(lambda drive: drive.real(at.BUSDF_DRIVE_TEMP_C)),
-    "TMTEMP": _number(lambda drive: drive.real(at.BUSDF_MOTOR_TEMP_C)),
-    "TDBUS": _number(lambda drive: drive.real(at.BUSDF_BUS_V)),
+    "TDTEMP": _number(lambda drive: drive.real(bus_drives.drive_temp_c)),
+    "TMTEMP": _number(lambda drive: drive.real(bus_drives.motor_temp_c)),
+    "TDBUS": _number(lambda drive: drive.real(bus_drives.bus_v)),
     "TDHRS": lambda drive: str(aries.age_s(drive) // 3600),
     "TDMIN": lambda drive: str(aries.age_s(drive) // 60 % 60),
     "TDSEC": lambda drive: str(aries.age_s(drive) % 60),
-    "TADDR": lambda drive: str(drive.whole(at.BUSDI_ADDRESS)),
+    "TADDR": lambda drive: str(drive.whole(bus_drives.address)),
     "DRIVE": lambda drive: str(int(aries.is_enabled(drive))),
-    "ADDR": lambda drive: str(drive.whole(at.BUSDI_ADDRESS)),
+    "ADDR": lambda drive: str(drive.whole(bus_drives.address)),
     "TAS": lambda drive: bits_text(aries.status(drive)),
     "TASX": lambda drive: bits_text(aries.errors(drive)),
-    "ERRORL": lambda drive: bits_text(drive.whole(at.BUSDI_SELECTION)),
+    "ERRORL": lambda drive: bits_text(drive.whole(bus_drives.selection)),
     **{setting.word: _setting(index) for index, setting in enumerate(SETTINGS)},
 }
 _WRITERS: dict[str, Callable[[Drive, str], bool]] = {
@@ -139,7 +139,7 @@ def _log(drive: Drive) -> str:
 
 
 def _revision(drive: Drive) -> str:
-    revision = drive.whole(at.BUSDI_REVISION)
+    revision = drive.whole(bus_drives.revision)
     return f"\r\n*Aries OS Revision {revision // 100}.{revision % 100:02d}"
 
 

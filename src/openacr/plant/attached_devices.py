@@ -11,8 +11,8 @@ from typing import Any
 import msgspec
 
 from openacr.errors import StoreError, UserError
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import machine_devices, motors
 from openacr.plant import analogs, inputs
 from openacr.plant.check_devices import class_faults
 from openacr.plant.counts import position_of
@@ -101,8 +101,7 @@ def _is_on(memory: Memory, word: int, mask: int) -> bool:
 
 
 def _position_u(memory: Memory, axis: Axis) -> float:
-    motor = at.PLF_BASE + axis.number * at.PLF_STRIDE
-    return position_of(axis, memory.F[motor + at.PLF_POSITION_CNT])
+    return position_of(axis, memory.F[motors.position_cnt[axis.number]])
 
 
 class AttachedDevices:
@@ -118,7 +117,7 @@ class AttachedDevices:
 
     def power_up(self) -> None:
         """Step all devices in the first tick."""
-        self._memory.F[at.MDVF_BASE + at.MDVF_DUE_TK] = 1.0 if self._all else 0.0
+        self._memory.F[machine_devices.due_tk] = 1.0 if self._all else 0.0
 
     def attend(self, tick: int, period_s: float) -> None:
         """Step the devices whose period begins at a tick; all of them begin in the first."""
@@ -129,7 +128,7 @@ class AttachedDevices:
             if passed % every_tk == 0:
                 each.step(every_tk * period_s)
             due_tk = min(due_tk, tick + every_tk - passed % every_tk)
-        self._memory.F[at.MDVF_BASE + at.MDVF_DUE_TK] = due_tk
+        self._memory.F[machine_devices.due_tk] = due_tk
 
     def command(self, device: str, name: str, value: float) -> tuple[int, Value]:
         """Give a command by hand; the number of the device, and the value as it is taken.

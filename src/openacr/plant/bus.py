@@ -10,10 +10,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
 
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.map.rows import bus_faults
-from openacr.plant.terminals import ints
+from openacr.map.rows import bus, bus_faults, bus_nodes, system
 
 NEVER_S = 1e300
 STRANGE_BIT_RATE = 0.2  # share of messages a node at another bit rate destroys
@@ -51,12 +49,12 @@ class Found:
 
 def now_s(memory: Memory) -> float:
     """The age of the machine in seconds."""
-    return memory.F[at.BUSF_BASE + at.BUSF_BEFORE_S] + memory.F[at.SYSF_BASE + at.SYSF_TIME_S]
+    return memory.F[bus.before_s] + memory.F[system.time_s]
 
 
 def is_fitted(memory: Memory) -> bool:
     """Whether the card has a CANopen controller."""
-    return bool(memory.I[at.BUSI_BASE + at.BUSI_FITTED])
+    return bool(memory.I[bus.fitted])
 
 
 # faults
@@ -74,7 +72,7 @@ def faults(memory: Memory, kind: Trouble, node: int | None = None) -> Iterator[f
 
 def _known_faults(memory: Memory) -> Iterator[int]:
     """The rows of faults; they are filled from the first on."""
-    for fault in range(at.BUSX_COUNT):
+    for fault in range(bus_faults.COUNT):
         if not memory.I[bus_faults.kind[fault]]:
             return
         yield fault
@@ -89,43 +87,43 @@ def next_change_s(memory: Memory) -> float | None:
     """When the next fault begins or ends."""
     now = now_s(memory)
     times = (
-        memory.F[at.BUSXF_BASE + fault * at.BUSXF_STRIDE + row]
+        memory.F[row[fault]]
         for fault in _known_faults(memory)
-        for row in (at.BUSXF_FROM_S, at.BUSXF_UNTIL_S)
+        for row in (bus_faults.from_s, bus_faults.until_s)
     )
     return min((time for time in times if now < time < NEVER_S), default=None)
 
 
 def follow_power(memory: Memory) -> None:
     """Switch nodes off when they lose power, and restart them when it is back."""
-    for node in range(at.BUSN_COUNT):
-        row = ints(node) + at.BUSNI_STATE
+    for node in range(bus_nodes.COUNT):
+        row = bus_nodes.state[node]
         is_off = has_fault(memory, Trouble.LOST, node)
-        if memory.I[ints(node) + at.BUSNI_ID] and is_off != (memory.I[row] == NodeState.OFF):
+        if memory.I[bus_nodes.id[node]] and is_off != (memory.I[row] == NodeState.OFF):
             begin(memory, node, NodeState.OFF if is_off else NodeState.PRE_OPERATIONAL)
 
 
 def begin(memory: Memory, node: int, state: NodeState) -> None:
     """Bring a node to the state after power-up (or power-down): all outputs off."""
-    first = ints(node)
-    memory.I[first + at.BUSNI_STATE] = state
-    for row in range(at.BUSNI_OUTPUTS, at.BUSNI_CONVERTED + at.BUSNI_CONVERTED_SIZE):
-        memory.I[first + row] = 0
+    memory.I[bus_nodes.state[node]] = state
+    end = bus_nodes.converted[node] + bus_nodes.CONVERTED_SIZE
+    for place in range(bus_nodes.outputs[node], end):
+        memory.I[place] = 0
 
 
 def run(memory: Memory, node: int) -> None:
     """Make a node operational: it exchanges data."""
-    memory.I[ints(node) + at.BUSNI_STATE] = NodeState.OPERATIONAL
+    memory.I[bus_nodes.state[node]] = NodeState.OPERATIONAL
 
 
 def stop(memory: Memory, node: int) -> None:
     """Make a node pre-operational; its outputs stay as they are."""
-    memory.I[ints(node) + at.BUSNI_STATE] = NodeState.PRE_OPERATIONAL
+    memory.I[bus_nodes.state[node]] = NodeState.PRE_OPERATIONAL
 
 
 def is_operational(memory: Memory, node: int) -> bool:
     """Whether a node exchanges data."""
-    return memory.I[ints(node) + at.BUSNI_STATE] == NodeState.OPERATIONAL
+    return memory.I[bus_nodes.state[node]] == NodeState.OPERATIONAL
 
 
 # what the bus carries
@@ -133,36 +131,34 @@ def is_operational(memory: Memory, node: int) -> bool:
 
 def nodes(memory: Memory) -> Iterator[int]:
     """Yield the nodes of the world."""
-    return (node for node in range(at.BUSN_COUNT) if memory.I[ints(node) + at.BUSNI_ID])
+    return (node for node in range(bus_nodes.COUNT) if memory.I[bus_nodes.id[node]])
 
 
 def find(memory: Memory, identity: int, bit_rate: int) -> int | None:
     """Find the node that answers for an id at a bit rate."""
     for node in nodes(memory):
-        if memory.I[ints(node) + at.BUSNI_ID] == identity and answers(memory, node, bit_rate):
+        if memory.I[bus_nodes.id[node]] == identity and answers(memory, node, bit_rate):
             return node
     return None
 
 
 def answers(memory: Memory, node: int, bit_rate: int) -> bool:
     """Whether a node receives and answers messages at a bit rate."""
-    rows = ints(node)
     return (
-        memory.I[rows + at.BUSNI_STATE] != NodeState.OFF
-        and memory.I[rows + at.BUSNI_BIT_RATE] == bit_rate
+        memory.I[bus_nodes.state[node]] != NodeState.OFF
+        and memory.I[bus_nodes.bit_rate[node]] == bit_rate
         and not has_fault(memory, Trouble.SILENT, node)
     )
 
 
 def describe(memory: Memory, node: int) -> Found:
     """Return the equipment of a node; digital terminals are counted in bytes."""
-    rows = ints(node)
     return Found(
-        (memory.I[rows + at.BUSNI_DIGITAL_INPUTS] + 7) // 8,
-        (memory.I[rows + at.BUSNI_DIGITAL_OUTPUTS] + 7) // 8,
-        memory.I[rows + at.BUSNI_ANALOG_INPUTS],
-        memory.I[rows + at.BUSNI_ANALOG_OUTPUTS],
-        memory.I[rows + at.BUSNI_HEALTH],
+        (memory.I[bus_nodes.digital_inputs[node]] + 7) // 8,
+        (memory.I[bus_nodes.digital_outputs[node]] + 7) // 8,
+        memory.I[bus_nodes.analog_inputs[node]],
+        memory.I[bus_nodes.analog_outputs[node]],
+        memory.I[bus_nodes.health[node]],
     )
 
 
@@ -170,7 +166,7 @@ def destroyed(memory: Memory, bit_rate: int) -> float:
     """Return the share of messages that noise and nodes at another bit rate destroy."""
     rates = list(faults(memory, Trouble.NOISE))
     for node in nodes(memory):
-        rows = ints(node)
-        if memory.I[rows + at.BUSNI_STATE] and memory.I[rows + at.BUSNI_BIT_RATE] != bit_rate:
+        is_on = memory.I[bus_nodes.state[node]] != NodeState.OFF
+        if is_on and memory.I[bus_nodes.bit_rate[node]] != bit_rate:
             rates.append(STRANGE_BIT_RATE)
     return min(1.0, sum(rates))

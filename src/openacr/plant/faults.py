@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from openacr.errors import UserError
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import motors
 from openacr.plant import apply, inputs
 from openacr.plant.counts import count_of, position_of
 from openacr.plant.drive_cy import FAULT_REPORTED, FAULT_TAKEN_BACK
@@ -20,25 +20,23 @@ from openacr.plant.step_cy import EDGES_LOST, SIGNALS_LOST
 
 @dataclass(frozen=True, slots=True)
 class _Place:
-    """An axis of the world and the first indices of its rows."""
+    """An axis of the world, and its rows."""
 
     memory: Memory
     axis: Axis
-    reals: int
-    ints: int
 
     @property
     def position_cnt(self) -> float:
-        return self.memory.F[self.reals + at.PLF_POSITION_CNT]
+        return self.memory.F[motors.position_cnt[self.axis.number]]
 
-    def get(self, row: int) -> float:
-        return self.memory.F[self.reals + row]
+    def get(self, row: tuple[int, ...]) -> float:
+        return self.memory.F[row[self.axis.number]]
 
-    def put(self, row: int, value_cnt: float) -> None:
-        self.memory.F[self.reals + row] = value_cnt
+    def put(self, row: tuple[int, ...], value_cnt: float) -> None:
+        self.memory.F[row[self.axis.number]] = value_cnt
 
-    def set(self, row: int, value: int) -> None:
-        self.memory.I[self.ints + row] = value
+    def set(self, row: tuple[int, ...], value: int) -> None:
+        self.memory.I[row[self.axis.number]] = value
 
 
 def inject(world: World, memory: Memory, axis: int, kind: MachineFault, value: float) -> None:
@@ -73,52 +71,51 @@ def active(world: World, memory: Memory) -> Iterator[tuple[int, MachineFault, fl
 def _place(world: World, memory: Memory, number: int) -> _Place:
     for axis in world.axis:
         if axis.number == number:
-            rows = at.PLF_BASE + number * at.PLF_STRIDE, at.PLI_BASE + number * at.PLI_STRIDE
-            return _Place(memory, axis, *rows)
+            return _Place(memory, axis)
     known = ", ".join(str(axis.number) for axis in world.axis) or "none"
     raise UserError(f"axis {number}: the machine has no such axis (it has {known})")
 
 
 def _lose_signals(place: _Place, _: float) -> None:
-    place.memory.I[place.ints + at.PLI_ENCODER_FAULT] |= SIGNALS_LOST
+    place.memory.I[motors.encoder_fault[place.axis.number]] |= SIGNALS_LOST
 
 
 def _disturb_signals(place: _Place, _: float) -> None:
-    place.memory.I[place.ints + at.PLI_ENCODER_FAULT] |= EDGES_LOST
+    place.memory.I[motors.encoder_fault[place.axis.number]] |= EDGES_LOST
 
 
 def _needs_encoder(axis: Axis) -> str:
     return "" if axis.has_encoder else "it has no encoder"
 
 
-def _is_set(row: int, bits: int) -> Callable[[_Place], float | None]:
+def _is_set(row: tuple[int, ...], bits: int) -> Callable[[_Place], float | None]:
     """Whether a fault is there that has bits of a row, or a row, for itself."""
 
     def value(place: _Place) -> float | None:
-        return 0.0 if place.memory.I[place.ints + row] & bits else None
+        return 0.0 if place.memory.I[row[place.axis.number]] & bits else None
 
     return value
 
 
 def _repair(bit: int) -> Callable[[_Place], None]:
     def end(place: _Place) -> None:
-        place.memory.I[place.ints + at.PLI_ENCODER_FAULT] &= ~bit
+        place.memory.I[motors.encoder_fault[place.axis.number]] &= ~bit
 
     return end
 
 
 def _report_drive(place: _Place, _: float) -> None:
     drive = place.axis.drive
-    place.set(at.PLI_FAULT_REPORT, FAULT_REPORTED)
+    place.set(motors.fault_report, FAULT_REPORTED)
     if drive.fault_input is not None:
         inputs.switch(place.memory, drive.fault_input, drive.fault_contact is Contact.OPEN)
 
 
 def _end_drive(place: _Place) -> None:
     drive = place.axis.drive
-    if place.memory.I[place.ints + at.PLI_FAULT_REPORT] != FAULT_REPORTED:
+    if place.memory.I[motors.fault_report[place.axis.number]] != FAULT_REPORTED:
         return
-    place.set(at.PLI_FAULT_REPORT, FAULT_TAKEN_BACK)
+    place.set(motors.fault_report, FAULT_TAKEN_BACK)
     if drive.fault_input is None:
         return
     if inputs.is_driven(place.memory, drive.fault_input):
@@ -128,15 +125,15 @@ def _end_drive(place: _Place) -> None:
 
 
 def _cut_cable(place: _Place, _: float) -> None:
-    place.set(at.PLI_CABLE_CUT, 1)
+    place.set(motors.cable_cut, 1)
 
 
 def _join_cable(place: _Place) -> None:
-    place.set(at.PLI_CABLE_CUT, 0)
+    place.set(motors.cable_cut, 0)
 
 
 def _jam(place: _Place, _: float) -> None:
-    for row in (at.PLF_LOW_STOP_CNT, at.PLF_HIGH_STOP_CNT):
+    for row in (motors.low_stop_cnt, motors.high_stop_cnt):
         place.put(row, place.position_cnt)
 
 
@@ -144,7 +141,7 @@ def _block(place: _Place, at_u: float) -> None:
     """Put an obstacle into the travel, on the side of the load on which it is."""
     border = count_of(place.axis, at_u)
     is_above = border >= place.position_cnt
-    place.put(at.PLF_HIGH_STOP_CNT if is_above else at.PLF_LOW_STOP_CNT, border)
+    place.put(motors.high_stop_cnt if is_above else motors.low_stop_cnt, border)
 
 
 def _free(place: _Place) -> None:
@@ -153,7 +150,7 @@ def _free(place: _Place) -> None:
 
 
 def _is_jammed(place: _Place) -> float | None:
-    low, high = place.get(at.PLF_LOW_STOP_CNT), place.get(at.PLF_HIGH_STOP_CNT)
+    low, high = place.get(motors.low_stop_cnt), place.get(motors.high_stop_cnt)
     return 0.0 if low == high else None
 
 
@@ -179,8 +176,8 @@ def _needs_load(axis: Axis) -> str:
 
 def _rub(place: _Place, torque_nm: float) -> None:
     _smooth(place)
-    for row in (at.PLF_COULOMB_ACCEL, at.PLF_STATIC_ACCEL):
-        own = place.memory.F[place.reals + row]
+    for row in (motors.coulomb_accel, motors.static_accel):
+        own = place.get(row)
         place.put(row, own + torque_nm * apply.accel_per_nm(place.axis))
 
 
@@ -191,8 +188,8 @@ def _smooth(place: _Place) -> None:
 
 def _friction(place: _Place) -> float | None:
     """The additional friction [Nm]; None without any."""
-    own = apply.load_rows(place.axis)[at.PLF_COULOMB_ACCEL]
-    more = place.get(at.PLF_COULOMB_ACCEL) - own
+    own = apply.load_rows(place.axis)[motors.coulomb_accel]
+    more = place.get(motors.coulomb_accel) - own
     return _tidy(more / apply.accel_per_nm(place.axis)) if more else None
 
 
@@ -251,10 +248,10 @@ class Fault:
     highest: Callable[[Axis], float | None] = _no_limit  # of the quantity
 
 
-_LOST = _is_set(at.PLI_ENCODER_FAULT, SIGNALS_LOST)
-_NOISE = _is_set(at.PLI_ENCODER_FAULT, EDGES_LOST)
-_REPORTED = _is_set(at.PLI_FAULT_REPORT, FAULT_REPORTED)
-_CUT = _is_set(at.PLI_CABLE_CUT, 1)
+_LOST = _is_set(motors.encoder_fault, SIGNALS_LOST)
+_NOISE = _is_set(motors.encoder_fault, EDGES_LOST)
+_REPORTED = _is_set(motors.fault_report, FAULT_REPORTED)
+_CUT = _is_set(motors.cable_cut, 1)
 # Every kind of fault; scenarios, callers and screens have theirs from here.
 FAULTS: Mapping[MachineFault, Fault] = {
     MachineFault.ENCODER_LOST: Fault(_lose_signals, _repair(SIGNALS_LOST), _LOST, _needs_encoder),

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory, flag_place
+from openacr.map.rows import bus_nodes, input_words, plant
+from openacr.map.words import candi
 from openacr.plant import terminals
 
 WORD_BITS = 32
@@ -17,9 +19,9 @@ WORD_BITS = 32
 WIRED_RANGES = ((0, 31), (256, 287), (320, 351), (384, 415), (448, 479))
 MISCELLANEOUS = (64, 95)
 NODE_RANGES = tuple(
-    (first, first + at.BUSNI_LEVELS_SIZE * WORD_BITS - 1)
-    for node in range(at.BUSN_COUNT)
-    for first in ((at.CANDI_WORD + node * at.CANDI_WORD_STRIDE - at.FLAG_WORD_BASE) * WORD_BITS,)
+    (first, first + bus_nodes.LEVELS_SIZE * WORD_BITS - 1)
+    for node in range(bus_nodes.COUNT)
+    for first in ((candi.word[node * bus_nodes.LEVELS_SIZE] - at.FLAG_WORD_BASE) * WORD_BITS,)
 )
 RANGES = tuple(sorted((*WIRED_RANGES, MISCELLANEOUS, *NODE_RANGES)))
 
@@ -28,19 +30,14 @@ def input_place(flag: int) -> tuple[int, int]:
     """Word and mask of the level of an input; for a node, of the level at its terminal."""
     terminal = terminals.input_terminal(flag)
     word, mask = flag_place(flag)
-    return (terminals.terminal_row(*terminal, at.BUSNI_LEVELS) if terminal else word), mask
+    return (terminals.terminal_row(*terminal, bus_nodes.levels) if terminal else word), mask
 
 
 def output_place(flag: int) -> tuple[int, int]:
     """Word and mask of an output; for a node, of the level at its terminal."""
     terminal = terminals.output_terminal(flag)
     word, mask = flag_place(flag)
-    return (terminals.terminal_row(*terminal, at.BUSNI_OUTPUTS) if terminal else word), mask
-
-
-def word_row(slot: int) -> int:
-    """Index (into I) of the rows of a word with wired inputs."""
-    return at.PLNI_BASE + slot * at.PLNI_STRIDE
+    return (terminals.terminal_row(*terminal, bus_nodes.outputs) if terminal else word), mask
 
 
 def within(number: int, ranges: tuple[tuple[int, int], ...]) -> bool:
@@ -54,7 +51,7 @@ def exists(memory: Memory, flag: int) -> bool:
     if terminal is None:
         return within(flag, RANGES)
     node, number = terminal
-    return number < memory.I[terminals.ints(node) + at.BUSNI_DIGITAL_INPUTS]
+    return number < memory.I[bus_nodes.digital_inputs[node]]
 
 
 def switch(memory: Memory, flag: int, on: bool) -> None:
@@ -62,9 +59,8 @@ def switch(memory: Memory, flag: int, on: bool) -> None:
     word, mask = input_place(flag)
     slot = _driven(memory, word, mask)
     if slot is not None:
-        row = word_row(slot)
-        memory.I[row + at.PLNI_STUCK] |= mask
-        _put(memory, row + at.PLNI_STUCK_LEVEL, mask, on)
+        memory.I[input_words.stuck[slot]] |= mask
+        _put(memory, input_words.stuck_level[slot], mask, on)
     _put(memory, word, mask, on)
 
 
@@ -75,10 +71,9 @@ def release(memory: Memory, flag: int) -> None:
     if slot is None:
         _put(memory, word, mask, False)
         return
-    row = word_row(slot)
-    for stuck in (at.PLNI_STUCK, at.PLNI_STUCK_LEVEL):
-        memory.I[row + stuck] &= ~mask
-    _put(memory, word, mask, memory.I[row + at.PLNI_LEVEL] & mask != 0)
+    for row in (input_words.stuck, input_words.stuck_level):
+        memory.I[row[slot]] &= ~mask
+    _put(memory, word, mask, memory.I[input_words.level[slot]] & mask != 0)
 
 
 def drive(memory: Memory, flag: int, on: bool) -> None:
@@ -87,9 +82,8 @@ def drive(memory: Memory, flag: int, on: bool) -> None:
     slot = _driven(memory, word, mask)
     if slot is None:
         return
-    row = word_row(slot)
-    _put(memory, row + at.PLNI_LEVEL, mask, on)
-    if not memory.I[row + at.PLNI_STUCK] & mask:
+    _put(memory, input_words.level[slot], mask, on)
+    if not memory.I[input_words.stuck[slot]] & mask:
         _put(memory, word, mask, on)
 
 
@@ -106,7 +100,7 @@ def state(memory: Memory, flag: int) -> InputState:
     """The state of an input of the card, an expansion board or a node."""
     word, mask = input_place(flag)
     slot = _driven(memory, word, mask)
-    is_forced = slot is not None and memory.I[word_row(slot) + at.PLNI_STUCK] & mask != 0
+    is_forced = slot is not None and memory.I[input_words.stuck[slot]] & mask != 0
     return InputState(flag, memory.I[word] & mask != 0, is_forced)
 
 
@@ -117,9 +111,9 @@ def is_driven(memory: Memory, flag: int) -> bool:
 
 def _driven(memory: Memory, word: int, mask: int) -> int | None:
     """The slot of an input that the machine drives; None if not driven."""
-    for slot in range(memory.I[at.PLGI_BASE + at.PLGI_WORDS]):
-        row = word_row(slot)
-        if memory.I[row + at.PLNI_WORD] == word and memory.I[row + at.PLNI_WIRED] & mask:
+    for slot in range(memory.I[plant.words]):
+        is_word = memory.I[input_words.word[slot]] == word
+        if is_word and memory.I[input_words.wired[slot]] & mask:
             return slot
     return None
 

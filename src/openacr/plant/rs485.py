@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import bus_drives
 from openacr.plant.aries import Drive, drives
 from openacr.plant.aries_port import answer, split_address
 
@@ -24,10 +24,10 @@ def exchange(
         for drive in drives(memory)
         if axis in (None, drive.axis)
         and _understands(drive, port, baud, character_bits)
-        and address in (None, drive.whole(at.BUSDI_ADDRESS))
+        and address in (None, drive.whole(bus_drives.address))
     ]
 
 
 def _understands(drive: Drive, port: int, baud: int, character_bits: int) -> bool:
-    is_wired = drive.whole(at.BUSDI_PORT) == port and drive.hears
-    return is_wired and (drive.whole(at.BUSDI_BAUD), CHARACTER_BITS) == (baud, character_bits)
+    is_wired = drive.whole(bus_drives.port) == port and drive.hears
+    return is_wired and (drive.whole(bus_drives.baud), CHARACTER_BITS) == (baud, character_bits)

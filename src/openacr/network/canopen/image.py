@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import canopen_adcs, canopen_dacs, network_master, network_slaves
+from openacr.map.words import candi, cando
 from openacr.network.canopen.rows import Master
 
 EXPANSION = 4104
-WORDS = at.NETSI_SENT_SIZE
+WORDS = network_slaves.SENT_SIZE
 FULL_SCALE, BOTTOM = 32767, -32768
 
 # Node and word of each pair of expansion words, by P32771.
@@ -33,26 +34,26 @@ def mapping_of(value: int) -> int:
 
 def input_word(master: Master, slave: int, word: int) -> int:
     """The parameter that shows 32 inputs of a slave."""
-    return _place(master, slave, word, at.CANDI_WORD, 0)
+    return _place(master, slave, word, candi.word, 0)
 
 
 def output_word(master: Master, slave: int, word: int) -> int:
     """The parameter that commands 32 outputs of a slave."""
-    return _place(master, slave, word, at.CANDO_WORD, 1)
+    return _place(master, slave, word, cando.word, 1)
 
 
-def _place(master: Master, slave: int, word: int, standard: int, side: int) -> int:
-    pairs = MAPPINGS[master.get(at.NETMI_MAPPING)]
+def _place(master: Master, slave: int, word: int, standard: tuple[int, ...], side: int) -> int:
+    pairs = MAPPINGS[master.get(network_master.mapping)]
     if (slave, word) in pairs:
         return EXPANSION + 2 * pairs.index((slave, word)) + side
-    return standard + slave * at.CANDI_WORD_STRIDE + word
+    return standard[slave * WORDS + word]
 
 
 def clear_moved(master: Master) -> None:
     """Empty the standard places of everything that has been moved."""
-    for slave, word in MAPPINGS[master.get(at.NETMI_MAPPING)]:
-        for standard in (at.CANDI_WORD, at.CANDO_WORD):
-            master.memory.I[standard + slave * at.CANDI_WORD_STRIDE + word] = 0
+    for slave, word in MAPPINGS[master.get(network_master.mapping)]:
+        for standard in (candi.word, cando.word):
+            master.memory.I[standard[slave * WORDS + word]] = 0
 
 
 def read_outputs(master: Master, slave: int, count: int) -> list[int]:
@@ -67,10 +68,9 @@ def dac_counts(memory: Memory, slave: int, count: int) -> list[int]:
 
 
 def _dac_counts(memory: Memory, channel: int) -> int:
-    value = memory.S[channel + at.CANDAC_DAC_OUTPUT_VALUE]
-    counts = (value + memory.S[channel + at.CANDAC_DAC_OFFSET]) * memory.S[
-        channel + at.CANDAC_DAC_GAIN
-    ]
+    value = memory.S[canopen_dacs.dac_output_value[channel]]
+    offset, gain = canopen_dacs.dac_offset[channel], canopen_dacs.dac_gain[channel]
+    counts = (value + memory.S[offset]) * memory.S[gain]
     return round(min(max(counts, BOTTOM), FULL_SCALE)) if counts == counts else 0
 
 
@@ -79,11 +79,10 @@ def show_analog_inputs(memory: Memory, slave: int, counts: Sequence[int]) -> Non
     for number, value in enumerate(counts):
         channel = _channel(slave, number)
         share = value / (FULL_SCALE if value > 0 else -BOTTOM)
-        gain, offset = (
-            memory.S[channel + row] for row in (at.CANADC_ADC_GAIN, at.CANADC_ADC_OFFSET)
-        )
-        memory.S[channel + at.CANADC_ADC_INPUT_VALUE] = share * gain + offset
+        gain = memory.S[canopen_adcs.adc_gain[channel]]
+        offset = memory.S[canopen_adcs.adc_offset[channel]]
+        memory.S[canopen_adcs.adc_input_value[channel]] = share * gain + offset
 
 
 def _channel(slave: int, number: int) -> int:
-    return at.CANDAC_BASE + (slave * at.NETSI_LATCHED_SIZE + number) * at.CANDAC_STRIDE
+    return slave * network_slaves.LATCHED_SIZE + number

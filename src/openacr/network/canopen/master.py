@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.map.rows import network_slaves
+from openacr.map.rows import network_master, network_slaves
+from openacr.map.words import canf
 from openacr.network.canopen import exchange, startup
 from openacr.network.canopen.rows import SLAVES, TIMES, Master, Phase
 from openacr.plant import bus
@@ -20,7 +20,7 @@ def attend(memory: Memory) -> None:
     master = Master(memory)
     bus.follow_power(memory)
     _serve_requests(master)
-    if master.is_due(at.NETMF_PHASE_TK):
+    if master.is_due(network_master.phase_tk):
         _end_phase(master)
     if master.phase is Phase.RUNNING:
         _run(master)
@@ -29,9 +29,9 @@ def attend(memory: Memory) -> None:
 def _serve_requests(master: Master) -> None:
     """Begin with what the request flags ask for, unless it is being done."""
     flags, phase = master.flags(), master.phase
-    if flags & at.CANF_RESET_NETWORK and phase is not Phase.RESETTING:
+    if flags & canf.RESET_NETWORK and phase is not Phase.RESETTING:
         startup.reset(master)
-    elif flags & at.CANF_START_NETWORK and phase not in _BUSY:
+    elif flags & canf.START_NETWORK and phase not in _BUSY:
         startup.start(master)
 
 
@@ -47,11 +47,11 @@ def _end_phase(master: Master) -> None:
 
 def _run(master: Master) -> None:
     exchange.receive_changes(master)
-    if master.is_due(at.NETMF_ARRIVAL_TK):
+    if master.is_due(network_master.arrival_tk):
         exchange.arrive(master)
-    if master.is_due(at.NETMF_SYNC_TK):
+    if master.is_due(network_master.sync_tk):
         exchange.cycle(master)
-    if master.is_due(at.NETMF_HEALTH_TK):
+    if master.is_due(network_master.health_tk):
         exchange.check_health(master)
     if master.phase is Phase.RUNNING:
         exchange.note_changes(master)

@@ -6,18 +6,14 @@ from enum import IntEnum
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.map.rows import network_slaves
+from openacr.map.rows import canopen, canopen_nodes, network_master, network_slaves
+from openacr.map.words import canf
 from openacr.network import wake_cy
 from openacr.network.times import later_tk, tick_of
 
-SLAVES = at.NETS_COUNT
+SLAVES = network_slaves.COUNT
 WORD = at.W_CAN
-FAULTS = (
-    at.CANF_NETWORK_START_FAILED
-    | at.CANF_NODE_FAILURE
-    | at.CANF_SW_RX_OVERFLOW
-    | at.CANF_HW_RX_OVERFLOW
-)
+FAULTS = canf.NETWORK_START_FAILED | canf.NODE_FAILURE | canf.SW_RX_OVERFLOW | canf.HW_RX_OVERFLOW
 
 
 class BusState(IntEnum):
@@ -66,16 +62,16 @@ class Master:
 
     def set_time(self, row: int, after_ms: float) -> None:
         """Let something happen so much later."""
-        self.memory.F[at.NETMF_BASE + row] = self.later_tk(after_ms)
+        self.memory.F[row] = self.later_tk(after_ms)
 
     def time(self, row: int) -> float:
         """The tick at which something happens; 0 never."""
-        return self.memory.F[at.NETMF_BASE + row]
+        return self.memory.F[row]
 
     def stop_times(self) -> None:
         """Let nothing happen any more."""
         for row in TIMES:
-            self.memory.F[at.NETMF_BASE + row] = 0.0
+            self.memory.F[row] = 0.0
         for slave in range(SLAVES):
             self.memory.F[network_slaves.change_tk[slave]] = 0.0
 
@@ -95,66 +91,67 @@ class Master:
 
     def show(self, state: BusState) -> None:
         """Show a bus state; the network is operational in one state only."""
-        self.memory.I[at.CAN_BASE + at.CAN_BUS_STATE] = state
-        operational = at.CANF_NETWORK_OPERATIONAL
+        self.memory.I[canopen.bus_state] = state
+        operational = canf.NETWORK_OPERATIONAL
         self.change_flags(clear=operational)
         if state is BusState.STARTED:
             self.change_flags(set_=operational)
 
     def setting(self, row: int) -> int:
         """A parameter of the network."""
-        return self.memory.I[at.CAN_BASE + row]
+        return self.memory.I[row]
 
     def node_id(self, slave: int) -> int:
         """The id the user has given for a slave."""
-        return self.memory.I[_shown(slave) + at.CANN_NODE_ID]
+        return self.memory.I[canopen_nodes.node_id[slave]]
 
-    def show_slave(self, slave: int, row: int, value: int) -> None:
+    def show_slave(self, slave: int, row: tuple[int, ...], value: int) -> None:
         """Write one parameter of the node information."""
-        self.memory.I[_shown(slave) + row] = value
+        self.memory.I[row[slave]] = value
 
-    def shown_slave(self, slave: int, row: int) -> int:
+    def shown_slave(self, slave: int, row: tuple[int, ...]) -> int:
         """Read one parameter of the node information."""
-        return self.memory.I[_shown(slave) + row]
+        return self.memory.I[row[slave]]
 
     # what the user does not see
 
     def get(self, row: int) -> int:
         """Read a hidden row of the master."""
-        return self.memory.I[at.NETMI_BASE + row]
+        return self.memory.I[row]
 
     def put(self, row: int, value: int) -> None:
         """Write a hidden row of the master."""
-        self.memory.I[at.NETMI_BASE + row] = value
+        self.memory.I[row] = value
 
     @property
     def phase(self) -> Phase:
         """What the master is doing."""
-        return Phase(self.get(at.NETMI_PHASE))
+        return Phase(self.get(network_master.phase))
 
     def enter(self, phase: Phase) -> None:
         """Do something else."""
-        self.put(at.NETMI_PHASE, phase)
+        self.put(network_master.phase, phase)
 
     def slaves(self) -> range:
         """The slaves the network was started with."""
-        return range(self.get(at.NETMI_SLAVES))
+        return range(self.get(network_master.slaves))
 
     def live_slaves(self) -> list[int]:
         """The slaves that have not failed."""
-        return [slave for slave in self.slaves() if self.slave(slave, at.NETSI_LIVE)]
+        return [slave for slave in self.slaves() if self.slave(slave, network_slaves.live)]
 
-    def slave(self, slave: int, row: int) -> int:
-        """Read a hidden row of a slave."""
-        return self.memory.I[at.NETSI_BASE + slave * at.NETSI_STRIDE + row]
+    def slave(self, slave: int, row: tuple[int, ...], place: int = 0) -> int:
+        """Read a hidden row of a slave, or one place of an array row."""
+        return self.memory.I[row[slave] + place]
 
-    def put_slave(self, slave: int, row: int, value: int) -> None:
-        """Write a hidden row of a slave."""
-        self.memory.I[at.NETSI_BASE + slave * at.NETSI_STRIDE + row] = value
-
-
-TIMES = (at.NETMF_PHASE_TK, at.NETMF_SYNC_TK, at.NETMF_ARRIVAL_TK, at.NETMF_HEALTH_TK)
+    def put_slave(self, slave: int, row: tuple[int, ...], value: int, place: int = 0) -> None:
+        """Write a hidden row of a slave, or one place of an array row."""
+        self.memory.I[row[slave] + place] = value
 
 
-def _shown(slave: int) -> int:
-    return at.CANN_BASE + slave * at.CANN_STRIDE
+TIMES = (
+    network_master.phase_tk,
+    network_master.sync_tk,
+    network_master.arrival_tk,
+    network_master.health_tk,
+)

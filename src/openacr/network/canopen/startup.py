@@ -11,7 +11,8 @@ request flag clears itself in any case.
 
 from __future__ import annotations
 
-from openacr.map import numbers as at
+from openacr.map.rows import canopen, canopen_nodes, network_master, network_slaves
+from openacr.map.words import canf
 from openacr.network.canopen import exchange, figures, image
 from openacr.network.canopen.rows import FAULTS, SLAVES, BusState, Master, Phase
 from openacr.plant import bus
@@ -25,33 +26,33 @@ MOST_BYTES, MOST_ANALOG = 64, 32  # of all nodes together, in each direction
 BIT_RATES = (10, 20, 50, 125, 250, 500, 800, 1000)
 
 FOUND_ROWS = (
-    at.CANN_NUMBER_OF_DIGITAL_INPUTS_BYTES,
-    at.CANN_NUMBER_OF_DIGITAL_OUTPUTS_BYTES,
-    at.CANN_NUMBER_OF_ANALOG_INPUTS,
-    at.CANN_NUMBER_OF_ANALOG_OUTPUTS,
-    at.CANN_HEALTH_TYPE,
+    canopen_nodes.number_of_digital_inputs_bytes,
+    canopen_nodes.number_of_digital_outputs_bytes,
+    canopen_nodes.number_of_analog_inputs,
+    canopen_nodes.number_of_analog_outputs,
+    canopen_nodes.health_type,
 )
 TOTAL_ROWS = (
-    at.CAN_NUMBER_OF_DIGITAL_INPUT_BYTES,
-    at.CAN_NUMBER_OF_DIGITAL_OUTPUT_BYTES,
-    at.CAN_NUMBER_OF_ANALOG_INPUTS,
-    at.CAN_NUMBER_OF_ANALOG_OUTPUTS,
+    canopen.number_of_digital_input_bytes,
+    canopen.number_of_digital_output_bytes,
+    canopen.number_of_analog_inputs,
+    canopen.number_of_analog_outputs,
 )
 
 
 def power_up(master: Master) -> None:
     """Begin after switching the card on: without a controller nothing ever happens."""
     if bus.is_fitted(master.memory):
-        master.change_flags(set_=at.CANF_CANOPEN_CONTROLLER_INSTALLED)
+        master.change_flags(set_=canf.CANOPEN_CONTROLLER_INSTALLED)
         master.enter(Phase.POWER_UP)
-        master.set_time(at.NETMF_PHASE_TK, POWER_UP_MS)
+        master.set_time(network_master.phase_tk, POWER_UP_MS)
 
 
 def become_ready(master: Master) -> None:
     """End power-up or reset: ready to start, or a state with the reason why not."""
     master.enter(Phase.IDLE)
     master.stop_times()
-    master.change_flags(clear=at.CANF_RESET_NETWORK)
+    master.change_flags(clear=canf.RESET_NETWORK)
     master.show(verify(master))
 
 
@@ -59,10 +60,10 @@ def verify(master: Master) -> BusState:
     """Check the master id and the node ids; P32770 is the number of ids in use."""
     if bus.has_fault(master.memory, bus.Trouble.CONTROLLER):
         return BusState.INTERNAL_ERROR
-    own = master.setting(at.CAN_MASTER_NODE_ID)
+    own = master.setting(canopen.master_node_id)
     if not 1 <= own <= HIGHEST_ID:
         return BusState.INVALID_MASTER
-    count = master.setting(at.CAN_NUMBER_OF_SLAVE_NODES)
+    count = master.setting(canopen.number_of_slave_nodes)
     ids = [master.node_id(slave) for slave in range(min(max(count, 0), SLAVES))]
     is_valid = all(1 <= each <= HIGHEST_ID for each in ids)
     if 0 <= count <= SLAVES and is_valid and len({own, *ids}) == len(ids) + 1:
@@ -77,24 +78,24 @@ def reset(master: Master) -> None:
     """Reset all nodes; the request flag stays until they have begun anew."""
     master.change_flags(clear=FAULTS)
     if master.phase is Phase.ABSENT:
-        master.change_flags(clear=at.CANF_RESET_NETWORK)
+        master.change_flags(clear=canf.RESET_NETWORK)
         return
     for node in bus.nodes(master.memory):
-        if bus.answers(master.memory, node, master.setting(at.CAN_BIT_RATE)):
+        if bus.answers(master.memory, node, master.setting(canopen.bit_rate)):
             bus.begin(master.memory, node, bus.NodeState.PRE_OPERATIONAL)
     master.stop_times()
     for slave in range(SLAVES):
-        master.show_slave(slave, at.CANN_NODE_STATE, 0)
+        master.show_slave(slave, canopen_nodes.node_state, 0)
     master.show(BusState.PRE_INITIALIZED)
     master.enter(Phase.RESETTING)
-    master.set_time(at.NETMF_PHASE_TK, RESET_MS)
+    master.set_time(network_master.phase_tk, RESET_MS)
 
 
 def start(master: Master) -> None:
     """Begin to start the network."""
     master.change_flags(clear=FAULTS)
     if master.phase is Phase.ABSENT:
-        master.change_flags(clear=at.CANF_START_NETWORK, set_=at.CANF_NETWORK_START_FAILED)
+        master.change_flags(clear=canf.START_NETWORK, set_=canf.NETWORK_START_FAILED)
         return
     master.stop_times()
     state = verify(master)
@@ -102,26 +103,26 @@ def start(master: Master) -> None:
     if state is not BusState.PRE_OPERATIONAL:
         _end(master, state)
         return
-    bit_rate = master.setting(at.CAN_BIT_RATE)
-    master.put(at.NETMI_BIT_RATE, bit_rate)
-    master.put(at.NETMI_CYCLE_MS, master.setting(at.CAN_CYCLIC_PERIOD))
-    master.put(at.NETMI_SLAVES, master.setting(at.CAN_NUMBER_OF_SLAVE_NODES))
-    mapping = master.setting(at.CAN_ALTERNATE_DIGITAL_I_O_MAPPING)
-    master.put(at.NETMI_MAPPING, image.mapping_of(mapping))
+    bit_rate = master.setting(canopen.bit_rate)
+    master.put(network_master.bit_rate, bit_rate)
+    master.put(network_master.cycle_ms, master.setting(canopen.cyclic_period))
+    master.put(network_master.slaves, master.setting(canopen.number_of_slave_nodes))
+    mapping = master.setting(canopen.alternate_digital_i_o_mapping)
+    master.put(network_master.mapping, image.mapping_of(mapping))
     for node in bus.nodes(master.memory):
         if bus.answers(master.memory, node, bit_rate):
             bus.stop(master.memory, node)
     for slave in range(SLAVES):
         _forget(master, slave)
     master.enter(Phase.INTERROGATING)
-    master.put(at.NETMI_SLAVE, -1)
+    master.put(network_master.slave, -1)
     ask_next(master)
 
 
 def _forget(master: Master, slave: int) -> None:
-    for row in (*FOUND_ROWS, at.CANN_NODE_STATE):
+    for row in (*FOUND_ROWS, canopen_nodes.node_state):
         master.show_slave(slave, row, 0)
-    master.put_slave(slave, at.NETSI_LIVE, 0)
+    master.put_slave(slave, network_slaves.live, 0)
 
 
 # asking the nodes
@@ -129,26 +130,26 @@ def _forget(master: Master, slave: int) -> None:
 
 def ask_next(master: Master) -> None:
     """Take down what the present node has answered and ask the next one."""
-    slave = master.get(at.NETMI_SLAVE)
+    slave = master.get(network_master.slave)
     if slave >= 0:
         _take_down(master, slave)
     slave += 1
-    master.put(at.NETMI_SLAVE, slave)
-    if slave >= master.get(at.NETMI_SLAVES):
+    master.put(network_master.slave, slave)
+    if slave >= master.get(network_master.slaves):
         _conclude(master)
     else:
-        master.set_time(at.NETMF_PHASE_TK, _answer_ms(master, slave))
+        master.set_time(network_master.phase_tk, _answer_ms(master, slave))
 
 
 def _find(master: Master, slave: int) -> int | None:
-    return bus.find(master.memory, master.node_id(slave), master.get(at.NETMI_BIT_RATE))
+    return bus.find(master.memory, master.node_id(slave), master.get(network_master.bit_rate))
 
 
 def _answer_ms(master: Master, slave: int) -> float:
     """Time until a node has answered everything; one that is not there is given up."""
     if _find(master, slave) is None:
         return NO_ANSWER_MS
-    return 2 * QUESTIONS * figures.MESSAGE_BITS / master.get(at.NETMI_BIT_RATE)
+    return 2 * QUESTIONS * figures.MESSAGE_BITS / master.get(network_master.bit_rate)
 
 
 def _take_down(master: Master, slave: int) -> None:
@@ -165,10 +166,10 @@ def _take_down(master: Master, slave: int) -> None:
     )
     for row, value in zip(FOUND_ROWS, values, strict=True):
         master.show_slave(slave, row, value)
-    master.put_slave(slave, at.NETSI_NODE, node)
-    master.put_slave(slave, at.NETSI_WORDS, -(-found.digital_input_bytes // 4))
-    master.put_slave(slave, at.NETSI_LIVE, 1)
-    master.show_slave(slave, at.CANN_NODE_STATE, 1)
+    master.put_slave(slave, network_slaves.node, node)
+    master.put_slave(slave, network_slaves.words, -(-found.digital_input_bytes // 4))
+    master.put_slave(slave, network_slaves.live, 1)
+    master.show_slave(slave, canopen_nodes.node_state, 1)
 
 
 # all have been asked
@@ -176,16 +177,16 @@ def _take_down(master: Master, slave: int) -> None:
 
 def _conclude(master: Master) -> None:
     """Report the totals and go operational, unless something does not fit."""
-    cycle_ms = master.get(at.NETMI_CYCLE_MS)
+    cycle_ms = master.get(network_master.cycle_ms)
     health_ms = min(max(figures.HEALTH_CYCLES * cycle_ms, 0), 2**31 - 1)
-    _show_setting(master, at.CAN_HEALTH_PERIOD, health_ms)
+    _show_setting(master, canopen.health_period, health_ms)
     totals = [
         sum(master.shown_slave(slave, row) for slave in master.slaves()) for row in FOUND_ROWS[:4]
     ]
     for row, total in zip(TOTAL_ROWS, totals, strict=True):
         _show_setting(master, row, total)
     messages = figures.total_messages(_messages(master, slave) for slave in master.slaves())
-    master.put(at.NETMI_FRAMES, messages)
+    master.put(network_master.frames, messages)
     _end(master, _judge(master, totals, cycle_ms))
 
 
@@ -193,24 +194,26 @@ def _judge(master: Master, totals: list[int], cycle_ms: int) -> BusState:
     limits = (MOST_BYTES, MOST_BYTES, MOST_ANALOG, MOST_ANALOG)
     if len(master.live_slaves()) < len(master.slaves()):
         return BusState.CHARACTERIZATION_ERROR
-    if master.get(at.NETMI_BIT_RATE) not in BIT_RATES:
+    if master.get(network_master.bit_rate) not in BIT_RATES:
         return BusState.CHARACTERIZATION_ERROR
     if any(total > limit for total, limit in zip(totals, limits, strict=True)):
         return BusState.INVALID_NODES
-    needed_ms = figures.cycle_ms(master.get(at.NETMI_FRAMES), master.get(at.NETMI_BIT_RATE))
+    needed_ms = figures.cycle_ms(
+        master.get(network_master.frames), master.get(network_master.bit_rate)
+    )
     return BusState.TRANSMISSION_OVERFLOW if cycle_ms < needed_ms else BusState.STARTED
 
 
 def _messages(master: Master, slave: int) -> int:
     return figures.node_messages(
-        master.shown_slave(slave, at.CANN_NUMBER_OF_ANALOG_INPUTS),
-        8 * master.shown_slave(slave, at.CANN_NUMBER_OF_DIGITAL_OUTPUTS_BYTES),
-        master.shown_slave(slave, at.CANN_NUMBER_OF_ANALOG_OUTPUTS),
+        master.shown_slave(slave, canopen_nodes.number_of_analog_inputs),
+        8 * master.shown_slave(slave, canopen_nodes.number_of_digital_outputs_bytes),
+        master.shown_slave(slave, canopen_nodes.number_of_analog_outputs),
     )
 
 
 def _show_setting(master: Master, row: int, value: int) -> None:
-    master.memory.I[at.CAN_BASE + row] = value
+    master.memory.I[row] = value
 
 
 def _end(master: Master, state: BusState) -> None:
@@ -222,5 +225,5 @@ def _end(master: Master, state: BusState) -> None:
         exchange.begin(master)
     else:
         master.enter(Phase.IDLE)
-        master.change_flags(set_=at.CANF_NETWORK_START_FAILED)
-    master.change_flags(clear=at.CANF_START_NETWORK)
+        master.change_flags(set_=canf.NETWORK_START_FAILED)
+    master.change_flags(clear=canf.START_NETWORK)

@@ -10,7 +10,8 @@ from collections.abc import Iterator
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.map.rows import drive_talk, drive_talk_lines
+from openacr.map.rows import drive_talk, drive_talk_lines, networks
+from openacr.map.words import dtcf, dtsf
 from openacr.network.wake_cy import DRIVE_REQUESTS
 
 PORTS = ("LPT1", "COM1", "COM2", "", "STREAM3", "STREAM4", "STREAM5")
@@ -26,13 +27,13 @@ class TalkLine:
     def __init__(self, memory: Memory, port: int) -> None:
         self.memory, self.port = memory, port
 
-    def get(self, row: int) -> int:
+    def get(self, row: tuple[int, ...]) -> int:
         """Read a row of the line."""
-        return self.memory.I[at.NETLI_BASE + self.port * at.NETLI_STRIDE + row]
+        return self.memory.I[row[self.port]]
 
-    def put(self, row: int, value: int) -> None:
+    def put(self, row: tuple[int, ...], value: int) -> None:
         """Write a row of the line."""
-        self.memory.I[at.NETLI_BASE + self.port * at.NETLI_STRIDE + row] = value
+        self.memory.I[row[self.port]] = value
 
     @property
     def due_tk(self) -> float:
@@ -46,19 +47,19 @@ class TalkLine:
     @property
     def is_open(self) -> bool:
         """Whether a program has opened it."""
-        return self.get(at.NETLI_DEVICE) != 0
+        return self.get(drive_talk_lines.device) != 0
 
     def axes(self) -> Iterator[int]:
         """The axes whose drives are reached over this line."""
         if self.is_open:
-            for axis in range(at.DTK_COUNT):
+            for axis in range(drive_talk.COUNT):
                 if line_of(self.memory, axis) == self.port:
                     yield axis
 
     @property
     def is_busy(self) -> bool:
         """Whether an exchange is in progress or requested."""
-        if self.due_tk or self.memory.I[FIRST_WORD + self.port] & at.DTSF_AUTO_ADDRESS_ALL:
+        if self.due_tk or self.memory.I[FIRST_WORD + self.port] & dtsf.AUTO_ADDRESS_ALL:
             return True
         return any(pending(self.memory, axis) for axis in self.axes())
 
@@ -68,21 +69,22 @@ class TalkLine:
 
     # text in rows
 
-    def text(self, row: int, count_row: int) -> str:
+    def text(self, row: tuple[int, ...], count_row: tuple[int, ...]) -> str:
         """The characters from a row on."""
-        return "".join(chr(self.get(row + place)) for place in range(self.get(count_row)))
+        first = row[self.port]
+        return "".join(map(chr, self.memory.I[first : first + self.get(count_row)]))
 
-    def put_text(self, row: int, count_row: int, text: str) -> None:
+    def put_text(self, row: tuple[int, ...], count_row: tuple[int, ...], text: str) -> None:
         """Keep characters, as many as there is room for."""
-        kept = text[: at.NETLI_ANSWER_SIZE]
+        kept = text[: drive_talk_lines.ANSWER_SIZE]
         self.put(count_row, len(kept))
-        for place, character in enumerate(kept):
-            self.put(row + place, ord(character))
+        for place, character in enumerate(kept, row[self.port]):
+            self.memory.I[place] = ord(character)
 
 
 def lines(memory: Memory) -> list[TalkLine]:
     """The lines of all ports."""
-    return [TalkLine(memory, port) for port in range(at.NETL_COUNT)]
+    return [TalkLine(memory, port) for port in range(drive_talk_lines.COUNT)]
 
 
 def line_of(memory: Memory, axis: int) -> int | None:
@@ -92,15 +94,15 @@ def line_of(memory: Memory, axis: int) -> int | None:
     """
     device = memory.I[drive_talk.communication_device[axis]]
     found = [line for line in lines(memory) if line.is_open and line.get(_DEVICE) == device]
-    return min(found, key=lambda line: line.get(at.NETLI_PROGRAM)).port if found else None
+    return min(found, key=lambda line: line.get(drive_talk_lines.program)).port if found else None
 
 
-_DEVICE = at.NETLI_DEVICE
+_DEVICE = drive_talk_lines.device
 
 
 def pending(memory: Memory, axis: int) -> int:
     """The requests of an axis, as its control flags."""
-    return memory.I[at.DTCF_WORD + axis] & DRIVE_REQUESTS
+    return memory.I[dtcf.word[axis]] & DRIVE_REQUESTS
 
 
 # opening and closing
@@ -109,18 +111,23 @@ def pending(memory: Memory, axis: int) -> int:
 def open_line(memory: Memory, name: str, key: tuple[int, int], settings: tuple[int, int]) -> None:
     """OPEN DTALK: `key` is program and device, `settings` baud rate and bits of a character."""
     line = TalkLine(memory, PORTS.index(name))
-    rows = (at.NETLI_PROGRAM, at.NETLI_DEVICE, at.NETLI_BAUD, at.NETLI_CHARACTER_BITS)
+    rows = (
+        drive_talk_lines.program,
+        drive_talk_lines.device,
+        drive_talk_lines.baud,
+        drive_talk_lines.character_bits,
+    )
     for row, value in zip(rows, (*key, *settings), strict=True):
         line.put(row, value)
-    line.put(at.NETLI_AXIS, at.DTK_COUNT - 1)
+    line.put(drive_talk_lines.axis, drive_talk.COUNT - 1)
 
 
 def close_line(memory: Memory, name: str) -> None:
     """Close the line (CLOSE): later requests find no drive."""
     if name in PORTS:
         line = TalkLine(memory, PORTS.index(name))
-        for row in range(at.NETLI_STRIDE):
-            line.put(row, 0)
+        for place in range(drive_talk_lines.INTS_SIZE):
+            memory.I[drive_talk_lines.ints[line.port] + place] = 0
         line.due_tk = 0.0
 
 
@@ -135,33 +142,39 @@ def is_busy(memory: Memory, name: str) -> bool:
 def connect(memory: Memory, port: int, channel: int, axis: int) -> None:
     """DTALK: what is typed on a channel goes to the drive of an axis."""
     line = TalkLine(memory, port)
-    line.put(at.NETLI_CHANNEL, channel + 1)
-    line.put(at.NETLI_TALKS_TO, axis)
-    line.put(at.NETLI_TYPED_COUNT, 0)
+    line.put(drive_talk_lines.channel, channel + 1)
+    line.put(drive_talk_lines.talks_to, axis)
+    line.put(drive_talk_lines.typed_count, 0)
 
 
 def disconnect(memory: Memory, channel: int) -> None:
     """ESC: the line is free for the requests of programs again."""
     for line in lines(memory):
-        if line.get(at.NETLI_CHANNEL) == channel + 1:
-            line.put(at.NETLI_CHANNEL, 0)
-            line.put(at.NETLI_TYPED_COUNT, 0)
+        if line.get(drive_talk_lines.channel) == channel + 1:
+            line.put(drive_talk_lines.channel, 0)
+            line.put(drive_talk_lines.typed_count, 0)
             wake(memory)
 
 
 def type_byte(memory: Memory, channel: int, byte: int) -> str:
     """Take one byte typed for a drive; what the terminal shows of it."""
-    line = next((each for each in lines(memory) if each.get(at.NETLI_CHANNEL) == channel + 1), None)
+    line = next(
+        (each for each in lines(memory) if each.get(drive_talk_lines.channel) == channel + 1), None
+    )
     if line is None or byte == LF:
         return ""
-    typed = line.text(at.NETLI_TYPED, at.NETLI_TYPED_COUNT)
+    typed = line.text(drive_talk_lines.typed, drive_talk_lines.typed_count)
     if byte in (BS, DEL):
         last = typed[-1:]
-        line.put_text(at.NETLI_TYPED, at.NETLI_TYPED_COUNT, typed[:-1] if last != "\r" else typed)
+        line.put_text(
+            drive_talk_lines.typed,
+            drive_talk_lines.typed_count,
+            typed[:-1] if last != "\r" else typed,
+        )
         return "\b \b" if last not in ("", "\r") else ""
-    if len(typed) >= at.NETLI_TYPED_SIZE - (byte != CR):
+    if len(typed) >= drive_talk_lines.TYPED_SIZE - (byte != CR):
         return ""  # the end of a line always finds room
-    line.put_text(at.NETLI_TYPED, at.NETLI_TYPED_COUNT, typed + chr(byte))
+    line.put_text(drive_talk_lines.typed, drive_talk_lines.typed_count, typed + chr(byte))
     if byte == CR:
         wake(memory)
         return "\r\n"
@@ -170,4 +183,4 @@ def type_byte(memory: Memory, channel: int, byte: int) -> str:
 
 def wake(memory: Memory) -> None:
     """Have the networks attended to in this tick or the next."""
-    memory.F[at.NETF_BASE + at.NETF_DUE_TK] = AT_ONCE_TK
+    memory.F[networks.due_tk] = AT_ONCE_TK

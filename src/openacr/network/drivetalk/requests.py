@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import drive_talk
 from openacr.map.tables.drivetalk import (
     CONFIGURATION,
     FIRST_ITEM,
@@ -15,6 +15,7 @@ from openacr.map.tables.drivetalk import (
     FIRST_SETTING,
     STATUS_ITEMS,
 )
+from openacr.map.words import dtcf, dtef, dts1, dts2
 from openacr.plant.aries_port import WORD_BITS, bits_of, number_text
 
 ARIES_TYPE = 0
@@ -62,7 +63,7 @@ def _send_configuration(memory: Memory, axis: int, selection: int) -> Iterator[E
 
 
 def _send_selection(memory: Memory, axis: int, selection: int) -> Iterator[Exchange]:
-    bits = memory.I[at.DTEF_WORD + axis]
+    bits = memory.I[dtef.word[axis]]
     digits = "".join(str(bits >> bit & 1) for bit in range(WORD_BITS))
     yield Exchange(f"{address(axis)}_ERRORL{digits}", _anything)
 
@@ -72,20 +73,20 @@ def _get_data(memory: Memory, axis: int, selection: int) -> Iterator[Exchange]:
         if selection >> (FIRST_ITEM_FLAG + place) & 1:
             yield _ask(memory, axis, word, FIRST_ITEM + place)
     for mask, word, first in (
-        (at.DTCF_DRIVE_STATUS_1_SELECT, "TAS", at.DTS1_WORD),
-        (at.DTCF_DRIVE_STATUS_2_SELECT, "TASX", at.DTS2_WORD),
+        (dtcf.DRIVE_STATUS_1_SELECT, "TAS", dts1.word),
+        (dtcf.DRIVE_STATUS_2_SELECT, "TASX", dts2.word),
     ):
         if selection & mask:
-            take = partial(_take_bits, memory, first + axis)
+            take = partial(_take_bits, memory, first[axis])
             yield Exchange(f"{address(axis)}_{word}", take)
 
 
 _MAKERS: dict[int, Callable[[Memory, int, int], Iterator[Exchange]]] = {
-    at.DTCF_AUTO_ADDRESS_REQUEST: _auto_address,
-    at.DTCF_GET_CONFIGURATION_REQUEST: _get_configuration,
-    at.DTCF_SEND_CONFIGURATION_REQUEST: _send_configuration,
-    at.DTCF_SEND_ERRORL_REQUEST: _send_selection,
-    at.DTCF_GET_DRIVE_DATA_REQUEST: _get_data,
+    dtcf.AUTO_ADDRESS_REQUEST: _auto_address,
+    dtcf.GET_CONFIGURATION_REQUEST: _get_configuration,
+    dtcf.SEND_CONFIGURATION_REQUEST: _send_configuration,
+    dtcf.SEND_ERRORL_REQUEST: _send_selection,
+    dtcf.GET_DRIVE_DATA_REQUEST: _get_data,
 }
 
 
@@ -94,7 +95,7 @@ def _ask(memory: Memory, axis: int, word: str, row: int) -> Exchange:
 
 
 def _parameter(axis: int, row: int) -> int:
-    return at.DTK_BASE + axis * at.DTK_STRIDE + row
+    return drive_talk.parameters[axis] + row
 
 
 def _take_number(memory: Memory, parameter: int, answer: str) -> bool:

@@ -10,7 +10,8 @@ from collections.abc import Callable
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.map.rows import drive_talk, drive_talk_axes
+from openacr.map.rows import bus_drives, drive_talk, drive_talk_axes, drive_talk_lines, networks
+from openacr.map.words import dtcf, dtsf
 from openacr.network.drivetalk.lines import TalkLine, line_of, lines, pending
 from openacr.network.drivetalk.requests import ARIES_TYPE, Exchange, address, exchanges
 from openacr.network.times import later_tk, tick_of
@@ -32,7 +33,7 @@ def attend(memory: Memory, deliver: Deliver) -> None:
         if line.is_open:
             _serve(line, deliver)
         _address_all(line)
-    for axis in range(at.DTK_COUNT):
+    for axis in range(drive_talk.COUNT):
         _give_up(memory, axis)
     _look_for_errors(memory)
 
@@ -40,7 +41,7 @@ def attend(memory: Memory, deliver: Deliver) -> None:
 def next_tk(memory: Memory) -> float:
     """The tick at which something is due; 0 if nothing is."""
     times = [line.due_tk for line in lines(memory)]
-    times += [memory.F[_limit(axis)] for axis in range(at.DTK_COUNT)]
+    times += [memory.F[_limit(axis)] for axis in range(drive_talk.COUNT)]
     times.append(memory.F[_LOOK])
     return min((time for time in times if time), default=0.0)
 
@@ -50,16 +51,16 @@ def next_tk(memory: Memory) -> float:
 
 def _address_all(line: TalkLine) -> None:
     """Auto Address All: ask it of every axis of the line; done when all have been served."""
-    flag, word = at.DTSF_AUTO_ADDRESS_ALL, at.W_DTALK_LPT1 + line.port
+    flag, word = dtsf.AUTO_ADDRESS_ALL, at.W_DTALK_LPT1 + line.port
     if not line.memory.I[word] & flag:
         return
-    axes, request = list(line.axes()), at.DTCF_AUTO_ADDRESS_REQUEST
-    if not line.get(at.NETLI_ADDRESSING) and axes:
-        line.put(at.NETLI_ADDRESSING, 1)
+    axes, request = list(line.axes()), dtcf.AUTO_ADDRESS_REQUEST
+    if not line.get(drive_talk_lines.addressing) and axes:
+        line.put(drive_talk_lines.addressing, 1)
         for axis in axes:
-            line.memory.I[at.DTCF_WORD + axis] |= request
+            line.memory.I[dtcf.word[axis]] |= request
     elif not any(pending(line.memory, axis) & request for axis in axes):
-        line.put(at.NETLI_ADDRESSING, 0)
+        line.put(drive_talk_lines.addressing, 0)
         line.memory.I[word] &= ~flag
 
 
@@ -74,26 +75,26 @@ def _serve(line: TalkLine, deliver: Deliver) -> None:
 
 def _begin(line: TalkLine) -> bool:
     """Begin an exchange of the current request, or of the next; False if there is none."""
-    if line.get(at.NETLI_REQUEST):
+    if line.get(drive_talk_lines.request):
         return _begin_exchange(line)
-    if line.get(at.NETLI_CHANNEL):
+    if line.get(drive_talk_lines.channel):
         return _pass_on(line)
-    last = line.get(at.NETLI_AXIS)
+    last = line.get(drive_talk_lines.axis)
     axes = list(line.axes())
     for axis in [*(n for n in axes if n > last), *(n for n in axes if n <= last)]:
         if requests := pending(line.memory, axis):
-            line.put(at.NETLI_AXIS, axis)
-            line.put(at.NETLI_REQUEST, requests & -requests)  # the lowest first
-            line.put(at.NETLI_SELECTION, line.memory.I[at.DTCF_WORD + axis])
-            line.put(at.NETLI_EXCHANGE, 0)
+            line.put(drive_talk_lines.axis, axis)
+            line.put(drive_talk_lines.request, requests & -requests)  # the lowest first
+            line.put(drive_talk_lines.selection, line.memory.I[dtcf.word[axis]])
+            line.put(drive_talk_lines.exchange, 0)
             return True
     return False
 
 
 def _begin_exchange(line: TalkLine) -> bool:
-    axis = line.get(at.NETLI_AXIS)
+    axis = line.get(drive_talk_lines.axis)
     if line.memory.I[drive_talk.drive_type[axis]] != ARIES_TYPE:
-        line.flag(at.DTSF_STREAM_ADDRESS_ERROR)  # a drive with an unknown protocol
+        line.flag(dtsf.STREAM_ADDRESS_ERROR)  # a drive with an unknown protocol
         _end(line)
     elif (exchange := _exchange(line)) is None:
         _end(line)
@@ -104,24 +105,27 @@ def _begin_exchange(line: TalkLine) -> bool:
 
 def _exchange(line: TalkLine) -> Exchange | None:
     """The exchange that is next, or in progress."""
-    rows = (at.NETLI_AXIS, at.NETLI_REQUEST, at.NETLI_SELECTION)
+    rows = (drive_talk_lines.axis, drive_talk_lines.request, drive_talk_lines.selection)
     todo = exchanges(line.memory, *(line.get(row) for row in rows))
-    place = line.get(at.NETLI_EXCHANGE)
+    place = line.get(drive_talk_lines.exchange)
     return todo[place] if place < len(todo) else None
 
 
 def _pass_on(line: TalkLine) -> bool:
     """Send a line that a terminal has typed; the card puts the address in front."""
-    typed = line.text(at.NETLI_TYPED, at.NETLI_TYPED_COUNT)
+    typed = line.text(drive_talk_lines.typed, drive_talk_lines.typed_count)
     text, end, rest = typed.partition("\r")
     if not end:
         return False
-    line.put_text(at.NETLI_TYPED, at.NETLI_TYPED_COUNT, rest)
+    line.put_text(drive_talk_lines.typed, drive_talk_lines.typed_count, rest)
     if not text.strip():
         return True
-    line.put(at.NETLI_REQUEST, PASSED_ON)
+    line.put(drive_talk_lines.request, PASSED_ON)
     given, _ = split_address(text)
-    _send(line, text if given is not None else f"{address(line.get(at.NETLI_TALKS_TO))}_{text}")
+    _send(
+        line,
+        text if given is not None else f"{address(line.get(drive_talk_lines.talks_to))}_{text}",
+    )
     return True
 
 
@@ -130,52 +134,52 @@ def _pass_on(line: TalkLine) -> bool:
 
 def _send(line: TalkLine, text: str, axis: int | None = None) -> None:
     """Send a line and note what comes back, and when all of it has come."""
-    baud, bits = max(line.get(at.NETLI_BAUD), 1), line.get(at.NETLI_CHARACTER_BITS)
+    baud, bits = max(line.get(drive_talk_lines.baud), 1), line.get(drive_talk_lines.character_bits)
     answers = rs485.exchange(line.memory, line.port, baud, bits, text, axis)
     answer = answers[0] if len(answers) == 1 else ""
-    line.put(at.NETLI_ANSWERS, len(answers))
-    line.put_text(at.NETLI_ANSWER, at.NETLI_LENGTH, answer)
+    line.put(drive_talk_lines.answers, len(answers))
+    line.put_text(drive_talk_lines.answer, drive_talk_lines.length, answer)
     on_the_line_ms = 1000.0 * bits * (len(text) + 1 + len(answer)) / baud
     line.due_tk = later_tk(line.memory, on_the_line_ms + THINKING_MS if answers else TIMEOUT_MS)
 
 
 def _finish(line: TalkLine, deliver: Deliver) -> None:
     """Use the answer, or report why there is none."""
-    is_passed_on = line.get(at.NETLI_REQUEST) == PASSED_ON
-    axis = line.get(at.NETLI_TALKS_TO if is_passed_on else at.NETLI_AXIS)
-    text = line.text(at.NETLI_ANSWER, at.NETLI_LENGTH)
+    is_passed_on = line.get(drive_talk_lines.request) == PASSED_ON
+    axis = line.get(drive_talk_lines.talks_to if is_passed_on else drive_talk_lines.axis)
+    text = line.text(drive_talk_lines.answer, drive_talk_lines.length)
     is_answered = _judge(line, axis)
     if is_passed_on:
-        line.put(at.NETLI_REQUEST, 0)
-        if line.get(at.NETLI_CHANNEL):
-            deliver(line.get(at.NETLI_CHANNEL) - 1, text)
-    elif not is_answered or not pending(line.memory, axis) & line.get(at.NETLI_REQUEST):
+        line.put(drive_talk_lines.request, 0)
+        if line.get(drive_talk_lines.channel):
+            deliver(line.get(drive_talk_lines.channel) - 1, text)
+    elif not is_answered or not pending(line.memory, axis) & line.get(drive_talk_lines.request):
         _end(line)
     else:
         exchange = _exchange(line)
         if exchange is not None and not exchange.take(text) and exchange.text.endswith("ADDR"):
-            line.flag(at.DTSF_STREAM_ADDRESS_ERROR)
-        line.put(at.NETLI_EXCHANGE, line.get(at.NETLI_EXCHANGE) + 1)
+            line.flag(dtsf.STREAM_ADDRESS_ERROR)
+        line.put(drive_talk_lines.exchange, line.get(drive_talk_lines.exchange) + 1)
 
 
 def _judge(line: TalkLine, axis: int) -> bool:
     """Whether exactly one drive has answered; otherwise the stream flags show the reason."""
-    answers, known = line.get(at.NETLI_ANSWERS), at.NETDI_BASE + axis * at.NETDI_STRIDE
+    answers, known = line.get(drive_talk_lines.answers), drive_talk_axes.ints[axis]
     if answers > 1:
-        line.flag(at.DTSF_STREAM_ADDRESS_ERROR)
+        line.flag(dtsf.STREAM_ADDRESS_ERROR)
     elif not answers:
-        line.flag(at.DTSF_STREAM_DRIVE_TIMEOUT)
+        line.flag(dtsf.STREAM_DRIVE_TIMEOUT)
         if line.memory.I[known]:
-            line.flag(at.DTSF_STREAM_DRIVE_LOST)
+            line.flag(dtsf.STREAM_DRIVE_LOST)
     line.memory.I[known] = int(answers == 1)
     return answers == 1
 
 
 def _end(line: TalkLine) -> None:
     """The request is done with; its flag clears itself."""
-    axis = line.get(at.NETLI_AXIS)
-    line.memory.I[at.DTCF_WORD + axis] &= ~line.get(at.NETLI_REQUEST)
-    line.put(at.NETLI_REQUEST, 0)
+    axis = line.get(drive_talk_lines.axis)
+    line.memory.I[dtcf.word[axis]] &= ~line.get(drive_talk_lines.request)
+    line.put(drive_talk_lines.request, 0)
 
 
 # axes without a line, and the drives' own look at themselves
@@ -190,19 +194,19 @@ def _give_up(memory: Memory, axis: int) -> None:
         memory.F[limit] = later_tk(memory, TIMEOUT_MS)
     elif memory.F[limit] <= tick_of(memory):
         memory.F[limit] = 0.0
-        memory.I[at.DTCF_WORD + axis] &= ~pending(memory, axis)
+        memory.I[dtcf.word[axis]] &= ~pending(memory, axis)
 
 
 def _limit(axis: int) -> int:
     return drive_talk_axes.limit_tk[axis]
 
 
-_LOOK = at.NETF_BASE + at.NETF_LOOK_TK
+_LOOK = networks.look_tk
 
 
 def _look_for_errors(memory: Memory) -> None:
     """Let drives that log errors check for them periodically."""
-    logging = [drive for drive in aries.drives(memory) if drive.whole(at.BUSDI_SELECTION)]
+    logging = [drive for drive in aries.drives(memory) if drive.whole(bus_drives.selection)]
     if memory.F[_LOOK] <= tick_of(memory):
         for drive in logging:
             aries.notice_errors(drive)
