@@ -29,7 +29,7 @@ from openacr.basic.memory.program_store import StoredLine
 from openacr.basic.memory.string_storage import StringBlock
 from openacr.basic.vm.run import Evaluator, Run, Wait
 from openacr.errors import CardError
-from openacr.map import numbers as at
+from openacr.map.rows import storage
 from openacr.messages import UNDEFINED_VARIABLE
 from openacr.models import ACR8020, Model
 from openacr.motion.card import Card
@@ -54,8 +54,9 @@ class Values:
             case Flag(index):
                 return -memory.bit(int(self.value(thread, index)))
             case Local(_, index):
-                row = at.STI_BASE + self.program * at.STI_STRIDE
-                return memory.I[memory.I[row + at.STI_LV_BASE] + int(self.value(thread, index))]
+                return memory.I[
+                    memory.I[storage.lv_base[self.program]] + int(self.value(thread, index))
+                ]
             case Unary(Op.MINUS, operand):
                 return -self.value(thread, operand)
             case Binary(Op.PLUS, left, right):

@@ -4,7 +4,7 @@ from openacr.basic.channels.session import Session
 from openacr.basic.execute.control import ProgramControl
 from openacr.basic.execute.executor import Executor
 from openacr.basic.execute.system import System
-from openacr.map import numbers as at
+from openacr.map.rows import system
 from openacr.models import ACR9000, Model
 from openacr.motion.card import Card
 
@@ -43,7 +43,7 @@ class Machine:
         return data.decode("latin-1").replace("\r\n", "|")
 
     def advance(self, ticks: int = 100) -> None:
-        row = at.SYSI_BASE + at.SYSI_TICK_LOW
+        row = system.tick_low
         for _ in range(ticks):
             self.card.memory.I[row] += 1
             self.executor.step(self.card.tick)

@@ -9,8 +9,8 @@ from openacr.basic.execute.system import System
 from openacr.basic.language.registry import Level
 from openacr.compiled import pick
 from openacr.kernel.tick_cy import tick
-from openacr.map import numbers as at
 from openacr.map.names import every_name
+from openacr.map.rows import axes as axis_rows
 from openacr.models import DEFAULT_MODEL, Model
 from openacr.motion.axis import attach
 from openacr.motion.card import Card
@@ -103,17 +103,17 @@ class Bench:
         """A parameter."""
         return self.memory.read(number)
 
-    def axis(self, axis: int, row: int) -> float:
+    def axis(self, axis: int, row: tuple[int, ...]) -> float:
         """A parameter of an axis by its row."""
-        return self.memory.read(at.AX_BASE + axis * at.AX_STRIDE + row)
+        return self.memory.read(row[axis])
 
     def psp(self, axis: int) -> float:
         """Primary setpoint in pulses, unrounded."""
-        return self.memory.F[at.AXF_BASE + axis * at.AXF_STRIDE + at.AXF_PSP_CNT]
+        return self.memory.F[axis_rows.psp_cnt[axis]]
 
     def place(self, axis: int, **offsets_cnt: float) -> None:
         """Set parts of the setpoint (position, gear, jog, cam) as if motion had left them."""
-        row = at.AXF_BASE + axis * at.AXF_STRIDE
+        row = axis_rows.reals[axis]
         for part, value in offsets_cnt.items():
             self.memory.F[row + every_name()[f"AXF_{part.upper()}_CNT"]] = value
         self.card.show(axis)
@@ -124,7 +124,7 @@ def ticks(time_s: float, period_s: float = PERIOD_S) -> int:
     return math.ceil(time_s / period_s - 1e-9)
 
 
-def largest(bench: Bench, row: int, axis: int, *flags: int) -> float:
+def largest(bench: Bench, row: tuple[int, ...], axis: int, *flags: int) -> float:
     """The largest size of an axis parameter until the flags are clear."""
     found = 0.0
     while any(bench.bit(flag) for flag in flags):

@@ -4,7 +4,8 @@ from openacr.basic.channels.session import Session
 from openacr.basic.execute.executor import Executor
 from openacr.basic.execute.system import System
 from openacr.basic.language.registry import Level
-from openacr.map import numbers as at
+from openacr.map.rows import system
+from openacr.map.words import pf
 from openacr.models import ACR8020
 from openacr.motion.card import Card
 
@@ -26,27 +27,27 @@ class Control:
             self.executor.halt_program(owner)
 
     def pause(self, owner: int) -> None:
-        self._change(owner, at.PF_PAUSE_MODE, 0)
+        self._change(owner, pf.PAUSE_MODE, 0)
 
     def resume(self, owner: int) -> None:
-        self._change(owner, 0, at.PF_PAUSE_MODE)
+        self._change(owner, 0, pf.PAUSE_MODE)
 
     def block(self, owner: int) -> None:
-        self._change(owner, at.PF_BLOCK_MODE, 0)
+        self._change(owner, pf.BLOCK_MODE, 0)
 
     def auto(self, owner: int) -> None:
-        self._change(owner, 0, at.PF_BLOCK_MODE)
+        self._change(owner, 0, pf.BLOCK_MODE)
 
     def step(self, owner: int) -> None:
-        self._change(owner, at.PF_STEP_REQUEST_FLAG, 0)
+        self._change(owner, pf.STEP_REQUEST_FLAG, 0)
 
     def trace(self, owner: int, on: bool) -> None:
-        mask = at.PF_TRACE_MODE_ENABLE
+        mask = pf.TRACE_MODE_ENABLE
         self._change(owner, mask if on else 0, 0 if on else mask)
 
     def _change(self, owner: int, on: int, off: int) -> None:
         longs = self.executor.memory.I
-        longs[at.PF_WORD + owner] = (longs[at.PF_WORD + owner] | on) & ~off
+        longs[pf.word[owner]] = (longs[pf.word[owner]] | on) & ~off
 
 
 class Rig:
@@ -87,7 +88,7 @@ class Rig:
     def pass_ticks(self, count: int) -> None:
         for _ in range(count):
             self.tick += 1
-            self.memory.I[at.SYSI_BASE + at.SYSI_TICK_LOW] = self.tick
+            self.memory.I[system.tick_low] = self.tick
             self.executor.step(self.tick)
 
     def run(self, *lines: str, ticks: int = 400) -> str:

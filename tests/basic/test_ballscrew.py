@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.motion_bench import Bench
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 
 ACTUAL, PSP, SSP, BALLSCREW, BACKLASH = 12290, 12294, 12295, 12299, 12300
 ACTIVATE = 791
@@ -12,9 +12,9 @@ KAMR = 8467
 
 def at_place(made: Bench, position: float) -> float:
     """Ballscrew offset of X, unrounded, with the primary setpoint at a position."""
-    made.memory.F[at.AXF_BASE + at.AXF_JOG_CNT] = position
+    made.memory.F[axes.jog_cnt[0]] = position
     made.ticks(1)
-    return made.memory.F[at.AXF_BASE + at.AXF_BALLSCREW_CNT]
+    return made.memory.F[axes.ballscrew_cnt[0]]
 
 
 def bench(*lines: str) -> Bench:
@@ -96,7 +96,7 @@ def test_the_step_is_spread_over_10_ms() -> None:
     offsets = []
     at_place(made, 1)
     for _ in range(20):
-        offsets.append(made.memory.F[at.AXF_BASE + at.AXF_BACKLASH_CNT])
+        offsets.append(made.memory.F[axes.backlash_cnt[0]])
         made.ticks(1)
     assert offsets == pytest.approx([5 * (n + 1) for n in range(20)])
     made.all("BKL X0").seconds(0.005)

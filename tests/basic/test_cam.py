@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.basic.motion_bench import Bench
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 
 PSP, CAM, CYCLES, SMOOTH = 12294, 12298, 12400, 12401
 ACTIVATE, TRIGGER_MODE, TRIGGER_STARTED = 790, 2308, 2309
@@ -26,7 +26,7 @@ def turn(made: Bench, counts: int) -> float:
     """The source moves within one tick; the cam offset of X, unrounded."""
     made.memory.I[WHEEL] += counts
     made.ticks(1)
-    return made.memory.F[at.AXF_BASE + at.AXF_CAM_CNT]
+    return made.memory.F[axes.cam_cnt[0]]
 
 
 def offsets(made: Bench, *counts: int) -> list[float]:
@@ -150,7 +150,7 @@ def test_a_kill_stops_a_cam_with_hldec_and_bars_it() -> None:
 
 def test_the_feed_forward_sees_the_averaged_speed() -> None:
     made = bench(0, 1000, length=1000, lines=(f"P{SMOOTH}=4", "CAM ON X"))
-    row = at.AXF_BASE + at.AXF_SSP_VELOCITY_CPS
+    row = axes.ssp_velocity_cps[0]
     seen = []
     for count in (8, 0, 8, 0, 0, 0, 0):
         turn(made, count)
@@ -186,5 +186,5 @@ def test_nothing_jumps(points: list[int], history: list[int | str]) -> None:
             turn(made, step)
         moved = abs(step) if isinstance(step, int) else 0.0
         assert abs(made.psp(0) - before) <= steepest * max(moved, 0.5) + 1e-9
-        parts = made.memory.F[at.AXF_BASE : at.AXF_BASE + 4]
+        parts = made.memory.F[axes.reals[0] : axes.reals[0] + 4]
         assert made.psp(0) == pytest.approx(sum(parts))

@@ -8,7 +8,8 @@ from tests.basic.motion_bench import Bench
 
 from openacr.compiled import pick
 from openacr.kernel.axis import commutator_cy
-from openacr.map import numbers as at
+from openacr.map.rows import axes, commutators, dacs, encoders
+from openacr.map.words import cmf, ef
 
 _step = pick(commutator_cy.commutator_step)
 SHAPES = [commutator_cy.phase_shape, pick(commutator_cy.phase_shape)]
@@ -26,9 +27,9 @@ def bench() -> Bench:
 def push(bench: Bench, position: int, volts: float = U) -> tuple[float, float]:
     """Phase voltages where encoder 2 has counted to `position` and the loop gives `volts`."""
     memory = bench.memory
-    memory.I[at.ENC_BASE + 2 * at.ENC_STRIDE] = position
+    memory.I[encoders.parameters[2]] = position
     _step(memory.I, memory.S, 0, 0, volts)
-    return memory.S[at.DAC_BASE + 4 * at.DAC_STRIDE], memory.S[at.DAC_BASE + 5 * at.DAC_STRIDE]
+    return memory.S[dacs.parameters[4]], memory.S[dacs.parameters[5]]
 
 
 def test_sinusoidal_phases_follow_the_electrical_angle(bench: Bench) -> None:
@@ -84,21 +85,21 @@ def test_a_commutator_that_is_off_puts_nothing_out(bench: Bench) -> None:
 
 def test_too_much_speed_error_and_encoder_faults_turn_it_off(bench: Bench) -> None:
     memory = bench.memory
-    speed = at.ENC_BASE + 2 * at.ENC_STRIDE + at.ENC_ENCODER_VELOCITY
+    speed = encoders.encoder_velocity[2]
     bench.all("CMT0 MAXRPM 3000", "P16398=50", "CMT0 ON")
     memory.I[speed] = 49_000  # 2940 rev/min
     assert push(bench, 0)[0] == U
     memory.I[speed] = 51_000
     assert push(bench, 0) == (0, 0)
-    assert memory.I[at.CMF_WORD] == at.CMF_CMT_MOTOR_OVERSPEED
+    assert memory.I[cmf.word[0]] == cmf.CMT_MOTOR_OVERSPEED
     memory.I[speed] = 0
     bench.all("CMT0 ON")
-    assert memory.I[at.CMF_WORD] == at.CMF_CMT_COMMUTATOR_ON
-    memory.I[at.AX_BASE + at.AX_FOLLOWING_ERROR] = -51
+    assert memory.I[cmf.word[0]] == cmf.CMT_COMMUTATOR_ON
+    memory.I[axes.following_error[0]] = -51
     assert push(bench, 0) == (0, 0)
-    assert memory.I[at.CMF_WORD] == at.CMF_CMT_FOLLOWING_ERROR
-    memory.I[at.AX_BASE + at.AX_FOLLOWING_ERROR] = 0
-    memory.I[at.EF_WORD + 2] = at.EF_ENCODER_SIGNAL_LOST
+    assert memory.I[cmf.word[0]] == cmf.CMT_FOLLOWING_ERROR
+    memory.I[axes.following_error[0]] = 0
+    memory.I[ef.word[2]] = ef.ENCODER_SIGNAL_LOST
     bench.all("CMT0 ON", "SET 3588")  # not checked
     assert push(bench, 0)[0] == U
     bench.all("CLR 3588")
@@ -115,9 +116,9 @@ def test_the_current_limit_bounds_the_phases(bench: Bench) -> None:
 def test_the_servo_loop_of_an_axis_drives_its_commutator(bench: Bench) -> None:
     bench.all("AXIS4 OFF", "AXIS5 OFF", "CMT0 ON", "CMT0 ANG 0", "X1000")
     bench.ticks(3)
-    volts = bench.memory.S[at.AX_BASE + at.AX_OUTPUT_SIGNAL]
-    assert bench.memory.S[at.CMT_BASE + at.CMT_COMMANDSIGNAL] == volts
-    assert bench.memory.S[at.DAC_BASE + 4 * at.DAC_STRIDE] == pytest.approx(volts)
+    volts = bench.memory.S[axes.output_signal[0]]
+    assert bench.memory.S[commutators.commandsignal[0]] == volts
+    assert bench.memory.S[dacs.parameters[4]] == pytest.approx(volts)
 
 
 @pytest.mark.parametrize(

@@ -9,12 +9,13 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from tests.basic.motion_bench import Bench, ticks
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes as axis_rows
+from openacr.map.rows import masters
 
 pytestmark = pytest.mark.evidence("oracle", "arc lengths integrated by scipy, circles by formula")
 
 IN_MOTION = 516
-LENGTH = at.MA_BASE + at.MA_VECTOR_LENGTH
+LENGTH = masters.vector_length[0]
 CNT = 1000  # pulses per unit
 
 
@@ -65,14 +66,14 @@ def test_spiral_mode_spreads_a_change_of_radius_over_the_sweep() -> None:
     path = points(made, "CIRCCW X(-4,0) Y(0,0)")
     turn = np.unwrap(np.arctan2(path[:, 1], path[:, 0]))
     assert np.hypot(path[:, 0], path[:, 1]) == pytest.approx(2 + 2 * turn / math.pi, abs=1e-6)
-    assert (made.axis(0, at.AX_START_RADIUS), made.axis(1, at.AX_END_RADIUS)) == (2, 4)
+    assert (made.axis(0, axis_rows.start_radius), made.axis(1, axis_rows.end_radius)) == (2, 4)
 
 
 def test_without_spiral_mode_a_start_beside_the_circle_jumps_onto_it() -> None:
     made = go(bench(), "X2")
     path = points(made, "CIRCCW X(-4,0) Y(0,0)")
     assert np.hypot(path[:, 0], path[:, 1]) == pytest.approx(4)
-    assert (made.axis(0, at.AX_START_RADIUS), made.axis(1, at.AX_END_RADIUS)) == (2, 4)
+    assert (made.axis(0, axis_rows.start_radius), made.axis(1, axis_rows.end_radius)) == (2, 4)
 
 
 def test_axes_of_different_and_negative_scale_make_round_circles() -> None:

@@ -4,7 +4,7 @@ import pytest
 from tests.basic.motion_bench import Bench
 
 from openacr.basic.language.registry import Level
-from openacr.map import numbers as at
+from openacr.map.words import ef
 
 ENABLED = 8465
 MOVING = "Not valid while in motion"
@@ -81,7 +81,7 @@ def test_an_open_enable_input_keeps_the_drive_off_silently(flag: int) -> None:
 
 def test_an_encoder_fault_keeps_the_drive_off_until_it_is_reset() -> None:
     made = Bench("X")
-    made.memory.I[at.EF_WORD] |= at.EF_ENCODER_SIGNAL_LOST
+    made.memory.I[ef.word[0]] |= ef.ENCODER_SIGNAL_LOST
     made.all("DRIVE ON X").seconds(0.02)
     assert not made.bit(ENABLED)
     made.all("ENC0 RES", "DRIVE ON X").seconds(0.02)

@@ -7,6 +7,8 @@ from openacr.compiled import pick
 from openacr.kernel.status import fast_status_cy
 from openacr.map import numbers as at
 from openacr.map import packet_groups
+from openacr.map.rows import axes, fast_status
+from openacr.map.words import fsf
 
 MS = 2  # ticks
 
@@ -27,20 +29,20 @@ def test_groups_are_those_of_binary_packets(form: object) -> None:
 @pytest.mark.req("ACR-CMD-FSTAT")
 def test_groups_are_copied_every_period_until_off(bench: Bench) -> None:
     bench.all("FSTAT PERIOD 10", "FSTAT0 (48,4,0)", "FSTAT9 (48,16,1)", "FSTAT ON")
-    bench.memory.I[at.AX_BASE + 4] = 77
-    bench.memory.I[at.AX_BASE + 7 * at.AX_STRIDE + 4] = -5
+    bench.memory.I[axes.parameters[0] + 4] = 77
+    bench.memory.I[axes.parameters[7] + 4] = -5
     bench.ticks(1)
-    assert bench.memory.I[at.W_FSTAT] == at.FSF_FSTAT_ON
+    assert bench.memory.I[at.W_FSTAT] == fsf.FSTAT_ON
     assert bench.type("FSTAT0") == "77,0,0,0,0,0,0,-5"
     assert bench.type("FSTAT9") == ",".join(["0.002441406"] * 8)
-    bench.memory.I[at.AX_BASE + 4] = 78
+    bench.memory.I[axes.parameters[0] + 4] = 78
     bench.ticks(10 * MS - 1)
     assert bench.type("FSTAT0").startswith("77,")
     bench.ticks(1)
     assert bench.type("FSTAT0").startswith("78,")
     assert bench.type("?P7057") == "2"
     bench.all("FSTAT OFF")
-    bench.memory.I[at.AX_BASE + 4] = 79
+    bench.memory.I[axes.parameters[0] + 4] = 79
     bench.ticks(100 * MS)
     assert bench.type("FSTAT0").startswith("78,")
     assert bench.type("?P7057") == "2"
@@ -52,10 +54,10 @@ def test_groups_are_copied_every_period_until_off(bench: Bench) -> None:
 def test_the_count_of_copies_wraps_as_every_long_does(bench: Bench, step: object) -> None:
     memory = bench.memory
     memory.I[at.P_FSTAT_COUNT] = 2**31 - 2
-    memory.I[at.W_FSTAT] |= at.FSF_FSTAT_ON_REQUEST
+    memory.I[at.W_FSTAT] |= fsf.FSTAT_ON_REQUEST
     counts = []
     for _ in range(3):
-        memory.F[at.FSBF_BASE + at.FSBF_PHASE_MS] = 60.0
+        memory.F[fast_status.phase_ms[0]] = 60.0
         step(memory.F, memory.I, memory.S, 0.0005)  # type: ignore[operator]
         counts.append(memory.I[at.P_FSTAT_COUNT])
     assert counts == [2**31 - 1, -(2**31), -(2**31) + 1]
@@ -63,8 +65,8 @@ def test_the_count_of_copies_wraps_as_every_long_does(bench: Bench, step: object
 
 def test_the_flag_loads_entries_written_as_parameters(bench: Bench) -> None:
     bench.all("P7443=48", "P7444=2", "P7445=0")
-    bench.memory.I[at.AX_BASE + 3 * at.AX_STRIDE + 2] = 9
-    bench.memory.I[at.W_FSTAT] |= at.FSF_FSTAT_ON_REQUEST
+    bench.memory.I[axes.parameters[3] + 2] = 9
+    bench.memory.I[at.W_FSTAT] |= fsf.FSTAT_ON_REQUEST
     bench.ticks(1)
     assert bench.type("FSTAT1") == "0,0,0,9,0,0,0,0"
     bench.all("P7443=0")  # entries are loaded at a start only

@@ -4,7 +4,7 @@ import pytest
 from tests.basic.motion_bench import Bench
 
 from openacr.basic.language.registry import Level
-from openacr.map import numbers as at
+from openacr.map.rows import motors
 
 CURRENT, ACTUAL = 12288, 12290
 PSP, JOG = 12294, 12297
@@ -32,12 +32,12 @@ def test_ppu_leaves_pulses_and_scales_what_follows() -> None:
 @pytest.mark.req("ACR-CMD-MULT", "ACR-PROF-15")
 def test_mult_scales_and_turns_the_count_of_a_motor() -> None:
     made = Bench("X").all("MULT X4")
-    made.memory.I[at.PLI_BASE + at.PLI_KIND] = 1
-    made.memory.F[at.PLF_BASE + at.PLF_RAW_COUNT] = 100.0
+    made.memory.I[motors.kind[0]] = 1
+    made.memory.F[motors.raw_count[0]] = 100.0
     made.ticks(1)
     assert made.p(ACTUAL) == 100
     made.all("MULT X-2")
-    made.memory.F[at.PLF_BASE + at.PLF_RAW_COUNT] = 140.0
+    made.memory.F[motors.raw_count[0]] = 140.0
     made.ticks(1)
     assert made.p(ACTUAL) == 80
 

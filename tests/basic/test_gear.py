@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from tests.basic.motion_bench import Bench
 
 from openacr.basic.language.registry import Level
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 
 PSP, GEAR, SLIP, ON_OFFSET = 12294, 12296, 12369, 12396
 LOCK, AT_SPEED, STOPPING, ACTIVATE, ACTIVE = 781, 782, 783, 788, 789
@@ -32,7 +32,7 @@ def turn(made: Bench, counts: int) -> Bench:
 
 def gear(made: Bench) -> float:
     """Gear offset of X, unrounded."""
-    return made.memory.F[at.AXF_BASE + at.AXF_GEAR_CNT]
+    return made.memory.F[axes.gear_cnt[0]]
 
 
 # offsets
@@ -334,5 +334,5 @@ def test_setpoints_are_sums_and_never_jump(history: list[int | str]) -> None:
             turn(made, step)
         moved = abs(step) if isinstance(step, int) else 0.5
         assert abs(made.psp(0) - before) <= 2 * max(moved, 0.5) + 1e-9
-        parts = made.memory.F[at.AXF_BASE : at.AXF_BASE + 4]
+        parts = made.memory.F[axes.reals[0] : axes.reals[0] + 4]
         assert made.psp(0) == pytest.approx(math.fsum(parts))

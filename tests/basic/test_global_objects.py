@@ -4,7 +4,7 @@ import pytest
 from tests.basic.motion_bench import Bench
 
 from openacr.basic.language.registry import Level
-from openacr.map import numbers as at
+from openacr.map.rows import axes, motors
 from openacr.motion.axis import attach
 from openacr.motion.axis.attach import Feedback, Signal
 
@@ -36,7 +36,7 @@ def test_a_master_reports_its_program() -> None:
 
 def test_an_axis_that_is_off_does_not_move_and_puts_out_nothing() -> None:
     made = Bench("X").all("TLM X5", "PGAIN X0.01")
-    made.memory.I[at.PLI_BASE + at.PLI_KIND] = 1
+    made.memory.I[motors.kind[0]] = 1
     made.all("X100")
     made.until_clear(516)
     made.ticks(2)
@@ -92,7 +92,7 @@ def test_a_locked_encoder_counts_along_from_where_it_is() -> None:
 
 def test_an_axis_sees_what_its_locked_encoder_counts() -> None:
     made = Bench("X").all("ENC4 LOCK 0", "X40").ticks(4000)
-    assert (made.axis(4, at.AX_ACTUAL_POSITION), made.axis(4, at.AX_PRIMARY_SETPOINT)) == (40, 0)
+    assert (made.axis(4, axes.actual_position), made.axis(4, axes.primary_setpoint)) == (40, 0)
 
 
 def test_a_preset_of_the_leading_encoder_is_not_counted() -> None:

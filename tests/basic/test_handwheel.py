@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.motion_bench import Bench, largest
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes, motors
 
 PSP, GEAR, JOG = 12294, 12296, 12297
 ACTIVE, KAMR = 792, 8467
@@ -28,7 +28,7 @@ def turn(made: Bench, *counts: int) -> Bench:
 def test_the_wheel_has_speeds_of_its_own() -> None:
     made = bench("HDW SRC X ENC10", "HDW PPU X10", "HDW VEL X2 : HDW ACC X50", "HDW ON X")
     turn(made, 10)
-    assert largest(made, at.AX_CURRENT_JOG_VELOC, 0, ACTIVE) == pytest.approx(2.0)
+    assert largest(made, axes.current_jog_veloc, 0, ACTIVE) == pytest.approx(2.0)
     assert made.p(JOG) == 1000
     assert made.type("HDW X Y") == "ON|OFF"
 
@@ -120,11 +120,11 @@ def test_a_kill_stops_the_pair_together(flag: int) -> None:
 
 def test_a_pair_is_coupled_by_its_following_errors() -> None:
     made = bench("LOCK X Y", "P12376=0.5", "PGAIN X0.001 Y0.001")
-    made.memory.I[at.PLI_BASE + at.PLI_KIND] = 1  # an encoder that does not follow
+    made.memory.I[motors.kind[0]] = 1  # an encoder that does not follow
     made.all("JOG ACC X0", "JOG VEL X1", "JOG FWD X").ticks(3)
-    error = made.axis(0, at.AX_FOLLOWING_ERROR) - made.axis(1, at.AX_FOLLOWING_ERROR)
+    error = made.axis(0, axes.following_error) - made.axis(1, axes.following_error)
     assert error > 0
-    outputs = [made.axis(axis, at.AX_OUTPUT_SIGNAL) for axis in (0, 1)]
+    outputs = [made.axis(axis, axes.output_signal) for axis in (0, 1)]
     assert outputs[0] > 0 > outputs[1]
 
 

@@ -8,7 +8,7 @@ from tests.basic.motion_bench import Bench
 
 from openacr.basic.execute.language_state import put_back, take
 from openacr.basic.language.registry import Level
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 
 IN_MOTION = 516
 PPU = 2000
@@ -50,7 +50,10 @@ def _joints(made: Bench) -> list[float]:
 def test_input_and_output_stand_in_the_parameters_of_each_axis() -> None:
     made = bench("P12617=P12616*2").all("INVK ON")
     trace(made, "X3 Y2")
-    assert (at.AX_BASE + at.AX_INVK_INPUT, at.AX_BASE + at.AX_INVK_OUTPUT) == (12360, 12361)
+    assert (axes.invk_input[0], axes.invk_output[0]) == (
+        12360,
+        12361,
+    )
     assert [made.p(n) for n in (12360, 12361, 12616, 12617)] == [3, 3, 2, 4]
     assert _joints(made) == [3, 4]  # X has not been written: as it is
     assert (made.p(12288), made.p(12544)) == (3 * PPU, 2 * PPU)

@@ -11,15 +11,15 @@ from hypothesis import strategies as st
 from tests.basic.motion_bench import Bench, ticks
 
 from openacr.basic.language.registry import Level
-from openacr.map import numbers as at
+from openacr.map.rows import masters
 from openacr.motion.path import moves
 from openacr.motion.path.move_request import Target
 
 IN_MOTION = 516
 LOOK_MODE, NEGLECT, SLOWDOWN = (5888 + n for n in (5, 11, 1))
-FILLED = at.MA_BASE + at.MA_MBUF_FILLED
-VELOCITY = at.MA_BASE + at.MA_VECTOR_VELOCITY
-ANGLE = at.MA_BASE + at.MA_LOOK_AHEAD_VECTOR_ANGLE
+FILLED = masters.mbuf_filled[0]
+VELOCITY = masters.vector_velocity[0]
+ANGLE = masters.look_ahead_vector_angle[0]
 PERIOD_S = 0.0005
 Point = tuple[float, float]
 

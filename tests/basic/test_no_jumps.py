@@ -9,22 +9,19 @@ from hypothesis import strategies as st
 from tests.basic.motion_bench import PERIOD_S, Bench
 from tests.search import search
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 
 # axis Y jogs and leads gear and cam of X
 LEADER_CPS = 1 / PERIOD_S  # of 1000; as whole counts: one in a period at most
 FASTEST_CPS = 2000 + 1500 + 2 * LEADER_CPS + LEADER_CPS  # move at twice its feed, jog, gear, cam
 ROWS = [
-    at.AXF_BASE + row
-    for row in (
-        at.AXF_POSITION_CNT,
-        at.AXF_GEAR_CNT,
-        at.AXF_JOG_CNT,
-        at.AXF_CAM_CNT,
-        at.AXF_KINEMATICS_CNT,
-    )
+    axes.position_cnt[0],
+    axes.gear_cnt[0],
+    axes.jog_cnt[0],
+    axes.cam_cnt[0],
+    axes.kinematics_cnt[0],
 ]
-PSP, SSP = at.AXF_BASE + at.AXF_PSP_CNT, at.AXF_BASE + at.AXF_SSP_CNT
+PSP, SSP = axes.psp_cnt[0], axes.ssp_cnt[0]
 LINES = (
     "X400", "X0", "X/150", "X-300", "JOG FWD X", "JOG REV X", "JOG OFF X", "JOG ABS X50",
     "JOG INC X-80", "JOG VEL X1500", "JOG VEL X20", "GEAR ON X", "GEAR OFF X", "GEAR RATIO X2",

@@ -12,6 +12,7 @@ from openacr.basic.memory import saved, saved_flags, saving, user_memory
 from openacr.basic.memory.user_memory import UserMemory
 from openacr.controller import Controller
 from openacr.map import numbers as at
+from openacr.map.rows import threads
 from openacr.models import ACR8020, ACR9000
 from openacr.project import find_project
 
@@ -54,7 +55,7 @@ def test_saved_parameters_make_the_same_card() -> None:
     for view in ("F", "I"):  # settings, filters, flags: all but the clock of the channels
         mine, other = getattr(first.card.memory, view), getattr(second.card.memory, view)
         first_row = {"F": at.USER_BASE, "I": 12288}[view]
-        last_row = {"F": at.THF_BASE, "I": 40960}[view]
+        last_row = {"F": threads.reals[0], "I": 40960}[view]
         assert mine[first_row:last_row].tolist() == other[first_row:last_row].tolist()
 
 

@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.basic.motion_bench import Bench
 
-from openacr.map import numbers as at
+from openacr.map.rows import ratchets
 
 WHEEL = 6144 + 16 * 10  # position of encoder 10, which no axis has here
 
@@ -44,7 +44,7 @@ def test_ratch_res_sets_the_output_and_drops_the_backlog() -> None:
 def test_a_ratchet_that_passes_or_buffers_loses_nothing(mode: int, counts: list[int]) -> None:
     made = Bench().all("RATCH0 SRC ENC10", f"RATCH0 MODE {mode & 0b1100 | 3}")
     turn(made, *counts)
-    output, backlog = made.memory.F[at.RTF_BASE : at.RTF_BASE + 2]
+    output, backlog = made.memory.F[ratchets.reals[0] : ratchets.reals[0] + 2]
     if mode >> 2 in (0, 3):
         assert output + backlog == sum(counts)
         assert output >= 0

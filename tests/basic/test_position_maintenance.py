@@ -3,11 +3,11 @@
 import pytest
 from tests.basic.motion_bench import PERIOD_S, Bench
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes, motors, steppers
 
 IN_MOTION = 516
-STEPS = at.STPR_BASE + at.STPR_STEPPER_COUNT
-RAW = at.PLF_BASE + at.PLF_RAW_COUNT
+STEPS = steppers.stepper_count[0]
+RAW = motors.raw_count[0]
 ERROR = 12288 + 3
 
 
@@ -19,7 +19,7 @@ class Stepper:
             "AXIS0 OFF", "ATTACH AXIS0 ENC0 STEPPER0", "AXIS0 ON", "PPU X100",
             "ACC 100 DEC 100 STP 100 VEL 10", "JOG VEL X5", "JOG ACC X50", *lines,
         )  # fmt: skip
-        self.bench.memory.I[at.PLI_BASE + at.PLI_KIND] = 1  # a motor that the test moves
+        self.bench.memory.I[motors.kind[0]] = 1  # a motor that the test moves
         self.bench.all("MULT X4")
         self.lost_cnt = 0
 
@@ -77,7 +77,7 @@ def test_nothing_is_corrected_during_a_move() -> None:
     made.bench.all("X100")
     made.lost_cnt = 50
     made.ticks(500)
-    assert made.bench.memory.F[at.AXF_BASE + at.AXF_PM_CNT] == 0
+    assert made.bench.memory.F[axes.pm_cnt[0]] == 0
 
 
 def test_a_kill_ends_a_correction() -> None:

@@ -9,8 +9,8 @@ from openacr.basic.memory.program_store import ProgramStore, StoredLine, line_nu
 from openacr.basic.memory.storage import Storage
 from openacr.errors import CardError
 from openacr.lang.lexer import tokens
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.words import pf
 
 
 @pytest.fixture
@@ -76,9 +76,9 @@ def test_every_change_sets_program_modified(store: ProgramStore) -> None:
         lambda: store.erase(3),
     ]
     for change in changes:
-        words[at.PF_WORD + 3] = 0
+        words[pf.word[3]] = 0
         change()
-        assert words[at.PF_WORD + 3] == at.PF_PROGRAM_MODIFIED
+        assert words[pf.word[3]] == pf.PROGRAM_MODIFIED
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.motion_bench import Bench
 
-from openacr.map import numbers as at
+from openacr.map.rows import motors
 
 D_TERM = 12314
 
@@ -13,7 +13,7 @@ D_TERM = 12314
 
 def stalled(*lines: str) -> Bench:
     made = Bench("X")
-    made.memory.I[at.PLI_BASE + at.PLI_KIND] = 1
+    made.memory.I[motors.kind[0]] = 1
     made.all("ACC 0 DEC 0 STP 0 VEL 100000", "TLM X100", "PGAIN X0")
     return made.all(*lines)
 

@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.motion_bench import Bench, largest
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 
 ACTIVE, DIRECTION, FORWARD = 792, 793, 796
 HOMING, HOME_REQUEST, VELOCITY = 16131, 17160, 12346
@@ -78,7 +78,7 @@ def test_a_new_target_turns_a_jog_round_through_zero() -> None:
     made = bench("JOG ACC X100 : JOG DEC X100 : JOG VEL X10", "JOG FWD X").seconds(0.5)
     made.all("JOG ABS X0")
     assert not made.bit(FORWARD)
-    assert largest(made, at.AX_CURRENT_JOG_VELOC, 0, ACTIVE) == pytest.approx(10.0)
+    assert largest(made, axes.current_jog_veloc, 0, ACTIVE) == pytest.approx(10.0)
     assert made.p(JOG) == 0
 
 

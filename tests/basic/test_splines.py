@@ -11,17 +11,17 @@ from scipy.integrate import quad
 from scipy.interpolate import BSpline, CubicHermiteSpline
 from tests.basic.motion_bench import PERIOD_S, Bench
 
-from openacr.map import numbers as at
+from openacr.map.rows import masters
 
 pytestmark = pytest.mark.evidence("oracle", "B-splines and Hermite curves of scipy")
 
 IN_MOTION = 516
 CNT = 1000  # pulses per unit
 SPLINE_FLAGS, NURB_FLAGS = 5120, 5136
-LENGTH = at.MA_BASE + at.MA_SPLINE_BUFFER_LENGTH
-SPLINE_FACTOR = at.MA_BASE + at.MA_SPLINE_TIME_FACTOR
-NURB_FACTOR = at.MA_BASE + at.MA_NURB_TIME_FACTOR
-NURB_START = at.MA_BASE + at.MA_NURB_START_TIME
+LENGTH = masters.spline_buffer_length[0]
+SPLINE_FACTOR = masters.spline_time_factor[0]
+NURB_FACTOR = masters.nurb_time_factor[0]
+NURB_START = masters.nurb_start_time[0]
 POINTS = ("X1 Y0", "X2 Y1", "X2 Y2", "X1 Y3", "X0 Y3")
 HALF = math.sqrt(0.5)
 QUARTER = ("X1 Y0 NK 0", f"X1 Y1 NK 0 NW {HALF:.15f}", "X0 Y1 NK 0", "NK 1")

@@ -11,6 +11,7 @@ from openacr.basic.memory.storage import Storage
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import storage as storage_rows
 
 FACTORY_FREE = 1048576 - 8 * 65536
 
@@ -20,8 +21,8 @@ def storage() -> Storage:
     return Storage(Memory())
 
 
-def row(storage: Storage, program: int, offset: int) -> int:
-    return storage.heap.row(program, offset)
+def row(storage: Storage, program: int, row: tuple[int, ...]) -> int:
+    return storage.heap.row(program, row)
 
 
 def test_the_first_dim_of_a_program_replaces_its_share(storage: Storage) -> None:
@@ -62,13 +63,13 @@ def test_a_channel_the_card_lacks_is_an_invalid_device() -> None:
 
 def test_a_refused_dim_leaves_the_old_state_usable(storage: Storage) -> None:
     storage.locals.variables(0, "LV", 4)
-    storage.memory.I[row(storage, 0, at.STI_LV_BASE)] = 77
+    storage.memory.I[row(storage, 0, storage_rows.lv_base)] = 77
     with pytest.raises(CardError, match="Re-dimensioned block"):
         storage.locals.variables(0, "LV", 4)
     with pytest.raises(CardError, match="Re-dimensioned block"):
         storage.locals.variables(0, "LV", 5, repeat=True)
     storage.locals.variables(0, "LV", 4, repeat=True)
-    assert storage.memory.I[row(storage, 0, at.STI_LV_BASE)] == 77
+    assert storage.memory.I[row(storage, 0, storage_rows.lv_base)] == 77
     assert storage.free_program(0) == 65536 - 16
 
 
@@ -154,11 +155,11 @@ def test_elements_lie_after_their_header_at_the_documented_place(storage: Storag
     storage.locals.variables(0, "LV", 1)
     storage.locals.references(0, "DA", 2)
     storage.locals.array(0, "DA", 1, 3)
-    header = memory.I[row(storage, 0, at.STI_DA_BASE) + 1]
+    header = memory.I[row(storage, 0, storage_rows.da_base) + 1]
     assert memory.I[header] == 3
     assert header % 2 == 1
     memory.F[(header + 1) // 2 + 2] = 1.5
-    assert memory.I[row(storage, 0, at.STI_DA_BASE)] == 0
+    assert memory.I[row(storage, 0, storage_rows.da_base)] == 0
 
 
 @given(

@@ -7,11 +7,12 @@ import pytest
 from tests.basic.motion_bench import Bench
 
 from openacr.basic.language.registry import Level
-from openacr.map import numbers as at
+from openacr.map.rows import masters
+from openacr.map.words import af3
 
 IN_MOTION, TANG = 516, 2074
-TANGENTIAL = (at.AF3_WORD + 2 - 4096) * 32 + 16
-LIMIT = at.MA_BASE + at.MA_TANG_TURN_LIMIT
+TANGENTIAL = (af3.word[2] - 4096) * 32 + 16
+LIMIT = masters.tang_turn_limit[0]
 CNT = 1000
 
 
@@ -125,7 +126,7 @@ def test_the_turn_does_not_change_the_speed_of_the_path() -> None:
     trace(made, "X10")
     assert made.type("X20 Y1") == ""
     made.ticks(1)
-    assert made.p(at.MA_BASE + at.MA_VECTOR_LENGTH) == pytest.approx(math.hypot(10, 1))
+    assert made.p(masters.vector_length[0]) == pytest.approx(math.hypot(10, 1))
 
 
 def test_the_angle_is_added() -> None:

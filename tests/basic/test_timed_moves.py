@@ -5,15 +5,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.basic.motion_bench import Bench, ticks
 
-from openacr.map import numbers as at
+from openacr.map.rows import masters
 
 IN_MOTION = 516
 SHORT_TIME, IN_TMOV, TOV = 2054, 2055, 2057
-TMOV_VELOCITY = at.MA_BASE + at.MA_TMOV_VELOCITY
-ACCELERATION = at.MA_BASE + at.MA_VECTOR_ACCELERATION
-JERK = at.MA_BASE + at.MA_VECTOR_JERK
-INTERNAL = at.MA_BASE + at.MA_TOV_INTERNAL
-RATE = at.MA_BASE + at.MA_TOV_RATE
+TMOV_VELOCITY = masters.tmov_velocity[0]
+ACCELERATION = masters.vector_acceleration[0]
+JERK = masters.vector_jerk[0]
+INTERNAL = masters.tov_internal[0]
+RATE = masters.tov_rate[0]
 
 
 def bench(*lines: str) -> Bench:

@@ -5,11 +5,11 @@ from itertools import pairwise
 import pytest
 from tests.basic.motion_bench import Bench, ticks
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes, masters
 
 IN_MOTION, TRG_PENDING = 516, 539
-VELOCITY = at.MA_BASE + at.MA_VECTOR_VELOCITY
-RESPONSE = at.MA_BASE + at.MA_INT_RESPONSE_PERIOD
+VELOCITY = masters.vector_velocity[0]
+RESPONSE = masters.int_response_period[0]
 FLAG = 128
 REGISTERED = 778
 
@@ -100,7 +100,7 @@ def test_trg_waits_for_a_capture() -> None:
 def test_a_capture_that_trg_waits_for_is_copied_to_its_parameter() -> None:
     made = bench("JOG VEL X1", "JOG FWD X", "TRG X(11, P38912)").ticks(50)
     made.all("SET 113").ticks(2)
-    captured = made.p(at.AX_BASE + at.AX_HARDWARE_CAPTURE)
+    captured = made.p(axes.hardware_capture[0])
     assert captured > 0
     assert made.p(38912) == captured
 
@@ -135,7 +135,7 @@ def hsint(made: Bench, arguments: str, at_s: float) -> Bench:
 
 def test_hsint_leads_a_distance_beyond_the_capture() -> None:
     made = hsint(bench(), "11,100,3", at_s=1.0)
-    captured = made.ticks(1).p(at.AX_BASE + at.AX_HARDWARE_CAPTURE)
+    captured = made.ticks(1).p(axes.hardware_capture[0])
     found = speeds(made)
     assert smooth(found)
     assert made.bit(REGISTERED)
@@ -148,7 +148,7 @@ def test_the_new_end_of_hsint_counts_from_the_capture_with_the_offsets_of_the_ax
 ) -> None:
     made = bench("JOG VEL X10", "JOG ACC X1000", "JOG DEC X1000", "JOG INC X4").seconds(1.0)
     made.all(line).ticks(ticks(1.0)).all("SET 113")
-    captured = made.ticks(1).p(at.AX_BASE + at.AX_HARDWARE_CAPTURE)
+    captured = made.ticks(1).p(axes.hardware_capture[0])
     assert made.bit(REGISTERED)
     made.until_clear(IN_MOTION)
     assert made.psp(0) == captured + 3000
@@ -157,7 +157,7 @@ def test_the_new_end_of_hsint_counts_from_the_capture_with_the_offsets_of_the_ax
 
 def test_hsint_passes_a_new_end_that_is_too_near_and_returns() -> None:
     made = hsint(bench(), "11,100,0.1", at_s=1.0)
-    captured = made.ticks(1).p(at.AX_BASE + at.AX_HARDWARE_CAPTURE)
+    captured = made.ticks(1).p(axes.hardware_capture[0])
     farthest = 0.0
     while made.bit(IN_MOTION):
         farthest = max(farthest, made.ticks(1).psp(0))

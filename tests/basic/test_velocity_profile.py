@@ -4,11 +4,10 @@ import pytest
 from tests.basic.motion_bench import Bench, ticks
 
 from openacr.basic.language.registry import Level
-from openacr.map import numbers as at
+from openacr.map.rows import masters
 
 IN_MOTION = 516
-MASTER0 = at.MA_BASE
-LENGTH = MASTER0 + at.MA_VECTOR_LENGTH
+LENGTH = masters.vector_length[0]
 
 
 def bench(*lines: str, axes: tuple[str, ...] = ("X", "Y")) -> Bench:

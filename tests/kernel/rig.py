@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from openacr import compiled
 from openacr.kernel.tick_cy import tick
-from openacr.map import numbers as at
 from openacr.map.names import every_name
+from openacr.map.rows import axes as axis_rows
+from openacr.map.rows import kernel, masters, profiles
 from openacr.models import ACR8020
-from openacr.motion import row_index
 from openacr.motion.axis import attach
 from openacr.motion.card import Card
 from openacr.motion.path import moves
@@ -47,9 +47,9 @@ class Rig:
         for n in range(axes):
             attach.slave(self.card, 0, n, n, NAMES[n])
         for n, scale in enumerate(ppu):
-            self.S[row_index.axis_parameter(n) + at.AX_PPU] = scale
-        self.I[at.KRI_BASE + at.KRI_AXES] = axes
-        self.I[at.KRI_BASE + at.KRI_MASTERS] = 1
+            self.S[axis_rows.ppu[n]] = scale
+        self.I[kernel.axes] = axes
+        self.I[kernel.masters] = 1
 
     # settings
 
@@ -57,25 +57,25 @@ class Rig:
         """Set ACC, DEC, STP, JRK, FVEL, IVEL, VEL, FOV or ROV of master 0."""
         for name, value in settings.items():
             if name == "vel":
-                self.S[at.MA_BASE + at.MA_USER_VELOCITY] = value
+                self.S[masters.user_velocity[0]] = value
             elif name == "fov":
-                self.S[at.MA_BASE + at.MA_FEEDRATE_OVERRIDE] = value
+                self.S[masters.feedrate_override[0]] = value
             elif name == "rov":
-                self.S[at.MA_BASE + at.MA_RAPID_FEEDRATE_OVERRIDE] = value
+                self.S[masters.rapid_feedrate_override[0]] = value
             else:
-                self.F[at.MSF_BASE + MASTER_ROWS[name]] = value
+                self.F[MASTER_ROWS[name][0]] = value
         return self
 
     def jog(self, axis: int = 0, **settings: float) -> Rig:
         """Set VEL, ACC, DEC or JRK of the jog profiler of an axis."""
         for name, value in settings.items():
-            self.S[row_index.axis_parameter(axis) + JOG_ROWS[name]] = value
+            self.S[JOG_ROWS[name][axis]] = value
         return self
 
     def axis(self, axis: int = 0, **settings: float) -> Rig:
         """Set public rows of an axis by their name in lower case."""
         for name, value in settings.items():
-            self.memory.write(row_index.axis_parameter(axis) + row_of("AX", name), value)
+            self.memory.write(axis_rows.parameters[axis] + row_of("AX", name), value)
         return self
 
     def bit(self, number: int, on: bool | None = None) -> bool:
@@ -91,7 +91,7 @@ class Rig:
 
     def depth(self, moves_waiting: int) -> None:
         """Let master 0 buffer this count of moves."""
-        self.I[at.MSI_BASE + at.MSI_DEPTH] = moves_waiting
+        self.I[masters.depth[0]] = moves_waiting
 
     # time
 
@@ -114,7 +114,7 @@ class Rig:
         The first value is the position before the first tick.
         """
         F, I, S = self.F, self.I, self.S
-        psp = at.AXF_BASE + axis * at.AXF_STRIDE + at.AXF_PSP_CNT
+        psp = axis_rows.psp_cnt[axis]
         word, mask = 4096 + while_ // 32, 1 << while_ % 32
         values = [F[psp]]
         step, modelled = self.step, self.modelled
@@ -136,20 +136,20 @@ class Rig:
 
     def real(self, name: str, axis: int = 0) -> float:
         """A hidden float64 row of an axis."""
-        return self.F[row_index.axis_reals(axis) + row_of("AXF", name)]
+        return self.F[axis_rows.reals[axis] + row_of("AXF", name)]
 
     def long(self, name: str, axis: int = 0) -> int:
         """A public LONG row of an axis."""
-        return self.I[row_index.axis_parameter(axis) + row_of("AX", name)]
+        return self.I[axis_rows.parameters[axis] + row_of("AX", name)]
 
     def fp32(self, name: str, axis: int = 0) -> float:
         """A public FP32 row of an axis."""
-        return self.S[row_index.axis_parameter(axis) + row_of("AX", name)]
+        return self.S[axis_rows.parameters[axis] + row_of("AX", name)]
 
     @property
     def path_velocity(self) -> float:
         """Vector velocity of master 0, unrounded."""
-        return self.F[at.PRF_BASE + at.PRF_VELOCITY]
+        return self.F[profiles.velocity[0]]
 
 
 def row_of(prefix: str, name: str) -> int:
@@ -158,18 +158,18 @@ def row_of(prefix: str, name: str) -> int:
 
 
 MASTER_ROWS = {
-    "acc": at.MSF_ACC_UPS2,
-    "dec": at.MSF_DEC_UPS2,
-    "stp": at.MSF_STP_UPS2,
-    "jrk": at.MSF_JRK_UPS3,
-    "fvel": at.MSF_FVEL_UPS,
-    "ivel": at.MSF_IVEL_UPS,
+    "acc": masters.acc_ups2,
+    "dec": masters.dec_ups2,
+    "stp": masters.stp_ups2,
+    "jrk": masters.jrk_ups3,
+    "fvel": masters.fvel_ups,
+    "ivel": masters.ivel_ups,
 }
 JOG_ROWS = {
-    "vel": at.AX_JOG_VELOC_SETTING,
-    "acc": at.AX_JOG_ACCEL_SETTING,
-    "dec": at.AX_JOG_DECEL_SETTING,
-    "jrk": at.AX_JOG_JERK_SETTING,
+    "vel": axis_rows.jog_veloc_setting,
+    "acc": axis_rows.jog_accel_setting,
+    "dec": axis_rows.jog_decel_setting,
+    "jrk": axis_rows.jog_jerk_setting,
 }
 
 

@@ -17,6 +17,8 @@ from openacr.errors import CardError
 from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at
 from openacr.map.image import KINDS
+from openacr.map.rows import axes
+from openacr.map.words import af4
 from openacr.motion.jog import jog
 from openacr.motion.path import moves
 from openacr.motion.path.move_request import Target
@@ -83,7 +85,7 @@ def command(rig: Rig, random_: random.Random) -> None:
             random_.choice((moves.hold, moves.release, moves.halt))(rig.card, 0)
         else:
             for word in range(3):
-                rig.I[at.AF4_WORD + word] &= ~at.AF4_KILL_ALL_MOTION_REQUEST
+                rig.I[af4.word[word]] &= ~af4.KILL_ALL_MOTION_REQUEST
             rig.bit(522, False)
     except (CardError, OverflowError):
         pass
@@ -123,8 +125,8 @@ def test_no_value_of_any_parameter_stops_the_servo_interrupt(seed: int) -> None:
     rig.record(limit=200_000, while_=792)
     assert rig.real("jog_cnt") == 500.0
     for axis in range(3):
-        for row in range(at.AXF_STRIDE):
-            value = rig.F[at.AXF_BASE + axis * at.AXF_STRIDE + row]
+        for row in range(axes.REALS_SIZE):
+            value = rig.F[axes.reals[axis] + row]
             assert math.isfinite(value), (axis, row, value)
 
 
@@ -133,21 +135,20 @@ def put_right(rig: Rig) -> None:
     fresh = busy_card()
     moves.release(rig.card, 0)
     for axis in range(3):
-        rig.I[at.AF4_WORD + axis] = at.AF4_KILL_ALL_MOTION_REQUEST
-        rig.S[at.AX_BASE + axis * at.AX_STRIDE + at.AX_PPU] = 1.0
-        rig.F[at.AXF_BASE + axis * at.AXF_STRIDE + at.AXF_HLDEC_UPS2] = 0.0
+        rig.I[af4.word[axis]] = af4.KILL_ALL_MOTION_REQUEST
+        rig.S[axes.ppu[axis]] = 1.0
+        rig.F[axes.hldec_ups2[axis]] = 0.0
     rig.ticks(3)
     rig.I[4096:4800] = fresh.I[4096:4800]
     for start, end in ((8192, 8448), (12288, 13056)):
         rig.I[start:end] = fresh.I[start:end]
     rig.ticks(3)
     for axis in range(3):
-        rig.I[at.AF4_WORD + axis] = 0
-        row = at.AX_BASE + axis * at.AX_STRIDE
-        for part in (at.AX_CURRENT_POSITION, at.AX_JOG_OFFSET, at.AX_GEAR_OFFSET):
-            rig.I[row + part] = 1
+        rig.I[af4.word[axis]] = 0
+        for row in (axes.current_position, axes.jog_offset, axes.gear_offset):
+            rig.I[row[axis]] = 1
             rig.ticks()
-            rig.I[row + part] = 0
+            rig.I[row[axis]] = 0
             rig.ticks()
     rig.bit(522, False)
     rig.ticks()

@@ -3,7 +3,7 @@
 import pytest
 from scipy import signal
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 from openacr.motion.axis import filters
 from openacr.motion.axis.filters import BYPASS, Biquad
 from openacr.motion.card import Card
@@ -14,7 +14,7 @@ ACTIVE = 786
 
 
 def stored(card: Card, axis: int, place: int) -> Biquad:
-    row = at.AX_BASE + axis * at.AX_STRIDE + (at.AX_FILTER0_B2, at.AX_FILTER1_B2)[place]
+    row = (axes.filter0_b2, axes.filter1_b2)[place][axis]
     return Biquad(*card.memory.S[row : row + 5])
 
 
@@ -74,9 +74,9 @@ def test_the_filter_flag_follows_whether_any_filter_acts() -> None:
 
 def test_a_filter_that_is_switched_on_starts_from_rest() -> None:
     card = Card()
-    card.memory.F[at.AXF_BASE + at.AXF_FILTER_STATE] = 5.0
+    card.memory.F[axes.filter_state[0]] = 5.0
     filters.set_low_pass(card, 0, 100.0)
-    assert card.memory.F[at.AXF_BASE + at.AXF_FILTER_STATE] == 0.0
+    assert card.memory.F[axes.filter_state[0]] == 0.0
 
 
 def test_a_new_period_keeps_the_frequencies() -> None:

@@ -3,18 +3,9 @@
 import pytest
 
 from openacr.errors import CardError
-from openacr.map import numbers as at
+from openacr.map.rows import axes, masters
 from openacr.motion.axis import attach, settings
-from openacr.motion.axis.settings import (
-    not_negative,
-    not_zero,
-    of_axis,
-    of_axis_int,
-    of_axis_long,
-    of_axis_real,
-    of_master,
-    of_master_real,
-)
+from openacr.motion.axis.settings import fp32, fp64, long, not_negative, not_zero
 from openacr.motion.card import Card
 
 AXIS, MASTER, DZU = 3, 2, 12288 + 3 * 256 + 115
@@ -23,21 +14,21 @@ SLAVE_MAX_VEL = 2076
 
 def test_a_setting_with_a_parameter_is_the_parameter() -> None:
     card = Card()
-    of_axis(at.AX_PPU).write(card, AXIS, 2.5)
-    of_axis_long(at.AX_DZU).write(card, AXIS, -7.9)
-    of_master(at.MA_MANUAL_VECTOR).write(card, MASTER, 4.0)
+    fp32(axes.ppu).write(card, AXIS, 2.5)
+    long(axes.dzu).write(card, AXIS, -7.9)
+    fp32(masters.manual_vector).write(card, MASTER, 4.0)
     assert [card.memory.read(number) for number in (13143, DZU, 8714)] == [2.5, -7, 4.0]
 
 
 @pytest.mark.parametrize(
     "setting",
     [
-        of_axis(at.AX_PPU),
-        of_axis_long(at.AX_DZU),
-        of_axis_real(at.AXF_HLDEC_UPS2),
-        of_axis_int(at.AXI_HLBIT),
-        of_master(at.MA_MANUAL_VECTOR),
-        of_master_real(at.MSF_JRK_UPS3),
+        fp32(axes.ppu),
+        long(axes.dzu),
+        fp64(axes.hldec_ups2),
+        long(axes.hlbit),
+        fp32(masters.manual_vector),
+        fp64(masters.jrk_ups3),
     ],
 )
 def test_every_object_has_a_value_of_its_own(setting: settings.Setting) -> None:
@@ -50,13 +41,13 @@ def test_every_object_has_a_value_of_its_own(setting: settings.Setting) -> None:
 @pytest.mark.parametrize(
     ("setting", "value"),
     [
-        (of_axis(at.AX_PPU), 1e39),
-        (of_axis(at.AX_PPU, not_zero), 0.0),
-        (of_axis_long(at.AX_DZU), 2.0**31),
-        (of_axis_real(at.AXF_HLDEC_UPS2, not_negative), -0.5),
-        (of_axis_real(at.AXF_HLDEC_UPS2), float("inf")),
-        (of_axis_real(at.AXF_HLDEC_UPS2), float("nan")),
-        (of_master(at.MA_USER_VELOCITY), -1.0),
+        (fp32(axes.ppu), 1e39),
+        (fp32(axes.ppu, not_zero), 0.0),
+        (long(axes.dzu), 2.0**31),
+        (fp64(axes.hldec_ups2, not_negative), -0.5),
+        (fp64(axes.hldec_ups2), float("inf")),
+        (fp64(axes.hldec_ups2), float("nan")),
+        (fp32(masters.user_velocity, not_negative), -1.0),
         (settings.ENCODER_MULTIPLIER, 3.0),
         (settings.ENCODER_MULTIPLIER, 1.5),
     ],
@@ -89,4 +80,4 @@ def test_derivative_smoothing_averages_over_a_power_of_two(wanted: int, size: in
     settings.activate_derivative_smoothing(card, 0)
     card.memory.write(12402, wanted)
     settings.activate_derivative_smoothing(card, 0)
-    assert max(1, card.memory.I[at.AXI_BASE + at.AXI_DERIVATIVE_SMOOTH]) == size
+    assert max(1, card.memory.I[axes.derivative_smooth[0]]) == size

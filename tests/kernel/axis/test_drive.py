@@ -5,7 +5,8 @@ from collections.abc import Callable
 import pytest
 from tests.kernel.rig import Rig
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes, motors
+from openacr.map.words import af4
 from openacr.motion.axis import attach, drive
 from openacr.motion.axis.attach import Feedback, Signal
 
@@ -128,13 +129,12 @@ def test_the_drive_of_an_axis_is_that_of_the_motor_it_drives(
     ideal = 'drive = { mode = "ideal", revs_per_s_per_volt = 5.0 }\n'
     world = f"[[axis]]\nnumber = 1\ndac = 5\ncounts_per_rev = 4000\n{ideal}"
     rig = Rig(1, world=world)
-    motor = at.PLI_BASE + at.PLI_STRIDE
-    assert rig.ticks(2).I[motor + at.PLI_DRIVE_ENABLED] == 0
+    assert rig.ticks(2).I[motors.drive_enabled[1]] == 0
     attach.axis(rig.card, 0, position, (Signal.DAC, 5), velocity)
-    assert rig.ticks(1).I[motor + at.PLI_DRIVE_ENABLED] == 1
-    rig.I[motor + at.PLI_DRIVE_FAULT] = 1
+    assert rig.ticks(1).I[motors.drive_enabled[1]] == 1
+    rig.I[motors.drive_fault[1]] = 1
     rig.ticks(1)
-    assert rig.I[at.AF4_WORD] & at.AF4_DRIVE_FAULT_INPUT
+    assert rig.I[af4.word[0]] & af4.DRIVE_FAULT_INPUT
 
 
 TORQUE = """
@@ -143,14 +143,14 @@ number = 0
 counts_per_rev = 4000
 drive = { mode = "ideal", revs_per_s_per_volt = 1e-6, lag_s = 0.001 }
 """
-OUTPUT, ERROR = at.AX_BASE + at.AX_OUTPUT_SIGNAL, at.AX_BASE + at.AX_FOLLOWING_ERROR
-LINE = at.PLI_BASE + at.PLI_DRIVE_ENABLED
+OUTPUT, ERROR = axes.output_signal[0], axes.following_error[0]
+LINE = motors.drive_enabled[0]
 
 
 def pushed() -> Rig:
     """An axis under power, 200 pulses from its setpoint; its drive I/O is not used."""
     rig = Rig(ppu=[1.0], world=TORQUE).axis(0, proportional_gain=0.01).ticks(2)
-    rig.F[at.AXF_BASE + at.AXF_POSITION_CNT] = 200.0
+    rig.F[axes.position_cnt[0]] = 200.0
     rig.ticks(5)
     assert rig.S[OUTPUT] == pytest.approx(2.0)
     assert rig.I[LINE] == 1
@@ -164,7 +164,7 @@ def killed(rig: Rig) -> None:
 
 def cleared(rig: Rig) -> None:
     drive.on(rig.card, 0)
-    rig.F[at.AXF_BASE + at.AXF_POSITION_CNT] += 200.0
+    rig.F[axes.position_cnt[0]] += 200.0
     rig.ticks(5)
     assert rig.S[OUTPUT] == pytest.approx(2.0)
     rig.bit(ENABLED, False)
@@ -194,7 +194,7 @@ def test_a_disabled_axis_puts_out_nothing_until_it_is_enabled(cut: Callable[[Rig
     drive.on(rig.card, 0)
     rig.ticks(5)
     assert (rig.I[LINE], rig.bit(ENABLED), rig.I[ERROR]) == (1, True, 0)
-    rig.F[at.AXF_BASE + at.AXF_POSITION_CNT] += 100.0
+    rig.F[axes.position_cnt[0]] += 100.0
     rig.ticks(5)
     assert rig.S[OUTPUT] == pytest.approx(1.0)
 
@@ -224,4 +224,4 @@ def test_the_second_axis_stays_driven_when_the_first_is_disabled() -> None:
     rig.ticks(2)
     drive.off(rig.card, 0)
     rig.ticks(2)
-    assert (rig.I[LINE], rig.I[LINE + at.PLI_STRIDE]) == (0, 1)
+    assert (rig.I[LINE], rig.I[LINE + motors.INTS_SIZE]) == (0, 1)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.linalg import expm
 from tests.kernel.rig import Rig, T
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes, dacs, encoders, motors
 from openacr.motion.axis import attach
 from openacr.motion.axis.attach import Feedback, Signal
 
@@ -66,13 +66,13 @@ class Machine(Rig):
         self.state = np.zeros(4)
         attach.axis(self.card, 0, (Feedback.ENC, LOAD), (Signal.DAC, 3), (Feedback.ENC, MOTOR))
         for encoder in (MOTOR, LOAD):
-            self.I[at.PLI_BASE + encoder * at.PLI_STRIDE + at.PLI_KIND] = 1
-            self.I[at.ENI_BASE + encoder * at.ENI_STRIDE + at.ENI_MULT] = mult
+            self.I[motors.kind[encoder]] = 1
+            self.I[encoders.mult[encoder]] = mult
         self.axis(proportional_gain=PGAIN, fbvel_gain_setting=FBVEL, derivative_gain=0.0)
 
     @property
     def volts(self) -> float:
-        return float(self.S[at.DAC_BASE + 3 * at.DAC_STRIDE + at.DAC_DAC_OUTPUT])
+        return float(self.S[dacs.dac_output[3]])
 
     def turn(self, ticks: int) -> list[tuple[float, float]]:
         """Motor and load after every tick."""
@@ -80,7 +80,7 @@ class Machine(Rig):
         for _ in range(ticks):
             self.state = self.ahead @ self.state + self.by_volt * self.volts
             for encoder, place in ((MOTOR, 0), (LOAD, 2)):
-                row = at.PLF_BASE + encoder * at.PLF_STRIDE + at.PLF_RAW_COUNT
+                row = motors.raw_count[encoder]
                 self.F[row] = math.floor(self.state[place])
             self.ticks(1)
             seen.append((float(self.state[0]), float(self.state[2])))
@@ -109,7 +109,7 @@ def reference(
 
 def jump(made: Machine, setpoint_cnt: float) -> None:
     """Ask for another position at once."""
-    made.memory.write(at.AX_BASE + at.AX_CURRENT_POSITION, setpoint_cnt)
+    made.memory.write(axes.current_position[0], setpoint_cnt)
 
 
 @pytest.mark.parametrize("pure", [False, True])
@@ -164,4 +164,4 @@ def test_the_terms_name_their_encoders() -> None:
     made.state[:] = (0, 40_000.0, 0, -20_000.0)
     made.turn(5)
     assert made.long("actual_position") in (-50, -51)
-    assert made.S[at.AX_BASE + at.AX_FBVEL_TERM] == pytest.approx(1e-6 * 40_000, rel=0.05)
+    assert made.S[axes.fbvel_term[0]] == pytest.approx(1e-6 * 40_000, rel=0.05)

@@ -9,13 +9,13 @@ from tests.basic.motion_bench import Bench
 
 from openacr.compiled import pick
 from openacr.kernel.axis import feedback_cy
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import axes, encoders, motors, plant
 
 T = 0.0005
 STEPS = [feedback_cy.encoder_filters_step, pick(feedback_cy.encoder_filters_step)]
-GEAR = at.AXF_BASE + at.AXF_GEAR_CNT
-WHEEL = at.ENC_BASE + 10 * at.ENC_STRIDE  # an encoder that no axis has
+GEAR = axes.gear_cnt[0]
+WHEEL = encoders.parameters[10]  # an encoder that no axis has
 
 
 def turn(made: Bench, *counts: int) -> Bench:
@@ -28,8 +28,8 @@ def turn(made: Bench, *counts: int) -> Bench:
 
 def moved(motor: int, made: Bench, raw: float) -> Bench:
     """The motor of an encoder turns to a raw count within one tick."""
-    made.memory.I[at.PLI_BASE + motor * at.PLI_STRIDE + at.PLI_KIND] = 1
-    made.memory.F[at.PLF_BASE + motor * at.PLF_STRIDE + at.PLF_RAW_COUNT] = raw
+    made.memory.I[motors.kind[motor]] = 1
+    made.memory.F[motors.raw_count[motor]] = raw
     return made.ticks(1)
 
 
@@ -54,16 +54,16 @@ def test_the_position_is_always_the_count_modulo_the_length(
     memory, count = Memory(), 0
     for step, length in steps:
         feedback_cy.encoder_roll(memory.I, 0, length)
-        moved_to = memory.I[at.ENC_BASE] + step
-        memory.I[at.ENC_BASE] = (moved_to + 2**31) % 2**32 - 2**31
+        moved_to = memory.I[encoders.parameters[0]] + step
+        memory.I[encoders.parameters[0]] = (moved_to + 2**31) % 2**32 - 2**31
         feedback_cy.encoder_wrap(memory.I, 0)
         count = (count + step + 2**31) % 2**32 - 2**31
         assert feedback_cy.encoder_count(memory.I, 0) == count
         assert feedback_cy.encoder_shaft(memory.I, 0) == count
         if length:
-            assert 0 <= memory.I[at.ENC_BASE] < length
+            assert 0 <= memory.I[encoders.parameters[0]] < length
         else:
-            assert memory.I[at.ENC_BASE] == count
+            assert memory.I[encoders.parameters[0]] == count
 
 
 def test_the_axis_of_a_wrapping_encoder_moves_on_without_an_error() -> None:
@@ -71,7 +71,7 @@ def test_the_axis_of_a_wrapping_encoder_moves_on_without_an_error() -> None:
     worst = 0.0
     while made.bit(516):
         made.ticks(1)
-        worst = max(worst, abs(made.axis(0, at.AX_FOLLOWING_ERROR)))
+        worst = max(worst, abs(made.axis(0, axes.following_error)))
         assert 0 <= made.p(6144) < 300
     assert worst <= 1
     assert (made.ticks(2).p(12290), made.p(6144)) == (1250, 1250 % 300)
@@ -127,8 +127,8 @@ def test_a_captured_source_position_is_one_of_the_turn() -> None:
 def test_a_marker_of_another_encoder_starts_a_gear_within_the_tick() -> None:
     """The register names encoder 0: its marker comes after a quarter of the travel of the tick."""
     made = Bench("X").all("ENC0 MULT 4", "TLM X0", "GEAR SRC X ENC10", "GEAR ON TRG X(0, 0)")
-    made.memory.I[at.PLI_BASE + at.PLI_MARKER_EDGES] = 1
-    made.memory.F[at.PLF_BASE + at.PLF_MARKER_RISE_CNT] = 10.0
+    made.memory.I[motors.marker_edges[0]] = 1
+    made.memory.F[motors.marker_rise_cnt[0]] = 10.0
     made.memory.I[WHEEL] += 100
     assert moved(0, made, 40.0).memory.F[GEAR] == 75.0
 
@@ -145,7 +145,7 @@ def test_a_ballscrew_table_is_read_within_the_turn() -> None:
     made = Bench("X").all("DIM LA(1)", "DIM LA0(3)", "LA0(0)=0 : LA0(1)=50 : LA0(2)=0")
     made.all("BSC DIM X1", "BSC SEG X(0,100,LA0)", "BSC SRC X ENC10", "ENC10 ROTARY 100")
     made.all("BSC ON X").ticks(1)
-    offset = at.AXF_BASE + at.AXF_BALLSCREW_CNT
+    offset = axes.ballscrew_cnt[0]
     assert [turn(made, 25).memory.F[offset] for _ in range(6)] == [25, 50, 25, 0, 25, 50]
 
 
@@ -155,7 +155,7 @@ def test_values_that_cannot_be_are_refused(word: str, value: str) -> None:
     made = Bench()
     assert made.type(f"ENC1 {word} {value}") == "Invalid argument"
     assert made.type(f"ENC1 {word}") == "0"
-    assert made.type(f"ENC{at.EN_COUNT} {word} 1") == "Invalid argument"
+    assert made.type(f"ENC{encoders.COUNT} {word} 1") == "Invalid argument"
 
 
 def test_the_interface_of_an_absolute_encoder_is_kept() -> None:
@@ -170,14 +170,14 @@ def test_the_interface_of_an_absolute_encoder_is_kept() -> None:
 def counted(step: Callable[..., None], limit_hz: int, steps: list[int]) -> list[int]:
     """Positions of encoder 0, whose motor turns by these raw counts, tick by tick."""
     memory = Memory()
-    memory.I[at.ENI_BASE + at.ENI_MULT] = 4
+    memory.I[encoders.mult[0]] = 4
     feedback_cy.encoder_limit(memory.F, memory.I, 0, limit_hz)
     shown = []
     for counts in steps:
-        memory.F[at.PLF_BASE + at.PLF_RAW_COUNT] += counts
+        memory.F[motors.raw_count[0]] += counts
         step(memory.F, memory.I, T)
         feedback_cy.encoder_step(memory.F, memory.I, 0, 1 / T)
-        shown.append(memory.I[at.ENC_BASE])
+        shown.append(memory.I[encoders.parameters[0]])
     return shown
 
 
@@ -240,10 +240,9 @@ def test_a_limit_that_comes_and_goes_leaves_the_position() -> None:
 
 def test_a_capture_reads_the_counter_after_the_filter() -> None:
     made = Bench("X").all("ENC0 MULT 4", "TLM X0", "ENC0 LIMIT 100000", "INTCAP X2").ticks(1)
-    motor = at.PLI_BASE
-    made.memory.I[motor + at.PLI_KIND] = 1
-    made.memory.F[at.PLF_BASE + at.PLF_PREVIOUS_CNT] = 0.5
-    made.memory.F[at.PLF_BASE + at.PLF_POSITION_CNT] = 400.5
-    made.memory.I[at.PLGI_BASE + at.PLGI_RISES] = 1 << 24
-    made.memory.F[at.PLGF_BASE + at.PLGF_RISE_FRACTION + 24] = 0.5
+    made.memory.I[motors.kind[0]] = 1
+    made.memory.F[motors.previous_cnt[0]] = 0.5
+    made.memory.F[motors.position_cnt[0]] = 400.5
+    made.memory.I[plant.rises] = 1 << 24
+    made.memory.F[plant.rise_fraction + 24] = 0.5
     assert moved(0, made, 400.0).p(12292) == 0

@@ -6,6 +6,8 @@ from scipy import signal
 from tests.kernel.rig import Rig, T
 
 from openacr.map import numbers as at
+from openacr.map.rows import axes, dacs, motors
+from openacr.map.words import af1, af3
 
 pytestmark = pytest.mark.evidence("oracle", "formulas in plain Python, filters of scipy")
 
@@ -30,7 +32,7 @@ def follow(rig: Rig, path: np.ndarray, *names: str) -> list[np.ndarray]:
     """Set the setpoint tick by tick; the named FP32 rows after each."""
     samples = []
     for position in path:
-        rig.F[at.AXF_BASE + at.AXF_POSITION_CNT] = position
+        rig.F[axes.position_cnt[0]] = position
         rig.ticks()
         samples.append([rig.fp32(name) for name in names])
     return list(np.array(samples).T)
@@ -90,7 +92,7 @@ def test_velocity_feedback_is_averaged(smooth: int) -> None:
     raw = np.cumsum(RNG.integers(-9, 10, 40)) * 4.0
     terms = []
     for count in raw:
-        rig.F[at.PLF_BASE + at.PLF_RAW_COUNT] = count
+        rig.F[motors.raw_count[0]] = count
         rig.ticks()
         terms.append(rig.fp32("fbvel_term"))
     steps = np.diff(raw / 4, prepend=0.0) / T
@@ -117,7 +119,7 @@ def test_filters_follow_their_transfer_function() -> None:
     for n, row in enumerate((first, second)):
         for name, value in zip(("a0", "a1", "a2", "b1", "b2"), row, strict=True):
             rig.axis(0, **{f"filter{n}_{name}": value})
-    rig.I[4120] |= at.AF1_BIQUAD_FILTER_ACTIVATE
+    rig.I[4120] |= af1.BIQUAD_FILTER_ACTIVATE
     (out,) = follow(rig, PATH, "filter_output_signal")
     x = np.float32(0.01).astype(float) * PATH
     for a0, a1, a2, b1, b2 in (first, second):
@@ -136,7 +138,7 @@ def test_torque_limit_clips_and_says_so() -> None:
 
 
 def test_clamped_open_or_disabled_loops_put_out_nothing() -> None:
-    for flag in (at.AF1_OPEN_SERVO_LOOP, at.AF1_CLAMP_OUTPUT_SIGNAL):
+    for flag in (af1.OPEN_SERVO_LOOP, af1.CLAMP_OUTPUT_SIGNAL):
         rig = open_loop(proportional_gain=1.0)
         rig.I[4120] |= flag
         assert follow(rig, np.array([3.0]), "output_signal")[0].tolist() == [0.0]
@@ -162,12 +164,12 @@ def test_the_dead_zone_rests_the_loop_until_it_is_left() -> None:
 
 
 def in_dead_band() -> int:
-    return (at.AF3_WORD - 4096) * 32 + at.AF3_IN_DEAD_BAND.bit_length() - 1
+    return (af3.word[0] - 4096) * 32 + af3.IN_DEAD_BAND.bit_length() - 1
 
 
 def test_the_converter_shows_gain_and_offset_and_saturates() -> None:
     rig = open_loop(proportional_gain=1.0)
-    dac = at.DAC_BASE
+    dac = dacs.parameters[0]
     rig.S[dac + at.DAC_DAC_OFFSET] = 0.5
     follow(rig, np.array([2.0]), "output_signal")
     assert rig.S[dac + at.DAC_DAC_OUTPUT] == pytest.approx(2.5)

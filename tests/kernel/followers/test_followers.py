@@ -10,19 +10,35 @@ from openacr.kernel.sources.source_cy import USES
 from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import (
+    axes,
+    encoders,
+    filters,
+    followers,
+    gears,
+    hand_wheels,
+    limit_switches,
+    objects,
+    output_objects,
+    sampler,
+    sources,
+    storage,
+    tables,
+    triggers,
+)
+from openacr.map.words import af1, af2, af4
 from openacr.motion.card import Card
 
 AXES = 3
-ENCODER = at.ENC_BASE + 10 * at.ENC_STRIDE  # follows no axis
+ENCODER = encoders.parameters[10]  # follows no axis
 HEAP = at.HEAP_BYTE_BASE // 4
 VALUES = (0.0, 1.0, -1.0, 0.5, 3.0, -20.0, 1e9, -1e9, 3e38)
 
 
 def points(memory: Memory, random_: random.Random) -> None:
     """An array LA0 of program 0 with five points."""
-    row = at.STI_BASE
-    memory.I[row + at.STI_LA_BASE] = HEAP
-    memory.I[row + at.STI_LA_COUNT] = 1
+    memory.I[storage.la_base[0]] = HEAP
+    memory.I[storage.la_count[0]] = 1
     memory.I[HEAP] = HEAP + 2
     memory.I[HEAP + 2] = 5
     for place in range(5):
@@ -32,24 +48,21 @@ def points(memory: Memory, random_: random.Random) -> None:
 def configure(memory: Memory, random_: random.Random) -> None:
     """Everything in use."""
     points(memory, random_)
-    memory.I[at.OBI_BASE + at.OBI_LIVE] = 1
+    memory.I[objects.live] = 1
     for axis in range(AXES):
-        memory.I[at.FOI_BASE + axis * at.FOI_STRIDE + at.FOI_LIVE] = 1
-        memory.I[at.HWI_BASE + axis * at.HWI_STRIDE + at.HWI_ON] = 1
-        memory.I[at.FLI_BASE + axis * at.FLI_STRIDE + at.FLI_ON] = 1
+        memory.I[followers.live[axis]] = 1
+        memory.I[hand_wheels.on[axis]] = 1
+        memory.I[filters.on[axis]] = 1
         for table in (axis, 16 + axis):
-            row = at.TBI_BASE + table * at.TBI_STRIDE
-            memory.I[row + at.TBI_SEGMENTS] = 1
-            memory.I[row + at.TBI_ARRAY] = 1
-            memory.F[at.TBF_BASE + table * at.TBF_STRIDE + at.TBF_LENGTH_CNT] = 100.0
-        memory.I[at.AF1_WORD + axis] |= (
-            at.AF1_GEAR_ACTIVATE | at.AF1_CAM_ACTIVATE | at.AF1_BALLSCREW_ACTIVATE
-        )
+            memory.I[tables.segments[table]] = 1
+            memory.I[tables.array[table]] = 1
+            memory.F[tables.length_cnt[table]] = 100.0
+        memory.I[af1.word[axis]] |= af1.GEAR_ACTIVATE | af1.CAM_ACTIVATE | af1.BALLSCREW_ACTIVATE
     for number in range(8):
-        memory.I[at.PSI_BASE + number * at.PSI_STRIDE + at.PSI_ARRAY] = 1
-        memory.I[at.OOI_BASE + number * at.OOI_STRIDE + at.OOI_ON] = 1
-    memory.I[at.SAI_BASE + at.SAI_SOURCE] = ENCODER + 1
-    memory.I[at.SAI_BASE + at.SAI_KIND] = 1
+        memory.I[limit_switches.array[number]] = 1
+        memory.I[output_objects.on[number]] = 1
+    memory.I[sampler.source] = ENCODER + 1
+    memory.I[sampler.kind] = 1
 
 
 def disturb(memory: Memory, random_: random.Random) -> None:
@@ -58,29 +71,27 @@ def disturb(memory: Memory, random_: random.Random) -> None:
     number = random_.choice((-1, 0, 1, 7, 15, 99, 2**31 - 1, -(2**31), HEAP, HEAP + 2))
     if what == 0:
         tap = random_.choice((axis * USES + random_.randrange(USES), random_.randrange(96, 128)))
-        memory.I[at.SRI_BASE + tap * at.SRI_STRIDE + at.SRI_KIND] = random_.randrange(11)
-        memory.I[at.SRI_BASE + tap * at.SRI_STRIDE + at.SRI_INDEX] = random_.choice(
-            (number, ENCODER, random_.randrange(40960))
-        )
+        memory.I[sources.kind[tap]] = random_.randrange(11)
+        memory.I[sources.index[tap]] = random_.choice((number, ENCODER, random_.randrange(40960)))
     elif what == 1:
-        row = at.GRF_BASE + axis * at.GRF_STRIDE + random_.randrange(at.GRF_RATIO_NOW)
+        row = random_.randrange(gears.reals[axis], gears.ratio_now[axis])
         memory.F[row] = random_.choice(VALUES)
     elif what == 2:
-        row = random_.choice((at.AF1_WORD, at.AF2_WORD, at.AF4_WORD)) + axis
+        row = random_.choice((af1.word[0], af2.word[0], af4.word[0])) + axis
         memory.I[row] ^= 1 << random_.randrange(31)
     elif what == 3:
-        memory.I[random_.choice((HEAP, HEAP + 2, at.STI_BASE + at.STI_LA_BASE))] = number
+        memory.I[random_.choice((HEAP, HEAP + 2, storage.la_base[0]))] = number
     elif what == 4:
         points(memory, random_)
     elif what == 5:
-        trigger = at.TGI_BASE + (axis * 3 + random_.randrange(3)) * at.TGI_STRIDE
-        memory.I[trigger + at.TGI_KIND] = random_.randrange(6)
-        memory.I[trigger + at.TGI_MODE] = random_.randrange(16)
-        memory.I[trigger + at.TGI_PARAMETER] = random_.choice((number, ENCODER))
+        trigger = axis * 3 + random_.randrange(3)
+        memory.I[triggers.kind[trigger]] = random_.randrange(6)
+        memory.I[triggers.mode[trigger]] = random_.randrange(16)
+        memory.I[triggers.parameter[trigger]] = random_.choice((number, ENCODER))
     elif what == 6:
         memory.I[at.W_MISC_OUTPUTS] ^= 1 << random_.randrange(31)
     else:
-        memory.S[at.AX_BASE + axis * at.AX_STRIDE + at.AX_BACKLASH_SETTING] = random_.choice(VALUES)
+        memory.S[axes.backlash_setting[axis]] = random_.choice(VALUES)
 
 
 def live(seed: int, *, pure: bool, ticks: int) -> Card:
@@ -108,9 +119,9 @@ def test_both_builds_live_the_same_life(seed: int) -> None:
 def test_no_address_or_setting_makes_a_setpoint_infinite(seed: int) -> None:
     memory = live(seed, pure=False, ticks=400).memory
     for axis in range(AXES):
-        for row in range(at.AXF_STRIDE):
-            value = memory.F[at.AXF_BASE + axis * at.AXF_STRIDE + row]
+        for row in range(axes.REALS_SIZE):
+            value = memory.F[axes.reals[axis] + row]
             assert math.isfinite(value), (axis, row)
-        parts = memory.F[at.AXF_BASE + axis * at.AXF_STRIDE :][: at.AXF_BALLSCREW_CNT]
-        psp = memory.F[at.AXF_BASE + axis * at.AXF_STRIDE + at.AXF_PSP_CNT]
+        parts = memory.F[axes.reals[axis] : axes.ballscrew_cnt[axis]]
+        psp = memory.F[axes.psp_cnt[axis]]
         assert psp == pytest.approx(math.fsum(parts), rel=1e-9, abs=1e-6)

@@ -6,8 +6,8 @@ from hypothesis import strategies as st
 
 from openacr.compiled import pick
 from openacr.kernel.followers import gear_cy
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import gears
 
 ratios = st.floats(-5, 5)
 rates = st.floats(0, 1e4)
@@ -20,9 +20,9 @@ def ramp(memory: Memory, goal: float, dt: float, *, pure: bool = False) -> float
 
 def gear(ratio: float, acc: float, dec: float) -> Memory:
     memory = Memory()
-    memory.F[at.GRF_BASE + at.GRF_RATIO_NOW] = ratio
-    memory.F[at.GRF_BASE + at.GRF_ACC_RPS] = acc
-    memory.F[at.GRF_BASE + at.GRF_DEC_RPS] = dec
+    memory.F[gears.ratio_now[0]] = ratio
+    memory.F[gears.acc_rps[0]] = acc
+    memory.F[gears.dec_rps[0]] = dec
     return memory
 
 
@@ -38,7 +38,7 @@ def gear(ratio: float, acc: float, dec: float) -> Memory:
 def test_the_mean_of_a_ramp_is_its_area(start: float, goal: float, mean: float, end: float) -> None:
     memory = gear(start, 1.0, 2.0)
     assert ramp(memory, goal, 1.0) == pytest.approx(mean)
-    assert memory.F[at.GRF_BASE + at.GRF_RATIO_NOW] == pytest.approx(end)
+    assert memory.F[gears.ratio_now[0]] == pytest.approx(end)
 
 
 @given(ratios, ratios, rates, rates, st.floats(1e-5, 1.0), st.floats(0.01, 0.99))

@@ -3,7 +3,7 @@
 import pytest
 from tests.kernel.rig import Rig
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes, encoders, motors
 from openacr.motion.axis import registers
 from openacr.motion.jog import jog
 from openacr.motion.path import moves
@@ -41,9 +41,9 @@ class Home(Rig):
         super().__init__(1, ppu=[COUNTS], world=text)
         self.world: World = parse_world(text)
         self.jog(0, **{"vel": 10.0, "acc": 100.0, "dec": 100.0, **jogging})
-        self.I[at.ENI_BASE + at.ENI_MULT] = 4
-        self.F[at.AXF_BASE + at.AXF_HOMVF_UPS] = 1.0
-        self.F[at.AXF_BASE + at.AXF_HLDEC_UPS2] = 200.0
+        self.I[encoders.mult[0]] = 4
+        self.F[axes.homvf_ups[0]] = 1.0
+        self.F[axes.hldec_ups2[0]] = 200.0
         self.ticks(4)
 
     def count(self, position_u: float) -> float:
@@ -52,7 +52,7 @@ class Home(Rig):
 
     @property
     def raw(self) -> float:
-        return self.F[at.PLF_BASE + at.PLF_RAW_COUNT]
+        return self.F[motors.raw_count[0]]
 
     @property
     def zero_raw(self) -> float:
@@ -141,9 +141,9 @@ def test_the_figures_with_backup(
 
 def test_a_soft_limit_turns_the_search_round_too() -> None:
     rig = options(Home(8.0), False, False)
-    rig.F[at.AXF_BASE + at.AXF_SLM_PLUS_U] = 2.0
-    rig.F[at.AXF_BASE + at.AXF_SLM_MINUS_U] = -30.0
-    rig.F[at.AXF_BASE + at.AXF_SLDEC_UPS2] = 300.0
+    rig.F[axes.slm_plus_u[0]] = 2.0
+    rig.F[axes.slm_minus_u[0]] = -30.0
+    rig.F[axes.sldec_ups2[0]] = 300.0
     rig.bit(16150, True)
     rig.bit(16151, True)
     rig.home(1)
@@ -174,7 +174,7 @@ def test_the_edge_is_exact_at_any_approach_speed(vel: float, contact: str) -> No
     text = world_text(0.0).replace("[5.0, 6.0]", f'[5.0, 6.0], contact = "{contact}"')
     rig = Home(extra=text, vel=20.0, acc=20_000.0, dec=20_000.0)
     rig.bit(INVERT, contact == "closed")
-    rig.F[at.AXF_BASE + at.AXF_HOMVF_UPS] = vel
+    rig.F[axes.homvf_ups[0]] = vel
     rig.ticks(4)
     options(rig, False, True).home(1)
     assert rig.bit(FOUND)
@@ -216,7 +216,7 @@ def test_a_switch_crossed_and_left_within_one_tick_is_captured() -> None:
 @pytest.mark.parametrize("mode", [0, 4])
 def test_a_marker_capture_is_exact_to_the_count(mult: int, mode: int) -> None:
     rig = Home(0.0)
-    rig.I[at.ENI_BASE + at.ENI_MULT] = mult
+    rig.I[encoders.mult[0]] = mult
     if mult < 0:
         rig.axis(proportional_gain=-0.002441)
     registers.res(rig.card, 0, 0.0)
@@ -305,7 +305,7 @@ def test_a_switch_narrower_than_a_servo_period_is_found_to_the_count(
 ) -> None:
     """At 40 units/s a period is 0.02 units: the switch of 0.002 is never seen closed."""
     rig = Home(start, NARROW.format(start=start), vel=40.0, acc=400.0, dec=400.0)
-    rig.F[at.AXF_BASE + at.AXF_HOMVF_UPS] = 10.0
+    rig.F[axes.homvf_ups[0]] = 10.0
     options(rig, negative_edge, negative_final).home(direction)
     assert (rig.bit(FOUND), rig.bit(FAILED)) == (True, False)
     edge = 5.0 if negative_edge else 5.002

@@ -9,7 +9,7 @@ from tests.kernel.rig import Reals, Rig, T, acceleration, velocity
 from tests.search import search
 
 from openacr.errors import CardError
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 from openacr.motion.axis import drive
 from openacr.motion.jog import jog
 from openacr.motion.path import moves
@@ -210,10 +210,10 @@ def lived(commands: list[tuple[str, float, int]]) -> Reals:
     """Setpoints [units] while the commands come one after the other."""
     rig = Rig(ppu=[1000.0]).jog(vel=5, acc=100, dec=100)
     rig.master(acc=100, dec=100, stp=100, vel=5)
-    rig.F[at.AXF_BASE + at.AXF_HLDEC_UPS2] = 200.0
-    rig.F[at.AXF_BASE + at.AXF_SLDEC_UPS2] = 150.0
-    rig.F[at.AXF_BASE + at.AXF_SLM_PLUS_U] = 3.0
-    rig.F[at.AXF_BASE + at.AXF_SLM_MINUS_U] = -3.0
+    rig.F[axes.hldec_ups2[0]] = 200.0
+    rig.F[axes.sldec_ups2[0]] = 150.0
+    rig.F[axes.slm_plus_u[0]] = 3.0
+    rig.F[axes.slm_minus_u[0]] = -3.0
     positions = [0.0]
     for what, value, wait in commands:
         try:

@@ -11,7 +11,7 @@ from tests.kernel.rig import Reals, Rig, T
 from tests.search import stride
 
 from openacr.kernel.path.sync_cy import sync_drop
-from openacr.map import numbers as at
+from openacr.map.rows import kernel, masters
 from openacr.map.words import mf1, mf2
 from openacr.motion.path import buffer, moves
 from openacr.motion.path.move_request import Circle, Direction
@@ -30,7 +30,7 @@ def inhibit(made: Rig, on: bool) -> None:
 def sync(made: Rig, on: bool) -> None:
     """SYNC with a second member that has no move; taken out again, the path goes on."""
     bit = mf2.SYNC_MODE
-    made.I[at.KRI_BASE + at.KRI_MASTERS] = 2
+    made.I[kernel.masters] = 2
     for m in range(2):
         made.I[mf2.word[m]] = made.I[mf2.word[m]] | bit if on else made.I[mf2.word[m]] & ~bit
 
@@ -165,7 +165,7 @@ def test_a_path_held_within_a_corner_ends_after_it_though_its_moves_are_dropped(
     within = 0
     for tick in range(30, 120, stride(1)):
         made = rig(0.5)
-        corner_out_u = at.MSF_BASE + at.MSF_CORNER_OUT_U
+        corner_out_u = masters.corner_out_u[0]
 
         def meanwhile(now: int, made: Rig = made, tick: int = tick) -> None:
             if now == tick:

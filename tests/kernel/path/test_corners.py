@@ -13,7 +13,9 @@ from tests.kernel.rig import Reals, Rig, T
 from tests.search import search
 
 from openacr.errors import CardError
-from openacr.map import numbers as at
+from openacr.map.rows import axes as axis_rows
+from openacr.map.rows import masters
+from openacr.map.words import mf4
 from openacr.motion.path import corners, host_moves, moves
 from openacr.motion.path.host_moves import HostMove
 from openacr.motion.path.move_request import Target
@@ -34,8 +36,8 @@ def rig(
         acc=acc, dec=acc, stp=acc, jrk=jrk, vel=100
     )
     made.depth(10)
-    made.I[at.MF4_WORD] |= at.MF4_LOOK_AHEAD_MODE
-    made.F[at.MSF_BASE + at.MSF_TOLERANCE_U] = tolerance
+    made.I[mf4.word[0]] |= mf4.LOOK_AHEAD_MODE
+    made.F[masters.tolerance_u[0]] = tolerance
     return made
 
 
@@ -49,7 +51,7 @@ def follow(
     """Positions of all axes, tick by tick, along the points, of which one comes `every` ticks."""
     issue = issue or (lambda point: made.move(*point))
     waiting, places, tick = list(points)[::-1], [], 0
-    rows = [at.AXF_BASE + n * at.AXF_STRIDE + at.AXF_PSP_CNT for n in range(made.axes)]
+    rows = [axis_rows.psp_cnt[n] for n in range(made.axes)]
     places.append([made.F[row] / PPU for row in rows])
     while waiting or made.bit(IN_MOTION):
         while waiting and moves.has_room(made.card, 0) and not (every and tick % every):
@@ -107,7 +109,7 @@ def test_the_speed_in_a_corner_is_the_highest_that_the_limit_allows() -> None:
     made, slowest = rig(0.1), [100.0]
 
     def watch(_: int) -> None:
-        if made.F[at.MSF_BASE + at.MSF_CORNER_OUT_U] > 0.0:
+        if made.F[masters.corner_out_u[0]] > 0.0:
             slowest.append(made.path_velocity)
 
     follow(made, SQUARE, watch)
@@ -246,7 +248,7 @@ def test_any_path_stays_within_tolerance_and_acceleration_and_ends_exactly(
 
 def host_rig(*, pure: bool = False) -> Rig:
     made = rig(0.0, pure=pure)
-    made.I[at.MF4_WORD] &= ~at.MF4_LOOK_AHEAD_MODE
+    made.I[mf4.word[0]] &= ~mf4.LOOK_AHEAD_MODE
     return made
 
 

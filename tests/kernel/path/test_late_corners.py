@@ -22,7 +22,7 @@ from tests.kernel.path.test_corners import (
 from tests.kernel.rig import Reals, Rig, T
 from tests.search import search
 
-from openacr.map import numbers as at
+from openacr.map.words import mf4
 from openacr.motion.path import moves
 from openacr.motion.path.move_request import Circle, Direction
 
@@ -250,7 +250,7 @@ def test_without_a_tolerance_or_look_a_path_ends_with_its_final_velocity(
 ) -> None:
     made = rig(tolerance).master(fvel=20.0)
     if not looks:
-        made.I[at.MF4_WORD] &= ~at.MF4_LOOK_AHEAD_MODE
+        made.I[mf4.word[0]] &= ~mf4.LOOK_AHEAD_MODE
     places = follow(made, [(10.0, 0.0)])
     last = np.linalg.norm(np.diff(places[-4:], axis=0), axis=1) / T
     assert last.max() == pytest.approx(end_ups, abs=2.0)

@@ -12,8 +12,7 @@ from tests.kernel.rig import Reals, Rig, T
 from tests.search import search, stride
 
 from openacr.kernel.path.path_cy import MARK_BLOCK_SKIP
-from openacr.map import numbers as at
-from openacr.map.rows import masters
+from openacr.map.rows import axes, masters
 from openacr.map.rows import moves as records
 from openacr.map.words import mf2
 from openacr.motion.path import moves
@@ -207,7 +206,7 @@ def test_what_is_appended_after_an_interrupted_move_is_laid_out_from_the_last_en
     made.ticks(60)
     made.bit(SIGNAL, True)
     made.ticks(120)
-    here = made.F[at.AXF_BASE + at.AXF_PSP_CNT]
+    here = made.F[axes.psp_cnt[0]]
     assert 0.0 < here < 50_000.0
     assert made.F[masters.target_cnt[0]] == here
     assert made.F[masters.target_cnt[0] + 1] == 50_000.0

@@ -3,7 +3,7 @@
 import pytest
 from tests.kernel.rig import Rig
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 from openacr.motion.axis import drive
 from openacr.motion.jog import jog
 from openacr.motion.path import moves
@@ -280,7 +280,7 @@ def test_jog_stopping_does_nothing_to_an_axis_at_rest_or_one_that_is_killed() ->
     rig.bit(JOG_STOPPING, True)
     rig.ticks(2)
     assert (rig.bit(JOG_STOPPING), rig.bit(JOG_ACTIVE)) == (False, False)
-    rig.F[at.AXF_BASE + at.AXF_HLDEC_UPS2] = 200.0
+    rig.F[axes.hldec_ups2[0]] = 200.0
     jog.continuous(rig.card, 0, 1)
     rig.seconds(0.3)
     rig.bit(KAMR, True)

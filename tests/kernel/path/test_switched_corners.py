@@ -28,7 +28,8 @@ from tests.kernel.path.test_late_corners import (
 from tests.kernel.rig import Reals, Rig, T
 from tests.search import search, sparse, stride
 
-from openacr.map import numbers as at
+from openacr.map.rows import masters
+from openacr.map.words import mf4
 from openacr.motion.path import buffer
 
 PATH = chain([(1.0, 0.0), (0.5, 30.0), (0.6, 0.0), (0.6, -40.0), (0.2, 20.0), (0.5, 90.0)])
@@ -40,9 +41,9 @@ def switch(made: Rig, what: str) -> None:
     if what in ("on", "off"):
         buffer.switch_look(made.card, 0, on=what == "on")
     elif what == "neglect":
-        made.I[at.MF4_WORD] ^= at.MF4_LOOK_AHEAD_NEGLECT
+        made.I[mf4.word[0]] ^= mf4.LOOK_AHEAD_NEGLECT
     else:
-        made.F[at.MSF_BASE + at.MSF_TOLERANCE_U] = float(what)
+        made.F[masters.tolerance_u[0]] = float(what)
 
 
 def switched(

@@ -7,7 +7,7 @@ from tests.kernel.rig import Rig
 from openacr.kernel.path.lookahead_cy import ramp_start
 from openacr.kernel.path.round_run_cy import round_turning
 from openacr.kernel.path.round_settle_cy import round_reached
-from openacr.map import numbers as at
+from openacr.map.rows import profiles
 
 
 @pytest.mark.parametrize("length_u", [0.01, 0.1, 1.0, 10.0])
@@ -35,8 +35,8 @@ def test_an_acceleration_that_cannot_be_taken_back_in_time_leaves_no_speed(
     """From v with a it takes a/J, in which the path goes v t + a t^2/3 and comes to v + a t/2."""
     made = Rig()
     velocity, accel, jerk = 30.0, 800.0, 20_000.0
-    made.F[at.PRF_BASE + at.PRF_VELOCITY] = velocity
-    made.F[at.PRF_BASE + at.PRF_ACCEL] = accel
+    made.F[profiles.velocity[0]] = velocity
+    made.F[profiles.accel[0]] = accel
     time = accel / jerk
     distance = velocity * time + accel * time**2 / 3
     reached = round_reached(made.F, 0, room * distance, 100.0, 1000.0, jerk)

@@ -5,12 +5,14 @@ from collections.abc import Callable
 import pytest
 from tests.kernel.rig import Rig
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes as axis_rows
+from openacr.map.rows import system
+from openacr.map.words import af4
 
 ENABLE = 5632
 EXC, IPB, ALM, BLM, TLM, TIB, MASTER = 2328, 2329, 2330, 2331, 2332, 2333, 2335
 SLOW_TICKS = 100
-PHASE = at.SYSI_BASE + at.SYSI_SLOW_PHASE
+PHASE = system.slow_phase
 
 WORLD = """
 [[axis]]
@@ -38,7 +40,7 @@ def rig(axes: int = 1, *, pure: bool = False) -> Rig:
 def lag(made: Rig) -> None:
     """Leave the commanded position: a following error, an output, another place."""
     made.axis(proportional_gain=0.05, plus_torque_limit=2, minus_torque_limit=-2)
-    made.F[at.AXF_BASE + at.AXF_POSITION_CNT] = 600.0
+    made.F[axis_rows.position_cnt[0]] = 600.0
 
 
 def ticks_until(made: Rig, changed: Callable[[], bool]) -> int:
@@ -101,7 +103,7 @@ def test_all_axes_of_a_group_change_together() -> None:
         made.bit(fast, True)
     made.ticks(2)
     for axis in (0, 1):
-        made.F[at.AXF_BASE + axis * at.AXF_STRIDE + at.AXF_POSITION_CNT] = 600.0
+        made.F[axis_rows.position_cnt[axis]] = 600.0
     assert ticks_until(made, lambda: not made.bit(770) or not made.bit(802)) <= 2
     assert (made.bit(770), made.bit(802)) == (False, False)
 
@@ -113,13 +115,13 @@ def test_the_flags_of_the_master_follow_those_of_its_axes_the_tick_after() -> No
     made.ticks(2)
     made.bit(MASTER, True)
     assert (made.bit(770), made.bit(530)) == (True, True)
-    made.F[at.AXF_BASE + at.AXF_POSITION_CNT] = 600.0
+    made.F[axis_rows.position_cnt[0]] = 600.0
     assert ticks_until(made, lambda: not made.bit(530)) <= 3
     assert not made.bit(770)
     slow = rig()
     slow.bit(ENABLE, True)
     slow.bit(ALM, True)
-    slow.F[at.AXF_BASE + at.AXF_POSITION_CNT] = 600.0
+    slow.F[axis_rows.position_cnt[0]] = 600.0
     assert ticks_until(slow, lambda: not slow.bit(530)) == SLOW_TICKS - 10
 
 
@@ -127,11 +129,11 @@ def test_a_fast_excess_error_stops_the_drive_at_once() -> None:
     made = rig()
     made.bit(ENABLE, True)
     made.bit(EXC, True)
-    word = at.AF4_WORD
-    made.I[word] |= at.AF4_EXC_RESPONSE_ENABLE | at.AF4_DRIVE_ENABLED
+    word = af4.word[0]
+    made.I[word] |= af4.EXC_RESPONSE_ENABLE | af4.DRIVE_ENABLED
     lag(made)
     made.ticks()
-    assert made.I[word] & at.AF4_EXCESS_ERROR_FAULT
+    assert made.I[word] & af4.EXCESS_ERROR_FAULT
 
 
 def test_both_builds_agree_to_the_bit() -> None:

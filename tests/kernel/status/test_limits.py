@@ -4,7 +4,7 @@ import pytest
 from tests.kernel.rig import Rig, T
 
 from openacr.errors import CardError
-from openacr.map import numbers as at
+from openacr.map.rows import axes as axis_rows
 from openacr.motion.jog import jog
 from openacr.motion.path import moves
 
@@ -15,10 +15,9 @@ def travelling(axes: int = 2) -> Rig:
     """Two axes of 1000 pulses per unit, HLDEC 200, SLDEC 50, on their direction to 100."""
     rig = Rig(axes, ppu=[1000.0] * axes).master(acc=100, dec=100, stp=100, vel=10)
     for axis in range(axes):
-        reals = at.AXF_BASE + axis * at.AXF_STRIDE
-        rig.F[reals + at.AXF_HLDEC_UPS2] = 200.0
-        rig.F[reals + at.AXF_SLDEC_UPS2] = 50.0
-        rig.F[reals + at.AXF_SLM_PLUS_U] = 24.0
+        rig.F[axis_rows.hldec_ups2[axis]] = 200.0
+        rig.F[axis_rows.sldec_ups2[axis]] = 50.0
+        rig.F[axis_rows.slm_plus_u[axis]] = 24.0
         rig.jog(axis, vel=10, acc=100, dec=100)
     return rig
 
@@ -68,7 +67,7 @@ def test_stop_all_moves_decelerates_then_kills(held: bool) -> None:
 @pytest.mark.parametrize("first", [-5, 3, 30, 40, 17661, 17663, 17664, 2_000_000_000])
 def test_any_first_limit_input_is_safe_and_stays_in_its_word(first: int) -> None:
     rig = travelling()
-    rig.I[at.AXI_BASE + at.AXI_HLBIT] = first
+    rig.I[axis_rows.hlbit[0]] = first
     rig.bit(3, True)
     if first == 30:
         for bit in (30, 31, 32):

@@ -6,7 +6,7 @@ import pytest
 from tests.kernel.rig import Rig
 
 from openacr.errors import CardError
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 from openacr.motion.axis import drive
 from openacr.motion.jog import jog
 from openacr.motion.path import host_moves
@@ -31,9 +31,9 @@ def soft(plus_u: float, minus_u: float, ppu: float = 1000.0, sldec_ups2: float =
     rig = Rig(1, ppu=[ppu]).master(acc=0, dec=0, stp=0, vel=10).jog(vel=10, acc=0, dec=0)
     for enable in SOFT_ENABLES:
         rig.bit(enable, True)
-    rig.F[at.AXF_BASE + at.AXF_SLM_PLUS_U] = plus_u
-    rig.F[at.AXF_BASE + at.AXF_SLM_MINUS_U] = minus_u
-    rig.F[at.AXF_BASE + at.AXF_SLDEC_UPS2] = sldec_ups2
+    rig.F[axes.slm_plus_u[0]] = plus_u
+    rig.F[axes.slm_minus_u[0]] = minus_u
+    rig.F[axes.sldec_ups2[0]] = sldec_ups2
     return rig
 
 
@@ -175,7 +175,7 @@ def test_a_software_limit_bars_by_position_whatever_its_flag_says() -> None:
     rig.bit(FORWARD, True)
     rig.ticks(5)
     assert (rig.real("psp_cnt"), rig.bit(FORWARD)) == (here, False)
-    rig.F[at.AXF_BASE + at.AXF_SLM_PLUS_U] = 2.0  # the limit is moved out
+    rig.F[axes.slm_plus_u[0]] = 2.0  # the limit is moved out
     jog.continuous(rig.card, 0, 1)
     rig.ticks(5)
     assert rig.real("psp_cnt") == pytest.approx(here + 25)
@@ -273,7 +273,7 @@ def test_a_kill_that_passes_a_software_limit_keeps_its_rate() -> None:
     ends = []
     for minus_u in (-1.0, -100.0):
         rig = soft(100.0, minus_u, sldec_ups2=10_000.0)
-        rig.F[at.AXF_BASE + at.AXF_HLDEC_UPS2] = 50.0
+        rig.F[axes.hldec_ups2[0]] = 50.0
         jog.continuous(rig.card, 0, -1)
         rig.ticks(150)
         rig.bit(KAMR, True)
@@ -326,6 +326,6 @@ def test_an_axis_with_few_pulses_per_unit_stops_at_its_software_limits(
     rig = soft(20.0, -20.0, ppu=ppu)
     jog.continuous(rig.card, 0, side)
     rig.seconds(4.0)
-    place_u = rig.F[at.AXF_BASE + at.AXF_JOG_CNT] / ppu
+    place_u = rig.F[axes.jog_cnt[0]] / ppu
     assert 20.0 <= side * place_u <= 20.0 + 10.0 * 2 * 0.0005
     assert rig.bit(POSITIVE_SOFT_MET) is (side > 0)

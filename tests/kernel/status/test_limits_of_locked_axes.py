@@ -3,7 +3,7 @@
 import pytest
 from tests.basic.motion_bench import PERIOD_S, Bench
 
-from openacr.map import numbers as at
+from openacr.map.rows import encoders
 
 GEAR_SOURCE = 9  # an encoder that no axis has
 SOFT_MET, KILL_ALL_MOVES, GEAR_ON, JOGGING = 16140, 522, 772, 792
@@ -33,7 +33,7 @@ def kill(master: int) -> int:
 
 def turn(made: Bench, pulses_per_tick: int, ticks: int) -> list[float]:
     """Turn the source of the gear; the setpoints of axis 0 in pulses, tick by tick."""
-    row = at.ENC_BASE + GEAR_SOURCE * at.ENC_STRIDE
+    row = encoders.parameters[GEAR_SOURCE]
     found = []
     for _ in range(ticks):
         made.memory.I[row] += pulses_per_tick

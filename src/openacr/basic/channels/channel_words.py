@@ -9,13 +9,12 @@ from openacr.map.numbers import (
     P_COM2_CHARACTER_BUFFER_COUNT,
     P_DPCB_CHARACTER_BUFFER_COUNT,
     P_FIFO_CHARACTER_BUFFER_COUNT,
-    STRM_ESCAPE_REQUEST,
-    STRM_OPEN_REQUEST,
     W_COM1,
     W_COM2,
     W_DPCB,
     W_FIFO,
 )
+from openacr.map.words import strm
 
 LARGEST = 0x7FFFFFFF
 ECHO_BITS, MODE_BITS = sum(EchoMode), sum(BinaryMode)
@@ -36,9 +35,9 @@ def take_escapes(memory: Memory) -> list[str]:
     """
     found = []
     for name, word in FLAG_WORDS.items():
-        if memory.I[word] & STRM_ESCAPE_REQUEST:
+        if memory.I[word] & strm.ESCAPE_REQUEST:
             found.append(name)
-        memory.I[word] &= ~(STRM_OPEN_REQUEST | STRM_ESCAPE_REQUEST)
+        memory.I[word] &= ~(strm.OPEN_REQUEST | strm.ESCAPE_REQUEST)
     return found
 
 

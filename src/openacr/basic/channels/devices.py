@@ -13,8 +13,9 @@ from openacr.basic.channels.session import Session
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.ranges import DeviceNumber, ProgramNumber
 from openacr.errors import CardError
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import devices
+from openacr.map.words import strm
 from openacr.messages import DEVICE_IN_USE, DEVICE_NOT_OPEN, INVALID_DEVICE
 from openacr.network.drivetalk import lines
 
@@ -155,9 +156,9 @@ class Devices:
         self._count(key)
         return begun
 
-    def row(self, key: Key, offset: int) -> int:
+    def row(self, key: Key, row: tuple[int, ...]) -> int:
         """Index (into I) of a row of the device, to wait for."""
-        return at.DQI_BASE + (key[0] * PER_PROGRAM + key[1]) * at.DQI_STRIDE + offset
+        return row[key[0] * PER_PROGRAM + key[1]]
 
     def state(self) -> list[Waiting]:
         """What waits to be read, for a snapshot."""
@@ -186,20 +187,20 @@ class Devices:
 
     def _clear(self, key: Key) -> None:
         self._queues[key] = _Queue()
-        self._memory.I[self.row(key, at.DQI_PROMPTED)] = 0
+        self._memory.I[self.row(key, devices.prompted)] = 0
         self._count(key)
 
     def _count(self, key: Key) -> None:
         queue = self._queues[key]
         data = queue.data
         queue.is_full = len(data) >= (RESUME_BYTES if queue.is_full else MOST_BYTES)
-        self._memory.I[self.row(key, at.DQI_CHARACTERS)] = len(data)
-        self._memory.I[self.row(key, at.DQI_LINES)] = data.count(CR) + data.count(LF)
+        self._memory.I[self.row(key, devices.characters)] = len(data)
+        self._memory.I[self.row(key, devices.lines)] = data.count(CR) + data.count(LF)
 
     def _mark(self, name: str, on: bool) -> None:
         """Show OPEN in the flags of channels that have a flag word."""
         if name in FLAG_WORDS:
             word = FLAG_WORDS[name]
-            self._memory.I[word] &= ~(at.STRM_STREAM_OPENED | at.STRM_OPEN_REQUEST)
+            self._memory.I[word] &= ~(strm.STREAM_OPENED | strm.OPEN_REQUEST)
             if on:
-                self._memory.I[word] |= at.STRM_STREAM_OPENED
+                self._memory.I[word] |= strm.STREAM_OPENED

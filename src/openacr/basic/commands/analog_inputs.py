@@ -15,13 +15,11 @@ from openacr.basic.memory.saving import each, kept
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.map.numbers import (
-    KRI_ADC_CHANNELS,
-    KRI_ADC_MODE,
-    KRI_BASE,
     P_ADC_NEGATIVE_CHANNELS,
     P_ADC_POSITIVE_CHANNELS,
     P_ADC_STATE_CONTROL,
 )
+from openacr.map.rows import kernel
 from openacr.messages import INVALID_ARGUMENT, NOT_SUPPORTED
 from openacr.motion.card import Card
 
@@ -49,11 +47,11 @@ def adc_mode(run: Run, mode: int | None) -> None:
     """Choose 12-bit (0) or 16-bit (1) analog inputs; the ACR9000 family is always 16-bit."""
     fixed = run.card.model.has_fixed_adc_mode
     if mode is None:
-        run.print(str(run.card.memory.I[KRI_BASE + KRI_ADC_MODE]))
+        run.print(str(run.card.memory.I[kernel.adc_mode]))
     elif fixed and mode != SIXTEEN_BITS:
         raise CardError(INVALID_ARGUMENT)
     else:
-        run.card.memory.I[KRI_BASE + KRI_ADC_MODE] = mode
+        run.card.memory.I[kernel.adc_mode] = mode
 
 
 @command(
@@ -68,11 +66,11 @@ def adc_mode(run: Run, mode: int | None) -> None:
 def adc_max(run: Run, channels: int | None) -> None:
     """Set how many analog inputs are scanned."""
     if channels is None:
-        run.print(str(run.card.memory.I[KRI_BASE + KRI_ADC_CHANNELS]))
+        run.print(str(run.card.memory.I[kernel.adc_channels]))
     elif channels > run.card.model.adcs:
         raise CardError(INVALID_ARGUMENT)
     else:
-        run.card.memory.I[KRI_BASE + KRI_ADC_CHANNELS] = channels
+        run.card.memory.I[kernel.adc_channels] = channels
 
 
 @dataclass(frozen=True, slots=True)

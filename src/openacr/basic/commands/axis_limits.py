@@ -17,62 +17,51 @@ from openacr.basic.language.nodes import AxisRef
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run, whole
 from openacr.map.numbers import (
-    AX_MINUS_A_LIMIT,
-    AX_MINUS_B_LIMIT,
-    AX_MINUS_EXCESS_ERROR,
-    AX_MINUS_IN_POSITION,
-    AX_MINUS_JOG_LIMIT,
-    AX_MINUS_TORQUE_BAND,
-    AX_MINUS_TORQUE_LIMIT,
-    AX_PLUS_A_LIMIT,
-    AX_PLUS_B_LIMIT,
-    AX_PLUS_EXCESS_ERROR,
-    AX_PLUS_IN_POSITION,
-    AX_PLUS_JOG_LIMIT,
-    AX_PLUS_TORQUE_BAND,
-    AX_PLUS_TORQUE_LIMIT,
-    AXF_HLDEC_UPS2,
-    AXF_SLDEC_UPS2,
-    AXF_SLM_MINUS_U,
-    AXF_SLM_PLUS_U,
-    AXI_HLBIT,
     FLAG_LAST,
 )
+from openacr.map.rows import axes as axis_rows
 from openacr.motion.axis import settings
 from openacr.motion.axis.settings import (
     LimitEnables,
+    fp32,
+    fp64,
+    long,
     not_negative,
-    of_axis,
-    of_axis_int,
-    of_axis_real,
 )
 
 GROUP = "Axis Limits"
 REF = "PG Axis Limits"
 
 
-def band(words: str, plus: int, minus: int, doc: str, units: str, default: str = "0,0") -> Band:
+def band(
+    words: str,
+    plus: tuple[int, ...],
+    minus: tuple[int, ...],
+    doc: str,
+    units: str,
+    default: str = "0,0",
+) -> Band:
     """A row whose ends are parameters."""
-    return Band(words, of_axis(plus), of_axis(minus), doc, units, default)
+    return Band(words, fp32(plus), fp32(minus), doc, units, default)
 
 
 axis_bands(
     (
-        band("ALM", AX_PLUS_A_LIMIT, AX_MINUS_A_LIMIT,
+        band("ALM", axis_rows.plus_a_limit, axis_rows.minus_a_limit,
              "Set stroke limit A, the band of the flag Within A Limit.", "units"),
-        band("BLM", AX_PLUS_B_LIMIT, AX_MINUS_B_LIMIT,
+        band("BLM", axis_rows.plus_b_limit, axis_rows.minus_b_limit,
              "Set stroke limit B, the band of the flag Not Within B Limit.", "units"),
-        band("EXC", AX_PLUS_EXCESS_ERROR, AX_MINUS_EXCESS_ERROR,
+        band("EXC", axis_rows.plus_excess_error, axis_rows.minus_excess_error,
              "Set the excess error band of the following error.", "units"),
-        band("IPB", AX_PLUS_IN_POSITION, AX_MINUS_IN_POSITION,
+        band("IPB", axis_rows.plus_in_position, axis_rows.minus_in_position,
              "Set the in-position band of the following error.", "units"),
-        band("ITB", AX_PLUS_TORQUE_BAND, AX_MINUS_TORQUE_BAND,
+        band("ITB", axis_rows.plus_torque_band, axis_rows.minus_torque_band,
              "Set the in-torque band of the output signal.", "volts"),
-        band("JLM", AX_PLUS_JOG_LIMIT, AX_MINUS_JOG_LIMIT,
+        band("JLM", axis_rows.plus_jog_limit, axis_rows.minus_jog_limit,
              "Set the limits of the jog offset, in force while Jog Limit Check is set.", "units"),
-        band("TLM", AX_PLUS_TORQUE_LIMIT, AX_MINUS_TORQUE_LIMIT,
+        band("TLM", axis_rows.plus_torque_limit, axis_rows.minus_torque_limit,
              "Limit the output signal; 0 means no torque.", "volts", "10,-10"),
-        Band("SLM", of_axis_real(AXF_SLM_PLUS_U), of_axis_real(AXF_SLM_MINUS_U),
+        Band("SLM", fp64(axis_rows.slm_plus_u), fp64(axis_rows.slm_minus_u),
              "Set the positions of the software limits.", "units"),
     ),
     group=GROUP,
@@ -87,12 +76,12 @@ def flag_number(value: float) -> bool:
 
 axis_values(
     (
-        Value("HLBIT", of_axis_int(AXI_HLBIT, flag_number),
+        Value("HLBIT", long(axis_rows.hlbit, flag_number),
               "Assign three inputs: positive limit, negative limit and home, from this flag on.",
               default="3 times the axis"),
-        Value("HLDEC", of_axis_real(AXF_HLDEC_UPS2, not_negative),
+        Value("HLDEC", fp64(axis_rows.hldec_ups2, not_negative),
               "Set the deceleration of hardware limits and kills; 0 stops at once.", "units/s2"),
-        Value("SLDEC", of_axis_real(AXF_SLDEC_UPS2, not_negative),
+        Value("SLDEC", fp64(axis_rows.sldec_ups2, not_negative),
               "Set the deceleration of software limits; 0 stops at once.", "units/s2"),
     ),
     group=GROUP,

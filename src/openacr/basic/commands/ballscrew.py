@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from openacr.basic.commands.cam import (
     dimension,
-    of_table,
     permit_all,
     set_segments,
     set_shifts,
@@ -16,7 +15,8 @@ from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run
 from openacr.kernel.followers.cam_cy import BALLSCREW_TABLES
 from openacr.kernel.sources.source_cy import FROM_SELF, USE_BALLSCREW
-from openacr.map.numbers import TBF_FLZ_CNT, TBF_OFFSET_U, TBF_SCALE
+from openacr.map.rows import tables
+from openacr.motion.axis.settings import fp64
 from openacr.motion.follower_defaults import set_source
 from openacr.motion.followers import cam
 from openacr.motion.sources import sources
@@ -26,11 +26,11 @@ REF = "PG Setpoint Control"
 
 axis_values(
     (
-        Value("BSC SCALE", of_table(TBF_SCALE, BALLSCREW_TABLES),
+        Value("BSC SCALE", fp64(tables.scale[BALLSCREW_TABLES:]),
               "Multiply the output of a ballscrew table.", "", "1"),
-        Value("BSC OFFSET", of_table(TBF_OFFSET_U, BALLSCREW_TABLES),
+        Value("BSC OFFSET", fp64(tables.offset_u[BALLSCREW_TABLES:]),
               "Add to the output of a ballscrew table.", "units"),
-        Value("BSC FLZ", of_table(TBF_FLZ_CNT, BALLSCREW_TABLES),
+        Value("BSC FLZ", fp64(tables.flz_cnt[BALLSCREW_TABLES:]),
               "Shift the index of a ballscrew table.", "pulses"),
     ),
     group=GROUP,

@@ -28,37 +28,24 @@ from openacr.basic.language.number_format import NumberKind, number_text
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run, whole
 from openacr.kernel.sources.source_cy import USE_CAM
-from openacr.map import block
-from openacr.map.numbers import (
-    AF2_CAM_TRIGGER_MODE,
-    AX_CAM_CYCLES,
-    TBF_BASE,
-    TBF_FLZ_CNT,
-    TBF_OFFSET_U,
-    TBF_SCALE,
-    TBF_STRIDE,
-)
-from openacr.motion.axis.settings import Setting, not_negative, of_axis_long
+from openacr.map.rows import axes as axis_rows
+from openacr.map.rows import tables
+from openacr.map.words import af2
+from openacr.motion.axis.settings import fp64, long, not_negative
 from openacr.motion.followers import cam, gear
 from openacr.motion.jog import jog
-from openacr.motion.row_index import axis_word2
 from openacr.motion.sources import sources
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"
 
 
-def of_table(row: int, first: int = 0) -> Setting:
-    """A setting of the table of each axis; `first` is the table of axis 0."""
-    return Setting(block.Kind.FP64, TBF_BASE + first * TBF_STRIDE + row, TBF_STRIDE)
-
-
 axis_values(
     (
-        Value("CAM SCALE", of_table(TBF_SCALE), "Multiply the output of a cam.", "", "1"),
-        Value("CAM OFFSET", of_table(TBF_OFFSET_U), "Add to the output of a cam.", "units"),
-        Value("CAM FLZ", of_table(TBF_FLZ_CNT), "Shift the index of a cam.", "source pulses"),
-        Value("CAM CYCLES", of_axis_long(AX_CAM_CYCLES, not_negative),
+        Value("CAM SCALE", fp64(tables.scale), "Multiply the output of a cam.", "", "1"),
+        Value("CAM OFFSET", fp64(tables.offset_u), "Add to the output of a cam.", "units"),
+        Value("CAM FLZ", fp64(tables.flz_cnt), "Shift the index of a cam.", "source pulses"),
+        Value("CAM CYCLES", long(axis_rows.cam_cycles, not_negative),
               "Set after how many cycles a cam ends; 0 is never."),
     ),
     group=GROUP,
@@ -171,7 +158,7 @@ def cam_on_trg(run: Run, axes: tuple[tuple[Axis, Captured], ...]) -> None:
 def _arm(run: Run, axis: Axis) -> None:
     cam.off(run.card, axis.number)
     sources.go_live(run.card, axis.number)
-    run.card.memory.I[axis_word2(axis.number)] |= AF2_CAM_TRIGGER_MODE
+    run.card.memory.I[af2.word[axis.number]] |= af2.CAM_TRIGGER_MODE
 
 
 @command("CAM OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)

@@ -10,11 +10,10 @@ from openacr.basic.memory.setup import DEFAULT_CONFIG, Setup
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.lang.lexer import TokenKind
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 from openacr.messages import NOT_SUPPORTED, SYNTAX_ERROR
 from openacr.motion.axis.modules import is_fitted
 from openacr.motion.card import Card
-from openacr.motion.row_index import axis_ints
 
 if TYPE_CHECKING:
     from openacr.basic.language.parser import Parser
@@ -171,7 +170,7 @@ def servo_time_s(card: Card) -> float:
     A model, so that equal states report equal loads: a fixed part and one per axis that
     is on.
     """
-    on = sum(card.memory.I[axis_ints(axis) + at.AXI_ON] for axis in range(card.model.axes))
+    on = sum(card.memory.I[axes.on[axis]] for axis in range(card.model.axes))
     return SERVO_FIXED_S + SERVO_PER_AXIS_S * on
 
 

@@ -19,7 +19,7 @@ from openacr.basic.language.registry import PROG, PROGRAM, command, function
 from openacr.basic.vm.run import LINE_END, Run, Show, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.lang.lexer import TokenKind
-from openacr.map import numbers as at
+from openacr.map.rows import devices as device_rows
 from openacr.messages import INVALID_DEVICE
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def input_(run: Run, item: InputItem) -> Wait | None:
     devices = run.system.devices
     key = (run.needed_program(), item.device)
     devices.check_open(key)
-    row = devices.row(key, at.DQI_PROMPTED)
+    row = devices.row(key, device_rows.prompted)
     if not run.card.memory.I[row]:
         devices.write(key, run.text(item.prompt) if item.prompt is not None else "? ")
         run.card.memory.I[row] = 1
@@ -79,7 +79,7 @@ def input_(run: Run, item: InputItem) -> Wait | None:
         devices.write(key, "Redo" + LINE_END)
         line = None
     if line is None:
-        return _until_received(run, key, at.DQI_LINES)
+        return _until_received(run, key, device_rows.lines)
     run.card.memory.I[row] = 0
     run.system.listeners.set_line_end(key[0], True)
     return None
@@ -96,9 +96,9 @@ def _store_fields(run: Run, targets: tuple[Expr, ...], line: str) -> bool:
     return True
 
 
-def _until_received(run: Run, key: Key, offset: int) -> Wait:
-    row = run.system.devices.row(key, offset)
-    return Wait(WaitKind.ROW_ABOVE, row, 0, retry=True, show=Show.INHIBITED)
+def _until_received(run: Run, key: Key, row: tuple[int, ...]) -> Wait:
+    place = run.system.devices.row(key, row)
+    return Wait(WaitKind.ROW_ABOVE, place, 0, retry=True, show=Show.INHIBITED)
 
 
 # keys
@@ -120,7 +120,7 @@ def inkey(run: Run, device: float = 0) -> str:
 def getch_text(run: Run, device: float = 0) -> str | Wait:
     """Wait for one character of a device."""
     key = _key(run, device)
-    return run.system.devices.read_key(key) or _until_received(run, key, at.DQI_CHARACTERS)
+    return run.system.devices.read_key(key) or _until_received(run, key, device_rows.characters)
 
 
 def getch(run: Run, device: float = 0) -> float | Wait:
@@ -131,7 +131,7 @@ def getch(run: Run, device: float = 0) -> float | Wait:
 
 def kbhit(run: Run, device: float = 0) -> float:
     """Tell whether a character waits on a device: -1 or 0."""
-    row = run.system.devices.row(_key(run, device), at.DQI_CHARACTERS)
+    row = run.system.devices.row(_key(run, device), device_rows.characters)
     return -1.0 if run.card.memory.I[row] else 0.0
 
 

@@ -16,10 +16,10 @@ from openacr.basic.memory.saving import each, kept
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.lang.lexer import TokenKind
-from openacr.map import block
-from openacr.map import numbers as at
+from openacr.map.rows import commutators as rows
+from openacr.map.words import cmf
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion.axis.settings import Setting, not_negative
+from openacr.motion.axis.settings import fp32, long, not_negative
 from openacr.motion.card import Card
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
-FAULTS = at.CMF_CMT_MOTOR_OVERSPEED | at.CMF_CMT_ENCODER_FAULT | at.CMF_CMT_FOLLOWING_ERROR
+FAULTS = cmf.CMT_MOTOR_OVERSPEED | cmf.CMT_ENCODER_FAULT | cmf.CMT_FOLLOWING_ERROR
 
 
 class Channel(Form):
@@ -59,29 +59,21 @@ def commutators(card: Card) -> int:
     return card.model.commutators
 
 
-def _long(row: int) -> Setting:
-    return Setting(block.Kind.LONG, at.CMT_BASE + row, at.CMT_STRIDE)
-
-
-def _fp32(row: int, allows: Callable[[float], bool] = not_negative) -> Setting:
-    return Setting(block.Kind.FP32, at.CMT_BASE + row, at.CMT_STRIDE, allows)
-
-
 object_values(
     (
-        ObjectValue("CMT # PPR", _long(at.CMT_PULSEPERREVOLUTION), commutators,
+        ObjectValue("CMT # PPR", long(rows.pulseperrevolution), commutators,
                     "Set the pulses the encoder gives in one revolution of the motor."),
-        ObjectValue("CMT # ERPMR", _long(at.CMT_ELECREVPERMECHREV), commutators,
+        ObjectValue("CMT # ERPMR", long(rows.elecrevpermechrev), commutators,
                     "Set the electrical cycles of one revolution of the motor.", "", "1"),
-        ObjectValue("CMT # ANG", _long(at.CMT_ANGLEBETWEENPHASES), commutators,
+        ObjectValue("CMT # ANG", long(rows.anglebetweenphases), commutators,
                     "Set the angle from phase A to phase B.", "deg", "120"),
-        ObjectValue("CMT # SHIFT", _long(at.CMT_PHASEMARKEROFFSET), commutators,
+        ObjectValue("CMT # SHIFT", long(rows.phasemarkeroffset), commutators,
                     "Set the encoder counts from the marker to the zero of phase A.", "counts"),
-        ObjectValue("CMT # MAXRPM", _fp32(at.CMT_MAXMOTORRPM), commutators,
+        ObjectValue("CMT # MAXRPM", fp32(rows.maxmotorrpm, not_negative), commutators,
                     "Set the speed that turns a commutator off; 0 never turns it off.", "1/min"),
-        ObjectValue("CMT # MAXAMP", _fp32(at.CMT_MAXMOTORCURRENT), commutators,
+        ObjectValue("CMT # MAXAMP", fp32(rows.maxmotorcurrent, not_negative), commutators,
                     "Set the highest current of the phases; 0 is no limit.", "A"),
-        ObjectValue("CMT # HSEN", _long(at.CMT_HALLEFFECTCHANNEL), commutators,
+        ObjectValue("CMT # HSEN", long(rows.halleffectchannel), commutators,
                     "Choose the Hall inputs of a commutator."),
     ),
     group=GROUP,
@@ -94,7 +86,7 @@ class Channels:
     """Two channels of one kind."""
 
     word: str
-    rows: tuple[int, int]
+    rows: tuple[tuple[int, ...], tuple[int, ...]]
     count: Callable[[Card], int]
     doc: str
 
@@ -110,7 +102,7 @@ class Channels:
             card.memory.I[row] = channel
 
     def _places(self, number: int) -> list[int]:
-        return [at.CMT_BASE + number * at.CMT_STRIDE + row for row in self.rows]
+        return [row[number] for row in self.rows]
 
 
 def _register(channels: Channels) -> None:
@@ -129,11 +121,11 @@ def _register(channels: Channels) -> None:
 
 
 for _channels in (
-    Channels("ENC", (at.CMT_FEEDBACKENCODER, at.CMT_HALLEFFECTCHANNEL), encoder_count,
+    Channels("ENC", (rows.feedbackencoder, rows.halleffectchannel), encoder_count,
              "Choose the feedback encoder and the Hall inputs of a commutator."),
-    Channels("DAC", (at.CMT_PHASEADACCHANNEL, at.CMT_PHASEBDACCHANNEL), dacs,
+    Channels("DAC", (rows.phaseadacchannel, rows.phasebdacchannel), dacs,
              "Choose the analog outputs of both phases."),
-    Channels("ADC", (at.CMT_PHASEAADCCCHANNEL, at.CMT_PHASEBADCCCHANNEL), adcs,
+    Channels("ADC", (rows.phaseaadccchannel, rows.phasebadccchannel), adcs,
              "Choose the analog inputs that measure both phases."),
 ):  # fmt: skip
     _register(_channels)
@@ -149,7 +141,7 @@ def _set_offsets(card: Card, number: int, offsets: Sequence[float]) -> None:
 
 
 def _first_offset(number: int) -> int:
-    return at.CMT_BASE + number * at.CMT_STRIDE + at.CMT_PHASEAOFFSET
+    return rows.phaseaoffset[number]
 
 
 @command("CMT # OFFSET", group=GROUP, levels=ANY, ref=REF, units="V", default="0,0", saved=True,
@@ -167,14 +159,14 @@ kept["CMT # OFFSET"] = each("CMT # OFFSET", commutators, _offsets, _set_offsets)
 
 
 def _mode(card: Card, number: int) -> int:
-    return int(card.memory.I[at.CMF_WORD + number] & at.CMF_CMT_SINUSOIDAL_ON != 0)
+    return int(card.memory.I[cmf.word[number]] & cmf.CMT_SINUSOIDAL_ON != 0)
 
 
 def _set_mode(card: Card, number: int, mode: int) -> None:
     if mode not in (0, 1):
         raise CardError(INVALID_ARGUMENT)
-    flags = card.memory.I[at.CMF_WORD + number] & ~at.CMF_CMT_SINUSOIDAL_ON
-    card.memory.I[at.CMF_WORD + number] = flags | mode * at.CMF_CMT_SINUSOIDAL_ON
+    flags = card.memory.I[cmf.word[number]] & ~cmf.CMT_SINUSOIDAL_ON
+    card.memory.I[cmf.word[number]] = flags | mode * cmf.CMT_SINUSOIDAL_ON
 
 
 @command("CMT # MODE", group=GROUP, levels=ANY, ref=REF, default="0", saved=True,
@@ -195,20 +187,20 @@ kept["CMT # MODE"] = each("CMT # MODE", commutators, _mode, _set_mode)
 def cmt_on(run: Run, number: int) -> None:
     """Turn a commutator on and forget what has turned it off."""
     check_number(number, commutators(run.card))
-    flags = run.card.memory.I[at.CMF_WORD + number] & ~FAULTS
-    run.card.memory.I[at.CMF_WORD + number] = flags | at.CMF_CMT_COMMUTATOR_ON
+    flags = run.card.memory.I[cmf.word[number]] & ~FAULTS
+    run.card.memory.I[cmf.word[number]] = flags | cmf.CMT_COMMUTATOR_ON
 
 
 @command("CMT # OFF", group=GROUP, levels=ANY, ref=REF)
 def cmt_off(run: Run, number: int) -> None:
     """Turn a commutator off: both phases are 0 V."""
     check_number(number, commutators(run.card))
-    run.card.memory.I[at.CMF_WORD + number] &= ~at.CMF_CMT_COMMUTATOR_ON
+    run.card.memory.I[cmf.word[number]] &= ~cmf.CMT_COMMUTATOR_ON
 
 
 @command("CMT #", group=GROUP, levels=ANY, ref=REF)
 def cmt_report(run: Run, number: int) -> None:
     """Report whether a commutator is on."""
     check_number(number, commutators(run.card))
-    is_on = run.card.memory.I[at.CMF_WORD + number] & at.CMF_CMT_COMMUTATOR_ON
+    is_on = run.card.memory.I[cmf.word[number]] & cmf.CMT_COMMUTATOR_ON
     run.print("ON" if is_on else "OFF")

@@ -8,10 +8,9 @@ from openacr.basic.commands.interpolation import GROUP, REF, Given
 from openacr.basic.language.grammar import AxisTarget, AxisTargets, Group, TargetItem
 from openacr.basic.language.registry import PROG, command
 from openacr.basic.vm.run import Run
-from openacr.map.numbers import MF2_TARC_MODE
+from openacr.map.words import mf2
 from openacr.messages import SYNTAX_ERROR
 from openacr.motion.path.move_request import Circle, Direction, Sine, SpaceArc
-from openacr.motion.row_index import master_word2
 
 if TYPE_CHECKING:
     from openacr.basic.language.parser import Parser
@@ -105,13 +104,13 @@ def tarc(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
 @command("TARC ON", group=GROUP, levels=PROG, ref=REF)
 def tarc_on(run: Run) -> None:
     """Set TARC Mode."""
-    run.card.memory.I[master_word2(run.master())] |= MF2_TARC_MODE
+    run.card.memory.I[mf2.word[run.master()]] |= mf2.TARC_MODE
 
 
 @command("TARC OFF", group=GROUP, levels=PROG, ref=REF)
 def tarc_off(run: Run) -> None:
     """Clear TARC Mode."""
-    run.card.memory.I[master_word2(run.master())] &= ~MF2_TARC_MODE
+    run.card.memory.I[mf2.word[run.master()]] &= ~mf2.TARC_MODE
 
 
 @command(

@@ -10,8 +10,7 @@ from openacr.basic.language.grammar import Axes, Axis, Int, Mark, Str
 from openacr.basic.language.registry import ANY, IMMEDIATE, PROG, command
 from openacr.basic.vm.run import Run, Wait, WaitKind
 from openacr.errors import CardError
-from openacr.map import numbers as at
-from openacr.map.rows import drive_talk
+from openacr.map.rows import drive_talk, drive_talk_lines
 from openacr.messages import (
     DEVICE_IN_USE,
     DEVICE_NOT_OPEN,
@@ -63,7 +62,7 @@ def dtalk(run: Run, axes: tuple[Axis, ...]) -> Wait | None:
     if memory.I[drive_talk.drive_type[axis]] != ARIES_TYPE:
         raise CardError(NOT_SUPPORTED)
     line = lines.TalkLine(memory, port)
-    if line.get(at.NETLI_CHANNEL):
+    if line.get(drive_talk_lines.channel):
         raise CardError(DEVICE_IN_USE)
     if line.is_busy:
         return Wait(WaitKind.NEXT_SLICE, retry=True)

@@ -15,6 +15,8 @@ from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.map.kinds_cy import kind_of
 from openacr.map.lookup import packet_groups
+from openacr.map.rows import fast_status
+from openacr.map.words import fsf
 from openacr.messages import INVALID_ARGUMENT
 
 GROUP = "Global Objects"
@@ -24,21 +26,16 @@ TYPES = (LONG, FP32) = (0, 1)
 LONGEST_MS = 60000
 
 
-def _entry(number: int) -> int:
-    check_number(number, at.FST_COUNT)
-    return at.FST_BASE + number * at.FST_STRIDE
-
-
 @command("FSTAT ON", group=GROUP, levels=ANY, ref=REF)
 def fstat_on(run: Run) -> None:
     """Load the entries of the fast status block and copy it cyclically."""
-    run.card.memory.I[at.W_FSTAT] |= at.FSF_FSTAT_ON_REQUEST
+    run.card.memory.I[at.W_FSTAT] |= fsf.FSTAT_ON_REQUEST
 
 
 @command("FSTAT OFF", group=GROUP, levels=ANY, ref=REF)
 def fstat_off(run: Run) -> None:
     """Stop copying: the fast status block stays as it is."""
-    run.card.memory.I[at.W_FSTAT] &= ~(at.FSF_FSTAT_ON | at.FSF_FSTAT_ON_REQUEST)
+    run.card.memory.I[at.W_FSTAT] &= ~(fsf.FSTAT_ON | fsf.FSTAT_ON_REQUEST)
 
 
 @command("FSTAT PERIOD", group=GROUP, levels=ANY, ref=REF, units="ms", default="50",
@@ -54,7 +51,7 @@ def fstat_period(run: Run, period_ms: int | None) -> None:
 @command("FSTAT CLEAR", group=GROUP, levels=ANY, ref=REF)
 def fstat_clear(run: Run) -> None:
     """Forget all entries of the fast status block."""
-    for number in range(at.FST_COUNT):
+    for number in range(fast_status.COUNT):
         _write(run, number, 0, 0, LONG)
 
 
@@ -65,7 +62,7 @@ def fstat_entry(run: Run, number: int, chosen: tuple[float, ...] | None) -> None
 
     The type of the copy, LONG (0) or FP32 (1), is that of the group unless it is given.
     """
-    check_number(number, at.FST_COUNT)
+    check_number(number, fast_status.COUNT)
     if chosen is None:
         run.print(",".join(_copies(run, number)))
         return
@@ -85,16 +82,16 @@ def _type_of(run: Run, numbers: tuple[int | None, ...]) -> int:
 
 
 def _write(run: Run, number: int, code: int, index: int, kind: int) -> None:
-    row, memory = _entry(number), run.card.memory.I
-    memory[row + at.FST_FSTAT_CODE] = code
-    memory[row + at.FST_FSTAT_INDEX] = index
-    memory[row + at.FST_FSTAT_TYPE] = kind
+    memory = run.card.memory.I
+    memory[fast_status.fstat_code[number]] = code
+    memory[fast_status.fstat_index[number]] = index
+    memory[fast_status.fstat_type[number]] = kind
 
 
 def _copies(run: Run, number: int) -> list[str]:
-    row, memory = at.FSBI_BASE + number * at.FSBI_STRIDE, run.card.memory
-    words = range(row + at.FSBI_WORDS, row + at.FSBI_WORDS + FIELDS)
-    if memory.I[row + at.FSBI_TYPE] == FP32:
+    memory, first = run.card.memory, fast_status.words[number]
+    words = range(first, first + FIELDS)
+    if memory.I[fast_status.type[number]] == FP32:
         return [number_text(memory.S[word], NumberKind.SINGLE) for word in words]
     return [str(memory.I[word]) for word in words]
 
@@ -103,11 +100,10 @@ def _copies(run: Run, number: int) -> list[str]:
 def fstat_report(run: Run) -> None:
     """Report state, period and entries of the fast status block."""
     memory = run.card.memory.I
-    is_on = memory[at.W_FSTAT] & (at.FSF_FSTAT_ON | at.FSF_FSTAT_ON_REQUEST)
+    is_on = memory[at.W_FSTAT] & (fsf.FSTAT_ON | fsf.FSTAT_ON_REQUEST)
     run.print(f"FSTAT {'ON' if is_on else 'OFF'} PERIOD {memory[at.P_FSTAT_PERIOD]}")
-    for number in range(at.FST_COUNT):
-        row = _entry(number)
-        places = (at.FST_FSTAT_CODE, at.FST_FSTAT_INDEX, at.FST_FSTAT_TYPE)
-        code, index, kind = (memory[row + place] for place in places)
+    for number in range(fast_status.COUNT):
+        rows = fast_status.fstat_code, fast_status.fstat_index, fast_status.fstat_type
+        code, index, kind = (memory[row[number]] for row in rows)
         if code:
             run.print(f"FSTAT{number} ({code},{index},{kind})")

@@ -25,16 +25,16 @@ from openacr.basic.language.nodes import Expr
 from openacr.basic.language.registry import BY_OBJECT, PROG, command
 from openacr.basic.vm.run import Run, Wait, whole
 from openacr.errors import CardError
-from openacr.map.numbers import AX_PPU, AXF_ROTARY_U
+from openacr.map.rows import axes as axis_rows
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion import interlocks
 from openacr.motion.axis import registers
 from openacr.motion.axis.settings import (
+    fp32,
+    fp64,
     multiplier_of,
     not_negative,
     not_zero,
-    of_axis,
-    of_axis_real,
 )
 from openacr.motion.path import moves
 
@@ -46,8 +46,8 @@ REF = "PG Feedback Control"
 
 axis_values(
     (
-        Value("PPU", of_axis(AX_PPU, not_zero), "Set the pulses per unit.", "pulses/unit", "1"),
-        Value("ROTARY", of_axis_real(AXF_ROTARY_U, not_negative),
+        Value("PPU", fp32(axis_rows.ppu, not_zero), "Set the pulses per unit.", "pulses/unit", "1"),
+        Value("ROTARY", fp64(axis_rows.rotary_u, not_negative),
               "Set the length of a turn: absolute moves take the shorter direction; 0 is linear.",
               "units"),
     ),

@@ -16,7 +16,6 @@ from openacr.basic.language.grammar import (
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run, whole
 from openacr.kernel.sources.source_cy import USE_FILTER
-from openacr.map.numbers import FLF_WINDOW_CNT_SIZE
 from openacr.map.rows import filters
 from openacr.motion.followers import gear, objects
 
@@ -44,7 +43,7 @@ def flt_out(run: Run, axes: tuple[tuple[Axis, SignedParameter | None], ...]) -> 
 
 
 @command("FLT COEF", group=GROUP, levels=BY_OBJECT,
-         grammar=(AxisList(Int("ticks", 1, FLF_WINDOW_CNT_SIZE, optional=True)),),
+         grammar=(AxisList(Int("ticks", 1, filters.WINDOW_CNT_SIZE, optional=True)),),
          ref=REF, units="servo periods", default="10")  # fmt: skip
 def flt_coef(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Set over how many servo periods a filter averages, or report it."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from openacr.basic.commands.follower_forms import (
     AxisSources,
     Captured,
@@ -18,51 +16,32 @@ from openacr.basic.language.number_format import NumberKind, number_text
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run
 from openacr.kernel.sources.source_cy import USE_GEAR
-from openacr.map import block
-from openacr.map.numbers import (
-    AF2_GEAR_OFF_ARMED,
-    AF2_GEAR_OFF_POSITION,
-    AF2_GEAR_ON_POSITION,
-    AF2_GEAR_ON_TRIG_ARMED,
-    AXF_GEAR_CNT,
-    GRF_ACC_RPS,
-    GRF_BASE,
-    GRF_DEC_RPS,
-    GRF_MAX_U,
-    GRF_MIN_U,
-    GRF_PPU,
-    GRF_RATIO,
-    GRF_STRIDE,
-)
-from openacr.motion.axis.settings import Setting, anything, not_negative, not_zero
+from openacr.map.rows import axes as axis_rows
+from openacr.map.rows import gears
+from openacr.map.words import af2
+from openacr.motion.axis.settings import fp64, not_negative, not_zero
 from openacr.motion.followers import gear
 from openacr.motion.interlocks import scale_of
 from openacr.motion.jog import jog
-from openacr.motion.row_index import axis_reals, axis_word2
 from openacr.motion.sources import sources
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"
 
 
-def of_gear(row: int, allows: Callable[[float], bool] = anything) -> Setting:
-    """A setting of the gear of each axis."""
-    return Setting(block.Kind.FP64, GRF_BASE + row, GRF_STRIDE, allows)
-
-
 axis_values(
     (
-        Value("GEAR PPU", of_gear(GRF_PPU, not_zero),
+        Value("GEAR PPU", fp64(gears.ppu, not_zero),
               "Set the source pulses per source unit of a gear.", "pulses/unit", "1"),
-        Value("GEAR RATIO", of_gear(GRF_RATIO),
+        Value("GEAR RATIO", fp64(gears.ratio),
               "Set the units an axis moves per source unit, also while geared.", "", "1"),
-        Value("GEAR ACC", of_gear(GRF_ACC_RPS, not_negative),
+        Value("GEAR ACC", fp64(gears.acc_rps, not_negative),
               "Set the rate at which the ratio of a gear ramps up; 0 is at once.", "1/s"),
-        Value("GEAR DEC", of_gear(GRF_DEC_RPS, not_negative),
+        Value("GEAR DEC", fp64(gears.dec_rps, not_negative),
               "Set the rate at which the ratio of a gear ramps down; 0 is at once.", "1/s"),
-        Value("GEAR MAX", of_gear(GRF_MAX_U),
+        Value("GEAR MAX", fp64(gears.max_u),
               "Set the highest gear offset; acts while it is above GEAR MIN.", "units"),
-        Value("GEAR MIN", of_gear(GRF_MIN_U),
+        Value("GEAR MIN", fp64(gears.min_u),
               "Set the lowest gear offset; acts while it is below GEAR MAX.", "units"),
     ),
     group=GROUP,
@@ -108,7 +87,7 @@ def gear_on_ihpos(run: Run, axes: tuple[tuple[Axis, Passing], ...]) -> None:
         gear.permit(run.card, axis.number)
     for axis, passing in axes:
         gear.disarm_on(run.card, axis.number)
-        _arm_passing(run, axis, gear.on_trigger(axis.number), passing, AF2_GEAR_ON_POSITION)
+        _arm_passing(run, axis, gear.on_trigger(axis.number), passing, af2.GEAR_ON_POSITION)
 
 
 @command("GEAR OFF IHPOS", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(PassingForm()),),
@@ -117,7 +96,7 @@ def gear_off_ihpos(run: Run, axes: tuple[tuple[Axis, Passing], ...]) -> None:
     """Switch gears off when a parameter passes a setpoint."""
     for axis, passing in axes:
         gear.disarm_off(run.card, axis.number)
-        _arm_passing(run, axis, gear.off_trigger(axis.number), passing, AF2_GEAR_OFF_POSITION)
+        _arm_passing(run, axis, gear.off_trigger(axis.number), passing, af2.GEAR_OFF_POSITION)
 
 
 def _arm_passing(run: Run, axis: Axis, trigger: int, passing: Passing, flag: int) -> None:
@@ -130,7 +109,7 @@ def _arm_passing(run: Run, axis: Axis, trigger: int, passing: Passing, flag: int
         below=passing.below,
         timeout_s=passing.timeout_s,
     )
-    run.card.memory.I[axis_word2(axis.number)] |= flag
+    run.card.memory.I[af2.word[axis.number]] |= flag
 
 
 @command("GEAR ON TRG", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(CapturedForm()),), ref=REF)
@@ -140,7 +119,7 @@ def gear_on_trg(run: Run, axes: tuple[tuple[Axis, Captured], ...]) -> None:
         gear.permit(run.card, axis.number)
     for axis, captured in axes:
         gear.disarm_on(run.card, axis.number)
-        _arm_capture(run, axis, gear.on_trigger(axis.number), captured, AF2_GEAR_ON_TRIG_ARMED)
+        _arm_capture(run, axis, gear.on_trigger(axis.number), captured, af2.GEAR_ON_TRIG_ARMED)
 
 
 @command("GEAR OFF TRG", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(CapturedForm()),),
@@ -149,13 +128,13 @@ def gear_off_trg(run: Run, axes: tuple[tuple[Axis, Captured], ...]) -> None:
     """Switch gears off at a captured source position plus Gear Trigger Off Offset."""
     for axis, captured in axes:
         gear.disarm_off(run.card, axis.number)
-        _arm_capture(run, axis, gear.off_trigger(axis.number), captured, AF2_GEAR_OFF_ARMED)
+        _arm_capture(run, axis, gear.off_trigger(axis.number), captured, af2.GEAR_OFF_ARMED)
 
 
 def _arm_capture(run: Run, axis: Axis, trigger: int, captured: Captured, flag: int) -> None:
     sources.go_live(run.card, axis.number)
     sources.arm_capture(run.card, trigger, captured.mode, captured.copy_to, captured.register)
-    run.card.memory.I[axis_word2(axis.number)] |= flag
+    run.card.memory.I[af2.word[axis.number]] |= flag
 
 
 @command("GEAR OFFSET", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF,
@@ -164,14 +143,14 @@ def gear_offset(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Set the gear offset of axes, which move by the difference, or report it."""
     for item in axes:
         if item.is_query:
-            run.print(offset_text(run, item.axis.number, AXF_GEAR_CNT))
+            run.print(offset_text(run, item.axis.number, axis_rows.gear_cnt))
         else:
             gear.set_offset(run.card, item.axis.number, item.value)
 
 
-def offset_text(run: Run, axis: int, part: int) -> str:
+def offset_text(run: Run, axis: int, part: tuple[int, ...]) -> str:
     """One part of the setpoint of an axis in units."""
-    cnt = run.card.memory.F[axis_reals(axis) + part]
+    cnt = run.card.memory.F[part[axis]]
     return number_text(cnt / scale_of(run.card, axis), NumberKind.DOUBLE)
 
 

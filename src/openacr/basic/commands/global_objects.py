@@ -11,31 +11,12 @@ from openacr.basic.commands.value_commands import (
 from openacr.basic.language.grammar import Num
 from openacr.basic.language.registry import ANY, command
 from openacr.basic.vm.run import Run
-from openacr.map.block import Kind
-from openacr.map.numbers import (
-    ADC_ADC_GAIN,
-    ADC_ADC_INPUT,
-    ADC_ADC_OFFSET,
-    ADC_BASE,
-    ADC_STRIDE,
-    DAC_BASE,
-    DAC_DAC_GAIN,
-    DAC_DAC_OFFSET,
-    DAC_DAC_OUTPUT,
-    DAC_STRIDE,
-    ENI_BASE,
-    ENI_SOURCE,
-    ENI_STRIDE,
-    ENXI_BASE,
-    ENXI_CLOCK_HZ,
-    ENXI_STRIDE,
-    ENXI_WIDTH,
-    STPR_BASE,
-    STPR_STEPPER_COUNT,
-    STPR_STRIDE,
-)
+from openacr.map.rows import adcs as adc_rows
+from openacr.map.rows import dacs as dac_rows
+from openacr.map.rows import encoders as encoder_rows
+from openacr.map.rows import steppers
 from openacr.motion.axis import encoders, settings
-from openacr.motion.axis.settings import Setting
+from openacr.motion.axis.settings import Setting, fp32, long
 from openacr.motion.card import Card
 
 GROUP = "Global Objects"
@@ -73,20 +54,10 @@ def word_width(value: float) -> bool:
     return 0 <= value <= WORD_BITS and value == int(value)
 
 
-def of_dac(row: int) -> Setting:
-    """A parameter of each analog output."""
-    return Setting(Kind.FP32, DAC_BASE + row, DAC_STRIDE)
-
-
-def of_adc(row: int) -> Setting:
-    """A parameter of each analog input."""
-    return Setting(Kind.FP32, ADC_BASE + row, ADC_STRIDE)
-
-
-ENCODER_SOURCE = Setting(Kind.LONG, ENI_BASE + ENI_SOURCE, ENI_STRIDE, pulse_source)
-SERIAL_CLOCK = Setting(Kind.LONG, ENXI_BASE + ENXI_CLOCK_HZ, ENXI_STRIDE, settings.not_negative)
-SERIAL_WIDTH = Setting(Kind.LONG, ENXI_BASE + ENXI_WIDTH, ENXI_STRIDE, word_width)
-STEPPER_COUNT = Setting(Kind.LONG, STPR_BASE + STPR_STEPPER_COUNT, STPR_STRIDE)
+ENCODER_SOURCE = long(encoder_rows.source, pulse_source)
+SERIAL_CLOCK = long(encoder_rows.clock_hz, settings.not_negative)
+SERIAL_WIDTH = long(encoder_rows.width, word_width)
+STEPPER_COUNT = long(steppers.stepper_count)
 
 object_values(
     (
@@ -98,13 +69,13 @@ object_values(
                     "Set the clock with which an absolute encoder is read.", "Hz"),
         ObjectValue("ENC # WIDTH", SERIAL_WIDTH, encoder_count,
                     "Set the bits of an absolute encoder.", "bits"),
-        ObjectValue("DAC # GAIN", of_dac(DAC_DAC_GAIN), dacs,
+        ObjectValue("DAC # GAIN", fp32(dac_rows.dac_gain), dacs,
                     "Set the counts an analog output has per volt.", "counts/V", "3276.8"),
-        ObjectValue("DAC # OFFSET", of_dac(DAC_DAC_OFFSET), dacs,
+        ObjectValue("DAC # OFFSET", fp32(dac_rows.dac_offset), dacs,
                     "Set what is added to an analog output.", "V"),
-        ObjectValue("ADC # GAIN", of_adc(ADC_ADC_GAIN), adcs,
+        ObjectValue("ADC # GAIN", fp32(adc_rows.adc_gain), adcs,
                     "Set the voltage of an analog input at full scale.", "V", "10"),
-        ObjectValue("ADC # OFFSET", of_adc(ADC_ADC_OFFSET), adcs,
+        ObjectValue("ADC # OFFSET", fp32(adc_rows.adc_offset), adcs,
                     "Set what is added to an analog input.", "V"),
     ),
     group=GROUP,
@@ -185,13 +156,13 @@ def stepper_res(run: Run, number: int, count: float | None) -> None:
 @command("DAC #", group=GROUP, levels=ANY, ref=REF, units="V")
 def dac_report(run: Run, number: int) -> None:
     """Report the voltage of an analog output."""
-    _report(run, of_dac(DAC_DAC_OUTPUT), number, dacs(run.card))
+    _report(run, fp32(dac_rows.dac_output), number, dacs(run.card))
 
 
 @command("ADC #", group=GROUP, levels=ANY, ref=REF, units="V")
 def adc_report(run: Run, number: int) -> None:
     """Report the voltage of an analog input."""
-    _report(run, of_adc(ADC_ADC_INPUT), number, adcs(run.card))
+    _report(run, fp32(adc_rows.adc_input), number, adcs(run.card))
 
 
 def _report(run: Run, setting: Setting, number: int, count: int) -> None:

@@ -9,16 +9,8 @@ from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run
 from openacr.kernel.sources.source_cy import USE_JOG, USE_WHEEL
 from openacr.map import block
-from openacr.map.numbers import (
-    HWF_ACC_UPS2,
-    HWF_BASE,
-    HWF_PPU,
-    HWF_RATIO,
-    HWF_STRIDE,
-    HWF_VEL_UPS,
-)
 from openacr.map.rows import hand_wheels
-from openacr.motion.axis.settings import Setting, not_negative, not_zero
+from openacr.motion.axis.settings import fp64, not_negative, not_zero
 from openacr.motion.followers import gear, objects
 
 GROUP = "Setpoint Control"
@@ -27,13 +19,13 @@ FP64 = block.Kind.FP64
 
 axis_values(
     (
-        Value("HDW PPU", Setting(FP64, HWF_BASE + HWF_PPU, HWF_STRIDE, not_zero),
+        Value("HDW PPU", fp64(hand_wheels.ppu, not_zero),
               "Set the source pulses per turn unit of a hand wheel.", "pulses", "1"),
-        Value("HDW RATIO", Setting(FP64, HWF_BASE + HWF_RATIO, HWF_STRIDE),
+        Value("HDW RATIO", fp64(hand_wheels.ratio),
               "Set the travel of an axis per turn unit of its hand wheel.", "units", "1"),
-        Value("HDW VEL", Setting(FP64, HWF_BASE + HWF_VEL_UPS, HWF_STRIDE, not_negative),
+        Value("HDW VEL", fp64(hand_wheels.vel_ups, not_negative),
               "Set the highest speed of axes moved by a hand wheel; 0 is JOG VEL.", "units/s"),
-        Value("HDW ACC", Setting(FP64, HWF_BASE + HWF_ACC_UPS2, HWF_STRIDE, not_negative),
+        Value("HDW ACC", fp64(hand_wheels.acc_ups2, not_negative),
               "Set the ramps of axes moved by a hand wheel; 0 is JOG ACC and JOG DEC.", "units/s2"),
     ),
     group=GROUP,

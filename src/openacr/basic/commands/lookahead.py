@@ -8,16 +8,10 @@ from openacr.basic.language.grammar import Group, Word
 from openacr.basic.language.number_format import number_text
 from openacr.basic.language.registry import BY_OBJECT, EXTENSION, command
 from openacr.basic.vm.run import Run, Show, Wait, WaitKind
-from openacr.map.numbers import (
-    MA_LOOK_AHEAD_MIN_VEL,
-    MSF_TOLERANCE_U,
-    MSI_QUEUED,
-    STI_MBUF_COUNT,
-)
+from openacr.map.rows import masters, storage
 from openacr.models import Feature
-from openacr.motion.axis.settings import of_master, of_master_real
+from openacr.motion.axis.settings import fp32, fp64, not_negative
 from openacr.motion.path import buffer, corners
-from openacr.motion.row_index import master_ints
 
 
 @command(
@@ -31,17 +25,17 @@ def mbuf(run: Run, word: str | None) -> Wait | None:
         return None
     program = run.card.attachments.program(master)
     heap = run.system.storage.heap
-    count = 0 if program is None else heap.row(program, STI_MBUF_COUNT)
+    count = 0 if program is None else heap.row(program, storage.mbuf_count)
     moves_ring = word == "OFF" or not buffer.fits(run.card, master, count)
     if moves_ring and not buffer.is_empty(run.card, master):
-        row = master_ints(master) + MSI_QUEUED
+        row = masters.queued[master]
         return Wait(WaitKind.ROW_BELOW, row, 1, retry=True, show=Show.MOVE_PENDING)
     if word == "ON":
         buffer.switch_on(run.card, master, count)
     else:
         buffer.switch_off(run.card, master)
         if program is not None:
-            heap.set_row(program, STI_MBUF_COUNT, 0)
+            heap.set_row(program, storage.mbuf_count, 0)
     return None
 
 
@@ -80,7 +74,7 @@ def look_ang(run: Run, angles: tuple[float, ...] | None) -> None:
 
 master_values(
     (
-        Value("LOOK MINVEL", of_master(MA_LOOK_AHEAD_MIN_VEL),
+        Value("LOOK MINVEL", fp32(masters.look_ahead_min_vel, not_negative),
               "Set the speed of the sharpest corners with look-ahead.", "units/s"),
     ),
     group=GROUP,
@@ -90,7 +84,7 @@ master_values(
 
 master_values(
     (
-        Value("LOOK TOL", of_master_real(MSF_TOLERANCE_U, corners.is_tolerance),
+        Value("LOOK TOL", fp64(masters.tolerance_u, corners.is_tolerance),
               "Set how far the paths of moves to come may stay off their corners with look-ahead.",
               "units"),
     ),

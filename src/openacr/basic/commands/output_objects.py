@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from openacr.basic.commands.follower_forms import ArrayName, choose_object_source
 from openacr.basic.commands.value_commands import ObjectValue, check_number, object_values
 from openacr.basic.language.grammar import (
@@ -22,27 +20,25 @@ from openacr.basic.vm.run import Run, whole
 from openacr.errors import CardError
 from openacr.kernel.followers.cam_cy import LONGS
 from openacr.kernel.sources.source_cy import LIMITER_TAPS, OUTPUT_TAPS, RATCHET_TAPS, SWITCH_TAPS
-from openacr.map import block
 from openacr.map import numbers as at
 from openacr.map.kinds_cy import kind_of
-from openacr.map.rows import limit_switches, output_objects
+from openacr.map.memory import Memory
+from openacr.map.rows import limit_switches, limiters, output_objects, ratchets
 from openacr.messages import INVALID_BIT, INVALID_PARAMETER
-from openacr.motion.axis.settings import Setting, anything, not_negative, not_zero
+from openacr.motion.axis.settings import fp64, long, not_negative, not_zero
 from openacr.motion.card import Card
 from openacr.motion.followers import cam, objects
 from openacr.motion.sources import sources
-from openacr.views import F64
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
 HIGHEST_MODE = 15
 FIRST_SWITCH_FLAG = 120
-FP64, LONG = block.Kind.FP64, block.Kind.LONG
 
 
 def eight(card: Card) -> int:
     """How many ratchets, limiters, limit switches and output objects there are."""
-    return at.RT_COUNT
+    return ratchets.COUNT
 
 
 def mode(value: float) -> bool:
@@ -50,26 +46,21 @@ def mode(value: float) -> bool:
     return 0 <= value <= HIGHEST_MODE and value == int(value)
 
 
-def real(first: int, stride: int, allows: Callable[[float], bool] = anything) -> Setting:
-    """A setting of each object."""
-    return Setting(FP64, first, stride, allows)
-
-
 object_values(
     (
-        ObjectValue("RATCH # MODE", Setting(LONG, at.RTI_BASE + at.RTI_MODE, at.RTI_STRIDE, mode),
+        ObjectValue("RATCH # MODE", long(ratchets.mode, mode),
                     eight, "Choose what a ratchet does with positive and negative counts."),
-        ObjectValue("LIMIT # FREQ", real(at.LTF_BASE + at.LTF_FREQ_HZ, at.LTF_STRIDE, not_negative),
+        ObjectValue("LIMIT # FREQ", fp64(limiters.freq_hz, not_negative),
                     eight, "Set the highest rate of a limiter; 0 is no limit.", "pulses/s"),
-        ObjectValue("LIMIT # MULT", real(at.LTF_BASE + at.LTF_MULT, at.LTF_STRIDE),
+        ObjectValue("LIMIT # MULT", fp64(limiters.mult),
                     eight, "Multiply the counts of a limiter.", "", "1"),
-        ObjectValue("PLS # MASK", Setting(LONG, at.PSI_BASE + at.PSI_MASK, at.PSI_STRIDE),
+        ObjectValue("PLS # MASK", long(limit_switches.mask),
                     eight, "Set the bits a limit switch writes.", "", "-1"),
-        ObjectValue("PLS # RATIO", real(at.PSF_BASE + at.PSF_RATIO, at.PSF_STRIDE, not_zero),
+        ObjectValue("PLS # RATIO", fp64(limit_switches.ratio, not_zero),
                     eight, "Set the array elements per source pulse of a limit switch.", "", "1"),
-        ObjectValue("PLS # ROTARY", real(at.PSF_BASE + at.PSF_ROTARY, at.PSF_STRIDE, not_negative),
+        ObjectValue("PLS # ROTARY", fp64(limit_switches.rotary, not_negative),
                     eight, "Set the elements after which a limit switch begins again; 0 is never."),
-        ObjectValue("PLS # FLZ", real(at.PSF_BASE + at.PSF_FLZ_CNT, at.PSF_STRIDE),
+        ObjectValue("PLS # FLZ", fp64(limit_switches.flz_cnt),
                     eight, "Shift the source of a limit switch.", "pulses"),
     ),
     group=GROUP,
@@ -84,7 +75,7 @@ object_values(
          default="NONE")  # fmt: skip
 def ratch_src(run: Run, number: int, source: ObjectRef | None) -> None:
     """Choose the source of a ratchet."""
-    check_number(number, at.RT_COUNT)
+    check_number(number, ratchets.COUNT)
     choose_object_source(run, RATCHET_TAPS + number, source)
 
 
@@ -92,21 +83,21 @@ def ratch_src(run: Run, number: int, source: ObjectRef | None) -> None:
          units="pulses")  # fmt: skip
 def ratch_res(run: Run, number: int, value: float | None) -> None:
     """Set the output of a ratchet (0) and forget what it has buffered."""
-    check_number(number, at.RT_COUNT)
+    check_number(number, ratchets.COUNT)
     objects.reset_ratchet(run.card, number, value or 0.0)
 
 
 @command("RATCH #", group=GROUP, levels=ANY, ref=REF, units="pulses")
 def ratch_report(run: Run, number: int) -> None:
     """Report the output of a ratchet."""
-    _print_row(run, number, at.RTF_BASE + at.RTF_OUTPUT_CNT, at.RTF_STRIDE)
+    _print_row(run, number, ratchets.output_cnt)
 
 
 @command("LIMIT # SRC", group=GROUP, levels=ANY, grammar=(Source(optional=True),), ref=REF,
          default="NONE")  # fmt: skip
 def limit_src(run: Run, number: int, source: ObjectRef | None) -> None:
     """Choose the source of a limiter."""
-    check_number(number, at.LT_COUNT)
+    check_number(number, limiters.COUNT)
     choose_object_source(run, LIMITER_TAPS + number, source)
 
 
@@ -114,19 +105,19 @@ def limit_src(run: Run, number: int, source: ObjectRef | None) -> None:
          units="pulses")  # fmt: skip
 def limit_res(run: Run, number: int, value: float | None) -> None:
     """Set the output of a limiter (0) and forget what it has held back."""
-    check_number(number, at.LT_COUNT)
+    check_number(number, limiters.COUNT)
     objects.reset_limiter(run.card, number, value or 0.0)
 
 
 @command("LIMIT #", group=GROUP, levels=ANY, ref=REF, units="pulses")
 def limit_report(run: Run, number: int) -> None:
     """Report the output of a limiter."""
-    _print_row(run, number, at.LTF_BASE + at.LTF_OUTPUT_CNT, at.LTF_STRIDE)
+    _print_row(run, number, limiters.output_cnt)
 
 
-def _print_row(run: Run, number: int, first: int, stride: int) -> None:
-    check_number(number, at.RT_COUNT)
-    run.print(number_text(run.card.memory.F[first + number * stride], NumberKind.DOUBLE))
+def _print_row(run: Run, number: int, row: tuple[int, ...]) -> None:
+    check_number(number, len(row))
+    run.print(number_text(run.card.memory.F[row[number]], NumberKind.DOUBLE))
 
 
 # programmable limit switches
@@ -136,14 +127,14 @@ def _print_row(run: Run, number: int, first: int, stride: int) -> None:
          default="NONE")  # fmt: skip
 def pls_src(run: Run, number: int, source: ObjectRef | None) -> None:
     """Choose the position a limit switch looks at."""
-    check_number(number, at.PS_COUNT)
+    check_number(number, limit_switches.COUNT)
     choose_object_source(run, SWITCH_TAPS + number, source)
 
 
 @command("PLS # BASE", group=GROUP, levels=ANY, grammar=(ArrayName("LA"),), ref=REF)
 def pls_base(run: Run, number: int, array: ObjectRef) -> None:
     """Choose the array of output patterns of a limit switch."""
-    check_number(number, at.PS_COUNT)
+    check_number(number, limit_switches.COUNT)
     program = run.needed_program()
     cam.array_length(run.card, program, LONGS, array.number, 1)
     run.card.memory.I[limit_switches.program[number]] = program
@@ -154,7 +145,7 @@ def pls_base(run: Run, number: int, array: ObjectRef) -> None:
          default="P4097")  # fmt: skip
 def pls_dst(run: Run, number: int, parameter: SignedParameter | None) -> None:
     """Choose the LONG parameter a limit switch writes to."""
-    check_number(number, at.PS_COUNT)
+    check_number(number, limit_switches.COUNT)
     row = limit_switches.destination[number]
     if parameter is None:
         run.print(f"P{run.card.memory.I[row]}")
@@ -167,7 +158,7 @@ def pls_dst(run: Run, number: int, parameter: SignedParameter | None) -> None:
 @command("PLS # RES", group=GROUP, levels=ANY, grammar=(Num("index", optional=True),), ref=REF)
 def pls_res(run: Run, number: int, index: float | None) -> None:
     """Make the present position of the source this index (0) of the array."""
-    check_number(number, at.PS_COUNT)
+    check_number(number, limit_switches.COUNT)
     memory = run.card.memory
     now = sources.value(run.card, SWITCH_TAPS + number)
     offset = (index or 0.0) / memory.F[limit_switches.ratio[number]]
@@ -179,7 +170,7 @@ def pls_res(run: Run, number: int, index: float | None) -> None:
 @command("PLS # ON", group=GROUP, levels=ANY, ref=REF)
 def pls_on(run: Run, number: int) -> None:
     """Switch a limit switch on; it writes nothing before BASE has given it an array."""
-    check_number(number, at.PS_COUNT)
+    check_number(number, limit_switches.COUNT)
     sources.objects_go_live(run.card)
     run.card.memory.set_bit(FIRST_SWITCH_FLAG + number, True)
 
@@ -187,20 +178,20 @@ def pls_on(run: Run, number: int) -> None:
 @command("PLS # OFF", group=GROUP, levels=ANY, ref=REF)
 def pls_off(run: Run, number: int) -> None:
     """Switch a limit switch off; its outputs stay."""
-    check_number(number, at.PS_COUNT)
+    check_number(number, limit_switches.COUNT)
     run.card.memory.set_bit(FIRST_SWITCH_FLAG + number, False)
 
 
 @command("PLS #", group=GROUP, levels=ANY, ref=REF)
 def pls_report(run: Run, number: int) -> None:
     """Report source, array, destination and state of a limit switch."""
-    check_number(number, at.PS_COUNT)
-    memory, row = run.card.memory, at.PSI_BASE + number * at.PSI_STRIDE
-    array = memory.I[row + at.PSI_ARRAY] - 1
+    check_number(number, limit_switches.COUNT)
+    memory = run.card.memory
+    array = memory.I[limit_switches.array[number]] - 1
     base = "NONE" if array < 0 else f"LA{array}"
     on = "ON" if memory.bit(FIRST_SWITCH_FLAG + number) else "OFF"
     source = sources.text(run.card, SWITCH_TAPS + number)
-    destination = memory.I[row + at.PSI_DESTINATION]
+    destination = memory.I[limit_switches.destination[number]]
     run.print(f"PLS{number} {on} SRC {source} BASE {base} DST P{destination}")
 
 
@@ -211,7 +202,7 @@ def pls_report(run: Run, number: int) -> None:
          default="ENC of the same number")  # fmt: skip
 def oop_src(run: Run, number: int, source: ObjectRef | None) -> None:
     """Choose the position an output object looks at."""
-    check_number(number, at.OO_COUNT)
+    check_number(number, output_objects.COUNT)
     choose_object_source(run, OUTPUT_TAPS + number, source)
 
 
@@ -219,7 +210,7 @@ def oop_src(run: Run, number: int, source: ObjectRef | None) -> None:
          default="32 + number")  # fmt: skip
 def oop_bit(run: Run, number: int, bit: BitState | None) -> None:
     """Choose the flag of an output object."""
-    check_number(number, at.OO_COUNT)
+    check_number(number, output_objects.COUNT)
     row = output_objects.bit[number]
     if bit is None:
         run.print(str(run.card.memory.I[row]))
@@ -233,7 +224,7 @@ def oop_bit(run: Run, number: int, bit: BitState | None) -> None:
          units="pulses")  # fmt: skip
 def oop_pos(run: Run, number: int, window: tuple[float, float]) -> None:
     """Set the window in which the flag of an output object is set."""
-    check_number(number, at.OO_COUNT)
+    check_number(number, output_objects.COUNT)
     objects.set_window(run.card, number, *window)
 
 
@@ -241,7 +232,7 @@ def oop_pos(run: Run, number: int, window: tuple[float, float]) -> None:
          grammar=(Group("start", "pitch", "width", "count", fewest=3),))  # fmt: skip
 def oop_inc(run: Run, number: int, windows: tuple[float, ...]) -> None:
     """Set repeating windows of an output object; without a count they are endless."""
-    check_number(number, at.OO_COUNT)
+    check_number(number, output_objects.COUNT)
     start, pitch, width = windows[:3]
     objects.set_windows(run.card, number, start, pitch, width, whole((*windows, 0.0)[3]))
 
@@ -249,38 +240,38 @@ def oop_inc(run: Run, number: int, windows: tuple[float, ...]) -> None:
 @command("OOP # ON", group=GROUP, levels=ANY, ref=REF)
 def oop_on(run: Run, number: int) -> None:
     """Switch an output object on."""
-    check_number(number, at.OO_COUNT)
+    check_number(number, output_objects.COUNT)
     objects.output_on(run.card, number, True)
 
 
 @command("OOP # OFF", group=GROUP, levels=ANY, ref=REF)
 def oop_off(run: Run, number: int) -> None:
     """Switch an output object off; its flag is cleared."""
-    check_number(number, at.OO_COUNT)
+    check_number(number, output_objects.COUNT)
     objects.output_on(run.card, number, False)
 
 
 @command("OOP #", group=GROUP, levels=ANY, ref=REF)
 def oop_report(run: Run, number: int) -> None:
     """Report source, flag, windows and state of an output object."""
-    check_number(number, at.OO_COUNT)
+    check_number(number, output_objects.COUNT)
     memory = run.card.memory
-    row, reals = at.OOI_BASE + number * at.OOI_STRIDE, at.OOF_BASE + number * at.OOF_STRIDE
-    on = "ON" if memory.I[row + at.OOI_ON] else "OFF"
+    on = "ON" if memory.I[output_objects.on[number]] else "OFF"
     source = sources.text(run.card, OUTPUT_TAPS + number)
     window = ",".join(
-        number_text(memory.F[reals + place], NumberKind.DOUBLE)
-        for place in (at.OOF_FROM_CNT, at.OOF_TO_CNT)
+        number_text(memory.F[row[number]], NumberKind.DOUBLE)
+        for row in (output_objects.from_cnt, output_objects.to_cnt)
     )
-    windows = _windows_text(memory.F, reals, memory.I[row + at.OOI_WINDOWS])
-    flag = memory.I[row + at.OOI_BIT]
+    windows = _windows_text(memory, number)
+    flag = memory.I[output_objects.bit[number]]
     run.print(f"OOP{number} {on} SRC {source} BIT {flag} POS ({window}){windows}")
 
 
-def _windows_text(reals: F64, row: int, count: int) -> str:
+def _windows_text(memory: Memory, number: int) -> str:
     """The windows of INC as they are typed; nothing before any are set."""
-    if not reals[row + at.OOF_PITCH_CNT]:
+    if not memory.F[output_objects.pitch_cnt[number]]:
         return ""
-    places = (at.OOF_START_CNT, at.OOF_PITCH_CNT, at.OOF_WIDTH_CNT)
-    texts = [number_text(reals[row + place], NumberKind.DOUBLE) for place in places]
+    rows = output_objects.start_cnt, output_objects.pitch_cnt, output_objects.width_cnt
+    texts = [number_text(memory.F[row[number]], NumberKind.DOUBLE) for row in rows]
+    count = memory.I[output_objects.windows[number]]
     return f" INC ({','.join([*texts, str(count)] if count else texts)})"

@@ -7,9 +7,9 @@ from openacr.basic.commands.value_commands import Value, axis_values
 from openacr.basic.language.grammar import Axes, Axis
 from openacr.basic.language.registry import BY_OBJECT, PROG, command
 from openacr.basic.vm.run import Run
-from openacr.map.numbers import AXF_PM_ACC_UPS2, AXF_PM_BAND_U, AXF_PM_TIME_S, AXF_PM_VEL_UPS
+from openacr.map.rows import axes as axis_rows
 from openacr.motion.axis import maintenance
-from openacr.motion.axis.settings import not_negative, of_axis_real
+from openacr.motion.axis.settings import fp64, not_negative
 
 
 @command("PM", group=GROUP, levels=PROG, ref=REF)
@@ -37,13 +37,13 @@ def pm_off(run: Run, axes: tuple[Axis, ...]) -> None:
 
 axis_values(
     (
-        Value("PM DB", of_axis_real(AXF_PM_BAND_U, not_negative),
+        Value("PM DB", fp64(axis_rows.pm_band_u, not_negative),
               "Set the position error that needs no correction.", "units"),
-        Value("PM VEL", of_axis_real(AXF_PM_VEL_UPS, not_negative),
+        Value("PM VEL", fp64(axis_rows.pm_vel_ups, not_negative),
               "Set the speed of corrections; 0 is JOG VEL.", "units/s"),
-        Value("PM ACC", of_axis_real(AXF_PM_ACC_UPS2, not_negative),
+        Value("PM ACC", fp64(axis_rows.pm_acc_ups2, not_negative),
               "Set the ramps of corrections; 0 is JOG ACC.", "units/s2"),
-        Value("PM TIME", of_axis_real(AXF_PM_TIME_S, not_negative),
+        Value("PM TIME", fp64(axis_rows.pm_time_s, not_negative),
               "Set for how long an error has to last before it is corrected.", "s", "0.1"),
     ),
     group=GROUP,

@@ -19,12 +19,14 @@ from openacr.errors import CardError
 from openacr.kernel.followers.cam_cy import DOUBLES, LONGS, SINGLES
 from openacr.kernel.status.sample_cy import INTO_DOUBLE, INTO_LONG, INTO_SINGLE
 from openacr.map import numbers as at
+from openacr.map.rows import sampler
+from openacr.map.words import mo
 from openacr.messages import INVALID_ARGUMENT, INVALID_BIT
 from openacr.motion.followers import cam
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
-CHANNELS = at.SAI_SOURCE_SIZE
+CHANNELS = sampler.SOURCE_SIZE
 MS_PER_S = 1000.0
 LONGEST_S = 2e6
 
@@ -42,7 +44,7 @@ def samp_src(run: Run, channel: int, parameter: SignedParameter) -> None:
     """Choose the parameter a channel records."""
     check_number(channel, CHANNELS)
     needs_parameter(run, parameter.number)
-    run.card.memory.I[at.SAI_BASE + at.SAI_SOURCE + channel] = parameter.number + 1
+    run.card.memory.I[sampler.source + channel] = parameter.number + 1
 
 
 @command("SAMP # BASE", group=GROUP, levels=ANY, grammar=(ArrayName("LA", "SA", "DA"),), ref=REF)
@@ -53,9 +55,9 @@ def samp_base(run: Run, channel: int, array: ObjectRef) -> None:
     kind, table, words = _ARRAYS[array.word]
     cam.array_length(run.card, program, table, array.number, words)
     memory = run.card.memory
-    memory.I[at.SAI_BASE + at.SAI_KIND + channel] = kind
-    memory.I[at.SAI_BASE + at.SAI_PROGRAM + channel] = program
-    memory.I[at.SAI_BASE + at.SAI_ARRAY + channel] = array.number
+    memory.I[sampler.kind + channel] = kind
+    memory.I[sampler.program + channel] = program
+    memory.I[sampler.array + channel] = array.number
 
 
 @command("SAMP TRG", group=GROUP, levels=ANY, grammar=(Bit(signed=True),), ref=REF)
@@ -63,8 +65,8 @@ def samp_trg(run: Run, bit: BitState) -> None:
     """Choose the flag, and its state, that starts sampling."""
     if not 0 <= bit.number <= at.FLAG_LAST:
         raise CardError(INVALID_BIT)
-    run.card.memory.I[at.SAI_BASE + at.SAI_TRIGGER] = bit.number + 1
-    run.card.memory.I[at.SAI_BASE + at.SAI_TRIGGER_CLEAR] = int(bit.clear)
+    run.card.memory.I[sampler.trigger] = bit.number + 1
+    run.card.memory.I[sampler.trigger_clear] = int(bit.clear)
 
 
 @command("SAMP PERIOD", group=GROUP, levels=ANY, grammar=(Num("period", optional=True),), ref=REF,
@@ -84,10 +86,10 @@ def samp_period(run: Run, period_s: float | None) -> None:
 def samp_clear(run: Run) -> None:
     """Stop sampling and forget channels, trigger and period."""
     memory = run.card.memory
-    flags = at.MO_SAMPLE_TRIGGER_ARMED | at.MO_SAMPLE_IN_PROGRESS | at.MO_SAMPLE_TRIGGER_LATCHED
+    flags = mo.SAMPLE_TRIGGER_ARMED | mo.SAMPLE_IN_PROGRESS | mo.SAMPLE_TRIGGER_LATCHED
     memory.I[at.W_MISC_OUTPUTS] &= ~flags
-    for offset in range(at.SAI_STRIDE):
-        memory.I[at.SAI_BASE + offset] = 0
+    for offset in range(sampler.INTS_SIZE):
+        memory.I[sampler.ints + offset] = 0
     for row in (at.P_SAMPLE_ARRAY_INDEX, at.P_SAMPLE_TRIGGER_INDEX, at.P_SAMPLE_TIMER_PERIOD):
         memory.I[row] = 0
 
@@ -96,17 +98,17 @@ def samp_clear(run: Run) -> None:
 def samp_report(run: Run) -> None:
     """Report trigger, period and channels of the sampler."""
     rows = run.card.memory.I
-    trigger = rows[at.SAI_BASE + at.SAI_TRIGGER] - 1
+    trigger = rows[sampler.trigger] - 1
     if trigger >= 0:
-        sign = "-" if rows[at.SAI_BASE + at.SAI_TRIGGER_CLEAR] else ""
+        sign = "-" if rows[sampler.trigger_clear] else ""
         run.print(f"SAMP TRG {sign}BIT{trigger}")
     every_s = number_text(rows[at.P_SAMPLE_TIMER_PERIOD] / MS_PER_S, NumberKind.DOUBLE)
     run.print(f"SAMP PERIOD {every_s}")
     for channel in range(CHANNELS):
-        source = rows[at.SAI_BASE + at.SAI_SOURCE + channel] - 1
-        kind = rows[at.SAI_BASE + at.SAI_KIND + channel]
+        source = rows[sampler.source + channel] - 1
+        kind = rows[sampler.kind + channel]
         if source >= 0:
             run.print(f"SAMP {channel} SRC P{source}")
         if kind:
-            array = rows[at.SAI_BASE + at.SAI_ARRAY + channel]
+            array = rows[sampler.array + channel]
             run.print(f"SAMP {channel} BASE {_WORDS[kind]}{array}")

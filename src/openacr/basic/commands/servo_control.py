@@ -10,34 +10,15 @@ from openacr.basic.language.number_format import number_text
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
-from openacr.map.numbers import (
-    AX_DERIVATIVE_GAIN,
-    AX_DERIVATIVE_WIDTH,
-    AX_DIN,
-    AX_DIP,
-    AX_DZL,
-    AX_DZU,
-    AX_FBVEL_GAIN_SETTING,
-    AX_FEEDFORWARD_ACCEL,
-    AX_FEEDFORWARD_VELOCITY,
-    AX_FFVC,
-    AX_INTEGRAL_DELAY,
-    AX_INTEGRAL_GAIN,
-    AX_INTEGRAL_LIMIT,
-    AX_KVF,
-    AX_KVI,
-    AX_KVP,
-    AX_PROPORTIONAL_GAIN,
-    AXF_LOPASS_HZ,
-)
+from openacr.map.rows import axes as axis_rows
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion.axis import filters
 from openacr.motion.axis.settings import (
     activate_derivative_smoothing,
+    fp32,
+    fp64,
+    long,
     not_negative,
-    of_axis,
-    of_axis_long,
-    of_axis_real,
 )
 from openacr.motion.card import Card
 
@@ -47,49 +28,49 @@ REF = "PG Servo Control"
 
 def gain(
     words: str,
-    row: int,
+    row: tuple[int, ...],
     doc: str,
     units: str,
     default: str = "0",
     then: Callable[[Card, int], None] | None = None,
 ) -> Value:
     """A row whose value is an FP32 parameter."""
-    return Value(words, of_axis(row), doc, units, default, then=then)
+    return Value(words, fp32(row), doc, units, default, then=then)
 
 
 axis_values(
     (
-        gain("PGAIN", AX_PROPORTIONAL_GAIN,
+        gain("PGAIN", axis_rows.proportional_gain,
              "Set the proportional gain.", "V/pulse", "0.002441406"),
-        gain("IGAIN", AX_INTEGRAL_GAIN, "Set the integral gain.", "V/s/pulse"),
-        gain("ILIMIT", AX_INTEGRAL_LIMIT,
+        gain("IGAIN", axis_rows.integral_gain, "Set the integral gain.", "V/s/pulse"),
+        gain("ILIMIT", axis_rows.integral_limit,
              "Limit the integral term; 0 keeps it at 0.", "V"),
-        gain("IDELAY", AX_INTEGRAL_DELAY,
+        gain("IDELAY", axis_rows.integral_delay,
              "Set how long after motion the integral waits; 0 integrates always.", "s"),
-        gain("DGAIN", AX_DERIVATIVE_GAIN,
+        gain("DGAIN", axis_rows.derivative_gain,
              "Set the derivative gain, and put DGain Smooth into effect.", "V/(pulse/s)",
              then=activate_derivative_smoothing),
-        gain("DWIDTH", AX_DERIVATIVE_WIDTH,
+        gain("DWIDTH", axis_rows.derivative_width,
              "Set the sample period of the derivative; 0 samples every tick.", "s"),
-        gain("FFVEL", AX_FEEDFORWARD_VELOCITY,
+        gain("FFVEL", axis_rows.feedforward_velocity,
              "Set the velocity feedforward gain.", "V/(pulse/s)"),
-        gain("FFACC", AX_FEEDFORWARD_ACCEL,
+        gain("FFACC", axis_rows.feedforward_accel,
              "Set the acceleration feedforward gain.", "V/(pulse/s2)"),
-        gain("FBVEL", AX_FBVEL_GAIN_SETTING,
+        gain("FBVEL", axis_rows.fbvel_gain_setting,
              "Set the velocity feedback gain.", "V/(pulse/s)"),
-        gain("DIN", AX_DIN,
+        gain("DIN", axis_rows.din,
              "Set the integral term taken when the error leaves the dead zone downwards.", "V"),
-        gain("DIP", AX_DIP,
+        gain("DIP", axis_rows.dip,
              "Set the integral term taken when the error leaves the dead zone upwards.", "V"),
-        gain("KVF", AX_KVF, "Set the velocity feedforward of the PV loop.", "V/(pulse/s)"),
-        gain("KVI", AX_KVI, "Set the integral gain of the PV loop.", "1/s"),
-        gain("KVP", AX_KVP,
+        gain("KVF", axis_rows.kvf, "Set the velocity feedforward of the PV loop.", "V/(pulse/s)"),
+        gain("KVI", axis_rows.kvi, "Set the integral gain of the PV loop.", "1/s"),
+        gain("KVP", axis_rows.kvp,
              "Set the proportional gain of the PV loop; above 0 it replaces the PID loop.", "V/V"),
-        Value("FFVC", of_axis_long(AX_FFVC),
+        Value("FFVC", long(axis_rows.ffvc),
               "Leave the velocity feedforward out below this commanded speed.", "pulses/s"),
-        Value("DZL", of_axis_long(AX_DZL),
+        Value("DZL", long(axis_rows.dzl),
               "Set the error below which an axis at rest enters the dead zone.", "pulses"),
-        Value("DZU", of_axis_long(AX_DZU),
+        Value("DZU", long(axis_rows.dzu),
               "Set the error above which the axis leaves the dead zone; 0 is no zone.", "pulses"),
     ),
     group=GROUP,
@@ -103,7 +84,7 @@ def _redesign(card: Card, axis: int) -> None:
 
 axis_values(
     (
-        Value("LOPASS", of_axis_real(AXF_LOPASS_HZ, not_negative),
+        Value("LOPASS", fp64(axis_rows.lopass_hz, not_negative),
               "Make filter 0 a low-pass with this cut-off frequency; 0 is no filter.", "Hz",
               then=_redesign),
     ),

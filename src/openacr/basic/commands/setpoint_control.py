@@ -7,37 +7,31 @@ from openacr.basic.language.grammar import Axes, Axis, AxisList, AxisValue, Axis
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run, whole
 from openacr.errors import CardError
-from openacr.map.numbers import (
-    AX_JOG_ACCEL_SETTING,
-    AX_JOG_DECEL_SETTING,
-    AX_JOG_JERK_SETTING,
-    AX_JOG_VELOC_SETTING,
-    AXF_HOMVF_UPS,
-)
+from openacr.map.rows import axes as axis_rows
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion.axis.settings import not_negative, of_axis, of_axis_real
+from openacr.motion.axis.settings import fp32, fp64, not_negative
 from openacr.motion.jog import jog
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"
 
 
-def jog_value(words: str, row: int, doc: str, units: str, default: str = "0") -> Value:
+def jog_value(words: str, row: tuple[int, ...], doc: str, units: str, default: str = "0") -> Value:
     """A row whose value is a jog parameter."""
-    return Value(words, of_axis(row, not_negative), doc, units, default, bare=True)
+    return Value(words, fp32(row, not_negative), doc, units, default, bare=True)
 
 
 axis_values(
     (
-        jog_value("JOG VEL", AX_JOG_VELOC_SETTING,
+        jog_value("JOG VEL", axis_rows.jog_veloc_setting,
                   "Set the speed of jogs, also of one under way.", "units/s"),
-        jog_value("JOG ACC", AX_JOG_ACCEL_SETTING,
+        jog_value("JOG ACC", axis_rows.jog_accel_setting,
                   "Set the acceleration of jogs; 0 is no ramp.", "units/s2", "10"),
-        jog_value("JOG DEC", AX_JOG_DECEL_SETTING,
+        jog_value("JOG DEC", axis_rows.jog_decel_setting,
                   "Set the deceleration of jogs; 0 is no ramp.", "units/s2", "10"),
-        jog_value("JOG JRK", AX_JOG_JERK_SETTING,
+        jog_value("JOG JRK", axis_rows.jog_jerk_setting,
                   "Set the jerk of the ramps of jogs; 0 makes them straight.", "units/s3"),
-        Value("JOG HOMVF", of_axis_real(AXF_HOMVF_UPS, not_negative),
+        Value("JOG HOMVF", fp64(axis_rows.homvf_ups, not_negative),
               "Set the speed of the last approach of homing; 0 is a tenth of JOG VEL.",
               "units/s", bare=True),
     ),

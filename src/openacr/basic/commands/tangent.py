@@ -8,9 +8,9 @@ from openacr.basic.language.grammar import Axes, Axis
 from openacr.basic.language.registry import BY_OBJECT, PROG, command
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
-from openacr.map.numbers import MSF_TANG_DEG
+from openacr.map.rows import masters
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion.axis.settings import anything, of_master_real
+from openacr.motion.axis.settings import anything, fp64
 from openacr.motion.path import tangent
 
 
@@ -38,7 +38,7 @@ def tang_off(run: Run) -> None:
 
 master_values(
     (
-        Value("TANG ANG", of_master_real(MSF_TANG_DEG, anything),
+        Value("TANG ANG", fp64(masters.tang_deg, anything),
               "Set the angle between the path and the tangential axis.", "degrees"),
     ),
     group=GROUP,

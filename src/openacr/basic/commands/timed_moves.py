@@ -7,12 +7,12 @@ from openacr.basic.commands.velocity_profile import GROUP, REF
 from openacr.basic.language.grammar import Either, Num, ObjectRef, Source, Word
 from openacr.basic.language.registry import BY_OBJECT, command
 from openacr.basic.vm.run import Run
-from openacr.map.numbers import MA_MOVE_TIME, MA_TIME_OVER_VELOCITY
-from openacr.motion.axis.settings import of_master
+from openacr.map.rows import masters
+from openacr.motion.axis.settings import fp32, not_negative
 from openacr.motion.sources import time_base
 
-TIME = of_master(MA_MOVE_TIME)
-FACTOR = of_master(MA_TIME_OVER_VELOCITY)
+TIME = fp32(masters.move_time, not_negative)
+FACTOR = fp32(masters.time_over_velocity, not_negative)
 
 
 @command(

@@ -7,21 +7,21 @@ from openacr.basic.language.grammar import AxisGroups, AxisList, AxisValue, Axis
 from openacr.basic.language.registry import BY_OBJECT, PROG, command
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
-from openacr.map.numbers import AXF_FLZ_U, AXF_OFFSET_U, AXF_SCALE, AXF_SCALE_CENTER_U
+from openacr.map.rows import axes as axis_rows
 from openacr.messages import INVALID_ARGUMENT
-from openacr.motion.axis.settings import not_zero, of_axis_real
+from openacr.motion.axis.settings import fp64, not_zero
 from openacr.motion.path import transform
 
 GROUP = "Transformation"
 REF = "PG Transformation"
-SHIFT = of_axis_real(AXF_FLZ_U)
-FACTOR = of_axis_real(AXF_SCALE, not_zero)
-CENTER = of_axis_real(AXF_SCALE_CENTER_U)
+SHIFT = fp64(axis_rows.flz_u)
+FACTOR = fp64(axis_rows.scale, not_zero)
+CENTER = fp64(axis_rows.scale_center_u)
 PLANE_AXES = 2
 
 axis_values(
     (
-        Value("OFFSET", of_axis_real(AXF_OFFSET_U),
+        Value("OFFSET", fp64(axis_rows.offset_u),
               "Shift the programmed path of axes from the machine's zero.",
               "units", saved=False),
     ),

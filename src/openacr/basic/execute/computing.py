@@ -14,7 +14,7 @@ from openacr.basic.vm.compiler import Emitter
 from openacr.basic.vm.run import Run, Wait
 from openacr.basic.vm.vm_cy import vm_run
 from openacr.compiled import pick
-from openacr.map import numbers as at
+from openacr.map.rows import threads as thread_rows
 
 WHOLE_LINE = 255  # no line holds more statements
 
@@ -76,7 +76,7 @@ class Computing:
 
     def _compute(self, thread: int, start: int) -> float:
         with self._aside(thread):
-            self.threads.set_row(thread, at.THI_PC, start)
+            self.threads.set_row(thread, thread_rows.pc, start)
             event = vm.VM_CALL
             while event == vm.VM_CALL:
                 event = self._vm_run(*self.threads.views(), thread, WHOLE_LINE, self.threads.tick)
@@ -84,12 +84,12 @@ class Computing:
                     self.push_operand(thread)
             if event == vm.VM_ERROR:
                 raise self.threads.error(thread)
-        return self.threads.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_RESULT]
+        return self.threads.memory.F[thread_rows.result[thread]]
 
     @contextmanager
     def _aside(self, thread: int) -> Iterator[None]:
         """Let the VM compute something in the middle of a statement."""
-        rows = at.THI_PC, at.THI_SP, at.THI_BUDGET, at.THI_TRAP
+        rows = thread_rows.pc, thread_rows.sp, thread_rows.budget, thread_rows.trap
         kept = [self.threads.row(thread, row) for row in rows]
         try:
             yield
@@ -99,9 +99,11 @@ class Computing:
 
     def push_operand(self, thread: int) -> None:
         """Compute the operand the VM has stopped at, and go on after it."""
-        node = self.threads.space.chunks[thread].operands[self.threads.row(thread, at.THI_TRAP)]
+        node = self.threads.space.chunks[thread].operands[
+            self.threads.row(thread, thread_rows.trap)
+        ]
         value = self.operands.number(thread, node)
-        depth = self.threads.row(thread, at.THI_SP)
-        self.threads.memory.F[at.THF_BASE + thread * at.THF_STRIDE + at.THF_STACK + depth] = value
-        self.threads.set_row(thread, at.THI_SP, depth + 1)
-        self.threads.set_row(thread, at.THI_PC, self.threads.row(thread, at.THI_PC) + 2)
+        depth = self.threads.row(thread, thread_rows.sp)
+        self.threads.memory.F[thread_rows.stack[thread] + depth] = value
+        self.threads.set_row(thread, thread_rows.sp, depth + 1)
+        self.threads.set_row(thread, thread_rows.pc, self.threads.row(thread, thread_rows.pc) + 2)

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Protocol
 
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.errors import CardError
-from openacr.map import numbers as at
+from openacr.map.rows import plcs as plc_rows
+from openacr.map.words import mf1, pf, plf
 from openacr.messages import NOT_SUPPORTED
 from openacr.motion.interlocks import master_moving
 from openacr.motion.path import moves
-from openacr.motion.row_index import master_word
 
 if TYPE_CHECKING:
     from openacr.basic.execute.executor import Executor
@@ -48,12 +48,10 @@ class _Hold:
     entered: int = 0  # set together with the mode
 
 
-PAUSE = _Hold(
-    at.PF_PAUSE_CONTROL, at.PF_PAUSE_EDGE_DETECT, at.PF_PAUSE_MODE, at.PF_PAUSE_MODE_WAITING
-)
+PAUSE = _Hold(pf.PAUSE_CONTROL, pf.PAUSE_EDGE_DETECT, pf.PAUSE_MODE, pf.PAUSE_MODE_WAITING)
 BLOCK = _Hold(
-    at.PF_BLOCK_CONTROL, at.PF_BLOCK_EDGE_DETECT, at.PF_BLOCK_MODE, at.PF_BLOCK_MODE_WAITING,
-    at.PF_STEP_FIRST_BLOCK,
+    pf.BLOCK_CONTROL, pf.BLOCK_EDGE_DETECT, pf.BLOCK_MODE, pf.BLOCK_MODE_WAITING,
+    pf.STEP_FIRST_BLOCK,
 )  # fmt: skip
 
 
@@ -95,24 +93,24 @@ class ProgramControl:
 
     def pause(self, owner: int) -> None:
         """PAUSE; PLCs know no pause."""
-        self._command(owner, set_=at.PF_PAUSE_CONTROL)
+        self._command(owner, set_=pf.PAUSE_CONTROL)
 
     def resume(self, owner: int) -> None:
         """RESUME."""
-        self._command(owner, clear=at.PF_PAUSE_CONTROL)
+        self._command(owner, clear=pf.PAUSE_CONTROL)
 
     def block(self, owner: int) -> None:
         """BLK."""
-        self._command(owner, set_=at.PF_BLOCK_CONTROL)
+        self._command(owner, set_=pf.BLOCK_CONTROL)
 
     def auto(self, owner: int) -> None:
         """AUT: no effect outside block mode."""
-        self._command(owner, clear=at.PF_BLOCK_CONTROL)
+        self._command(owner, clear=pf.BLOCK_CONTROL)
 
     def step(self, owner: int) -> None:
         """STEP: one line, and one move, in block mode; no effect outside."""
-        if owner < PROGRAMS and self._flags(owner) & at.PF_BLOCK_MODE:
-            self._change(owner, set_=at.PF_STEP_REQUEST_FLAG, clear=at.PF_STEP_FIRST_BLOCK)
+        if owner < PROGRAMS and self._flags(owner) & pf.BLOCK_MODE:
+            self._change(owner, set_=pf.STEP_REQUEST_FLAG, clear=pf.STEP_FIRST_BLOCK)
             master = self._master(owner)
             if master is not None:
                 moves.step(self._card, master)
@@ -120,7 +118,7 @@ class ProgramControl:
     def trace(self, owner: int, on: bool) -> None:
         """TRON and TROFF."""
         if owner < PROGRAMS:
-            flag = at.PF_TRACE_MODE_ENABLE
+            flag = pf.TRACE_MODE_ENABLE
             self._change(owner, set_=flag if on else 0, clear=flag)
 
     # flags
@@ -130,27 +128,27 @@ class ProgramControl:
         for program in range(PROGRAMS):
             if self._flags(program):
                 self._scan_program(program)
-        for plc in range(at.PLC_COUNT):
+        for plc in range(plc_rows.COUNT):
             self._scan_plc(plc)
 
     def _scan_plc(self, plc: int) -> None:
         """A PLC that cannot run stays halted; there is no channel to tell."""
-        word = at.PLF_WORD + plc
+        word = plf.word[plc]
         flags = self._card.memory.I[word]
-        self._card.memory.I[word] = flags & ~(at.PLF_RUN_REQUEST | at.PLF_HALT_REQUEST)
-        if flags & at.PLF_HALT_REQUEST:
+        self._card.memory.I[word] = flags & ~(plf.RUN_REQUEST | plf.HALT_REQUEST)
+        if flags & plf.HALT_REQUEST:
             self.halt(PROGRAMS + plc)
-        if flags & at.PLF_RUN_REQUEST and not self.is_running(PROGRAMS + plc):
+        if flags & plf.RUN_REQUEST and not self.is_running(PROGRAMS + plc):
             with suppress(CardError):
                 self.run(PROGRAMS + plc)
 
     def _scan_program(self, program: int) -> None:
         flags = self._flags(program)
-        if flags & at.PF_HALT_REQUEST_FLAG:
-            self._change(program, clear=at.PF_HALT_REQUEST_FLAG)
+        if flags & pf.HALT_REQUEST_FLAG:
+            self._change(program, clear=pf.HALT_REQUEST_FLAG)
             self.halt(program)
-        if flags & at.PF_RUN_REQUEST_FLAG:
-            self._change(program, clear=at.PF_RUN_REQUEST_FLAG)
+        if flags & pf.RUN_REQUEST_FLAG:
+            self._change(program, clear=pf.RUN_REQUEST_FLAG)
             if not self.is_running(program):
                 self.run(program)
         self._scan_step(program)
@@ -160,10 +158,10 @@ class ProgramControl:
     def _scan_step(self, program: int) -> None:
         """The rising edge of Step Control is a step."""
         flags = self._flags(program)
-        is_set = bool(flags & at.PF_STEP_CONTROL)
-        if is_set and not flags & at.PF_STEP_EDGE_DETECT:
+        is_set = bool(flags & pf.STEP_CONTROL)
+        if is_set and not flags & pf.STEP_EDGE_DETECT:
             self.step(program)
-        edge = at.PF_STEP_EDGE_DETECT
+        edge = pf.STEP_EDGE_DETECT
         self._change(program, set_=edge if is_set else 0, clear=edge)
 
     def _scan_hold(self, program: int, hold: _Hold) -> None:
@@ -196,7 +194,7 @@ class ProgramControl:
     def _is_held(self, master: int | None) -> bool:
         if master is None:
             return False
-        return bool(self._card.memory.I[master_word(master)] & at.MF1_IN_FEEDHOLD)
+        return bool(self._card.memory.I[mf1.word[master]] & mf1.IN_FEEDHOLD)
 
     def _command(self, owner: int, *, set_: int = 0, clear: int = 0) -> None:
         """A command is the flag, noticed at once."""
@@ -208,8 +206,8 @@ class ProgramControl:
         return self._card.attachments.master(program)
 
     def _flags(self, program: int) -> int:
-        return self._card.memory.I[at.PF_WORD + program]
+        return self._card.memory.I[pf.word[program]]
 
     def _change(self, program: int, *, set_: int = 0, clear: int = 0) -> None:
-        word = at.PF_WORD + program
+        word = pf.word[program]
         self._card.memory.I[word] = self._card.memory.I[word] & ~clear | set_

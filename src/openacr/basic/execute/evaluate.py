@@ -25,7 +25,7 @@ from openacr.basic.memory.string_storage import LONGEST_STRING, ProgramStrings
 from openacr.basic.vm.printed import printed
 from openacr.basic.vm.run import Wait
 from openacr.errors import CardError
-from openacr.map import numbers as at
+from openacr.map.rows import threads as thread_rows
 from openacr.messages import NOT_VALID_AT_THIS_LEVEL, SUBSCRIPT_OUT_OF_RANGE, TYPE_MISMATCH
 
 RELATIONS = {
@@ -123,7 +123,7 @@ class Operands:
 
     def _strings(self, thread: int) -> ProgramStrings:
         memory = self._threads.memory
-        program = memory.I[at.THI_BASE + thread * at.THI_STRIDE + at.THI_LOCALS]
+        program = memory.I[thread_rows.locals[thread]]
         if program < 0:
             raise CardError(NOT_VALID_AT_THIS_LEVEL)
         return self._threads.system.storage.locals.strings[program]

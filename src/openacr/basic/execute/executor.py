@@ -26,21 +26,21 @@ from openacr.basic.vm.levels import CompileError
 from openacr.basic.vm.run import Run, Wait, WaitKind
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.map import numbers as at
 from openacr.map.rows import programs, threads
+from openacr.map.words import pf
 from openacr.messages import LINE_NOT_FOUND, PROGRAM_IS_RUNNING
 
 if TYPE_CHECKING:
     from openacr.basic.channels.session import Session
     from openacr.basic.execute.system import System
 
-_HOLDS = at.PF_BLOCK_MODE | at.PF_PAUSE_MODE
+_HOLDS = pf.BLOCK_MODE | pf.PAUSE_MODE
 _CLEARED_BY_RUN = (  # block mode stays until AUT
     ENDS_WITH_PROGRAM
-    | at.PF_PROGRAM_MODIFIED
-    | at.PF_PAUSE_MODE
-    | at.PF_PAUSE_CONTROL
-    | at.PF_PAUSE_EDGE_DETECT
+    | pf.PROGRAM_MODIFIED
+    | pf.PAUSE_MODE
+    | pf.PAUSE_CONTROL
+    | pf.PAUSE_EDGE_DETECT
 )
 
 
@@ -81,8 +81,8 @@ class Executor:
         self.threads.sources[program] = lines
 
     def _start_program(self, program: int, chunk: Chunk, line: int | None) -> None:
-        word = at.PF_WORD + program
-        self.memory.I[word] = self.memory.I[word] & ~_CLEARED_BY_RUN | at.PF_PROGRAM_RUNNING
+        word = pf.word[program]
+        self.memory.I[word] = self.memory.I[word] & ~_CLEARED_BY_RUN | pf.PROGRAM_RUNNING
         start = chunk.starts[line] if line is not None else 0
         self.threads.start(program, chunk, self._program_run(program), start)
 
@@ -100,7 +100,7 @@ class Executor:
 
     def is_running(self, program: int) -> bool:
         """Whether a program executes, waits or is held."""
-        return self.threads.row(program, at.THI_STATE) != scheduler.THREAD_IDLE
+        return self.threads.row(program, threads.state) != scheduler.THREAD_IDLE
 
     # kinematics
 
@@ -110,8 +110,8 @@ class Executor:
         chunk = self._compiled(lines)
         thread = KINEMATICS + master
         self.threads.start(thread, chunk, self._kinematics_run(master), 0)
-        self.threads.set_row(thread, at.THI_LOCALS, program)
-        self.threads.set_row(thread, at.THI_STATE, scheduler.THREAD_IDLE)
+        self.threads.set_row(thread, threads.locals, program)
+        self.threads.set_row(thread, threads.state, scheduler.THREAD_IDLE)
         self.threads.sources[thread] = lines
 
     def forget_kinematics(self, master: int) -> None:
@@ -139,7 +139,7 @@ class Executor:
             return
         self.threads.start(session.thread, chunk, self._session_run(session), 0)
         self.threads.sources[session.thread] = (line,)
-        self.threads.set_row(session.thread, at.THI_BUDGET, WHOLE_LINE)
+        self.threads.set_row(session.thread, threads.budget, WHOLE_LINE)
         while self._advance(*self.threads.views(), session.thread, self.threads.tick):
             self.attend(session.thread)
 
@@ -155,7 +155,7 @@ class Executor:
 
     def is_waiting(self, thread: int) -> bool:
         """Whether a thread waits."""
-        return self.threads.row(thread, at.THI_STATE) == scheduler.THREAD_WAITING
+        return self.threads.row(thread, threads.state) == scheduler.THREAD_WAITING
 
     # time
 
@@ -166,7 +166,7 @@ class Executor:
 
     def attend(self, thread: int) -> None:
         """Deal with what has stopped a thread, as its row `event` says."""
-        event = self.threads.row(thread, at.THI_EVENT)
+        event = self.threads.row(thread, threads.event)
         try:
             if event == vm.VM_TRAP:
                 self._trap(thread)
@@ -185,7 +185,7 @@ class Executor:
 
     def _trap(self, thread: int) -> None:
         chunk = self.threads.space.chunks[thread]
-        statement = chunk.statements[self.threads.row(thread, at.THI_TRAP)]
+        statement = chunk.statements[self.threads.row(thread, threads.trap)]
         wait = perform(self.threads.run_of(thread), statement)
         if wait is not None:
             self._wait(thread, wait, at_trap=wait.retry)
@@ -195,36 +195,36 @@ class Executor:
 
         Within a line, where followers of a program want to hear of it, nothing stops.
         """
-        word = at.PF_WORD + thread
+        word = pf.word[thread]
         flags = self.memory.I[word]
         marks = self.threads.next_marks(thread)
-        if flags & at.PF_TRACE_MODE_ENABLE:
+        if flags & pf.TRACE_MODE_ENABLE:
             self.system.listeners.trace(thread, self.threads.next_line(thread), marks)
         if not (flags & _HOLDS and marks & BEGINS_LINE):
-            self.threads.set_row(thread, at.THI_PASSED, 1)
+            self.threads.set_row(thread, threads.passed, 1)
             return
-        if flags & at.PF_PAUSE_MODE:
-            flags |= at.PF_PAUSE_MODE_WAITING
-        if flags & at.PF_BLOCK_MODE:
-            flags |= at.PF_BLOCK_MODE_WAITING
+        if flags & pf.PAUSE_MODE:
+            flags |= pf.PAUSE_MODE_WAITING
+        if flags & pf.BLOCK_MODE:
+            flags |= pf.BLOCK_MODE_WAITING
         self.memory.I[word] = flags
-        self.threads.set_row(thread, at.THI_STATE, scheduler.THREAD_HELD)
+        self.threads.set_row(thread, threads.state, scheduler.THREAD_HELD)
 
     def _wait(self, thread: int, wait: Wait, *, at_trap: bool) -> None:
         """Let a thread wait; `at_trap`: the statement is executed again afterwards."""
         if at_trap:
-            self.threads.set_row(thread, at.THI_PC, self.threads.row(thread, at.THI_PC) - 2)
-        self.threads.set_row(thread, at.THI_WAIT_KIND, wait.kind)
-        self.threads.set_row(thread, at.THI_WAIT_OPERAND, wait.operand)
-        self.threads.set_row(thread, at.THI_WAIT_SHOW, wait.show)
+            self.threads.set_row(thread, threads.pc, self.threads.row(thread, threads.pc) - 2)
+        self.threads.set_row(thread, threads.wait_kind, wait.kind)
+        self.threads.set_row(thread, threads.wait_operand, wait.operand)
+        self.threads.set_row(thread, threads.wait_show, wait.show)
         self.memory.F[threads.wait_value[thread]] = wait.value
         is_next = wait.kind is WaitKind.NEXT_SLICE
         self.memory.F[threads.wait_deadline_tk[thread]] = (
             self.threads.tick + 1.0 if is_next else 0.0
         )
-        self.threads.set_row(thread, at.THI_STATE, scheduler.THREAD_WAITING)
+        self.threads.set_row(thread, threads.state, scheduler.THREAD_WAITING)
         if thread < PROGRAMS:
-            self.memory.I[at.PF_WORD + thread] |= wait.show
+            self.memory.I[pf.word[thread]] |= wait.show
 
     # snapshot
 
@@ -234,7 +234,7 @@ class Executor:
         """Take over what threads execute; where they stand lies in the memory, restored before."""
         self.threads.failures = dict(failures)
         self.threads.sources = {}
-        for thread in range(at.TH_COUNT):
+        for thread in range(threads.COUNT):
             lines = sources.get(thread)
             if lines is None:
                 self.threads.put_back(thread, (), Chunk(), None)

@@ -14,11 +14,11 @@ from openacr.basic.vm.code import Chunk, CodeSpace
 from openacr.basic.vm.flow_cy import FLOW_GOSUB
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
-from openacr.map import numbers as at
-from openacr.map.rows import threads
+from openacr.map.rows import engine, threads
+from openacr.map.rows import scheduler as scheduler_rows
+from openacr.map.words import mf1, pf
 from openacr.messages import LABEL_NOT_FOUND, MESSAGES
 from openacr.motion.path import kinematics
-from openacr.motion.row_index import master_word
 
 if TYPE_CHECKING:
     from openacr.basic.execute.system import System
@@ -26,21 +26,21 @@ if TYPE_CHECKING:
 KINEMATICS = 32  # first thread of the kinematics of masters
 
 ENDS_WITH_PROGRAM = (
-    at.PF_PROGRAM_RUNNING
-    | at.PF_PROGRAM_DWELLING
-    | at.PF_PROGRAM_INHIBITED
-    | at.PF_MOVE_PENDING
-    | at.PF_BLOCK_MODE_WAITING
-    | at.PF_PAUSE_MODE_WAITING
-    | at.PF_STEP_REQUEST_FLAG
+    pf.PROGRAM_RUNNING
+    | pf.PROGRAM_DWELLING
+    | pf.PROGRAM_INHIBITED
+    | pf.MOVE_PENDING
+    | pf.BLOCK_MODE_WAITING
+    | pf.PAUSE_MODE_WAITING
+    | pf.STEP_REQUEST_FLAG
 )
 _CLEARED_BY_START = (
-    at.THI_SP,
-    at.THI_DEPTH,
-    at.THI_LINE,
-    at.THI_PASSED,
-    at.THI_SPARE_FLAGS,
-    at.THI_ERROR,
+    threads.sp,
+    threads.depth,
+    threads.line,
+    threads.passed,
+    threads.spare_flags,
+    threads.error,
 )
 
 
@@ -51,7 +51,7 @@ class Threads:
         self.system = system
         self.memory = system.card.memory
         self.space = CodeSpace(self.memory)
-        self._runs: list[Run | None] = [None] * at.TH_COUNT
+        self._runs: list[Run | None] = [None] * threads.COUNT
         self.sources: dict[int, tuple[StoredLine, ...]] = {}  # what each thread executes
         self.failures: dict[int, str] = {}  # of programs that an error has ended
 
@@ -65,22 +65,22 @@ class Threads:
         memory, space = self.memory, self.space
         return memory.F, memory.I, memory.S, space.code, space.nums
 
-    def row(self, thread: int, row: int) -> int:
-        """One int32 row of a thread."""
-        return self.memory.I[at.THI_BASE + thread * at.THI_STRIDE + row]
+    def row(self, thread: int, row: tuple[int, ...], place: int = 0) -> int:
+        """One int32 row of a thread, or one place of an array row."""
+        return self.memory.I[row[thread] + place]
 
-    def set_row(self, thread: int, row: int, value: int) -> None:
+    def set_row(self, thread: int, row: tuple[int, ...], value: int) -> None:
         """Write one int32 row of a thread."""
-        self.memory.I[at.THI_BASE + thread * at.THI_STRIDE + row] = value
+        self.memory.I[row[thread]] = value
 
     def next_line(self, thread: int) -> int:
         """Number of the line whose first statement a thread executes next."""
-        line: int = self.space.chunks[thread].code[self.row(thread, at.THI_PC) + 1]
+        line: int = self.space.chunks[thread].code[self.row(thread, threads.pc) + 1]
         return line
 
     def next_marks(self, thread: int) -> int:
         """What `basic.vm.code` says of the statement a thread executes next."""
-        marks: int = self.space.chunks[thread].code[self.row(thread, at.THI_PC) + 2]
+        marks: int = self.space.chunks[thread].code[self.row(thread, threads.pc) + 2]
         return marks
 
     def run_of(self, thread: int) -> Run:
@@ -97,30 +97,30 @@ class Threads:
         self.failures.pop(thread, None)
         for row in _CLEARED_BY_START:
             self.set_row(thread, row, 0)
-        if self.memory.I[at.ENGI_BASE + at.ENGI_LINE_ANNOUNCED] == thread + 1:
-            self.memory.I[at.ENGI_BASE + at.ENGI_LINE_ANNOUNCED] = 0  # of what it executed before
-        self.set_row(thread, at.THI_PC, start)
-        self.set_row(thread, at.THI_LOCALS, -1 if run.program is None else run.program)
-        self.set_row(thread, at.THI_STATE, scheduler.THREAD_READY)
+        if self.memory.I[engine.line_announced] == thread + 1:
+            self.memory.I[engine.line_announced] = 0  # of what it executed before
+        self.set_row(thread, threads.pc, start)
+        self.set_row(thread, threads.locals, -1 if run.program is None else run.program)
+        self.set_row(thread, threads.state, scheduler.THREAD_READY)
         self._mark(thread, active=True)
 
     def _mark(self, thread: int, *, active: bool) -> None:
         if thread >= KINEMATICS:
             return  # started anew by the scheduler whenever a tool has moved
-        row = at.SCHI_PROGRAMS if thread < PROGRAMS else at.SCHI_CHANNELS
+        row = scheduler_rows.programs if thread < PROGRAMS else scheduler_rows.channels
         bit = 1 << thread % PROGRAMS
-        mask = self.memory.I[at.SCHI_BASE + row]
-        self.memory.I[at.SCHI_BASE + row] = mask | bit if active else mask & ~bit
+        mask = self.memory.I[row]
+        self.memory.I[row] = mask | bit if active else mask & ~bit
 
     def is_marked(self, thread: int) -> bool:
         """Whether the scheduler attends to a program or channel."""
-        row = at.SCHI_PROGRAMS if thread < PROGRAMS else at.SCHI_CHANNELS
-        return bool(self.memory.I[at.SCHI_BASE + row] >> thread % PROGRAMS & 1)
+        row = scheduler_rows.programs if thread < PROGRAMS else scheduler_rows.channels
+        return bool(self.memory.I[row] >> thread % PROGRAMS & 1)
 
     def forget(self, thread: int) -> None:
         """Let a thread execute nothing more; no host gets a report."""
-        self.set_row(thread, at.THI_STATE, scheduler.THREAD_IDLE)
-        self.set_row(thread, at.THI_DEPTH, 0)
+        self.set_row(thread, threads.state, scheduler.THREAD_IDLE)
+        self.set_row(thread, threads.depth, 0)
         self._mark(thread, active=False)
         self._runs[thread] = None
         self.sources.pop(thread, None)
@@ -135,30 +135,30 @@ class Threads:
         if session is not None:
             session.finished(error)
             return
-        self.memory.I[at.PF_WORD + thread] &= ~ENDS_WITH_PROGRAM
+        self.memory.I[pf.word[thread]] &= ~ENDS_WITH_PROGRAM
         if error is not None:
-            self.fail(thread, self.row(thread, at.THI_LINE), error)
+            self.fail(thread, self.row(thread, threads.line), error)
         self.system.listeners.ended(thread)
 
     def _end_kinematics(self, thread: int, error: CardError | None) -> None:
         """Kinematics that end or fail kill the moves of their master."""
-        program, line = self.row(thread, at.THI_LOCALS), self.row(thread, at.THI_LINE)
+        program, line = self.row(thread, threads.locals), self.row(thread, threads.line)
         master = thread - KINEMATICS
         kinematics.switch_off(self.system.card, master)
         self.forget(thread)
-        self.memory.I[master_word(master)] |= at.MF1_KILL_ALL_MOVES_REQUEST
+        self.memory.I[mf1.word[master]] |= mf1.KILL_ALL_MOVES_REQUEST
         if error is not None:
             self.system.listeners.error(program, line, error.text)
 
     def fail(self, program: int, line: int, error: CardError) -> None:
         """Note and report the error that has ended a program."""
-        self.set_row(program, at.THI_ERROR, error.message.number)
+        self.set_row(program, threads.error, error.message.number)
         self.failures[program] = error.text
         self.system.listeners.error(program, line, error.text)
 
     def error(self, thread: int) -> CardError:
         """The error the VM has stopped with."""
-        message = MESSAGES[self.row(thread, at.THI_ERROR)]
+        message = MESSAGES[self.row(thread, threads.error)]
         detail = int(self.memory.F[threads.error_detail[thread]])
         if message is LABEL_NOT_FOUND:
             return CardError(message, self.space.chunks[thread].names[detail])
@@ -176,7 +176,7 @@ class Threads:
 
     def check(self, thread: int) -> None:
         """LookupError unless a thread stands between two operations of what it executes."""
-        state = self.row(thread, at.THI_STATE)
+        state = self.row(thread, threads.state)
         is_marked = thread < KINEMATICS and self.is_marked(thread)
         if thread not in self.sources:
             if state != scheduler.THREAD_IDLE or is_marked:
@@ -185,13 +185,13 @@ class Threads:
         chunk = self.space.chunks[thread]
         code = set(chunk.begins) - set(range(chunk.lines_at, len(chunk.code)))
         stops = [
-            self.row(thread, at.THI_FLOW_BACK + level)
-            for level in range(self.row(thread, at.THI_DEPTH))
-            if self.row(thread, at.THI_FLOW_KIND + level) == FLOW_GOSUB
+            self.row(thread, threads.flow_back, level)
+            for level in range(self.row(thread, threads.depth))
+            if self.row(thread, threads.flow_kind, level) == FLOW_GOSUB
         ]
         if thread < KINEMATICS or state != scheduler.THREAD_IDLE:
-            stops.append(self.row(thread, at.THI_PC))
-            if self.row(thread, at.THI_SP):
+            stops.append(self.row(thread, threads.pc))
+            if self.row(thread, threads.sp):
                 raise LookupError(f"thread {thread} is in the middle of an expression")
         if not code.issuperset(stops):
             raise LookupError(f"thread {thread} is in the middle of an operation")
@@ -200,5 +200,5 @@ class Threads:
     def reset(self) -> None:
         """Forget what all threads execute (REBOOT)."""
         self.failures.clear()
-        for thread in range(at.TH_COUNT):
+        for thread in range(threads.COUNT):
             self.forget(thread)

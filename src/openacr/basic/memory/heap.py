@@ -21,6 +21,7 @@ from openacr.basic.memory.memory_cost import (
 from openacr.errors import CardError, StoreError
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import storage
 from openacr.messages import OUT_OF_MEMORY, SUBSCRIPT_OUT_OF_RANGE, UNDEFINED_VARIABLE
 
 WORD_BYTES = 4
@@ -33,8 +34,8 @@ class ScalarType:
     """LV, SV or DV: its rows, its cost and the 32-bit words one of them takes."""
 
     name: str
-    base_row: int
-    count_row: int
+    base_row: tuple[int, ...]
+    count_row: tuple[int, ...]
     cost: Cost
     words: int
 
@@ -44,21 +45,21 @@ class ArrayType:
     """LA, SA or DA: the rows of its table of references, cost and words per element."""
 
     name: str
-    base_row: int
-    count_row: int
+    base_row: tuple[int, ...]
+    count_row: tuple[int, ...]
     cost: Cost
     words: int
 
 
 SCALARS = (
-    ScalarType("LV", at.STI_LV_BASE, at.STI_LV_COUNT, LONG_VARIABLE, 1),
-    ScalarType("SV", at.STI_SV_BASE, at.STI_SV_COUNT, SINGLE_VARIABLE, 1),
-    ScalarType("DV", at.STI_DV_BASE, at.STI_DV_COUNT, DOUBLE_VARIABLE, 2),
+    ScalarType("LV", storage.lv_base, storage.lv_count, LONG_VARIABLE, 1),
+    ScalarType("SV", storage.sv_base, storage.sv_count, SINGLE_VARIABLE, 1),
+    ScalarType("DV", storage.dv_base, storage.dv_count, DOUBLE_VARIABLE, 2),
 )
 ARRAYS = (
-    ArrayType("LA", at.STI_LA_BASE, at.STI_LA_COUNT, LONG_ARRAY, 1),
-    ArrayType("SA", at.STI_SA_BASE, at.STI_SA_COUNT, SINGLE_ARRAY, 1),
-    ArrayType("DA", at.STI_DA_BASE, at.STI_DA_COUNT, DOUBLE_ARRAY, 2),
+    ArrayType("LA", storage.la_base, storage.la_count, LONG_ARRAY, 1),
+    ArrayType("SA", storage.sa_base, storage.sa_count, SINGLE_ARRAY, 1),
+    ArrayType("DA", storage.da_base, storage.da_count, DOUBLE_ARRAY, 2),
 )
 
 
@@ -76,18 +77,13 @@ class Heap:
     def __init__(self, memory: Memory) -> None:
         self.memory = memory
 
-    def row(self, program: int, offset: int) -> int:
+    def row(self, program: int, row: tuple[int, ...]) -> int:
         """One storage row of a program."""
-        return self.memory.I[at.STI_BASE + program * at.STI_STRIDE + offset]
+        return self.memory.I[row[program]]
 
-    def rows(self, program: int) -> list[int]:
-        """All storage rows of a program."""
-        first = at.STI_BASE + program * at.STI_STRIDE
-        return self.memory.I[first : first + at.STI_STRIDE].tolist()
-
-    def set_row(self, program: int, offset: int, value: int) -> None:
+    def set_row(self, program: int, row: tuple[int, ...], value: int) -> None:
         """Write one storage row of a program."""
-        self.memory.I[at.STI_BASE + program * at.STI_STRIDE + offset] = value
+        self.memory.I[row[program]] = value
 
     def place_scalars(self, program: int, kind: ScalarType, count: int) -> None:
         """Give a program `count` variables of a type, all 0."""
@@ -150,7 +146,7 @@ class Heap:
 
     def _checked_blocks(self) -> Iterator[_Block]:
         """All blocks; a table is read once it is known to lie in the heap."""
-        for program in range(at.ST_COUNT):
+        for program in range(storage.COUNT):
             for scalar in SCALARS:
                 count, base = (
                     self.row(program, scalar.count_row),
@@ -200,7 +196,7 @@ class Heap:
         return start
 
     def _blocks(self) -> Iterator[_Block]:
-        for program in range(at.ST_COUNT):
+        for program in range(storage.COUNT):
             for scalar in SCALARS:
                 count = self.row(program, scalar.count_row)
                 start = self.row(program, scalar.base_row) * scalar.words

@@ -16,7 +16,7 @@ from openacr.basic.memory.string_storage import (
     StringsState,
 )
 from openacr.errors import CardError
-from openacr.map import numbers as at
+from openacr.map.rows import programs, storage
 from openacr.messages import (
     INVALID_ARGUMENT,
     REDIMENSIONED_BLOCK,
@@ -24,7 +24,7 @@ from openacr.messages import (
     UNDEFINED_VARIABLE,
 )
 
-PROGRAMS = at.PROG_COUNT
+PROGRAMS = programs.COUNT
 
 _SCALAR = {kind.name: kind for kind in SCALARS}
 _ARRAY = {kind.name: kind for kind in ARRAYS}
@@ -99,14 +99,14 @@ class Locals:
 
     def move_buffer(self, program: int, count: int, *, repeat: bool = False) -> None:
         """DIM MBUF: user memory for `count` buffered moves."""
-        if _is_new(self.heap.row(program, at.STI_MBUF_COUNT), count, repeat):
+        if _is_new(self.heap.row(program, storage.mbuf_count), count, repeat):
             self._take(program, BUFFERED_MOVE.bytes(count))
-            self.heap.set_row(program, at.STI_MBUF_COUNT, count)
+            self.heap.set_row(program, storage.mbuf_count, count)
 
     def clear(self, program: int) -> None:
         """CLEAR at a program: its locals, arrays, strings and MBUF are gone."""
         self.heap.free(program)
-        self.heap.set_row(program, at.STI_MBUF_COUNT, 0)
+        self.heap.set_row(program, storage.mbuf_count, 0)
         self.strings[program] = ProgramStrings()
 
     def lines(self, program: int) -> Iterator[str]:
@@ -125,17 +125,16 @@ class Locals:
         for index, block in enumerate(strings.arrays):
             if block:
                 yield "DIM $A{}({},{})".format(index, *block.shape)
-        yield from _listed("MBUF", self.heap.row(program, at.STI_MBUF_COUNT))
+        yield from _listed("MBUF", self.heap.row(program, storage.mbuf_count))
 
     def bytes(self, program: int) -> int:
         """User memory taken by the locals of a program."""
-        rows = self.heap.rows(program)
-        used = BUFFERED_MOVE.bytes(rows[at.STI_MBUF_COUNT])
+        used = BUFFERED_MOVE.bytes(self.heap.row(program, storage.mbuf_count))
         for scalar in SCALARS:
-            if count := rows[scalar.count_row]:
+            if count := self.heap.row(program, scalar.count_row):
                 used += scalar.cost.bytes(count)
         for kind in ARRAYS:
-            if count := rows[kind.count_row]:
+            if count := self.heap.row(program, kind.count_row):
                 used += self._array_bytes(program, kind, count)
         return used + self.strings[program].bytes
 

@@ -15,7 +15,8 @@ from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.storage import Storage
 from openacr.errors import CardError
 from openacr.lang.lexer import Token, TokenKind, spelled, tokens
-from openacr.map import numbers as at
+from openacr.map.rows import storage as storage_rows
+from openacr.map.words import pf
 from openacr.messages import (
     INVALID_PASSWORD,
     OUT_OF_MEMORY,
@@ -210,13 +211,13 @@ class ProgramStore:
         self.changed.update(range(OWNERS))
 
     def _account(self, owner: int, growth: int) -> None:
-        row = self.storage.heap.row(owner, at.STI_CODE_BYTES)
+        row = self.storage.heap.row(owner, storage_rows.code_bytes)
         self.storage.set_code_bytes(owner, row + growth)
 
     def _mark_modified(self, owner: int) -> None:
         self.changed.add(owner)
         if owner < PROGRAMS:
-            self.storage.memory.I[at.PF_WORD + owner] |= at.PF_PROGRAM_MODIFIED
+            self.storage.memory.I[pf.word[owner]] |= pf.PROGRAM_MODIFIED
 
 
 def line_number(token: Token) -> int:

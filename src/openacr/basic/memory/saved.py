@@ -16,11 +16,13 @@ from openacr.basic.memory.saving import Saved, each, kept
 from openacr.errors import CardError
 from openacr.kernel.sources import source_cy
 from openacr.map import numbers as at
+from openacr.map.rows import axes, canopen, canopen_adcs, canopen_dacs, canopen_nodes, kernel
+from openacr.map.rows import masters as master_rows
+from openacr.map.words import mf2
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion.axis import attach, filters, maintenance, settings
 from openacr.motion.card import SLAVES, Card
 from openacr.motion.path import buffer
-from openacr.motion.row_index import axis_ints, master_parameter, master_reals, master_word2
 from openacr.motion.sources import sources, time_base
 
 if TYPE_CHECKING:
@@ -28,9 +30,13 @@ if TYPE_CHECKING:
     from openacr.motion.axis.settings import LimitEnables
 
 STREAM_MODES = (at.P_COM1_STARTUP_MODE, at.P_COM2_STARTUP_MODE)
-_NETWORK = range(at.CAN_BASE, at.CAN_BASE + at.CAN_NUMBER_OF_ANALOG_OUTPUTS + 1)
-_NODE_IDS = range(at.CANN_BASE, at.CANN_BASE + at.CANN_COUNT * at.CANN_STRIDE, at.CANN_STRIDE)
-_SCALES = (at.CANDAC_DAC_GAIN, at.CANDAC_DAC_OFFSET, at.CANADC_ADC_GAIN, at.CANADC_ADC_OFFSET)
+_NETWORK = range(canopen.parameters, canopen.number_of_analog_outputs + 1)
+_SCALES = (
+    canopen_dacs.dac_gain,
+    canopen_dacs.dac_offset,
+    canopen_adcs.adc_gain,
+    canopen_adcs.adc_offset,
+)
 
 
 def _numbered(rows: list[Any], count: int) -> Iterator[tuple[int, Any]]:
@@ -102,8 +108,7 @@ def _write_axis_on(card: Card, axis: int, on: bool) -> None:
 
 
 def _sources(card: Card, axis: int) -> list[int]:
-    rows = card.memory.I[axis_ints(axis) : axis_ints(axis) + at.AXI_STRIDE]
-    return [rows[row] for row in _SOURCE_ROWS]
+    return [card.memory.I[row[axis]] for row in _SOURCE_ROWS]
 
 
 def _write_sources(card: Card, axis: int, values: list[int]) -> None:
@@ -118,18 +123,18 @@ def _write_sources(card: Card, axis: int, values: list[int]) -> None:
 
 
 _SOURCE_ROWS = (
-    at.AXI_POSITION_SOURCE,
-    at.AXI_POSITION_INDEX,
-    at.AXI_SIGNAL_SOURCE,
-    at.AXI_SIGNAL_INDEX,
-    at.AXI_VELOCITY_SOURCE,
-    at.AXI_VELOCITY_INDEX,
+    axes.position_source,
+    axes.position_index,
+    axes.signal_source,
+    axes.signal_index,
+    axes.velocity_source,
+    axes.velocity_index,
 )
 
 
 def _read_move_time(card: Card, master: int) -> list[float]:
-    is_on = bool(card.memory.I[master_word2(master)] & at.MF2_MASTER_IN_TMOV)
-    return [card.memory.S[master_parameter(master) + at.MA_MOVE_TIME], is_on]
+    is_on = bool(card.memory.I[mf2.word[master]] & mf2.MASTER_IN_TMOV)
+    return [card.memory.S[master_rows.move_time[master]], is_on]
 
 
 def _write_move_time(card: Card, master: int, value: list[float]) -> None:
@@ -185,13 +190,13 @@ def _put_slaves(system: System, slaves: list[tuple[int, int, int, str]]) -> None
 
 
 def _take_weights(system: System) -> list[list[float]]:
-    first = [master_reals(number) + at.MSF_VECDEF for number in range(system.card.model.masters)]
+    first = [master_rows.vecdef[number] for number in range(system.card.model.masters)]
     return [list(system.card.memory.F[start : start + SLAVES]) for start in first]
 
 
 def _put_weights(system: System, rows: list[list[float]]) -> None:
     for master, weights in _numbered(rows, system.card.model.masters):
-        start = master_reals(master) + at.MSF_VECDEF
+        start = master_rows.vecdef[master]
         for slave, weight in _numbered(weights, SLAVES):
             if not weight >= 0.0:
                 raise CardError(INVALID_ARGUMENT)
@@ -220,9 +225,9 @@ def _row(words: str, row: int, highest: Callable[[Card], int]) -> Saved:
     def put(system: System, value: int) -> None:
         if not 0 <= value <= highest(system.card):
             raise CardError(INVALID_ARGUMENT)
-        system.card.memory.I[at.KRI_BASE + row] = value
+        system.card.memory.I[row] = value
 
-    return Saved(words, lambda system: system.card.memory.I[at.KRI_BASE + row], put)
+    return Saved(words, lambda system: system.card.memory.I[row], put)
 
 
 def _put_config(system: System, modules: list[str]) -> None:
@@ -236,9 +241,8 @@ def _put_addresses(system: System, addresses: dict[str, str]) -> None:
 
 def _canopen_numbers() -> list[int]:
     """The network with what was found on it, the ids of the nodes, all gains and offsets."""
-    channels = range(at.CANDAC_BASE, at.CANDAC_BASE + at.CANDAC_COUNT * at.CANDAC_STRIDE)
-    first = channels[:: at.CANDAC_STRIDE]
-    return [*_NETWORK, *_NODE_IDS, *(channel + row for channel in first for row in _SCALES)]
+    scales = (row[channel] for channel in range(canopen_dacs.COUNT) for row in _SCALES)
+    return [*_NETWORK, *canopen_nodes.node_id, *scales]
 
 
 def _take_canopen(system: System) -> dict[int, float]:
@@ -271,8 +275,8 @@ _TABLE = (
     _per_master("SRC", time_base.source_text, _write_source),
     _per_axis("PM ON", maintenance.is_on, lambda card, a, on: maintenance.switch(card, a, on=on)),
     _per_axis("AXIS # ON", settings.is_axis_on, _write_axis_on),
-    _row("ADC MODE", at.KRI_ADC_MODE, lambda card: 1),
-    _row("ADC MAX", at.KRI_ADC_CHANNELS, lambda card: card.model.adcs),
+    _row("ADC MODE", kernel.adc_mode, lambda card: 1),
+    _row("ADC MAX", kernel.adc_channels, lambda card: card.model.adcs),
     Saved("CONFIG", lambda system: list(system.setup.config), _put_config),
     Saved("IP", lambda system: dict(system.setup.addresses), _put_addresses),
     Saved("CANopen", _take_canopen, _put_canopen),

@@ -18,7 +18,7 @@ from openacr.basic.memory.program_memory import PROGRAMS, Locals
 from openacr.errors import CardError
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.map.rows import threads
+from openacr.map.rows import plcs, storage, system, system_storage, threads
 from openacr.messages import (
     INVALID_ARGUMENT,
     INVALID_DEVICE,
@@ -27,14 +27,14 @@ from openacr.messages import (
     REDIMENSIONED_BLOCK,
 )
 
-PLCS = at.PLC_COUNT
+PLCS = plcs.COUNT
 AUTOMATIC_SHARES = 8
 STREAMS = ("FIFO", "COM1", "COM2", "DPCB", "STREAM1", "STREAM2", "STREAM3", "STREAM4", "STREAM5")
 _REDIMENSIONED_FLAG = {"FIFO": 1805, "COM1": 1869, "COM2": 1901, "DPCB": 5805}
 
-_P_COUNT = at.SYSI_BASE + at.SYSI_P_COUNT
-_DEF_COUNT = at.SMI_BASE + at.SMI_DEF_COUNT
-_STREAM_BYTES = at.SMI_BASE + at.SMI_STREAM_BYTES
+_P_COUNT = system.p_count
+_DEF_COUNT = system_storage.def_count
+_STREAM_BYTES = system_storage.stream_bytes
 
 
 class Storage:
@@ -55,12 +55,12 @@ class Storage:
     def restore_factory(self) -> None:
         """The allocation of a new card: equal automatic shares for PROG0 to PROG7."""
         self.locals.forget()
-        for owner in range(at.ST_COUNT):
-            for offset in range(at.STI_STRIDE):
-                self.heap.set_row(owner, offset, 0)
+        for owner in range(storage.COUNT):
+            for place in range(storage.INTS_SIZE):
+                self.memory.I[storage.ints[owner] + place] = 0
         for program in range(AUTOMATIC_SHARES):
-            self.heap.set_row(program, at.STI_SIZE_BYTES, AUTOMATIC_SHARE_BYTES)
-            self.heap.set_row(program, at.STI_IS_SHARE, 1)
+            self.heap.set_row(program, storage.size_bytes, AUTOMATIC_SHARE_BYTES)
+            self.heap.set_row(program, storage.is_share, 1)
         self._set_system(_P_COUNT, 0)
         self._set_system(_DEF_COUNT, 0)
 
@@ -81,8 +81,8 @@ class Storage:
 
     def free_system(self) -> int:
         """Unallocated system memory in bytes."""
-        owners = range(at.ST_COUNT)
-        used = sum(self.heap.row(owner, at.STI_SIZE_BYTES) for owner in owners)
+        owners = range(storage.COUNT)
+        used = sum(self.heap.row(owner, storage.size_bytes) for owner in owners)
         used += GLOBAL_VARIABLE.bytes(self.global_count) + ALIAS.bytes(self.define_count)
         used += sum(self._stream_row(name) for name in STREAMS)
         return SYSTEM_BYTES - used
@@ -128,14 +128,14 @@ class Storage:
 
     def clear_system(self) -> None:
         """CLEAR at SYS; refused while a program or PLC is stored."""
-        if any(self.heap.row(owner, at.STI_CODE_BYTES) for owner in range(at.ST_COUNT)):
+        if any(self.heap.row(owner, storage.code_bytes) for owner in range(storage.COUNT)):
             raise CardError(PROGRAM_IN_MEMORY)
         self.restore_factory()
 
     def system_lines(self) -> Iterator[str]:
         """DIM at SYS: what is allocated, as typed; of the factory allocation programs alone."""
-        for owner in range(at.ST_COUNT):
-            size = self.heap.row(owner, at.STI_SIZE_BYTES)
+        for owner in range(storage.COUNT):
+            size = self.heap.row(owner, storage.size_bytes)
             if size:
                 is_plc = owner >= PROGRAMS
                 name = f"PLC{owner - PROGRAMS}" if is_plc else f"PROG{owner}"
@@ -150,11 +150,11 @@ class Storage:
 
     def size(self, owner: int) -> int:
         """Memory of a program (0-15) or PLC (16-23) in bytes."""
-        return self.heap.row(owner, at.STI_SIZE_BYTES)
+        return self.heap.row(owner, storage.size_bytes)
 
     def free_program(self, owner: int) -> int:
         """Bytes of a program or PLC not taken by its text, locals and open flow levels."""
-        used = self.heap.row(owner, at.STI_CODE_BYTES)
+        used = self.heap.row(owner, storage.code_bytes)
         if owner < PROGRAMS:
             levels = self.memory.I[threads.depth[owner]]
             used += FLOW_LEVEL.bytes(levels) + self.locals.bytes(owner)
@@ -162,28 +162,28 @@ class Storage:
 
     def set_code_bytes(self, owner: int, size: int) -> None:
         """Account for the stored text of a program or PLC; refused where there is no room."""
-        growth = size - self.heap.row(owner, at.STI_CODE_BYTES)
+        growth = size - self.heap.row(owner, storage.code_bytes)
         if growth > 0 and growth > self.free_program(owner):
             raise CardError(OUT_OF_MEMORY)
-        self.heap.set_row(owner, at.STI_CODE_BYTES, size)
+        self.heap.set_row(owner, storage.code_bytes, size)
 
     def _take(self, program: int, size: int) -> None:
         if size > self.free_program(program):
             raise CardError(OUT_OF_MEMORY)
 
     def _dimension_owner(self, owner: int, size: int) -> None:
-        is_share = self.heap.row(owner, at.STI_IS_SHARE)
+        is_share = self.heap.row(owner, storage.is_share)
         present = self.size(owner)
         if present and not is_share:
             raise CardError(REDIMENSIONED_BLOCK)
-        if self.heap.row(owner, at.STI_CODE_BYTES):
+        if self.heap.row(owner, storage.code_bytes):
             raise CardError(PROGRAM_IN_MEMORY)
         _check_count(size)
         locals_bytes = present - self.free_program(owner)
         if size > self.free_system() + present or size < locals_bytes:
             raise CardError(OUT_OF_MEMORY)
-        self.heap.set_row(owner, at.STI_SIZE_BYTES, size)
-        self.heap.set_row(owner, at.STI_IS_SHARE, 0)
+        self.heap.set_row(owner, storage.size_bytes, size)
+        self.heap.set_row(owner, storage.is_share, 0)
 
     def _dimension_system(self, row: int, count: int, size: int) -> None:
         if self._system(row):

@@ -26,12 +26,13 @@ from openacr.basic.memory.string_storage import ProgramStrings, StringsState
 from openacr.errors import CardError
 from openacr.lang.lexer import spelled, tokens
 from openacr.map import numbers as at
+from openacr.map.rows import storage as storage_rows
+from openacr.map.words import pf
 
 if TYPE_CHECKING:
     from openacr.basic.execute.system import System
     from openacr.basic.memory.heap import Heap
 
-_LONG_VARIABLES = slice(*LONG_VARIABLES)
 _SCALARS = {kind.name: kind for kind in SCALARS}
 _ARRAYS = {kind.name: kind for kind in ARRAYS}
 
@@ -108,12 +109,12 @@ def take_data(system: System, *, values: bool) -> Data:
     storage, memory = system.storage, system.card.memory
     heap, first = storage.heap, at.USER_BASE
     global_values = memory.F[first : first + storage.global_count].tobytes()
-    longs = memory.I[_LONG_VARIABLES].tobytes()
+    longs = memory.I[LONG_VARIABLES].tobytes()
     return Data(
         sizes={
             owner: storage.size(owner)
             for owner in system.owners()
-            if storage.size(owner) and not heap.row(owner, at.STI_IS_SHARE)
+            if storage.size(owner) and not heap.row(owner, storage_rows.is_share)
         },
         streams={name: size for name in storage.streams if (size := storage.dimensioned(name))},
         alias_room=storage.define_count,
@@ -135,7 +136,7 @@ def _locals(system: System, *, values: bool) -> Iterator[Local]:
             {kind.name: heap.scalars(program, kind) for kind in SCALARS},
             {kind.name: list(heap.elements(program, kind)) for kind in ARRAYS},
             strings.state(),
-            heap.row(program, at.STI_MBUF_COUNT),
+            heap.row(program, storage_rows.mbuf_count),
         )
         has_any = any(local.scalars.values()) or any(local.arrays.values()) or strings.bytes
         if has_any or local.move_buffer:
@@ -223,7 +224,7 @@ def _put_globals(system: System, data: Data) -> None:
         system.storage.dimension_globals(len(values))
         memory.F[at.USER_BASE : at.USER_BASE + len(values)] = values
     if data.longs:
-        memory.I[_LONG_VARIABLES] = memoryview(data.longs).cast("i")
+        memory.I[LONG_VARIABLES] = memoryview(data.longs).cast("i")
 
 
 def _put_local(system: System, local: Local) -> None:
@@ -267,4 +268,4 @@ def _put_text(system: System, text: Text) -> Iterator[str]:
             name = f"PLC{text.owner - PROGRAMS}" if is_plc else f"PROG{text.owner}"
             yield f"{name} line {number}: {error.text}"
     if text.owner < PROGRAMS:
-        system.card.memory.I[at.PF_WORD + text.owner] &= ~at.PF_PROGRAM_MODIFIED
+        system.card.memory.I[pf.word[text.owner]] &= ~pf.PROGRAM_MODIFIED

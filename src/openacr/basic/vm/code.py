@@ -5,14 +5,7 @@ from dataclasses import dataclass, field
 
 from openacr.basic.language.nodes import Expr, Move, Statement
 from openacr.map.memory import Memory
-from openacr.map.numbers import (
-    TH_COUNT,
-    THI_BASE,
-    THI_LINES_AT,
-    THI_LINES_COUNT,
-    THI_STRIDE,
-)
-from openacr.map.rows import thread_code
+from openacr.map.rows import thread_code, threads
 from openacr.views import F64, I32
 
 # What DO_STATEMENT says of its statement, for followers and for stops before lines. Above these
@@ -56,9 +49,9 @@ class CodeSpace:
 
     def __init__(self, memory: Memory) -> None:
         self._memory = memory
-        self._code_room = [SMALLEST_CODE] * TH_COUNT
-        self._nums_room = [SMALLEST_NUMS] * TH_COUNT
-        self.chunks = [Chunk() for _ in range(TH_COUNT)]
+        self._code_room = [SMALLEST_CODE] * threads.COUNT
+        self._nums_room = [SMALLEST_NUMS] * threads.COUNT
+        self.chunks = [Chunk() for _ in range(threads.COUNT)]
         self.code: I32
         self.nums: F64
         self.rebuild()
@@ -71,9 +64,9 @@ class CodeSpace:
 
     def show_lines(self, thread: int) -> None:
         """Tell the VM where the table of line numbers is."""
-        chunk, rows = self.chunks[thread], THI_BASE + thread * THI_STRIDE
-        self._memory.I[rows + THI_LINES_AT] = chunk.lines_at
-        self._memory.I[rows + THI_LINES_COUNT] = chunk.lines_count
+        chunk = self.chunks[thread]
+        self._memory.I[threads.lines_at[thread]] = chunk.lines_at
+        self._memory.I[threads.lines_count[thread]] = chunk.lines_count
 
     def refresh(self, thread: int, code_from: int = 0, nums_from: int = 0) -> None:
         """Copy what has been added to the chunk of a thread."""
@@ -90,7 +83,7 @@ class CodeSpace:
         self.code = memoryview(array("i", bytes(4 * sum(self._code_room))))
         self.nums = memoryview(array("d", bytes(8 * sum(self._nums_room))))
         code_base = num_base = 0
-        for thread in range(TH_COUNT):
+        for thread in range(threads.COUNT):
             self._memory.I[thread_code.code_base[thread]] = code_base
             self._memory.I[thread_code.num_base[thread]] = num_base
             self._copy(thread, 0, 0)

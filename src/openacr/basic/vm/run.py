@@ -11,7 +11,7 @@ from openacr.basic.language.grammar import Axis
 from openacr.basic.language.nodes import AxisRef, Expr, Number, Prefix, Statement
 from openacr.basic.language.registry import Level
 from openacr.errors import CardError
-from openacr.map import numbers as at
+from openacr.map.words import pf
 from openacr.messages import (
     INVALID_ARGUMENT,
     NO_MASTER_ATTACHED,
@@ -38,8 +38,8 @@ class Show(IntEnum):
     """Which program flag is set while a thread waits."""
 
     NOTHING = 0
-    INHIBITED = at.PF_PROGRAM_INHIBITED
-    MOVE_PENDING = at.PF_MOVE_PENDING
+    INHIBITED = pf.PROGRAM_INHIBITED
+    MOVE_PENDING = pf.MOVE_PENDING
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,23 +12,7 @@ from math import isfinite
 
 from openacr.errors import CardError
 from openacr.map.block import Kind
-from openacr.map.numbers import (
-    AX_BASE,
-    AX_MAX_VELOCITY_LIMIT,
-    AX_STRIDE,
-    AXF_BASE,
-    AXF_STRIDE,
-    AXI_BASE,
-    AXI_STRIDE,
-    ENI_BASE,
-    ENI_MULT,
-    ENI_STRIDE,
-    MA_BASE,
-    MA_STRIDE,
-    MSF_BASE,
-    MSF_STRIDE,
-)
-from openacr.map.rows import axes, dacs, masters
+from openacr.map.rows import axes, dacs, encoders, masters
 from openacr.map.words import af5, mf2
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED
 from openacr.motion.axis.attach import Feedback, Signal
@@ -68,16 +52,15 @@ def multiplier(value: float) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """One number per object, at `first + number * stride` of the view of its kind."""
+    """One number per object, in a row of the view of its kind."""
 
     kind: Kind
-    first: int
-    stride: int
+    row: tuple[int, ...]
     allows: Callable[[float], bool] = anything
 
     def read(self, card: Card, number: int) -> float:
         """The value of object `number`."""
-        place = self.first + number * self.stride
+        place = self.row[number]
         memory = card.memory
         if self.kind is Kind.LONG:
             return memory.I[place]
@@ -92,7 +75,7 @@ class Setting:
     def write(self, card: Card, number: int, value: float) -> None:
         """Store a value, as it is or (LONG) without its fraction."""
         self.check(value)
-        place = self.first + number * self.stride
+        place = self.row[number]
         memory = card.memory
         if self.kind is Kind.LONG:
             memory.I[place] = int(value)
@@ -106,34 +89,19 @@ Place = tuple[Setting, int]  # a value: of which object
 _Allowed = Callable[[float], bool]
 
 
-def of_axis(row: int, allows: _Allowed = anything) -> Setting:
-    """An FP32 parameter of each axis."""
-    return Setting(Kind.FP32, AX_BASE + row, AX_STRIDE, allows)
+def fp32(row: tuple[int, ...], allows: _Allowed = anything) -> Setting:
+    """An FP32 parameter."""
+    return Setting(Kind.FP32, row, allows)
 
 
-def of_axis_long(row: int, allows: _Allowed = anything) -> Setting:
-    """A LONG parameter of each axis."""
-    return Setting(Kind.LONG, AX_BASE + row, AX_STRIDE, allows)
+def fp64(row: tuple[int, ...], allows: _Allowed = anything) -> Setting:
+    """A hidden FP64 row."""
+    return Setting(Kind.FP64, row, allows)
 
 
-def of_axis_real(row: int, allows: _Allowed = anything) -> Setting:
-    """A hidden FP64 row of each axis."""
-    return Setting(Kind.FP64, AXF_BASE + row, AXF_STRIDE, allows)
-
-
-def of_axis_int(row: int, allows: _Allowed = anything) -> Setting:
-    """A hidden LONG row of each axis."""
-    return Setting(Kind.LONG, AXI_BASE + row, AXI_STRIDE, allows)
-
-
-def of_master(row: int, allows: _Allowed = not_negative) -> Setting:
-    """An FP32 parameter of each master."""
-    return Setting(Kind.FP32, MA_BASE + row, MA_STRIDE, allows)
-
-
-def of_master_real(row: int, allows: _Allowed = not_negative) -> Setting:
-    """A hidden FP64 row of each master."""
-    return Setting(Kind.FP64, MSF_BASE + row, MSF_STRIDE, allows)
+def long(row: tuple[int, ...], allows: _Allowed = anything) -> Setting:
+    """A LONG parameter or hidden row."""
+    return Setting(Kind.LONG, row, allows)
 
 
 # end-of-travel limits: the mode of HLIM and SLIM is two flags
@@ -165,7 +133,7 @@ SOFT_LIMITS = LimitEnables(af5.POSITIVE_SOFTWARE_LIMIT_ENABLE, af5.NEGATIVE_SOFT
 
 # MAXVEL
 
-MAX_VELOCITY = of_axis(AX_MAX_VELOCITY_LIMIT, not_negative)
+MAX_VELOCITY = fp32(axes.max_velocity_limit, not_negative)
 
 
 def set_max_velocity(card: Card, axis: int, value_ups: float) -> None:
@@ -193,12 +161,12 @@ def vector_weight(card: Card, axis: int) -> Place:
     if master is None:
         raise CardError(NO_MASTER_ATTACHED)
     slave = card.memory.I[axes.slave[axis]]
-    return Setting(Kind.FP64, masters.vecdef[master] + slave, 0, not_negative), 0
+    return fp64((masters.vecdef[master] + slave,), not_negative), 0
 
 
 # MULT
 
-ENCODER_MULTIPLIER = Setting(Kind.LONG, ENI_BASE + ENI_MULT, ENI_STRIDE, multiplier)
+ENCODER_MULTIPLIER = long(encoders.mult, multiplier)
 
 
 def multiplier_of(card: Card, axis: int) -> Place:
