@@ -6,7 +6,7 @@ The targets are the figures of a first prototype on another machine.
 from bench.cards import NAMES, jog_all, many_axes, move_all
 from bench.figures import at_most, best_s, value_only
 from openacr.controller import Controller
-from openacr.map.numbers import AXI_BASE, AXI_ON, AXI_STRIDE, PLI_BASE, PLI_KIND, PLI_STRIDE
+from openacr.map.rows import axes, motors
 
 TICKS = 20_000
 
@@ -17,7 +17,7 @@ def _ns(card: Controller) -> float:
 
 def _without_plant(card: Controller) -> Controller:
     for axis in range(16):
-        card.memory.I[PLI_BASE + axis * PLI_STRIDE + PLI_KIND] = 0
+        card.memory.I[motors.kind[axis]] = 0
     return card
 
 
@@ -25,7 +25,7 @@ def main() -> None:
     card = _without_plant(many_axes())
     at_most("servo interrupt, 16 axes at rest", _ns(card), 222, "ns")
     for axis in range(16):
-        card.memory.I[AXI_BASE + axis * AXI_STRIDE + AXI_ON] = 0
+        card.memory.I[axes.on[axis]] = 0
     value_only("servo interrupt, 16 axes off", _ns(card), "ns")
     card = _without_plant(many_axes())
     move_all(card)

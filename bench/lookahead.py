@@ -17,7 +17,7 @@ from bench.figures import at_least, at_most, best_s, value_only
 from openacr.compiled import pick
 from openacr.controller import Controller
 from openacr.kernel.path import plan_cy
-from openacr.map import numbers as at
+from openacr.map.rows import axes, masters, profiles
 from openacr.motion.path import moves
 from openacr.motion.path.move_request import Target
 
@@ -78,14 +78,14 @@ def _run(points: Sequence[Point], tolerance: float, jerk: float) -> tuple[float,
     """Time of the path, its places tick by tick and its speeds."""
     card = _card(tolerance, jerk)
     waiting, places, speeds = list(points)[::-1], [], []
-    rows = [at.AXF_BASE + n * at.AXF_STRIDE + at.AXF_PSP_CNT for n in (0, 1)]
+    rows = [axes.psp_cnt[n] for n in (0, 1)]
     F = card.memory.F
     _feed(card, waiting)
     while card.bit[IN_MOTION]:
         card.advance(1)
         _feed(card, waiting)
         places.append([F[row] / PPU for row in rows])
-        speeds.append(F[at.PRF_BASE + at.PRF_VELOCITY])
+        speeds.append(F[profiles.velocity[0]])
         if len(speeds) > FURTHEST_TICKS:
             raise RuntimeError("the path does not end")
     return len(speeds) * card.period_s, np.array(places), np.array(speeds)
@@ -171,7 +171,7 @@ def _planning() -> None:
         _feed(card, PROGRAMS["surface"][: DEPTH + 1][::-1])
         card.advance(2)
         memory = card.memory
-        queued = memory.I[at.MSI_BASE + at.MSI_QUEUED]
+        queued = memory.I[masters.queued[0]]
         seconds = best_s(lambda m=memory: [_plan(m.F, m.I, m.S, 0) for _ in range(2000)]) / 2000
         at_least(f"{name} path: segments planned in a full buffer", queued / seconds, 1e6, "1/s")
 

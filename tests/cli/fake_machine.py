@@ -8,8 +8,9 @@ import numpy as np
 from openacr.cli.plots import AxisCurves, Curves
 from openacr.cli.plots.curves import Array
 from openacr.cli.results import AxisReport, Event, Watched
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import storage
+from openacr.map.words import pf
 from openacr.scenario import Condition
 from openacr.scenario.played import Failure
 
@@ -119,7 +120,7 @@ class FakeMachine:
         return Curves(time_s, (axis,), (), title)
 
     def store_program(self, program: int) -> None:
-        self.memory.I[at.STI_BASE + program * at.STI_STRIDE + at.STI_CODE_BYTES] = 100
+        self.memory.I[storage.code_bytes[program]] = 100
 
     def set_running(self, program: int, on: bool) -> None:
-        self.memory.I[at.PF_WORD + program] = at.PF_PROGRAM_RUNNING if on else 0
+        self.memory.I[pf.word[program]] = pf.PROGRAM_RUNNING if on else 0

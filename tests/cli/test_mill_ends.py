@@ -13,7 +13,7 @@ import pytest
 from tests import warm
 
 from openacr.client import Card
-from openacr.map.numbers import MF1_IN_MOTION, MF1_WORD
+from openacr.map.words import mf1
 from openacr.sysvar import Store
 
 COOLANT_FLOOD = 800_010
@@ -42,7 +42,7 @@ def address(tmp_path: Path) -> Iterator[str]:
 
 
 def is_moving(card: Card) -> bool:
-    return bool(int(card.read(MF1_WORD)) & MF1_IN_MOTION)
+    return bool(int(card.read(mf1.word[0])) & mf1.IN_MOTION)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no signals of this kind")

@@ -18,7 +18,8 @@ from openacr.cli.main import app
 from openacr.cli.results import AxisReport
 from openacr.cli.run.command import MOST_S, limit_s
 from openacr.errors import SourceError
-from openacr.map import numbers as at
+from openacr.map.rows import programs, threads
+from openacr.map.words import mf1
 from openacr.messages import DIVIDE_BY_ZERO
 from openacr.units import quantity
 
@@ -56,7 +57,7 @@ def test_for_ends_the_run_at_its_tick(run: Run, machine: FakeMachine) -> None:
 def test_an_idle_card_ends_the_run_by_itself(run: Run, machine: FakeMachine) -> None:
     def world(card: FakeMachine) -> None:
         card.set_running(0, 10 < card.tick < 700)
-        card.memory.I[at.MF1_WORD] = at.MF1_IN_MOTION if 500 < card.tick < 1000 else 0
+        card.memory.I[mf1.word[0]] = mf1.IN_MOTION if 500 < card.tick < 1000 else 0
 
     machine.world = world
     assert run().exit_code == 0
@@ -99,7 +100,7 @@ def test_the_closing_table_shows_axes_and_programs(run: Run, machine: FakeMachin
         AxisReport(1, 0.0, 0.0, 0.0, 0.0, 0.0),
     )
     machine.store_program(3)
-    machine.memory.I[at.PROG_BASE + 3 * at.PROG_STRIDE] = 120
+    machine.memory.I[programs.parameters[3]] = 120
     machine.set_running(3, True)
     shown = run("--for", "0.1").stdout
     rows = [line.split() for line in shown.splitlines() if line.strip() and "─" not in line]
@@ -114,7 +115,7 @@ def test_the_closing_table_shows_axes_and_programs(run: Run, machine: FakeMachin
 
 def test_a_program_that_ended_in_an_error_gives_exit_code_1(run: Run, machine: FakeMachine) -> None:
     machine.store_program(0)
-    machine.memory.I[at.THI_BASE + at.THI_ERROR] = DIVIDE_BY_ZERO.number
+    machine.memory.I[threads.error[0]] = DIVIDE_BY_ZERO.number
     result = run("--for", "0.1")
     assert result.exit_code == 1
     assert "Divide by zero" in result.stdout

@@ -16,7 +16,7 @@ from openacr.client import Card, ConnectionLostError
 from openacr.client.lights import Light, axis_light, bus_light, power_light
 from openacr.client.links import DEFAULT_BAUD, ProcessLink, SerialLink, TcpLink
 from openacr.controller import Controller
-from openacr.map import numbers as at
+from openacr.map.words import af1
 
 
 @pytest.fixture
@@ -201,9 +201,9 @@ def test_why_an_axis_has_no_output_is_shown(card: Controller) -> None:
     assert of_axis(card, 0).no_output == "the drive is not enabled"
     card.send("DRIVE ON X Y\r")
     assert [of_axis(card, axis).no_output for axis in (0, 1)] == ["", ""]
-    card.p[at.AF1_WORD + 1] = int(card.p[at.AF1_WORD + 1]) | at.AF1_CLAMP_OUTPUT_SIGNAL
+    card.p[af1.word[1]] = int(card.p[af1.word[1]]) | af1.CLAMP_OUTPUT_SIGNAL
     assert of_axis(card, 1).no_output == "the output is clamped"
-    card.p[at.AF1_WORD] = int(card.p[at.AF1_WORD]) | at.AF1_OPEN_SERVO_LOOP
+    card.p[af1.word[0]] = int(card.p[af1.word[0]]) | af1.OPEN_SERVO_LOOP
     with Card(ProcessLink(card)) as host:
         loops = [read_loop(host, axis) for axis in (0, 1)]
     assert [one.no_output for one in loops] == ["the servo loop is open", "the output is clamped"]

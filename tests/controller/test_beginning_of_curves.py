@@ -9,15 +9,15 @@ from scipy.interpolate import BSpline
 from tests.controller.test_binary_moves import Sender
 from tests.controller.test_timed_curves import KNOT_S, TIME_FACTOR
 
-from openacr.map import numbers as n
+from openacr.map.rows import masters
 from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code0, Code1, Code3
 
 pytestmark = pytest.mark.evidence("oracle", "B-splines of scipy")
 
 Reals = NDArray[np.float64]
-START_TIME = n.MA_BASE + n.MA_NURB_START_TIME
-COUNTER = n.MA_BASE + n.MA_MOVE_COUNTER
+START_TIME = masters.nurb_start_time[0]
+COUNTER = masters.move_counter[0]
 SCALES = np.array([1000.0, 50.0])  # pulses per unit of X and Y
 CODE0 = int(Code0.OVERRIDE_LOCKOUT | Code0.COUNTER)
 PLACES = (0, 0, 0, 0, 10, 20, 40, 50, 60, 60, 60)

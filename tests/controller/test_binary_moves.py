@@ -11,6 +11,7 @@ from tests.controller.hosts import Host
 from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.map import numbers as at
+from openacr.map.rows import axes
 from openacr.protocol.bits import SetBit
 from openacr.protocol.events import ControlKey
 from openacr.protocol.move import Move
@@ -54,7 +55,7 @@ class Sender:
     @property
     def at(self) -> tuple[float, ...]:
         """Commanded positions of X, Y, Z in pulses, not rounded."""
-        rows = (at.AXF_BASE + axis * at.AXF_STRIDE + at.AXF_POSITION_CNT for axis in range(3))
+        rows = (axes.position_cnt[axis] for axis in range(3))
         return tuple(self.card.memory.F[row] for row in rows)
 
     def peak(self, ticks: int) -> float:

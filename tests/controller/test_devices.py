@@ -12,6 +12,7 @@ from openacr.controller.recorder import Recorder
 from openacr.controller.replay import Replay
 from openacr.errors import SourceError, StoreError, UserError
 from openacr.map import numbers as at
+from openacr.map.rows import analogs, axes
 from openacr.plant.load import parse_world
 from openacr.plant.schema import World
 from openacr.timeline import Timeline
@@ -121,7 +122,7 @@ def test_commands_and_signals_of_every_kind_are_wired(probes: Path) -> None:
     card.bit[32] = True
     card.advance(6)
     assert card.bit[10]
-    volts = at.PLAF_BASE + at.PLAF_STRIDE + at.PLAF_VOLTS  # at input 1
+    volts = analogs.reals[0] + analogs.REALS_SIZE + at.PLAF_VOLTS  # at input 1
     assert card.memory.F[volts] == 25.0 * 0.125
     card.drag(2, 400.0)  # pulses; four counts each
     card.advance(10)
@@ -375,10 +376,10 @@ def test_an_edge_of_a_device_is_captured_at_the_end_of_the_next_servo_interrupt(
     ):  # fmt: skip
         card.send(f"{line}\r")
     assert card.until(26, timeout_s=1.0)
-    before_cnt = card.p[at.AX_BASE + 2 * at.AX_STRIDE + at.AX_ACTUAL_POSITION]
+    before_cnt = card.p[axes.actual_position[2]]
     card.advance(1)
-    after_cnt = card.p[at.AX_BASE + 2 * at.AX_STRIDE + at.AX_ACTUAL_POSITION]
+    after_cnt = card.p[axes.actual_position[2]]
     assert after_cnt > before_cnt
-    assert card.p[at.AX_BASE + 2 * at.AX_STRIDE + at.AX_HARDWARE_CAPTURE] == after_cnt
+    assert card.p[axes.hardware_capture[2]] == after_cnt
     card.advance(100)
-    assert card.p[at.AX_BASE + 2 * at.AX_STRIDE + at.AX_HARDWARE_CAPTURE] == after_cnt
+    assert card.p[axes.hardware_capture[2]] == after_cnt

@@ -24,6 +24,15 @@ from openacr.map.hidden import HIDDEN_BLOCKS
 from openacr.map.hidden.block import ANY_NUMBER, ROWS_F, ROWS_I, places
 from openacr.map.memory import Memory
 from openacr.map.names import every_name
+from openacr.map.rows import (
+    bus_nodes,
+    bus_signals,
+    input_words,
+    masters,
+    scheduler,
+    storage,
+    threads,
+)
 from openacr.map.valid import check_rows
 from openacr.plant.load import parse_world
 
@@ -107,7 +116,7 @@ def test_every_range_names_a_row_and_lies_within_the_memory() -> None:
 
 
 HEAP = at.HEAP_BYTE_BASE // 4
-STORAGE = at.STI_BASE
+STORAGE = storage.ints[0]
 
 
 @pytest.mark.parametrize(
@@ -119,15 +128,15 @@ STORAGE = at.STI_BASE
         (STORAGE + at.STI_LA_BASE, 5, "outside the heap"),
         (STORAGE + at.STI_LA_COUNT, 1 << 30, "outside the heap"),
         (STORAGE + at.STI_DA_BASE, HEAP, "overlap|odd|outside"),
-        (at.MSI_BASE + at.MSI_FIRST, 760, "moves of master 0"),
-        (at.MSI_BASE + at.MSI_STRIDE + at.MSI_FIRST, 33, "moves of master 2"),
-        (at.MSI_BASE + at.MSI_HEAD, 64, "moves of master 0"),
-        (at.MSI_BASE + at.MSI_QUEUED, 65, "moves of master 0"),
-        (at.MSI_BASE + at.MSI_SECTION_CNT, 65, "moves of master 0"),
-        (at.PLNI_BASE + at.PLNI_WORD, 4095, "a wire ends at row 4095"),
-        (at.PLNI_BASE + at.PLNI_WORD, at.PUBLIC_COUNT, "a wire ends at row"),
-        (at.PLNI_BASE + at.PLNI_WORD, at.BUSNI_BASE - 1, "a wire ends at row"),
-        (at.BUSSI_BASE + at.BUSSI_INPUT, at.BUSNF_BASE - 1, "a signal ends at row"),
+        (masters.first[0], 760, "moves of master 0"),
+        (masters.ints[0] + masters.INTS_SIZE + at.MSI_FIRST, 33, "moves of master 2"),
+        (masters.head[0], 64, "moves of master 0"),
+        (masters.queued[0], 65, "moves of master 0"),
+        (masters.section_cnt[0], 65, "moves of master 0"),
+        (input_words.word[0], 4095, "a wire ends at row 4095"),
+        (input_words.word[0], at.PUBLIC_COUNT, "a wire ends at row"),
+        (input_words.word[0], bus_nodes.ints[0] - 1, "a wire ends at row"),
+        (bus_signals.input[0], bus_nodes.reals[0] - 1, "a signal ends at row"),
         (7, 0, "kinds of parameters"),
     ],
 )
@@ -148,9 +157,9 @@ def test_rows_that_do_not_fit_each_other_are_refused(
 def test_a_program_in_the_middle_of_an_operation_is_refused(
     kept: Snapshot, row: int, value: int
 ) -> None:
-    made = changed(kept, "I", at.THI_BASE + at.THI_DEPTH, 1)
-    made = changed(made, "I", at.THI_BASE + at.THI_FLOW_KIND, 4)
-    again = changed(made, "I", at.THI_BASE + row, value)
+    made = changed(kept, "I", threads.depth[0], 1)
+    made = changed(made, "I", threads.flow_kind[0], 4)
+    again = changed(made, "I", threads.ints[0] + row, value)
     card = Controller(world=parse_world(WORLD))
     with pytest.raises(StoreError, match="in the middle of an"):
         card.restore(decode(encode(again)))
@@ -158,9 +167,9 @@ def test_a_program_in_the_middle_of_an_operation_is_refused(
 
 @pytest.mark.parametrize("row", [at.THI_STATE, "mark"])
 def test_a_thread_that_executes_nothing_is_refused(kept: Snapshot, row: object) -> None:
-    place = at.SCHI_BASE + at.SCHI_PROGRAMS
+    place = scheduler.programs
     if row != "mark":
-        place = at.THI_BASE + 9 * at.THI_STRIDE + at.THI_STATE
+        place = threads.state[9]
     card = Controller(world=parse_world(WORLD))
     with pytest.raises(StoreError, match="thread 9 executes nothing"):
         card.restore(decode(encode(changed(kept, "I", place, 1 | 1 << 9 if row == "mark" else 1))))

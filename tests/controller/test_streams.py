@@ -6,7 +6,7 @@ from tests.controller.hosts import X_AND_Y, Host, connected, store
 from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.errors import NoFreeStreamError
-from openacr.map import numbers as at
+from openacr.map.rows import devices
 
 DATA = bytes.fromhex("00 30 02 01")
 
@@ -200,7 +200,7 @@ def test_a_sender_is_held_while_64_kib_wait_for_a_program_and_let_go_at_half(
     if not device:
         sender.type("PROG0", "LISTEN")
     card.advance(100)
-    waiting = card.system.devices.row((0, device), at.DQI_CHARACTERS)
+    waiting = card.system.devices.row((0, device), devices.characters)
     for size in (*[1024] * 63, 1023):
         sender.send(b"x" * size)
     assert card.accepts_input(sender.stream)

@@ -10,6 +10,7 @@ from openacr.controller import Controller
 from openacr.controller.journal import JournalEntry, _entry, record_of
 from openacr.errors import CardError, UserError
 from openacr.map import numbers as at
+from openacr.map.rows import motors, plant
 from openacr.plant.load import parse_world
 from openacr.protocol.events import ControlKey
 
@@ -120,13 +121,13 @@ def test_a_forced_input_has_no_edges_when_its_switch_is_passed() -> None:
     made.set_input(3, False)
     made.drag(1, 30.0)
     made.advance(1)
-    assert not made.memory.I[at.PLGI_BASE + at.PLGI_RISES] & 1 << 3
+    assert not made.memory.I[plant.rises] & 1 << 3
     made.drag(1, -30.0)
     made.advance(1)
     made.release_input(3)
     made.drag(1, 30.0)
     made.advance(1)
-    assert made.memory.I[at.PLGI_BASE + at.PLGI_RISES] & 1 << 3
+    assert made.memory.I[plant.rises] & 1 << 3
 
 
 def test_an_input_that_nothing_drives_takes_any_level_and_is_off_when_released() -> None:
@@ -248,7 +249,7 @@ def test_a_drive_fault_shows_at_the_fault_input_of_the_drive(
     if wired:
         made.release_input(9)
     made.advance(3)
-    motor = at.PLI_BASE + at.PLI_STRIDE
+    motor = motors.ints[0] + motors.INTS_SIZE
     assert (made.bit[9], made.memory.I[motor + at.PLI_DRIVE_FAULT]) == (quiet, 0)
     made.fault(1, "drive")
     made.advance(3)
@@ -317,7 +318,7 @@ def test_friction_beyond_the_torque_of_the_drive_holds_the_axis() -> None:
             "revs_per_s_per_volt = 25.0", "amps_per_volt = 2.0"
         )
     )
-    motor = at.PLF_BASE + at.PLF_STRIDE
+    motor = motors.reals[0] + motors.REALS_SIZE
     own = made.memory.F[motor + at.PLF_COULOMB_ACCEL], made.memory.F[motor + at.PLF_STATIC_ACCEL]
     made.fault(1, "friction", 0.02)
     made.fault(1, "friction", 0.02)  # it replaces the one before

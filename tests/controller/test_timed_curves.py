@@ -5,7 +5,7 @@ from itertools import pairwise
 import pytest
 from tests.controller.test_binary_moves import Sender
 
-from openacr.map import numbers as n
+from openacr.map.rows import masters
 from openacr.protocol.bits import SetBit
 from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code0, Code1, Code3
@@ -14,9 +14,9 @@ KNOT_S = 0.005
 IN_MOTION, IN_FEEDHOLD, FEED_HOLD = 516, 519, 520
 LOCKED = int(Code0.OVERRIDE_LOCKOUT)
 COUNTED = int(Code0.COUNTER)
-FOV = n.MA_BASE + n.MA_FEEDRATE_OVERRIDE
-TIME_FACTOR = n.MA_BASE + n.MA_NURB_TIME_FACTOR
-COUNTER = n.MA_BASE + n.MA_MOVE_COUNTER
+FOV = masters.feedrate_override[0]
+TIME_FACTOR = masters.nurb_time_factor[0]
+COUNTER = masters.move_counter[0]
 SPEED = 40  # pulses from one control point to the next: 8000/s
 
 

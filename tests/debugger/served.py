@@ -15,8 +15,7 @@ from typing import IO
 from tests import warm
 
 from openacr.client import Card
-from openacr.map.numbers import PF_PROGRAM_RUNNING, PF_WORD
-from openacr.map.words import mf1
+from openacr.map.words import mf1, pf
 
 LIMIT_S = 60.0
 COUNTS = """\
@@ -160,11 +159,11 @@ def until(what: Callable[[], bool], about: str) -> None:
 
 
 def flags(card: Card, program: int) -> int:
-    return int(card.read(PF_WORD + program))
+    return int(card.read(pf.word[program]))
 
 
 def is_running(card: Card, program: int) -> bool:
-    return bool(flags(card, program) & PF_PROGRAM_RUNNING)
+    return bool(flags(card, program) & pf.PROGRAM_RUNNING)
 
 
 def is_moving(card: Card, master: int = 0) -> bool:

@@ -13,7 +13,8 @@ from openacr.debugger.breakpoints import Fault, LineBreakpoint
 from openacr.debugger.part_programs.target import PartTarget
 from openacr.debugger.stops import Reason, Stop
 from openacr.errors import UserError
-from openacr.map import numbers as at
+from openacr.map.rows import axes
+from openacr.map.words import mf1
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 from openacr.timeline import Moment
@@ -242,7 +243,7 @@ def test_a_condition_is_of_the_moment_of_its_block(target: PartTarget) -> None:
 
 
 def test_conditions_and_watches_read_the_card_where_it_is(target: PartTarget) -> None:
-    position = f"P{at.AX_BASE + at.AX_CURRENT_POSITION}"
+    position = f"P{axes.current_position[0]}"
     breaks(target, 4, condition="P200 = 0")
     target.run(LONG_TK)
     assert target.answer(0, position) == "10000"
@@ -344,13 +345,13 @@ def test_what_is_closed_is_at_rest_with_its_outputs_off(tmp_path: Path, is_past:
     target = target_of(tmp_path, CUTTING, SPINDLE)
     target.entry()
     assert target.run(2000) is None
-    word = at.MF1_WORD + target.shop.machine.master
-    assert target.card.memory.I[word] & at.MF1_IN_MOTION
+    word = mf1.word[target.shop.machine.master]
+    assert target.card.memory.I[word] & mf1.IN_MOTION
     assert [target.card.bit[each] for each in (40, 41)] == [True, True]
     if is_past:
         target.seek(Moment(target.card.lived_tk - 1500))
     target.close()
-    assert not target.card.memory.I[word] & at.MF1_IN_MOTION
+    assert not target.card.memory.I[word] & mf1.IN_MOTION
     assert [target.card.bit[each] for each in (40, 41)] == [False, False]
     assert target.card.axis(0).commanded_u < 20.0
 

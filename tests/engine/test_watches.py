@@ -10,6 +10,7 @@ from openacr.engine import watch_cy
 from openacr.engine.watches import WATCHES, Watch, Watched, set_watches
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import axes
 from openacr.views import F32, F64, I32
 
 Fired = Callable[[F64, I32, F32], bool]
@@ -52,21 +53,21 @@ def test_it_fires_in_the_tick_of_a_change(
 
 def test_real_numbers_and_positions_in_units_are_compared(fired: Fired) -> None:
     memory = Memory()
-    memory.S[at.AX_BASE + at.AX_PPU] = 1000.0
+    memory.S[axes.ppu[0]] = 1000.0
     limits = [
         Watch(Watched.FP32, 8192, bound=0.5),
         Watch(Watched.FP64, at.USER_BASE + 7, bound=2.0),
-        Watch(Watched.AXIS, at.AX_BASE, bound=1.5),
+        Watch(Watched.AXIS, axes.parameters[0], bound=1.5),
     ]
     found = []
     for watch in limits:
         set_watches(memory, [watch])
         memory.S[8192], memory.F[at.USER_BASE + 7] = 0.51, 2.0000001
-        memory.I[at.AX_BASE + at.AX_ACTUAL_POSITION] = 1501
+        memory.I[axes.actual_position[0]] = 1501
         found.append(fired(memory.F, memory.I, memory.S))
         found.append(fired(memory.F, memory.I, memory.S))
         memory.S[8192], memory.F[at.USER_BASE + 7] = 0.0, float("nan")
-        memory.I[at.AX_BASE + at.AX_ACTUAL_POSITION] = 1500
+        memory.I[axes.actual_position[0]] = 1500
         fired(memory.F, memory.I, memory.S)
     assert found == [True, False] * 3
 

@@ -5,7 +5,7 @@ from tests.examples.observe import Observation, load, observe
 from tests.examples.watches import HOMING, MISSING_SWITCH
 
 from openacr.controller import Controller
-from openacr.map.numbers import PLF_BASE, PLF_POSITION_CNT, PLF_STRIDE
+from openacr.map.rows import motors
 from openacr.plant.counts import position_of
 
 FOUND, FAILED, MARKER = 16134, 16135, 777
@@ -19,7 +19,7 @@ def run() -> Observation:
 
 def on_machine_u(card: Controller, axis: int) -> float:
     """Where an axis stands on the machine, whatever its counters say."""
-    count = card.memory.F[PLF_BASE + axis * PLF_STRIDE + PLF_POSITION_CNT]
+    count = card.memory.F[motors.position_cnt[axis]]
     return position_of(card.world.axis[axis], count)
 
 

@@ -14,6 +14,8 @@ from openacr.map.hidden.block import HiddenBlock
 from openacr.map.layout import hidden_constants, slug
 from openacr.map.names import every_name
 from openacr.map.names_read import names_in
+from openacr.map.rows import axes
+from openacr.map.words import af1, mf1
 
 NAMES = every_name()
 
@@ -107,11 +109,11 @@ def test_names_become_constants(name: str, constant: str) -> None:
 
 
 def test_names_others_rely_on() -> None:
-    assert (numbers.AX_BASE, numbers.AX_STRIDE, numbers.AX_COUNT) == (12288, 256, 16)
+    assert (axes.parameters[0], axes.PARAMETERS_SIZE, axes.COUNT) == (12288, 256, 16)
     assert (numbers.AX_CURRENT_POSITION, numbers.AX_FILTER1_A0) == (0, 57)
     assert numbers.ENC_HIGH_BASE == 24576
     assert numbers.P_GLOBAL_SYSTEM_CLOCK == 6916
-    assert (numbers.MF1_IN_MOTION, numbers.AF1_JOG_LOCKOUT) == (16, -2147483648)
+    assert (mf1.IN_MOTION, af1.JOG_LOCKOUT) == (16, -2147483648)
     assert (numbers.W_INPUTS, numbers.W_FIFO, numbers.W_MISC_CONTROL_1) == (4096, 4152, 4272)
 
 

@@ -22,10 +22,9 @@ from openacr.map.numbers import (
     KIND_NONE,
     MEMORY_BYTES,
     PUBLIC_COUNT,
-    SYSI_BASE,
-    SYSI_P_COUNT,
     USER_BASE,
 )
+from openacr.map.rows import system
 from openacr.messages import INVALID_BIT, INVALID_PARAMETER, UNDEFINED_VARIABLE
 
 POSITION, GAIN = 12288, 12304
@@ -97,7 +96,7 @@ def test_user_variables_exist_as_far_as_dimensioned() -> None:
     with pytest.raises(CardError) as refused:
         memory.read(0)
     assert refused.value.message is UNDEFINED_VARIABLE
-    memory.I[SYSI_BASE + SYSI_P_COUNT] = 10
+    memory.I[system.p_count] = 10
     memory.write(9, 0.1)
     assert memory.read(9) == 0.1
     with pytest.raises(CardError):

@@ -24,13 +24,8 @@ from openacr.controller.journal import read_journal
 from openacr.controller.replay import Replay
 from openacr.controller.trace import Trace
 from openacr.engine.samples import Sample
-from openacr.map.numbers import (
-    AF1_JOG_ACTIVE,
-    AF1_WORD,
-    MF1_IN_MOTION,
-    MF1_WORD,
-)
 from openacr.map.numbers import P_GLOBAL_SYSTEM_CLOCK as CLOCK
+from openacr.map.words import af1, mf1
 from openacr.sysvar import Store
 
 LIMIT_S = 60.0  # for what has to come at all
@@ -163,9 +158,9 @@ class Plant:
 
     @property
     def is_moving(self) -> bool:
-        words = self.card.read_many([MF1_WORD, *(AF1_WORD + axis for axis in range(3))])
+        words = self.card.read_many([mf1.word[0], *(af1.word[axis] for axis in range(3))])
         master, *axes = map(int, words)
-        return bool(master & MF1_IN_MOTION) or any(word & AF1_JOG_ACTIVE for word in axes)
+        return bool(master & mf1.IN_MOTION) or any(word & af1.JOG_ACTIVE for word in axes)
 
     def places(self) -> list[int]:
         """Where the axes are commanded to stand, jogs included, in pulses."""

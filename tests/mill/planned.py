@@ -11,7 +11,7 @@ from tests.mill.shop import PULSES, Shop, at, end, line
 from openacr.cnc import canonical as c
 from openacr.engine.samples import Sample
 from openacr.engine.watches import Watched
-from openacr.map import numbers as n
+from openacr.map.rows import axes as axis_rows
 from openacr.mill.config.overrides import Override
 from openacr.mill.run.lifecycle import Options
 from openacr.sysvar.tabs import FOV, SPEEDS
@@ -92,7 +92,7 @@ def recorded(
 ) -> Reals:
     """Where axes are commanded to stand in a run, tick by tick [pulses]."""
     card, left, ticks = shop.controller, list(actions), 0
-    rows = [n.AXF_BASE + axis * n.AXF_STRIDE + n.AXF_PSP_CNT for axis in range(axes)]
+    rows = [axis_rows.psp_cnt[axis] for axis in range(axes)]
     card.record(samples=[Sample(Watched.FP64, row) for row in rows])
     while shop.runner.is_busy or left:
         card.advance(TICKS)

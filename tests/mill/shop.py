@@ -9,7 +9,7 @@ from openacr.cnc.interpreter.interpreter import Interpreter
 from openacr.cnc.interpreter.interpreter import Options as Reading
 from openacr.cnc.loading.load import load
 from openacr.controller import Controller
-from openacr.map.numbers import AX_BASE, AX_CURRENT_POSITION, AX_STRIDE
+from openacr.map.rows import axes as axis_rows
 from openacr.mill.card.driver import MachineDriver
 from openacr.mill.card.setup import prepare
 from openacr.mill.config.settings import Settings
@@ -126,12 +126,12 @@ class Shop:
 
     def place(self) -> tuple[float, float, float]:
         """Where X Y Z are commanded to stand."""
-        rows = (AX_BASE + axis * AX_STRIDE + AX_CURRENT_POSITION for axis in range(3))
+        rows = (axis_rows.current_position[axis] for axis in range(3))
         x, y, z = (self.controller.p[row] / PULSES for row in rows)
         return x, y, z
 
     def pulses(self) -> tuple[int, ...]:
-        rows = (AX_BASE + axis * AX_STRIDE + AX_CURRENT_POSITION for axis in range(3))
+        rows = (axis_rows.current_position[axis] for axis in range(3))
         return tuple(int(self.controller.p[row]) for row in rows)
 
     def outputs(self, numbers: Iterable[int]) -> list[bool]:

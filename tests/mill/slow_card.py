@@ -16,13 +16,11 @@ from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.engine.samples import Sample
 from openacr.engine.watches import Watched
-from openacr.map import numbers as n
+from openacr.map.rows import axes
 
 Reals = NDArray[np.float64]
 AXES = 3
-SAMPLES = [
-    Sample(Watched.FP64, n.AXF_BASE + axis * n.AXF_STRIDE + n.AXF_PSP_CNT) for axis in range(AXES)
-]
+SAMPLES = [Sample(Watched.FP64, axes.psp_cnt[axis]) for axis in range(AXES)]
 
 
 class SlowCard:

@@ -8,7 +8,7 @@ from tests.mill.test_homing import MACHINE, homing_shop
 
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.map import numbers as n
+from openacr.map.rows import axes
 from openacr.mill.run.lifecycle import State
 from openacr.sysvar import Store
 
@@ -129,7 +129,7 @@ def test_negative_polarity_turns_the_drive_output_round(polarity: int, sign: int
     shop = Shop(P200_005=polarity)
     shop.start(line(1, at(1.0), 600.0), end())
     shop.pass_time(0.02)
-    assert sign * shop.controller.p[n.AX_BASE + n.AX_ACTUAL_POSITION] > 0
+    assert sign * shop.controller.p[axes.actual_position[0]] > 0
 
 
 @pytest.mark.req("MILL-SYS-AXES-EXCESS")
@@ -140,7 +140,7 @@ def test_an_error_outside_its_band_stops_the_machine(band: float, state: State) 
     assert shop.until(State.IDLE, State.ALARM) is state
     assert codes(shop) == ([11] if state is State.ALARM else [])
     if state is State.ALARM:
-        assert shop.controller.p[n.AX_BASE + n.AX_ACTUAL_POSITION] < 50_000
+        assert shop.controller.p[axes.actual_position[0]] < 50_000
 
 
 @pytest.mark.req("MILL-SYS-AXES-INPOS")
@@ -152,6 +152,6 @@ def test_an_exact_stop_waits_for_the_in_position_band(band: float, waits: bool) 
         shop.load(f"F1200 {code} G1 X1\nM0\nM2")
         shop.until(State.HOLD)
         times.append(shop.controller.tick * shop.controller.period_s)
-        error = abs(float(shop.controller.p[n.AX_BASE + n.AX_FOLLOWING_ERROR]))
+        error = abs(float(shop.controller.p[axes.following_error[0]]))
         assert code == "G64" or not waits or error <= band * 10_000
     assert (times[1] > times[0] + 0.02) == waits

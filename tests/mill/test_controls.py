@@ -6,13 +6,13 @@ import pytest
 from tests.mill.shop import STEP_S, Shop, at, end, line
 
 from openacr.errors import UserError
-from openacr.map.numbers import ENC_BASE, ENC_STRIDE
+from openacr.map.rows import encoders
 from openacr.mill.card.alarms import AlarmError
 from openacr.mill.run.lifecycle import State
 
 LIMITS = {"P200_000": 0.5, "P200_001": -0.5, "P200_002": 0.0, "P271": 1.0}
 STICK, KEY = 8, 13
-WHEEL = ENC_BASE + 10 * ENC_STRIDE
+WHEEL = encoders.parameters[10]
 
 
 def handy(**cells: float) -> Shop:

@@ -7,7 +7,7 @@ from tests.mill.test_planned_lost_host import ROUNDING, Host
 
 from openacr.cnc.occupied import HOLD_AT, RAN_SHORT
 from openacr.controller import Controller
-from openacr.map import numbers as n
+from openacr.map.rows import masters
 from openacr.mill.run.lifecycle import State
 from openacr.sysvar.tabs import SPEEDS
 
@@ -56,7 +56,7 @@ def test_a_buffer_that_is_dimensioned_already_is_used(moves: int) -> None:
     host = Host([(100.0, 0.0), (200.0, 0.0)], card=card)
     host.live(0.6)
     assert host.speed == pytest.approx(SPEED, rel=1e-4)
-    ahead = card.p[HOLD_AT] - card.p[n.MA_BASE + n.MA_MOVE_COUNTER]
+    ahead = card.p[HOLD_AT] - card.p[masters.move_counter[0]]
     assert 15 < ahead <= 25
     host.silent(1.0)
     _, accel, jerk = highest(host.places, card.period_s)

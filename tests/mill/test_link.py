@@ -8,14 +8,17 @@ from tests.search import sparse
 
 from openacr.client.errors import ConnectionLostError, NoReplyError
 from openacr.cnc import canonical as c
-from openacr.map.numbers import MA_BASE, MA_FEEDRATE_OVERRIDE, MA_RAPID_FEEDRATE_OVERRIDE
+from openacr.map.rows import masters
 from openacr.mill.card.driver import StepLostError
 from openacr.mill.config.overrides import Override
 from openacr.mill.run.lifecycle import State
 from openacr.protocol.move import Move
 
 SPINDLE_CW = "P800_005"
-FOV, ROV = MA_BASE + MA_FEEDRATE_OVERRIDE, MA_BASE + MA_RAPID_FEEDRATE_OVERRIDE
+FOV, ROV = (
+    masters.feedrate_override[0],
+    masters.rapid_feedrate_override[0],
+)
 DAC3 = 6448
 CUT = (c.Spindle(src(1), c.Spin.CLOCKWISE, 500), line(2, at(50)), end())
 

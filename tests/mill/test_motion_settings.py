@@ -9,7 +9,7 @@ from tests.mill.shop import Shop
 from tests.mill.test_homing import MACHINE, homing_shop
 
 from openacr.controller import Controller
-from openacr.map import numbers as n
+from openacr.map.rows import axes
 from openacr.mill.run.lifecycle import State
 
 JOG, HOME, SPEEDS = 350_000, 300_000, 650_000
@@ -131,7 +131,7 @@ def test_the_homed_position_reads_the_preset(
 ) -> None:
     shop = homing_shop(world, **cells)
     homing_speeds(shop)
-    assert shop.controller.p[n.AX_BASE + n.AX_CURRENT_POSITION] == position * 800
+    assert shop.controller.p[axes.current_position[0]] == position * 800
     # On the input of the default nothing is wired here: there is nothing to find.
     unwired = homing_shop(world, **{f"P{HOME + 2}": 16, f"P{HOME + 9}": 1, "P200000": 5,
                                     "P200001": 0, "P200002": 0})  # fmt: skip

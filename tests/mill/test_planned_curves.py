@@ -25,7 +25,7 @@ from tests.mill.shop import PULSES, at, end, line, rapid, src
 
 from openacr.cnc import canonical as c
 from openacr.cnc.loading.load import load
-from openacr.map import numbers as n
+from openacr.map.rows import masters
 from openacr.mill.config.curves import PERIOD_S, can_plan
 from openacr.mill.config.settings import Settings
 from openacr.mill.plan.planned_path import PlannedPath
@@ -205,8 +205,8 @@ def test_the_card_never_runs_out_of_points() -> None:
     shop.start(*path(wave()), end())
     while shop.runner.is_busy:
         shop.pass_time(0.005)
-        if shop.controller.p[n.MA_BASE + n.MA_VECTOR_VELOCITY] > 0.0:
-            filled.append(shop.controller.p[n.MA_BASE + n.MA_MBUF_FILLED])
+        if shop.controller.p[masters.vector_velocity[0]] > 0.0:
+            filled.append(shop.controller.p[masters.mbuf_filled[0]])
     middle = filled[3:-12]
     assert min(middle) >= 7
     assert max(middle) <= 10

@@ -18,7 +18,7 @@ from tests.mill.test_planned_overrides import (
 from tests.search import sparse
 
 from openacr.cnc.occupied import RAN_SHORT
-from openacr.map import numbers as n
+from openacr.map.rows import masters
 from openacr.mill.config.overrides import Override
 from openacr.mill.run.lifecycle import State
 from openacr.sysvar import Store
@@ -42,7 +42,7 @@ def speeds(host: Host) -> Reals:
 
 def waiting_s(host: Host) -> float:
     """How much of the path waits on the card."""
-    return 0.004 * float(host.card.p[n.MA_BASE + n.MA_MBUF_FILLED])
+    return 0.004 * float(host.card.p[masters.mbuf_filled[0]])
 
 
 def require_path(host: Host, points: list[Point], tolerance: float = TOLERANCE) -> None:

@@ -22,7 +22,7 @@ from openacr.cnc.occupied import HOLD_AT, RAN_SHORT
 from openacr.controller import Controller
 from openacr.engine.samples import Sample
 from openacr.engine.watches import Watched
-from openacr.map import numbers as n
+from openacr.map.rows import axes
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
@@ -77,7 +77,7 @@ class Host:
         self.session.card.command("DRIVE ON X Y Z", program=0)
         program = load(text_of(points, feed).encode(), store, "rs274ngc")
         self.session.start(program, Start(dialect="rs274ngc", is_repeated=False))
-        rows = [n.AXF_BASE + axis * n.AXF_STRIDE + n.AXF_PSP_CNT for axis in range(3)]
+        rows = [axes.psp_cnt[axis] for axis in range(3)]
         self.card.record(samples=[Sample(Watched.FP64, row) for row in rows])
 
     def live(self, seconds: float) -> None:

@@ -16,7 +16,7 @@ from tests.proxy import Proxy
 
 from openacr.engine.samples import Sample
 from openacr.engine.watches import Watched
-from openacr.map import numbers as n
+from openacr.map.rows import axes
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no signals of this kind")
 
@@ -70,7 +70,7 @@ def require_rest_on_the_path(plant: Plant) -> None:
 
 def require_limits(plant: Plant, *, at_least: float = 0.2 * SPEED) -> Reals:
     """No limit was exceeded in any tick, however late the host was on this computer."""
-    rows = [n.AXF_BASE + axis * n.AXF_STRIDE + n.AXF_PSP_CNT for axis in range(3)]
+    rows = [axes.psp_cnt[axis] for axis in range(3)]
     period_s = 0.0005
     trace = plant.lived_again(*(Sample(Watched.FP64, row) for row in rows))
     places = trace.values / PULSES

@@ -30,7 +30,7 @@ from openacr.cnc import canonical as c
 from openacr.cnc.loading.load import load
 from openacr.engine.samples import Sample
 from openacr.engine.watches import Watched
-from openacr.map import numbers as n
+from openacr.map.rows import axes
 from openacr.mill.config.communications import Line
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
@@ -55,9 +55,7 @@ TANGENTIAL = {
     f"P{CONTROL.tangential_axis}": A, f"P{CONTROL.perpen_tangent_epsilon}": 5.0,
     f"P{SPEEDS.path_tolerance}": TOLERANCE,
 }  # fmt: skip
-SETPOINTS = [
-    Sample(Watched.FP64, n.AXF_BASE + axis * n.AXF_STRIDE + n.AXF_PSP_CNT) for axis in range(A + 1)
-]
+SETPOINTS = [Sample(Watched.FP64, axes.psp_cnt[axis]) for axis in range(A + 1)]
 
 
 @pytest.fixture
@@ -225,8 +223,7 @@ def test_turns_run_over_a_link_to_the_last_count_of_the_encoders(tmp_path: Path)
         part = plant.part(HEAD + "".join(BLOCKS) + "M2\n")
         run = plant.mill("run", part, "--dialect", "rs274ngc", "--quiet")
         assert run.ended() == 0, run.text
-        rows = [n.AX_BASE + axis * n.AX_STRIDE for axis in range(A + 1)]
-        encoders = [row + n.AX_ACTUAL_POSITION for row in rows]
+        encoders = list(axes.actual_position[: A + 1])
         until(lambda: plant.card.read_many(encoders) == END_CNT)
         places = plant.lived_again(*SETPOINTS).values / SCALES
         assert_limits(places, TICK_S)

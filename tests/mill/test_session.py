@@ -6,7 +6,8 @@ from tests.mill.shop import Shop
 from openacr.cnc.loading.load import load
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.map.numbers import AF4_DRIVE_ENABLED, AF4_WORD, P_FIRMWARE_VERSION
+from openacr.map.numbers import P_FIRMWARE_VERSION
+from openacr.map.words import af4
 from openacr.mill.config.settings import HOMED
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
@@ -57,7 +58,7 @@ def test_nothing_is_enabled_and_nothing_moves_at_the_start_with_defaults() -> No
     for _ in range(100):
         shop.step()
     axes = range(controller.model.axes)
-    assert not any(controller.memory.I[AF4_WORD + axis] & AF4_DRIVE_ENABLED for axis in axes)
+    assert not any(controller.memory.I[af4.word[axis]] & af4.DRIVE_ENABLED for axis in axes)
     assert {controller.axis(axis).actual_cnt for axis in axes} == {0}
 
 

@@ -7,7 +7,7 @@ import httpx
 import pytest
 from tests.panel.bench import HandStation, Served
 
-from openacr.map import numbers as n
+from openacr.map.rows import axes
 from openacr.mill.card.machine_io import line_numbers
 from openacr.panel.control.people import Person
 from openacr.panel.control.scope import Samples
@@ -131,7 +131,7 @@ def test_an_index_profile_that_is_stopped_ends_and_leaves_no_jerk(hand: HandStat
     hand.do("stop.hold")
     hand.until(lambda: not hand.is_busy)
     assert 0.0 < hand.places()[0] < 5.0
-    assert hand.station.machine.card.read(n.AX_BASE + n.AX_JOG_JERK_SETTING) == 0
+    assert hand.station.machine.card.read(axes.jog_jerk_setting[0]) == 0
 
 
 # --- inputs and outputs ---------------------------------------------------------------

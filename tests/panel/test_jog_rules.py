@@ -3,7 +3,7 @@
 import pytest
 from tests.panel.bench import HandStation
 
-from openacr.map.numbers import ENC_BASE, ENC_STRIDE
+from openacr.map.rows import encoders
 from openacr.panel.control.people import Person
 from openacr.panel.roles import Role
 
@@ -232,7 +232,7 @@ def turned(hand: HandStation, clicks: int) -> tuple[float, ...]:
     """Where the axes are after clicks of the wheel, of 4 counts each, 10 ms apart."""
     assert hand.installation.controller is not None
     for _ in range(clicks):
-        hand.installation.controller.p[ENC_BASE + 10 * ENC_STRIDE] += 4
+        hand.installation.controller.p[encoders.parameters[10]] += 4
         hand.run(0.01)
     hand.run(0.5)
     return hand.places()

@@ -13,7 +13,7 @@ from openacr.client.card_axes import attached
 from openacr.controller import Controller
 from openacr.errors import UserError
 from openacr.lang.attachments import Attached
-from openacr.map import numbers as n
+from openacr.map.rows import axes
 from openacr.panel.commands.all import carry_out
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.station import Station
@@ -68,8 +68,7 @@ def test_the_axes_of_an_example_with_settings_keep_what_its_set_up_says(
     installation = open_project(shutil.copytree(EXAMPLES / name, tmp_path / name))
     card = installation.controller
     assert card is not None
-    first = [n.AX_BASE + axis * n.AX_STRIDE for axis in range(2)]
-    rows = [base + row for base in first for row in (n.AX_PPU, *GAINS.values())]
+    rows = [row[axis] for axis in range(2) for row in (axes.ppu, *GAINS.values())]
     before = [card.p[row] for row in rows]
     station = Station(installation, carry_out)
     station.open(0.0)

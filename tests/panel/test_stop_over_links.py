@@ -17,7 +17,7 @@ from tests.panel.remote import Remote
 from openacr.cnc.occupied import HEARTBEAT
 from openacr.engine.samples import Sample
 from openacr.engine.watches import Watched
-from openacr.map import numbers as n
+from openacr.map.rows import axes
 from openacr.mill import session
 from openacr.mill.card.owner import Owner
 from openacr.sysvar.tabs import CONTROL
@@ -161,7 +161,7 @@ def test_a_planned_path_of_another_process_comes_to_rest_within_its_limits_and_s
                 assert any(text in run.text for text in said)  # one that looks late sees the second
             plant.card.pause(1.0)
             assert plant.places() == place
-        rows = [n.AXF_BASE + axis * n.AXF_STRIDE + n.AXF_PSP_CNT for axis in range(3)]
+        rows = [axes.psp_cnt[axis] for axis in range(3)]
         trace = plant.lived_again(*(Sample(Watched.FP64, row) for row in rows))
         places = trace.values / PULSES
         speed, accel, jerk = highest(places, 0.0005)

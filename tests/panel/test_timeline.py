@@ -15,13 +15,7 @@ from openacr.controller.journal import read_journal
 from openacr.controller.replay import Replay
 from openacr.debugger.calls import is_running
 from openacr.errors import UserError
-from openacr.map.numbers import (
-    AF1_JOG_ACTIVE,
-    AF1_WORD,
-    MF1_IN_MOTION,
-    MF1_KILL_ALL_MOVES_REQUEST,
-    MF1_WORD,
-)
+from openacr.map.words import af1, mf1
 from openacr.panel.control.history import AWAY, MOST_BRANCHES, STILL, History
 from openacr.panel.control.lanes import MOST_CHANGES, Lanes, _Course
 from openacr.panel.control.scope import Samples
@@ -506,7 +500,7 @@ def test_a_step_of_a_move_ends_in_the_tick_in_which_one_begins_or_ends() -> None
 
     def now() -> tuple[bool, bool]:
         """Whether the master moves, and whether the first move is over."""
-        moving = bool(int(history.card.p[MF1_WORD]) & MF1_IN_MOTION)
+        moving = bool(int(history.card.p[mf1.word[0]]) & mf1.IN_MOTION)
         return moving, history.card.axis(0).commanded_u >= 1.0
 
     assert now() == (True, False)
@@ -547,9 +541,9 @@ def test_an_error_of_a_motion_kill_is_marked_as_an_alarm() -> None:
         (marks[0].tick, "the motion of MASTER0 is killed")
     ]
     history.timeline.seek(marks[0].tick)
-    assert int(history.card.p[MF1_WORD]) & MF1_KILL_ALL_MOVES_REQUEST
+    assert int(history.card.p[mf1.word[0]]) & mf1.KILL_ALL_MOVES_REQUEST
     history.timeline.seek(marks[0].tick - 1)
-    assert not int(history.card.p[MF1_WORD]) & MF1_KILL_ALL_MOVES_REQUEST
+    assert not int(history.card.p[mf1.word[0]]) & mf1.KILL_ALL_MOVES_REQUEST
 
 
 @pytest.mark.parametrize("period_ms", [0.5, 2.0])
@@ -641,7 +635,7 @@ def test_a_server_that_ends_in_a_pause_brings_its_machine_to_rest(tmp_path: Path
     served.call(pause_in_motion)
     card = served.station.times.history.card
     served.close()
-    assert not any(int(card.p[AF1_WORD + axis]) & AF1_JOG_ACTIVE for axis in range(3))
+    assert not any(int(card.p[af1.word[axis]]) & af1.JOG_ACTIVE for axis in range(3))
     assert card.axis(0).commanded_u < 50.0
 
 

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from openacr.controller import Controller
 from openacr.io.pacing import Pacer
-from openacr.map import numbers as at
+from openacr.map.rows import system
 
 SET_UP = (
     "SYS", "HALT ALL", "NEW ALL", "DETACH ALL", "DIM P(20)", "DIM PROG1(2000)", "DIM PROG2(2000)",
@@ -37,8 +37,8 @@ def card(tick: int) -> Controller:
         made.advance(4)
     made.send("DRIVE ON X Y\r")
     made.advance(200 - made.tick % 200)
-    made.memory.I[at.SYSI_BASE + at.SYSI_TICK_HIGH] = tick >> 31
-    made.memory.I[at.SYSI_BASE + at.SYSI_TICK_LOW] = tick & 2**31 - 1
+    made.memory.I[system.tick_high] = tick >> 31
+    made.memory.I[system.tick_low] = tick & 2**31 - 1
     return made
 
 

@@ -17,7 +17,7 @@ from openacr.controller.journal import read_journal
 from openacr.controller.recorder import Recorder
 from openacr.controller.replay import Replay
 from openacr.kernel.sources import clock_cy
-from openacr.map import numbers as at
+from openacr.map.rows import system
 
 ROOT = Path(__file__).parents[2]
 CROSSINGS = [2**31, 2**32, 3 * 2**31]
@@ -64,12 +64,12 @@ def test_the_other_build_crosses_it_alike(crossing: int) -> None:
 @pytest.mark.parametrize("crossing", CROSSINGS)
 def test_the_clock_counts_on(step: Callable[..., None], crossing: int) -> None:
     rig = Rig()
-    rig.I[at.SYSI_BASE + at.SYSI_TICK_HIGH] = (crossing - 2) >> 31
-    rig.I[at.SYSI_BASE + at.SYSI_TICK_LOW] = (crossing - 2) & 2**31 - 1
+    rig.I[system.tick_high] = (crossing - 2) >> 31
+    rig.I[system.tick_low] = (crossing - 2) & 2**31 - 1
     seen = []
     for _ in range(4):
         step(rig.F, rig.I, rig.card.period_s)
-        seen.append((rig.card.tick, rig.F[at.SYSF_BASE + at.SYSF_TIME_S]))
+        seen.append((rig.card.tick, rig.F[system.time_s]))
     assert seen == [(crossing + past, (crossing + past) * 0.0005) for past in (-1, 0, 1, 2)]
 
 

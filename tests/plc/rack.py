@@ -5,8 +5,8 @@ from typing import Any
 
 from openacr.compiled import pick
 from openacr.lang.lexer import tokens
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
+from openacr.map.rows import system
 from openacr.plc.control import Plcs
 from openacr.plc.reader import PlcLine, read_line
 from openacr.plc.scan_cy import plc_step
@@ -39,7 +39,7 @@ class Rack:
 
     def __init__(self, step: Callable[..., Any] | None = None) -> None:
         self.memory = Memory()
-        self.memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S] = 0.0005
+        self.memory.F[system.period_s] = 0.0005
         self.texts: dict[int, list[tuple[int, PlcLine]]] = {}
         self.plcs = Plcs(self.memory, lambda plc: self.texts.get(plc, []))
         self._step = step or pick(plc_step)

@@ -3,7 +3,7 @@
 import pytest
 from tests.plc.rack import Rack
 
-from openacr.map import numbers as at
+from openacr.map.rows import system
 
 TIMER_INPUT, TIMER_OUTPUT = 1553, 1552
 COUNTER_OUTPUT, COUNTER_CLOCK, COUNTER_RESET = 1556, 1557, 1558
@@ -114,7 +114,7 @@ def test_a_plc_without_instructions_does_nothing(rack: Rack) -> None:
 def test_a_timer_output_comes_half_a_second_after_its_input(
     rack: Rack, period_s: float, expected_tk: int
 ) -> None:
-    rack.memory.F[at.SYSF_BASE + at.SYSF_PERIOD_S] = period_s
+    rack.memory.F[system.period_s] = period_s
     rack.program("LD 0 OUT 32 TIM 0 500", "LD TIM0 OUT 33")
     rack.step(7)
     rack.put(True, 0)

@@ -12,6 +12,7 @@ from tests.soak.noise import Noise
 from openacr.channels import BinaryMode, StreamKind
 from openacr.map import numbers as at
 from openacr.map.names import every_name
+from openacr.map.rows import threads
 from openacr.protocol.escape import encode_packet
 
 MODEL = "ACR8020"  # the card with a port of every kind
@@ -180,7 +181,7 @@ def test_refused_lines_change_the_counters_of_their_streams_alone() -> None:
             host.card.advance(5)
     images = [np.frombuffer(host.card.image(), dtype=np.int32) for host in cards]
     changed = set(np.nonzero(images[0] != images[1])[0].tolist())
-    channels = range(at.THI_BASE + 16 * at.THI_STRIDE, at.THI_BASE + 32 * at.THI_STRIDE)
+    channels = range(threads.ints[16], threads.ints[32])
     assert changed - set(channels) - waiting_rows() <= set(COUNTERS)
     assert changed & set(COUNTERS)
 

@@ -8,6 +8,7 @@ from tests.kernel.rig import Rig
 from openacr.controller import Controller
 from openacr.errors import SourceError, UserError
 from openacr.map import numbers as at
+from openacr.map.rows import adcs, analogs, kernel, motors, plant
 from openacr.plant.load import parse_world
 
 FIXED = "[[analog]]\ninput = 0\nvolts = 4.0\n[[analog]]\ninput = 1\nvolts = 1.5\n"
@@ -20,7 +21,7 @@ initial = 3.0
 drive = { mode = "ideal", revs_per_s_per_volt = 5.0, lag_s = 0.001 }
 """
 SENSOR = "[[analog]]\ninput = 2\naxis = 0\nvolts_per_unit = -0.5\nvolts = 1.0\n"
-ADC = [at.ADC_BASE + n * at.ADC_STRIDE + at.ADC_ADC_INPUT for n in range(16)]
+ADC = [adcs.adc_input[n] for n in range(16)]
 STEP_V = 10 / 32767
 
 
@@ -96,7 +97,7 @@ def test_an_axis_closes_its_loop_on_a_position_sensor() -> None:
     made.send("RES X0\rACC 1 DEC 1 STP 1 VEL 1\rX1\r")
     made.advance(6000)
     assert made.p[ADC[2]] == pytest.approx(0.5, abs=0.003)
-    shaft = made.memory.F[at.PLF_BASE + at.PLF_POSITION_CNT]
+    shaft = made.memory.F[motors.position_cnt[0]]
     assert shaft == pytest.approx(-2 * 2000, abs=20)  # 1 V is 2 units the other way
 
 
@@ -125,9 +126,9 @@ def test_both_builds_measure_the_same_whatever_the_words_say(
     for pure in (False, True):
         rig = Rig(1, pure=pure)
         for channel, value in enumerate(volts):
-            rig.F[at.PLAF_BASE + channel * at.PLAF_STRIDE + at.PLAF_VOLTS] = value
-        rig.I[at.PLGI_BASE + at.PLGI_ANALOGS] = 8
-        rig.I[at.KRI_BASE + at.KRI_ADC_MODE] = mode
+            rig.F[analogs.volts[channel]] = value
+        rig.I[plant.analogs] = 8
+        rig.I[kernel.adc_mode] = mode
         rig.I[at.P_ADC_POSITIVE_CHANNELS], rig.I[at.P_ADC_NEGATIVE_CHANNELS] = plus, minus
         rig.ticks(1)
         states.append(rig.memory.snapshot())

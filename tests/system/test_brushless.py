@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from openacr.controller import Controller
-from openacr.map import numbers as at
+from openacr.map.rows import axes, encoders
 from openacr.plant.load import parse_world
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -14,7 +14,10 @@ PLAIN = (EXAMPLES / "tuning" / "machine.toml").read_text()
 SETUP = (EXAMPLES / "brushless" / "setup.8k").read_text().replace("\n", "\r")
 TURN = 2048  # counts of one electrical turn
 RIGHT = round(TURN * 47 / 360)
-ACTUAL, ERROR = at.AX_BASE + at.AX_ACTUAL_POSITION, at.AX_BASE + at.AX_FOLLOWING_ERROR
+ACTUAL, ERROR = (
+    axes.actual_position[0],
+    axes.following_error[0],
+)
 
 
 def card(machine: str = MACHINE, *lines: str) -> Controller:
@@ -86,4 +89,4 @@ def test_res_and_rotary_leave_the_field_where_the_rotor_is() -> None:
     made.send("RES X7\rENC0 ROTARY 1000\rX8.25\r")
     made.advance(2500)
     assert abs(made.p[ACTUAL] - 8.25 * 4096) <= 1
-    assert made.p[at.ENC_BASE] == made.p[ACTUAL] % 1000
+    assert made.p[encoders.parameters[0]] == made.p[ACTUAL] % 1000

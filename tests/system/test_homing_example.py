@@ -4,7 +4,7 @@ import pytest
 from tests.system.terminal import Console
 
 from openacr.controller import Controller
-from openacr.map.numbers import PLF_BASE, PLF_POSITION_CNT
+from openacr.map.rows import motors
 from openacr.plant.counts import position_of
 from openacr.plant.load import parse_world
 
@@ -75,7 +75,7 @@ def test_both_axes_home_and_x_then_stands_on_its_marker() -> None:
     assert card.bit[129]
     assert not card.bit[1024]
     assert card.p[12288] == card.p[12290] == 0
-    stands_u = position_of(card.world.axis[0], card.memory.F[PLF_BASE + PLF_POSITION_CNT])
+    stands_u = position_of(card.world.axis[0], card.memory.F[motors.position_cnt[0]])
     assert stands_u % 1.0 == pytest.approx(0.3, abs=1.5 / 4000)  # on the marker, not elsewhere
     assert -4.0 < stands_u < -2.0  # within one revolution of the home switch
     assert card.p[12544] == 0  # Y: rest position of the search is 0

@@ -6,7 +6,7 @@ import pytest
 
 from openacr.controller import Controller
 from openacr.errors import SourceError, UserError
-from openacr.map import numbers as at
+from openacr.map.rows import motors
 from openacr.plant.load import parse_world
 from openacr.protocol.events import ControlKey
 
@@ -57,7 +57,7 @@ def card(*lines: str, machine: str = MACHINE, attach: str = OPEN_LOOP) -> Contro
 
 def load_mm(made: Controller) -> float:
     """Where the load is, by the machine's own zero."""
-    row = at.PLF_BASE + 4 * at.PLF_STRIDE + at.PLF_POSITION_CNT
+    row = motors.position_cnt[4]
     return 10.0 + (made.memory.F[row] - 0.5) / PPU
 
 
@@ -229,7 +229,7 @@ def test_an_encoder_that_counts_down_goes_with_the_load() -> None:
     machine = WITH_ENCODER.replace("encoder_lines", 'encoder_direction = "down"\nencoder_lines')
     made = card("X10", machine=machine)
     made.advance(seconds=2)
-    row = at.PLF_BASE + 4 * at.PLF_STRIDE + at.PLF_POSITION_CNT
+    row = motors.position_cnt[4]
     assert made.memory.F[row] == pytest.approx(-4000, abs=2)
 
 

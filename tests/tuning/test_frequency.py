@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from scipy import signal
 
+from openacr.map.rows import axes
+from openacr.tuning.filters import FILTERS
 from openacr.tuning.frequency import (
     closed_loop,
     controller,
@@ -29,7 +31,7 @@ def filtered(settings: LoopSettings, *, low_pass_hz: float) -> LoopSettings:
     """Settings with a Butterworth low-pass of scipy as filter 1."""
     b, a = signal.butter(2, low_pass_hz, fs=1.0 / T)
     rows = dict(settings.rows)
-    rows.update(zip(range(53, 58), (a[2], b[2], a[1], b[1], b[0]), strict=True))
+    rows.update(zip(FILTERS[1], (a[2], b[2], a[1], b[1], b[0]), strict=True))
     return LoopSettings(rows, True, T)
 
 
@@ -66,7 +68,7 @@ def test_the_controller_is_what_the_servo_loop_puts_out(
     gains: dict[str, float], smooth: int, low_pass_hz: float
 ) -> None:
     settings = LoopSettings.of_gains(T, **gains)
-    settings = LoopSettings({**settings.rows, 114: smooth}, False, T)
+    settings = LoopSettings({**settings.rows, axes.dgain_smooth: smooth}, False, T)
     if low_pass_hz:
         settings = filtered(settings, low_pass_hz=low_pass_hz)
     error = np.zeros(4096)

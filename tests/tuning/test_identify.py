@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from openacr.errors import UserError
+from openacr.map.rows import axes
 from openacr.tuning.identify import Spectrum, identify, spectrum
 from openacr.tuning.motor import Motor
 from openacr.tuning.settings import LoopSettings
@@ -145,5 +146,5 @@ def test_an_unmodelled_loop_is_refused() -> None:
     settings = LoopSettings.of_gains(T)
     settings.require_modelled()
     with pytest.raises(UserError, match=r"DZU: a dead zone is not part of the model: it is 3"):
-        LoopSettings({**settings.rows, 115: 3.0}, False, T).require_modelled()
+        LoopSettings({**settings.rows, axes.dzu: 3.0}, False, T).require_modelled()
     assert math.isclose(settings.limit_v, 10.0)

@@ -6,7 +6,7 @@ from tests.tuning import worlds
 from tests.tuning.worlds import AXIS, true_motor
 
 import openacr
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 from openacr.plant.load import parse_world
 from openacr.tuning.motor import Motor
 from openacr.tuning.settings import ROWS, LoopSettings
@@ -14,7 +14,6 @@ from openacr.tuning.twin import Record, run
 
 PERIOD_S = 0.0005
 WORLD = worlds.WORLD + "offset_v = 0.01\n"
-FIRST = at.AX_BASE + AXIS * at.AX_STRIDE
 BIQUAD = 786 + 32 * AXIS
 
 
@@ -24,13 +23,13 @@ def recorded(
     """What a card does with axis 1 after these lines, and its settings."""
     card = openacr.Controller(world=parse_world(world))
     card.send('PROG0\rATTACH MASTER0\rATTACH SLAVE0 AXIS1 "X"\rMULT X4\r' + lines + "\r")
-    rows = {row: card.p[FIRST + row] for row in ROWS}
+    rows = {row: card.p[row[AXIS]] for row in ROWS}
     settings = LoopSettings(rows, bool(card.bit[BIQUAD]), card.period_s)
     seen = []
     for jog in setpoint_cnt:
-        card.p[FIRST + at.AX_JOG_OFFSET] = int(jog)
+        card.p[axes.jog_offset[AXIS]] = int(jog)
         card.advance(1)
-        seen.append([card.p[FIRST + row] for row in (at.AX_ACTUAL_POSITION, at.AX_OUTPUT_SIGNAL)])
+        seen.append([card.p[row[AXIS]] for row in (axes.actual_position, axes.output_signal)])
     actual, output = np.array(seen).T
     return settings, Record(card.period_s, setpoint_cnt, actual, output)
 

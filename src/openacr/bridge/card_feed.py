@@ -10,8 +10,9 @@ from openacr.bridge.moment import MM_PER_INCH, AxisName, Moment
 from openacr.bridge.settings import Length, OnCard
 from openacr.client import Card, Options, RefusedError
 from openacr.errors import OpenacrError
-from openacr.map import numbers as n
+from openacr.map.rows import axes as axis_rows
 from openacr.map.rows import masters
+from openacr.map.words import mf1
 
 log = logging.getLogger(__name__)
 ROTARY = frozenset("ABC")
@@ -20,8 +21,13 @@ SILENCE_S = 2.0  # longest wait for an answer
 END_S = 2.0 * SILENCE_S
 MASTER = 0
 MOST_WRITES = 1000  # that wait for the card
-ROWS = (n.AX_CURRENT_POSITION, n.AX_ACTUAL_POSITION, n.AX_FOLLOWING_ERROR, n.AX_PPU)
-MASTER_ROWS = (n.MF1_WORD + MASTER, masters.vector_velocity[MASTER])
+ROWS = (
+    axis_rows.current_position,
+    axis_rows.actual_position,
+    axis_rows.following_error,
+    axis_rows.ppu,
+)
+MASTER_ROWS = (mf1.word[MASTER], masters.vector_velocity[MASTER])
 
 
 class CardFeed:
@@ -47,7 +53,7 @@ class CardFeed:
     def start(self, parameters: list[int], rate_hz: float) -> None:
         """Begin to read."""
         axes = range(len(self._axes))
-        of_axes = [n.AX_BASE + axis * n.AX_STRIDE + row for row in ROWS for axis in axes]
+        of_axes = [row[axis] for row in ROWS for axis in axes]
         self._numbers = [*of_axes, *MASTER_ROWS, *parameters]
         self._chosen, self._every_s = parameters, 1.0 / rate_hz
         self._thread.start()
@@ -126,7 +132,7 @@ class CardFeed:
             actual=actual,
             following=following,
             speed_ups=speed_ups,
-            is_moving=bool(int(word) & n.MF1_IN_MOTION),
+            is_moving=bool(int(word) & mf1.IN_MOTION),
             watched=dict(zip(self._chosen, values[len(values) - len(self._chosen) :], strict=True)),
         )
 

@@ -17,7 +17,7 @@ from openacr.client.effects import Op, Pause
 from openacr.client.errors import NoReplyError
 from openacr.client.talk import Talk
 from openacr.errors import UserError
-from openacr.map.numbers import MA_BASE, MA_MOVE_COUNTER, MA_STRIDE
+from openacr.map.rows import masters
 from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code0
 
@@ -48,7 +48,7 @@ class MoveStream:
     @property
     def counter(self) -> int:
         """The parameter number of the move counter."""
-        return MA_BASE + self.master * MA_STRIDE + MA_MOVE_COUNTER
+        return masters.move_counter[self.master]
 
     def update(self, talk: Talk) -> Op[int]:
         """Read how many moves have started."""

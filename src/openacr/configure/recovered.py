@@ -43,7 +43,7 @@ from openacr.configure.setup_code import (
 )
 from openacr.configure.watch_code import kept_answers
 from openacr.errors import SourceError, UserError
-from openacr.map.numbers import AX_BASE, AX_PPU, AX_STRIDE
+from openacr.map.rows import axes as axis_rows
 from openacr.plant.schema import ModelName
 
 LENGTHS = (1.0, 2.0, 4.0, 5.0, 10.0, 20.0, 25.0, 0.1, 0.2, 0.25, 0.5, 360.0)  # of a turn
@@ -118,7 +118,7 @@ def _axis(card: Card, number: int, name: str, kept: Answers | None) -> AxisAnswe
     if number not in attached:
         raise UserError(f"axis {number} ({name}) is not attached to an encoder and an output")
     encoder, dac = attached[number]
-    ppu = card.read(AX_BASE + AX_STRIDE * number + AX_PPU)
+    ppu = card.read(axis_rows.ppu[number])
     units_per_rev, counts_per_rev = turn_of(ppu, number, kept)
     words = Gains.__struct_fields__
     return AxisAnswers(

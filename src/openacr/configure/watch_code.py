@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 
 from openacr.configure.answers import Answers, AxisAnswers
 from openacr.configure.setup_code import FLAGS_PER_AXIS, SOFT_NEGATIVE, SOFT_POSITIVE
-from openacr.map.numbers import AX_ACTUAL_POSITION, AX_BASE, AX_PPU, AX_STRIDE
+from openacr.map.rows import axes as axis_rows
 
 ANSWER = "REM | "
 AXES_PER_PLC = 6
@@ -93,8 +93,8 @@ def _soft_limit(axis: AxisAnswers) -> Iterator[str]:
     """Going beyond the limits stops the axis and its master once; coming back clears the flag."""
     if not axis.limits.watches_soft or axis.limits.soft is None:
         return
-    row, flag = AX_BASE + AX_STRIDE * axis.number, SOFT_LIMIT_HIT + axis.number
-    position, ppu = f"P{row + AX_ACTUAL_POSITION}", f"P{row + AX_PPU}"
+    number, flag = axis.number, SOFT_LIMIT_HIT + axis.number
+    position, ppu = f"P{axis_rows.actual_position[number]}", f"P{axis_rows.ppu[number]}"
     high, low = f"P{SOFT_POSITIVE + axis.number}*{ppu}", f"P{SOFT_NEGATIVE + axis.number}*{ppu}"
     yield f"IF (({position}>{high}) OR ({position}<{low}))"
     yield f"IF (BIT{flag}=0)"

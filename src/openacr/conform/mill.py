@@ -21,7 +21,8 @@ from openacr.conform.form import NUMBER, DifferenceError
 from openacr.conform.targets import POLL_TK, VirtualCard
 from openacr.engine.watches import Watch, Watched
 from openacr.errors import OpenacrError, UserError
-from openacr.map import numbers as n
+from openacr.map.rows import axes as axis_rows
+from openacr.map.words import mf1
 from openacr.mill import zeroing
 from openacr.mill.card.ballscrew import Table, computed, install, parse
 from openacr.mill.config.overrides import Override
@@ -244,7 +245,7 @@ class Mill:
 
     @property
     def _motion(self) -> Watch:
-        return Watch(Watched.WORD, n.MF1_WORD + self.session.machine.master, n.MF1_IN_MOTION)
+        return Watch(Watched.WORD, mf1.word[self.session.machine.master], mf1.IN_MOTION)
 
     def _advance(self) -> None:
         """Let time pass until the next poll, or until motion begins or ends."""
@@ -374,7 +375,7 @@ class Mill:
     def place(self) -> tuple[dict[str, int], dict[str, float]]:
         """Where each axis is commanded to be [pulses], and its pulses a unit."""
         rows = {
-            axis.name: n.AX_BASE + axis.index * n.AX_STRIDE + n.AX_CURRENT_POSITION
+            axis.name: axis_rows.current_position[axis.index]
             for axis in self.session.runner.settings.axes
         }
         places = {name: int(self._target.world.p[row]) for name, row in rows.items()}

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 from openacr.conform.form import NUMBER, Case, Line, Reach, Step
 from openacr.map.block import BITS_PER_WORD, FLAG_WORD_BASE
-from openacr.map.numbers import AX_BASE, AX_STRIDE
+from openacr.map.rows import axes
 from openacr.map.words import af1, af2, af3, af4, af5, af6
 
 AXIS_WORDS = tuple(each.word for each in (af1, af2, af3, af4, af5, af6))  # of flags, by axis
@@ -119,7 +119,8 @@ def of_axis(text: str, axis: int) -> str:
     def place(found: re.Match[str]) -> str:
         number = int(found[2])
         if found[1] == "P":
-            return f"P{number + AX_STRIDE * axis if 0 <= number - AX_BASE < AX_STRIDE else number}"
+            is_of_axis = 0 <= number - axes.parameters[0] < axes.PARAMETERS_SIZE
+            return f"P{number + axes.PARAMETERS_SIZE * axis * is_of_axis}"
         word, bit = divmod(number, BITS_PER_WORD)
         for words in AXIS_WORDS:
             if word + FLAG_WORD_BASE == words[0]:

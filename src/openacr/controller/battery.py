@@ -16,7 +16,8 @@ from openacr.basic.memory import user_memory
 from openacr.basic.memory.user_memory import Data, Text, UserMemory
 from openacr.controller.image_store import ImageStore
 from openacr.errors import CardError
-from openacr.map import numbers as at
+from openacr.map.rows import every, storage, system_storage
+from openacr.map.rows import system as system_rows
 
 BATTERY, BATTERY_TEXT = "battery", "battery text "
 VALUES_EVERY_S = 1.0
@@ -123,13 +124,14 @@ class Battery:
     def _present_shape(self) -> object:
         """Everything except values and text; changes with every DIM, #DEFINE, CONFIG, ..."""
         system, rows = self._system, self._system.card.memory.I
-        sizes = array("i", rows[at.STI_BASE : at.STI_BASE + at.ST_COUNT * at.STI_STRIDE])
-        for place in range(at.STI_CODE_BYTES, len(sizes), at.STI_STRIDE):
-            sizes[place] = 0  # derived from the text
+        places = every(storage.ints, storage.INTS_SIZE)
+        sizes = array("i", rows[places])
+        for row in storage.code_bytes:
+            sizes[row - places.start] = 0  # derived from the text
         return (
             sizes.tobytes(),
-            rows[at.SMI_BASE : at.SMI_BASE + at.SM_COUNT * at.SMI_STRIDE].tobytes(),
-            rows[at.SYSI_BASE + at.SYSI_P_COUNT],
+            rows[every(system_storage.ints, system_storage.INTS_SIZE)].tobytes(),
+            rows[system_rows.p_count],
             tuple(system.aliases.lines()),
             system.programs.password,
             system.setup.config,

@@ -29,14 +29,8 @@ from openacr.engine.watches import Watch, give_orders, state_image, take_orders
 from openacr.errors import CardError, SourceError, StoreError, UserError
 from openacr.lang.characters import as_typed
 from openacr.map.memory import digest_of
-from openacr.map.numbers import (
-    FSBI_BASE,
-    FSBI_STRIDE,
-    FSBI_WORDS,
-    PROG_BASE,
-    PROG_LINE_NUMBER,
-    PROG_STRIDE,
-)
+from openacr.map.rows import fast_status as fast_status_rows
+from openacr.map.rows import programs as program_rows
 from openacr.models import DEFAULT_MODEL, Model
 from openacr.plant import load, schema
 from openacr.plant.world_view import WorldView
@@ -347,8 +341,8 @@ class Controller:
 
     def fast_status(self) -> bytes:
         """The datagram of the status service: what FSTAT0 to FSTAT9 hold, high byte first."""
-        first = range(FSBI_BASE, FSBI_BASE + GROUPS * FSBI_STRIDE, FSBI_STRIDE)
-        places = (row + FSBI_WORDS + word for row in first for word in range(WORDS))
+        first = fast_status_rows.words[:GROUPS]
+        places = (row + word for row in first for word in range(WORDS))
         return FastStatus(tuple(self.memory.I[place] for place in places)).encode()
 
     def take_output(self, stream: int) -> bytes:
@@ -466,7 +460,7 @@ class Controller:
         origins = self._origins
         origin = (origins.path, origins.line) if origins.path else None
         if thread < PROGRAMS:
-            row = PROG_BASE + thread * PROG_STRIDE + PROG_LINE_NUMBER
+            row = program_rows.line_number[thread]
             origin = self.origin(thread, self.memory.I[row])
         self.empty_starts.setdefault(owner, EmptyStart(self.lived_tk, origin))
 

@@ -21,18 +21,7 @@ from openacr.engine.watches import (
 )
 from openacr.errors import UserError
 from openacr.map.memory import flag_place
-from openacr.map.numbers import (
-    ENGI_BASE,
-    ENGI_LINE_ANNOUNCED,
-    ENGI_LINE_STOPS,
-    ENGI_STATEMENTS,
-    ENGI_STOP,
-    ENGI_TICKS_LEFT,
-    ENGI_UNTIL_MASK,
-    ENGI_UNTIL_STATE,
-    ENGI_UNTIL_WORD,
-    ENGI_WATCH_COUNT,
-)
+from openacr.map.rows import engine
 
 LONGEST_RUN_TK = 2**31 - 1  # ticks of one run of the engine, which counts down in 32 bits
 
@@ -78,12 +67,12 @@ class EngineRun:
         if self._memory.bit(bit) == is_:
             return True
         word, mask = flag_place(bit)
-        self._set_engine(ENGI_UNTIL_WORD, word)
-        self._set_engine(ENGI_UNTIL_MASK, mask)
-        self._set_engine(ENGI_UNTIL_STATE, int(is_))
+        self._set_engine(engine.until_word, word)
+        self._set_engine(engine.until_mask, mask)
+        self._set_engine(engine.until_state, int(is_))
         limit = round(timeout_s / self._parts.period_s) if ticks is None else ticks
         reason = self._live(limit)
-        self._set_engine(ENGI_UNTIL_WORD, 0)
+        self._set_engine(engine.until_word, 0)
         return reason == loop_cy.UNTIL_MET
 
     def _live(self, ticks: int) -> int:
@@ -93,9 +82,9 @@ class EngineRun:
         while True:
             step = self._parts.inputs.flush(min(ticks, LONGEST_RUN_TK))
             before = self._parts.lived_tk
-            self._set_engine(ENGI_TICKS_LEFT, step)
+            self._set_engine(engine.ticks_left, step)
             if self._parts.streams.is_overdue:
-                self._set_engine(ENGI_STOP, 1)
+                self._set_engine(engine.stop, 1)
             self.within = 0
             reason = self._run()
             ticks -= self._parts.lived_tk - before
@@ -123,26 +112,26 @@ class EngineRun:
     @property
     def announced(self) -> tuple[int, AskLine | None]:
         """What `announce_lines` has set."""
-        return self._memory.I[ENGI_BASE + ENGI_LINE_STOPS], self._ask_line
+        return self._memory.I[engine.line_stops], self._ask_line
 
     def announce_lines(self, programs: int, ask: AskLine | None) -> None:
         """Ask before each line of these programs (a mask) from now on whether to stop there."""
-        self._set_engine(ENGI_LINE_STOPS, programs if ask is not None else 0)
+        self._set_engine(engine.line_stops, programs if ask is not None else 0)
         self._ask_line = ask
 
     @property
     def announced_program(self) -> int | None:
         """The program before whose line the card stands; None if it stands between ticks."""
-        return self._memory.I[ENGI_BASE + ENGI_LINE_ANNOUNCED] - 1 if self.within else None
+        return self._memory.I[engine.line_announced] - 1 if self.within else None
 
     @property
     def next_statement(self) -> int:
         """Number of the statement that follows, counted from 1 in each tick."""
-        return self._memory.I[ENGI_BASE + ENGI_STATEMENTS] + 1
+        return self._memory.I[engine.statements] + 1
 
     def moved_in_time(self) -> None:
         """The card is at another moment: no line of it has been announced."""
-        self._set_engine(ENGI_LINE_ANNOUNCED, 0)
+        self._set_engine(engine.line_announced, 0)
         self.within = 0
 
     @contextmanager
@@ -161,7 +150,7 @@ class EngineRun:
     @contextmanager
     def standing(self) -> Iterator[None]:
         """Keep the progress within the tick, which a return to a snapshot would forget."""
-        rows = [ENGI_BASE + row for row in (ENGI_LINE_ANNOUNCED, ENGI_STATEMENTS)]
+        rows = engine.line_announced, engine.statements
         kept, within = [self._memory.I[row] for row in rows], self.within
         try:
             yield
@@ -186,7 +175,7 @@ class EngineRun:
                     return reason
             elif reason == loop_cy.TRACE_FULL:
                 self.recording.go_on()
-            elif self._memory.I[ENGI_BASE + ENGI_LINE_ANNOUNCED] < 0:
+            elif self._memory.I[engine.line_announced] < 0:
                 if self._stops_before_line(reason - loop_cy.THREAD):
                     return _LINE
             else:
@@ -196,17 +185,17 @@ class EngineRun:
 
     @property
     def _is_watched(self) -> bool:
-        return self._poll is not None or self._memory.I[ENGI_BASE + ENGI_WATCH_COUNT] != 0
+        return self._poll is not None or self._memory.I[engine.watch_count] != 0
 
     def _pass_line(self) -> None:
         """Go on from a line; if its program is not announced any more, the VM does not notice."""
-        announced = self._memory.I[ENGI_BASE + ENGI_LINE_ANNOUNCED]
-        if announced and not self._memory.I[ENGI_BASE + ENGI_LINE_STOPS] >> announced - 1 & 1:
-            self._set_engine(ENGI_LINE_ANNOUNCED, 0)
+        announced = self._memory.I[engine.line_announced]
+        if announced and not self._memory.I[engine.line_stops] >> announced - 1 & 1:
+            self._set_engine(engine.line_announced, 0)
 
     def _stops_before_line(self, program: int) -> bool:
         """Announce the next line of a program: whether the caller stops before it."""
-        self._set_engine(ENGI_LINE_ANNOUNCED, program + 1)
+        self._set_engine(engine.line_announced, program + 1)
         if self._ask_line is None:
             return False
         return self._ask_line(program, self._parts.executor.threads.next_line(program))
@@ -228,14 +217,14 @@ class EngineRun:
             self._parts.executor.attend(reason - loop_cy.THREAD)
             self._parts.streams.settle()
         if self._poll is not None or self._parts.streams.is_overdue:
-            self._set_engine(ENGI_STOP, 1)
+            self._set_engine(engine.stop, 1)
 
     def _take_turns(self) -> None:
         """Continue with the backlog of host input; stop again in the next tick if any is left."""
         self._parts.streams.take_turns()
         self._parts.reboot_if_requested()
         if self._parts.streams.is_overdue:
-            self._set_engine(ENGI_STOP, 1)
+            self._set_engine(engine.stop, 1)
 
     def _set_engine(self, row: int, value: int) -> None:
-        self._memory.I[ENGI_BASE + row] = value
+        self._memory.I[row] = value

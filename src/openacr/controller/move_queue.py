@@ -13,14 +13,13 @@ from collections import deque
 from collections.abc import Iterator
 
 from openacr.errors import CardError
-from openacr.map.numbers import KRI_BASE, KRI_MOVES_WAITING, MSI_ROOM_BELOW
+from openacr.map.rows import kernel, masters
 from openacr.motion.card import Card
 from openacr.motion.interlocks import scale_of
 from openacr.motion.path import curve_moves, host_moves, moves
 from openacr.motion.path.curve_modes import Family
 from openacr.motion.path.host_moves import Arc, HostMove, HostPoint
 from openacr.motion.path.move_request import Direction
-from openacr.motion.row_index import master_ints
 from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code1, Curve
 from openacr.protocol.packets import PacketError
@@ -28,7 +27,7 @@ from openacr.protocol.packets import PacketError
 log = logging.getLogger(__name__)
 MOST = 1024
 _FAMILIES = {Curve.NURB: Family.NURB, Curve.SPLINE: Family.SPLINE}
-_WAITING = KRI_BASE + KRI_MOVES_WAITING
+_WAITING = kernel.moves_waiting
 
 
 class MoveQueue:
@@ -93,7 +92,7 @@ class MoveQueue:
         rows = self._card.memory.I
         rows[_WAITING] = sum(1 << master for master in self._waiting)
         for master, waiting in self._waiting.items():
-            rows[master_ints(master) + MSI_ROOM_BELOW] = self._room(waiting[0])[1]
+            rows[masters.room_below[master]] = self._room(waiting[0])[1]
 
     def clear(self) -> None:
         """Discard all waiting moves, as at power-up."""

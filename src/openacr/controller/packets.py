@@ -4,15 +4,13 @@ from collections.abc import Callable, Sequence
 
 from openacr.controller.move_queue import MoveQueue
 from openacr.map.numbers import (
-    MA_FEEDRATE_OVERRIDE,
-    MA_RAPID_FEEDRATE_OVERRIDE,
     P_COM1_COMMUNICATION_TIMEOUT,
     P_COM2_COMMUNICATION_TIMEOUT,
     P_DPCB_COMMUNICATION_TIMEOUT,
     P_FIFO_COMMUNICATION_TIMEOUT,
 )
+from openacr.map.rows import masters as master_rows
 from openacr.motion.card import Card
-from openacr.motion.row_index import master_parameter
 from openacr.protocol.addresses import AddressSpace
 from openacr.protocol.move import Move
 from openacr.protocol.string_words import ProgramStrings
@@ -61,9 +59,9 @@ class PacketHost:
 
     def override(self, masters: Sequence[int], value: float, *, rapid: bool) -> None:
         """Set FOV, or ROV if `rapid`, of these masters; negative values count as 0."""
-        row = MA_RAPID_FEEDRATE_OVERRIDE if rapid else MA_FEEDRATE_OVERRIDE
+        row = master_rows.rapid_feedrate_override if rapid else master_rows.feedrate_override
         for master in masters:
-            self._card.memory.S[master_parameter(master) + row] = max(value, 0.0)
+            self._card.memory.S[row[master]] = max(value, 0.0)
 
     def issue_move(self, move: Move) -> None:
         """Issue a move, or queue it until the buffer of its master has room."""

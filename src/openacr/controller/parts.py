@@ -29,8 +29,8 @@ from openacr.map.numbers import (
     P_CARD_SERIAL_NUMBER,
     P_FIRMWARE_VERSION,
     P_UPDATE_NUMBER,
-    PLC_COUNT,
 )
+from openacr.map.rows import plcs
 from openacr.models import DEFAULT_MODEL, MODELS, Model
 from openacr.motion.axis import drive
 from openacr.motion.card import Card
@@ -105,7 +105,7 @@ class CardParts:
             return
         for program in range(PROGRAMS):
             self.executor.halt_program(program)
-        for plc in range(PLC_COUNT):
+        for plc in range(plcs.COUNT):
             self.plcs.halt(plc)
         drive.kill_all(self.card)
         if key is ControlKey.CTRL_Z:
@@ -129,7 +129,7 @@ class CardParts:
             return False
         self._wants_reboot = False
         self.lived_before_tk += self.tick
-        for plc in range(PLC_COUNT):
+        for plc in range(plcs.COUNT):
             self.system.listeners.plc_changes(plc)
         orders = take_orders(self.memory)
         outside = apply.take_state(self.memory)

@@ -8,15 +8,7 @@ import numpy as np
 from openacr.controller.trace import Reals, Trace, build_trace
 from openacr.engine.samples import Sample, set_samples
 from openacr.engine.trace_cy import TRACE_AXIS, TRACE_HEAD
-from openacr.map.numbers import (
-    ENGI_BASE,
-    ENGI_SAMPLE_COUNT,
-    ENGI_TRACE_EVERY,
-    ENGI_TRACE_PEAKS,
-    ENGI_TRACE_ROW,
-    ENGI_TRACE_ROWS,
-    ENGI_TRACE_WAIT,
-)
+from openacr.map.rows import engine
 from openacr.motion.card import Card
 from openacr.motion.interlocks import scale_of
 from openacr.views import F64
@@ -37,15 +29,15 @@ class Recording:
         """Record every `every_tk` ticks from now on; earlier samples are dropped."""
         self._full = []
         set_samples(self._card.memory, samples)
-        self._set(ENGI_TRACE_PEAKS, int(keep_peaks))
-        self._set(ENGI_TRACE_EVERY, every_tk)
-        self._set(ENGI_TRACE_WAIT, 1)
+        self._set(engine.trace_peaks, int(keep_peaks))
+        self._set(engine.trace_every, every_tk)
+        self._set(engine.trace_wait, 1)
         self._begin_buffer()
 
     def stop(self) -> None:
         """Record no more; what has been recorded is dropped."""
         self._full, self._present = [], None
-        self._set(ENGI_TRACE_EVERY, 0)
+        self._set(engine.trace_every, 0)
 
     def go_on(self) -> None:
         """Keep the full buffer and continue with a new one."""
@@ -58,7 +50,7 @@ class Recording:
         columns = self._columns
         parts = [part.reshape(-1, columns) for part in self._full]
         if self._present is not None:
-            used = self._card.memory.I[ENGI_BASE + ENGI_TRACE_ROW]
+            used = self._card.memory.I[engine.trace_row]
             parts.append(self._present.reshape(-1, columns)[:used])
         samples = np.concatenate(parts) if parts else np.empty((0, columns))
         scales = [scale_of(self._card, axis) for axis in range(self._card.model.axes)]
@@ -74,14 +66,14 @@ class Recording:
 
     @property
     def _columns(self) -> int:
-        chosen: int = self._card.memory.I[ENGI_BASE + ENGI_SAMPLE_COUNT]
+        chosen: int = self._card.memory.I[engine.sample_count]
         return TRACE_HEAD + TRACE_AXIS * self._card.model.axes + chosen
 
     def _begin_buffer(self) -> None:
         self._present = np.zeros(CHUNK_ROWS * self._columns)
         self.view = cast(F64, self._present.data)
-        self._set(ENGI_TRACE_ROW, 0)
-        self._set(ENGI_TRACE_ROWS, CHUNK_ROWS)
+        self._set(engine.trace_row, 0)
+        self._set(engine.trace_rows, CHUNK_ROWS)
 
     def _set(self, row: int, value: int) -> None:
-        self._card.memory.I[ENGI_BASE + row] = value
+        self._card.memory.I[row] = value

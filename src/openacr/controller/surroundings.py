@@ -8,18 +8,10 @@ from typing import Protocol
 
 from openacr.controller.journal import Entered
 from openacr.errors import UserError
-from openacr.map import numbers as at
-from openacr.map.numbers import (
-    AX_ACTUAL_POSITION,
-    AXI_DRIVE_MOTOR,
-    AXI_POSITION_INDEX,
-    AXI_POSITION_SOURCE,
-)
-from openacr.map.rows import encoders
+from openacr.map.rows import axes, encoders, stepper_motors
 from openacr.motion.axis.attach import Feedback
 from openacr.motion.card import Card
 from openacr.motion.interlocks import scale_of
-from openacr.motion.row_index import axis_ints, axis_parameter
 from openacr.plant import analogs, apply, faults, inputs, terminals
 from openacr.plant.fault_kinds import MachineFault
 from openacr.plant.schema import World
@@ -99,21 +91,19 @@ class Surroundings:
         _needs_finite(f"axis {axis}", by_u)
         pulses = by_u * scale_of(self.card, axis)
         if not self._push(axis, pulses):
-            row = axis_parameter(axis) + AX_ACTUAL_POSITION
+            row = axes.actual_position[axis]
             self.memory.write(row, self.memory.I[row] + round(pulses))
         self._note(Entered.DRAG, axis, by_u)
 
     def _push(self, axis: int, pulses: float) -> bool:
         """Move the motor of an axis; False if it has none."""
         rows = self.memory.I
-        ints = axis_ints(axis)
-        motor = rows[ints + AXI_POSITION_INDEX]
-        if rows[ints + AXI_POSITION_SOURCE] == Feedback.STEPPER:
-            motor = rows[ints + AXI_DRIVE_MOTOR]
+        motor = rows[axes.position_index[axis]]
+        if rows[axes.position_source[axis]] == Feedback.STEPPER:
+            motor = rows[axes.drive_motor[axis]]
             if motor < 0:
                 return False
-            field = at.PLTF_BASE + motor * at.PLTF_STRIDE
-            counts = pulses * self.memory.F[field + at.PLTF_COUNTS_PER_PULSE]
+            counts = pulses * self.memory.F[stepper_motors.counts_per_pulse[motor]]
         else:
             mult = rows[encoders.mult[motor]] or 1
             counts = pulses * RAW_COUNTS / mult

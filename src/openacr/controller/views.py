@@ -5,19 +5,9 @@ from dataclasses import dataclass
 from typing import Self
 
 from openacr.map.memory import Memory
-from openacr.map.numbers import (
-    AX_ACTUAL_POSITION,
-    AX_FOLLOWING_ERROR,
-    AX_SECONDARY_SETPOINT,
-    AXF_PEAK_ERROR_CNT,
-    AXF_PEAK_VELOCITY_CPS,
-    AXF_PSP_VELOCITY_CPS,
-    AXF_SSP_CNT,
-    AXF_TRAVEL_CNT,
-)
+from openacr.map.rows import axes
 from openacr.motion.card import Card
 from openacr.motion.interlocks import scale_of
-from openacr.motion.row_index import axis_parameter, axis_reals
 
 
 class Parameters:
@@ -58,13 +48,13 @@ class AxisView:
     @property
     def commanded_u(self) -> float:
         """Secondary setpoint: the position commanded to the servo loop."""
-        ssp = self._card.memory.F[axis_reals(self.number) + AXF_SSP_CNT]
+        ssp = self._card.memory.F[axes.ssp_cnt[self.number]]
         return ssp / scale_of(self._card, self.number)
 
     @property
     def commanded_cnt(self) -> int:
         """Secondary setpoint as P12295 shows it."""
-        return self._card.memory.I[axis_parameter(self.number) + AX_SECONDARY_SETPOINT]
+        return self._card.memory.I[axes.secondary_setpoint[self.number]]
 
     @property
     def actual_u(self) -> float:
@@ -74,18 +64,18 @@ class AxisView:
     @property
     def actual_cnt(self) -> int:
         """Actual position as P12290 shows it."""
-        return self._card.memory.I[axis_parameter(self.number) + AX_ACTUAL_POSITION]
+        return self._card.memory.I[axes.actual_position[self.number]]
 
     @property
     def velocity_ups(self) -> float:
         """Commanded velocity, jog, gear and cam included."""
-        velocity = self._card.memory.F[axis_reals(self.number) + AXF_PSP_VELOCITY_CPS]
+        velocity = self._card.memory.F[axes.psp_velocity_cps[self.number]]
         return velocity / scale_of(self._card, self.number)
 
     @property
     def following_error(self) -> int:
         """Following error as P12291 shows it [pulses]."""
-        return self._card.memory.I[axis_parameter(self.number) + AX_FOLLOWING_ERROR]
+        return self._card.memory.I[axes.following_error[self.number]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,13 +92,12 @@ class AxisStatistics:
     def of(cls, card: Card, axis: int) -> Self:
         """Those of an axis at this tick."""
         scale = abs(scale_of(card, axis))
-        reals = axis_reals(axis)
         view = AxisView(card, axis)
         memory = card.memory.F
         return cls(
             view.commanded_u,
             view.actual_u,
-            memory[reals + AXF_TRAVEL_CNT] / scale,
-            memory[reals + AXF_PEAK_VELOCITY_CPS] / scale,
-            memory[reals + AXF_PEAK_ERROR_CNT] / scale,
+            memory[axes.travel_cnt[axis]] / scale,
+            memory[axes.peak_velocity_cps[axis]] / scale,
+            memory[axes.peak_error_cnt[axis]] / scale,
         )

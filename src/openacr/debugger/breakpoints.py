@@ -13,7 +13,7 @@ from openacr.engine.watches import Watch, Watched, parameter_place
 from openacr.errors import UserError
 from openacr.map import numbers as at
 from openacr.map.memory import flag_place
-from openacr.motion.row_index import master_word
+from openacr.map.words import mf1, pf
 
 MASTERS = 16
 _NAME = re.compile(r"\s*(P|BIT)\s*(\d+)\s*", re.IGNORECASE)
@@ -95,9 +95,9 @@ class Watching:
 
 def running_watch(program: int) -> Watch:
     """Fires when a program starts or ends."""
-    return Watch(Watched.WORD, at.PF_WORD + program, at.PF_PROGRAM_RUNNING)
+    return Watch(Watched.WORD, pf.word[program], pf.PROGRAM_RUNNING)
 
 
 def kill_watch(master: int) -> Watch:
     """Fires when all motion of a master is killed, or the kill is cleared."""
-    return Watch(Watched.WORD, master_word(master), at.MF1_KILL_ALL_MOVES_REQUEST)
+    return Watch(Watched.WORD, mf1.word[master], mf1.KILL_ALL_MOVES_REQUEST)

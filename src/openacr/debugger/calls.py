@@ -10,10 +10,13 @@ from openacr.basic.vm.flow_cy import FLOW_FOR, FLOW_GOSUB, FLOW_IF, FLOW_WHILE
 from openacr.basic.vm.scheduler_cy import THREAD_HELD, THREAD_IDLE, THREAD_READY, THREAD_WAITING
 from openacr.client.program_states import held_by
 from openacr.controller.controller import Controller
-from openacr.map import numbers as at
+from openacr.map.rows import plcs
+from openacr.map.rows import programs as program_rows
+from openacr.map.rows import threads as thread_rows
+from openacr.map.words import pf
 
-PROGRAMS = at.PROG_COUNT
-PLCS = at.PLC_COUNT
+PROGRAMS = program_rows.COUNT
+PLCS = plcs.COUNT
 
 _STATES = {
     THREAD_IDLE: "ended",
@@ -41,9 +44,9 @@ def is_running(card: Controller, program: int) -> bool:
 
 def state_of(card: Controller, program: int) -> str:
     """What a program does, in words."""
-    if held := held_by(card.memory.I[at.PF_WORD + program]):
+    if held := held_by(card.memory.I[pf.word[program]]):
         return held
-    return _STATES[card.executor.threads.row(program, at.THI_STATE)]
+    return _STATES[card.executor.threads.row(program, thread_rows.state)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,11 +64,11 @@ def levels_of(card: Controller, program: int) -> list[OpenLevel]:
     """The flow stack of a program, the outermost level first."""
     threads = card.executor.threads
     found = []
-    for level in range(threads.row(program, at.THI_DEPTH) if is_running(card, program) else 0):
-        kind = threads.row(program, at.THI_FLOW_KIND + level)
+    for level in range(threads.row(program, thread_rows.depth) if is_running(card, program) else 0):
+        kind = threads.row(program, thread_rows.flow_kind, level)
         is_call = kind == FLOW_GOSUB
-        place = at.THI_FLOW_BACK if is_call else at.THI_FLOW_START
-        line = _line_at(card, program, threads.row(program, place + level))
+        row = thread_rows.flow_back if is_call else thread_rows.flow_start
+        line = _line_at(card, program, threads.row(program, row, level))
         found.append(OpenLevel(_LEVELS[kind], line))
     return found
 
@@ -79,7 +82,7 @@ def frames_of(card: Controller, program: int) -> list[Frame]:
     """The line that a program executes next or waits in, then those that called it."""
     if not is_running(card, program):
         return []
-    present = card.executor.threads.row(program, at.THI_LINE)
+    present = card.executor.threads.row(program, thread_rows.line)
     if card.announced_program == program:
         present = card.executor.threads.next_line(program)
     callers = [_line_at(card, program, place) for place in _returns(card, program)]
@@ -88,9 +91,9 @@ def frames_of(card: Controller, program: int) -> list[Frame]:
 
 def _returns(card: Controller, program: int) -> Iterator[int]:
     threads = card.executor.threads
-    for level in range(threads.row(program, at.THI_DEPTH)):
-        if threads.row(program, at.THI_FLOW_KIND + level) == FLOW_GOSUB:
-            yield threads.row(program, at.THI_FLOW_BACK + level)
+    for level in range(threads.row(program, thread_rows.depth)):
+        if threads.row(program, thread_rows.flow_kind, level) == FLOW_GOSUB:
+            yield threads.row(program, thread_rows.flow_back, level)
 
 
 def _line_at(card: Controller, program: int, place: int) -> int:

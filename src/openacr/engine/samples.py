@@ -4,11 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from openacr.engine.watches import Watched, parameter_place
-from openacr.map import numbers as at
 from openacr.map.memory import Memory, flag_place
-from openacr.map.rows import trace_values
+from openacr.map.rows import engine, trace_values
 
-SAMPLES = at.SMV_COUNT
+SAMPLES = trace_values.COUNT
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,4 +42,4 @@ def set_samples(memory: Memory, samples: Sequence[Sample]) -> None:
         memory.I[trace_values.kind[index]] = sample.place.value
         memory.I[trace_values.row[index]] = sample.row
         memory.I[trace_values.mask[index]] = sample.mask
-    memory.I[at.ENGI_BASE + at.ENGI_SAMPLE_COUNT] = len(samples)
+    memory.I[engine.sample_count] = len(samples)

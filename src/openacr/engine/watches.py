@@ -9,22 +9,20 @@ from openacr.engine import watch_cy
 from openacr.map import numbers as at
 from openacr.map.kinds_cy import kind_of
 from openacr.map.memory import Memory
+from openacr.map.rows import engine, every, thread_code, trace_values
+from openacr.map.rows import watches as watch_rows
 
-WATCHES = at.WAT_COUNT
+WATCHES = watch_rows.COUNT
 _ROWS = (
-    (at.ENGI_BASE, at.ENG_COUNT * at.ENGI_STRIDE),
-    (at.WATI_BASE, at.WAT_COUNT * at.WATI_STRIDE),
-    (at.SMVI_BASE, at.SMV_COUNT * at.SMVI_STRIDE),
+    every(engine.ints, engine.INTS_SIZE),
+    every(watch_rows.ints, watch_rows.INTS_SIZE),
+    every(trace_values.ints, trace_values.INTS_SIZE),
 )
-_OF_PROCESS = (*_ROWS, (at.THCI_BASE, at.THC_COUNT * at.THCI_STRIDE))
-_BOUNDS = slice(at.WATF_BASE, at.WATF_BASE + at.WAT_COUNT * at.WATF_STRIDE)
-_IN_TICK = at.ENGI_BASE + at.ENGI_IN_TICK
+_OF_PROCESS = (*_ROWS, every(thread_code.ints, thread_code.INTS_SIZE))
+_BOUNDS = every(watch_rows.reals, watch_rows.REALS_SIZE)
+_IN_TICK = engine.in_tick
 # The progress within the tick, which is no request.
-_PROGRESS = (
-    _IN_TICK,
-    at.ENGI_BASE + at.ENGI_LINE_ANNOUNCED,
-    at.ENGI_BASE + at.ENGI_STATEMENTS,
-)
+_PROGRESS = (_IN_TICK, engine.line_announced, engine.statements)
 
 _watch_fired = pick(watch_cy.watch_fired)
 
@@ -65,13 +63,12 @@ def set_watches(memory: Memory, watches: Sequence[Watch]) -> None:
     """Watch these values, at most WATCHES, from the present state on."""
     rows = memory.I
     for index, watch in enumerate(watches):
-        row = at.WATI_BASE + index * at.WATI_STRIDE
-        rows[row + at.WATI_KIND] = watch.place.value
-        rows[row + at.WATI_ROW] = watch.row
-        rows[row + at.WATI_MASK] = watch.mask
-        rows[row + at.WATI_IS_ABOVE] = watch.is_above
-        memory.F[at.WATF_BASE + index * at.WATF_STRIDE + at.WATF_BOUND] = watch.bound
-    rows[at.ENGI_BASE + at.ENGI_WATCH_COUNT] = len(watches)
+        rows[watch_rows.kind[index]] = watch.place.value
+        rows[watch_rows.row[index]] = watch.row
+        rows[watch_rows.mask[index]] = watch.mask
+        rows[watch_rows.is_above[index]] = watch.is_above
+        memory.F[watch_rows.bound[index]] = watch.bound
+    rows[engine.watch_count] = len(watches)
     see_present(memory)
 
 
@@ -92,8 +89,8 @@ def state_image(memory: Memory) -> bytearray:
     image = memory.image()
     rows = memoryview(image).cast("i")
     in_tick = rows[_IN_TICK]
-    for first, count in _OF_PROCESS:
-        rows[first : first + count] = memoryview(bytes(4 * count)).cast("i")
+    for places in _OF_PROCESS:
+        rows[places] = memoryview(bytes(rows[places].nbytes)).cast("i")
     rows[_IN_TICK] = in_tick
     image[8 * _BOUNDS.start : 8 * _BOUNDS.stop] = bytes(8 * (_BOUNDS.stop - _BOUNDS.start))
     return image
@@ -103,10 +100,10 @@ def take_orders(memory: Memory) -> Orders:
     """Remove all requests and return them; `give_orders` restores them."""
     taken = []
     progress = [memory.I[row] for row in _PROGRESS]
-    for first, count in _ROWS:
-        part = memory.I[first : first + count]
+    for places in _ROWS:
+        part = memory.I[places]
         taken.append(memoryview(part.tobytes()).cast("i"))
-        part[:] = memoryview(bytes(4 * count)).cast("i")
+        part[:] = memoryview(bytes(part.nbytes)).cast("i")
     for row, value in zip(_PROGRESS, progress, strict=True):
         memory.I[row] = value
     bounds = memoryview(memory.F[_BOUNDS].tobytes()).cast("d")
@@ -117,8 +114,8 @@ def take_orders(memory: Memory) -> Orders:
 def give_orders(memory: Memory, orders: Orders) -> None:
     """Restore what `take_orders` removed; the progress within the tick is not changed."""
     progress = [memory.I[row] for row in _PROGRESS]
-    for (first, count), part in zip(_ROWS, orders.rows, strict=True):
-        memory.I[first : first + count] = part
+    for places, part in zip(_ROWS, orders.rows, strict=True):
+        memory.I[places] = part
     for row, value in zip(_PROGRESS, progress, strict=True):
         memory.I[row] = value
     memory.F[_BOUNDS] = orders.bounds
@@ -132,8 +129,7 @@ def see_present(memory: Memory) -> None:
 
 def take_fired(memory: Memory) -> list[int]:
     """The watches that have fired since the last call, by their places in `set_watches`."""
-    rows = range(at.WATI_BASE + at.WATI_FIRED, at.SMVI_BASE, at.WATI_STRIDE)[: at.WAT_COUNT]
-    fired = [place for place, row in enumerate(rows) if memory.I[row]]
+    fired = [place for place, row in enumerate(watch_rows.fired) if memory.I[row]]
     for place in fired:
-        memory.I[rows[place]] = 0
+        memory.I[watch_rows.fired[place]] = 0
     return fired

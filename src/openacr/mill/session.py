@@ -28,7 +28,7 @@ from openacr.cnc.state.hosts import Cells
 from openacr.cnc.state.shadow import Shadow
 from openacr.engine.watches import Watch, Watched
 from openacr.errors import UserError
-from openacr.map import numbers as n
+from openacr.map.words import mf1
 from openacr.mill.card import alarms, homed, soft_limits
 from openacr.mill.card.alarms import Alarms
 from openacr.mill.card.ballscrew import tables_of
@@ -58,7 +58,7 @@ if TYPE_CHECKING:
 
 POLL_S = 0.02
 SHORTEST_S = 0.001  # the clock of the card counts milliseconds
-MOTION = n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED | n.MF1_NOT_IN_POSITION
+MOTION = mf1.IN_MOTION | mf1.MOVE_BUFFERED | mf1.NOT_IN_POSITION
 ALL_AXES = 255
 # Inputs of the store that are not wired on the virtual machine.
 UNWIRED = (
@@ -150,7 +150,7 @@ class MillSession:
         axes = [axis.index for axis in settings.axes]
         self.machine = MachineDriver(card, axes, settings.master, rounds_corners=is_virtual)
         alarm_list = Alarms(None if is_virtual else _error_log(cells, folder))
-        self.motion = Watch(Watched.WORD, n.MF1_WORD + self.machine.master, MOTION)
+        self.motion = Watch(Watched.WORD, mf1.word[self.machine.master], MOTION)
         self.runner = Runner(
             self.machine, cells, depth, say, alarm_list, has_operator=not is_virtual,
             compensated=tables,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.map.rows import plcs
+from openacr.map.rows import plc_counters, plc_timers, plcs
+from openacr.map.words import plf
 from openacr.plc import scan_cy as scan
 from openacr.plc.compile import Compiled, Preload, compile_plc
 from openacr.plc.instructions import Operand
@@ -15,10 +15,10 @@ from openacr.plc.reader import PlcLine
 Text = Iterable[tuple[int, PlcLine]]
 
 _PRELOAD_ROWS = {
-    Operand.TIMER: (at.TIM_BASE + at.TIM_TIMER_PRELOAD, at.TIM_STRIDE),
-    Operand.COUNTER: (at.CNT_BASE + at.CNT_COUNTER_PRELOAD, at.CNT_STRIDE),
+    Operand.TIMER: plc_timers.timer_preload,
+    Operand.COUNTER: plc_counters.counter_preload,
 }
-_FIRST = at.PLF_PLC_RUNNING | at.PLF_FIRST_SCAN
+_FIRST = plf.PLC_RUNNING | plf.FIRST_SCAN
 
 
 class Plcs:
@@ -34,7 +34,7 @@ class Plcs:
 
     def is_running(self, plc: int) -> bool:
         """Whether a PLC is running."""
-        return bool(self._memory.I[at.PLF_WORD + plc] & at.PLF_PLC_RUNNING)
+        return bool(self._memory.I[plf.word[plc]] & plf.PLC_RUNNING)
 
     def run(self, plc: int) -> None:
         """Start a PLC (RUN); first scan in the next servo interrupt, CardError if impossible."""
@@ -43,11 +43,11 @@ class Plcs:
         for preload in compiled.preloads:
             self._write_preload(preload)
         self._memory.I[plcs.tick_count[plc]] = 1
-        self._memory.I[at.PLF_WORD + plc] |= _FIRST
+        self._memory.I[plf.word[plc]] |= _FIRST
 
     def halt(self, plc: int) -> None:
         """Stop a PLC (HALT); outputs stay as they are."""
-        self._memory.I[at.PLF_WORD + plc] &= ~_FIRST
+        self._memory.I[plf.word[plc]] &= ~_FIRST
 
     def note(self, plc: int, on: bool) -> None:
         """Have the scans of a PLC note in its code what they see, or no longer."""
@@ -73,5 +73,4 @@ class Plcs:
         self._memory.I[plcs.length[plc]] = len(compiled.words)
 
     def _write_preload(self, preload: Preload) -> None:
-        row, stride = _PRELOAD_ROWS[preload.operand]
-        self._memory.I[row + preload.number * stride] = preload.value
+        self._memory.I[_PRELOAD_ROWS[preload.operand][preload.number]] = preload.value

@@ -6,13 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
-from openacr.map import numbers as at
+from openacr.map.rows import plcs
 from openacr.plc import scan_cy as scan
 
 HIGHEST_FLAG = 8191
 FIRST_PLC_FLAG = 1536
 FLAGS_PER_PLC = 32
-OBJECTS = at.PLC_COUNT  # timers, counters and latches
+OBJECTS = plcs.COUNT  # timers, counters and latches
 
 
 class Operand(Enum):

@@ -18,6 +18,7 @@ from openacr.errors import MapError
 from openacr.map import numbers as at
 from openacr.map.kinds_cy import is_read_only, kind_of
 from openacr.map.memory import Memory
+from openacr.map.rows import storage, system
 from openacr.protocol import string_words
 from openacr.protocol.memory import VariableKind
 
@@ -39,8 +40,8 @@ _FP64_WORDS = 2
 class _Rows:
     """The storage rows that describe one kind of variables of a program."""
 
-    base: int
-    count: int
+    base: tuple[int, ...]
+    count: tuple[int, ...]
     words: int  # of one variable, or of one reference to an array
     element_words: int = 0  # of the arrays a table refers to
 
@@ -51,12 +52,12 @@ class _Rows:
 
 
 _ROWS = {
-    VariableKind.DV: _Rows(at.STI_DV_BASE, at.STI_DV_COUNT, _FP64_WORDS),
-    VariableKind.DA: _Rows(at.STI_DA_BASE, at.STI_DA_COUNT, 1, _FP64_WORDS),
-    VariableKind.SV: _Rows(at.STI_SV_BASE, at.STI_SV_COUNT, 1),
-    VariableKind.SA: _Rows(at.STI_SA_BASE, at.STI_SA_COUNT, 1, 1),
-    VariableKind.LV: _Rows(at.STI_LV_BASE, at.STI_LV_COUNT, 1),
-    VariableKind.LA: _Rows(at.STI_LA_BASE, at.STI_LA_COUNT, 1, 1),
+    VariableKind.DV: _Rows(storage.dv_base, storage.dv_count, _FP64_WORDS),
+    VariableKind.DA: _Rows(storage.da_base, storage.da_count, 1, _FP64_WORDS),
+    VariableKind.SV: _Rows(storage.sv_base, storage.sv_count, 1),
+    VariableKind.SA: _Rows(storage.sa_base, storage.sa_count, 1, 1),
+    VariableKind.LV: _Rows(storage.lv_base, storage.lv_count, 1),
+    VariableKind.LA: _Rows(storage.la_base, storage.la_count, 1, 1),
 }
 _STRING_KINDS = {
     VariableKind.STRING_VARIABLES: string_words.variables_address,
@@ -177,7 +178,7 @@ class AddressSpace:
         return (self._memory.I[place] for place in self._memory.references(table, count))
 
     def _globals(self) -> int:
-        return self._memory.I[at.SYSI_BASE + at.SYSI_P_COUNT]
+        return self._memory.I[system.p_count]
 
     def _is_word_parameter(self, number: int) -> bool:
         return kind_of(self._memory.I, number) in (at.KIND_LONG, at.KIND_FP32)
@@ -188,6 +189,5 @@ class AddressSpace:
         if not 0 <= program < PROGRAMS or kind not in _ROWS:
             return None
         rows = _ROWS[VariableKind(kind)]
-        start = at.STI_BASE + program * at.STI_STRIDE
-        count = self._memory.I[start + rows.count]
-        return (rows, self._memory.I[start + rows.base], count) if count else None
+        count = self._memory.I[rows.count[program]]
+        return (rows, self._memory.I[rows.base[program]], count) if count else None

@@ -7,17 +7,17 @@ evaluates it. A condition that cannot change needs no watch.
 from collections.abc import Iterator
 
 from openacr.engine.watches import Watch, Watched, parameter_place
-from openacr.map import numbers as at
 from openacr.map.memory import Memory, flag_place
-from openacr.map.rows import threads
+from openacr.map.rows import axes, system, threads
+from openacr.map.words import pf
 from openacr.scenario.schema import Condition
 
 _STATES = (
-    at.PF_PAUSE_MODE_WAITING
-    | at.PF_BLOCK_MODE_WAITING
-    | at.PF_PROGRAM_DWELLING
-    | at.PF_PROGRAM_INHIBITED
-    | at.PF_PROGRAM_RUNNING
+    pf.PAUSE_MODE_WAITING
+    | pf.BLOCK_MODE_WAITING
+    | pf.PROGRAM_DWELLING
+    | pf.PROGRAM_INHIBITED
+    | pf.PROGRAM_RUNNING
 )
 
 
@@ -26,10 +26,10 @@ def watches(condition: Condition, memory: Memory) -> Iterator[Watch]:
     if condition.bit is not None:
         yield Watch(Watched.WORD, *flag_place(condition.bit))
     elif condition.program is not None:
-        yield Watch(Watched.WORD, at.PF_WORD + condition.program, _STATES)
+        yield Watch(Watched.WORD, pf.word[condition.program], _STATES)
         yield Watch(Watched.WORD, threads.error[condition.program])
     elif condition.axis is not None:
-        yield from _bounds(condition, Watched.AXIS, at.AX_BASE + condition.axis * at.AX_STRIDE)
+        yield from _bounds(condition, Watched.AXIS, axes.parameters[condition.axis])
     elif condition.parameter is not None:
         yield from _parameter(condition, condition.parameter, memory)
 
@@ -41,7 +41,7 @@ def _parameter(condition: Condition, number: int, memory: Memory) -> Iterator[Wa
     place, row = found
     if place is Watched.FP64:
         # A user variable exists as soon as enough of them are dimensioned.
-        yield Watch(Watched.WORD, at.SYSI_BASE + at.SYSI_P_COUNT)
+        yield Watch(Watched.WORD, system.p_count)
     yield from _bounds(condition, place, row)
 
 

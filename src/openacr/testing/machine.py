@@ -11,7 +11,6 @@ from openacr.controller import Controller
 from openacr.controller.trace import Trace
 from openacr.errors import UserError
 from openacr.map import find_flag, find_parameter
-from openacr.map import numbers as at
 from openacr.map.explain import object_of
 from openacr.map.rows import programs
 
@@ -123,7 +122,7 @@ class Machine:
                     f" following error {axis.following_error:g} pulses"
                 )
         rows = self.card.memory.I
-        for program in range(at.PROG_COUNT):
+        for program in range(programs.COUNT):
             if self.card.bit[RUNNING + BITS * program]:
                 number = rows[programs.line_number[program]]
                 where = self.card.origin(program, number)

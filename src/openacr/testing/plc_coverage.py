@@ -14,7 +14,7 @@ from itertools import islice
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.controller import Controller
 from openacr.errors import CardError
-from openacr.map import numbers as at
+from openacr.map.rows import plcs
 from openacr.plc import scan_cy as scan
 from openacr.plc.compile import compile_plc, scanned
 from openacr.plc.reader import PlcLine, Step
@@ -50,7 +50,7 @@ class PlcNotes:
     def __init__(self, card: Controller, lines: Mapping[Place, Line]) -> None:
         self._card, self._lines = card, lines
         self._code: dict[int, list[tuple[Line, list[Contact]]]] = {}  # of each PLC, by instruction
-        for plc in range(at.PLC_COUNT):
+        for plc in range(plcs.COUNT):
             card.plcs.note(plc, True)
             self._learn(plc, is_run_next=False)
 
@@ -62,7 +62,7 @@ class PlcNotes:
 
     def end(self) -> None:
         """Take the notes of all PLCs; their scans note nothing from now on."""
-        for plc in range(at.PLC_COUNT):
+        for plc in range(plcs.COUNT):
             self._collect(plc)
             self._card.plcs.note(plc, False)
 

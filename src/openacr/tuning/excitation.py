@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from openacr.errors import UserError
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 from openacr.tuning import cam_sweep
 from openacr.tuning.filters import Filters
 from openacr.tuning.settings import GAINS
@@ -141,18 +141,17 @@ class Excitation:
         `gains` by their words and `filters` are set before, and stay unless a bound is exceeded.
         """
         gains = gains or {}
-        former = {GAINS[word] + at.AX_BASE + axis * at.AX_STRIDE: k for k, word in enumerate(gains)}
-        first = at.AX_BASE + axis * at.AX_STRIDE
+        former = {GAINS[word][axis]: k for k, word in enumerate(gains)}
         count = self.samples(period_s)
-        actual = f"P{first + at.AX_ACTUAL_POSITION}"
-        written = cam_sweep.offset(axis) if self.is_cam else f"P{first + at.AX_JOG_OFFSET}"
+        actual = f"P{axes.actual_position[axis]}"
+        written = cam_sweep.offset(axis) if self.is_cam else f"P{axes.jog_offset[axis]}"
         lines = [
             "PROGRAM",
             TITLE,
             *self._room(count, period_s),
-            *(f"SAMP 0 SRC P{first + at.AX_SECONDARY_SETPOINT}", "SAMP 0 BASE LA0"),
+            *(f"SAMP 0 SRC P{axes.secondary_setpoint[axis]}", "SAMP 0 BASE LA0"),
             *(f"SAMP 1 SRC {actual}", "SAMP 1 BASE LA1"),
-            *(f"SAMP 2 SRC P{first + at.AX_OUTPUT_SIGNAL}", "SAMP 2 BASE SA0"),
+            *(f"SAMP 2 SRC P{axes.output_signal[axis]}", "SAMP 2 BASE SA0"),
             "SAMP PERIOD 0",
             *self._table(axis, period_s),
             f"LV0 = {written}",
@@ -163,17 +162,17 @@ class Excitation:
             *set_lines(axis, gains),
             f"SET {ARMED}",
             *([f"DWL {BEFORE_STEP_S}"] if self.kind == "step" else []),
-            *self._begin(axis, first, actual),
+            *self._begin(axis, actual),
             f"LV2 = {CLOCK}",
             "_MOVE",
             f"IF (BIT{ARMED} = 0) THEN LV3 = 4",
-            *self._watch(axis, first, actual),
+            *self._watch(axis, actual),
             "IF (LV3 <> 0) THEN GOTO BACK",
             *self._drive(axis, written),
             "_BACK",
             *([f"AXIS{axis} CAM OFF"] if self.is_cam else []),
             f"{written} = LV0",
-            *self._watch(axis, first, actual),
+            *self._watch(axis, actual),
             *(f"IF (LV3 <> 0) THEN P{row} = SV{k}" for row, k in former.items()),
             *_taken_back(axis, filters),
             f"IF (BIT{ARMED}) THEN GOTO BACK",
@@ -209,11 +208,11 @@ class Excitation:
             *cam_sweep.cam_lines(axis, self.duration_s, period_s),
         ]
 
-    def _begin(self, axis: int, first: int, actual: str) -> list[str]:
+    def _begin(self, axis: int, actual: str) -> list[str]:
         """Lines that start a cam: a card refuses it for an axis that is killed."""
         if not self.is_cam:
             return []
-        watch = self._watch(axis, first, actual)
+        watch = self._watch(axis, actual)
         return [*watch, "IF (LV3 <> 0) THEN GOTO BACK", f"AXIS{axis} CAM ON"]
 
     def _drive(self, axis: int, written: str) -> list[str]:
@@ -233,8 +232,8 @@ class Excitation:
         bend = (self.high_hz - self.low_hz) / (2.0 * self.duration_s)
         return f"{self.height_cnt:g} * SIN(360 * DV0 * ({self.low_hz:g} + {bend:.9g} * DV0))"
 
-    def _watch(self, axis: int, first: int, actual: str) -> list[str]:
-        error = f"P{first + at.AX_FOLLOWING_ERROR}"
+    def _watch(self, axis: int, actual: str) -> list[str]:
+        error = f"P{axes.following_error[axis]}"
         return [
             f"IF (ABS({error}) > {self.error_cnt:.0f}) THEN LV3 = 1",
             f"IF (ABS({actual} - LV1) > {self.travel_cnt:.0f}) THEN LV3 = 2",

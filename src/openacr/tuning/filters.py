@@ -5,11 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 from openacr.motion.axis.filters import low_pass, notch
 
-FILTERS = (at.AX_FILTER0_B2, at.AX_FILTER1_B2)  # first of five coefficients: b2 a2 b1 a1 a0
-COEFFICIENTS = 5
+Row = tuple[int, ...]  # the parameter of each axis
+FILTERS: tuple[tuple[Row, ...], ...] = (  # rows of the coefficients b2 a2 b1 a1 a0
+    (axes.filter0_b2, axes.filter0_a2, axes.filter0_b1, axes.filter0_a1, axes.filter0_a0),
+    (axes.filter1_b2, axes.filter1_a2, axes.filter1_b1, axes.filter1_a1, axes.filter1_a0),
+)
 SAME = 1e-5  # relative difference of coefficients that are the same in single precision
 
 
@@ -26,16 +29,16 @@ class Filters:
         """Whether any of them does anything."""
         return self.lopass_hz > 0.0 or (self.notch_hz > 0.0 and self.notch_width_hz > 0.0)
 
-    def rows(self, period_s: float) -> dict[int, float]:
+    def rows(self, period_s: float) -> dict[Row, float]:
         """Coefficients by row, in single precision as the card computes with them."""
         designed = (
             low_pass(self.lopass_hz, period_s),
             notch(self.notch_hz, self.notch_width_hz, period_s),
         )
         return {
-            first + place: float(np.float32(value))
-            for first, filter_ in zip(FILTERS, designed, strict=True)
-            for place, value in enumerate(filter_)
+            row: float(np.float32(value))
+            for coefficients, filter_ in zip(FILTERS, designed, strict=True)
+            for row, value in zip(coefficients, filter_, strict=True)
         }
 
     def lines(self, axis: int) -> list[str]:

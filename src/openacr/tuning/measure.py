@@ -15,7 +15,6 @@ from openacr.client.requests import SYS, Follow
 from openacr.client.talk import Talk
 from openacr.client.transfer import Progress, download
 from openacr.errors import OpenacrError, UserError
-from openacr.map import numbers as at
 from openacr.map.rows import axes
 from openacr.tuning.excitation import (
     ARMED,
@@ -28,7 +27,7 @@ from openacr.tuning.excitation import (
     FilterChange,
     set_lines,
 )
-from openacr.tuning.filters import COEFFICIENTS, FILTERS, Filters
+from openacr.tuning.filters import FILTERS, Filters
 from openacr.tuning.settings import BIQUAD_FLAG, ROWS, LoopSettings
 from openacr.tuning.twin import Record
 
@@ -57,14 +56,13 @@ class Measurement:
 
 def settings_of(talk: Talk, axis: int) -> Op[LoopSettings]:
     """The loop settings of an axis of a card."""
-    first = at.AX_BASE + axis * at.AX_STRIDE
-    found = yield from values.read_many(talk, [first + row for row in ROWS])
+    found = yield from values.read_many(talk, [row[axis] for row in ROWS])
     period = yield from talk.query("PERIOD")
     is_filtering = yield from values.read_bit(talk, BIQUAD_FLAG + FLAGS_PER_AXIS * axis)
     rows = dict(zip(ROWS, map(float, found), strict=True))
     filters = yield from _filters_of(talk, axis)
     period_s = float(period[-1])
-    coefficients = [rows[first + k] for first in FILTERS for k in range(COEFFICIENTS)]
+    coefficients = [rows[row] for filter_ in FILTERS for row in filter_]
     if not filters.are(coefficients, period_s) or is_filtering is not filters.is_filtering:
         return LoopSettings(rows, is_filtering, period_s)
     return LoopSettings(rows, is_filtering, period_s, filters)

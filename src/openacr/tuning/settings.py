@@ -5,39 +5,39 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 from openacr.errors import UserError
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 from openacr.motion.axis.settings import DEEPEST_SMOOTHING
-from openacr.tuning.filters import COEFFICIENTS, FILTERS, Filters
+from openacr.tuning.filters import FILTERS, Filters, Row
 
 BIQUAD_FLAG, FLAGS_PER_AXIS = 786, 32  # of axis 0; distance to that of the next axis
 
 GAINS = {  # words of the language, and the row each sets
-    "PGAIN": at.AX_PROPORTIONAL_GAIN,
-    "IGAIN": at.AX_INTEGRAL_GAIN,
-    "ILIMIT": at.AX_INTEGRAL_LIMIT,
-    "IDELAY": at.AX_INTEGRAL_DELAY,
-    "DGAIN": at.AX_DERIVATIVE_GAIN,
-    "DWIDTH": at.AX_DERIVATIVE_WIDTH,
-    "FFVEL": at.AX_FEEDFORWARD_VELOCITY,
-    "FFACC": at.AX_FEEDFORWARD_ACCEL,
+    "PGAIN": axes.proportional_gain,
+    "IGAIN": axes.integral_gain,
+    "ILIMIT": axes.integral_limit,
+    "IDELAY": axes.integral_delay,
+    "DGAIN": axes.derivative_gain,
+    "DWIDTH": axes.derivative_width,
+    "FFVEL": axes.feedforward_velocity,
+    "FFACC": axes.feedforward_accel,
 }
 ROWS = (
     *GAINS.values(),
-    at.AX_PLUS_TORQUE_LIMIT,
-    at.AX_MINUS_TORQUE_LIMIT,
-    *(first + k for first in FILTERS for k in range(COEFFICIENTS)),
-    at.AX_FBVEL_GAIN_SETTING,
-    at.AX_SMOOTH_ENCODER_VELOCITY,
-    at.AX_KVP,
-    at.AX_DGAIN_SMOOTH,
-    at.AX_DZU,
-    at.AX_DZL,
-    at.AX_FFVC,
+    axes.plus_torque_limit,
+    axes.minus_torque_limit,
+    *(row for rows in FILTERS for row in rows),
+    axes.fbvel_gain_setting,
+    axes.smooth_encoder_velocity,
+    axes.kvp,
+    axes.dgain_smooth,
+    axes.dzu,
+    axes.dzl,
+    axes.ffvc,
 )
 UNMODELLED = {
-    at.AX_KVP: "KVP: the PV loop takes the place of the gains that are tuned",
-    at.AX_FBVEL_GAIN_SETTING: "FBVEL: velocity feedback is not part of the model",
-    at.AX_DZU: "DZU: a dead zone is not part of the model",
+    axes.kvp: "KVP: the PV loop takes the place of the gains that are tuned",
+    axes.fbvel_gain_setting: "FBVEL: velocity feedback is not part of the model",
+    axes.dzu: "DZU: a dead zone is not part of the model",
 }
 
 
@@ -45,7 +45,7 @@ UNMODELLED = {
 class LoopSettings:
     """Gains, limits and filters of one axis by row (`AX_...`), and its servo period [s]."""
 
-    rows: Mapping[int, float]
+    rows: Mapping[Row, float]
     is_filtering: bool
     period_s: float
     filters: Filters | None = None  # what LOPASS and NOTCH were given; None: written by hand
@@ -54,8 +54,8 @@ class LoopSettings:
     def of_gains(cls, period_s: float, *, limit_v: float = 10.0, **gains: float) -> Self:
         """Settings with these gains (`pgain=0.002`); all others as after power-up."""
         rows = dict.fromkeys(ROWS, 0.0)
-        rows |= {first + COEFFICIENTS - 1: 1.0 for first in FILTERS}
-        rows |= {at.AX_PLUS_TORQUE_LIMIT: limit_v, at.AX_MINUS_TORQUE_LIMIT: -limit_v}
+        rows |= {coefficients[-1]: 1.0 for coefficients in FILTERS}
+        rows |= {axes.plus_torque_limit: limit_v, axes.minus_torque_limit: -limit_v}
         return cls(rows, False, period_s, Filters()).changed(**gains)
 
     def changed(self, **gains: float) -> Self:
@@ -80,25 +80,25 @@ class LoopSettings:
     @property
     def limit_v(self) -> float:
         """The voltage that the output reaches in both directions [V]."""
-        return min(self.rows[at.AX_PLUS_TORQUE_LIMIT], -self.rows[at.AX_MINUS_TORQUE_LIMIT])
+        return min(self.rows[axes.plus_torque_limit], -self.rows[axes.minus_torque_limit])
 
     @property
     def derivative_ticks(self) -> int:
         """Servo periods from sample to sample of the derivative (DWIDTH)."""
-        return max(1, round(self.rows[at.AX_DERIVATIVE_WIDTH] / self.period_s))
+        return max(1, round(self.rows[axes.derivative_width] / self.period_s))
 
     @property
     def derivative_samples(self) -> int:
         """Slopes that DGain Smooth averages."""
-        return 1 << max(0, min(DEEPEST_SMOOTHING, int(self.rows[at.AX_DGAIN_SMOOTH])))
+        return 1 << max(0, min(DEEPEST_SMOOTHING, int(self.rows[axes.dgain_smooth])))
 
     def coefficients(self) -> list[tuple[float, float, float, float, float]]:
         """Filters that act, each as b2 a2 b1 a1 a0."""
         if not self.is_filtering:
             return []
         found = []
-        for first in FILTERS:
-            b2, a2, b1, a1, a0 = (self.rows[first + k] for k in range(COEFFICIENTS))
+        for coefficients in FILTERS:
+            b2, a2, b1, a1, a0 = (self.rows[row] for row in coefficients)
             found.append((b2, a2, b1, a1, a0))
         return found
 

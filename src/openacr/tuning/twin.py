@@ -11,9 +11,8 @@ import numpy as np
 
 from openacr.compiled import pick
 from openacr.kernel.tick_cy import tick
-from openacr.map import numbers as at
 from openacr.map.memory import Memory
-from openacr.map.rows import axes, compliant_loads, encoders, kernel, motors
+from openacr.map.rows import axes, compliant_loads, dacs, encoders, kernel, motors
 from openacr.map.words import af1
 from openacr.motion.axis import attach
 from openacr.motion.axis.settings import activate_derivative_smoothing
@@ -21,12 +20,13 @@ from openacr.motion.card import Card
 from openacr.plant.apply import apply_world
 from openacr.plant.load import parse_world
 from openacr.plant.step_cy import plant_step
+from openacr.tuning.filters import Row
 from openacr.tuning.motor import Motor, Reals
 from openacr.tuning.settings import LoopSettings
 from openacr.tuning.shaft import Shaft
 
 _tick, _plant = pick(tick), pick(plant_step)
-_DAC = at.DAC_BASE + at.DAC_DAC_OUTPUT
+_DAC = dacs.dac_output[0]
 _NO_LIMIT = 1e30
 COUNTS_PER_LINE = 4
 MIDDLE = 0.5  # of a count: where a motor begins
@@ -137,7 +137,7 @@ def _memory(settings: LoopSettings, motor: Motor) -> Memory:
 
 
 @lru_cache(maxsize=4)
-def _closed_loop(period_s: float, rows: tuple[tuple[int, float], ...], is_filtering: bool) -> bytes:
+def _closed_loop(period_s: float, rows: tuple[tuple[Row, float], ...], is_filtering: bool) -> bytes:
     """The memory of a card whose loop has these settings; a fit tries many motors with one."""
     card = Card()
     memory = card.memory
@@ -146,7 +146,7 @@ def _closed_loop(period_s: float, rows: tuple[tuple[int, float], ...], is_filter
     attach.master(card, 0, 0)
     attach.slave(card, 0, 0, 0, "X")
     for row, value in rows:
-        memory.write(at.AX_BASE + row, value)
+        memory.write(row[0], value)
     activate_derivative_smoothing(card, 0)
     if is_filtering:
         memory.I[af1.word[0]] |= af1.BIQUAD_FILTER_ACTIVATE

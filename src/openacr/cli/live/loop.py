@@ -9,39 +9,39 @@ import typer
 from openacr.cli.live.monitor import AXES, axes_on
 from openacr.cli.live.online import BAUD, SILENCE_S, Baud, Silence, Target, connected
 from openacr.cli.live.silence import why_silent
-from openacr.map import numbers as at
+from openacr.map.rows import axes
 
 if TYPE_CHECKING:
     from openacr.client import Card
 
-# Names shown, in the order in which the signals flow, and their rows in the block of an axis.
+# Names shown, in the order in which the signals flow, and their rows.
 PATH = {
-    "current position": at.AX_CURRENT_POSITION,
-    "gear offset": at.AX_GEAR_OFFSET,
-    "jog offset": at.AX_JOG_OFFSET,
-    "cam offset": at.AX_CAM_OFFSET,
-    "primary setpoint": at.AX_PRIMARY_SETPOINT,
-    "ballscrew offset": at.AX_BALLSCREW_OFFSET,
-    "backlash offset": at.AX_BACKLASH_OFFSET,
-    "secondary setpoint": at.AX_SECONDARY_SETPOINT,
-    "actual position": at.AX_ACTUAL_POSITION,
-    "following error": at.AX_FOLLOWING_ERROR,
+    "current position": axes.current_position,
+    "gear offset": axes.gear_offset,
+    "jog offset": axes.jog_offset,
+    "cam offset": axes.cam_offset,
+    "primary setpoint": axes.primary_setpoint,
+    "ballscrew offset": axes.ballscrew_offset,
+    "backlash offset": axes.backlash_offset,
+    "secondary setpoint": axes.secondary_setpoint,
+    "actual position": axes.actual_position,
+    "following error": axes.following_error,
 }
 GAINS = {
-    "PGAIN": at.AX_PROPORTIONAL_GAIN,
-    "IGAIN": at.AX_INTEGRAL_GAIN,
-    "ILIMIT": at.AX_INTEGRAL_LIMIT,
-    "IDELAY": at.AX_INTEGRAL_DELAY,
-    "DGAIN": at.AX_DERIVATIVE_GAIN,
-    "DWIDTH": at.AX_DERIVATIVE_WIDTH,
-    "FFVEL": at.AX_FEEDFORWARD_VELOCITY,
-    "FFACC": at.AX_FEEDFORWARD_ACCEL,
-    "FBVEL": at.AX_FBVEL_GAIN_SETTING,
+    "PGAIN": axes.proportional_gain,
+    "IGAIN": axes.integral_gain,
+    "ILIMIT": axes.integral_limit,
+    "IDELAY": axes.integral_delay,
+    "DGAIN": axes.derivative_gain,
+    "DWIDTH": axes.derivative_width,
+    "FFVEL": axes.feedforward_velocity,
+    "FFACC": axes.feedforward_accel,
+    "FBVEL": axes.fbvel_gain_setting,
 }
 OUTPUT = {
-    "summation point": at.AX_SUMMATION_POINT,
-    "filter output": at.AX_FILTER_OUTPUT_SIGNAL,
-    "output signal": at.AX_OUTPUT_SIGNAL,
+    "summation point": axes.summation_point,
+    "filter output": axes.filter_output_signal,
+    "output signal": axes.output_signal,
 }
 ROWS = PATH | GAINS | OUTPUT
 NAMES = (*PATH, *GAINS, *(f"{name} [V]" for name in OUTPUT))
@@ -86,8 +86,7 @@ def loop(
 
 def read_loop(card: "Card", axis: int) -> Loop:
     """Ask the card for one axis, all values of the path of one moment."""
-    first = at.AX_BASE + at.AX_STRIDE * axis
-    values = dict(zip(ROWS, card.read_many([first + row for row in ROWS.values()]), strict=True))
+    values = dict(zip(ROWS, card.read_many([row[axis] for row in ROWS.values()]), strict=True))
     return Loop(
         axis,
         {name: int(values[name]) for name in PATH},

@@ -11,11 +11,12 @@ from openacr.cli.live.monitor import axes_on
 from openacr.cli.live.online import BAUD, SILENCE_S, Baud, Silence, Target, connected
 from openacr.cli.live.silence import why_silent
 from openacr.map import numbers as at
+from openacr.map.rows import canopen as canopen_rows
 
 if TYPE_CHECKING:
     from openacr.client import Card
 
-BUS_STATE = at.CAN_BASE + at.CAN_BUS_STATE
+BUS_STATE = canopen_rows.bus_state
 SIDES = (("positive", 0), ("negative", 1))
 
 

@@ -20,7 +20,7 @@ def stop_machine(host: AtHost, store: AtStore = None) -> None:
     """
     from openacr.cli.signals import deaf
     from openacr.client import Card, Options
-    from openacr.map.numbers import AX_CURRENT_POSITION
+    from openacr.map.rows import axes as axis_rows
     from openacr.mill.card.driver import LINK_ERRORS
     from openacr.mill.card.leftovers import machine_of
     from openacr.mill.card.stopping import stop_all
@@ -33,7 +33,7 @@ def stop_machine(host: AtHost, store: AtStore = None) -> None:
         try:
             with deaf(), Card.open(host, Options(timeout_s=timeout_s, reconnect_s=0.0)) as card:
                 stopped = stop_all(card, settings)
-                counts = machine_of(card, settings).axis_values(AX_CURRENT_POSITION)
+                counts = machine_of(card, settings).axis_values(axis_rows.current_position)
         except LINK_ERRORS as lost:
             raise UserError(f"the card cannot be reached: {lost}") from None
         place = [0.0] * 8

@@ -16,7 +16,7 @@ from openacr.controller.recorder import Recorder
 from openacr.engine.watches import Watch
 from openacr.errors import SourceError
 from openacr.lang.characters import shown
-from openacr.map.numbers import AXI_BASE, AXI_HLBIT, AXI_STRIDE
+from openacr.map.rows import axes as axis_rows
 from openacr.project import Project
 from openacr.scenario import Condition, card_view
 from openacr.scenario.played import PlayedCard
@@ -48,7 +48,7 @@ class ControlledMachine(PlayedCard):
         """Inputs of normally closed limit switches that are enabled, by axis."""
         found: dict[int, list[int]] = {}
         for axis in range(self._controller.model.axes):
-            first = self.memory.I[AXI_BASE + axis * AXI_STRIDE + AXI_HLBIT]
+            first = self.memory.I[axis_rows.hlbit[axis]]
             for side in range(2):
                 flags = (CONTACT_FLAGS[side], SWITCH_FLAGS[side])
                 if all(self._controller.bit[flag + FLAGS_PER_AXIS * axis] for flag in flags):

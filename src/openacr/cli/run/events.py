@@ -12,23 +12,24 @@ from openacr.map import flag
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.map.rows import threads
+from openacr.map.words import af4, af5, mf1
 from openacr.scenario import card_view
 from openacr.scenario.played import Failure
 
 # Flags of an axis whose setting is an event, by word.
 AXIS_EVENTS = (
-    (at.AF4_WORD, at.AF4_KILL_ALL_MOTION_REQUEST | at.AF4_DRIVE_FAULT),
+    (af4.word, af4.KILL_ALL_MOTION_REQUEST | af4.DRIVE_FAULT),
     (
-        at.AF5_WORD,
-        at.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED
-        | at.AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED
-        | at.AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED
-        | at.AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
-        | at.AF5_HOME_FAILED,
+        af5.word,
+        af5.POSITIVE_HARDWARE_LIMIT_ENCOUNTERED
+        | af5.NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED
+        | af5.POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED
+        | af5.NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
+        | af5.HOME_FAILED,
     ),
 )
 MASTERS = 8  # of the first flag words; the front end and programs use these
-MASTER_EVENTS = at.MF1_KILL_ALL_MOVES_REQUEST
+MASTER_EVENTS = mf1.KILL_ALL_MOVES_REQUEST
 
 
 class EventLog:
@@ -45,8 +46,8 @@ class EventLog:
         self._memory = memory
         self._failure = failure
         self._names = names
-        self._flags = [(word + n, mask, n) for n in range(axes) for word, mask in AXIS_EVENTS]
-        self._masters = [(at.MF1_WORD + m, MASTER_EVENTS, m) for m in range(MASTERS)]
+        self._flags = [(word[n], mask, n) for n in range(axes) for word, mask in AXIS_EVENTS]
+        self._masters = [(mf1.word[m], MASTER_EVENTS, m) for m in range(MASTERS)]
         self._errors = [threads.error[p] for p in card_view.PROGRAMS]
         self._before = {row: memory.I[row] for row in self._rows()}
 

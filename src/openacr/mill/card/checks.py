@@ -3,6 +3,7 @@
 from openacr.client import Card
 from openacr.errors import UserError
 from openacr.map import numbers as n
+from openacr.map.words import af1, mf1
 from openacr.mill.card import alarms
 from openacr.mill.card.alarms import AlarmError
 from openacr.mill.config.settings import Settings
@@ -33,8 +34,8 @@ def check_axes(model: Model, settings: Settings) -> None:
 
 def check_rest(card: Card, settings: Settings) -> None:
     """Refuse a machine in motion: the set-up would interrupt another program."""
-    words = [n.MF1_WORD + settings.master, *(n.AF1_WORD + axis.index for axis in settings.axes)]
+    words = [mf1.word[settings.master], *(af1.word[axis.index] for axis in settings.axes)]
     master, *axes = map(int, card.read_many(words))
-    is_moving = master & (n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED)
-    if is_moving or any(word & n.AF1_JOG_ACTIVE for word in axes):
+    is_moving = master & (mf1.IN_MOTION | mf1.MOVE_BUFFERED)
+    if is_moving or any(word & af1.JOG_ACTIVE for word in axes):
         raise MovingError("the machine is moving: another program runs it; wait or stop it")

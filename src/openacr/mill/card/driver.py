@@ -16,6 +16,7 @@ from openacr.cnc.occupied import HOLD_AT, RAN_SHORT, TRIPPED
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.map.rows import masters
+from openacr.map.words import af1, af4, af5, mf1, pf
 from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.override import FeedrateOverride, RapidOverride
 from openacr.protocol.packets import Packet
@@ -28,10 +29,10 @@ BITS_PER_WORD = 32
 USER_FLAGS = n.FLAG_WORD_BASE + TRIPPED // BITS_PER_WORD  # the word with the watchdog's flag
 TRIPPED_MASK, RAN_SHORT_MASK = 1 << TRIPPED % BITS_PER_WORD, 1 << RAN_SHORT % BITS_PER_WORD
 LIMIT_LATCHES = (
-    n.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
-    n.AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
-    n.AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
-    n.AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+    af5.POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
+    af5.NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED,
+    af5.POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
+    af5.NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
 )
 FIRST_MODULE_FLAG = (n.XIOI_WORD - n.FLAG_WORD_BASE) * BITS_PER_WORD
 
@@ -56,28 +57,28 @@ class CardState:
     @property
     def is_moving(self) -> bool:
         """Whether a move is active, buffered or held."""
-        return bool(self.master & (n.MF1_IN_MOTION | n.MF1_MOVE_BUFFERED))
+        return bool(self.master & (mf1.IN_MOTION | mf1.MOVE_BUFFERED))
 
     @property
     def is_held(self) -> bool:
         """Whether the feed hold has come to rest."""
-        return bool(self.master & n.MF1_IN_FEEDHOLD)
+        return bool(self.master & mf1.IN_FEEDHOLD)
 
     @property
     def is_in_position(self) -> bool:
         """Whether all axes of the master are inside their in-position band."""
-        return not self.master & n.MF1_NOT_IN_POSITION
+        return not self.master & mf1.NOT_IN_POSITION
 
     @property
     def is_within_error(self) -> bool:
         """Whether all axes of the master are inside their following-error band."""
-        return bool(self.master & n.MF1_NOT_EXCESS_ERROR)
+        return bool(self.master & mf1.NOT_EXCESS_ERROR)
 
     @property
     def is_killed(self) -> bool:
         """Whether moves of the master or all motion of an axis are killed, which bars motion."""
-        axes = (word & n.AF4_KILL_ALL_MOTION_REQUEST for word in self.drives)
-        return bool(self.master & n.MF1_KILL_ALL_MOVES_REQUEST) or any(axes)
+        axes = (word & af4.KILL_ALL_MOTION_REQUEST for word in self.drives)
+        return bool(self.master & mf1.KILL_ALL_MOVES_REQUEST) or any(axes)
 
     def input(self, number: int) -> bool:
         """The state of an input of the card (0..31) or of a module (256.. and up)."""
@@ -124,11 +125,11 @@ class MachineDriver:
 
     @cached_property
     def _watched(self) -> list[int]:
-        drives = [n.AF4_WORD + axis for axis in self.axes]
-        limits = [n.AF5_WORD + axis for axis in self.axes]
-        head = [n.P_GLOBAL_SYSTEM_CLOCK, n.MF1_WORD + self.master, self.counter, n.W_INPUTS]
+        drives = [af4.word[axis] for axis in self.axes]
+        limits = [af5.word[axis] for axis in self.axes]
+        head = [n.P_GLOBAL_SYSTEM_CLOCK, mf1.word[self.master], self.counter, n.W_INPUTS]
         modules = [n.XIOI_WORD + n.XIOI_WORD_STRIDE * one for one in range(self._modules)]
-        watchdog = [] if self._watchdog is None else [USER_FLAGS, n.PF_WORD + self._watchdog]
+        watchdog = [] if self._watchdog is None else [USER_FLAGS, pf.word[self._watchdog]]
         return head + drives + limits + watchdog + modules
 
     @property
@@ -158,14 +159,14 @@ class MachineDriver:
         self._clock_ms = clock
         count = len(self.axes)
         drives, limits, words = words[:count], words[count : 2 * count], words[2 * count :]
-        flags, program = words[:2] if self._watchdog is not None else (0, n.PF_PROGRAM_RUNNING)
+        flags, program = words[:2] if self._watchdog is not None else (0, pf.PROGRAM_RUNNING)
         modules = words[2:] if self._watchdog is not None else words
         sample = CardState(
             clock, master, counter, inputs, tuple(drives), tuple(limits), tuple(modules),
             was_reset=was_reset,
             has_tripped=bool(flags & TRIPPED_MASK),
             has_run_short=bool(flags & RAN_SHORT_MASK),
-            is_guarded=bool(program & n.PF_PROGRAM_RUNNING),
+            is_guarded=bool(program & pf.PROGRAM_RUNNING),
             may_have_lost=self._has_lost,
         )  # fmt: skip
         self._note_clearing(is_killed=sample.is_killed)
@@ -199,15 +200,14 @@ class MachineDriver:
         """Several parameters of the card with one request."""
         return [float(value) for value in self._read_many(parameters)]
 
-    def axis_values(self, *offsets: int) -> list[int]:
-        """Rows of all axes in use, one after the other, e.g. `AX_ACTUAL_POSITION`."""
-        axes = [n.AX_BASE + axis * n.AX_STRIDE for axis in self.axes]
-        rows = [axis + offset for offset in offsets for axis in axes]
-        return [int(value) for value in self._read_many(rows)]
+    def axis_values(self, *rows: tuple[int, ...]) -> list[int]:
+        """Rows of all axes in use, one after the other, e.g. `axes.actual_position`."""
+        places = [row[axis] for row in rows for axis in self.axes]
+        return [int(value) for value in self._read_many(places)]
 
-    def axis_flags(self, word: int) -> list[int]:
-        """One flag word of all axes in use, e.g. `AF1_WORD`."""
-        return [int(each) for each in self._read_many([word + axis for axis in self.axes])]
+    def axis_flags(self, word: tuple[int, ...]) -> list[int]:
+        """One flag word of all axes in use, e.g. `af1.word`."""
+        return [int(each) for each in self._read_many([word[axis] for axis in self.axes])]
 
     # --- commanding ----------------------------------------------------------------------
 
@@ -264,27 +264,27 @@ class MachineDriver:
         self._transmit(SetBit(number) if on else ClearBit(number))
 
     def _request(self, mask: int, on: bool = True) -> None:
-        self.set_flag(flag_of(n.MF1_WORD + self.master, mask), on)
+        self.set_flag(flag_of(mf1.word[self.master], mask), on)
 
     def hold(self) -> None:
         """Request a feed hold."""
-        self._request(n.MF1_FEEDHOLD_REQUEST)
+        self._request(mf1.FEEDHOLD_REQUEST)
 
     def go_on(self) -> None:
         """Request a cycle start; a feed hold that is still pending is withdrawn."""
-        self._request(n.MF1_FEEDHOLD_REQUEST, False)
-        self._request(n.MF1_CYCLE_START_REQUEST)
+        self._request(mf1.FEEDHOLD_REQUEST, False)
+        self._request(mf1.CYCLE_START_REQUEST)
 
     def stop(self) -> None:
         """Request a feed hold, after which all moves are dropped."""
         self.is_dropping = True
-        self._request(n.MF1_STOP_ALL_MOVES_REQUEST)
+        self._request(mf1.STOP_ALL_MOVES_REQUEST)
 
     def bar(self) -> None:
         """Bar moves at rest by killing them; pending requests are withdrawn."""
-        self._request(n.MF1_KILL_ALL_MOVES_REQUEST)
-        self._request(n.MF1_STOP_ALL_MOVES_REQUEST, False)
-        self._request(n.MF1_FEEDHOLD_REQUEST, False)
+        self._request(mf1.KILL_ALL_MOVES_REQUEST)
+        self._request(mf1.STOP_ALL_MOVES_REQUEST, False)
+        self._request(mf1.FEEDHOLD_REQUEST, False)
 
     def clear_kill(self) -> None:
         """Clear the kill of the moves of the master.
@@ -293,10 +293,10 @@ class MachineDriver:
         would act on the next moves: both are withdrawn first. So is what bars their start.
         """
         self._transmit(self.barring(False))
-        self._request(n.MF1_STOP_ALL_MOVES_REQUEST, False)
-        self._request(n.MF1_FEEDHOLD_REQUEST, False)
+        self._request(mf1.STOP_ALL_MOVES_REQUEST, False)
+        self._request(mf1.FEEDHOLD_REQUEST, False)
         self.is_dropping, self._clear_by_s = True, self.now_s + CLEAR_S
-        self._request(n.MF1_KILL_ALL_MOVES_REQUEST, False)
+        self._request(mf1.KILL_ALL_MOVES_REQUEST, False)
 
     def kill(self) -> None:
         """Kill the motion of every axis in use."""
@@ -319,21 +319,21 @@ class MachineDriver:
         self.go_on()
 
     def _set_kills(self, on: bool) -> None:
-        self._set_of_axes(n.AF4_WORD, n.AF4_KILL_ALL_MOTION_REQUEST, on)
+        self._set_of_axes(af4.word, af4.KILL_ALL_MOTION_REQUEST, on)
 
     def clear_limits(self) -> None:
         """Clear the latches of limits; an axis that still moves into one sets it again."""
         for latch in LIMIT_LATCHES:
-            self._set_of_axes(n.AF5_WORD, latch, False)
+            self._set_of_axes(af5.word, latch, False)
 
-    def _set_of_axes(self, word: int, mask: int, on: bool) -> None:
+    def _set_of_axes(self, word: tuple[int, ...], mask: int, on: bool) -> None:
         """Set or clear one flag of every axis in use, all at once."""
-        flags = (flag_of(word + axis, mask) for axis in self.axes)
+        flags = (flag_of(word[axis], mask) for axis in self.axes)
         self._transmit(*(SetBit(flag) if on else ClearBit(flag) for flag in flags))
 
     def is_jogging(self) -> bool:
         """Whether an axis in use is jogged or ramps down after a kill."""
-        return any(word & n.AF1_JOG_ACTIVE for word in self.axis_flags(n.AF1_WORD))
+        return any(word & af1.JOG_ACTIVE for word in self.axis_flags(af1.word))
 
     def fold_jogs(self) -> None:
         """Convert the jog offsets of all axes into position; call at rest."""
@@ -346,7 +346,7 @@ class MachineDriver:
 
     def barring(self, on: bool) -> Packet:
         """The packet that keeps moves which wait from beginning, or lets them begin."""
-        flag = flag_of(n.MF1_WORD + self.master, n.MF1_START_MOVE_INHIBIT)
+        flag = flag_of(mf1.word[self.master], mf1.START_MOVE_INHIBIT)
         return SetBit(flag) if on else ClearBit(flag)
 
     def holding_at(self, move: int) -> Packet:

@@ -13,7 +13,7 @@ from openacr.client.errors import RefusedError
 from openacr.client.values import number_text
 from openacr.cnc.occupied import HOLD_AT, RAN_SHORT
 from openacr.errors import UserError
-from openacr.map import numbers as n
+from openacr.map.rows import masters
 from openacr.mill.card import soft_limits
 from openacr.mill.card.ballscrew import Table, install
 from openacr.mill.config.curves import PERIOD_S, RANK, can_plan
@@ -137,13 +137,13 @@ def lines(settings: Settings) -> Iterator[str]:
 
 def _curves(settings: Settings) -> Iterator[str]:
     """Prepare the master for NURBs in time: their order, the time of a knot, no ramp."""
-    base = n.MA_BASE + PARAMETERS_PER_MASTER * settings.master
+    master = settings.master
     yield f"NURB RANK {RANK}"
-    yield f"P{base + n.MA_NURB_TIME_FACTOR}={_number(PERIOD_S)}"
-    yield f"P{base + n.MA_NURB_START_TIME}=0"
+    yield f"P{masters.nurb_time_factor[master]}={_number(PERIOD_S)}"
+    yield f"P{masters.nurb_start_time[master]}=0"
     yield f"P{HOLD_AT}=0"
     yield f"CLR {RAN_SHORT}"
-    yield f"CLR {START_MOVE_INHIBIT + FLAGS_PER_MASTER * settings.master}"
+    yield f"CLR {START_MOVE_INHIBIT + FLAGS_PER_MASTER * master}"
 
 
 def _axis(axis: AxisSettings) -> Iterator[str]:

@@ -9,14 +9,14 @@ from collections.abc import Iterable, Iterator
 
 from openacr.client import Card
 from openacr.client.values import number_text
-from openacr.map import numbers as n
+from openacr.map.words import af5
 from openacr.mill.card.driver import CardState, flag_of
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.config.settings import Settings
 from openacr.mill.config.tabs import AxisSettings
 
 MARGIN_CNT = 1.0
-ENABLES = (n.AF5_POSITIVE_SOFTWARE_LIMIT_ENABLE, n.AF5_NEGATIVE_SOFTWARE_LIMIT_ENABLE)
+ENABLES = (af5.POSITIVE_SOFTWARE_LIMIT_ENABLE, af5.NEGATIVE_SOFTWARE_LIMIT_ENABLE)
 ENABLED = ENABLES[0] | ENABLES[1]
 
 
@@ -49,7 +49,7 @@ def disable(io: MachineIo, axis: int) -> None:
 
 def _switch(io: MachineIo, axis: int, on: bool) -> None:
     for mask in ENABLES:
-        io.machine.set_flag(flag_of(n.AF5_WORD + axis, mask), on)
+        io.machine.set_flag(flag_of(af5.word[axis], mask), on)
 
 
 def found(card: Card, settings: Settings) -> list[str]:

@@ -16,6 +16,7 @@ from openacr.cnc.occupied import HEARTBEAT, HOLD_AT, RAN_SHORT, TRIPPED
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.map.rows import masters
+from openacr.map.words import pf
 from openacr.mill.card.actions import DAC_STRIDE, DAC_VALUE
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.card.owner import BEAT_S
@@ -79,8 +80,8 @@ class Watchdog:
     @property
     def is_running(self) -> bool:
         """Whether the watchdog program runs."""
-        flags = int(self._card.read(n.PF_WORD + self.program))
-        return bool(flags & n.PF_PROGRAM_RUNNING)
+        flags = int(self._card.read(pf.word[self.program]))
+        return bool(flags & pf.PROGRAM_RUNNING)
 
     def _require_free_program(self) -> None:
         listed = self._card.command("LIST", program=self.program)

@@ -14,7 +14,8 @@ from math import copysign, inf
 from typing import TypeAlias
 
 from openacr.client.values import number_text
-from openacr.map import numbers as n
+from openacr.map.rows import axes as axis_rows
+from openacr.map.words import af1, af4
 from openacr.mill.card import alarms, homed
 from openacr.mill.card.actions import Steps, Until
 from openacr.mill.card.alarms import AlarmError
@@ -128,12 +129,12 @@ class Axis:
         away = 1.0 if row.is_negative else -1.0
         self._type(f"INTCAP {self._axis.name} {FIRST_MARKER}")
         self._jog(away * row.marker_ups)
-        captured = self._flag(n.AF1_WORD, n.AF1_CAPTURE_COMPLETE)
+        captured = self._flag(af1.word, af1.CAPTURE_COMPLETE)
         yield self._supervised("marker", lambda _sample: self._is_set(captured))
         self._jog(0.0)
         yield self._rest()
-        point = self._machine.read(self._parameter(n.AX_HARDWARE_CAPTURE))
-        actual = self._machine.read(self._parameter(n.AX_ACTUAL_POSITION))
+        point = self._machine.read(self._parameter(axis_rows.hardware_capture))
+        actual = self._machine.read(self._parameter(axis_rows.actual_position))
         back_u = (point - actual) / self._axis.pulses_per_unit
         self._type(f"JOG VEL {self._axis.name}{number_text(row.marker_ups)}")
         self._type(f"JOG INC {self._axis.name}{number_text(back_u)}")
@@ -147,7 +148,7 @@ class Axis:
 
     def _supervised(self, what: str, is_met: Condition) -> Until:
         """A wait for a condition, limited to the longest travel and to a moving axis."""
-        start = last = self._machine.read(self._parameter(n.AX_ACTUAL_POSITION))
+        start = last = self._machine.read(self._parameter(axis_rows.actual_position))
         longest = self._longest_u() * self._axis.pulses_per_unit
         moved_ms: int | None = None
 
@@ -155,7 +156,7 @@ class Axis:
             nonlocal last, moved_ms
             if is_met(sample):
                 return True
-            actual = self._machine.read(self._parameter(n.AX_ACTUAL_POSITION))
+            actual = self._machine.read(self._parameter(axis_rows.actual_position))
             if abs(actual - start) > abs(longest) or self._is_barred(sample):
                 raise AlarmError(alarms.HOMING_FAILED, f"{self._axis.name}: no {what}")
             if actual != last or moved_ms is None:
@@ -172,14 +173,14 @@ class Axis:
     def _is_barred(self, sample: CardState) -> bool:
         """Whether the card has stopped the axis, at a limit or by a kill."""
         word = sample.drives[self._machine.axes.index(self._axis.index)]
-        return bool(word & n.AF4_KILL_ALL_MOTION_REQUEST)
+        return bool(word & af4.KILL_ALL_MOTION_REQUEST)
 
     def _longest_u(self) -> float:
         limits = self._axis.soft_limits
         return TRAVEL_SHARE * (limits[0] - limits[1]) if limits else TRAVEL_U
 
     def _rest(self) -> Until:
-        active = self._flag(n.AF1_WORD, n.AF1_JOG_ACTIVE)
+        active = self._flag(af1.word, af1.JOG_ACTIVE)
         reason = f"homing {self._axis.name}: rest"
         return Until(reason, lambda _sample: not self._is_set(active))
 
@@ -204,11 +205,11 @@ class Axis:
     def _type(self, line: str) -> None:
         self._machine.type([line])
 
-    def _parameter(self, row: int) -> int:
-        return n.AX_BASE + self._axis.index * n.AX_STRIDE + row
+    def _parameter(self, row: tuple[int, ...]) -> int:
+        return row[self._axis.index]
 
-    def _flag(self, word: int, mask: int) -> int:
-        return flag_of(word + self._axis.index, mask)
+    def _flag(self, word: tuple[int, ...], mask: int) -> int:
+        return flag_of(word[self._axis.index], mask)
 
     def _is_set(self, flag: int) -> bool:
         return self._machine.card.read_bit(flag)

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from openacr.client.errors import RefusedError
 from openacr.client.values import number_text
 from openacr.errors import UserError
-from openacr.map import numbers as n
 from openacr.map.rows import axes
+from openacr.map.words import af1
 from openacr.messages import HARD_LIMIT
 from openacr.mill.card import alarms
 from openacr.mill.card.actions import Steps, Until
@@ -29,7 +29,7 @@ from openacr.mill.manual.profile import Profile
 from openacr.sysvar.tabs import JOG
 
 INCREMENTS = len(JOG.increments)
-JOG_ACTIVE = n.AF1_JOG_ACTIVE
+JOG_ACTIVE = af1.JOG_ACTIVE
 LEASH_S, RENEW_S = 0.5, 0.1
 
 
@@ -255,7 +255,7 @@ class Jogging:
         return pulses / row.pulses_per_unit
 
     def _is_moving(self) -> bool:
-        words = self._machine.card.read_many([n.AF1_WORD + axis for axis in self._moving])
+        words = self._machine.card.read_many([af1.word[axis] for axis in self._moving])
         return any(int(word) & JOG_ACTIVE for word in words)
 
     def _type(self, *lines: str) -> None:

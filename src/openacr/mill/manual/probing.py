@@ -10,7 +10,8 @@ they end with their motion, and a move that the card does not start is alarm 18.
 from collections.abc import Callable
 
 from openacr.cnc.canonical import Line, Pace, PathMode, Point, Probe
-from openacr.map import numbers as n
+from openacr.map.rows import axes as axis_rows
+from openacr.map.words import af1
 from openacr.mill.card import alarms
 from openacr.mill.card.actions import Steps, Until
 from openacr.mill.card.alarms import AlarmError
@@ -92,7 +93,7 @@ class Probing:
         return capture
 
     def _captures(self, capture: Capture) -> list[bool]:
-        flags = [flag_of(n.AF1_WORD + a.index, n.AF1_CAPTURE_COMPLETE) for a in capture.axes]
+        flags = [flag_of(af1.word[a.index], af1.CAPTURE_COMPLETE) for a in capture.axes]
         return self._machine.card.read_bits(flags)
 
     def _is_captured(self, capture: Capture) -> bool:
@@ -108,7 +109,11 @@ class Probing:
     def _captured(self, job: Job, capture: Capture) -> Point:
         """The positions at the trip; an axis without capture is interpolated along the line."""
         pulses = dict(
-            zip(self._machine.axes, self._machine.axis_values(n.AX_HARDWARE_CAPTURE), strict=True)
+            zip(
+                self._machine.axes,
+                self._machine.axis_values(axis_rows.hardware_capture),
+                strict=True,
+            )
         )
         travel_u = [end - begin for begin, end in zip(job.begin, job.finish, strict=True)]
         captured_u = {

@@ -2,17 +2,15 @@
 
 from collections.abc import Callable, Iterator
 
-from openacr.map import numbers as n
+from openacr.map.words import af1, af4, af5
 from openacr.mill.card import alarms
 from openacr.mill.card.alarms import Alarm, Kind
 from openacr.mill.card.driver import CardState
 from openacr.mill.card.kill_cause import Killed
 from openacr.mill.card.machine_io import MachineIo
 
-HARDWARE_LIMIT = (
-    n.AF5_POSITIVE_HARDWARE_LIMIT_ENCOUNTERED | n.AF5_NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED
-)
-SOFT_LIMIT = n.AF5_POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED | n.AF5_NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
+HARDWARE_LIMIT = af5.POSITIVE_HARDWARE_LIMIT_ENCOUNTERED | af5.NEGATIVE_HARDWARE_LIMIT_ENCOUNTERED
+SOFT_LIMIT = af5.POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED | af5.NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
 Cause = tuple[Kind, str]
 
 
@@ -59,9 +57,9 @@ class Watch:
 
     def _of_axes(self, sample: CardState) -> Iterator[Cause]:
         for name, drive, limit in zip(self._names, sample.drives, sample.limits, strict=True):
-            if drive & n.AF4_EXCESS_ERROR_FAULT:
+            if drive & af4.EXCESS_ERROR_FAULT:
                 yield alarms.EXCESS_ERROR, name
-            if drive & n.AF4_DRIVE_FAULT:
+            if drive & af4.DRIVE_FAULT:
                 yield alarms.DRIVE_FAULT, name
             if limit & HARDWARE_LIMIT:
                 yield alarms.HARDWARE_LIMIT, name
@@ -70,9 +68,9 @@ class Watch:
 
     def _in_error(self) -> Iterator[str]:
         """The axes outside their error band, read only when the master reports one."""
-        words = self._io.machine.axis_flags(n.AF1_WORD)
+        words = self._io.machine.axis_flags(af1.word)
         for axis, word in zip(self._io.settings.axes, words, strict=True):
-            if axis.excess_error_u > 0.0 and not word & n.AF1_NOT_EXCESS_ERROR:
+            if axis.excess_error_u > 0.0 and not word & af1.NOT_EXCESS_ERROR:
                 yield axis.name
 
     def is_gone(self, sample: CardState) -> Callable[[Alarm], bool]:

@@ -8,7 +8,7 @@ less than Under Burn Distance of the chain remains.
 from collections.abc import Iterator
 
 from openacr.cnc.canonical import Arc, Line
-from openacr.map import numbers as n
+from openacr.map.rows import masters
 from openacr.mill.card.driver import CardState
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.config.settings import NONE
@@ -25,8 +25,10 @@ class Burner:
         self._io = io
         self._stream = stream
         self._row = io.settings.burning
-        base = n.MA_BASE + io.settings.master * n.MA_STRIDE
-        self._rows = (base + n.MA_FRACTION_INTO_MOVE, base + n.MA_VECTOR_VELOCITY)
+        self._rows = (
+            masters.fraction_into_move[io.settings.master],
+            masters.vector_velocity[io.settings.master],
+        )
 
     def update(self, sample: CardState, *, is_cutting: bool) -> None:
         """Switch both outputs for the present motion; off unless a program cuts."""

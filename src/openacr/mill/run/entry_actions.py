@@ -10,7 +10,7 @@ from openacr.client.errors import RefusedError
 from openacr.cnc import canonical as c
 from openacr.cnc.state.hosts import Switched
 from openacr.errors import MapError
-from openacr.map.numbers import AX_ACTUAL_POSITION
+from openacr.map.rows import axes as axis_rows
 from openacr.mill.card import alarms
 from openacr.mill.card.actions import Coolant, Spindle, Steps, ToolChanger, Until, pause
 from openacr.mill.card.alarms import AlarmError
@@ -179,7 +179,9 @@ class EntryActions:
     def _missed(self, entry: c.Confirm) -> str:
         """The first axis off its reference point and its deviation, as text; empty if none."""
         machine = self._io.machine
-        counts = dict(zip(machine.axes, machine.axis_values(AX_ACTUAL_POSITION), strict=True))
+        counts = dict(
+            zip(machine.axes, machine.axis_values(axis_rows.actual_position), strict=True)
+        )
         for index in entry.axes:
             axis = self._io.settings.axis(index)
             off_u = abs(counts[index] / axis.pulses_per_unit - entry.point[index])

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 
 from openacr.cnc import canonical as c
 from openacr.errors import UserError
-from openacr.map.numbers import AX_CURRENT_POSITION, AX_JOG_OFFSET
+from openacr.map.rows import axes as axis_rows
 from openacr.mill.card import alarms
 from openacr.mill.card.actions import Steps, Until
 from openacr.mill.card.driver import CLEAR_S, CardState
@@ -175,7 +175,7 @@ class ProgramStream:
         jobs = self.tracker.jobs()
         if not jobs or jobs[-1] is self._excused:
             return ""
-        both = self._machine.axis_values(AX_CURRENT_POSITION, AX_JOG_OFFSET)
+        both = self._machine.axis_values(axis_rows.current_position, axis_rows.jog_offset)
         here, jogs = both[: len(both) // 2], both[len(both) // 2 :]
         for axis, at, jog, end in zip(
             self.settings.axes, here, jogs, jobs[-1].finish_cnt, strict=True

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from openacr.cnc.canonical import AXES, Point
 from openacr.cnc.state.hosts import Switched
-from openacr.map.numbers import AX_CURRENT_POSITION
+from openacr.map.rows import axes as axis_rows
 from openacr.mill.card.driver import MachineDriver
 from openacr.mill.config.settings import Settings
 
@@ -41,7 +41,7 @@ class RunHost:
 
     def position(self) -> Point:
         """The commanded machine position."""
-        counts = self._machine.axis_values(AX_CURRENT_POSITION)
+        counts = self._machine.axis_values(axis_rows.current_position)
         point = [0.0] * AXES
         for axis, count in zip(self._settings.axes, counts, strict=True):
             point[axis.index] = count / axis.pulses_per_unit

@@ -11,7 +11,7 @@ from functools import partial
 
 from openacr.cnc import canonical as c
 from openacr.errors import StoreError, UserError
-from openacr.map import numbers as n
+from openacr.map.words import pf
 from openacr.mill.card import alarms, soft_limits
 from openacr.mill.card.action_player import ActionPlayer
 from openacr.mill.card.actions import Steps
@@ -338,7 +338,7 @@ class Runner:
     def _require_free_program(self) -> None:
         """Require that the program of the master is not run by itself: its channel is needed."""
         number = self.machine.master
-        if int(self.machine.read(n.PF_WORD + number)) & n.PF_PROGRAM_RUNNING:
+        if int(self.machine.read(pf.word[number])) & pf.PROGRAM_RUNNING:
             raise UserError(
                 f"PROG{number} runs on the card, and the machine needs its axes: halt it first"
                 f" (HALT PROG{number})"

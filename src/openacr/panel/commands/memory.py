@@ -8,7 +8,7 @@ from msgspec import Meta
 
 from openacr.client import Card, Level
 from openacr.errors import UserError
-from openacr.map import numbers as n
+from openacr.map.words import pf, plf
 from openacr.panel.commands.registry import Args, NoArgs, command
 from openacr.panel.control.orders import Order
 from openacr.panel.control.presses import End
@@ -44,10 +44,10 @@ def _running(station: Station) -> list[str]:
     settings = session.runner.settings
     own = {f"PROG{settings.master}", f"PROG{settings.watchdog_program}"}
     model = settings.model
-    words = [n.PF_WORD + number for number in range(model.programs)]
-    words += [n.PLF_WORD + number for number in range(model.plcs)]
+    words = [pf.word[number] for number in range(model.programs)]
+    words += [plf.word[number] for number in range(model.plcs)]
     found = zip(_names(station), session.machine.read_rows(words), strict=True)
-    return [name for name, word in found if int(word) & n.PF_PROGRAM_RUNNING and name not in own]
+    return [name for name, word in found if int(word) & pf.PROGRAM_RUNNING and name not in own]
 
 
 def _divided(card: Card) -> dict[str, int]:

@@ -5,7 +5,6 @@ from typing import Annotated
 
 from msgspec import Meta
 
-from openacr.map import numbers as at
 from openacr.mill.card.setup import GAIN_WORDS
 from openacr.mill.config.settings import GAINS
 from openacr.panel.commands.registry import Args, command
@@ -66,8 +65,7 @@ def tune_gains(station: Station, order: Order, args: OfAxis) -> dict[str, float]
     """The gains of an axis as the card has them now, by their names on the SERVO page."""
     session = station.link
     axis = station.installation.axis(args.axis)
-    first = at.AX_BASE + axis * at.AX_STRIDE
-    values = session.machine.read_rows([first + row for row in tuned.GAINS.values()])
+    values = session.machine.read_rows([row[axis] for row in tuned.GAINS.values()])
     return {
         known(_cell(word, axis)).name: float(f"{value:.{FP32_DIGITS}g}")
         for word, value in zip(tuned.GAINS, values, strict=True)

@@ -2,12 +2,18 @@
 
 from dataclasses import dataclass
 
-from openacr.map import numbers as n
+from openacr.map.rows import axes as axis_rows
 from openacr.map.rows import masters
+from openacr.map.words import af1, mf1
 from openacr.mill.config.settings import S_PER_MIN, Settings
 from openacr.panel.control.rows import Rows
 
-ROWS = (n.AX_CURRENT_POSITION, n.AX_JOG_OFFSET, n.AX_ACTUAL_POSITION, n.AX_FOLLOWING_ERROR)
+ROWS = (
+    axis_rows.current_position,
+    axis_rows.jog_offset,
+    axis_rows.actual_position,
+    axis_rows.following_error,
+)
 Axes = tuple[float, ...]
 
 
@@ -28,9 +34,9 @@ class Place:
 def read_place(settings: Settings, read: Rows) -> Place:
     """Read where the machine is; a link error where the card does not answer."""
     axes, master = settings.axes, settings.master
-    rows = [n.AX_BASE + a.index * n.AX_STRIDE + row for row in ROWS for a in axes]
-    words = [n.AF1_WORD + axis.index for axis in axes]
-    more = [n.MF1_WORD + master, masters.vector_velocity[master]]
+    rows = [row[a.index] for row in ROWS for a in axes]
+    words = [af1.word[axis.index] for axis in axes]
+    more = [mf1.word[master], masters.vector_velocity[master]]
     values = read([*rows, *words, *more])
     count = len(axes)
     columns = [
@@ -40,14 +46,14 @@ def read_place(settings: Settings, read: Rows) -> Place:
     current, jogs, actual, following = columns
     flags = [int(word) for word in values[len(rows) : len(rows) + count]]
     word, speed_ups = int(values[-2]), values[-1]
-    jogged = sum(1 << place for place, flag in enumerate(flags) if flag & n.AF1_JOG_ACTIVE)
+    jogged = sum(1 << place for place, flag in enumerate(flags) if flag & af1.JOG_ACTIVE)
     return Place(
         commanded=tuple(a + b for a, b in zip(current, jogs, strict=True)),
         actual=actual,
         following=following,
         jogs=jogs,
         moving=jogged,
-        is_moving=bool(word & n.MF1_IN_MOTION) or bool(jogged),
+        is_moving=bool(word & mf1.IN_MOTION) or bool(jogged),
         speed_upm=speed_ups * S_PER_MIN,
         master=word,
     )

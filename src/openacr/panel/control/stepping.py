@@ -3,9 +3,8 @@
 from openacr.debugger.session import DebugSession
 from openacr.engine.watches import Watch, Watched
 from openacr.errors import UserError
-from openacr.map import numbers as n
 from openacr.map.rows import masters
-from openacr.motion.row_index import master_word
+from openacr.map.words import mf1
 from openacr.panel.control.history import History
 
 LONGEST_S = 10.0  # of card time that a step may take
@@ -39,7 +38,7 @@ def step_move(history: History, master: int) -> None:
     history.card.watch(
         [
             Watch(Watched.WORD, moves),
-            Watch(Watched.WORD, master_word(master), n.MF1_IN_MOTION),
+            Watch(Watched.WORD, mf1.word[master], mf1.IN_MOTION),
         ]
     )
     try:
