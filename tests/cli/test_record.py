@@ -11,11 +11,12 @@ from typing import Any
 
 import pytest
 from tests import warm
+from tests.io.sessions import event, written
 from typer.testing import CliRunner, Result
 
-from openacr.channels import StreamKind
 from openacr.cli.main import app
-from openacr.io.recording import Event, Recorder, What, read_recording
+from openacr.io.recording import read_recording
+from openacr.journal.entries import Entered
 
 ROOT = Path(__file__).parents[2]
 
@@ -100,11 +101,11 @@ def test_a_recording_that_is_not_whole_is_an_error(tmp_path: Path, most_bytes: i
         assert "the recording ends here: file too large; connections go on" in said
         recording = read_recording(file)
         assert recording.is_whole
-        assert f"{file}: {len(recording.events)} events" in said.splitlines()
+        assert f"{file}: {len(recording.entries)} events" in said.splitlines()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
-@pytest.mark.parametrize("most_bytes", [0, 100, 150])
+@pytest.mark.parametrize("most_bytes", [0, 100, 135])
 def test_an_older_recording_is_kept_where_the_disk_takes_no_new_one(
     tmp_path: Path, most_bytes: int
 ) -> None:
@@ -126,14 +127,14 @@ def test_an_older_recording_is_replaced_with_the_first_bytes_of_the_new_one(tmp_
         assert (left(tmp_path), old.read_text()) == (["old.jsonl", "session.jsonl"], OLD)
         with running("record", card, file, "--port", 0, "--force") as listening:
             ask(listening.split()[1])
-            assert len(read_recording(old).events) > 2  # while it is recorded
+            assert len(read_recording(old).entries) > 2  # while it is recorded
     assert file.is_symlink()
     assert left(tmp_path) == ["old.jsonl", "session.jsonl"]
     assert old.stat().st_mode & 0o777 == 0o600
     recording = read_recording(file)
     assert recording.is_whole
-    assert [event.what for event in recording.events[:2]] == [What.OPEN, What.HOST]
-    assert recording.events[-1].what is What.CLOSE
+    assert [event.what for event in recording.entries[:2]] == [Entered.OPEN, Entered.BYTES]
+    assert recording.entries[-1].what is Entered.CLOSE
 
 
 def received(fd: int, count: int) -> bytes:
@@ -182,7 +183,7 @@ def test_a_serial_line_goes_on_when_the_disk_is_full(tmp_path: Path, is_forced: 
     if is_forced:
         file.write_text(OLD)
         words.append("--force")
-    with warm.Popen(words, most_bytes=150, **SAID) as process:
+    with warm.Popen(words, most_bytes=125, **SAID) as process:
         assert process.stdout is not None
         assert process.stdout.readline().startswith("joined ")
         for _ in range(5):
@@ -201,18 +202,17 @@ def test_a_serial_line_goes_on_when_the_disk_is_full(tmp_path: Path, is_forced: 
     if is_forced:
         assert file.read_text() == OLD
     else:
-        assert [event.what for event in read_recording(file).events] == [What.OPEN]
+        assert [event.what for event in read_recording(file).entries] == [Entered.OPEN]
 
 
 @pytest.fixture
 def recording(tmp_path: Path) -> Path:
-    path = tmp_path / "s.jsonl"
-    with path.open("wb") as file:
-        recorder = Recorder(file, "c:5002", StreamKind.TERMINAL)
-        recorder.add(Event(0.0, 1, What.OPEN))
-        recorder.add(Event(0.25, 1, What.HOST, b"?P12375\r"))
-        recorder.add(Event(0.3, 1, What.CARD, b"?P12375\r\n800\r\nSYS>"))
-    return path
+    return written(
+        tmp_path / "s.jsonl",
+        event(0.0, 1, Entered.OPEN),
+        event(0.25, 1, Entered.BYTES, b"?P12375\r"),
+        event(0.3, 1, Entered.SENT, b"?P12375\r\n800\r\nSYS>"),
+    )
 
 
 def test_an_answer_that_differs_is_shown_with_its_request(recording: Path) -> None:

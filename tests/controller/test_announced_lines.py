@@ -6,11 +6,12 @@ import pytest
 from tests.controller.hosts import Host
 
 from openacr.controller import Controller
-from openacr.controller.journal import Entered, JournalEntry, read_journal
+from openacr.controller.journal import read_journal
 from openacr.controller.player import Player
 from openacr.controller.recorder import Recorder
 from openacr.controller.replay import Replay
 from openacr.errors import StoreError
+from openacr.journal.entries import Entered, JournalEntry
 
 
 def counting(*programs: int) -> Controller:

@@ -10,9 +10,10 @@ import pytest
 
 from openacr.controller import Controller, recorder
 from openacr.controller.journal import read_journal
-from openacr.controller.recorder import MOST_WORKED_OUT, Recorder
+from openacr.controller.recorder import Recorder
 from openacr.controller.replay import Replay
 from openacr.controller.ring import Ring, journals
+from openacr.journal.records import MOST_WORKED_OUT, WORKER
 from openacr.map.memory import digest_of
 
 
@@ -81,7 +82,7 @@ def test_a_ring_begins_no_new_file_while_the_thread_is_late(tmp_path: Path, slow
     card.advance(seconds=400.0)
     assert len(journals(tmp_path)) == 1
     slow.go.set()
-    wait(list(recorder._WORKER._open))
+    wait(list(WORKER._open))
     card.advance(seconds=2.0)
     card.close()
     assert len(journals(tmp_path)) == 2

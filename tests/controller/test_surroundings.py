@@ -7,8 +7,8 @@ from math import inf, nan
 import pytest
 
 from openacr.controller import Controller
-from openacr.controller.journal import JournalEntry, _entry, record_of
 from openacr.errors import CardError, UserError
+from openacr.journal.entries import JournalEntry, entry_of, record_of
 from openacr.map import numbers as at
 from openacr.map.rows import motors, plant
 from openacr.plant.load import parse_world
@@ -372,7 +372,7 @@ def test_forced_inputs_and_faults_are_in_the_journal_and_read_back_as_they_were(
         ["mend", 1, "encoder-noise"],
         ["mend", 1, ""],
     ]
-    assert [_entry(json.loads(line)) for line in lines] == made.journal
+    assert [entry_of(json.loads(line)) for line in lines] == made.journal
 
 
 # -- nonsense

@@ -9,111 +9,172 @@ from collections.abc import Awaitable, Callable
 from pathlib import Path
 
 import pytest
+from tests.io.sessions import HEAD, event, written
 
 from openacr.channels import StreamKind
 from openacr.controller import Controller
-from openacr.errors import SourceError
+from openacr.controller.journal import read_journal
+from openacr.errors import StoreError
 from openacr.io import proxy as module
 from openacr.io.proxy import Proxy
-from openacr.io.recording import Event, Recorder, What, is_recording, read_recording
+from openacr.io.recording import SessionRecorder, is_recording, read_recording
 from openacr.io.server import CardServer, Guests
 from openacr.io.session_replay import SessionReplay
+from openacr.journal.entries import Entered, JournalEntry
 
-HEAD = b'{"format": "openacr recording", "version": 1, "card": "c:5002", "kind": "terminal"}\n'
-
-
-def written(path: Path, *events: Event, kind: StreamKind = StreamKind.TERMINAL) -> Path:
-    with path.open("wb") as file:
-        recorder = Recorder(file, "c:5002", kind)
-        for event in events:
-            recorder.add(event)
-    return path
-
+OLD_HEAD = b'{"format": "openacr recording", "version": 1, "card": "c:5002", "kind": "terminal"}\n'
 
 SESSION = (
-    Event(0.0, 1, What.OPEN),
-    Event(0.01, 1, What.HOST, b"?1+1\r"),
-    Event(0.02, 1, What.CARD, b"?1+1\r\n2\r\nSYS>"),
-    Event(0.5, 1, What.HOST, bytes(range(256))),
-    Event(0.6, 1, What.CLOSE),
+    event(0.0, 1, Entered.OPEN),
+    event(0.01, 1, Entered.BYTES, b"?1+1\r"),
+    event(0.02, 1, Entered.SENT, b"?1+1\r\n2\r\nSYS>"),
+    event(0.5, 1, Entered.BYTES, bytes(range(256))),
+    event(0.6, 1, Entered.CLOSE),
 )
 
 
 def test_a_recording_is_read_as_it_was_written(tmp_path: Path) -> None:
-    path = written(tmp_path / "s.jsonl", *SESSION, kind=StreamKind.PACKETS)
+    path = tmp_path / "s.jsonl"
+    with path.open("wb", buffering=0) as file:
+        recorder = SessionRecorder(file, "c:5002", StreamKind.PACKETS)
+        recorder.note(1, Entered.OPEN)
+        recorder.note(1, Entered.BYTES, bytes(range(256)))
+        recorder.note(1, Entered.SENT, b"?1+1\r")
+        recorder.note(1, Entered.CLOSE)
     found = read_recording(path)
-    assert found.events == SESSION
-    assert (found.target, found.kind, found.is_whole) == ("c:5002", StreamKind.PACKETS, True)
+    assert [(each.what, each.number, each.data) for each in found.entries] == [
+        (Entered.OPEN, 1, b"packets"),
+        (Entered.BYTES, 1, bytes(range(256))),
+        (Entered.SENT, 1, b"?1+1\r"),
+        (Entered.CLOSE, 1, b""),
+    ]
+    assert (found.header.card, found.is_whole, recorder.events) == ("c:5002", True, 4)
     assert is_recording(path)
-    line = path.read_text().splitlines()[2]
-    assert json.loads(line) == {"t": 0.01, "c": 1, "what": "host", "data": "?1+1\r"}
+    tick, *rest = json.loads(path.read_bytes().splitlines()[4])
+    assert rest == ["sent", 1, "?1+1\r"]
+    assert 0 <= found.time_s(found.entries[2]) == tick / 1e6 < 60
+
+
+def test_a_recording_of_the_earlier_form_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "s.jsonl"
+    path.write_bytes(
+        OLD_HEAD.replace(b"terminal", b"serial")
+        + b'{"t": 0.0, "c": 1, "what": "open"}\n'
+        + b'{"t": 0.01, "c": 1, "what": "host", "data": "?1+1\\r"}\n'
+        + b'{"t": 0.123457, "c": 1, "what": "card", "data": "\\u00ff"}\n'
+        + b'{"t": 0.6, "c": 1, "what": "close"}\n{"t": 0.7'
+    )
+    found = read_recording(path)
+    assert found.entries == (
+        event(0.0, 1, Entered.OPEN, kind=StreamKind.SERIAL),
+        event(0.01, 1, Entered.BYTES, b"?1+1\r"),
+        event(0.123457, 1, Entered.SENT, b"\xff"),
+        event(0.6, 1, Entered.CLOSE),
+    )
+    assert (found.header.card, found.is_whole) == ("c:5002", False)
+    assert found.time_s(found.entries[2]) == 0.123457
+    assert is_recording(path)
+
+
+def test_a_recording_of_the_earlier_form_is_replayed(tmp_path: Path) -> None:
+    path = tmp_path / "s.jsonl"
+    path.write_bytes(
+        OLD_HEAD
+        + b'{"t": 0.0, "c": 1, "what": "open"}\n'
+        + b'{"t": 0.25, "c": 1, "what": "host", "data": "?1+1\\r"}\n'
+        + b'{"t": 0.4, "c": 1, "what": "card", "data": "?1+1\\r\\n3\\r\\nSYS>"}\n'
+    )
+    found = SessionReplay(Controller()).run(read_recording(path))
+    assert found is not None
+    assert (found.time_s, found.sent) == (0.25, b"?1+1\r")
+    assert (found.recorded, found.replayed) == (b"3\r\n", b"2\r\n")
 
 
 def test_a_last_line_that_is_cut_off_is_left_out(tmp_path: Path) -> None:
     path = written(tmp_path / "s.jsonl", *SESSION)
     path.write_bytes(path.read_bytes()[:-5])
     found = read_recording(path)
-    assert found.events == SESSION[:-1]
+    assert found.entries == SESSION[:-1]
     assert not found.is_whole
+
+
+OPENED = b'[0, "open", 1, "terminal", ""]\n'
 
 
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        (b"", "1: not a recording of a session"),
-        (b"{}\n", "1: not a recording of version 1"),
-        (HEAD.replace(b"1,", b"2,"), "1: not a recording of version 1"),
-        (HEAD + b"x\n", "2: not a line of a recording"),
-        (HEAD + b'{"t": 0}\n', "2: not an event of a recording"),
-        (HEAD + b'{"t": 0, "c": 1, "what": "left"}\n', "2: not an event of a recording"),
-        (HEAD + b'{"t": 0, "c": 1, "what": "host"}\n', "2: connection 1 is not open"),
-        (HEAD + 2 * b'{"t": 0, "c": 1, "what": "open"}\n', "3: connection 1 is opened twice"),
-        (HEAD + b'{"t": NaN, "c": 1, "what": "open"}\n', "2: the time is not that of a next"),
-        (HEAD + b'{"t": -1, "c": 1, "what": "open"}\n', "2: the time is not that of a next"),
-        (
-            HEAD + b'{"t": 2, "c": 1, "what": "open"}\n{"t": 1, "c": 1, "what": "close"}\n',
-            "3: the time is not that of a next",
-        ),
-        (HEAD + '{"t": 0, "c": 1, "what": "open", "data": "\u20ac"}\n'.encode(), "2: not an event"),
+        (b"", "is not a journal"),
+        (b"{}\n", "is not a journal"),
+        (HEAD.replace(b"journal 1", b"journal 2"), "is not a journal"),
+        (HEAD.split(b"\n")[0] + b"\n{}", "ends within its first record"),
+        (HEAD.replace(b"card", b"cart"), "its first record cannot be read"),
+        (HEAD + b"x\n", "line 3 is damaged"),
+        (HEAD + b"[0]\n", "line 3 is damaged"),
+        (HEAD + b'[0, "left", 1]\n', "line 3 is damaged"),
+        (HEAD + OPENED + b'[0, "parameter", 1, 2.0]\n', "line 4 is damaged"),
+        (HEAD + b'[0, "bytes", 1, "A"]\n', "line 3 is damaged: connection 1 is not open"),
+        (HEAD + 2 * OPENED, "line 4 is damaged: connection 1 is opened twice"),
+        (HEAD + OPENED.replace(b"0,", b"-1,"), "line 3 is damaged"),
+        (HEAD + OPENED.replace(b"0,", b"10000000000001,"), "line 3 is damaged: the time is not"),
+        (HEAD + OPENED.replace(b"0,", b"2,") + OPENED, "line 4 is damaged: the time is not"),
+        (HEAD + OPENED + '[0, "sent", 1, "\u20ac"]\n'.encode(), "line 4 is damaged"),
+        (OLD_HEAD.replace(b"1,", b"2,") + b"\n", "its first record cannot be read"),
+        (OLD_HEAD + b"x\n", "line 2 is damaged"),
+        (OLD_HEAD + b'{"t": 0}\n', "line 2 is damaged"),
+        (OLD_HEAD + b'{"t": 0, "c": 1, "what": "left"}\n', "line 2 is damaged"),
+        (OLD_HEAD + b'{"t": 0, "c": 1, "what": "host"}\n', "line 2 is damaged: connection 1"),
+        (OLD_HEAD + b'{"t": NaN, "c": 1, "what": "open"}\n', "line 2 is damaged"),
+        (OLD_HEAD + b'{"t": Infinity, "c": 1, "what": "open"}\n', "line 2 is damaged"),
+        (OLD_HEAD + b'{"t": -1, "c": 1, "what": "open"}\n', "line 2 is damaged"),
+        (OLD_HEAD + b'{"t": 0, "c": 1, "what": "open"}\n{"t": 1e9, "c": 1, "what": "close"}\n',
+         "line 3 is damaged: the time is not"),
     ],
-)
+)  # fmt: skip
 def test_what_is_wrong_in_a_recording_is_named_with_its_line(
     tmp_path: Path, text: bytes, said: str
 ) -> None:
     path = tmp_path / "s.jsonl"
     path.write_bytes(text)
-    with pytest.raises(SourceError) as refused:
+    with pytest.raises(StoreError) as refused:
         read_recording(path)
-    assert str(refused.value).startswith(f"{path}:{said}")
+    assert str(refused.value).replace(f"{path}: ", "").replace(f"{path} ", "").startswith(said)
+
+
+def test_a_recording_is_no_journal_of_a_virtual_card(tmp_path: Path) -> None:
+    with pytest.raises(StoreError, match="its first record cannot be read"):
+        read_journal(written(tmp_path / "s.jsonl", *SESSION))
 
 
 # --- replay -----------------------------------------------------------------------------
 
 
-def replayed(tmp_path: Path, *events: Event, card: Controller | None = None) -> SessionReplay:
+def replayed(
+    tmp_path: Path, *events: JournalEntry, card: Controller | None = None
+) -> SessionReplay:
     found = SessionReplay(card or Controller())
     found.run(read_recording(written(tmp_path / "s.jsonl", *events)))
     return found
 
 
-def session(answer: bytes, *more: Event) -> tuple[Event, ...]:
-    asked = Event(0.01, 1, What.HOST, b"?1+1\r")
-    return (Event(0.0, 1, What.OPEN), asked, Event(0.4, 1, What.CARD, answer), *more)
+def session(answer: bytes, *more: JournalEntry) -> tuple[JournalEntry, ...]:
+    asked = event(0.01, 1, Entered.BYTES, b"?1+1\r")
+    return (event(0.0, 1, Entered.OPEN), asked, event(0.4, 1, Entered.SENT, answer), *more)
 
 
 def test_the_same_answers_in_other_pieces_and_at_other_times_are_the_same(tmp_path: Path) -> None:
     pieces = [
-        Event(0.4 + 0.1 * n, 1, What.CARD, bytes([b])) for n, b in enumerate(b"\r\n2\r\nSYS>")
+        event(0.4 + 0.1 * n, 1, Entered.SENT, bytes([b])) for n, b in enumerate(b"\r\n2\r\nSYS>")
     ]
     assert replayed(tmp_path, *session(b"?1+1"), *pieces).found == []
 
 
 def test_the_first_answer_that_differs_is_reported_with_its_request(tmp_path: Path) -> None:
     more = (
-        Event(1.0, 1, What.HOST, b"?2+2\r"),
-        Event(1.1, 1, What.CARD, b"?2+2\r\n5\r\nSYS>"),
-        Event(2.0, 1, What.HOST, b"?3+3\r"),
-        Event(2.1, 1, What.CARD, b"?3+3\r\n7\r\nSYS>"),
+        event(1.0, 1, Entered.BYTES, b"?2+2\r"),
+        event(1.1, 1, Entered.SENT, b"?2+2\r\n5\r\nSYS>"),
+        event(2.0, 1, Entered.BYTES, b"?3+3\r"),
+        event(2.1, 1, Entered.SENT, b"?3+3\r\n7\r\nSYS>"),
     )
     (found,) = replayed(tmp_path, *session(b"?1+1\r\n2\r\nSYS>", *more)).found
     assert (found.time_s, found.connection, found.sent) == (1.0, 1, b"?2+2\r")
@@ -130,19 +191,19 @@ def test_an_answer_that_does_not_come_differs_and_one_too_many_at_the_end_does_n
 
 def test_connections_are_compared_each_by_itself(tmp_path: Path) -> None:
     other = (
-        Event(0.5, 2, What.OPEN),
-        Event(0.6, 2, What.HOST, b"SET 40\r"),
-        Event(0.7, 2, What.CARD, b"SET 40\r\nSYS>"),
-        Event(0.8, 1, What.HOST, b"?BIT40\r"),
-        Event(0.9, 2, What.CLOSE),
-        Event(0.9, 1, What.CARD, b"?BIT40\r\n-1\r\nSYS>"),
+        event(0.5, 2, Entered.OPEN),
+        event(0.6, 2, Entered.BYTES, b"SET 40\r"),
+        event(0.7, 2, Entered.SENT, b"SET 40\r\nSYS>"),
+        event(0.8, 1, Entered.BYTES, b"?BIT40\r"),
+        event(0.9, 2, Entered.CLOSE),
+        event(0.9, 1, Entered.SENT, b"?BIT40\r\n-1\r\nSYS>"),
     )
     assert replayed(tmp_path, *session(b"?1+1\r\n2\r\nSYS>", *other)).found == []
 
 
 def test_the_card_lives_as_long_as_the_recording(tmp_path: Path) -> None:
     card = Controller()
-    replayed(tmp_path, Event(0.0, 1, What.OPEN), Event(2.5, 1, What.CLOSE), card=card)
+    replayed(tmp_path, event(0.0, 1, Entered.OPEN), event(2.5, 1, Entered.CLOSE), card=card)
     assert card.tick == 5000
 
 
@@ -158,7 +219,7 @@ def through_a_proxy(talk: Talk, file: io.BytesIO, guests: Guests | None = None) 
         server, stop = CardServer(Controller()), asyncio.Event()
         card = await server.listen(StreamKind.TERMINAL, "127.0.0.1", 0)
         serving = asyncio.ensure_future(server.run(stop))
-        recorder = Recorder(file, str(card), StreamKind.TERMINAL)
+        recorder = SessionRecorder(file, str(card), StreamKind.TERMINAL)
         proxy = Proxy((card.host, card.port), recorder, guests or Guests())
         place = await proxy.listen("127.0.0.1", 0)
         try:
@@ -171,10 +232,10 @@ def through_a_proxy(talk: Talk, file: io.BytesIO, guests: Guests | None = None) 
     asyncio.run(run())
 
 
-def events_of(file: io.BytesIO, folder: Path) -> tuple[Event, ...]:
+def events_of(file: io.BytesIO, folder: Path) -> tuple[JournalEntry, ...]:
     path = folder / "s.jsonl"
     path.write_bytes(file.getvalue())
-    return read_recording(path).events
+    return read_recording(path).entries
 
 
 async def asked(address: tuple[str, int], line: bytes) -> bytes:
@@ -194,13 +255,12 @@ def test_the_proxy_passes_everything_on_and_the_recording_replays(tmp_path: Path
         assert await asked(address, b"?BIT40") == b"?BIT40\r\n0\r\nSYS>"
         while file.getvalue().count(b'"close"') < 2:
             await asyncio.sleep(0.01)
-        assert proxy.events == file.getvalue().count(b"\n") - 1
 
     through_a_proxy(talk, file)
     events = events_of(file, tmp_path)
-    hosts = [(event.connection, event.data) for event in events if event.what is What.HOST]
+    hosts = [(each.number, each.data) for each in events if each.what is Entered.BYTES]
     assert hosts == [(1, b"?6*7\r"), (2, b"?BIT40\r")]
-    cards = b"".join(event.data for event in events if event.what is What.CARD)
+    cards = b"".join(each.data for each in events if each.what is Entered.SENT)
     assert cards == b"?6*7\r\n42\r\nSYS>?BIT40\r\n0\r\nSYS>"
     assert replayed(tmp_path, *events).found == []
 
@@ -227,7 +287,7 @@ def test_a_card_that_ends_ends_the_connection_of_the_host() -> None:
             writer.close()
 
         card = await asyncio.start_server(greet, "127.0.0.1", 0)
-        recorder = Recorder(io.BytesIO(), "c", StreamKind.TERMINAL)
+        recorder = SessionRecorder(io.BytesIO(), "c", StreamKind.TERMINAL)
         proxy = Proxy(card.sockets[0].getsockname(), recorder, Guests())
         place = await proxy.listen("127.0.0.1", 0)
         reader, writer = await asyncio.open_connection(place.host, place.port)
@@ -254,7 +314,7 @@ def test_a_web_page_does_not_reach_the_card(
     with caplog.at_level(logging.WARNING):
         through_a_proxy(talk, file)
     assert "it speaks HTTP or TLS" in caplog.text
-    assert [event.what for event in events_of(file, tmp_path)] == [What.OPEN, What.CLOSE]
+    assert [each.what for each in events_of(file, tmp_path)] == [Entered.OPEN, Entered.CLOSE]
 
 
 def test_a_host_of_another_network_is_refused(caplog: pytest.LogCaptureFixture) -> None:
@@ -277,7 +337,7 @@ def test_a_full_disk_ends_the_recording_and_not_the_connection(
 ) -> None:
     class Full(io.BytesIO):
         def write(self, data: bytes, /) -> int:  # type: ignore[override]
-            if b'"host"' in data:
+            if b'"bytes"' in data:
                 raise OSError(28, "No space left on device")
             return super().write(data)
 
@@ -288,7 +348,7 @@ def test_a_full_disk_ends_the_recording_and_not_the_connection(
 
     through_a_proxy(talk, file)
     assert "the recording ends here: no space left on device; connections go on" in caplog.text
-    assert b'"card"' not in file.getvalue().split(b"\n", 1)[1]
+    assert b'"sent"' not in file.getvalue()
 
 
 def test_a_recording_on_a_disk_that_gets_full_ends_with_a_whole_event(tmp_path: Path) -> None:
@@ -301,15 +361,15 @@ def test_a_recording_on_a_disk_that_gets_full_ends_with_a_whole_event(tmp_path: 
 
     path = tmp_path / "a"
     with Small(path, "wb") as file:
-        recorder = Recorder(file, "c:5002", StreamKind.TERMINAL)
-        recorder.add(SESSION[0])
+        recorder = SessionRecorder(file, "c:5002", StreamKind.TERMINAL)
+        recorder.note(1, Entered.OPEN)
         assert recorder.failure is None
-        with pytest.raises(OSError, match="No space left"):
-            for event in SESSION[1:]:
-                recorder.add(event)
-        assert recorder.failure is not None
+        for answer in (b"?1+1\r", bytes(range(256)), b"no more"):
+            recorder.note(1, Entered.SENT, answer)
+        assert isinstance(recorder.failure, OSError)
+        assert recorder.events == 2
     read = read_recording(path)
-    assert (read.is_whole, read.events) == (True, SESSION[:2])
+    assert (read.is_whole, [each.data for each in read.entries]) == (True, [b"terminal", b"?1+1\r"])
 
 
 def test_a_card_that_cannot_be_reached_refuses_the_host(
@@ -319,7 +379,7 @@ def test_a_card_that_cannot_be_reached_refuses_the_host(
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             gone = free.getsockname()
-        recorder = Recorder(io.BytesIO(), "c", StreamKind.TERMINAL)
+        recorder = SessionRecorder(io.BytesIO(), "c", StreamKind.TERMINAL)
         proxy = Proxy(gone, recorder, Guests())
         place = await proxy.listen("127.0.0.1", 0)
         reader, writer = await asyncio.open_connection(place.host, place.port)
@@ -327,7 +387,7 @@ def test_a_card_that_cannot_be_reached_refuses_the_host(
             await reader.readexactly(1)
         writer.close()
         await proxy.close()
-        assert proxy.events == 0
+        assert recorder.events == 0
 
     asyncio.run(run())
     assert "cannot connect to 127.0.0.1:" in caplog.text

@@ -11,14 +11,16 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
+from tests.io.sessions import event, written
 
 from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.io.recording import Event, Recorder, What, read_recording
+from openacr.io.recording import SessionRecorder, read_recording
 from openacr.io.serial_port import LineSettings
 from openacr.io.serial_tap import SerialTap
 from openacr.io.session_replay import SessionReplay
+from openacr.journal.entries import Entered
 
 if sys.platform == "win32":
     pytest.skip("pseudo terminals are a POSIX thing", allow_module_level=True)
@@ -49,14 +51,14 @@ def received(fd: int, count: int) -> bytes:
     return data
 
 
-def recorded(path: Path) -> list[tuple[What, bytes]]:
+def recorded(path: Path) -> list[tuple[Entered, bytes]]:
     """What happened, with bytes of one end that follow each other joined."""
-    found: list[tuple[What, bytes]] = []
-    for event in read_recording(path).events:
-        if found and found[-1][0] is event.what:
-            found[-1] = event.what, found[-1][1] + event.data
+    found: list[tuple[Entered, bytes]] = []
+    for entry in read_recording(path).entries:
+        if found and found[-1][0] is entry.what:
+            found[-1] = entry.what, found[-1][1] + entry.data
         else:
-            found.append((event.what, event.data))
+            found.append((entry.what, entry.data))
     return found
 
 
@@ -65,7 +67,8 @@ def test_all_bytes_pass_in_both_directions_and_are_recorded(tmp_path: Path) -> N
     with line() as (host, host_port), line() as (card, card_port):
         tap = SerialTap(host_port, card_port, LineSettings())
         with (tmp_path / "s").open("wb", buffering=0) as file:
-            tap.start(Recorder(file, card_port, StreamKind.SERIAL))
+            recorder = SessionRecorder(file, card_port, StreamKind.SERIAL)
+            tap.start(recorder)
             os.write(host, every)
             assert received(card, 256) == every
             os.write(card, every[::-1])
@@ -73,18 +76,21 @@ def test_all_bytes_pass_in_both_directions_and_are_recorded(tmp_path: Path) -> N
             tap.close()
             tap.close()
     assert recorded(tmp_path / "s") == [
-        (What.OPEN, b""), (What.HOST, every), (What.CARD, every[::-1]), (What.CLOSE, b""),
-    ]  # fmt: skip
+        (Entered.OPEN, b"serial"),
+        (Entered.BYTES, every),
+        (Entered.SENT, every[::-1]),
+        (Entered.CLOSE, b""),
+    ]
     found = read_recording(tmp_path / "s")
-    assert (found.kind, found.target) == (StreamKind.SERIAL, card_port)
-    assert tap.events == len(found.events)
-    assert {event.connection for event in found.events} == {1}
+    assert (found.entries[0].data, found.header.card) == (b"serial", card_port)
+    assert recorder.events == len(found.entries)
+    assert {entry.number for entry in found.entries} == {1}
 
 
 def test_an_end_that_takes_nothing_does_not_keep_the_tap_from_ending() -> None:
     with line() as (host, host_port), line() as (_, card_port):
         tap = SerialTap(host_port, card_port, LineSettings())
-        tap.start(Recorder(io.BytesIO(), card_port, StreamKind.SERIAL))
+        tap.start(SessionRecorder(io.BytesIO(), card_port, StreamKind.SERIAL))
         os.set_blocking(host, False)
         with suppress(BlockingIOError):
             for _ in range(1000):
@@ -98,7 +104,7 @@ def test_an_end_that_takes_nothing_does_not_keep_the_tap_from_ending() -> None:
 def test_a_port_that_disappears_ends_the_wait() -> None:
     with line() as (host, host_port), line() as (_, card_port):
         tap = SerialTap(host_port, card_port, LineSettings())
-        tap.start(Recorder(io.BytesIO(), card_port, StreamKind.SERIAL))
+        tap.start(SessionRecorder(io.BytesIO(), card_port, StreamKind.SERIAL))
         threading.Timer(0.1, os.close, [host]).start()
         tap.wait()
         tap.close()
@@ -114,13 +120,14 @@ def test_a_recording_that_cannot_be_written_ends_and_the_line_goes_on() -> None:
 
     with line() as (host, host_port), line() as (card, card_port):
         tap = SerialTap(host_port, card_port, LineSettings())
-        tap.start(Recorder(Full(), card_port, StreamKind.SERIAL))
+        recorder = SessionRecorder(Full(), card_port, StreamKind.SERIAL)
+        tap.start(recorder)
         os.write(host, b"A\r")
         assert received(card, 2) == b"A\r"
         os.write(card, b"B\r")
         assert received(host, 2) == b"B\r"
         tap.close()
-        assert tap.events == 1
+        assert recorder.events == 1
 
 
 def test_the_second_port_that_cannot_be_opened_leaves_the_first_one_free() -> None:
@@ -137,10 +144,11 @@ def test_flow_control_of_a_serial_card_is_no_difference(tmp_path: Path) -> None:
     card.advance(seconds=0.1)
     answer = b"".join(iter(lambda: card.take_output(stream), b""))
     for kind, is_same in ((StreamKind.SERIAL, True), (StreamKind.TERMINAL, False)):
-        with (tmp_path / kind.value).open("wb") as file:
-            recorder = Recorder(file, "COM1", kind)
-            recorder.add(Event(0.0, 1, What.OPEN))
-            recorder.add(Event(0.25, 1, What.HOST, b"?6*7\r"))
-            recorder.add(Event(0.3, 1, What.CARD, answer[:4] + b"\x13\x11" + answer[4:]))
-        difference = SessionReplay(Controller()).run(read_recording(tmp_path / kind.value))
+        path = written(
+            tmp_path / kind.value,
+            event(0.0, 1, Entered.OPEN, kind=kind),
+            event(0.25, 1, Entered.BYTES, b"?6*7\r"),
+            event(0.3, 1, Entered.SENT, answer[:4] + b"\x13\x11" + answer[4:]),
+        )
+        difference = SessionReplay(Controller()).run(read_recording(path))
         assert (difference is None) is is_same

@@ -17,7 +17,7 @@ from openacr.errors import UserError, unwritable
 if TYPE_CHECKING:
     from openacr.client.links import SerialLink, TcpLink
     from openacr.io.proxy import Proxy
-    from openacr.io.recording import Recorder
+    from openacr.io.recording import SessionRecorder
     from openacr.io.server import Guests
 
 
@@ -25,11 +25,11 @@ log = logging.getLogger(__name__)
 
 
 class Session(NamedTuple):
-    """A card whose hosts are recorded until `record` is ended; it returns how many events."""
+    """A card whose hosts are recorded until `record` is ended."""
 
     card: str
     kind: StreamKind
-    record: "Callable[[Recorder], int]"
+    record: "Callable[[SessionRecorder], None]"
 
 
 def record(
@@ -78,7 +78,7 @@ def record(
 
 def _record(file: Path, session: Session) -> None:
     """Record a session; a file that is there is kept until the session has its first bytes."""
-    from openacr.io.recording import Recorder
+    from openacr.io.recording import SessionRecorder
     from openacr.store.private import Replacement
 
     try:
@@ -87,14 +87,14 @@ def _record(file: Path, session: Session) -> None:
         raise unwritable(file, failure) from None
     with closing(new):
         try:
-            recorder = Recorder(new, session.card, session.kind, new.take_place)
+            recorder = SessionRecorder(new, session.card, session.kind, new.take_place)
             if not file.exists():
                 new.take_place()
         except OSError as failure:
             raise unwritable(file, failure) from None
-        events = session.record(recorder)
+        session.record(recorder)
         if new.is_in_place:
-            typer.echo(f"{file}: {events} events", err=True)
+            typer.echo(f"{file}: {recorder.events} events", err=True)
     if recorder.failure is not None:
         raise unwritable(file, recorder.failure)
     if not new.is_in_place:
@@ -106,10 +106,9 @@ def _network(link: "TcpLink", guests: "Guests", address: str, port: int) -> Iter
     """A card that hosts reach through this computer; refused before a file is made."""
     from openacr.io.proxy import Proxy
 
-    def record(recorder: "Recorder") -> int:
+    def record(recorder: "SessionRecorder") -> None:
         proxy = Proxy(link.address, recorder, guests)
         asyncio.run(_serve(proxy, link.name, address, port))
-        return proxy.events
 
     kind = StreamKind.PACKETS if link.address[1] == BINARY_PORT else StreamKind.TERMINAL
     _require_card(link)
@@ -122,7 +121,7 @@ def _line(link: "SerialLink", host_port: str) -> Iterator[Session]:
     from openacr.io.serial_port import LineSettings
     from openacr.io.serial_tap import SerialTap
 
-    def record(recorder: "Recorder") -> int:
+    def record(recorder: "SessionRecorder") -> None:
         with suppress(KeyboardInterrupt), terminations_as_interrupts():
             tap.start(recorder)
             print(f"joined {host_port} card={link.name}", flush=True)
@@ -130,7 +129,6 @@ def _line(link: "SerialLink", host_port: str) -> Iterator[Session]:
         tap.close()
         if tap.has_failed:
             raise UserError(f"the line between {host_port} and {link.name} has failed")
-        return tap.events
 
     tap = SerialTap(host_port, link.name, LineSettings(baud=link.baud))
     try:

@@ -16,7 +16,6 @@ from openacr.channels import StreamKind
 from openacr.controller import snapshot as snapshots
 from openacr.controller.engine_run import AskLine, EngineRun
 from openacr.controller.inputs import JournalFile
-from openacr.controller.journal import Entered, JournalEntry
 from openacr.controller.loading import PATIENCE_S, EmptyStart, Loader, LoadError, Origins
 from openacr.controller.pages import card_page
 from openacr.controller.parts import CardParts
@@ -27,6 +26,7 @@ from openacr.controller.views import AxisStatistics, AxisView
 from openacr.engine.samples import Sample
 from openacr.engine.watches import Watch, give_orders, state_image, take_orders
 from openacr.errors import CardError, SourceError, StoreError, UserError
+from openacr.journal.entries import Entered, JournalEntry
 from openacr.lang.characters import as_typed
 from openacr.map.memory import digest_of
 from openacr.map.rows import fast_status as fast_status_rows

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
-from openacr.controller.journal import Entered, JournalEntry
+from openacr.journal.entries import Entered, JournalEntry
 
 
 class JournalFile(Protocol):

@@ -17,13 +17,13 @@ from openacr.basic.language.plc_names import PlcNames
 from openacr.basic.language.scope import Scope, join_names
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.controller.inputs import InputLog
-from openacr.controller.journal import Entered
 from openacr.controller.packets import PacketHost
 from openacr.controller.persistence import Persistence
 from openacr.controller.streams import Streams
 from openacr.controller.views import Bits, Parameters
 from openacr.engine.watches import give_orders, take_orders
 from openacr.errors import CardError, UserError
+from openacr.journal.entries import Entered
 from openacr.lang.lexer import Token
 from openacr.map.numbers import (
     P_CARD_SERIAL_NUMBER,

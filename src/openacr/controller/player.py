@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from openacr.channels import StreamKind
 from openacr.controller.controller import Controller
-from openacr.controller.journal import Entered, JournalEntry
 from openacr.errors import CardError, NoFreeStreamError, StoreError, UserError
+from openacr.journal.entries import Entered, JournalEntry
 from openacr.protocol.events import ControlKey
 
 _ALL_PROGRAMS = 0xFFFF

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from openacr.controller.controller import Controller
-from openacr.controller.journal import Journal, JournalEntry
+from openacr.controller.journal import Journal
 from openacr.controller.player import Player
 from openacr.errors import StoreError
+from openacr.journal.entries import JournalEntry
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,9 +6,9 @@ import logging
 from contextlib import suppress
 from pathlib import Path
 
-from openacr.controller.journal import JournalEntry
 from openacr.controller.recorder import RecordedCard, Recorder
 from openacr.errors import StoreError
+from openacr.journal.entries import JournalEntry
 from openacr.store.lock import FolderLock, InUseError
 
 log = logging.getLogger(__name__)

@@ -6,8 +6,8 @@ Every action is recorded in the journal with its tick.
 import math
 from typing import Protocol
 
-from openacr.controller.journal import Entered
 from openacr.errors import UserError
+from openacr.journal.entries import Entered
 from openacr.map.rows import axes, encoders, stepper_motors
 from openacr.motion.axis.attach import Feedback
 from openacr.motion.card import Card

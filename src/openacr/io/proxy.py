@@ -9,15 +9,15 @@ other one back. If the recording cannot be written any more, it ends, and the ma
 import asyncio
 import logging
 import socket
-import time
 from collections.abc import Callable
 from typing import TypeAlias
 
 from openacr.errors import reason
 from openacr.io.listening import bound_socket
 from openacr.io.peers import READ_BYTES, UNKNOWN_HOST, set_options
-from openacr.io.recording import Event, Recorder, What
+from openacr.io.recording import SessionRecorder
 from openacr.io.server import Address, Guests
+from openacr.journal.entries import Entered
 from openacr.protocol.web import Opening
 
 log = logging.getLogger(__name__)
@@ -32,15 +32,13 @@ End: TypeAlias = tuple[asyncio.StreamReader, asyncio.StreamWriter]
 class Proxy:
     """Listens for hosts, connects each to the card, and records both directions."""
 
-    def __init__(self, card: tuple[str, int], recorder: Recorder, guests: Guests) -> None:
+    def __init__(self, card: tuple[str, int], recorder: SessionRecorder, guests: Guests) -> None:
         self._address = card
-        self._recorder: Recorder | None = recorder
+        self._recorder = recorder
         self._guests = guests
-        self._begin_s = time.monotonic()
         self._count = 0
         self._open: dict[int, asyncio.Task[None]] = {}
         self._listener: asyncio.Server | None = None
-        self.events = 0
 
     async def listen(self, host: str, port: int) -> Address:
         """Open the port for hosts (0: any free one); UserError if impossible."""
@@ -87,19 +85,23 @@ class Proxy:
         for end in (host, card):
             set_options(end.get_extra_info("socket"))
             end.transport.set_write_buffer_limits(high=0)  # what one end does not read waits
-        self._record(number, What.OPEN)
+        self._recorder.note(number, Entered.OPEN)
         try:
             await self._exchange(number, (requests, host), (answers, card))
         finally:
-            self._record(number, What.CLOSE)
+            self._recorder.note(number, Entered.CLOSE)
             card.transport.abort()
 
     async def _exchange(self, number: int, host: End, card: End) -> None:
         """Pass bytes in both directions until either end closes or is lost."""
         opening = Opening()
         both = [
-            asyncio.ensure_future(self._pass(number, What.HOST, host[0], card[1], opening.is_web)),
-            asyncio.ensure_future(self._pass(number, What.CARD, card[0], host[1], _is_never_web)),
+            asyncio.ensure_future(
+                self._pass(number, Entered.BYTES, host[0], card[1], opening.is_web)
+            ),
+            asyncio.ensure_future(
+                self._pass(number, Entered.SENT, card[0], host[1], _is_never_web)
+            ),
         ]
         try:
             await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
@@ -111,7 +113,7 @@ class Proxy:
     async def _pass(
         self,
         number: int,
-        what: What,
+        what: Entered,
         source: asyncio.StreamReader,
         target: asyncio.StreamWriter,
         is_web: Callable[[bytes], bool],
@@ -122,7 +124,7 @@ class Proxy:
                 if is_web(data):
                     log.warning("a host refused: it speaks HTTP or TLS, as a web page does")
                     return
-                self._record(number, what, data)
+                self._recorder.note(number, what, data)
                 target.write(data)
                 await target.drain()
             target.close()
@@ -130,16 +132,6 @@ class Proxy:
                 await target.wait_closed()
         except OSError as failure:  # a time-out, too
             log.info("connection %d: %s", number, reason(failure))
-
-    def _record(self, connection: int, what: What, data: bytes = b"") -> None:
-        if self._recorder is None:
-            return
-        try:
-            self._recorder.add(Event(time.monotonic() - self._begin_s, connection, what, data))
-            self.events += 1
-        except OSError as failure:
-            self._recorder = None
-            log.error("the recording ends here: %s; connections go on", reason(failure).lower())
 
 
 def _is_never_web(_: bytes) -> bool:

@@ -1,174 +1,189 @@
-"""Recordings of what hosts and a card send each other: a file of JSON, one event a line.
+"""Recorded sessions: what hosts and a card send each other, as a journal with both voices.
 
-The first line is the header; each other line has the time since the beginning [s], the number of
-the connection, and what happened: bytes of the host, bytes of the card, a connection opened or
-closed. Bytes are characters 0 to 255 of the same code, so that lines of a terminal can be read.
+The ticks of the journal are microseconds from the beginning; its first record names the card:
+
+    {"card": "192.168.10.40:5002", "program": ..., "ticks_per_s": 1000000}
+
+Entries are those of connections: `open`, `bytes` of the host, `sent` by the card, `close`. Files of
+the earlier form are read, too: JSON objects with times in seconds.
 """
 
 import json
+import logging
+import threading
+import time
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
 from dataclasses import dataclass
-from enum import StrEnum
+from importlib.metadata import version
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Annotated, Any, Literal
+
+import msgspec
+from msgspec import Meta
 
 from openacr.channels import StreamKind
-from openacr.errors import SourceError, read_bytes
+from openacr.errors import reason
+from openacr.journal.entries import (
+    MAGIC,
+    Entered,
+    JournalEntry,
+    damaged,
+    read_content,
+    read_entries,
+    read_head,
+    record_of,
+    split_lines,
+)
+from openacr.journal.records import Output, Records
 
-FORMAT = "openacr recording"
-VERSION = 1
-KINDS = {kind.value: kind for kind in StreamKind}
-LONGEST_S = 1e7
+log = logging.getLogger(__name__)
+
+TICKS_PER_S = 1_000_000
+LONGEST_S = 10_000_000
+_KNOWN = {Entered.OPEN, Entered.BYTES, Entered.SENT, Entered.CLOSE}
 
 
-class What(StrEnum):
-    """The kinds of events."""
+class SessionHeader(msgspec.Struct, frozen=True):
+    """The first record: which card it was, and the unit of time."""
 
-    OPEN = "open"
-    HOST = "host"
-    CARD = "card"
-    CLOSE = "close"
-
-
-@dataclass(frozen=True, slots=True)
-class Event:
-    """Something that happened on one connection."""
-
-    time_s: float
-    connection: int
-    what: What
-    data: bytes = b""
+    card: str
+    program: str
+    ticks_per_s: Annotated[int, Meta(ge=1, le=1_000_000_000)]
 
 
 @dataclass(frozen=True, slots=True)
 class Recording:
-    """A recording that was read; `is_whole` is false where its last line is cut off."""
+    """A recorded session that was read; `is_whole` is false where its last line is cut off."""
 
-    target: str
-    kind: StreamKind
-    events: tuple[Event, ...]
+    header: SessionHeader
+    entries: tuple[JournalEntry, ...]
     is_whole: bool = True
 
-
-class Output(Protocol):
-    """What a recording is written to: a file without a buffer."""
-
-    def write(self, data: bytes, /) -> int:
-        """Write; how many bytes were taken."""
-
-    def truncate(self, size: int, /) -> int:
-        """Leave out what comes after this size."""
+    def time_s(self, entry: JournalEntry) -> float:
+        """When an entry happened, from the beginning of the session [s]."""
+        return entry.tick / self.header.ticks_per_s
 
 
-class Recorder:
-    """Writes events as they happen; each is in the file, whole, before the next one.
+class SessionRecorder:
+    """Writes what happens on connections; each event is in the file, whole, before the next one.
 
-    `failure` is why the file could not be written any more. It ends with the last whole event.
-    `when_begun` is called once, after the first bytes of a host or the card are in the file.
+    Any thread may note events. If the file cannot be written any more, it ends with the last
+    whole event (`failure` is why), and the session continues. `when_begun` is called once, after
+    the first bytes of a host or the card are in the file.
     """
 
     def __init__(
         self,
         file: Output,
-        target: str,
+        card: str,
         kind: StreamKind,
         when_begun: Callable[[], None] | None = None,
     ) -> None:
+        """Begin the file of a session of connections of a kind; OSError if that is impossible."""
         self.failure: OSError | None = None
-        self._file = file
+        self.events = 0
+        self._kind = kind
         self._when_begun = when_begun
-        self._size_bytes = 0
-        self._put({"format": FORMAT, "version": VERSION, "card": target, "kind": kind.value})
+        self._lock = threading.Lock()
+        self._begin_s = time.monotonic()
+        header = SessionHeader(card, version("openacr"), TICKS_PER_S)
+        self._records = Records(file, self._end, msgspec.json.encode(header) + b"\n")
 
-    def add(self, event: Event) -> None:
-        """Write one event; OSError where the file cannot be written."""
-        record: dict[str, object] = {
-            "t": round(event.time_s, 6),
-            "c": event.connection,
-            "what": event.what.value,
-        }
-        if event.data:
-            record["data"] = event.data.decode("latin-1")
-        self._put(record)
-        if event.data and self._when_begun is not None:
+    def note(self, connection: int, what: Entered, data: bytes = b"") -> None:
+        """Record what happens now on a connection: `open`, `bytes`, `sent` or `close`."""
+        text = self._kind.value if what is Entered.OPEN else data.decode("latin-1")
+        with self._lock:
+            if self.failure is None:
+                tick = round((time.monotonic() - self._begin_s) * TICKS_PER_S)
+                self._put(JournalEntry(tick, what, connection, text), is_talk=bool(data))
+
+    def _put(self, entry: JournalEntry, *, is_talk: bool) -> None:
+        self._records.put(record_of(entry))
+        self._records.flush()
+        if self.failure is not None:
+            return
+        self.events += 1
+        if is_talk and self._when_begun is not None:
             begun, self._when_begun = self._when_begun, None
             try:
                 begun()
             except OSError as failure:
-                self.failure = failure
-                raise
+                self._end(failure)
 
-    def _put(self, record: dict[str, object]) -> None:
-        line = rest = json.dumps(record).encode() + b"\n"
-        try:
-            while rest:  # a disk that gets full takes a part
-                rest = rest[self._file.write(rest) :]
-        except OSError as failure:
-            self.failure = failure
-            with suppress(OSError):
-                self._file.truncate(self._size_bytes)
-            raise
-        self._size_bytes += len(line)
+    def _end(self, failure: OSError) -> None:
+        self.failure = failure
+        rest = "the line goes on" if self._kind is StreamKind.SERIAL else "connections go on"
+        log.error("the recording ends here: %s; %s", reason(failure).lower(), rest)
 
 
 def is_recording(path: Path) -> bool:
-    """Whether the file begins as a recording does."""
+    """Whether the file begins as a recorded session does, not as the journal of a virtual card."""
+    return _begins(path, _START) or _begins(path, _OLD_START)
+
+
+def _begins(path: Path, start: bytes) -> bool:
     with path.open("rb") as file:
-        return file.read(len(_START)) == _START
+        return file.read(len(start)) == start
 
 
-_START = json.dumps({"format": FORMAT}).encode()[:-1]
+_START = MAGIC + b'{"card":'
 
 
 def read_recording(path: Path) -> Recording:
-    """Read a recording; SourceError with the line that is wrong. A cut last line is left out."""
-    lines = read_bytes(path).split(b"\n")
-    last = lines.pop()  # empty where the last event is whole
-    if not lines:
-        raise SourceError("not a recording of a session with a card", path=str(path), line=1)
-    header = _object(lines[0], str(path), 1)
-    if header.get("format") != FORMAT or header.get("version") != VERSION:
-        raise SourceError(
-            f"not a recording of version {VERSION}", path=str(path), line=1,
-            hint="`openacr record` writes them",
-        )  # fmt: skip
-    events = tuple(_in_order(_events(lines[1:], str(path)), str(path)))
-    kind = KINDS.get(str(header.get("kind")), StreamKind.TERMINAL)
-    return Recording(str(header.get("card", "")), kind, events, not last)
+    """Read a recorded session; StoreError with the line that is wrong, without a cut last line."""
+    content = read_content(path)
+    if content.startswith(_OLD_START):
+        return _read_old(path, content)
+    lines = split_lines(path, content)
+    header = read_head(path, lines.head, SessionHeader)
+    entries = read_entries(path, lines.records, _KNOWN)
+    return Recording(header, tuple(_in_order(path, entries, header)), not lines.rest)
 
 
-def _events(lines: Iterable[bytes], path: str) -> Iterator[Event]:
-    for number, line in enumerate(lines, 2):
-        record = _object(line, path, number)
-        try:
-            yield Event(
-                float(record["t"]), int(record["c"]), What(record["what"]),
-                str(record.get("data", "")).encode("latin-1"),
-            )  # fmt: skip
-        except (KeyError, ValueError, TypeError, OverflowError):
-            raise SourceError("not an event of a recording", path=path, line=number) from None
-
-
-def _in_order(events: Iterator[Event], path: str) -> Iterator[Event]:
+def _in_order(
+    path: Path, entries: Iterable[tuple[int, JournalEntry]], header: SessionHeader
+) -> Iterator[JournalEntry]:
     """Refuse times that go back, and what happens on a connection that is not open."""
-    before_s, opened = 0.0, set[int]()
-    for number, event in enumerate(events, 2):
-        if not before_s <= event.time_s <= LONGEST_S:
-            raise SourceError("the time is not that of a next event", path=path, line=number)
-        if (event.what is What.OPEN) is (event.connection in opened):
-            what = "opened twice" if event.what is What.OPEN else "not open"
-            raise SourceError(f"connection {event.connection} is {what}", path=path, line=number)
-        (opened.discard if event.what is What.CLOSE else opened.add)(event.connection)
-        before_s = event.time_s
-        yield event
+    latest, opened = 0, set[int]()
+    for line, entry in entries:
+        if not latest <= entry.tick <= LONGEST_S * header.ticks_per_s:
+            raise damaged(path, line, "the time is not that of a next event")
+        if (entry.what is Entered.OPEN) is (entry.number in opened):
+            what = "opened twice" if entry.what is Entered.OPEN else "not open"
+            raise damaged(path, line, f"connection {entry.number} is {what}")
+        (opened.discard if entry.what is Entered.CLOSE else opened.add)(entry.number)
+        latest = entry.tick
+        yield entry
 
 
-def _object(line: bytes, path: str, number: int) -> dict[str, Any]:
-    try:
-        found = json.loads(line)
-    except ValueError:
-        found = None
-    if not isinstance(found, dict):
-        raise SourceError("not a line of a recording", path=path, line=number)
-    return found
+# files of the earlier form
+
+_OLD_START = b'{"format": "openacr recording"'
+_OLD_KINDS = {"open": "open", "host": "bytes", "card": "sent", "close": "close"}
+
+
+class _OldHeader(msgspec.Struct, frozen=True):
+    """The first line: `{"format": "openacr recording", "version": 1, "card": ..., "kind": ...}`."""
+
+    version: Literal[1]
+    card: str = ""
+    kind: StreamKind = StreamKind.TERMINAL
+
+
+def _read_old(path: Path, content: bytes) -> Recording:
+    first, *records = content.split(b"\n")
+    old = read_head(path, first, _OldHeader)
+    rest = records.pop() if records else first
+    header = SessionHeader(old.card, "", TICKS_PER_S)
+
+    def record(line: bytes) -> list[Any]:
+        """The record of `{"t": seconds, "c": connection, "what": ..., "data": ...}`."""
+        event = json.loads(line)
+        what = _OLD_KINDS[event["what"]]
+        head = [round(float(event["t"]) * TICKS_PER_S), what, int(event["c"])]
+        if what == "open":
+            return [*head, old.kind.value, ""]
+        return head if what == "close" else [*head, event.get("data", "")]
+
+    entries = read_entries(path, records, _KNOWN, first_line=2, decode=record)
+    return Recording(header, tuple(_in_order(path, entries, header)), not rest)

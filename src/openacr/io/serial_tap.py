@@ -8,13 +8,13 @@ goes on.
 
 import logging
 import threading
-import time
 
 import serial
 
 from openacr.errors import UserError, reason
-from openacr.io.recording import Event, Recorder, What
+from openacr.io.recording import SessionRecorder
 from openacr.io.serial_port import LineSettings, open_port
+from openacr.journal.entries import Entered
 
 log = logging.getLogger(__name__)
 THE_LINE = 1  # the only connection of the recording
@@ -32,21 +32,18 @@ class SerialTap:
         except UserError:
             self._card.close()
             raise
-        self._begin_s = time.monotonic()
-        self._lock = threading.Lock()  # two threads write the recording
-        self._recorder: Recorder | None = None
+        self._recorder: SessionRecorder | None = None
         self._threads: list[threading.Thread] = []
         self._ending = threading.Event()
-        self.events = 0
         self.has_failed = False
 
-    def start(self, recorder: Recorder) -> None:
+    def start(self, recorder: SessionRecorder) -> None:
         """Pass bytes on from now on."""
         self._recorder = recorder
-        self._record(What.OPEN)
+        self._record(Entered.OPEN)
         for source, target, what in (
-            (self._host, self._card, What.HOST),
-            (self._card, self._host, What.CARD),
+            (self._host, self._card, Entered.BYTES),
+            (self._card, self._host, Entered.SENT),
         ):
             thread = threading.Thread(target=self._pass, args=(source, target, what), daemon=True)
             thread.start()
@@ -65,12 +62,12 @@ class SerialTap:
                 port.cancel_write()
             for thread in self._threads:
                 thread.join(END_S)
-            self._record(What.CLOSE)
+            self._record(Entered.CLOSE)
             self._threads = []
         self._host.close()
         self._card.close()
 
-    def _pass(self, source: serial.Serial, target: serial.Serial, what: What) -> None:
+    def _pass(self, source: serial.Serial, target: serial.Serial, what: Entered) -> None:
         try:
             while not self._ending.is_set():
                 if first := source.read(1):
@@ -83,13 +80,6 @@ class SerialTap:
                 self.has_failed = True
             self._ending.set()
 
-    def _record(self, what: What, data: bytes = b"") -> None:
-        with self._lock:
-            if self._recorder is None:
-                return
-            try:
-                self._recorder.add(Event(time.monotonic() - self._begin_s, THE_LINE, what, data))
-                self.events += 1
-            except OSError as failure:
-                self._recorder = None
-                log.error("the recording ends here: %s; the line goes on", reason(failure).lower())
+    def _record(self, what: Entered, data: bytes = b"") -> None:
+        if self._recorder is not None:
+            self._recorder.note(THE_LINE, what, data)

@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 from openacr.channels import StreamKind
 from openacr.errors import NoFreeStreamError, UserError
 from openacr.io.host import CardHost
-from openacr.io.recording import Event, Recording, What
+from openacr.io.recording import Recording
+from openacr.journal.entries import Entered, JournalEntry
 from openacr.protocol.terminal import XOFF, XON
 
 PATIENCE_S = 1.0  # card time for an answer after the last event of a connection
@@ -36,9 +37,14 @@ class _Stream:
     """One connection: what was recorded of the card, and what this card has answered."""
 
     number: int  # of the stream of the card
+    kind: StreamKind
     recorded: bytearray = field(default_factory=bytearray)
     replayed: bytearray = field(default_factory=bytearray)
     requests: list[tuple[int, float, bytes]] = field(default_factory=list)  # answers before it
+
+    def compared(self, data: bytes) -> bytes:
+        """Bytes of a card without those whose place depends on timing: XON and XOFF."""
+        return data.translate(None, FLOW) if self.kind is StreamKind.SERIAL else data
 
     def difference(self, connection: int) -> Difference | None:
         """Compare what was answered with what was recorded."""
@@ -71,37 +77,36 @@ class SessionReplay:
         self._card = card
         self._streams: dict[int, _Stream] = {}
         self._elapsed_s = 0.0
-        self._kind = StreamKind.TERMINAL
         self.found: list[Difference] = []
 
     def run(self, recording: Recording) -> Difference | None:
         """Give the card every event at its time; the first answer that differs."""
-        self._kind = recording.kind
-        for event in recording.events:
-            self._advance_to(event.time_s)
-            self._take(event)
+        for entry in recording.entries:
+            time_s = recording.time_s(entry)
+            self._advance_to(time_s)
+            self._take(entry, time_s)
         for connection in list(self._streams):
             self._close(connection)
         return min(self.found, key=lambda each: each.time_s, default=None)
 
-    def _take(self, event: Event) -> None:
-        if event.what is What.OPEN:
-            self._streams[event.connection] = _Stream(self._opened(event.connection))
-        elif event.what is What.CLOSE:
-            self._close(event.connection)
+    def _take(self, entry: JournalEntry, time_s: float) -> None:
+        if entry.what is Entered.OPEN:
+            self._streams[entry.number] = self._opened(entry.number, StreamKind(entry.text))
+        elif entry.what is Entered.CLOSE:
+            self._close(entry.number)
         else:
-            stream = self._streams[event.connection]
-            if event.what is What.CARD:
-                stream.recorded += self._compared(event.data)
+            stream = self._streams[entry.number]
+            if entry.what is Entered.SENT:
+                stream.recorded += stream.compared(entry.data)
             else:
-                stream.requests.append((len(stream.recorded), event.time_s, event.data))
+                stream.requests.append((len(stream.recorded), time_s, entry.data))
                 self._wait(lambda: self._card.accepts_input(stream.number))
-                self._card.receive(stream.number, event.data)
+                self._card.receive(stream.number, entry.data)
                 self._collect()
 
-    def _opened(self, connection: int) -> int:
+    def _opened(self, connection: int, kind: StreamKind) -> _Stream:
         try:
-            return self._card.open_stream(self._kind)
+            return _Stream(self._card.open_stream(kind), kind)
         except NoFreeStreamError:
             raise UserError(f"connection {connection}: this card has no stream left") from None
 
@@ -136,8 +141,4 @@ class SessionReplay:
     def _collect(self) -> None:
         for stream in self._streams.values():
             while data := self._card.take_output(stream.number):
-                stream.replayed += self._compared(data)
-
-    def _compared(self, data: bytes) -> bytes:
-        """Bytes of a card without those whose place depends on timing: XON and XOFF."""
-        return data.translate(None, FLOW) if self._kind is StreamKind.SERIAL else data
+                stream.replayed += stream.compared(data)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from bisect import bisect_right
 from dataclasses import dataclass, field
 
-from openacr.controller.journal import JournalEntry
 from openacr.errors import UserError
+from openacr.journal.entries import JournalEntry
 from openacr.timeline.keyframe import Keyframe
 from openacr.timeline.moment import Moment
 

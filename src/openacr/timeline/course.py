@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from openacr.controller.controller import Controller
-from openacr.controller.journal import JournalEntry
 from openacr.controller.player import Player
 from openacr.controller.recorder import Recorder
 from openacr.controller.snapshot import Snapshot
 from openacr.errors import CardError, UserError
+from openacr.journal.entries import JournalEntry
 from openacr.models import Model
 from openacr.plant import schema
 from openacr.timeline.branch import Branch

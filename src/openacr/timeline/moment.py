@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from openacr.controller.journal import Entered, JournalEntry
+from openacr.journal.entries import Entered, JournalEntry
 
 
 class Moment(NamedTuple):

@@ -14,9 +14,9 @@ from itertools import takewhile
 from pathlib import Path
 
 from openacr.controller.controller import Controller
-from openacr.controller.journal import Entered, JournalEntry
 from openacr.controller.player import Player
 from openacr.errors import UserError
+from openacr.journal.entries import Entered, JournalEntry
 from openacr.timeline.branch import Branch, Branches
 from openacr.timeline.course import Course
 from openacr.timeline.keyframe import Base, Keyframe

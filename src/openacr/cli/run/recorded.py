@@ -30,9 +30,9 @@ def replay_recording(path: Path, project: Path | None, *, as_json: bool) -> None
     if not recording.is_whole:
         typer.echo("note: the last line of the recording is cut off and was left out", err=True)
     if as_json:
-        typer.echo(json.dumps(_record(difference, len(recording.events)), indent=2))
+        typer.echo(json.dumps(_record(difference, len(recording.entries)), indent=2))
     elif difference is None:
-        typer.echo(f"{counted(len(recording.events), 'event')}: every answer is the same")
+        typer.echo(f"{counted(len(recording.entries), 'event')}: every answer is the same")
     else:
         typer.echo(
             f"connection {difference.connection}, {difference.time_s:.4f} s: the answer to"
