@@ -121,9 +121,8 @@ class Controller:
             return controller, []
         session = controller.system.sessions[CONSOLE]
         session.connect()
-        errors = Loader(session, controller._wait_for_console_line, controller._origins).load(
-            project
-        )
+        wait, origins = controller._wait_for_console_line, controller._origins
+        errors = Loader(controller.system, session, wait, origins).load(project)
         session.disconnect()
         try:
             controller.system.start_boot_programs()

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from openacr.basic.channels.session import Session
+from openacr.basic.execute.system import System
 from openacr.basic.language.loader import file_lines, long_lived_objects
 from openacr.basic.language.registry import Level
 from openacr.basic.memory.program_store import ProgramStore, StoredLine
@@ -59,8 +60,9 @@ class Origins:
 
 @dataclass(slots=True)
 class Loader:
-    """Feeds files to a session; `wait` advances card time until the line is done."""
+    """Feeds files to a session of a card; `wait` advances card time until the line is done."""
 
+    system: System
     session: Session
     wait: Callable[[], bool]
     origins: Origins = field(default_factory=Origins)
@@ -68,7 +70,7 @@ class Loader:
     def load(self, project: Project) -> list[SourceError]:
         """Load every file; returns the errors the card reports, with their positions."""
         errors: list[SourceError] = []
-        programs = self.session.system.programs
+        programs = self.system.programs
         programs.on_put = self.origins.note
         try:
             for source in project.sources:
@@ -98,7 +100,7 @@ class Loader:
             self._feed("ENDP")
         if source.place is Place.SETUP:
             # A machine is set up with its project once and then switched on again.
-            modules.fit(self.session.system.card, self.session.system.setup.config)
+            modules.fit(self.system.card, self.system.setup.config)
         return errors
 
     def _feed(self, text: str) -> str | None:

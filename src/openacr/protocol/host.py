@@ -2,14 +2,11 @@
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import Any, Protocol
 
 from openacr.errors import CardError, MapError, OpenacrError
 from openacr.kernel.words_cy import wrap32
 from openacr.map.memory import long_of
-
-if TYPE_CHECKING:
-    from openacr.protocol.move import Move
 
 
 class PacketError(OpenacrError):
@@ -34,8 +31,8 @@ class Host(Protocol):
     def override(self, masters: Sequence[int], value: float, *, rapid: bool) -> None:
         """Set FOV, or ROV if `rapid`, of these masters."""
 
-    def issue_move(self, move: "Move") -> None:
-        """Queue a move; CardError when the card refuses it."""
+    def issue_move(self, move: Any) -> None:
+        """Queue a `protocol.move.Move`, itself a packet; CardError when the card refuses it."""
 
     def read_words(self, address: int, count: int) -> Sequence[int]:
         """Read `count` 32-bit words of memory from an address on."""

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
 from openacr.basic.channels.channel_words import FLAG_WORDS
+from openacr.basic.channels.listeners import Listeners
 from openacr.basic.channels.session import Session
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.ranges import DeviceNumber, ProgramNumber
@@ -18,9 +18,6 @@ from openacr.map.rows import devices
 from openacr.map.words import strm
 from openacr.messages import DEVICE_IN_USE, DEVICE_NOT_OPEN, INVALID_DEVICE
 from openacr.network.drivetalk import lines
-
-if TYPE_CHECKING:
-    from openacr.basic.channels.listeners import Listeners
 
 PER_PROGRAM = 4
 MOST_BYTES = 1 << 16  # received and not read; then the sender is held until half of it is read

@@ -3,28 +3,72 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from openacr.basic.language.parser import LEVEL_WORDS
 from openacr.basic.language.registry import Level
+from openacr.basic.language.scope import Scope
+from openacr.basic.memory.known_lines import KnownLines
 from openacr.basic.memory.program_memory import PROGRAMS
-from openacr.basic.memory.program_store import StoredLine, line_number, opens_capture
+from openacr.basic.memory.program_store import (
+    ProgramStore,
+    StoredLine,
+    line_number,
+    opens_capture,
+)
 from openacr.errors import CardError
 from openacr.lang.lexer import Token, TokenKind, plain, tokens
 from openacr.lang.shape import shape
 from openacr.messages import PROGRAM_IS_RUNNING, SYNTAX_ERROR, UNKNOWN_COMMAND
 
-if TYPE_CHECKING:
-    from openacr.basic.channels.session import Session
-    from openacr.basic.execute.system import System
-
 _REMARK = re.compile(r":|REM(?![A-Za-z])", re.IGNORECASE)
+
+
+class Running(Protocol):
+    """Who knows which programs run."""
+
+    def is_running(self, owner: int) -> bool:
+        """Whether a program (0-15) or PLC (16-23) executes, waits or is held."""
+
+
+class Texts(Protocol):
+    """What entering lines needs of the language side of the card."""
+
+    @property
+    def programs(self) -> ProgramStore:
+        """The stored lines."""
+
+    @property
+    def known_lines(self) -> KnownLines:
+        """Shapes of lines that have been accepted."""
+
+    @property
+    def control(self) -> Running:
+        """Who runs programs."""
+
+    def scope(self, level: Level, program: int | None, *, stored: bool) -> Scope:
+        """What a line of a program, or one typed at its prompt, may refer to."""
+
+    def read_stored(
+        self, owner: int, number: int, text: str, *, found: list[Token] | None = None
+    ) -> StoredLine | None:
+        """A line to be stored; None if there is nothing to store."""
+
+
+class Entering(Protocol):
+    """The channel on which lines are entered."""
+
+    capture: int | None  # owner whose text is being entered with PROGRAM
+
+    @property
+    def owner(self) -> int | None:
+        """The program (0-15) or PLC (16-23) of the level; None at SYS."""
 
 
 class Entry:
     """Decides whether a line typed on a channel is stored."""
 
-    def __init__(self, system: System, session: Session) -> None:
+    def __init__(self, system: Texts, session: Entering) -> None:
         self.system = system
         self.session = session
         self.store = system.programs

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
+from openacr.basic.channels.session import Session
 from openacr.basic.vm.code import BEGINS_LINE
 from openacr.basic.vm.run import LINE_END
-
-if TYPE_CHECKING:
-    from openacr.basic.channels.session import Session
 
 
 class Follower(Protocol):

@@ -6,15 +6,14 @@ rule hosts depend on: one line, the output of that line, then exactly one prompt
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal, Protocol
 
 from msgspec import Struct
 
-from openacr.basic.channels import pass_through
 from openacr.basic.channels.channel_words import ChannelWords
-from openacr.basic.channels.entry import Entry, split_at_level
+from openacr.basic.channels.entry import Entry, Texts, split_at_level
 from openacr.basic.language.parser import Parser
 from openacr.basic.language.registry import Level
 from openacr.basic.language.scope import Scope
@@ -28,14 +27,14 @@ from openacr.basic.memory.ranges import (
     OwnerNumber,
     ProgramNumber,
 )
+from openacr.basic.memory.storage import Storage
 from openacr.basic.vm.run import LINE_END
 from openacr.channels import Attention, EchoMode, startup_mode
 from openacr.errors import CardError
 from openacr.lang.lexer import Token, spelled, tokens
-from openacr.messages import LINE_TOO_LONG
-
-if TYPE_CHECKING:
-    from openacr.basic.execute.system import System
+from openacr.messages import DEVICE_IN_USE, LINE_TOO_LONG
+from openacr.motion.card import Card
+from openacr.network.drivetalk import lines
 
 FIRST_CHANNEL_THREAD = 16
 
@@ -62,13 +61,63 @@ class Channel(Struct, frozen=True):
     output: bytes
 
 
+class Inputs(Protocol):
+    """What is typed for programs: the queues of their devices, each a program and a number."""
+
+    def receive(self, key: tuple[int, int], byte: int) -> None:
+        """One byte for the device."""
+
+    def is_full(self, key: tuple[int, int]) -> bool:
+        """Whether so much waits to be read that the sender is to be held."""
+
+    def take_begun_line(self, key: tuple[int, int]) -> str:
+        """The characters after the last line end, which no program will read."""
+
+
+class Runner(Protocol):
+    """Who executes immediate lines: each channel has a thread of its own."""
+
+    def start(self, session: Session, line: StoredLine) -> None:
+        """Begin a line; `session.finished` is called when it is done."""
+
+    def cancel(self, session: Session) -> None:
+        """Forget a line that is still being executed."""
+
+    def is_waiting(self, thread: int) -> bool:
+        """Whether the thread waits (DWL, INH, a full move buffer)."""
+
+
+class Language(Texts, Protocol):
+    """What a channel needs of the language side of its card."""
+
+    @property
+    def card(self) -> Card:
+        """The card."""
+
+    @property
+    def storage(self) -> Storage:
+        """What is dimensioned."""
+
+    @property
+    def devices(self) -> Inputs:
+        """What is typed for programs."""
+
+    @property
+    def runner(self) -> Runner:
+        """Who executes immediate lines."""
+
+    @property
+    def sessions(self) -> Mapping[str, Session]:
+        """All channels by their names."""
+
+
 @dataclass(slots=True)
 class Session:
     """One channel of the card; it exists from power-up, connected or not."""
 
     name: str
     index: int
-    system: System = field(repr=False)
+    system: Language = field(repr=False)
     is_connected: bool = False
     level: Level = Level.SYS
     number: int = 0  # of the program or PLC of the level
@@ -177,7 +226,7 @@ class Session:
             self.system.runner.cancel(self)
             self.busy = False
         self.stop_listening()
-        pass_through.leave(self)
+        self._leave()
         self.capture, self.typed_ahead, self.rest = None, "", []
         self._output.clear()
 
@@ -200,7 +249,7 @@ class Session:
     def typed(self, byte: int) -> None:
         """One byte for the program or channel that has the attention."""
         if self.is_joined:
-            pass_through.type_byte(self, byte)
+            self._pass_on(byte)
         elif (device := self._device) is not None:
             self.system.devices.receive(device, byte)
 
@@ -221,7 +270,7 @@ class Session:
         """ESC: end listening or talking; one prompt follows without a line."""
         if self.attention in (Attention.LISTENING, Attention.PASS_THROUGH):
             self.stop_listening()
-            pass_through.leave(self)
+            self._leave()
             self.end_mode()
 
     def _attempt(self, step: Callable[[], bool]) -> None:
@@ -290,6 +339,40 @@ class Session:
     def _send_prompt(self) -> None:
         if not self.echo & EchoMode.NO_PROMPT:
             self.write(self.prompt)
+
+    # joined with another channel (TALK TO) or with a drive (DTALK), until ESC
+
+    def join_channel(self, other: Session) -> None:
+        """TALK TO: what is typed on one channel leaves on the other."""
+        if other.opened_by is not None or other.is_joined:
+            raise CardError(DEVICE_IN_USE)
+        self.partner, other.partner = other.name, self.name
+        self.has_called = True
+
+    def join_drive(self, axis: int, port: int) -> None:
+        """DTALK: what is typed goes to the drive of an axis, over a Drive Talk line."""
+        lines.connect(self.system.card.memory, port, self.index, axis)
+        self.drive = axis
+
+    def _pass_on(self, byte: int) -> None:
+        """One byte typed while joined."""
+        if self.drive is not None:
+            shown = lines.type_byte(self.system.card.memory, self.index, byte)
+            if self.echo & EchoMode.CHARACTERS:
+                self.write(shown)
+        elif self.partner is not None:
+            self.system.sessions[self.partner].write(chr(byte))
+
+    def _leave(self) -> None:
+        """End it from this side; the line on the other side that has begun it is answered now."""
+        if self.drive is not None:
+            lines.disconnect(self.system.card.memory, self.index)
+        if self.partner is not None:
+            other = self.system.sessions[self.partner]
+            if other.has_called:
+                other.end_mode()
+            other.partner, other.has_called = None, False
+        self.drive, self.partner, self.has_called = None, None, False
 
     # levels and modes
 

@@ -6,7 +6,6 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from openacr.basic.channels.pass_through import join_channel
 from openacr.basic.language.grammar import (
     Command,
     Either,
@@ -246,4 +245,4 @@ def talk_to(run: Run, device: str | ObjectRef) -> None:
     other = run.system.sessions.get(name)
     if other is None or other is run.channel:
         raise CardError(INVALID_DEVICE)
-    join_channel(run.channel, other)
+    run.channel.join_channel(other)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 
-from openacr.basic.channels.pass_through import join_drive
 from openacr.basic.commands.character_io import DEVICES, GROUP, port_name
 from openacr.basic.language.grammar import Axes, Axis, Int, Mark, Str
 from openacr.basic.language.registry import ANY, IMMEDIATE, PROG, command
@@ -66,5 +65,5 @@ def dtalk(run: Run, axes: tuple[Axis, ...]) -> Wait | None:
         raise CardError(DEVICE_IN_USE)
     if line.is_busy:
         return Wait(WaitKind.NEXT_SLICE, retry=True)
-    join_drive(run.channel, axis, port)
+    run.channel.join_drive(axis, port)
     return None

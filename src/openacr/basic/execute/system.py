@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from openacr.basic.channels.devices import Devices
 from openacr.basic.channels.listeners import Listeners
-from openacr.basic.channels.session import Session
+from openacr.basic.channels.session import Runner, Session
 from openacr.basic.language.aliases import Aliases
 from openacr.basic.language.parser import Parser
 from openacr.basic.language.registry import Level
@@ -59,19 +59,6 @@ class Control(Protocol):
 
     def trace(self, owner: int, on: bool) -> None:
         """TRON and TROFF."""
-
-
-class Runner(Protocol):
-    """Who executes immediate lines: each channel has a thread of its own."""
-
-    def start(self, session: Session, line: StoredLine) -> None:
-        """Begin a line; `session.finished` is called when it is done."""
-
-    def cancel(self, session: Session) -> None:
-        """Forget a line that is still being executed."""
-
-    def is_waiting(self, thread: int) -> bool:
-        """Whether the thread waits (DWL, INH, a full move buffer)."""
 
 
 class NonVolatile(Protocol):
