@@ -11,12 +11,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from enum import Flag, auto
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
+from openacr.basic.language.form import Form
 from openacr.models import Feature
-
-if TYPE_CHECKING:
-    from openacr.basic.language.grammar import Form
 
 EXTENSION = "extension"  # in place of the manual: no card of the family has it
 SWITCHES = frozenset(("ON", "OFF"))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, Protocol
 
-from openacr.basic.language.grammar import Axis
+from openacr.basic.language.grammar.values import Axis
 from openacr.basic.language.nodes import AxisRef, Expr, Number, Prefix, Statement
 from openacr.basic.language.registry import Level
 from openacr.errors import CardError

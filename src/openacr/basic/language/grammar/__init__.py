@@ -6,6 +6,7 @@ listed in the row of a command in the order in which they are written; an option
 that is left out gives None.
 """
 
+from openacr.basic.language.form import Form
 from openacr.basic.language.grammar.axes import (
     Axes,
     AxisGroups,
@@ -21,7 +22,6 @@ from openacr.basic.language.grammar.flags import Bit, BitItem, Bits, ParameterNa
 from openacr.basic.language.grammar.forms import (
     Condition,
     Expression,
-    Form,
     Group,
     Int,
     Lvalue,

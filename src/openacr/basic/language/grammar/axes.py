@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from openacr.basic.language.grammar.forms import Form, Group, Num, Pair
+from openacr.basic.language.form import Form
+from openacr.basic.language.grammar.forms import Group, Num, Pair
 from openacr.basic.language.grammar.values import AxisTarget, AxisValue
 from openacr.basic.language.nodes import AxisRef, Expr
 from openacr.lang.lexer import TokenKind

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from openacr.basic.language.grammar.forms import Form
+from openacr.basic.language.form import Form
 from openacr.basic.language.grammar.values import BitState, SignedParameter
 from openacr.basic.language.nodes import Expr, resolved
 from openacr.basic.language.nodes import Flag as FlagNode

@@ -6,44 +6,17 @@ into the value the handler gets (`evaluate`, when the command is executed).
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from openacr.basic.language.form import Form
 from openacr.basic.language.nodes import Apply, Expr, Number, Unary, is_text, resolved
 from openacr.errors import CardError
 from openacr.lang.lexer import TokenKind
-from openacr.messages import INVALID_ARGUMENT, SYNTAX_ERROR, Message
+from openacr.messages import INVALID_ARGUMENT, SYNTAX_ERROR
 
 if TYPE_CHECKING:
     from openacr.basic.language.parser import Parser
     from openacr.basic.vm.run import Run
-
-
-class Form(ABC):
-    """One argument of a command."""
-
-    names_axes = False
-    silent = False  # the handler gets nothing for it
-
-    def __init__(self, name: str = "", *, optional: bool = False) -> None:
-        self.name = name
-        self.optional = optional
-
-    @abstractmethod
-    def starts(self, p: Parser) -> bool:
-        """Whether this argument begins at the cursor."""
-
-    @abstractmethod
-    def parse(self, p: Parser) -> object:
-        """Read the argument."""
-
-    def evaluate(self, run: Run, read: Any) -> object:
-        """What the handler gets; `read` is what `parse` returned, None if left out."""
-        return read
-
-    def missing(self, p: Parser) -> Message:
-        """The message when a required argument does not begin at the cursor."""
-        return SYNTAX_ERROR
 
 
 class Num(Form):

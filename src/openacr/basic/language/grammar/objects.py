@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from openacr.basic.language.grammar.forms import Form
+from openacr.basic.language.form import Form
 from openacr.basic.language.grammar.values import ObjectRef
 from openacr.basic.language.nodes import Expr, Number
 from openacr.lang.lexer import TokenKind
