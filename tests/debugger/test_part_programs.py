@@ -43,7 +43,7 @@ def line(target: PartTarget) -> int:
 
 def place(target: PartTarget) -> tuple[int, int, str, float]:
     """Line, tick, P200 and the commanded position of X."""
-    now = target.timeline.now
+    now = target.course.timeline.now
     return line(target), now.tick, target.answer(0, "P200"), target.card.axis(0).commanded_u
 
 
@@ -51,8 +51,8 @@ def steps(target: PartTarget, *, into: bool = False) -> Iterator[Stop]:
     """Steps until the end."""
     stop = None
     while stop is None or stop.reason is not Reason.END:
-        target.begin_step(0, into=into)
-        stop = target.run(LONG_TK)
+        target.course.begin_step(0, into=into)
+        stop = target.course.run(LONG_TK)
         assert stop is not None
         yield stop
 
@@ -60,13 +60,13 @@ def steps(target: PartTarget, *, into: bool = False) -> Iterator[Stop]:
 @pytest.fixture
 def target(tmp_path: Path) -> PartTarget:
     target = target_of(tmp_path)
-    assert target.entry() == Stop(Reason.ENTRY)
+    assert target.course.entry() == Stop(Reason.ENTRY)
     return target
 
 
 def breaks(target: PartTarget, *wanted: int, **options: str) -> None:
     found = target.places_of(str(target.shop.program and target._file), 0, frozenset(wanted))
-    target.set_lines([LineBreakpoint(*found[each], **options) for each in wanted])  # type: ignore[arg-type]
+    target.course.set_lines([LineBreakpoint(*found[each], **options) for each in wanted])  # type: ignore[arg-type]
 
 
 def test_it_begins_at_its_first_block(target: PartTarget) -> None:
@@ -85,46 +85,46 @@ def test_every_block_is_stepped_in_the_order_of_execution(target: PartTarget) ->
 
 def test_steps_pass_over_routines_or_go_into_them_or_out(target: PartTarget) -> None:
     breaks(target, 8)
-    assert target.run(LONG_TK) == Stop(Reason.BREAKPOINT, 0)
-    target.begin_step(0)
-    target.run(LONG_TK)
+    assert target.course.run(LONG_TK) == Stop(Reason.BREAKPOINT, 0)
+    target.course.begin_step(0)
+    target.course.run(LONG_TK)
     assert line(target) == 9
-    target.step_back(0)
+    target.course.step_back(0)
     assert line(target) == 14
-    target.step_back(0)
+    target.course.step_back(0)
     assert [frame.line for frame in target.frames(0)] == [13, 8]
-    target.begin_step(0)
-    target.run(LONG_TK)
+    target.course.begin_step(0)
+    target.course.run(LONG_TK)
     assert line(target) == 14
-    target.step_back(0)
-    target.begin_step(0, out=True)
-    target.run(LONG_TK)
+    target.course.step_back(0)
+    target.course.begin_step(0, out=True)
+    target.course.run(LONG_TK)
     assert line(target) == 9
 
 
 def test_a_motion_stops_where_it_begins_to_the_tick(target: PartTarget) -> None:
     breaks(target, 4)
-    assert target.run(LONG_TK) == Stop(Reason.BREAKPOINT, 0)
+    assert target.course.run(LONG_TK) == Stop(Reason.BREAKPOINT, 0)
     counter = target.shop.machine.counter
     assert (target.card.memory.I[counter], target.answer(0, "P200")) == (1, "1")
-    target.tick_back()
+    target.course.tick_back()
     assert target.card.memory.I[counter] == 0
-    target.tick()
-    assert target.run(LONG_TK) == Stop(Reason.BREAKPOINT, 0)
+    target.course.tick()
+    assert target.course.run(LONG_TK) == Stop(Reason.BREAKPOINT, 0)
     assert (target.card.memory.I[counter], target.answer(0, "P200")) == (2, "0")
     assert target.card.axis(0).commanded_u == pytest.approx(1.0, abs=2 / PULSES)
 
 
 def test_a_wait_is_come_to_at_rest(target: PartTarget) -> None:
     breaks(target, 9)
-    target.run(LONG_TK)
+    target.course.run(LONG_TK)
     assert line(target) == 9
     assert target.card.axis(2).commanded_u == 0.1
-    begin = target.timeline.now.tick
-    target.begin_step(0)
-    target.run(LONG_TK)
+    begin = target.course.timeline.now.tick
+    target.course.begin_step(0)
+    target.course.run(LONG_TK)
     assert line(target) == 10
-    assert 0.2 <= (target.timeline.now.tick - begin) * target.period_s < 0.3
+    assert 0.2 <= (target.course.timeline.now.tick - begin) * target.course.period_s < 0.3
 
 
 def test_debugging_changes_nothing_of_the_run(tmp_path: Path) -> None:
@@ -135,10 +135,10 @@ def test_debugging_changes_nothing_of_the_run(tmp_path: Path) -> None:
         shop.step()
         shop.carry_on()
     target = target_of(tmp_path, CYCLES)
-    target.entry()
+    target.course.entry()
     for _ in steps(target, into=True):
-        target.tick_back()
-        target.tick()  # over the latest moment again
+        target.course.tick_back()
+        target.course.tick()  # over the latest moment again
     assert shop.virtual_card is not None
     assert target.card.lived_tk == shop.virtual_card.lived_tk
     assert target.card.digest() == shop.virtual_card.digest()
@@ -146,7 +146,7 @@ def test_debugging_changes_nothing_of_the_run(tmp_path: Path) -> None:
 
 def test_compensated_blocks_and_cycles_are_stepped_one_by_one(tmp_path: Path) -> None:
     target = target_of(tmp_path, CYCLES)
-    target.entry()
+    target.course.entry()
     lines = [line(target)]
     for _ in steps(target, into=True):
         lines.append(line(target))
@@ -158,7 +158,7 @@ def test_steps_back_are_the_steps_forward_in_reverse(target: PartTarget) -> None
     for _ in steps(target, into=True):
         places.append(place(target))
     back = [places[-1]]
-    while target.step_back(0).reason is Reason.STEP:
+    while target.course.step_back(0).reason is Reason.STEP:
         back.append(place(target))
     assert [each[:3] for each in back] == [each[:3] for each in reversed(places[:-1])]
     assert [each[3] for each in back] == [each[3] for each in reversed(places[:-1])]
@@ -170,75 +170,75 @@ def test_steps_back_are_the_steps_forward_in_reverse(target: PartTarget) -> None
 
 def test_within_a_motion_a_step_back_goes_to_its_beginning(target: PartTarget) -> None:
     breaks(target, 4)
-    target.run(LONG_TK)
-    begin = target.timeline.now.tick
-    target.set_lines([])
-    assert target.run(500) is None
-    assert target.paused(0) == Stop(Reason.PAUSE, 0)
-    assert (line(target), target.timeline.now.tick) == (4, begin + 500)
-    target.step_back(0)
-    assert (line(target), target.timeline.now.tick) == (4, begin)
+    target.course.run(LONG_TK)
+    begin = target.course.timeline.now.tick
+    target.course.set_lines([])
+    assert target.course.run(500) is None
+    assert target.course.paused(0) == Stop(Reason.PAUSE, 0)
+    assert (line(target), target.course.timeline.now.tick) == (4, begin + 500)
+    target.course.step_back(0)
+    assert (line(target), target.course.timeline.now.tick) == (4, begin)
 
 
 def test_running_on_from_the_past_passes_the_latest_moment(target: PartTarget) -> None:
     breaks(target, 10)
-    target.run(3000)
-    latest = target.timeline.now
-    target.seek(Moment(latest.tick - 2500))
-    assert target.run(1000) is None
-    assert target.timeline.is_past
-    assert target.run(LONG_TK) == Stop(Reason.BREAKPOINT, 0)
+    target.course.run(3000)
+    latest = target.course.timeline.now
+    target.course.seek(Moment(latest.tick - 2500))
+    assert target.course.run(1000) is None
+    assert target.course.timeline.is_past
+    assert target.course.run(LONG_TK) == Stop(Reason.BREAKPOINT, 0)
     assert (line(target), target.card.axis(2).commanded_u) == (10, 0.1)
-    assert target.live.alarms == 0
+    assert target.course.live.alarms == 0
 
 
 def test_running_back_within_a_block_finds_its_beginning(target: PartTarget) -> None:
     breaks(target, 4)
-    target.run(LONG_TK)
-    begin = target.timeline.now
-    assert target.run(100) is None
-    assert target.run_back() == Stop(Reason.BREAKPOINT, 0)
-    assert target.timeline.now == begin
+    target.course.run(LONG_TK)
+    begin = target.course.timeline.now
+    assert target.course.run(100) is None
+    assert target.course.run_back() == Stop(Reason.BREAKPOINT, 0)
+    assert target.course.timeline.now == begin
 
 
 def test_ticks_go_back_to_the_first_block_and_no_further(target: PartTarget) -> None:
-    begin = target.timeline.now
-    target.tick()
-    while target.timeline.now.tick > begin.tick + 1:
-        target.tick_back()
-    assert target.tick_back() == Stop(Reason.STEP, 0, "one servo interrupt back")
-    assert target.timeline.now == begin
-    assert target.tick_back().reason is Reason.ENTRY
+    begin = target.course.timeline.now
+    target.course.tick()
+    while target.course.timeline.now.tick > begin.tick + 1:
+        target.course.tick_back()
+    assert target.course.tick_back() == Stop(Reason.STEP, 0, "one servo interrupt back")
+    assert target.course.timeline.now == begin
+    assert target.course.tick_back().reason is Reason.ENTRY
 
 
 def test_stops_of_the_program_are_continued(tmp_path: Path) -> None:
     target = target_of(tmp_path, "F600 G1 X0.1\nM0\nX0.2\nM2\n")
-    target.entry()
-    assert target.run(LONG_TK) == Stop(Reason.END, 0, "the part program has ended")
+    target.course.entry()
+    assert target.course.run(LONG_TK) == Stop(Reason.END, 0, "the part program has ended")
     assert target.card.axis(0).commanded_u == 0.2
 
 
 def test_running_back_finds_the_stops_in_reverse(target: PartTarget) -> None:
     breaks(target, 4, 9)
     found = []
-    while target.run(LONG_TK) == Stop(Reason.BREAKPOINT, 0):
+    while target.course.run(LONG_TK) == Stop(Reason.BREAKPOINT, 0):
         found.append(place(target))
     assert [each[0] for each in found] == [4, 4, 9]
     back = []
-    while target.run_back() == Stop(Reason.BREAKPOINT, 0):
+    while target.course.run_back() == Stop(Reason.BREAKPOINT, 0):
         back.append(place(target))
     assert back == found[::-1]
     assert line(target) == 1
-    assert target.run_back() == Stop(Reason.ENTRY, 0, "the beginning of what is known")
+    assert target.course.run_back() == Stop(Reason.ENTRY, 0, "the beginning of what is known")
 
 
 def test_a_condition_is_of_the_moment_of_its_block(target: PartTarget) -> None:
     breaks(target, 4, condition="P200 = 0")
-    assert target.run(LONG_TK) == Stop(Reason.BREAKPOINT, 0)
+    assert target.course.run(LONG_TK) == Stop(Reason.BREAKPOINT, 0)
     assert place(target)[2] == "0"
-    assert target.run(LONG_TK) is not None
+    assert target.course.run(LONG_TK) is not None
     breaks(target, 3, condition="P200 = 2")
-    assert target.run_back() == Stop(Reason.BREAKPOINT, 0)
+    assert target.course.run_back() == Stop(Reason.BREAKPOINT, 0)
     assert place(target)[2] == "2"
 
 
@@ -269,7 +269,7 @@ def test_an_expression_that_has_no_value_is_refused(
 
 def test_values_are_those_before_the_block(target: PartTarget) -> None:
     breaks(target, 13)
-    target.run(LONG_TK)
+    target.course.run(LONG_TK)
     scopes = {
         name: {value.name: value.text for value in values} for name, values in target.scopes(0, 0)
     }
@@ -283,7 +283,7 @@ def test_values_are_those_before_the_block(target: PartTarget) -> None:
     assert scopes["Offsets"]["local (G52)"] == "X0.25 Y0 Z0"
     assert scopes["Offsets"]["G54"] == "X0 Y0 Z0"
     assert list(scopes["Axes"])[:2] == ["program position", "X (AXIS0)"]
-    target.step_back(0)
+    target.course.step_back(0)
     offsets = {value.name: value.text for value in dict(target.scopes(0, 0))["Offsets"]}
     assert offsets["all together"] == "X0 Y0 Z0"
     assert target.frames(1) == []
@@ -294,14 +294,14 @@ def test_values_are_those_before_the_block(target: PartTarget) -> None:
 def test_a_parameter_is_changed_for_what_is_not_read_yet(tmp_path: Path) -> None:
     text = "P200=1\nF600 G1 X0.5\nP201=P0\nG1 Y(P200)\nM2\n"  # reading P0 waits for rest
     target = target_of(tmp_path, text)
-    target.entry()
+    target.course.entry()
     breaks(target, 2)
-    target.run(LONG_TK)
+    target.course.run(LONG_TK)
     target.assign(0, "P200", "P200/4")
     assert target.answer(0, "P200") == "1"
     list(steps(target))
     assert target.card.axis(1).commanded_u == 0.25
-    target.step_back(0)
+    target.course.step_back(0)
     with pytest.raises(UserError, match="only the latest moment changes"):
         target.assign(0, "P200", "1")
     with pytest.raises(UserError, match="only the latest moment changes"):
@@ -326,17 +326,17 @@ def test_lines_of_other_files_and_empty_lines_are_no_places(
 def test_an_alarm_stops_if_it_is_wanted_and_ends_the_program(tmp_path: Path) -> None:
     text = "F600 G1 X0.1\nP200=1/P201\nM2\n"
     target = target_of(tmp_path, text)
-    target.entry()
-    target.set_faults(frozenset([Fault.PROGRAM]))
-    stop = target.run(LONG_TK)
+    target.course.entry()
+    target.course.set_faults(frozenset([Fault.PROGRAM]))
+    stop = target.course.run(LONG_TK)
     assert stop is not None
     assert (stop.reason, line(target)) == (Reason.EXCEPTION, 2)
     assert stop.text.startswith("alarm 60: ")
     assert "division by zero" in stop.text
-    assert target.run(LONG_TK) == Stop(Reason.END, 0, "the part program has ended")
-    target.step_back(0)
+    assert target.course.run(LONG_TK) == Stop(Reason.END, 0, "the part program has ended")
+    target.course.step_back(0)
     assert line(target) == 2
-    target.step_back(0)
+    target.course.step_back(0)
     assert line(target) == 1
 
 
@@ -358,17 +358,17 @@ def test_what_is_closed_is_at_rest_with_its_outputs_off(tmp_path: Path, is_past:
 
 def test_the_earliest_blocks_are_forgotten(tmp_path: Path) -> None:
     target = target_of(tmp_path, "F600\n" + "G1 X1\nX0\n" * 8 + "M2\n")
-    target.most_blocks = 3
-    target.entry()
+    target.course.most_blocks = 3
+    target.course.entry()
     lines = [line(target) for _ in steps(target)]
     assert lines == [*range(2, 19), 18]
     back = []
-    while target.step_back(0).reason is Reason.STEP:
+    while target.course.step_back(0).reason is Reason.STEP:
         back.append(line(target))
     assert back[:4] == [17, 16, 15, 14]
     assert len(back) < 8
     with pytest.raises(UserError, match="is before the first block that is known"):
-        target.seek(Moment(1))
+        target.course.seek(Moment(1))
 
 
 def test_a_program_with_errors_is_refused(tmp_path: Path) -> None:

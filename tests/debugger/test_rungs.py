@@ -30,8 +30,8 @@ class Bench:
         self.session = CardTarget(self.card, self.shown.append)
 
     def breaks(self, *lines: LineBreakpoint) -> Stop | None:
-        self.session.set_lines(list(lines))
-        return self.session.run(100)
+        self.session.course.set_lines(list(lines))
+        return self.session.course.run(100)
 
 
 @pytest.fixture
@@ -45,9 +45,9 @@ def test_a_coil_that_changes_stops_after_its_scan(bench: Bench) -> None:
     for is_set in (True, False):
         bench.card.bit[40] = is_set
         text = "BIT41 is set, BIT42 is clear" if is_set else "BIT41 is clear, BIT42 is set"
-        assert bench.session.run(100) == Stop(Reason.BREAKPOINT, PLC, text)
+        assert bench.session.course.run(100) == Stop(Reason.BREAKPOINT, PLC, text)
         assert bench.card.lived_tk == before_tk + 1
-        assert bench.session.run(100) is None
+        assert bench.session.course.run(100) is None
         before_tk = bench.card.lived_tk
 
 
@@ -105,7 +105,7 @@ def test_the_present_line_and_its_flags_are_seen_where_it_has_stopped(bench: Ben
     assert session.frames(OTHER) == []
     groups = {name: list(values) for name, values in session.scopes(PLC, 0)}
     assert [(each.name, each.text) for each in groups["Rung"]] == [("BIT41", "1"), ("BIT42", "0")]
-    session.tick()
+    session.course.tick()
     assert session.frames(PLC) == []
     with pytest.raises(UserError, match="there is no program 16"):
         list(session.scopes(PLC, 0))
@@ -116,11 +116,11 @@ def test_reverse_continue_goes_back_to_the_scan(bench: Bench) -> None:
     stop = bench.breaks(LineBreakpoint(PLC, OUT))
     assert stop is not None
     there_tk = bench.card.lived_tk
-    assert bench.session.run(50) is None
-    assert bench.session.run_back() == stop
+    assert bench.session.course.run(50) is None
+    assert bench.session.course.run_back() == stop
     assert bench.card.lived_tk == there_tk
     assert [each.line for each in bench.session.frames(PLC)] == [3]
-    assert bench.session.run_back().reason is Reason.ENTRY
+    assert bench.session.course.run_back().reason is Reason.ENTRY
 
 
 def test_a_line_without_a_coil_is_refused(bench: Bench) -> None:
@@ -131,12 +131,14 @@ def test_a_line_without_a_coil_is_refused(bench: Bench) -> None:
 
 def test_no_more_is_watched_than_the_engine_can(bench: Bench) -> None:
     flags = [DataBreakpoint(f"BIT{flag}") for flag in range(100, 193)]
-    bench.session.set_data(flags)
+    bench.session.course.set_data(flags)
     rung = LineBreakpoint(PLC, OUT)
-    bench.session.set_lines([rung])
+    bench.session.course.set_lines([rung])
     with pytest.raises(UserError, match="96 values and coils to be watched: there is room for 95"):
-        bench.session.set_data([*flags, DataBreakpoint("BIT99")])
+        bench.session.course.set_data([*flags, DataBreakpoint("BIT99")])
     with pytest.raises(UserError, match="96 values and coils"):
-        bench.session.set_lines([rung, LineBreakpoint(PLC, SET)])
+        bench.session.course.set_lines([rung, LineBreakpoint(PLC, SET)])
     bench.card.bit[40] = True
-    assert bench.session.run(10) == Stop(Reason.BREAKPOINT, PLC, "BIT41 is set, BIT42 is clear")
+    assert bench.session.course.run(10) == Stop(
+        Reason.BREAKPOINT, PLC, "BIT41 is set, BIT42 is clear"
+    )

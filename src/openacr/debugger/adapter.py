@@ -87,7 +87,7 @@ class Adapter:
     @property
     def is_watching(self) -> bool:
         """Whether `advance` is to be called: something runs."""
-        return self.is_running or (self._target is not None and self._target.is_live)
+        return self.is_running or (self._target is not None and self._target.course.is_live)
 
     @property
     def target(self) -> Target:
@@ -153,7 +153,7 @@ class Adapter:
     def begin(self, target: Target) -> None:
         """Debug this from now on."""
         self._target = target
-        target.listen(lambda text: self.show(text, "stdout"))
+        target.course.listen(lambda text: self.show(text, "stdout"))
         if target.capabilities:
             self.event("capabilities", capabilities=dict(target.capabilities))
 
@@ -170,14 +170,14 @@ class Adapter:
 
     def _forget(self, owner: int | None) -> None:
         """Values of an earlier stop are void: of one program, where the others do not stop."""
-        if owner is None or not self.target.is_live:
+        if owner is None or not self.target.course.is_live:
             self._held.clear()
         self._held = {n: held for n, held in self._held.items() if held[0] != owner}
 
     def advance(self, ticks: int) -> None:
         """Let time pass; called again and again by the server."""
         try:
-            stop = self.target.run(ticks)
+            stop = self.target.course.run(ticks)
         except OpenacrError as error:  # of a journal that does not fit
             stop = Stop(Reason.EXCEPTION, None, str(error))
         text = self.target.heard()
@@ -196,7 +196,7 @@ class Adapter:
             "stopped",
             reason=stop.reason.value,
             threadId=owner + 1,
-            allThreadsStopped=not self.target.is_live,
+            allThreadsStopped=not self.target.course.is_live,
             **({"description": stop.text, "text": stop.text} if stop.text else {}),
         )
 
@@ -216,11 +216,12 @@ class Adapter:
 
     def standing(self) -> Target:
         """What is debugged, which must stand; UserError while it runs."""
-        if self.is_running and not self.target.is_live:
+        if self.is_running and not self.target.course.is_live:
             raise UserError("the card runs: pause it first")
         return self.target
 
     def set_breakpoints_of(self, source: str, breakpoints: list[LineBreakpoint]) -> None:
         """Replace the breakpoints of a file or listing."""
         self._breakpoints[source] = breakpoints
-        self.target.set_lines([each for found in self._breakpoints.values() for each in found])
+        every = [each for found in self._breakpoints.values() for each in found]
+        self.target.course.set_lines(every)

@@ -14,30 +14,20 @@ from openacr.debugger.session import DebugSession
 from openacr.debugger.target import NO_STATEMENT, Frame, Place
 from openacr.debugger.variables import axis_states, locals_of, program_state, time_state
 from openacr.errors import UserError
-from openacr.timeline import Timeline
 
 
-class CardTarget(DebugSession):
-    """A debugged card, with what is seen of it."""
+class CardTarget:
+    """What is seen of a debugged card, and where it can stop."""
+
+    def __init__(self, card: Controller, show: Callable[[str], None] = lambda text: None) -> None:
+        """`show` gets the texts of breakpoints that print, and conditions that fail."""
+        self.card = card
+        self.course = DebugSession(card, show)
 
     @property
     def capabilities(self) -> Mapping[str, object]:
         """None: what a virtual card can do is the rule."""
         return {}
-
-    @property
-    def period_s(self) -> float:
-        """The servo period [s]."""
-        return self.card.period_s
-
-    @property
-    def history(self) -> Timeline:
-        """The history of the card."""
-        return self.timeline
-
-    def listen(self, show: Callable[[str], None]) -> None:
-        """Show what programs print."""
-        self.card.listen(lambda program, text: show(text))
 
     def close(self) -> None:
         """Do nothing: the card ends with its process."""
@@ -54,7 +44,7 @@ class CardTarget(DebugSession):
         if owner < PROGRAMS:
             present = frames_of(self.card, owner) if owner >= 0 else []
         else:
-            rung = self.rung_at(owner)
+            rung = self.course.rung_at(owner)
             present = [] if rung is None else [frame_of(self.card, owner, rung)]
         found = []
         for each in present:
@@ -74,7 +64,7 @@ class CardTarget(DebugSession):
 
     def scopes(self, owner: int, depth: int) -> Iterable[tuple[str, Iterable[Value]]]:
         """The groups of values of a program."""
-        rung = self.rung_at(owner)
+        rung = self.course.rung_at(owner)
         if rung is not None:
             yield "Rung", rungs.operands(self.card, owner, rung)
             yield "Time", time_state(self.card)

@@ -54,7 +54,7 @@ def _journal(wanted: Launch, show: Callable[[str], None]) -> CardTarget:
     card.owns_console = True  # lines that are typed now continue those of the journal
     target = CardTarget(card, show)
     last_tk = max([journal.header.tick, *(entry.tick for entry in journal.entries)])
-    target.timeline.foresee(journal.entries, last_tk)
+    target.course.timeline.foresee(journal.entries, last_tk)
     return target
 
 

@@ -76,7 +76,7 @@ def _answer(adapter: Adapter, messages: Queue[Message]) -> None:
 
 def _advance(adapter: Adapter, pacer: Pacer | None) -> Pacer | None:
     """Let the card run for a moment, in its pace."""
-    period_s = adapter.target.period_s
+    period_s = adapter.target.course.period_s
     if adapter.speed == 0.0:
         adapter.advance(max(1, round(SLICE_S / period_s)))
         return None

@@ -94,9 +94,18 @@ class DebugSession:
         self._faults = faults
 
     @property
+    def period_s(self) -> float:
+        """The servo period [s]."""
+        return self.card.period_s
+
+    @property
     def is_live(self) -> bool:
         """False: time stands with the debugger."""
         return False
+
+    def listen(self, show: Callable[[str], None]) -> None:
+        """Show what programs print."""
+        self.card.listen(lambda program, text: show(text))
 
     def entry(self) -> Stop:
         """The stop at the first moment."""

@@ -79,7 +79,7 @@ def set_data_breakpoints(adapter: Adapter, arguments: requests.SetDataBreakpoint
             answers.append({"verified": True})
         except OpenacrError as refused:  # the others count all the same
             answers.append({"verified": False, "message": str(refused)})
-    adapter.target.set_data(kept)
+    adapter.target.course.set_data(kept)
     return {"breakpoints": answers}
 
 
@@ -88,4 +88,4 @@ def set_exception_breakpoints(
     adapter: Adapter, arguments: requests.SetExceptionBreakpoints
 ) -> None:
     """Stop at faults."""
-    adapter.target.set_faults(frozenset(arguments.filters))
+    adapter.target.course.set_faults(frozenset(arguments.filters))

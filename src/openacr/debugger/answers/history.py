@@ -12,20 +12,20 @@ def openacr_seek(adapter: Adapter, arguments: requests.Seek) -> Json:
     """Go to a tick of the present branch, or of another one."""
     target = adapter.standing()
     if arguments.branch is not None:
-        target.history.switch(arguments.branch)
-    adapter.stopped(target.seek(Moment(arguments.tick, arguments.within)))
+        target.course.timeline.switch(arguments.branch)
+    adapter.stopped(target.course.seek(Moment(arguments.tick, arguments.within)))
     return {}
 
 
 @request(requests.Nothing)
 def openacr_timeline(adapter: Adapter, arguments: requests.Nothing) -> Json:
     """The branches of the history, and the present moment."""
-    timeline = adapter.target.history
+    timeline = adapter.target.course.timeline
     return {
         "branch": timeline.branch.number,
         "tick": timeline.now.tick,
         "within": timeline.now.within,
-        "period_s": adapter.target.period_s,
+        "period_s": adapter.target.course.period_s,
         "bytes": timeline.size_bytes,
         "branches": [
             {

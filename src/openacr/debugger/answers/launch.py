@@ -31,15 +31,15 @@ def attach(adapter: Adapter, arguments: requests.Launch) -> None:
 def _begin(adapter: Adapter, arguments: requests.Launch) -> None:
     adapter.close()
     target = opened(arguments, adapter.show)
-    adapter.speed = 1.0 if target.is_live else arguments.speed
-    adapter.is_stopped_at_entry = arguments.stop_on_entry and not target.is_live
+    adapter.speed = 1.0 if target.course.is_live else arguments.speed
+    adapter.is_stopped_at_entry = arguments.stop_on_entry and not target.course.is_live
     adapter.begin(target)
 
 
 @request(requests.Nothing)
 def configuration_done(adapter: Adapter, arguments: requests.Nothing) -> None:
     """Begin to run, or stand at the beginning."""
-    entry = adapter.target.entry()
+    entry = adapter.target.course.entry()
     if adapter.is_stopped_at_entry:
         adapter.stopped(entry)
     else:

@@ -11,9 +11,9 @@ from openacr.debugger.target import Target
 def continue_(adapter: Adapter, arguments: requests.OfThread) -> Json:
     """Run until something stops the card."""
     owner, target = arguments.thread_id - 1, adapter.standing()
-    target.resume(owner)
+    target.course.resume(owner)
     adapter.resume(owner)
-    return {"allThreadsContinued": not target.is_live}
+    return {"allThreadsContinued": not target.course.is_live}
 
 
 def _step(
@@ -21,9 +21,9 @@ def _step(
 ) -> None:
     owner, target = arguments.thread_id - 1, adapter.standing()
     if _is_by_tick(target, arguments):
-        adapter.stopped(target.tick())
+        adapter.stopped(target.course.tick())
         return
-    target.begin_step(owner, into=into, out=out)
+    target.course.begin_step(owner, into=into, out=out)
     adapter.resume(owner)
 
 
@@ -53,20 +53,21 @@ def step_out(adapter: Adapter, arguments: requests.Step) -> None:
 def step_back(adapter: Adapter, arguments: requests.Step) -> None:
     """Go back to the line that the program has executed before."""
     target = adapter.standing()
+    owner, course = arguments.thread_id - 1, target.course
     is_by_tick = _is_by_tick(target, arguments)
-    adapter.stopped(target.tick_back() if is_by_tick else target.step_back(arguments.thread_id - 1))
+    adapter.stopped(course.tick_back() if is_by_tick else course.step_back(owner))
 
 
 @request(requests.OfThread)
 def reverse_continue(adapter: Adapter, arguments: requests.OfThread) -> None:
     """Go back to the last stop before the present."""
-    adapter.stopped(adapter.standing().run_back())
+    adapter.stopped(adapter.standing().course.run_back())
 
 
 @request(requests.OfThread)
 def pause(adapter: Adapter, arguments: requests.OfThread) -> None:
     """Stop where the card is."""
     if adapter.is_watching:
-        stop = adapter.target.paused(arguments.thread_id - 1)
+        stop = adapter.target.course.paused(arguments.thread_id - 1)
         if stop is not None:
             adapter.stopped(stop)

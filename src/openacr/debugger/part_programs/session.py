@@ -9,9 +9,9 @@ block is in the log of blocks, with the tick at which the machine came to it.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
-from openacr.debugger.breakpoints import Fault, LineBreakpoint
+from openacr.debugger.breakpoints import DataBreakpoint, Fault, LineBreakpoint
 from openacr.debugger.conditions import Conditions
 from openacr.debugger.part_programs.blocks import MOST_BLOCKS, BlockLog
 from openacr.debugger.part_programs.run import LiveRun
@@ -22,39 +22,67 @@ from openacr.timeline import Moment, Timeline
 AT_ONCE_S = 10.0  # card time in which a program comes to its first block
 
 
+def not_watched(name: str) -> UserError:
+    """Changes of values are watched on cards alone."""
+    return UserError(f"{name}: no value is watched while a part program is debugged")
+
+
 class PartSession:
     """The run of a part program, in both directions; `at` is the present block."""
 
     def __init__(
-        self, live: LiveRun, log: BlockLog, timeline: Timeline, show: Callable[[str], None]
+        self,
+        live: LiveRun,
+        log: BlockLog,
+        timeline: Timeline,
+        texts: Callable[[], Sequence[str]],
+        answer: Callable[[int, str], str],
+        show: Callable[[str], None],
     ) -> None:
+        """`texts` gives the names of the texts of the program, in the order of their numbers.
+
+        `answer` gives the value of an expression before a block acts (UserError if it has none),
+        `show` gets the texts of breakpoints that print, and conditions that fail.
+        """
         self.live, self.log, self.timeline = live, log, timeline
         self.at = 0
         self.most_blocks = MOST_BLOCKS
-        self._conditions = Conditions(self.answer_at, show)
+        self._texts = texts
+        self._conditions = Conditions(answer, show)
         self._lines: dict[tuple[str, int], LineBreakpoint] = {}
         self._stops_at_alarms = False
         self._alarm_cnt = 0
         self._step: Callable[[int], bool] | None = None  # whether it ends at a block
 
-    def answer_at(self, block: int, expression: str) -> str:
-        """The value of an expression before a block acts; UserError if it has none."""
-        raise NotImplementedError
-
     # what stops it
 
-    def set_places(self, breakpoints: dict[tuple[str, int], LineBreakpoint]) -> None:
-        """Stop before these lines of files, and no others."""
-        self._lines = breakpoints
+    def set_lines(self, breakpoints: list[LineBreakpoint]) -> None:
+        """Stop before these lines, and no others."""
+        names = self._texts()
+        self._lines = {(names[each.program], each.line): each for each in breakpoints}
+
+    def set_data(self, breakpoints: list[DataBreakpoint]) -> None:
+        """Refuse all but none."""
+        for each in breakpoints:
+            raise not_watched(each.name)
 
     def set_faults(self, faults: frozenset[Fault]) -> None:
         """Stop at alarms, or not."""
         self._stops_at_alarms = Fault.PROGRAM in faults
 
     @property
+    def period_s(self) -> float:
+        """The servo period [s]."""
+        return self.live.card.period_s
+
+    @property
     def is_live(self) -> bool:
         """False: time stands with the debugger."""
         return False
+
+    def listen(self, show: Callable[[str], None]) -> None:
+        """Show what programs of the card print."""
+        self.live.card.listen(lambda program, text: show(text))
 
     def entry(self) -> Stop:
         """Come to the first block."""

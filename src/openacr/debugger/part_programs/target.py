@@ -16,10 +16,10 @@ from openacr.cnc.reading.grammar import Grammar
 from openacr.cnc.reading.parser import parse
 from openacr.cnc.reading.text import decoded
 from openacr.debugger import questions
-from openacr.debugger.breakpoints import DataBreakpoint, Fault, LineBreakpoint
+from openacr.debugger.breakpoints import Fault
 from openacr.debugger.part_programs.blocks import Block, BlockLog
 from openacr.debugger.part_programs.run import LiveRun
-from openacr.debugger.part_programs.session import PartSession
+from openacr.debugger.part_programs.session import PartSession, not_watched
 from openacr.debugger.part_programs.values import (
     modal_values,
     offset_values,
@@ -46,8 +46,8 @@ CAPABILITIES = {
 _PARAMETER = re.compile(r"\s*[P#]\s*(\d{1,7})\s*", re.IGNORECASE)
 
 
-class PartTarget(PartSession):
-    """The run of a part program, with what is seen of it."""
+class PartTarget:
+    """What is seen of the run of a part program, and where it can stop."""
 
     def __init__(
         self, file: Path, store: Store, dialect: str | None, show: Callable[[str], None]
@@ -66,45 +66,33 @@ class PartTarget(PartSession):
         self.program, self.dialect = program, choice.name
         self._file, self._show = file, show
         self._folders = folders_of(store, store.path.parent if store.path else None)
-        log = BlockLog()
-        timeline = Timeline(card)
-        shop.reader = log
+        self.card, self.log = card, BlockLog()
+        timeline = Timeline(card)  # of inputs, those of the start included
+        shop.reader = self.log
         shop.start(program, Start(dialect=choice.name, is_repeated=False))
-        super().__init__(LiveRun(shop, card, log), log, timeline, show)
-        self.card = card
+        live = LiveRun(shop, card, self.log)
+        self.course = PartSession(live, self.log, timeline, self._texts, self.answer_at, show)
 
     @property
     def capabilities(self) -> Mapping[str, object]:
         """Where it differs from a card: no data breakpoints."""
         return CAPABILITIES
 
-    @property
-    def period_s(self) -> float:
-        """The servo period [s]."""
-        return self.card.period_s
-
-    @property
-    def history(self) -> Timeline:
-        """The history of the card; its branch is the only one."""
-        return self.timeline
-
-    def listen(self, show: Callable[[str], None]) -> None:
-        """Show what programs of the card print."""
-        self.card.listen(lambda program, text: show(text))
-
     def close(self) -> None:
         """Bring the machine to rest, outputs off first; it ends with its process."""
-        if self.timeline.is_past:
-            self.timeline.seek(self.timeline.branch.last)
+        if self.course.timeline.is_past:
+            self.course.timeline.seek(self.course.timeline.branch.last)
         self.shop.runner.bring_to_rest()
-        self.live.advance(round(REST_S / self.card.period_s), until=lambda: not self.live.is_busy)
+        self.course.live.advance(
+            round(REST_S / self.card.period_s), until=lambda: not self.course.live.is_busy
+        )
         self.shop.close()
 
     # what is seen
 
     @property
     def _block(self) -> Block | None:
-        return self.log[self.at] if self.live.reached_cnt else None
+        return self.log[self.course.at] if self.course.live.reached_cnt else None
 
     def owners(self) -> list[tuple[int, str]]:
         """The part program."""
@@ -141,6 +129,9 @@ class PartTarget(PartSession):
         yield from program.includes.values()
         yield from program.customs.values()
 
+    def _texts(self) -> list[str]:
+        return [part.text.name for part in self._parts()]
+
     def listing(self, number: int) -> str:
         """None: the texts of part programs are files."""
         raise UserError(f"there is no listing {number}")
@@ -162,11 +153,11 @@ class PartTarget(PartSession):
 
     def answer(self, owner: int, expression: str) -> str:
         """The value of an expression of the program before the present block acts."""
-        return self.answer_at(self.at, expression)
+        return self.answer_at(self.course.at, expression)
 
     def answer_at(self, block: int, expression: str) -> str:
         """The value of an expression before a block acts."""
-        if not self.live.reached_cnt:
+        if not self.course.live.reached_cnt:
             raise UserError("the part program has not come to a block")
         value = value_of(
             expression, self.log[block], self.log.noted, self.card, self.program, self.dialect
@@ -193,7 +184,7 @@ class PartTarget(PartSession):
         return questions.typed(self.card, 0, line)
 
     def _require_present(self) -> None:
-        if self.timeline.is_past:
+        if self.course.timeline.is_past:
             raise UserError("the part program has run on from here: only the latest moment changes")
 
     def heard(self) -> str:
@@ -220,19 +211,9 @@ class PartTarget(PartSession):
         """Empty: it can stop before every block."""
         return ""
 
-    def set_lines(self, breakpoints: list[LineBreakpoint]) -> None:
-        """Stop before these lines, and no others."""
-        names = [part.text.name for part in self._parts()]
-        self.set_places({(names[each.program], each.line): each for each in breakpoints})
-
     def require_watchable(self, name: str) -> None:
         """Refuse: changes of values are watched on cards alone."""
-        raise UserError(f"{name}: no value is watched while a part program is debugged")
-
-    def set_data(self, breakpoints: list[DataBreakpoint]) -> None:
-        """Refuse all but none."""
-        for each in breakpoints:
-            self.require_watchable(each.name)
+        raise not_watched(name)
 
     def steps_lines(self, owner: int) -> bool:
         """Part programs step by blocks."""

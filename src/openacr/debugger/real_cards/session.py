@@ -11,13 +11,22 @@ from dataclasses import replace
 
 from openacr.client import Level
 from openacr.client.program_states import PROGRAMS, ProgramState
-from openacr.debugger.breakpoints import Fault
+from openacr.debugger.breakpoints import DataBreakpoint, Fault, LineBreakpoint
 from openacr.debugger.real_cards.followers import Followers
 from openacr.debugger.real_cards.holding import WAITS, is_held, release, step
 from openacr.debugger.real_cards.link import CardLink
 from openacr.debugger.stops import Reason, Stop
 from openacr.errors import UserError
 from openacr.map.words import pf
+from openacr.timeline import Moment, Timeline
+
+POLL_S = 0.05
+NO_PAST = "a card over a link has no past: time runs back on a virtual card only"
+
+
+def not_watched(name: str) -> UserError:
+    """Changes of values are watched on virtual cards alone."""
+    return UserError(f"{name}: no value of a card over a link can be watched to the tick")
 
 
 class RealCardSession:
@@ -34,6 +43,7 @@ class RealCardSession:
         self.commanded: set[int] = set()  # their moves may be of what was started or typed here
         self.paused_here: set[int] = set()
         self._run, self._is_held_at_start = list(run), is_held_at_start
+        self.on_new_text: Callable[[int], None] = lambda owner: None  # of a program, perhaps
         self._show: Callable[[str], None] = lambda text: None
         self._held: set[int] = set()  # as reported
         self._steps: set[int] = set()
@@ -46,16 +56,31 @@ class RealCardSession:
         """Whether it runs on by itself: until it is lost."""
         return not self._is_loss_reported
 
+    @property
+    def period_s(self) -> float:
+        """The time between two polls [s]."""
+        return POLL_S
+
+    @property
+    def timeline(self) -> Timeline:
+        """Refuse: it has none."""
+        raise UserError(NO_PAST)
+
     def listen(self, show: Callable[[str], None]) -> None:
         """Show what the programs print that are followed."""
         self._show = show
 
+    def set_lines(self, breakpoints: list[LineBreakpoint]) -> None:
+        """Ignore them: `RealCardTarget.why_no_stop` gives the reason."""
+
+    def set_data(self, breakpoints: list[DataBreakpoint]) -> None:
+        """Refuse all but none."""
+        for each in breakpoints:
+            raise not_watched(each.name)
+
     def set_faults(self, faults: frozenset[Fault]) -> None:
         """Stop at errors of programs that are followed, or not."""
         self._filters = faults
-
-    def forget_texts(self, owner: int) -> None:
-        """The text of a program may be another one now."""
 
     def entry(self) -> Stop:
         """Start programs; those that are to be held at their beginning are reported by `run`."""
@@ -120,6 +145,30 @@ class RealCardSession:
             self._poll()
         return self._stops.popleft() if self._stops else None
 
+    # what it cannot do
+
+    def tick(self) -> Stop:
+        """Refuse: time does not stop."""
+        raise UserError("the time of a card over a link does not stop: step line by line")
+
+    def tick_back(self) -> Stop:
+        """Refuse."""
+        raise UserError(NO_PAST)
+
+    def step_back(self, owner: int) -> Stop:
+        """Refuse."""
+        raise UserError(NO_PAST)
+
+    def run_back(self) -> Stop:
+        """Refuse."""
+        raise UserError(NO_PAST)
+
+    def seek(self, moment: Moment) -> Stop:
+        """Refuse."""
+        raise UserError(NO_PAST)
+
+    # what the card does
+
     def _poll(self) -> None:
         states = self.link.poll()
         self._hear()
@@ -143,7 +192,7 @@ class RealCardSession:
     def _compare(self, program: int, before: ProgramState, state: ProgramState) -> None:
         if state.is_running and not before.is_running:
             self.faults.pop(program, None)
-            self.forget_texts(program)
+            self.on_new_text(program)
         if before.is_running and not state.is_running:
             self._steps.discard(program)
             if program in self.started:

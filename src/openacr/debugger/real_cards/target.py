@@ -12,20 +12,17 @@ from openacr.client import Level
 from openacr.client.program_states import PROGRAMS, ProgramState
 from openacr.client.program_variables import Value, answer, assign, variables
 from openacr.client.stored import ListedLine
-from openacr.debugger.breakpoints import DataBreakpoint, Fault, LineBreakpoint
+from openacr.debugger.breakpoints import Fault
 from openacr.debugger.real_cards import values
 from openacr.debugger.real_cards.ending import end
 from openacr.debugger.real_cards.followers import Followers
 from openacr.debugger.real_cards.link import CardLink
-from openacr.debugger.real_cards.session import RealCardSession
-from openacr.debugger.stops import Stop
+from openacr.debugger.real_cards.session import RealCardSession, not_watched
 from openacr.debugger.target import Frame, Place
 from openacr.errors import OpenacrError, UserError
-from openacr.timeline import Moment, Timeline
 
 log = logging.getLogger(__name__)
 
-POLL_S = 0.05
 CAPABILITIES = {
     "supportsConditionalBreakpoints": False,
     "supportsHitConditionalBreakpoints": False,
@@ -37,26 +34,30 @@ CAPABILITIES = {
         {"filter": Fault.PROGRAM, "label": "Errors that end a program (LISTEN)", "default": True},
     ],
 }
-NO_PAST = "a card over a link has no past: time runs back on a virtual card only"
 NO_LINES = "a PLC has no lines to stop at"
 NO_BREAKPOINTS = (
     "a card over a link cannot stop before a line by itself: step, or write PAUSE into the program"
 )
 
 
-class RealCardTarget(RealCardSession):
-    """A card over a link. Owners are the programs (0-15) and PLCs (16-23) with a text."""
+class RealCardTarget:
+    """What is seen of a card over a link.
+
+    Owners are the programs (0-15) and PLCs (16-23) with a text.
+    """
 
     def __init__(
         self, link: CardLink, followers: Followers, run: Sequence[int], *, is_held_at_start: bool
     ) -> None:
         """Read which programs there are. ClientError, UserError."""
-        super().__init__(link, followers, run, is_held_at_start=is_held_at_start)
+        self.link, self.followers = link, followers
+        self.course = RealCardSession(link, followers, run, is_held_at_start=is_held_at_start)
+        self.course.on_new_text = self._forget_text
         self._listings: dict[int, list[ListedLine]] = {}
         rooms = link.do(lambda card: card.rooms())
         self._owners = [
             owner
-            for owner, state in enumerate(self.states)
+            for owner, state in enumerate(self.course.states)
             if state.is_running or (state.level in rooms and self._lines(owner))
         ]
 
@@ -65,22 +66,17 @@ class RealCardTarget(RealCardSession):
         """What a card over a link cannot do."""
         return CAPABILITIES
 
-    @property
-    def period_s(self) -> float:
-        """The time between two polls [s]."""
-        return POLL_S
-
-    @property
-    def history(self) -> Timeline:
-        """Refuse: it has none."""
-        raise UserError(NO_PAST)
-
     def close(self) -> None:
         """HALT what was started here and end moves that were typed; the rest stays as it is."""
         self.followers.close()
         try:
-            if self.started or self.commanded:
-                end(self.link.last_card(), self.started, self.commanded, self.paused_here)
+            if self.course.started or self.course.commanded:
+                end(
+                    self.link.last_card(),
+                    self.course.started,
+                    self.course.commanded,
+                    self.course.paused_here,
+                )
         except OpenacrError as failure:
             log.warning("the programs may go on: %s", failure)
         finally:
@@ -95,7 +91,7 @@ class RealCardTarget(RealCardSession):
     def frames(self, owner: int) -> list[Frame]:
         """The line that a program has executed last: the card names no other."""
         state = self._state(owner)
-        if owner not in PROGRAMS or not (state.is_running or owner in self.faults):
+        if owner not in PROGRAMS or not (state.is_running or owner in self.course.faults):
             return []
         numbers = [line.number for line in self._lines(owner)]
         place = numbers.index(state.line) + 1 if state.line in numbers else 1
@@ -104,24 +100,24 @@ class RealCardTarget(RealCardSession):
 
     def _lines(self, owner: int) -> list[ListedLine]:
         if owner not in self._listings:
-            level = self.states[owner].level
+            level = self.course.states[owner].level
             self._listings[owner] = self.link.do(lambda card: card.listing(level))
         return self._listings[owner]
 
-    def forget_texts(self, owner: int) -> None:
+    def _forget_text(self, owner: int) -> None:
         """Read the listing of a program anew when it is needed."""
         self._listings.pop(owner, None)
 
     def _state(self, owner: int) -> ProgramState:
-        if not 0 <= owner < len(self.states):
+        if not 0 <= owner < len(self.course.states):
             raise UserError(f"there is no program {owner}")
-        return self.states[owner]
+        return self.course.states[owner]
 
     def listing(self, number: int) -> str:
         """The listing of a program or PLC; its number is that of the owner plus 1."""
         if number - 1 not in dict(self.owners()):
             raise UserError(f"there is no listing {number}")
-        self.forget_texts(number - 1)  # it may have been stored anew
+        self._forget_text(number - 1)  # it may have been stored anew
         return "".join(f"{line.number} {line.text.strip()}\n" for line in self._lines(number - 1))
 
     def scopes(self, owner: int, depth: int) -> Iterable[tuple[str, Iterable[Value]]]:
@@ -138,7 +134,7 @@ class RealCardTarget(RealCardSession):
     def _about(self, owner: int) -> list[Value]:
         state = self._state(owner)
         about = [Value("state", state.does), Value("line executed last", str(state.line))]
-        return about + [Value("error", text) for text in [self.faults.get(owner)] if text]
+        return about + [Value("error", text) for text in [self.course.faults.get(owner)] if text]
 
     def answer(self, owner: int, expression: str) -> str:
         """The value of an expression at the prompt of a program."""
@@ -155,7 +151,7 @@ class RealCardTarget(RealCardSession):
     def typed(self, owner: int, line: str) -> str:
         """The answer to a line at the prompt of a program; its moves end with the session."""
         program = _prompt(owner)
-        self.commanded.add(program)
+        self.course.commanded.add(program)
         self._listings.clear()
         lines = self.link.do(lambda card: card.command(line, program=program))
         return "".join(f"{each}\n" for each in lines)
@@ -177,43 +173,13 @@ class RealCardTarget(RealCardSession):
         """Why no line is a breakpoint."""
         return NO_BREAKPOINTS if place[0] in PROGRAMS else NO_LINES
 
-    def set_lines(self, breakpoints: list[LineBreakpoint]) -> None:
-        """Ignore them: `why_no_stop` gives the reason."""
-
     def require_watchable(self, name: str) -> None:
         """Refuse: changes are watched on virtual cards alone."""
-        raise UserError(f"{name}: no value of a card over a link can be watched to the tick")
-
-    def set_data(self, breakpoints: list[DataBreakpoint]) -> None:
-        """Refuse all but none."""
-        for each in breakpoints:
-            self.require_watchable(each.name)
-
-    # what it cannot do
+        raise not_watched(name)
 
     def steps_lines(self, owner: int) -> bool:
         """True: it never steps by servo interrupts."""
         return True
-
-    def tick(self) -> Stop:
-        """Refuse: time does not stop."""
-        raise UserError("the time of a card over a link does not stop: step line by line")
-
-    def tick_back(self) -> Stop:
-        """Refuse."""
-        raise UserError(NO_PAST)
-
-    def step_back(self, owner: int) -> Stop:
-        """Refuse."""
-        raise UserError(NO_PAST)
-
-    def run_back(self) -> Stop:
-        """Refuse."""
-        raise UserError(NO_PAST)
-
-    def seek(self, moment: Moment) -> Stop:
-        """Refuse."""
-        raise UserError(NO_PAST)
 
 
 def _name(owner: int) -> str:
