@@ -8,7 +8,7 @@ from openacr.map import flag
 from openacr.map.numbers import FLAG_LAST
 from openacr.scenario import card_view
 from openacr.scenario.play import Play
-from openacr.scenario.played import CardWorld, Played
+from openacr.scenario.played import CardWorld, PlayedCard
 from openacr.scenario.schema import Condition, Scenario
 
 SCAN_S = 0.05  # the slow scan of the card: time between two looks whether it is idle
@@ -57,7 +57,7 @@ def read_until(text: str) -> Until:
     return Until(int(number), not text.strip().startswith("-"))
 
 
-def stored_but_idle(card: Played) -> list[int]:
+def stored_but_idle(card: PlayedCard) -> list[int]:
     """The stored programs, if none of them runs: a run without a scenario starts them."""
     stored = [p for p in card_view.PROGRAMS if card_view.has_program(card.memory, p)]
     return [] if card_view.running_programs(card.memory) else stored
@@ -68,7 +68,7 @@ class Course:
 
     def __init__(
         self,
-        card: Played,
+        card: PlayedCard,
         scenario: Scenario | None,
         limit_s: float,
         until: Until | None = None,

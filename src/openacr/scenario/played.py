@@ -1,10 +1,9 @@
-"""A card on which scenarios are played: what a run needs of it, and the world they see."""
+"""A card on which scenarios are played, and the world they see."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from math import nan
-from typing import Protocol
 
 from openacr.basic.language.lister import Lister
 from openacr.channels import StreamKind
@@ -36,48 +35,10 @@ class Failure:
         return f"{self.file}:{self.file_line}" if self.file else ""
 
 
-class Played(Protocol):
-    """A card with its project loaded, at rest between two ticks."""
-
-    @property
-    def memory(self) -> Memory:
-        """All parameters and flags."""
-
-    @property
-    def tick(self) -> int:
-        """Servo periods lived so far."""
-
-    @property
-    def period_s(self) -> float:
-        """Seconds per tick."""
-
-    def watch(self, conditions: Sequence[Condition]) -> bool:
-        """Make `advance` end when one of these may have changed; False if that is too much."""
-
-    def has_new_events(self) -> bool:
-        """Whether more is to be watched than at the last `watch`: call it once more."""
-
-    def advance(self, ticks: int) -> None:
-        """Run the card for `ticks` ticks, fewer if something watched changes."""
-
-    def advance_until(self, bit: int, is_on: bool, ticks: int) -> bool:
-        """Run the card until a flag has this state, but no longer than `advance` would."""
-
-    def listen(self, hear: Callable[[str], None], overhear: Callable[[str], None]) -> None:
-        """Call `hear` with what programs print, `overhear` with what terminals answer."""
-
-    def type_text(self, text: str, stream: str | None) -> None:
-        """Type text on a stream, by default the terminal of the run."""
-
-    @property
-    def surroundings(self) -> Surroundings:
-        """The machine around the card."""
-
-
 class CardWorld:
     """The world of a scenario made of a card, from its present tick on."""
 
-    def __init__(self, card: Played) -> None:
+    def __init__(self, card: "PlayedCard") -> None:
         self._card = card
         self._begin_tk = card.tick
         self.surroundings = card.surroundings

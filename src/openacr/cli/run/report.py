@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-    from openacr.cli.run.machine import Machine
+    from openacr.cli.run.controlled import ControlledMachine
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class Report:
         return any(p.failure for p in self.programs) or any(not v.ok for v in self.verdicts)
 
 
-def report_on(machine: "Machine", begin_tk: int, wall_s: float) -> Report:
+def report_on(machine: "ControlledMachine", begin_tk: int, wall_s: float) -> Report:
     """Collect the outcome of a run that began at a tick and took `wall_s` of real time."""
     ticks = machine.tick - begin_tk
     time_s = ticks * machine.period_s
@@ -73,7 +73,7 @@ def report_on(machine: "Machine", begin_tk: int, wall_s: float) -> Report:
     )
 
 
-def _program(machine: "Machine", number: int) -> ProgramReport:
+def _program(machine: "ControlledMachine", number: int) -> ProgramReport:
     memory = machine.memory
     failure = machine.failure(number) if card_view.has_failed(memory, number) else None
     state, line = card_view.program_state(memory, number), card_view.program_line(memory, number)

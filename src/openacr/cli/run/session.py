@@ -9,7 +9,7 @@ from pathlib import Path
 
 from openacr.cli.results import Event, Watched
 from openacr.cli.run import output
-from openacr.cli.run.machine import Machine
+from openacr.cli.run.controlled import ControlledMachine
 from openacr.cli.run.progress import Bar, bar_for
 from openacr.cli.run.report import (
     Report,
@@ -57,7 +57,7 @@ class Session:
     def __init__(
         self,
         options: Options,
-        machine: Machine,
+        machine: ControlledMachine,
         scenario: Scenario | None,
     ) -> None:
         self._options = options
