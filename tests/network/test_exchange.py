@@ -146,6 +146,14 @@ def test_a_device_without_negative_values_uses_the_upper_half() -> None:
     assert converted(made, 0, 0) == 0
 
 
+@pytest.mark.req("ACR-CANIO-06")
+def test_an_output_is_its_volts_times_the_gain_in_counts() -> None:
+    made = running()
+    made.p[33280], made.p[33296] = 7.5, -2.5
+    made.advance(seconds=0.06)
+    assert [converted(made, 0, 0), converted(made, 0, 1)] == [24576, -8192]
+
+
 @pytest.mark.req("ACR-CANIO-05", "ACR-CANIO-06")
 def test_an_output_stays_within_sixteen_bits() -> None:
     made = running()
