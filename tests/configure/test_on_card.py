@@ -110,10 +110,12 @@ def test_enabled_and_disabled_drives_are_shown(card: Controller) -> None:
 @pytest.mark.req("ACR-WIZ-FLAG-1952", "ACR-WIZ-FLAG-1960")
 def test_faulted_drives_are_shown(card: Controller) -> None:
     assert only(card, 1952) == []
-    card.send("SET 8669 SET 8925\r")  # latched faults of axes 6 and 14
-    assert only(card, 1952) == [6, 14]
-    card.send("CLR 8669 CLR 8925\r")
-    assert only(card, 1952) == []
+    flags = {axis: 8477 + 32 * axis for axis in (0, 7, 8, 15)}  # Latched Drive Fault
+    for axis, flag in flags.items():
+        card.send(f"SET {flag}\r")
+        assert only(card, 1952) == [axis]
+        card.send(f"CLR {flag}\r")
+        assert only(card, 1952) == []
 
 
 @pytest.mark.req("ACR-WIZ-FLAG-2000", "ACR-WIZ-FLAG-2008")

@@ -332,6 +332,23 @@ def test_an_encoder_fault_is_no_reason_while_the_drive_is_on(bench: Bench) -> No
     assert bench.card.bit[2560]
 
 
+@pytest.mark.req("ACR-ERR-08")
+@pytest.mark.parametrize("axis", [X, Y])
+def test_an_encoder_fault_is_no_reason_where_a_limit_is_one_already(
+    bench: Bench, axis: int
+) -> None:
+    bench.type_in(f"CLR {CLEAR_CODES}")
+    bench.type_in(f"DRIVE OFF {'XY'[axis]}")
+    bench.wait(0.1)
+    bench.card.bit[2560 + 32 * axis] = True
+    bench.card.bit[16132 + 32 * axis] = True  # the positive hardware limit was encountered
+    bench.type_in(f"SET {KILL + 32 * axis}")
+    text = bench.wait()
+    assert bench.card.p[X_CODE + axis] == 3
+    assert "encoder fault" not in text
+    assert bench.card.bit[2560 + 32 * axis]
+
+
 @pytest.mark.req("ACR-ERR-15")
 def test_the_time_is_split_into_its_parts(bench: Bench) -> None:
     bench.card.p[6916] = 93_784_005

@@ -9,7 +9,8 @@ from tests.mill.shop import Shop
 from tests.mill.test_homing import MACHINE, homing_shop
 
 from openacr.controller import Controller
-from openacr.map.rows import axes
+from openacr.map import numbers as n
+from openacr.map.rows import axes, motors
 from openacr.mill.run.lifecycle import State
 
 JOG, HOME, SPEEDS = 350_000, 300_000, 650_000
@@ -106,8 +107,22 @@ def test_homing_goes_fast_to_the_switch_slowly_off_it_and_on_to_the_marker(
     cells = {f"P{HOME + 3}": fast, f"P{HOME + 4}": slow, f"P{HOME + 5}": marker}
     found = plateaus(homing_speeds(homing_shop(world, **cells)))
     # Plus is the default direction: towards the switch, back off it, along to the marker.
-    assert found[:2] == pytest.approx([fast / 60, -slow / 60], rel=1e-4)
-    assert marker / 60 in [pytest.approx(abs(speed), rel=1e-4) for speed in found[2:]]
+    assert found[:3] == pytest.approx([fast / 60, -slow / 60, -marker / 60], rel=1e-4)
+
+
+@pytest.mark.req("MILL-SYS-HOME-MARKER")
+@pytest.mark.parametrize("marker", [120.0, 1800.0, 6000.0])
+def test_the_zero_is_at_the_marker_however_fast_it_is_sought(
+    world: Controller, marker: float
+) -> None:
+    shop = homing_shop(world, **{f"P{HOME + 5}": marker})
+    homing_speeds(shop)
+    rows = shop.controller.memory.F
+    pitch_cnt = rows[n.PLF_BASE + n.PLF_MARKER_PITCH_CNT]
+    past_cnt = rows[motors.position_cnt[0]] - rows[n.PLF_BASE + n.PLF_MARKER_PHASE_CNT]
+    # At 100 mm/s a servo period is 40 counts; the motor rests within 3 of them.
+    assert (past_cnt + pitch_cnt / 2) % pitch_cnt - pitch_cnt / 2 == pytest.approx(0, abs=4)
+    assert shop.controller.axis(0).actual_cnt == pytest.approx(0, abs=3)
 
 
 @pytest.mark.req("MILL-SYS-HOME-ACC", "MILL-SYS-HOME-DEC")
