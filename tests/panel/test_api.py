@@ -8,6 +8,7 @@ import sys
 import time
 from typing import Any
 
+import ezdxf
 import httpx
 import pytest
 from tests.panel.bench import LIMIT_S, Served
@@ -240,6 +241,30 @@ def test_a_text_is_checked_while_it_is_typed(web: httpx.Client) -> None:
     good = web.post("/api/check", json={"text": "G21 G90\nG0 X0\nG1 X10 F100\nM2\n"}).json()
     assert good["seconds"] == pytest.approx(6.0 + 2.2, abs=0.5)
     assert good["extents"]["X"] == [200.0, 210.0]
+
+
+@pytest.mark.req("MILL-DXF-02")
+@pytest.mark.parametrize(
+    ("asked", "line"),
+    [
+        ({"drill": False}, "G1 X2 Y2"),
+        ({"drill": True, "drill_z": -6.35}, "G98 G81 X0.5 Y1 Z-0.25"),
+    ],
+)
+def test_a_drawing_becomes_a_continuous_path_or_a_drill_pattern_as_asked(
+    web: httpx.Client, panel: Served, asked: dict[str, object], line: str
+) -> None:
+    document = ezdxf.new("R2010")  # type: ignore[attr-defined]
+    document.header["$INSUNITS"] = 1
+    document.modelspace().add_lwpolyline([(0, 0), (2, 0), (2, 2), (0, 2)], close=True)
+    document.modelspace().add_point((0.5, 1))
+    document.saveas(panel.programs / "plate.dxf")
+    answer = web.post("/api/dxf", json={"path": "plate.dxf", "output": "plate.TXT", **asked})
+    assert answer.status_code == 200
+    text = (panel.programs / "plate.TXT").read_text()
+    assert line in text
+    assert ("G81" in text) is bool(asked["drill"])
+    assert ("G1 X2 Y2" in text) is not bool(asked["drill"])
 
 
 def test_the_path_of_the_loaded_program_is_one_block_of_bytes(

@@ -192,7 +192,7 @@ SOURCES = {  # the file that each offers, and its key
 }  # fmt: skip
 
 
-@pytest.mark.req("MILL-MENU-SETUP-LOAD", "MILL-DXF-01")
+@pytest.mark.req("MILL-MENU-SETUP-LOAD", "MILL-DXF-01", "MILL-DXF-02")
 def test_load_prog_offers_every_source_and_drawings_are_found_from_there_and_from_edit(
     ready: Page, served: Served
 ) -> None:
@@ -229,6 +229,8 @@ def test_load_prog_offers_every_source_and_drawings_are_found_from_there_and_fro
         expect(files).to_have_count(1)  # drawings alone
         expect(files).to_contain_text("BOX.DXF")
     files.click()
+    kinds = page.get_by_label("Kind").locator("option")
+    assert kinds.all_inner_texts() == ["Continuous path", "Drill pattern"]
     page.get_by_label("Z of the cut").fill("deep")
     page.get_by_role("button", name="CONVERT").click()
     expect(page.locator("#prompt")).to_contain_text("Z of the cut: Not a number")
