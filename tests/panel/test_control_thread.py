@@ -10,8 +10,7 @@ from openacr.errors import UserError
 from openacr.panel.commands.registry import COMMANDS
 from openacr.panel.control.orders import Order
 from openacr.panel.control.people import Person
-from openacr.panel.control.thread import ORDERS_S, URGENT, ControlThread
-from openacr.panel.control.waiting import Waiting
+from openacr.panel.control.thread import ORDERS_S, URGENT, ControlThread, Waiting
 
 
 class Hand(ControlThread):

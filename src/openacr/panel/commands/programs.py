@@ -16,8 +16,7 @@ from openacr.client.transfer import download
 from openacr.errors import UserError
 from openacr.panel.commands.registry import Args, command
 from openacr.panel.control.card_programs import read_states
-from openacr.panel.control.later import LATER, Later, answer_with
-from openacr.panel.control.orders import Order
+from openacr.panel.control.orders import LATER, Later, Order, answer_with
 from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 

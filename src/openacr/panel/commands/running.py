@@ -21,8 +21,7 @@ from openacr.mill.run.dripping import Drip
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import Start
 from openacr.panel.commands.registry import Args, NoArgs, command
-from openacr.panel.control.later import LATER, Later
-from openacr.panel.control.orders import Order
+from openacr.panel.control.orders import LATER, Later, Order
 from openacr.panel.control.presses import End
 from openacr.panel.control.station import Station
 from openacr.panel.files import Folder

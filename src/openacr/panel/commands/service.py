@@ -12,8 +12,7 @@ from openacr.mill.card.setup import GAIN_WORDS
 from openacr.mill.config.settings import GAINS
 from openacr.mill.manual.profile import parse
 from openacr.panel.commands.registry import Args, NoArgs, command
-from openacr.panel.control.later import LATER, Later, answer_with
-from openacr.panel.control.orders import Order
+from openacr.panel.control.orders import LATER, Later, Order, answer_with
 from openacr.panel.control.presses import End
 from openacr.panel.control.scope import CHANNELS, LEAST_SAMPLES, MOST_SAMPLES, Capture, Trigger
 from openacr.panel.control.station import Station

@@ -8,8 +8,7 @@ from msgspec import Meta
 from openacr.mill.card.setup import GAIN_WORDS
 from openacr.mill.config.settings import GAINS
 from openacr.panel.commands.registry import Args, command
-from openacr.panel.control.later import LATER, Later, answer_with
-from openacr.panel.control.orders import Order
+from openacr.panel.control.orders import LATER, Later, Order, answer_with
 from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 from openacr.sysvar.lookup import known

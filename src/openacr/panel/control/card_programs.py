@@ -9,7 +9,7 @@ from openacr.client.program_states import ROWS, ProgramState, program_states
 from openacr.errors import UserError
 from openacr.map.words import pf
 from openacr.mill.session import MillSession
-from openacr.panel.control.rows import Rows
+from openacr.panel.control.place import Rows
 
 State = dict[str, Any]
 

@@ -1,8 +1,9 @@
-"""Orders of operators on their way to the control thread, and their answers."""
+"""Orders of operators on their way to the control thread, and their answers, at once or later."""
 
 from collections.abc import Callable
+from concurrent.futures import Future
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 from openacr.client import ConnectionLostError
 from openacr.client.errors import ChangedError
@@ -12,6 +13,7 @@ from openacr.panel.control.people import ControlError, Person
 from openacr.panel.roles import Role
 
 Answer = Callable[[dict[str, Any]], None]
+T = TypeVar("T")
 
 
 class PanelError(OpenacrError):
@@ -56,3 +58,23 @@ def failure(error: BaseException) -> dict[str, Any]:
     if isinstance(error, OpenacrError):
         return {"code": "refused", "text": str(error)}
     return {"code": "internal", "text": f"the server has failed: {type(error).__name__}"}
+
+
+class Later:
+    """The answer of an order that is given once work that takes its time has been done."""
+
+
+LATER = Later()
+
+
+def answer_with(order: Order, future: "Future[T]", result: Callable[[T], object]) -> None:
+    """Answer an order with what a future gets, or with its failure."""
+
+    def answer(done: "Future[T]") -> None:
+        error = done.exception()
+        if error is None:
+            order.answer({"ok": True, "result": result(done.result())})
+        else:
+            order.answer({"ok": False, "error": failure(error)})
+
+    future.add_done_callback(answer)

@@ -1,12 +1,12 @@
 """Positions of the axes of a machine, read from its card with one request."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from openacr.map.rows import axes as axis_rows
 from openacr.map.rows import masters
 from openacr.map.words import af1, mf1
 from openacr.mill.config.settings import S_PER_MIN, Settings
-from openacr.panel.control.rows import Rows
 
 ROWS = (
     axis_rows.current_position,
@@ -15,6 +15,7 @@ ROWS = (
     axis_rows.following_error,
 )
 Axes = tuple[float, ...]
+Rows = Callable[[list[int]], list[float]]  # parameters of a card: by its link, or its memory
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,8 +10,7 @@ from openacr.mill.config.overrides import Override
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
 from openacr.mill.zeroing import reader
-from openacr.panel.control.place import Place, read_place
-from openacr.panel.control.rows import Rows
+from openacr.panel.control.place import Place, Rows, read_place
 from openacr.panel.control.snapshot import Axes, Light, Snapshot
 from openacr.sysvar.tabs import CELLS
 

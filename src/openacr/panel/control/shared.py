@@ -9,8 +9,8 @@ from openacr.panel.control.history import STILL
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.jobs import Jobs
 from openacr.panel.control.people import People
+from openacr.panel.control.place import Rows
 from openacr.panel.control.reading import Reading
-from openacr.panel.control.rows import Rows
 from openacr.panel.control.scope import Scope
 from openacr.panel.control.snapshot import Ticks
 from openacr.panel.control.tuning import Tuning

@@ -6,9 +6,8 @@ from collections.abc import Callable
 from openacr.client import ConnectionLostError
 from openacr.errors import OpenacrError
 from openacr.panel.control.installation import Installation
-from openacr.panel.control.later import LATER
 from openacr.panel.control.live import Live
-from openacr.panel.control.orders import Order, failure
+from openacr.panel.control.orders import LATER, Order, failure
 from openacr.panel.control.people import Person
 from openacr.panel.control.presses import End
 from openacr.panel.control.shared import Tell

@@ -8,7 +8,7 @@ from openacr.client.errors import RefusedError
 from openacr.client.names import parameter_number
 from openacr.errors import CardError, UserError
 from openacr.map import numbers as n
-from openacr.panel.control.rows import Rows
+from openacr.panel.control.place import Rows
 
 MOST = 256  # of one client
 INPUTS = (n.W_INPUTS, n.W_INPUTS + 1)  # inputs and outputs of the card
