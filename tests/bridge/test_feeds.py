@@ -151,7 +151,7 @@ def test_a_reading_that_is_too_old_counts_as_lost(quiet_panel: Served) -> None:
 def test_a_machine_that_is_lost_says_why(quiet_panel: Served) -> None:
     feed = StationFeed(quiet_panel.panel.control)
     quiet_panel.step(0.1)
-    quiet_panel.call(lambda station: station._lose("the card does not answer", 1e9))
+    quiet_panel.call(lambda station: station.lose("the card does not answer", 1e9))
     assert feed.newest().lost == "the card does not answer"
 
 

@@ -278,7 +278,7 @@ def test_the_screens_show_what_becomes_of_the_process(quiet_panel: Served, tmp_p
     path.write_text(METRICS)
     _bridge(quiet_panel.panel, path)._tell("the bridge publishes again: here")
     quiet_panel.step(0.01)
-    assert quiet_panel.station.said[-1]["text"] == "the bridge publishes again: here"
+    assert quiet_panel.station.screens.said[-1]["text"] == "the bridge publishes again: here"
 
 
 def test_on_windows_the_process_has_no_window_and_is_no_part_of_ctrl_c(

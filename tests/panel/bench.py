@@ -55,9 +55,9 @@ class HandStation:
         self.now_s = 100.0
         self.station = Station(self.installation, carry_out)
         self.events_sent: list[dict[str, Any]] = []
-        self.station.tell = self.events_sent.append
+        self.station.screens.send = self.events_sent.append
         self.station.open(self.now_s)
-        assert self.station.lost == ""
+        assert self.station.link.lost == ""
         self.me = Person(1, role, "127.0.0.1")
         self.station.join(self.me)
         self.run(0.1)
@@ -116,15 +116,15 @@ class HandStation:
 
     @property
     def state(self) -> str:
-        return self.station.link.runner.state.name
+        return self.station.link.required.runner.state.name
 
     @property
     def is_busy(self) -> bool:
-        return self.station.machine.runner.is_busy
+        return self.station.link.machine.runner.is_busy
 
     @property
     def said(self) -> list[str]:
-        return [each["text"] for each in self.station.said]
+        return [each["text"] for each in self.station.screens.said]
 
     def events(self, name: str) -> list[dict[str, Any]]:
         """What was sent under a name."""

@@ -31,7 +31,7 @@ class Remote:
         self.installation.is_agreed = is_agreed
         self.station = Station(self.installation, carry_out)
         self.events: list[dict[str, Any]] = []
-        self.station.tell = self.events.append
+        self.station.screens.send = self.events.append
         self.control = ControlThread(self.station)
         self.control.start()
         joined = self.control.call(lambda station: station.join(ME))

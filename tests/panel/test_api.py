@@ -128,9 +128,9 @@ def test_settings_are_found_by_words(web: httpx.Client) -> None:
 def test_stored_settings_count_for_the_next_jog(web: httpx.Client, panel: Served) -> None:
     web.put("/api/forms/JOG", json={"values": {"350000": "1200"}})
     end_s = time.monotonic() + LIMIT_S
-    while panel.call(lambda station: station.must_renew or station.session is None):
+    while panel.call(lambda station: station.settings.must_renew or station.link.session is None):
         assert time.monotonic() < end_s
-    assert panel.call(lambda station: station.machine.runner.settings.axis(0).jog_ups) == 20.0
+    assert panel.call(lambda station: station.link.machine.runner.settings.axis(0).jog_ups) == 20.0
 
 
 # --- programs -------------------------------------------------------------------------

@@ -22,7 +22,7 @@ def web(quiet_panel: Served) -> Iterator[httpx.Client]:
 def switched(panel: Served) -> list[int]:
     """The axes whose tables the session has put on the card."""
     panel.step(0.1)
-    return panel.call(lambda station: sorted(station.machine.runner._compensation._axes))
+    return panel.call(lambda station: sorted(station.link.machine.runner._compensation._axes))
 
 
 def test_an_axis_without_a_table_has_no_entries_and_nothing_to_export(web: httpx.Client) -> None:
@@ -61,10 +61,10 @@ def test_a_new_text_of_a_table_that_is_on_already_reaches_the_card(
 ) -> None:
     web.put("/api/ballscrew", json={"axis": 0, "is_on": True, "text": TEXT})
     switched(quiet_panel)
-    session = quiet_panel.call(lambda station: station.machine)
+    session = quiet_panel.call(lambda station: station.link.machine)
     web.put("/api/ballscrew", json={"axis": 0, "is_on": True, "text": "X0E.1\nX9E.2"})
     switched(quiet_panel)
-    assert quiet_panel.call(lambda station: station.machine) is not session
+    assert quiet_panel.call(lambda station: station.link.machine) is not session
 
 
 @pytest.mark.parametrize(

@@ -38,7 +38,7 @@ def by_button(hand: HandStation, line: int, on: bool) -> None:
 
 
 def by_wire(hand: HandStation, line: int, on: bool) -> None:
-    hand.station.machine.card.write_bit(line, on)
+    hand.station.link.machine.card.write_bit(line, on)
     hand.run(0.1)
 
 
@@ -97,7 +97,7 @@ def test_a_held_button_of_an_input_is_let_go_with_its_browser(wired: HandStation
 
 def test_a_screen_cannot_let_an_input_go_that_is_wired_on(wired: HandStation) -> None:
     hand = wired
-    hand.station.machine.card.write_bit(HOLD, True)
+    hand.station.link.machine.card.write_bit(HOLD, True)
     hand.run(0.1)
     by_button(hand, HOLD, True)
     by_button(hand, HOLD, False)
@@ -106,7 +106,7 @@ def test_a_screen_cannot_let_an_input_go_that_is_wired_on(wired: HandStation) ->
 
 def test_an_inverted_input_is_active_while_its_button_is_pressed(wired: HandStation) -> None:
     hand = wired
-    hand.station.machine.card.write_bit(HOLD, True)  # active is off now
+    hand.station.link.machine.card.write_bit(HOLD, True)  # active is off now
     hand.installation.store.write(CONTROL.input_inverted[HOLD], 1)
     hand.station.renew(hand.now_s)
     hand.run(0.1)

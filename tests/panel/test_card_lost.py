@@ -39,13 +39,13 @@ def test_a_card_that_is_not_there_is_said_and_found_when_it_comes(
         proxy.cut()
         remote = Remote(proxy.address, tmp_path)
         try:
-            until(lambda: remote.station.lost.startswith("NO CARD FOUND"))
+            until(lambda: remote.station.link.lost.startswith("NO CARD FOUND"))
             answer = remote.send("home.start", axes="X")
             assert answer["error"]["code"] == "refused"
             assert answer["error"]["text"].startswith("NO CARD FOUND")
             assert remote.link() == "lost"
             proxy.mend()
-            until(lambda: remote.station.lost == "")
+            until(lambda: remote.station.link.lost == "")
             until(lambda: remote.link() == "ok")
         finally:
             remote.close()
@@ -76,7 +76,7 @@ def test_a_held_axis_rests_when_the_card_is_lost_and_the_card_is_found_again(
 
             until(rests, about="the axis rests")
             proxy.mend()
-            until(lambda: remote.station.lost == "" and remote.link() == "ok", limit_s=90.0)
+            until(lambda: remote.station.link.lost == "" and remote.link() == "ok", limit_s=90.0)
         finally:
             remote.close()
 
@@ -89,7 +89,7 @@ def test_another_panel_on_one_machine_is_refused_with_the_reason(
     second = Remote(served, tmp_path / "second")
     try:
         both = (first, second)
-        until(lambda: all(each.station.lost == "" for each in both))
+        until(lambda: all(each.station.link.lost == "" for each in both))
         (loser,) = [each for each in both if each.installation.lacks]
         assert loser.installation.lacks.startswith("another program drives this machine")
         assert not loser.send("run.begin")["ok"]

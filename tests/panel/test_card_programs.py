@@ -112,7 +112,7 @@ def test_an_edited_program_and_an_edited_plc_run_with_the_new_text(hand: HandSta
     sent(hand)
     sent(hand, COUNTING.replace("LV0+1", "LV0+1 : SET 130"))
     assert (40, " LV0 = LV0+1 : SET 130") in listed(hand, Level.program(3))
-    card = hand.station.machine.card
+    card = hand.station.link.machine.card
     assert not card.read_bit(130)
     hand.do("card.run", program=3)
     hand.until(lambda: card.read_bit(130))
@@ -245,7 +245,7 @@ def test_the_main_program_is_an_ordinary_one_until_acromill_is_set_up_again(
 
 
 def states_now(hand: HandStation) -> dict[str, str]:
-    return {each["name"]: each["state"] for each in read_states(hand.station.read)}
+    return {each["name"]: each["state"] for each in read_states(hand.station.link.read)}
 
 
 @pytest.mark.parametrize(
@@ -310,7 +310,7 @@ def test_a_held_key_bars_a_start(hand: HandStation) -> None:
 
 
 def test_a_program_is_not_started_while_an_alarm_is_active_but_a_plc_is(hand: HandStation) -> None:
-    card = hand.station.machine.card
+    card = hand.station.link.machine.card
     card.go(Level())
     card.command("DIM PLC0(2000)")
     sent(hand, "10 LD 128\n20 OUT 129\n", plc=0)
@@ -338,7 +338,7 @@ def test_stop_pauses_all_programs_of_the_card_but_the_watchdog(watching: HandSta
     hand = watching
     sent(hand)
     sent(hand, program=4)
-    hand.station.machine.card.command("RUN PROG4")  # not by a screen
+    hand.station.link.machine.card.command("RUN PROG4")  # not by a screen
     hand.do("card.run", program=3)
     hand.run(0.2)
     hand.do("stop.hold")
@@ -358,7 +358,7 @@ def test_stop_pauses_all_programs_of_the_card_but_the_watchdog(watching: HandSta
 
 def test_a_plc_goes_on_through_every_stop(watching: HandStation) -> None:
     hand = watching
-    card = hand.station.machine.card
+    card = hand.station.link.machine.card
     card.go(Level())
     card.command("DIM PLC0(2000)")
     sent(hand, "10 LD 128\n20 OUT 129\n", plc=0)
@@ -430,7 +430,7 @@ def by_session(panel: Served, *lines: str, text: str = "", level: Level | None =
     """Type lines at the card of a panel, and store a text."""
 
     def do(station: Station) -> None:
-        card = station.machine.card
+        card = station.link.machine.card
         card.go(Level())
         for line in lines:
             card.command(line)

@@ -206,7 +206,7 @@ def test_a_stop_stops_whatever_else_of_it_fails(
 ) -> None:
     hand.do("mdi.execute", line="G1 X50 F600")
     hand.run(0.3)
-    runner = hand.station.machine.runner
+    runner = hand.station.link.machine.runner
     calls: list[str] = []
     real: Callable[..., None] = getattr(runner, done)
 
@@ -229,7 +229,7 @@ def test_keys_end_and_nothing_waits_after_a_stop_that_fails(
 ) -> None:
     hand.press(1)
     for name in ("kill", "bring_to_rest"):
-        monkeypatch.setattr(hand.station.machine.runner, name, failing)
+        monkeypatch.setattr(hand.station.link.machine.runner, name, failing)
     hand.refused("stop.all")
     assert [(e["press"], e["ended"]) for e in hand.events("jog")] == [(1, "stop")]
     hand.run(0.3)
@@ -318,7 +318,7 @@ def test_an_item_is_refused_while_the_most_of_its_sender_wait() -> None:
 def test_an_unexpected_failure_at_the_end_cuts_the_power_and_closes_the_machine(
     thread: Hand, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    session = thread.hand.station.machine
+    session = thread.hand.station.link.machine
     cut: list[bool] = []
 
     def fail() -> None:
@@ -328,14 +328,14 @@ def test_an_unexpected_failure_at_the_end_cuts_the_power_and_closes_the_machine(
     monkeypatch.setattr(session.runner, "cut_power", lambda: cut.append(True))
     thread.rest()
     assert cut == [True]
-    assert thread.hand.station.session is None
+    assert thread.hand.station.link.session is None
 
 
 def test_a_refusal_at_the_end_closes_the_machine_without_cutting_its_power(
     thread: Hand, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Another program may have taken the machine: its motion is not ours to kill."""
-    session = thread.hand.station.machine
+    session = thread.hand.station.link.machine
     cut: list[bool] = []
 
     def refuse() -> None:
@@ -345,4 +345,4 @@ def test_a_refusal_at_the_end_closes_the_machine_without_cutting_its_power(
     monkeypatch.setattr(session.runner, "cut_power", lambda: cut.append(True))
     thread.rest()
     assert cut == []
-    assert thread.hand.station.session is None
+    assert thread.hand.station.link.session is None

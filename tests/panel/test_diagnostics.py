@@ -24,14 +24,14 @@ def test_the_memory_of_the_card_is_shown_and_divided_anew(hand: HandStation) -> 
     before = hand.do("memory.read")
     assert (before["sizes"]["PROG1"], before["sizes"]["PLC0"]) == (65536, 0)
     assert len(before["sizes"]) == 16 + 8
-    card = hand.station.machine.card
+    card = hand.station.link.machine.card
     card.command("10 PRINT 1", program=1)
     hand.do("memory.set", sizes={"PROG1": 8192, "PLC0": 2000}, confirm=True)
     hand.run(0.5)
     after = hand.do("memory.read")
     assert (after["sizes"]["PROG1"], after["sizes"]["PLC0"]) == (8192, 2000)
     assert after["free"] == before["free"] + 65536 - 8192 - 2000
-    card = hand.station.machine.card
+    card = hand.station.link.machine.card
     assert card.command("LIST", program=1) == []
     hand.do("mdi.execute", line="G21 G90 G0 X5")  # the machine is set up again
     hand.until(lambda: not hand.is_busy)
@@ -39,7 +39,7 @@ def test_the_memory_of_the_card_is_shown_and_divided_anew(hand: HandStation) -> 
 
 
 def test_a_division_that_cannot_be_is_refused_before_anything_is_lost(hand: HandStation) -> None:
-    card = hand.station.machine.card
+    card = hand.station.link.machine.card
     card.command("10 PRINT 1", program=1)
     free = hand.do("memory.read")["free"]
     most = free + 8 * 65536
@@ -58,7 +58,7 @@ def test_a_division_that_cannot_be_is_refused_before_anything_is_lost(hand: Hand
 
 
 def test_the_memory_is_not_divided_while_programs_run(hand: HandStation) -> None:
-    card = hand.station.machine.card
+    card = hand.station.link.machine.card
     for line in ("10 DWL 1", "20 GOTO 10"):
         card.command(line, program=3)
     hand.do("card.run", program=3)
@@ -80,7 +80,7 @@ def test_the_memory_is_not_divided_while_programs_run(hand: HandStation) -> None
 
 def test_an_index_profile_is_run_and_recorded_from_its_start(hand: HandStation) -> None:
     taken: list[Samples] = []
-    hand.station.sampled = taken.append
+    hand.station.on_samples = taken.append
     before = hand.places()
     result = hand.do("scope.index", profile=PROFILE, channels=[12290], period_ms=5.0, samples=400)
     assert result["time_s"] == pytest.approx(5 / 10 + 10 / 2 / 500 + 10 / 2 / 250)
@@ -88,7 +88,7 @@ def test_an_index_profile_is_run_and_recorded_from_its_start(hand: HandStation) 
     hand.run(0.1)
     assert [b - a for a, b in zip(before, hand.places(), strict=True)] == [5.0, 0.0, 0.0]
     values = [float(value) for _first, block, _period in taken for value in block[0]]
-    scale = hand.station.machine.runner.settings.named("X").pulses_per_unit
+    scale = hand.station.link.machine.runner.settings.named("X").pulses_per_unit
     assert taken[0][0] == 0
     assert abs(values[0] - values[1]) <= 1.0  # recorded before it moved
     moved = [k for k, value in enumerate(values) if abs(value - values[0]) > 0.01 * scale]
@@ -174,7 +174,7 @@ def test_inputs_and_outputs_follow_card_and_modules(quiet_panel: Served) -> None
 def test_a_gain_beyond_its_range_is_refused_with_it(
     hand: HandStation, gain: str, cell: int, most: float, store: bool
 ) -> None:
-    card, kept = hand.station.machine.card, hand.installation.store.read(cell)
+    card, kept = hand.station.link.machine.card, hand.installation.store.read(cell)
     before = card.read_many(range(12288 + 16, 12288 + 24))
     error = hand.refused("gain.set", axis="X", gain=gain, value=999999, store=store)
     assert f"{gain} (axis 0) cannot be 999999: a number from 0 to {most:.0f} [" in error["text"]
@@ -183,7 +183,7 @@ def test_a_gain_beyond_its_range_is_refused_with_it(
 
 
 def test_a_gain_entered_while_a_program_runs_is_stored_at_its_end(hand: HandStation) -> None:
-    card, store = hand.station.machine.card, hand.installation.store
+    card, store = hand.station.link.machine.card, hand.installation.store
     before = store.read(150_000)
     hand.do("mdi.execute", line="G21 G91 G1 X2 F600")
     hand.run(0.05)
@@ -203,11 +203,11 @@ def test_a_gain_entered_while_a_program_runs_is_stored_at_its_end(hand: HandStat
 def test_a_variable_that_the_card_does_not_have_is_left_out(hand: HandStation) -> None:
     seen: list[list[tuple[int, float]]] = []
     hand.station.watches.report = lambda _wish, _parameters, changed: seen.append(changed)
-    hand.station.machine.card.write(3, 7.5)
+    hand.station.link.machine.card.write(3, 7.5)
     hand.do("watch.begin", topic="watch", parameters=[3, 4000, 12288], hz=20.0)
     hand.run(0.3)
-    assert seen[0] == [(0, 7.5), (2, float(hand.station.machine.card.read(12288)))]
+    assert seen[0] == [(0, 7.5), (2, float(hand.station.link.machine.card.read(12288)))]
     assert "failed" not in " ".join(hand.said)
-    hand.station.machine.card.write(3, 8.5)
+    hand.station.link.machine.card.write(3, 8.5)
     hand.run(0.2)
     assert seen[1] == [(0, 8.5)]

@@ -286,7 +286,7 @@ def web(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Served, http
 def test_a_text_is_edited_compared_and_parked_over_http(web: tuple[Served, httpx.Client]) -> None:
     served, client = web
     store = partial(Level.program, 3)
-    served.call(lambda s: s.machine.card.download("PROGRAM\nDWL 5\nENDP\n", to=store()))
+    served.call(lambda s: s.link.machine.card.download("PROGRAM\nDWL 5\nENDP\n", to=store()))
     listed = client.get("/card/listing", params={"program": 3}).json()
     lines = [ListedLine(each["number"], each["text"]) for each in listed["lines"]]
     assert listed["version"] == version_of(lines)

@@ -31,7 +31,7 @@ class Broken:
         self.count = 0
         self.calls: list[str] = []
         self._thread, self._patches = thread, monkeypatch
-        runner = thread.hand.station.machine.runner
+        runner = thread.hand.station.link.machine.runner
         monkeypatch.setattr(runner._supervision, "check", self._fail)
         for place, name in (
             (runner.machine, "hold"), (runner.entry_actions, "off"), (runner, "cut_power"),
@@ -87,12 +87,12 @@ def rests(thread: Hand) -> bool:
 
 
 def alarms(hand: HandStation) -> list[str]:
-    return [alarm.text for alarm in hand.station.machine.runner.alarms.active]
+    return [alarm.text for alarm in hand.station.link.machine.runner.alarms.active]
 
 
 def outputs(hand: HandStation) -> list[bool]:
     """Spindle and coolant as the card switches them."""
-    return [hand.station.machine.card.read_bit(output) for output in (40, 41)]
+    return [hand.station.link.machine.card.read_bit(output) for output in (40, 41)]
 
 
 def test_the_fifth_failure_in_a_row_ends_the_run_hold_first_spindle_and_coolant_off(
@@ -161,7 +161,7 @@ def test_the_power_is_cut_when_the_time_to_come_to_rest_is_over(
     thread: Hand, monkeypatch: pytest.MonkeyPatch, runs: bool
 ) -> None:
     hand = thread.hand
-    runner = hand.station.machine.runner
+    runner = hand.station.link.machine.runner
     if runs:
         cut(thread)
     broken = Broken(thread, monkeypatch)
@@ -179,7 +179,7 @@ def test_the_power_is_cut_at_once_where_the_run_cannot_be_ended(
     thread: Hand, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     cut(thread)
-    monkeypatch.setattr(thread.hand.station.machine.runner, "fail", failing)
+    monkeypatch.setattr(thread.hand.station.link.machine.runner, "fail", failing)
     broken = Broken(thread, monkeypatch)
     broken.until(4)
     assert broken.calls == []

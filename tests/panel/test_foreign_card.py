@@ -168,7 +168,7 @@ def test_a_card_of_the_panel_that_moves_is_set_up_once_it_rests_and_no_stop_hold
             assert not moves(hand)
             hand.do("run.resume")  # the program goes on, the axis rests
             hand.until(lambda: not installation.lacks)
-            assert hand.station.machine.is_set_up
+            assert hand.station.link.machine.is_set_up
         finally:
             hand.close()
 

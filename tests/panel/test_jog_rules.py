@@ -211,7 +211,7 @@ def test_an_increment_moves_by_the_preset_of_the_store(hand: HandStation) -> Non
 def test_an_alarm_ends_the_press(hand: HandStation) -> None:
     hand.press(1)
     hand.keep(1, 0.2)
-    hand.station.machine.runner.kill("test")
+    hand.station.link.machine.runner.kill("test")
     hand.run(0.03)
     assert ended(hand) == [(1, "alarm")]
     hand.run(1.0)

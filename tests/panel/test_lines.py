@@ -11,7 +11,7 @@ def test_inputs_and_outputs_have_their_names_and_buttons_their_lamps(panel: Serv
     store.write_text(980_020, "Light")
     store.write(980_022, 40)
     store.write(980_023, 1)
-    panel.call(lambda station: station.machine.machine.set_flag(40, True))
+    panel.call(lambda station: station.link.machine.machine.set_flag(40, True))
     with httpx.Client(base_url=panel.url, timeout=LIMIT_S) as web:
         found = web.get("/api/io").json()
         assert found["inputs"][3] == {"number": 3, "bit": 3, "name": "Door"}

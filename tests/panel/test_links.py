@@ -34,7 +34,7 @@ def until(holds: Callable[[], bool]) -> None:
 
 
 def is_moving(panel: Served) -> bool:
-    return panel.call(lambda station: station.machine.machine.is_jogging())
+    return panel.call(lambda station: station.link.machine.machine.is_jogging())
 
 
 def place(panel: Served) -> tuple[float, ...]:
@@ -42,7 +42,7 @@ def place(panel: Served) -> tuple[float, ...]:
 
 
 def _commanded(station: Station) -> tuple[float, ...]:
-    machine = station.machine
+    machine = station.link.machine
     return read_place(machine.runner.settings, machine.machine.read_rows).commanded
 
 

@@ -42,7 +42,7 @@ class OnLink:
         self.station = Station(self.installation, carry_out)
         self.now_s = 100.0
         self.station.open(self.now_s)
-        assert self.station.lost == ""
+        assert self.station.link.lost == ""
 
     def run(self, steps: int) -> None:
         for _ in range(steps):

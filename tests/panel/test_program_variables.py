@@ -91,7 +91,7 @@ def test_the_flow_stack_and_the_wait_of_a_program_are_read(
         card.download(NESTED, to=Level.program(3))
         card.command("RUN PROG3")
 
-    served.call(lambda station: begin(station.machine.card))
+    served.call(lambda station: begin(station.link.machine.card))
     while not (found := client.get("/card/variables", params={"program": 3}).json())["levels"][2:]:
         pass
     assert found["state"] == "inhibited"

@@ -121,7 +121,7 @@ def test_a_program_that_was_changed_on_the_card_is_stored_in_its_project(
 ) -> None:
     assert get(served, "project") == {"name": "gantry", "differs": []}
     text = "PROGRAM\nP5 = 5\nENDP\n"
-    served.call(lambda station: station.machine.card.download(text, to=Level.program(1)))
+    served.call(lambda station: station.link.machine.card.download(text, to=Level.program(1)))
     assert get(served, "project")["differs"] == ["PROG1"]
     before = get(served, "project/text", program=1)
     assert (before["is_same"], before["file"]) == (False, "prog1.8k")

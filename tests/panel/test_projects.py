@@ -57,7 +57,7 @@ def test_the_panel_opens_every_example(name: str, tmp_path: Path, open_project: 
     folder = shutil.copytree(EXAMPLES / name, tmp_path / name)
     station = Station(open_project(folder), carry_out)
     station.open(0.0)
-    assert station.lost == ""
+    assert station.link.lost == ""
     station.close()
 
 
@@ -102,8 +102,8 @@ def test_a_card_with_as_many_variables_as_needed_or_more_is_left_as_it_is(
     (project / "setup.8k").write_text(f"DIM P({count})\n")
     station = Station(open_project(project), carry_out)
     station.open(0.0)
-    assert (station.lost, station.installation.lacks) == ("", "")
-    assert station.machine.card.ask(f"P{count - 1}") == 0.0
+    assert (station.link.lost, station.installation.lacks) == ("", "")
+    assert station.link.machine.card.ask(f"P{count - 1}") == 0.0
     station.close()
 
 
@@ -182,12 +182,12 @@ def test_an_axis_without_its_drive_is_not_jogged_and_with_it_fast_jog_trips_noth
     increment = hand.refused("jog.increment", axis="X", direction=1, preset=1, tick=hand.tick)
     assert increment["text"] == text
     assert hand.speeds() == (0.0, 0.0)
-    hand.station.machine.card.command("AXIS0 DRIVE ON")
+    hand.station.link.machine.card.command("AXIS0 DRIVE ON")
     hand.run(0.2)
     assert hand.press(2, fast=True)["ok"]
     hand.keep(2, 1.0)
     assert hand.places()[0] > 1.0
-    assert hand.station.machine.runner.alarms.active == []
+    assert hand.station.link.machine.runner.alarms.active == []
     hand.station.close()
 
 
@@ -196,8 +196,8 @@ def test_an_acknowledged_alarm_that_stays_says_what_ends_its_cause(
 ) -> None:
     folder = shutil.copytree(EXAMPLES / "gantry", tmp_path / "gantry")
     hand = HandStation(tmp_path, installation=open_project(folder))
-    card = hand.station.machine.card
-    hand.station.machine.runner.jog(lambda jogging: jogging.increment(0, 1, 1, fast=True))
+    card = hand.station.link.machine.card
+    hand.station.link.machine.runner.jog(lambda jogging: jogging.increment(0, 1, 1, fast=True))
     hand.until(lambda: hand.state == "ALARM", limit_s=10.0)
     hand.run(1.0)
     (left,) = hand.do("alarm.acknowledge")["left"]
@@ -216,7 +216,7 @@ def test_an_axis_of_the_card_alone_is_tuned_by_its_number_and_not_stored(
 ) -> None:
     folder = shutil.copytree(EXAMPLES / "gantry", tmp_path / "gantry")
     hand = HandStation(tmp_path, installation=open_project(folder))
-    card = hand.station.machine.card
+    card = hand.station.link.machine.card
     present = hand.do("tune.gains", axis="axis2")["P Gain"]
     assert present == pytest.approx(card.read("axis2.proportional gain"))
     given = {"axis": "AXIS2", "gain": "P Gain", "value": 0.002, "store": False}

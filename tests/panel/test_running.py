@@ -370,7 +370,7 @@ def test_the_stop_of_all_drives_is_an_alarm_that_names_its_screen(hand: HandStat
 def test_the_machine_is_set_up_again_when_settings_were_stored(hand: HandStation) -> None:
     before = hand.tick
     hand.installation.store.write(350_000, 1200.0)
-    hand.station.note_stored(frozenset({350_000}))
+    hand.station.settings.note_stored(frozenset({350_000}))
     hand.run(0.1)
     assert hand.tick > before
     assert hand.press(1)["ok"]
@@ -382,12 +382,12 @@ def test_settings_of_motion_wait_for_the_end_of_the_program(hand: HandStation) -
     loaded(hand)
     hand.do("run.begin")
     hand.run(0.3)
-    session = hand.station.session
-    hand.station.note_stored(frozenset({650_002}))
+    session = hand.station.link.session
+    hand.station.settings.note_stored(frozenset({650_002}))
     hand.run(0.3)
-    assert hand.station.session is session
+    assert hand.station.link.session is session
     hand.do("stop.all")
-    hand.until(lambda: hand.station.session is not session)
+    hand.until(lambda: hand.station.link.session is not session)
 
 
 @pytest.mark.parametrize(
@@ -472,21 +472,21 @@ def test_the_time_left_passes_with_moves_and_dwells_and_waits_with_everything_el
     hand.run(1.0)
     assert pass_by(hand, 1.0) == 0.0
     hand.do("run.resume")
-    hand.until(lambda: hand.station.machine.runner.reason.startswith("dwell"))
+    hand.until(lambda: hand.station.link.machine.runner.reason.startswith("dwell"))
     assert pass_by(hand, 0.5) == pytest.approx(0.6, abs=0.05)
     hand.do("stop.hold")
     assert pass_by(hand, 1.0) == 0.0
     hand.do("run.resume")
-    hand.until(lambda: "tool" in hand.station.machine.runner.reason)
+    hand.until(lambda: "tool" in hand.station.link.machine.runner.reason)
     hand.run(0.5)
     assert pass_by(hand, 2.0) == 0.0
     hand.do("run.confirm")
     hand.until(lambda: hand.state == "HOLD")
     assert pass_by(hand, 1.0) == 0.0
     hand.do("run.start")
-    hand.until(lambda: hand.station.machine.runner.pass_s > whole_s - 0.2)
+    hand.until(lambda: hand.station.link.machine.runner.pass_s > whole_s - 0.2)
     hand.until(lambda: not hand.is_busy)
-    assert hand.station.machine.runner.pass_s == pytest.approx(whole_s, abs=0.2)
+    assert hand.station.link.machine.runner.pass_s == pytest.approx(whole_s, abs=0.2)
     assert isnan(left_s(hand))
     hand.do("home.start", axes="X")
     hand.until(lambda: hand.state == "HOMING")
@@ -502,7 +502,7 @@ def test_the_time_left_passes_as_the_override_of_the_move_lets_it(hand: HandStat
     hand.do("run.begin")
     hand.run(0.5)
     assert pass_by(hand, 1.9) == pytest.approx(2.0 * feed, rel=0.02)
-    tracker = hand.station.machine.runner.stream.tracker
+    tracker = hand.station.link.machine.runner.stream.tracker
     hand.until(lambda: tracker.current is not None and tracker.current.is_rapid)
     assert pass_by(hand, 1.9) == pytest.approx(2.0 * rapid, rel=0.02)
     assert len({feed, rapid, 1.0}) == 3
@@ -510,11 +510,11 @@ def test_the_time_left_passes_as_the_override_of_the_move_lets_it(hand: HandStat
 
 def test_a_repeated_program_begins_with_its_whole_time(hand: HandStation) -> None:
     hand.installation.store.write(CONTROL.repeat_forever, 1.0)
-    hand.station.must_renew = True  # as where the store tells that it was written
+    hand.station.settings.must_renew = True  # as where the store tells that it was written
     hand.run(0.1)
     whole_s = predicted(hand, "G21 G90 G54\nG4 P2\nM2\n")
     hand.do("run.begin")
-    hand.until(lambda: hand.station.machine.runner.passes == 1)
+    hand.until(lambda: hand.station.link.machine.runner.passes == 1)
     assert left_s(hand) == pytest.approx(whole_s - 0.1, abs=0.05)
     hand.do("run.abort")
     hand.until(lambda: not hand.is_busy)
@@ -538,7 +538,7 @@ def test_a_program_over_a_serial_line_has_not_the_time_left_of_the_loaded_one(
 ) -> None:
     predicted(hand, "G21 G90 G54\nG1 X20 F600\nM2\n")
     other = load("G21 G90 G1 X20 F600\nM2\n", hand.installation.store)
-    hand.station.machine.start(other, Start())
+    hand.station.link.machine.start(other, Start())
     assert isnan(left_s(hand))
     assert hand.station.part.executing.is_under_way
     hand.until(lambda: not hand.is_busy)
@@ -551,7 +551,7 @@ def test_a_block_that_an_alarm_refuses_is_no_line_of_the_mdi_buffer(hand: HandSt
         hand.do("mdi.execute", line=line)
         hand.until(lambda: not hand.is_busy)
     hand.do("mdi.execute", line="G0 X9999")
-    hand.until(lambda: hand.station.machine.runner.alarms.bars_start)
+    hand.until(lambda: hand.station.link.machine.runner.alarms.bars_start)
     hand.run(0.1)
     assert hand.do("mdi.buffer")["lines"] == ["G21 G90 G54 G0 X1", "G0 X2"]
     assert hand.events("mdi")[-1]["buffer"] == ["G21 G90 G54 G0 X1", "G0 X2"]
@@ -561,7 +561,7 @@ def test_a_block_that_an_alarm_refuses_is_no_line_of_the_mdi_buffer(hand: HandSt
 def test_a_block_that_was_begun_and_then_stopped_stays_in_the_mdi_buffer(hand: HandStation) -> None:
     hand.do("mdi.execute", line="G21 G90 G54 G1 X100 F600")
     hand.run(0.5)
-    hand.station.machine.runner.fail("a test")
+    hand.station.link.machine.runner.fail("a test")
     hand.until(lambda: not hand.is_busy)
     hand.run(0.1)
     assert hand.do("mdi.buffer")["lines"] == ["G21 G90 G54 G1 X100 F600"]
@@ -579,7 +579,7 @@ def test_the_virtual_mill_has_a_spindle_that_turns_both_ways_and_the_screens_sho
     ):
         hand.do("mdi.execute", line=block)
         hand.run(0.5)
-        assert [hand.station.machine.card.read_bit(output) for output in wired] == outputs
+        assert [hand.station.link.machine.card.read_bit(output) for output in wired] == outputs
         snapshot = hand.station.snapshot
         assert (snapshot.spindle_rpm, bool(snapshot.lights & Light.SPINDLE)) == (rpm, rpm > 0.0)
         assert hand.events("modals")[-1]["spindle"] == state

@@ -241,7 +241,7 @@ def test_without_a_trigger_every_sample_is_kept() -> None:
 
 
 def test_a_card_over_a_link_is_polled_flags_by_their_words(hand: HandStation) -> None:
-    session, scope, polled = hand.station.machine, Scope(), Polled()
+    session, scope, polled = hand.station.link.machine, Scope(), Polled()
     session.card.write(5, 2.5)
     session.card.write_bit(1920, True)
     channels = [named("P5"), named("BIT1920"), named("BIT1921")]
@@ -274,7 +274,7 @@ PROGRAM = 5
 def arrays(hand: HandStation) -> HandStation:
     """A card whose PROG5 has arrays for three channels of 300 samples."""
     for line in ("DIM LA(3)", "DIM LA0(300)", "DIM LA2(300)", "DIM SA(2)", "DIM SA1(310)"):
-        hand.station.machine.card.command(line, program=PROGRAM)
+        hand.station.link.machine.card.command(line, program=PROGRAM)
     return hand
 
 
@@ -283,7 +283,7 @@ def recorded(hand: HandStation, sampler: CardSampler, scope: Scope, count: int) 
     found: list[Samples] = []
     while len(found) < count:
         hand.run(0.01)
-        sampler.step(hand.station.machine, scope, hand.now_s)
+        sampler.step(hand.station.link.machine, scope, hand.now_s)
         while (samples := scope.take()) is not None:
             found.append(samples)
     return found
@@ -293,16 +293,16 @@ def test_a_record_of_the_sampler_is_what_the_card_went_through_tick_by_tick(
     arrays: HandStation,
 ) -> None:
     hand, scope = arrays, Scope()
-    sampler = CardSampler(hand.station.machine, PROGRAM)
+    sampler = CardSampler(hand.station.link.machine, PROGRAM)
     period_s = sampler.period_s(0.0)
     assert (period_s, sampler.period_s(0.0004), sampler.period_s(0.0026)) == (0.0005, 0.0005, 0.003)
     channels = [named("P12290"), named("P12319"), named("BIT1921")]
-    hand.station.machine.card.write_bit(1921, True)
+    hand.station.link.machine.card.write_bit(1921, True)
     hand.do("scope.arm", channels=["P12290"], period_ms=0)  # every tick, to compare
     hand.do("jog.increment", axis="X", direction=1, distance=5.0, tick=hand.tick)
     hand.run(0.1)
     sent: list[Samples] = []
-    hand.station.sampled = sent.append
+    hand.station.on_samples = sent.append
     scope.arm(channels, period_s, 250, None)
     sampler.begin(scope)
     (first, block, _), (then, _, _) = recorded(hand, sampler, scope, 2)
@@ -313,12 +313,12 @@ def test_a_record_of_the_sampler_is_what_the_card_went_through_tick_by_tick(
     assert len(set(block[0])) > 20
     assert block[2].tolist() == [1.0] * 250
     sampler.end()
-    assert not hand.station.machine.card.read_bit(104)
+    assert not hand.station.link.machine.card.read_bit(104)
 
 
 def test_a_trigger_is_found_within_a_record_and_not_across_two(arrays: HandStation) -> None:
     hand, scope = arrays, Scope()
-    card, sampler = hand.station.machine.card, CardSampler(hand.station.machine, PROGRAM)
+    card, sampler = hand.station.link.machine.card, CardSampler(hand.station.link.machine, PROGRAM)
     card.write_bit(1920, False)
     capture = scope.arm([named("BIT1920")], 0.001, 100, Trigger(0, 0.5, 1, "single", 0.5))
     sampler.begin(scope)
@@ -347,15 +347,15 @@ def test_arrays_that_are_missing_or_short_are_refused_with_what_to_do(
     ):
         scope.arm([named("P12290"), named("P12319")], 0.0005, samples, None)
         with pytest.raises(UserError, match=re.escape(why)):
-            CardSampler(arrays.station.machine, program).begin(scope)
-    lines = arrays.station.machine.card.command("SAMP")
+            CardSampler(arrays.station.link.machine, program).begin(scope)
+    lines = arrays.station.link.machine.card.command("SAMP")
     assert lines == ["SAMP PERIOD 0"]  # nothing was set up
 
 
 def armed_sampler(hand: HandStation, scope: Scope, trigger: Trigger | None = None) -> CardSampler:
     """The sampler with a record of 300 samples of BIT1920 under way."""
     scope.arm([named("BIT1920")], 0.001, 300, trigger)
-    sampler = CardSampler(hand.station.machine, PROGRAM)
+    sampler = CardSampler(hand.station.link.machine, PROGRAM)
     sampler.begin(scope)
     return sampler
 
@@ -366,17 +366,17 @@ def test_the_card_waits_by_itself_for_an_edge_of_a_flag_where_the_sweep_begins(
     arrays: HandStation, slope: int, level: float, mode: str
 ) -> None:
     hand, scope, state = arrays, Scope(), slope > 0
-    card = hand.station.machine.card
+    card = hand.station.link.machine.card
     card.write_bit(1920, state)  # the state is there already: that is no edge
     sampler = armed_sampler(hand, scope, Trigger(0, level, slope, mode, 0.0))
     assert card.command("SAMP")[0] == f"SAMP TRG {'' if state else '-'}BIT1920"
     for _ in range(10):
         hand.run(0.1)
-        sampler.step(hand.station.machine, scope, hand.now_s)
+        sampler.step(hand.station.link.machine, scope, hand.now_s)
     assert (scope.take(), card.read_bit(104)) == (None, False)
     card.write_bit(1920, not state)
     hand.run(0.1)
-    sampler.step(hand.station.machine, scope, hand.now_s)
+    sampler.step(hand.station.link.machine, scope, hand.now_s)
     assert card.read_bit(104)
     hand.run(2.0)  # longer than a record: nothing is stored before the edge
     card.write_bit(1920, state)
@@ -405,9 +405,9 @@ def test_the_card_waits_by_itself_for_an_edge_of_a_flag_where_the_sweep_begins(
 def test_what_the_card_cannot_wait_for_is_searched_in_its_records(
     arrays: HandStation, channel: str, trigger: Trigger | None
 ) -> None:
-    scope, card = Scope(), arrays.station.machine.card
+    scope, card = Scope(), arrays.station.link.machine.card
     scope.arm([named(channel)], 0.001, 300, trigger)
-    CardSampler(arrays.station.machine, PROGRAM).begin(scope)
+    CardSampler(arrays.station.link.machine, PROGRAM).begin(scope)
     assert (card.command("SAMP")[0], card.read_bit(104)) == ("SAMP PERIOD 0.001", True)
 
 
@@ -416,9 +416,9 @@ def test_a_record_during_which_the_link_was_lost_is_begun_anew(
     arrays: HandStation, monkeypatch: pytest.MonkeyPatch, is_sent: bool
 ) -> None:
     hand, scope = arrays, Scope()
-    sampler, card = armed_sampler(hand, scope), hand.station.machine.card
+    sampler, card = armed_sampler(hand, scope), hand.station.link.machine.card
     hand.run(0.4)
-    sampler.step(hand.station.machine, scope, hand.now_s)
+    sampler.step(hand.station.link.machine, scope, hand.now_s)
     assert not card.read_bit(104)
     read_array, command = card.read_array, card.command
 
@@ -433,7 +433,7 @@ def test_a_record_during_which_the_link_was_lost_is_begun_anew(
     monkeypatch.setattr(card, "read_array", lost)
     monkeypatch.setattr(card, "command", half_lost if is_sent else command)
     with pytest.raises(ConnectionLostError):
-        sampler.step(hand.station.machine, scope, hand.now_s)
+        sampler.step(hand.station.link.machine, scope, hand.now_s)
     monkeypatch.setattr(card, "read_array", read_array)
     monkeypatch.setattr(card, "command", command)
     card.write_bit(1920, True)
@@ -442,7 +442,7 @@ def test_a_record_during_which_the_link_was_lost_is_begun_anew(
 
 
 def test_a_sampler_in_use_is_left_to_the_host_that_uses_it(arrays: HandStation) -> None:
-    card, scope = arrays.station.machine.card, Scope()
+    card, scope = arrays.station.link.machine.card, Scope()
     for line in ("SAMP 0 SRC P6916", "SAMP 0 BASE LA2", "SET 104"):
         card.command(line, program=PROGRAM)
     before = card.command("SAMP")
@@ -469,12 +469,12 @@ def test_what_another_host_does_with_the_sampler_is_no_record_of_the_scope(
     arrays: HandStation, lines: list[str], why: str, is_full: bool
 ) -> None:
     hand, scope = arrays, Scope()
-    sampler, card = armed_sampler(hand, scope), hand.station.machine.card
+    sampler, card = armed_sampler(hand, scope), hand.station.link.machine.card
     hand.run(0.4 if is_full else 0.1)
     if is_full:
-        sampler.step(hand.station.machine, scope, hand.now_s)
+        sampler.step(hand.station.link.machine, scope, hand.now_s)
         hand.run(0.03)
-        sampler.step(hand.station.machine, scope, hand.now_s)  # some elements have been read
+        sampler.step(hand.station.link.machine, scope, hand.now_s)  # some elements have been read
     for line in lines:
         card.command(line, program=PROGRAM)
     with pytest.raises(UserError, match=why):
@@ -484,7 +484,7 @@ def test_what_another_host_does_with_the_sampler_is_no_record_of_the_scope(
 
 def test_the_end_of_a_capture_disarms_no_other_host(arrays: HandStation) -> None:
     hand, scope = arrays, Scope()
-    sampler, card = armed_sampler(hand, scope), hand.station.machine.card
+    sampler, card = armed_sampler(hand, scope), hand.station.link.machine.card
     card.command("SAMP 0 SRC P6916")
     sampler.end()
     assert card.read_bit(104)

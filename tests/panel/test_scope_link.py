@@ -63,7 +63,7 @@ def reached(line: Line, tmp_path: Path) -> Iterator[Reach]:
             remote, records = Remote(address, tmp_path), list[Samples]()
             opens.callback(remote.close)
             until(lambda: remote.station.snapshot.number > 0)
-            remote.station.sampled = records.append
+            remote.station.on_samples = records.append
             return remote, records
 
         yield reach
@@ -124,8 +124,10 @@ def test_records_end_with_a_session(
 
     record()
     line.proxy.cut()
-    until(lambda: remote.station.lost != "" and scope.running is None, about="the card is lost")
+    until(
+        lambda: remote.station.link.lost != "" and scope.running is None, about="the card is lost"
+    )
     line.proxy.mend()
     record()  # in the new session
     line.process.close()  # in the middle of a record, or while it is read
-    until(lambda: remote.station.lost != "" and scope.running is None, about="it has ended")
+    until(lambda: remote.station.link.lost != "" and scope.running is None, about="it has ended")

@@ -62,7 +62,7 @@ def test_the_terminal_needs_the_role_service(hand: HandStation) -> None:
 
 
 def test_a_flag_of_the_card_is_set_and_cleared_by_the_service(hand: HandStation) -> None:
-    card = hand.station.machine.card
+    card = hand.station.link.machine.card
     for on in (True, True, False):
         assert hand.do("card.flag", flag=1920, on=on) == {"on": on}
         assert card.read_bit(1920) is on
@@ -90,7 +90,7 @@ def test_queries_only_read(hand: HandStation) -> None:
 
 def test_the_scope_samples_in_the_time_of_the_card(hand: HandStation) -> None:
     taken: list[Samples] = []
-    hand.station.sampled = taken.append
+    hand.station.on_samples = taken.append
     assert hand.installation.controller is not None
     begin_s = hand.installation.controller.time_s
     hand.do("scope.arm", channels=[12288, 12290], period_ms=1.0, samples=1000)
@@ -149,7 +149,7 @@ def test_the_scope_has_eight_channels(hand: HandStation) -> None:
 
 def test_a_gain_acts_on_the_card_and_is_stored(hand: HandStation) -> None:
     hand.do("gain.set", axis="Y", gain="P Gain", value=0.003)
-    card = hand.station.machine.card
+    card = hand.station.link.machine.card
     assert float(card.read(12288 + 256 + 16)) == pytest.approx(0.003)
     assert hand.installation.store.read(151_000) == 0.003
     hand.do("gain.set", axis="Y", gain="d gain", value=2e-5, store=False)
@@ -168,7 +168,7 @@ def test_a_momentary_button_goes_off_with_its_browser(hand: HandStation) -> None
     store = hand.installation.store
     store.write_text(980_000, "Door")
     store.write(980_001, 40)
-    card = hand.station.machine.card
+    card = hand.station.link.machine.card
     hand.do("button", number=0, pressed=True)
     hand.run(0.05)
     assert card.read_bit(40)
@@ -178,7 +178,7 @@ def test_a_momentary_button_goes_off_with_its_browser(hand: HandStation) -> None
 
 
 def test_a_toggle_button_changes_at_each_press(hand: HandStation) -> None:
-    store, card = hand.installation.store, hand.station.machine.card
+    store, card = hand.installation.store, hand.station.link.machine.card
     store.write(980_021, 41)
     store.write(980_023, 1)
     for expected in (True, False):
@@ -213,7 +213,7 @@ def test_a_program_runs_while_it_arrives_over_a_serial_line(hand: HandStation) -
     tty.setraw(slave)
     store = hand.installation.store
     store.write(250_116, 2)
-    hand.station.note_stored(frozenset({250_116}))
+    hand.station.settings.note_stored(frozenset({250_116}))
     hand.run(0.1)
     hand.do("program.drip", port=os.ttyname(slave))
     os.write(master, b"G21 G90\n" + b"".join(b"G0 X%d\n" % n for n in range(1, 11)))

@@ -111,7 +111,7 @@ def test_a_line_of_five_megabytes_ends_its_connection_and_nothing_else(panel: Se
                 await client.take()
 
     talk(panel, scene)
-    assert panel.call(lambda station: station.machine.runner.state.name) == "IDLE"
+    assert panel.call(lambda station: station.link.machine.runner.state.name) == "IDLE"
 
 
 def test_the_machine_is_moved_by_hand_from_the_test(quiet_panel: Served) -> None:

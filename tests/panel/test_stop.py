@@ -86,12 +86,12 @@ def test_a_card_without_a_session_is_stopped_as_well(
     by_program(other)
     hand.run(0.3)
     hand.station.close()
-    hand.station._retry_s = hand.now_s + 60.0  # its set-up is refused
+    hand.station.link.retry_s = hand.now_s + 60.0  # its set-up is refused
     assert moves(hand)
     hand.do(stop)
     hand.run(1.3)
     assert not moves(hand)
-    assert hand.station.session is None
+    assert hand.station.link.session is None
 
 
 def test_what_stop_has_held_without_a_session_is_resumed(hand: HandStation, other: Card) -> None:

@@ -11,7 +11,7 @@ from tests.panel.test_socket import talk
 
 from openacr.cnc import dxf
 from openacr.cnc.dxf import reading
-from openacr.panel.control import part
+from openacr.panel.control import rehearsals
 from openacr.panel.control.orders import Order
 from openacr.panel.server import api
 from openacr.panel.server.calls import (
@@ -123,11 +123,11 @@ def test_a_stop_comes_between_two_lines_of_a_rehearsal(
 
 def test_lines_are_not_read_while_a_stop_waits(hand: HandStation) -> None:
     answers: list[dict[str, Any]] = []
-    hand.station.is_awaited = lambda: True
+    hand.station.link.is_awaited = lambda: True
     begun(hand, answers.append)
     hand.run(0.2)
     assert answers == []
-    hand.station.is_awaited = lambda: False
+    hand.station.link.is_awaited = lambda: False
     hand.until(lambda: bool(answers))
     assert answers[0]["ok"]
 
@@ -145,4 +145,4 @@ def test_a_rehearsal_ends_when_the_machine_or_the_program_is_another_one(
         hand.do("program.close")
     hand.until(lambda: bool(answers))
     assert not answers[0]["ok"]
-    assert part.AT_ONCE < 2900
+    assert rehearsals.AT_ONCE < 2900

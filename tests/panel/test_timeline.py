@@ -20,8 +20,7 @@ from openacr.panel.control.history import AWAY, MOST_BRANCHES, STILL, History
 from openacr.panel.control.lanes import MOST_CHANGES, Lanes, _Course
 from openacr.panel.control.scope import Samples
 from openacr.panel.control.station import Station
-from openacr.panel.control.stepping import step_move
-from openacr.panel.control.times import Times
+from openacr.panel.control.times import Times, step_move
 from openacr.panel.control.watches import Wish
 from openacr.protocol.events import ControlKey
 from openacr.timeline import Kind
@@ -46,15 +45,15 @@ def times(hand: HandStation) -> Times:
 
 
 def fact(hand: HandStation, name: str) -> dict[str, object]:
-    hand.station._facts.tell()
-    return dict(hand.station.facts[name])
+    hand.station.facts.tell()
+    return dict(hand.station.facts.reported[name])
 
 
 def count(hand: HandStation) -> None:
     """Have program 5 count in P0."""
     for line in LINES:
-        hand.station.machine.card.command(line, program=5)
-    hand.station.machine.card.command("RUN", program=5)
+        hand.station.link.machine.card.command(line, program=5)
+    hand.station.link.machine.card.command("RUN", program=5)
 
 
 def test_time_is_still_in_a_pause_and_goes_on_at_run(hand: HandStation) -> None:
@@ -72,9 +71,9 @@ def test_time_is_still_in_a_pause_and_goes_on_at_run(hand: HandStation) -> None:
     hand.do("timeline.run")
     hand.run(1.0)
     assert (history(hand).lived_tk - tick) * history(hand).period_s == pytest.approx(1.0, abs=0.02)
-    assert hand.station.lost == ""
-    assert not hand.station.machine.runner.is_out_of_reach  # no watchdog has tripped
-    assert hand.station.machine.runner.alarms.active == []
+    assert hand.station.link.lost == ""
+    assert not hand.station.link.machine.runner.is_out_of_reach  # no watchdog has tripped
+    assert hand.station.link.machine.runner.alarms.active == []
 
 
 @pytest.mark.parametrize(("speed", "time_s"), [(0.01, 8.0), (0.1, 4.0), (4.0, 1.5)])
@@ -136,7 +135,7 @@ def test_screens_show_the_moment_and_move_nothing_until_the_machine_is_operated_
     assert shown[-1] == value
     assert shown[-2] > value
     assert history(hand).lived_tk == tick
-    assert hand.station.lost == AWAY
+    assert hand.station.link.lost == AWAY
     assert hand.now_s - hand.station.snapshot.read_s < 0.1
     state = fact(hand, "state")
     assert (state["reason"], state["link"]) == ("", "ok")
@@ -146,7 +145,7 @@ def test_screens_show_the_moment_and_move_nothing_until_the_machine_is_operated_
     assert AWAY in hand.refused("mdi.execute", line="G0 X1")["text"]
     assert AWAY in hand.refused("term.open")["text"]
     hand.do("timeline.operate")
-    assert hand.station.lost == ""
+    assert hand.station.link.lost == ""
     assert [each.number for each in history(hand).timeline.branches] == [0, 1]
     parent, branch = history(hand).timeline.branches
     assert branch.fork is not None
@@ -155,7 +154,7 @@ def test_screens_show_the_moment_and_move_nothing_until_the_machine_is_operated_
     before = history(hand).card.p[0]
     hand.run(1.0)
     assert history(hand).card.p[0] > before
-    assert hand.station.machine.runner.alarms.active == []
+    assert hand.station.link.machine.runner.alarms.active == []
 
 
 def test_moves_of_the_panel_are_held_where_it_is_operated_from_and_no_alarm_comes(
@@ -171,10 +170,10 @@ def test_moves_of_the_panel_are_held_where_it_is_operated_from_and_no_alarm_come
     begun = history(hand).card.p[12288]
     hand.do("timeline.operate")
     place = history(hand).card.p[12288]
-    (axis, *_others) = hand.station.machine.runner.settings.axes
+    (axis, *_others) = hand.station.link.machine.runner.settings.axes
     assert 0 < place - begun < axis.pulses_per_unit  # until it rests, less than 1 mm
     hand.run(3.0)  # longer than the watchdog waits for its host
-    assert hand.station.machine.runner.alarms.raised == 0
+    assert hand.station.link.machine.runner.alarms.raised == 0
     assert history(hand).card.p[12288] == place
     hand.do("mdi.execute", line="G21 G91 G1 X1 F600")
     hand.until(lambda: not hand.is_busy)
@@ -267,7 +266,7 @@ def test_a_step_is_one_tick_one_line_or_one_move(hand: HandStation) -> None:
     hand.do("timeline.pause")
     tick = card.lived_tk
     hand.do("timeline.step")
-    assert (card.lived_tk, times(hand).is_away) == (tick + 1, False)
+    assert (card.lived_tk, hand.station.link.is_away) == (tick + 1, False)
     hand.do("timeline.step", what="line", number=5)
     assert (card.within > 0, card.announced_program) == (True, 5)
     line = card.executor.threads.next_line(5)
@@ -308,7 +307,7 @@ def test_nothing_goes_to_the_past_while_the_panel_moves_the_machine(
     assert hand.refused(name, **args)["text"] == (
         "the panel moves the machine (state IDLE): wait until it rests, or STOP, then go back"
     )
-    assert (times(hand).is_away, times(hand).is_still) == (False, False)
+    assert (hand.station.link.is_away, hand.station.link.is_still) == (False, False)
     hand.until(lambda: not hand.is_busy)
     assert hand.places()[0] == pytest.approx(2.0)
 
@@ -319,7 +318,7 @@ def test_a_stop_ends_a_pause_and_another_speed_and_stops_the_machine(hand: HandS
     hand.do("timeline.pause")
     hand.run(1.0)
     hand.do("stop.hold")
-    assert (times(hand).is_still, times(hand).speed) == (False, 1.0)
+    assert (hand.station.link.is_still, times(hand).speed) == (False, 1.0)
     hand.until(lambda: not hand.is_busy)
     hand.run(0.2)
     assert hand.speeds(0.1)[0] == 0.0
@@ -336,7 +335,7 @@ def test_a_stop_in_the_past_lets_time_be_still(hand: HandStation) -> None:
     for name in ("stop.hold", "stop.all", "stop.estop"):
         history(hand).is_still = False
         hand.do(name)
-        assert times(hand).is_still
+        assert hand.station.link.is_still
 
 
 def test_held_keys_end_when_time_becomes_still(hand: HandStation) -> None:
@@ -351,7 +350,7 @@ def test_held_keys_end_when_time_becomes_still(hand: HandStation) -> None:
 def test_bookmarks_are_set_at_the_tick_in_which_programs_end_and_errors_come(
     hand: HandStation,
 ) -> None:
-    card = hand.station.machine.card
+    card = hand.station.link.machine.card
     for number, lines in ((5, ("10 DWL 0.05",)), (6, ("10 DWL 0.02", "20 P999999=1"))):
         for line in lines:
             card.command(line, program=number)
@@ -382,7 +381,7 @@ def test_lanes_have_the_times_in_which_axes_moved_and_programs_ran(hand: HandSta
     assert lanes(hand, 0, 0, history(hand).lived_tk) == {}  # not of the panel's own watchdog
     begin = history(hand).lived_tk
     for line in ("10 DWL 0.4", "RUN"):
-        hand.station.machine.card.command(line, program=5)
+        hand.station.link.machine.card.command(line, program=5)
     hand.do("jog.increment", axis="Y", direction=1, distance=1.0, tick=hand.tick)
     hand.until(lambda: not hand.is_busy)
     end = history(hand).lived_tk
@@ -556,7 +555,7 @@ def test_samples_of_the_scope_are_those_of_the_history_at_their_ticks(
         "scope.arm", channels=["P12290", "P6916", "BIT81"], period_ms=period_ms, samples=100
     )
     taken: list[Samples] = []
-    hand.station.sampled = taken.append
+    hand.station.on_samples = taken.append
     hand.run(0.2)
     first, block, _period_s = taken[0]
     every_tk = round(period_ms / 1000.0 / history(hand).period_s)
@@ -627,7 +626,7 @@ def test_a_server_that_ends_in_a_pause_brings_its_machine_to_rest(tmp_path: Path
     served.step(0.1)
 
     def pause_in_motion(station: Station) -> None:
-        axis = station.machine.runner.settings.named("X").index
+        axis = station.link.machine.runner.settings.named("X").index
         station.hand_motion.increment(axis, 1, preset=0, distance_u=50.0, fast=False)
         station.times.history.advance(400)
         station.times.pause()
@@ -647,6 +646,6 @@ def test_steps_that_fail_in_a_pause_end_what_moves(
     hand.do("timeline.pause")
     for _ in range(6):
         hand.station.fail("a defect", is_new=True)
-    assert not times(hand).is_still
+    assert not hand.station.link.is_still
     hand.until(lambda: not hand.is_busy)
     assert hand.places()[0] < 50.0

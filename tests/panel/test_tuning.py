@@ -14,10 +14,10 @@ from tests.panel.bench import JOBS_S, HandStation, is_alive
 from openacr.errors import UserError
 from openacr.map.rows import compliant_loads
 from openacr.panel.control import tuning
+from openacr.panel.control.interlocks import MEASURED
 from openacr.panel.control.jobs import KILLED
 from openacr.panel.control.orders import Order
 from openacr.panel.control.people import Person
-from openacr.panel.control.shared import MEASURED
 from openacr.panel.roles import Role
 from openacr.sysvar.tabs import SERVO
 
@@ -26,7 +26,7 @@ NAP_S = 2.0 * JOBS_S  # longer than any test waits
 
 
 def jog_offset(hand: HandStation) -> float:
-    return float(hand.station.machine.card.read("axis0.jog offset"))
+    return float(hand.station.link.machine.card.read("axis0.jog offset"))
 
 
 def begun(hand: HandStation, name: str, **args: Any) -> list[dict[str, Any]]:
@@ -53,7 +53,7 @@ def test_an_axis_is_measured_and_gets_what_was_proposed(hand: HandStation) -> No
     assert applied["gains"] == gains
     gap = np.subtract(applied["measured"]["actual_cnt"], applied["predicted"]["actual_cnt"])
     assert np.abs(gap).max() <= 10.0
-    read = hand.station.machine.card.read
+    read = hand.station.link.machine.card.read
     assert read("axis0.proportional gain") == pytest.approx(gains["PGAIN"]) != before["PGAIN"]
     assert hand.do("tune.gains", axis="x")["P Gain"] == pytest.approx(gains["PGAIN"], rel=1e-6)
     stored = hand.station.installation.store.read(SERVO.p_gain[0])
@@ -61,7 +61,7 @@ def test_an_axis_is_measured_and_gets_what_was_proposed(hand: HandStation) -> No
 
 
 def test_a_step_with_the_present_gains_is_recorded_and_changes_nothing(hand: HandStation) -> None:
-    read = hand.station.machine.card.read
+    read = hand.station.link.machine.card.read
     before = read("axis0.proportional gain")
     assert "from 5 to" in hand.refused("tune.step", axis="X", amplitude=4.0)["text"]
     found = hand.do("tune.step", axis="x", amplitude=50.0)
@@ -193,7 +193,7 @@ def test_a_browser_that_goes_ends_what_it_has_moved(hand: HandStation) -> None:
     answers = begun(hand, "tune.measure", **SHORT)
     hand.station.leave(99)
     hand.run(0.02)
-    assert hand.station.machine.card.read_bit(104)
+    assert hand.station.link.machine.card.read_bit(104)
     hand.station.leave(1)
     hand.run(0.02)
     assert jog_offset(hand) == 0.0
@@ -225,14 +225,14 @@ def test_the_time_of_the_card_goes_its_course_while_an_axis_is_measured(
 def test_settings_that_are_stored_while_an_axis_is_measured_count_at_rest(
     hand: HandStation,
 ) -> None:
-    session = hand.station.machine
+    session = hand.station.link.machine
     answers = begun(hand, "tune.step", axis="X")
     hand.station.installation.store.write(SERVO.p_gain[0], 0.002)
-    hand.station.note_stored(frozenset({SERVO.p_gain[0]}))
+    hand.station.settings.note_stored(frozenset({SERVO.p_gain[0]}))
     hand.until(lambda: bool(answers))
     assert answers[0]["ok"]
     hand.run(0.1)
-    assert hand.station.machine is not session
+    assert hand.station.link.machine is not session
 
 
 def test_what_is_done_at_rest_only_is_refused_while_an_axis_is_measured(hand: HandStation) -> None:

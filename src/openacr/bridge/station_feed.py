@@ -38,7 +38,7 @@ class StationFeed:
     @property
     def _settings(self) -> Settings:
         """The settings of the open session, of the last one while none is open."""
-        if (session := self._station.session) is not None:
+        if (session := self._station.link.session) is not None:
             self._last_settings = session.runner.settings
         return self._last_settings
 
@@ -67,7 +67,7 @@ class StationFeed:
             speed_ups=run.speed_upm / S_PER_MIN,
             is_moving=bool(run.lights & Light.MOVING),
             run=run,
-            facts=station.facts,
+            facts=station.facts.reported,
             tools=self._tools,
             watched=self._watched,
         )
@@ -83,8 +83,8 @@ class StationFeed:
 
     def _why_lost(self) -> str:
         station, run = self._station, self._station.snapshot
-        if station.session is None or not run.number:
-            return station.lost or "the machine is being opened"
+        if station.link.session is None or not run.number:
+            return station.link.lost or "the machine is being opened"
         if station.installation.lacks:  # a card that AcroMill has not set up has no positions
             return station.installation.lacks
         age_s = self._control.now_s() - run.read_s
@@ -94,7 +94,7 @@ class StationFeed:
         """Set a parameter or flag of the card, in the control thread."""
 
         def carry_out(station: Station) -> None:
-            machine = station.machine.machine
+            machine = station.link.machine.machine
             if is_flag:
                 machine.set_flag(number, bool(value))
             else:

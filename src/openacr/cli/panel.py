@@ -184,7 +184,7 @@ def _bridge(panel: "Panel", file: Path) -> "BridgeProcess":
     from openacr.bridge.station_feed import StationFeed
 
     def say(text: str) -> None:
-        panel.control.call(lambda station: station.say(text))
+        panel.control.call(lambda station: station.screens.say(text))
 
     return BridgeProcess(load_bridge(file), file.parent, StationFeed(panel.control), say)
 
@@ -192,7 +192,7 @@ def _bridge(panel: "Panel", file: Path) -> "BridgeProcess":
 async def _serve(
     panel: "Panel", server: "PanelServer", bridging: "BridgeProcess | None", *, is_shown: bool
 ) -> None:
-    panel.station.on_link = lambda why: _report_link(panel.installation.name, why)
+    panel.station.link.on_change = lambda why: _report_link(panel.installation.name, why)
     failed: list[UserError] = []
 
     async def started() -> None:

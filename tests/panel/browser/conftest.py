@@ -157,7 +157,7 @@ def until(page: Page, holds: Callable[[], object]) -> None:
 def at_rest(page: Page, served: Served) -> None:
     """Wait until the machine rests, and the page knows it."""
     until_model(page, "!model.state.value.busy")
-    until(page, lambda: not served.call(lambda station: station.machine.runner.is_busy))
+    until(page, lambda: not served.call(lambda station: station.link.machine.runner.is_busy))
 
 
 def left_over(page: Page, *checks: str) -> list[str]:

@@ -79,7 +79,7 @@ def laid_out(page: Page, width: int) -> None:
 
 
 def write(station: Station, parameter: int, value: float) -> None:
-    station.machine.card.write(parameter, value)
+    station.link.machine.card.write(parameter, value)
 
 
 def tabs(page: Page) -> list[str]:
@@ -400,12 +400,12 @@ def test_a_value_is_changed_from_the_tree_with_the_refusal_of_the_card(
 ) -> None:
     search(page, "p12322")
     row_of(page, "P12322").click()
-    before = served.call(lambda station: float(station.machine.card.read(12322)))
+    before = served.call(lambda station: float(station.link.machine.card.read(12322)))
     page.get_by_role("button", name="CHANGE").click()
     page.get_by_role("dialog").get_by_role("textbox").fill("0.5")
     page.keyboard.press("Enter")
     expect(row_of(page, "P12322")).to_contain_text("0.5unit")
-    assert served.call(lambda station: float(station.machine.card.read(12322))) == 0.5
+    assert served.call(lambda station: float(station.link.machine.card.read(12322))) == 0.5
     served.call(partial(write, parameter=12322, value=before))
     search(page, "bit1920")
     row_of(page, "BIT1920").click()
@@ -413,7 +413,7 @@ def test_a_value_is_changed_from_the_tree_with_the_refusal_of_the_card(
         page.get_by_role("button", name="CHANGE").click()
         page.get_by_role("dialog").get_by_role("button", name=word, exact=True).click()
         expect(row_of(page, "BIT1920")).to_contain_text(state)
-        is_set = served.call(lambda station: bool(station.machine.card.read_bit(1920)))
+        is_set = served.call(lambda station: bool(station.link.machine.card.read_bit(1920)))
         assert is_set is (state == "on")
     search(page, "bit516")
     row_of(page, "BIT516").click()
@@ -476,7 +476,9 @@ def test_status_shows_each_part_of_the_setpoint_of_the_axes_of_the_machine(
             expect(table.locator(f"[data-item=P{parameter}]")).to_have_text(str(shown))
     served.call(partial(write, parameter=first + 9, value=0))
     enabled = table.locator("tr", has_text="Drive Enabled").locator("td.number")
-    on = served.call(lambda station: bool(station.machine.card.read_bit("axis0.drive enabled")))
+    on = served.call(
+        lambda station: bool(station.link.machine.card.read_bit("axis0.drive enabled"))
+    )
     expect(enabled.first).to_have_text("on" if on else "off")
 
 

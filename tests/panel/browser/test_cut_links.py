@@ -18,7 +18,7 @@ def stale_ms() -> int:
 
 
 def is_jogging(served: Served) -> bool:
-    return served.call(lambda station: bool(station.machine.runner.jogging.is_active))
+    return served.call(lambda station: bool(station.link.machine.runner.jogging.is_active))
 
 
 def hold_x(page: Page, served: Served) -> None:

@@ -91,14 +91,14 @@ def test_the_servo_loop_of_the_chosen_axis_is_drawn_with_all_its_values(
     def values() -> dict[int, float]:
         def read(station: Station) -> dict[int, float]:
             places = {place for box in LOOP.values() for place, _ in box}
-            return {place: float(station.machine.card.read(first + place)) for place in places}
+            return {place: float(station.link.machine.card.read(first + place)) for place in places}
 
         return served.call(read)
 
     def write(new: dict[int, float]) -> None:
         def do(station: Station) -> None:
             for place, value in new.items():
-                station.machine.card.write(first + place, value)
+                station.link.machine.card.write(first + place, value)
 
         served.call(do)
 
@@ -142,7 +142,7 @@ def test_io_status_shows_every_input_and_output_live(page: Page, served: Served)
             expect(page.locator(f"#screen [data-bit='{bit}'] .io-state")).to_have_text(text)
             lamp = page.locator(f"#screen [data-bit='{bit}'] .lamp.is-on")
             expect(lamp).to_have_count(int(on))
-    inputs = served.call(lambda station: int(station.machine.card.read(4096)))
+    inputs = served.call(lambda station: int(station.link.machine.card.read(4096)))
     expect(page.locator("#screen [data-bit='0'] .io-state")).to_have_text(
         "on" if inputs & 1 else "off"
     )
@@ -162,7 +162,7 @@ def test_io_status_shows_every_input_and_output_live(page: Page, served: Served)
 def test_the_terminal_sends_lines_as_they_are_also_while_a_program_runs(
     page: Page, served: Served
 ) -> None:
-    served.call(lambda station: station.machine.card.write(3, 41.5))
+    served.call(lambda station: station.link.machine.card.write(3, 41.5))
     open_diagnostics(page, 2, "terminal")
     text = page.locator("#screen .xterm-rows")
     line = page.get_by_label("Line for the card")
@@ -171,11 +171,11 @@ def test_the_terminal_sends_lines_as_they_are_also_while_a_program_runs(
     expect(text).to_contain_text("41.5")
     give(page, "mdi.execute", line="G21 G91 G1 X60 F20")
     until_model(page, "model.state.value.state === 'RUN'")
-    served.call(lambda station: station.machine.card.write(3, 42.25))
+    served.call(lambda station: station.link.machine.card.write(3, 42.25))
     line.fill("?P3")
     line.press("Enter")
     expect(text).to_contain_text("42.25")
-    assert served.call(lambda station: station.machine.runner.is_busy)
+    assert served.call(lambda station: station.link.machine.runner.is_busy)
     give(page, "stop.all")
     at_rest(page, served)
 
@@ -241,7 +241,7 @@ def test_the_scope_runs_an_index_profile_and_records_it_from_its_start(
         "Sweep, ms/div": "100", "Sampling, ms": "10",
         "Index profile": "ACC 500\nDEC 500\nSTP 500\nJRK 0\nF600\nRES X\nX5",
     })  # fmt: skip
-    before = served.call(lambda station: station.machine.runner.stream.host.position()[0])
+    before = served.call(lambda station: station.link.machine.runner.stream.host.position()[0])
     page.get_by_role("button", name="INDEX", exact=True).click()
     dialog = page.get_by_role("dialog", name="INDEX")
     expect(dialog.locator("p")).to_have_text("The axis moves now: X5. Is its path free?")
@@ -249,13 +249,15 @@ def test_the_scope_runs_an_index_profile_and_records_it_from_its_start(
     state = page.locator("#screen .hint[role=status]")
     expect(state).to_have_text(re.compile(r"^\d{3,} samples$"))  # 1 s and more
     at_rest(page, served)
-    after = served.call(lambda station: station.machine.runner.stream.host.position()[0])
+    after = served.call(lambda station: station.link.machine.runner.stream.host.position()[0])
     assert after - before == pytest.approx(5.0, abs=1e-6)
     values = page.evaluate(
         "() => import('/js/scope/screen.js').then((module) => module.shown.value.channels[0])"
     )
     assert len(values) == 100  # ten divisions of 100 ms, from the start
-    scale = served.call(lambda station: station.machine.runner.settings.named("X").pulses_per_unit)
+    scale = served.call(
+        lambda station: station.link.machine.runner.settings.named("X").pulses_per_unit
+    )
     # Friction holds the axis some counts beside its setpoint, at both ends.
     assert (values[-1] - values[0]) * 1000.0 == pytest.approx(5.0 * scale, abs=10.0)
     page.get_by_role("button", name="AUTOSCALE").click()
@@ -287,7 +289,7 @@ def test_gains_reach_the_running_card_at_enter_and_are_stored(
             number = 12288 + 256 * axis + offset
 
             def on_card(number: int = number) -> float:
-                return float(served.call(lambda station: station.machine.card.read(number)))
+                return float(served.call(lambda station: station.link.machine.card.read(number)))
 
             before, kept[cell] = on_card(), store.read(cell)
             field = page.locator(f"#gain-{cell}")
@@ -301,7 +303,7 @@ def test_gains_reach_the_running_card_at_enter_and_are_stored(
             assert on_card() == pytest.approx(value, rel=1e-6)
             assert store.read(cell) == kept[cell]
             entered[cell] = value
-    assert served.call(lambda station: station.machine.runner.is_busy)
+    assert served.call(lambda station: station.link.machine.runner.is_busy)
     give(page, "stop.all")
     at_rest(page, served)
     until(page, lambda: {cell: store.read(cell) for cell in entered} == entered)
@@ -364,10 +366,10 @@ def test_board_parameters_lists_every_parameter_with_its_value(page: Page, serve
     page.get_by_label("Name or number").fill("P12288")
     expect(place).to_have_text("1\u20131 of 1")
     shown = page.locator("#screen tbody strong")
-    place_x = served.call(lambda station: station.machine.card.read(12288))
+    place_x = served.call(lambda station: station.link.machine.card.read(12288))
     expect(shown).to_have_text(str(int(place_x)))
     page.get_by_label("Name or number").fill("P12304")  # the gain P of axis 0
-    gain = served.call(lambda station: station.machine.card.read(12304))
+    gain = served.call(lambda station: station.link.machine.card.read(12304))
     expect(shown).to_have_text(f"{gain:.6g}")
     assert 0.0 < gain < 1.0
 
@@ -385,7 +387,7 @@ def test_cpu_load_is_shown_in_per_cent_also_while_a_program_runs(
     running: Page, served: Served
 ) -> None:
     page = running
-    lines = served.call(lambda station: station.machine.card.command("CPU"))
+    lines = served.call(lambda station: station.link.machine.card.command("CPU"))
     open_diagnostics(page, 7, "cpu")
     shares = page.locator("#screen .cpu-row strong")
     expect(shares).to_have_text([line.split()[1].replace("%", " %") for line in lines])
@@ -419,7 +421,7 @@ def test_the_memory_is_divided_with_a_warning_and_not_while_a_program_runs(
     page: Page, served: Served
 ) -> None:
     at_rest(page, served)
-    served.call(lambda station: station.machine.card.command("10 PRINT 1", program=1))
+    served.call(lambda station: station.link.machine.card.command("10 PRINT 1", program=1))
     open_diagnostics(page, 9, "memory")
     expect(page.locator("#screen .memory-row")).to_have_count(24)
     labels = page.locator("#screen .memory-row label").all_inner_texts()
@@ -447,7 +449,7 @@ def test_the_memory_is_divided_with_a_warning_and_not_while_a_program_runs(
     )
     give(page, "stop.all")
     at_rest(page, served)
-    program = lambda station: station.machine.card.command("LIST", program=1)  # noqa: E731
+    program = lambda station: station.link.machine.card.command("LIST", program=1)  # noqa: E731
     assert served.call(program) == ["10 PRINT 1"]
     save.click()
     dialog.get_by_role("button", name="SAVE AND CLEAR THE CARD").click()
@@ -460,13 +462,13 @@ def test_the_memory_is_divided_with_a_warning_and_not_while_a_program_runs(
 
 
 def _dimensions(station: Station) -> list[str]:
-    station.machine.card.go(Level())
-    return station.machine.card.command("DIM")
+    station.link.machine.card.go(Level())
+    return station.link.machine.card.command("DIM")
 
 
 def _switch(station: Station, *, bit: int, on: bool) -> None:
-    station.machine.card.write_bit(bit, on)
+    station.link.machine.card.write_bit(bit, on)
 
 
 def _command(station: Station, *, line: str) -> None:
-    station.machine.card.command(line)
+    station.link.machine.card.command(line)

@@ -28,11 +28,11 @@ def reload(page: Page) -> None:
 
 
 def bit(served: Served, number: int) -> bool:
-    return served.call(lambda station: station.machine.card.read_bit(number))
+    return served.call(lambda station: station.link.machine.card.read_bit(number))
 
 
 def set_bit(served: Served, number: int, on: bool) -> None:
-    served.call(lambda station: station.machine.card.write_bit(number, on))
+    served.call(lambda station: station.link.machine.card.write_bit(number, on))
 
 
 def until(page: Page, holds: Callable[[], bool]) -> None:
@@ -186,7 +186,9 @@ def test_the_fov_panel_chooses_one_of_sixteen_overrides(page: Page, served: Serv
     table = feed.get_by_role("radio").all_inner_texts()
     feed.get_by_role("radio").nth(4).click()
     expect(feed.get_by_role("radio").nth(4)).to_have_attribute("aria-checked", "true")
-    factor = served.call(lambda station: station.machine.runner.overrides.factor(Override.FEED))
+    factor = served.call(
+        lambda station: station.link.machine.runner.overrides.factor(Override.FEED)
+    )
     assert round(100 * factor) == int(table[4]) != 100
     full = table.index("100")
     feed.get_by_role("radio").nth(full).click()
@@ -214,7 +216,7 @@ def messages(page: Page, served: Served, count: int) -> None:
 
 def defined(station: Station) -> list[str]:
     """The texts of the messages that the machine shows when their bits are set."""
-    return [each.text for each in station.machine.messages.defined]
+    return [each.text for each in station.link.machine.messages.defined]
 
 
 @pytest.mark.req("MILL-MSG-PLACE")

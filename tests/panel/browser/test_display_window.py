@@ -195,7 +195,7 @@ def test_lines_alarms_and_emergency_stop_are_live_at_rest_and_during_a_run(
     page, store = programs, served.panel.installation.store
 
     def write(bit: int, on: bool) -> None:
-        served.call(lambda station: station.machine.card.write_bit(bit, on))
+        served.call(lambda station: station.link.machine.card.write_bit(bit, on))
 
     for key in ("F8", "F7", "F9"):
         page.keyboard.press(key)

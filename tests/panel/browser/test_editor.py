@@ -21,19 +21,19 @@ def on_card(served: Served, *lines: str) -> None:
     """Type lines at the card."""
 
     def do(station: Station) -> None:
-        station.machine.card.go(Level())
+        station.link.machine.card.go(Level())
         for line in lines:
-            station.machine.card.command(line)
+            station.link.machine.card.command(line)
 
     served.call(do)
 
 
 def stored(served: Served, text: str) -> None:
-    served.call(lambda station: station.machine.card.download(text, to=Level.program(3)))
+    served.call(lambda station: station.link.machine.card.download(text, to=Level.program(3)))
 
 
 def listed(served: Served) -> str:
-    return served.call(lambda station: station.machine.card.upload(Level.program(3)))
+    return served.call(lambda station: station.link.machine.card.upload(Level.program(3)))
 
 
 @pytest.fixture(scope="module")

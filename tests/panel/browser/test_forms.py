@@ -59,7 +59,7 @@ def test_a_saved_value_is_in_the_store_and_on_the_screen(page: Page, served: Ser
     field.fill("1.5")
     page.get_by_role("button", name="SAVE", exact=True).click()
     expect(page.locator("#prompt")).to_have_text("Saved: 1")
-    assert served.call(lambda station: station.machine.runner.settings.real(number)) == 1.5
+    assert served.call(lambda station: station.link.machine.runner.settings.real(number)) == 1.5
     expect(page.get_by_role("button", name="SAVE", exact=True)).to_be_disabled()
     expect(page.locator(f"#cell-{number}")).to_have_value("1.5")
 

@@ -356,12 +356,12 @@ def test_exit_while_a_program_runs_asks_and_brings_the_machine_to_rest(
         "The machine is working. It is stopped first: the program ends, the axes come to rest."
     )
     dialog.get_by_role("button", name="CANCEL").click()
-    assert served.call(lambda station: station.machine.runner.is_busy)
+    assert served.call(lambda station: station.link.machine.runner.is_busy)
     page.keyboard.press("F10")
     dialog.get_by_role("button", name="LEAVE").click()
     expect(page.locator("main.left")).to_contain_text("The controller program is still running.")
-    assert not served.call(lambda station: station.machine.runner.is_busy)
-    place = served.call(lambda station: station.machine.runner.stream.host.position()[0])
+    assert not served.call(lambda station: station.link.machine.runner.is_busy)
+    place = served.call(lambda station: station.link.machine.runner.stream.host.position()[0])
     assert 0.0 < place < 50.0
     page.get_by_role("button", name="COME BACK").click()
     page.wait_for_function(READY)
@@ -380,7 +380,7 @@ def test_a_screen_that_only_watches_leaves_without_stopping_the_machine(
     assert dialog.get_by_role("button").all_inner_texts() == ["CANCEL", "LEAVE"]
     dialog.get_by_role("button", name="LEAVE").click()
     expect(other.locator("main.left")).to_be_visible()
-    assert served.call(lambda station: station.machine.runner.is_busy)
+    assert served.call(lambda station: station.link.machine.runner.is_busy)
     other.close()
     give(page, "stop.all")
     until_model(page, "!model.state.value.busy")

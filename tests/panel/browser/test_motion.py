@@ -19,13 +19,13 @@ def x_of(served: Served) -> float:
 
 
 def is_jogging(served: Served) -> bool:
-    return served.call(lambda station: bool(station.machine.runner.jogging.is_active))
+    return served.call(lambda station: bool(station.link.machine.runner.jogging.is_active))
 
 
 def rest_of(served: Served, page: Page) -> float:
     """Where X has come to rest."""
     until(page, lambda: not is_jogging(served))
-    return served.call(lambda station: float(station.machine.runner.stream.host.position()[0]))
+    return served.call(lambda station: float(station.link.machine.runner.stream.host.position()[0]))
 
 
 @pytest.fixture
@@ -245,7 +245,9 @@ def test_a_step_moves_by_its_increment_and_no_further(jog: Page, served: Served)
     before = rest_of(served, jog)
     jog.get_by_role("button", name="X plus").click()
     until(jog, lambda: rest_of(served, jog) != before)
-    step = served.call(lambda station: station.machine.runner.settings.real(JOG.increments[0][0]))
+    step = served.call(
+        lambda station: station.link.machine.runner.settings.real(JOG.increments[0][0])
+    )
     assert rest_of(served, jog) - before == pytest.approx(step)
     continuous.click()
 

@@ -23,7 +23,7 @@ def on_card(served: Served, *lines: str) -> None:
     """Type lines at the card."""
 
     def do(station: Station) -> None:
-        card = station.machine.card
+        card = station.link.machine.card
         card.go(Level())
         for line in lines:
             card.command(line)
@@ -32,11 +32,11 @@ def on_card(served: Served, *lines: str) -> None:
 
 
 def stored(served: Served, level: Level, text: str) -> None:
-    served.call(lambda station: station.machine.card.download(text, to=level))
+    served.call(lambda station: station.link.machine.card.download(text, to=level))
 
 
 def listing_of(served: Served, level: Level) -> str:
-    return served.call(lambda station: station.machine.card.upload(level))
+    return served.call(lambda station: station.link.machine.card.upload(level))
 
 
 @pytest.fixture(scope="module")
@@ -250,7 +250,7 @@ def test_a_viewer_sees_everything_and_commands_nothing(
 
 
 def set_bit(served: Served, bit: int, on: bool) -> None:
-    served.call(lambda station: station.machine.card.write_bit(bit, on))
+    served.call(lambda station: station.link.machine.card.write_bit(bit, on))
 
 
 def symbol(page: Page, rung: int, n: int) -> Locator:

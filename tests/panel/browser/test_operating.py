@@ -30,7 +30,7 @@ PLACE = (1.588, -2.12, 60.0)  # the guide's example of CLR ZERO
 def at_rest(page: Page, served: Served) -> None:
     until_model(page, "!model.state.value.busy")
     end_s = time.monotonic() + SETTLED_S
-    while served.call(lambda station: station.machine.runner.is_busy):
+    while served.call(lambda station: station.link.machine.runner.is_busy):
         assert time.monotonic() < end_s
         page.wait_for_timeout(20)
 
@@ -213,7 +213,7 @@ def test_no_enter_meant_for_the_start_line_moves_the_machine(placed: Page, serve
     page.keyboard.up("Enter")
     page.keyboard.press("Enter")  # a second press cancels
     expect(question).to_be_hidden()
-    assert served.call(lambda station: station.machine.runner.is_busy) is False
+    assert served.call(lambda station: station.link.machine.runner.is_busy) is False
     reads(page, PLACE[0])
     page.keyboard.press("F3")
     page.get_by_role("textbox", name="Start line").fill("3")
@@ -340,7 +340,7 @@ def test_goto_zero_says_where_the_axes_go_and_in_which_order(placed: Page, serve
             f"Rapids to program zero (G54 with the floating zero): {order}. From: X 1.5"
         )
         page.keyboard.press("Escape")
-    assert served.call(lambda station: station.machine.runner.is_busy) is False
+    assert served.call(lambda station: station.link.machine.runner.is_busy) is False
 
 
 def test_steps_of_a_homing_that_is_over_are_not_shown_after_a_reload_either(
@@ -355,7 +355,7 @@ def test_steps_of_a_homing_that_is_over_are_not_shown_after_a_reload_either(
     page.wait_for_function(READY)
     until_model(page, "model.says.value.at(-1)?.homing")
     expect(page.locator("#prompt")).to_have_text("")
-    served.call(lambda station: station.say("printed"))
+    served.call(lambda station: station.screens.say("printed"))
     expect(page.locator("#prompt")).to_have_text("printed")
 
 
@@ -378,7 +378,7 @@ def test_the_mdi_buffer_is_saved_as_a_program_and_run_as_such(page: Page, served
     assert (served.programs / "TYPED.TXT").read_text() == "\n".join(typed) + "\n"
     give(page, "mdi.execute", line="G90 G54 G0 X0 Y0")
     at_rest(page, served)
-    place = lambda station: station.machine.runner.stream.host.position()[:2]  # noqa: E731
+    place = lambda station: station.link.machine.runner.stream.host.position()[:2]  # noqa: E731
     zero_x, zero_y = served.call(place)
     load_file(page, "TYPED.TXT")
     begin_run(page)

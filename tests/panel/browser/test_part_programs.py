@@ -146,7 +146,7 @@ def test_the_running_program_cannot_be_edited_but_others_can(page: Page, served:
         expect(page.locator("#prompt")).to_have_text("OTHER.TXT is saved")
         assert (served.programs / "OTHER.TXT").read_text() == "G0 X7\nM2\n"
     finally:
-        served.call(lambda station: station.machine.runner.bring_to_rest())
+        served.call(lambda station: station.link.machine.runner.bring_to_rest())
     to_main_menu(page)
     expect(page.locator("#state")).to_contain_text("IDLE")
     in_editor(page, "LONG.TXT")
@@ -310,7 +310,7 @@ def test_an_error_found_by_reading_is_said_after_the_load_and_asked_about_at_the
     expect(dialog.get_by_role("button", name="START", exact=True)).to_have_count(0)
     page.keyboard.press("Enter")
     expect(dialog).to_be_visible()
-    assert served.call(lambda station: station.machine.runner.is_busy) is False
+    assert served.call(lambda station: station.link.machine.runner.is_busy) is False
     dialog.get_by_role("button", name="START ANYWAY").click()
     until_model(page, "model.alarms.value.active.length")
     at_rest(page, served)

@@ -66,7 +66,7 @@ def listed(page: Page, name: str) -> Locator:
 
 
 def download(served: Served, text: str) -> None:
-    served.call(lambda station: station.machine.card.download(text, to=Level.program(1)))
+    served.call(lambda station: station.link.machine.card.download(text, to=Level.program(1)))
 
 
 def test_a_changed_program_is_signed_and_saved_into_the_project(
@@ -116,11 +116,13 @@ def test_the_text_of_the_project_is_opened_beside_another_one_of_the_card(
     )
     dialog.get_by_role("button", name="DOWNLOAD").click()
     expect(editor.locator(".text-foot .hint")).to_contain_text("PROG0")
-    assert "100000" in served.call(lambda station: station.machine.card.upload(Level.program(1)))
+    assert "100000" in served.call(
+        lambda station: station.link.machine.card.upload(Level.program(1))
+    )
 
 
 def test_an_axis_is_measured_with_the_fields_as_they_are(page: Page, served: Served) -> None:
-    served.call(lambda station: station.machine.card.command("AXIS0 DRIVE ON"))
+    served.call(lambda station: station.link.machine.card.command("AXIS0 DRIVE ON"))
     open_pane(page, "Tuning")
     page.get_by_role("button", name="MEASURE").click()
     dialog = page.get_by_role("dialog", name="MEASURE")
@@ -138,9 +140,11 @@ def test_an_axis_that_only_the_card_has_is_seen_in_the_loop_and_gets_gains(
 ) -> None:
     loop = page.locator("[data-pane=servo]")
     loop.get_by_role("radio", name="Z (AXIS2)").click()
-    served.call(lambda station: station.machine.machine.write(12288 + 512 + 8, 321))  # gear offset
+    served.call(
+        lambda station: station.link.machine.machine.write(12288 + 512 + 8, 321)
+    )  # gear offset
     expect(loop.locator("[data-box=gear] .value")).to_have_text("321")
-    served.call(lambda station: station.machine.machine.write(12288 + 512 + 8, 0))
+    served.call(lambda station: station.link.machine.machine.write(12288 + 512 + 8, 0))
     open_pane(page, "Gains")
     gains = page.locator("[data-pane=gain]")
     gains.get_by_role("radio", name="Z (AXIS2)").click()
@@ -148,7 +152,7 @@ def test_an_axis_that_only_the_card_has_is_seen_in_the_loop_and_gets_gains(
     field.fill("0.0021")
     field.press("Enter")
     expect(page.locator("#prompt")).to_contain_text("0.0021")
-    gain = served.call(lambda station: station.machine.card.read("axis2.proportional gain"))
+    gain = served.call(lambda station: station.link.machine.card.read("axis2.proportional gain"))
     assert gain == pytest.approx(0.0021)
 
 

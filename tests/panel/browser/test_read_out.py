@@ -51,7 +51,7 @@ def test_every_view_is_chosen_at_any_time_also_while_a_program_runs(
             tab = page.locator(f"#status-tab-view{n}")
             expect(tab).to_have_attribute("aria-selected", "true")
             expect(page.locator("#status [aria-selected=true]")).to_have_count(1)
-    assert served.call(lambda station: station.machine.runner.is_busy)
+    assert served.call(lambda station: station.link.machine.runner.is_busy)
     give(page, "stop.all")
     at_rest(page, served)
 
@@ -179,7 +179,7 @@ def test_the_push_buttons_are_shown_with_live_lamps(page: Page, served: Served) 
     for on in (True, False):
         button.click()
         expect(lamp).to_have_count(int(on))
-        assert served.call(lambda station: station.machine.card.read_bit(47)) is on
+        assert served.call(lambda station: station.link.machine.card.read_bit(47)) is on
     store.write_text(OFFSETS.button_caption[0], "")
 
 
@@ -265,10 +265,10 @@ def test_two_browsers_show_the_same_and_one_of_them_jogs(
     at_rest(page, served)
     other.keyboard.press("F7")
     other.keyboard.press("F2")
-    before = served.call(lambda station: station.machine.runner.stream.host.position()[0])
+    before = served.call(lambda station: station.link.machine.runner.stream.host.position()[0])
     other.get_by_role("button", name="X plus").hover()
     other.mouse.down()
     expect(other.locator("#prompt")).to_contain_text("has control of the machine")
     other.mouse.up()
-    assert served.call(lambda s: s.machine.runner.stream.host.position()[0]) == before
+    assert served.call(lambda s: s.link.machine.runner.stream.host.position()[0]) == before
     other.close()

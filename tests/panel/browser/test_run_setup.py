@@ -152,7 +152,7 @@ def in_force(page: Page, served: Served, wanted: tuple[str, ...]) -> None:
     codes = page.locator("#status .codes")
     for code in wanted[:-1]:
         expect(codes.get_by_text(code, exact=True)).to_have_count(1)
-    centres = served.call(lambda station: station.reading.work.run.modal.centres)
+    centres = served.call(lambda station: station.link.reading.work.run.modal.centres)
     assert ("negative", "positive", "absolute")[centres] == wanted[-1]
     page.click("#status-tab-view1")
     give(page, "run.start")

@@ -459,7 +459,7 @@ RECORD = """() => import('/js/scope/screen.js').then(({ shown }) => shown.value)
 
 
 def write(station: Station, value: float) -> None:
-    station.machine.card.write(7, value)
+    station.link.machine.card.write(7, value)
 
 
 def press(page: Page, name: str) -> None:
@@ -476,8 +476,8 @@ def fill(page: Page, values: dict[str, str]) -> None:
 def test_a_single_sweep_of_a_flag_and_a_parameter_is_measured_and_exported(
     page: Page, served: Served
 ) -> None:
-    served.call(lambda station: station.machine.card.write(7, 0.0))
-    served.call(lambda station: station.machine.card.write_bit(1920, True))
+    served.call(lambda station: station.link.machine.card.write(7, 0.0))
+    served.call(lambda station: station.link.machine.card.write_bit(1920, True))
     fill(page, {
         "CH1 source": "P7", "CH2 source": "BIT1920", "CH3 source": "", "CH8 source": "p6916",
         "M source": "2*CH1 + CH2", "CH1 units/div": "2", "CH1 unit": "mm",
@@ -486,8 +486,8 @@ def test_a_single_sweep_of_a_flag_and_a_parameter_is_measured_and_exported(
     page.get_by_label("Trigger", exact=True).select_option("single")
     press(page, "START")
     until_model(page, "model.capture.value.running")
-    served.call(lambda station: station.machine.card.pause(0.1))
-    served.call(lambda station: station.machine.card.write(7, 3.5))
+    served.call(lambda station: station.link.machine.card.pause(0.1))
+    served.call(lambda station: station.link.machine.card.write(7, 3.5))
     expect(page.locator("[data-pane=scope] [role=status]")).to_contain_text("Stopped at")
     press(page, "CURSORS")
     row = page.locator("[data-trace=CH1] td")
@@ -530,7 +530,7 @@ def status(page: Page) -> Locator:
 
 
 def switch(station: Station, flag: int, on: bool) -> None:
-    station.machine.card.write_bit(flag, on)
+    station.link.machine.card.write_bit(flag, on)
 
 
 def arm_on_flag(page: Page, flag: int, mode: str, **more: str) -> None:
@@ -571,13 +571,13 @@ def test_the_last_whole_sweep_stays_with_its_measures_until_the_next_one_is_whol
     whole = [0.0] * 20 + [1.0] * 80
     for value in (1.0, 2.0):
         served.call(partial(write, value=value))
-        served.call(lambda station: station.machine.card.pause(0.1))
+        served.call(lambda station: station.link.machine.card.pause(0.1))
         served.call(partial(switch, flag=1922, on=True))
         until(page, lambda: page.evaluate(RECORD)["channels"][1], lambda found: found == whole)
         expect(cells.nth(1)).to_have_text(f"{value:g}")
         served.call(partial(switch, flag=1922, on=False))
         expect(status(page)).to_contain_text("WAITING")
-        served.call(lambda station: station.machine.card.pause(0.2))
+        served.call(lambda station: station.link.machine.card.pause(0.2))
         assert page.evaluate(RECORD)["channels"][1] == whole
     press(page, "REFERENCE")
     press(page, "STOP SCOPE")
@@ -606,7 +606,7 @@ def test_a_second_browser_asks_before_it_takes_the_scope_and_the_first_one_says_
     )
     expect(status(other)).to_contain_text("samples")
     shown = page.evaluate(RECORD)
-    served.call(lambda station: station.machine.card.pause(0.1))
+    served.call(lambda station: station.link.machine.card.pause(0.1))
     expect(status(other)).not_to_have_text(str(status(other).text_content()))
     assert page.evaluate(RECORD) == shown  # nothing of the other capture
     other.close()
@@ -643,7 +643,7 @@ def until_shown(page: Page, first_ms: float, last_ms: float) -> None:
 def test_a_record_at_rest_is_zoomed_by_the_wheel_and_dragged(page: Page, served: Served) -> None:
     served.call(partial(switch, flag=1922, on=False))
     arm_on_flag(page, 1922, "single")
-    served.call(lambda station: station.machine.card.pause(0.1))
+    served.call(lambda station: station.link.machine.card.pause(0.1))
     served.call(partial(switch, flag=1922, on=True))
     expect(status(page)).to_contain_text("Stopped at")
     over = page.locator("[data-view=time] .u-over")
@@ -694,9 +694,9 @@ def test_the_level_of_the_trigger_is_dragged_and_acts_at_once(page: Page, served
     level = float(page.get_by_label("Trigger level", exact=True).input_value())
     assert level == pytest.approx(3.0, abs=0.05)
     until(page, lambda: served.call(trigger_level), lambda found: found == level)
-    served.call(lambda station: station.machine.card.pause(0.1))
+    served.call(lambda station: station.link.machine.card.pause(0.1))
     served.call(partial(write, value=2.9))
-    served.call(lambda station: station.machine.card.pause(0.1))
+    served.call(lambda station: station.link.machine.card.pause(0.1))
     assert served.call(lambda station: station.scope.capture.triggered_at) is None  # type: ignore[union-attr]
     served.call(partial(write, value=3.1))
     until_model(page, "model.capture.value.swept !== null")
@@ -730,7 +730,7 @@ def begin_branches(station: Station) -> None:
     times = station.times
     tick = times.history.lived_tk - 10
     for value in (2.0, 5.0):
-        times.seek(tick) if not times.is_away else times.switch(0, tick)
+        times.seek(tick) if not station.link.is_away else times.switch(0, tick)
         times.write(7, value, is_flag=False)
         times.history.timeline.advance(120_000 if value == 2.0 else 1)
     times.operate(station.now_s)

@@ -162,7 +162,7 @@ def test_the_ballscrew_screen_lists_edits_imports_exports_and_switches_a_table(
     assert download.value.suggested_filename == "ballscrew_Y.txt"
 
     def on_card() -> list[int]:
-        return served.call(lambda station: sorted(station.machine.runner._compensation._axes))
+        return served.call(lambda station: sorted(station.link.machine.runner._compensation._axes))
 
     assert (store.read(OFFSETS.ballscrew_on[1]), on_card()) == (0, [])
     for is_on, axes in ((True, [1]), (False, [])):

@@ -14,7 +14,7 @@ from openacr.panel.control.station import Station
 def prepare(station: Station) -> None:
     """Program 5 counts in P0."""
     for line in ("10 P0=P0+1", "20 DWL 0.01", "30 GOTO 10", "RUN"):
-        station.machine.card.command(line, program=5)
+        station.link.machine.card.command(line, program=5)
 
 
 def lived(station: Station) -> int:
@@ -26,7 +26,7 @@ def counted(station: Station) -> float:
 
 
 def is_still(station: Station) -> bool:
-    return station.times.is_still
+    return station.link.is_still
 
 
 @pytest.fixture(scope="module")

@@ -30,7 +30,7 @@ def page(context: BrowserContext, served: Served) -> Page:
 
 
 def gain(station: Station, parameter: int = P_GAIN) -> float:
-    return float(station.machine.card.read(parameter))
+    return float(station.link.machine.card.read(parameter))
 
 
 def test_nothing_moves_or_changes_before_it_is_confirmed(page: Page, served: Served) -> None:

@@ -28,19 +28,19 @@ class Division(Args, frozen=True):
 
 
 def _names(station: Station) -> list[str]:
-    model = station.link.runner.settings.model
+    model = station.link.required.runner.settings.model
     programs = [f"PROG{number}" for number in range(model.programs)]
     return programs + [f"PLC{number}" for number in range(model.plcs)]
 
 
 def _require_rest(station: Station) -> None:
-    if station.is_moved:
+    if station.interlocks.is_moved:
         raise UserError("the machine moves: the memory is shown and changed at rest only")
 
 
 def _running(station: Station) -> list[str]:
     """What runs on the card beside the programs of this machine."""
-    session = station.link
+    session = station.link.required
     settings = session.runner.settings
     own = {f"PROG{settings.master}", f"PROG{settings.watchdog_program}"}
     model = settings.model
@@ -70,7 +70,7 @@ class Found:
 
 def _found(station: Station) -> Found:
     _require_rest(station)
-    card = station.link.card
+    card = station.link.required.card
     card.go(Level())
     found = _divided(card)
     free = int(card.command("MEM")[0])

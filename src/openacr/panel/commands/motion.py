@@ -68,7 +68,7 @@ class Mode(Args, frozen=True):
 
 def indices(station: Station, names: str) -> list[int]:
     """The axes of these names; all configured ones without a name."""
-    settings = station.machine.runner.settings
+    settings = station.link.machine.runner.settings
     return [settings.named(name).index for name in names.upper() or settings.names()]
 
 
@@ -78,7 +78,7 @@ def indices(station: Station, names: str) -> list[int]:
 @command("jog.press", is_motion=True)
 def press(station: Station, order: Order, args: Press) -> None:
     """Jog an axis while the key is held."""
-    axis = station.machine.runner.settings.named(args.axis.upper()).index
+    axis = station.link.machine.runner.settings.named(args.axis.upper()).index
     station.hand_motion.press(
         Key(order.person.client, args.press),
         axis,
@@ -99,7 +99,7 @@ def release(station: Station, order: Order, args: Release) -> None:
 @command("jog.increment", is_motion=True)
 def increment(station: Station, order: Order, args: Increment) -> None:
     """Move an axis by one increment."""
-    axis = station.machine.runner.settings.named(args.axis.upper()).index
+    axis = station.link.machine.runner.settings.named(args.axis.upper()).index
     if bool(args.preset) == bool(args.distance):
         raise UserError("an increment is a preset from 1 to 5 or a distance above 0")
     station.hand_motion.require_fresh(args.tick, order.received_s)
@@ -118,7 +118,7 @@ def stop_jogs(station: Station, order: Order, args: NoArgs) -> None:
 def handwheel(station: Station, order: Order, args: OfAxes) -> dict[str, str]:
     """Connect the hand wheel with axes; without a name it is disconnected."""
     station.hand_motion.presses.end_all(End.MODE, "the hand wheel was chosen")
-    station.machine.runner.turn(indices(station, args.axes) if args.axes else [])
+    station.link.machine.runner.turn(indices(station, args.axes) if args.axes else [])
     return {"axes": args.axes.upper()}
 
 
@@ -127,9 +127,9 @@ def mode(station: Station, order: Order, args: Mode) -> None:
     """Say which screen the operator is on; a change ends every held key."""
     if station.people.holder not in (None, order.person.client):
         return  # the screens of others change nothing
-    if args.mode != station.mode:
+    if args.mode != station.people.mode:
         station.hand_motion.presses.end_all(End.MODE, "another screen was chosen")
-        station.mode = args.mode
+        station.people.mode = args.mode
 
 
 # --- home and zero --------------------------------------------------------------------
@@ -138,25 +138,25 @@ def mode(station: Station, order: Order, args: Mode) -> None:
 @command("home.start", is_motion=True)
 def home(station: Station, order: Order, args: OfAxes) -> dict[str, list[str]]:
     """HOME: find the reference points of axes, all that have a priority without a name."""
-    settings = station.machine.runner.settings
+    settings = station.link.machine.runner.settings
     axes = indices(station, args.axes)
     chosen = [axis for axis in axes if settings.home(axis).priority > 0]
     if not chosen:
         names = args.axes.upper() or "any axis"
         raise UserError(f"{names} has no homing priority: set Home Priority on the HOME page")
-    station.machine.runner.home(chosen)
+    station.link.machine.runner.home(chosen)
     return {"axes": [settings.axis(axis).name for axis in chosen]}
 
 
 def _position(station: Station, point: tuple[float, ...]) -> dict[str, dict[str, float]]:
-    axes = station.machine.runner.settings.axes
+    axes = station.link.machine.runner.settings.axes
     return {"position": {axis.name: point[axis.index] for axis in axes}}
 
 
 @command("zero.set")
 def zero_set(station: Station, order: Order, args: OfAxes) -> dict[str, dict[str, float]]:
     """SET ZERO: axes read 0 where they are."""
-    session = station.machine
+    session = station.link.machine
     set_zero(session, indices(station, args.axes))
     return _position(station, reader(session).position)
 
@@ -164,27 +164,29 @@ def zero_set(station: Station, order: Order, args: OfAxes) -> dict[str, dict[str
 @command("zero.preset")
 def zero_preset(station: Station, order: Order, args: Values) -> dict[str, dict[str, float]]:
     """Set the floating zero so that axes read these values where they are."""
-    settings = station.machine.runner.settings
+    settings = station.link.machine.runner.settings
     values = {settings.named(name.upper()).index: value for name, value in args.values.items()}
-    return _position(station, preset(station.machine, values))
+    return _position(station, preset(station.link.machine, values))
 
 
 @command("zero.clear")
 def zero_clear(station: Station, order: Order, args: NoArgs) -> dict[str, dict[str, float]]:
     """CLR ZERO: no axis has a floating zero."""
-    return _position(station, clear_all(station.machine))
+    return _position(station, clear_all(station.link.machine))
 
 
 @command("zero.blocks", Role.VIEW, needs_control=False)
 def zero_blocks(station: Station, order: Order, args: OfAxes) -> dict[str, list[str]]:
     """The blocks of GOTO ZERO in the order they would be run; nothing moves."""
-    return {"blocks": goto_blocks(station.machine, indices(station, args.axes))}
+    return {"blocks": goto_blocks(station.link.machine, indices(station, args.axes))}
 
 
 @command("zero.goto", is_motion=True)
 def zero_goto(station: Station, order: Order, args: OfAxes) -> None:
     """GOTO ZERO: rapids to the floating zero, Z first where that is upward, else last."""
-    station.typed.put(goto_blocks(station.machine, indices(station, args.axes)), is_shown=False)
+    station.typed.put(
+        goto_blocks(station.link.machine, indices(station, args.axes)), is_shown=False
+    )
 
 
 # --- set-up ---------------------------------------------------------------------------
@@ -196,13 +198,13 @@ def set_up(station: Station, order: Order, args: NoArgs) -> None:
 
     Until this is agreed on, a card at the end of a link stays as it was found.
     """
-    session = station.link
+    session = station.link.required
     if session.is_set_up:
         raise UserError("AcroMill has set this card up already")
-    station.require_unmeasured()
+    station.interlocks.require_unmeasured()
     station.set_up(station.now_s)
-    if station.installation.lacks or station.session is None:
-        raise UserError(station.installation.lacks or station.lost)
+    if station.installation.lacks or station.link.session is None:
+        raise UserError(station.installation.lacks or station.link.lost)
 
 
 # --- stops ----------------------------------------------------------------------------
@@ -236,7 +238,7 @@ def stop_all(station: Station, order: Order, args: NoArgs) -> dict[str, list[str
 @command("stop.estop", Role.VIEW, needs_control=False, is_stop=True)
 def estop(station: Station, order: Order, args: NoArgs) -> dict[str, list[str]]:
     """Kill all motion and switch the drives off, by software: it is no emergency stop."""
-    if station.session is None or not station.session.is_set_up:
+    if station.link.session is None or not station.link.session.is_set_up:
         station.stopping.kill()
     name = station.people.name_of(order.person)
     return _stop(station, lambda runner: runner.kill(name), ends=True)
@@ -250,11 +252,11 @@ def _stop(
     steps: list[Callable[[], object]] = [
         lambda: station.hand_motion.presses.end_all(End.STOP),
         station.typed.drop,
-        lambda: station.tuning.stop(station.session),
+        lambda: station.tuning.stop(station.link.session),
         lambda: found.extend(station.stopping.stop(station.now_s, ends=ends)),
     ]
-    if station.session is not None and station.session.is_set_up:
-        steps.insert(0, lambda: stop_part(station.machine.runner))
+    if station.link.session is not None and station.link.session.is_set_up:
+        steps.insert(0, lambda: stop_part(station.link.machine.runner))
     failures: list[Exception] = []
     for step in steps:
         try:

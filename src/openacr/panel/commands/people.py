@@ -66,6 +66,6 @@ def end(station: Station, order: Order, args: NoArgs) -> None:
     """EXIT: end the controller program; at rest, and from its own computer only."""
     if not is_loopback(order.person.address):
         raise UserError("the controller program is ended at its own computer")
-    if station.session is not None and station.is_moved:
+    if station.link.session is not None and station.interlocks.is_moved:
         raise UserError("the machine is working: stop it first")
     station.on_end()

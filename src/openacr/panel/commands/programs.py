@@ -85,7 +85,7 @@ class OfListened(Args, frozen=True):
 
 def owner_of(station: Station, level: Level) -> str:
     """Why a program is not for the screens now; empty if it is."""
-    session = station.link
+    session = station.link.required
     settings = session.runner.settings
     if not session.is_set_up:
         return ""
@@ -101,7 +101,7 @@ def owner_of(station: Station, level: Level) -> str:
 
 def _take(station: Station, level: Level) -> None:
     """Take a program from AcroMill, which needs it and its axes: `card.setup` gives it back."""
-    session = station.link
+    session = station.link.required
     if session.is_set_up and level == Level.program(session.runner.settings.master):
         station.hand_over(f"{level} is an ordinary program of the card now")
 
@@ -116,8 +116,8 @@ def required(station: Station, args: OfProgram) -> Level:
 
 def _require_rest(station: Station, level: Level, what: str) -> None:
     """Refuse while this machine moves; a program also while an alarm bars every start."""
-    runner = station.link.runner
-    if station.is_moved:
+    runner = station.link.required.runner
+    if station.interlocks.is_moved:
         raise UserError(f"the machine moves: {what}")
     if level.word == "PROG":
         runner.alarms.require_none()
@@ -126,12 +126,12 @@ def _require_rest(station: Station, level: Level, what: str) -> None:
 def _begin(station: Station, word: str, level: Level) -> None:
     _require_rest(station, level, "no program of the card is started")
     _take(station, level)
-    station.on_card.programs.command(station.link, word, level)
+    station.on_card.programs.command(station.link.required, word, level)
 
 
 def _require_halted(station: Station, level: Level) -> None:
     _require_rest(station, Level.plc(0), "no program of the card is changed")
-    read = station.link.machine.read_rows
+    read = station.link.required.machine.read_rows
     states = {state["name"]: state["state"] for state in read_states(read)}
     if states[str(level)] != HALTED:
         raise UserError(f"{level} runs: halt it first")
@@ -164,7 +164,7 @@ def block(station: Station, order: Order, args: OfBlock) -> None:
     """Let a program wait for STEP before every line (BLK), or go on by itself (AUT)."""
     level = required(station, args)
     if args.on:
-        station.on_card.programs.command(station.link, "BLK", level)
+        station.on_card.programs.command(station.link.required, "BLK", level)
     else:
         _begin(station, "AUT", level)
 
@@ -172,13 +172,13 @@ def block(station: Station, order: Order, args: OfBlock) -> None:
 @command("card.pause", Role.SERVICE)
 def pause(station: Station, order: Order, args: OfProgram) -> None:
     """Hold a program and its motion."""
-    station.on_card.programs.command(station.link, "PAUSE", required(station, args))
+    station.on_card.programs.command(station.link.required, "PAUSE", required(station, args))
 
 
 @command("card.halt", Role.SERVICE)
 def halt(station: Station, order: Order, args: OfProgram) -> None:
     """End a program or a PLC of the card, and the motion of its master."""
-    station.on_card.programs.command(station.link, "HALT", required(station, args))
+    station.on_card.programs.command(station.link.required, "HALT", required(station, args))
 
 
 # --- listening ------------------------------------------------------------------------
@@ -236,12 +236,12 @@ def download_file(station: Station, order: Order, args: OfFile) -> Later:
 
     Lines outside of programs are carried out. The error of a line that is refused names it.
     """
-    session = station.link
+    session = station.link.required
     text = station.on_card.parked.text(args.parked)
     _require_rest(station, Level.program(0), "no file is sent to the card")
     running = [
         each["name"]
-        for each in read_states(station.read)
+        for each in read_states(station.link.read)
         if each["state"] != HALTED and not owner_of(station, Level.of_line(each["name"]) or Level())
     ]
     if running:

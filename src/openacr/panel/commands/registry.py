@@ -85,7 +85,7 @@ def carry_out(station: Station, order: Order, now_s: float) -> object:
     if row.is_motion and order.received_s < station.stopped_s:
         raise PanelError("refused", "a stop was received after this command: give it again")
     if row.is_motion:
-        station.require_unmeasured()
+        station.interlocks.require_unmeasured()
     if row.is_stop:
         station.stopped_s = max(station.stopped_s, order.received_s)
         if station.times.halt(now_s):

@@ -147,7 +147,7 @@ def library_part(station: Station, order: Order, args: OfPart) -> Later:
 def drip(station: Station, order: Order, args: OfPort) -> None:
     """RS232 DRIP FEED: run a program while it arrives over a serial line."""
     station.part.require_free()
-    session = station.machine
+    session = station.link.machine
     session.runner.alarms.require_none()
     name = dialect_of(None, session.cells, args.dialect or None)
     folder = station.installation.store.path.parent if station.installation.store.path else None
@@ -198,16 +198,16 @@ def begin(station: Station, order: Order, args: Begin) -> dict[str, object] | La
 @command("run.start", is_motion=True)
 def start(station: Station, order: Order, args: NoArgs) -> None:
     """START: go on from a stop or a feed hold."""
-    station.machine.runner.start()
+    station.link.machine.runner.start()
 
 
 @command("run.resume", is_motion=True)
 def resume(station: Station, order: Order, args: NoArgs) -> None:
     """RESUME: go on with the path where it was held, and with what STOP has held on the card."""
-    session = station.session
+    session = station.link.session
     is_held = station.stopping.holds
     if not is_held or (session and session.runner.state in (State.PAUSED, State.HOLD)):
-        station.machine.runner.resume()
+        station.link.machine.runner.resume()
     if is_held:
         station.stopping.resume()
 
@@ -216,46 +216,46 @@ def resume(station: Station, order: Order, args: NoArgs) -> None:
 def abort(station: Station, order: Order, args: NoArgs) -> None:
     """ABORT: end the program; START begins it again."""
     station.typed.drop()
-    station.machine.runner.abort()
+    station.link.machine.runner.abort()
 
 
 @command("run.block")
 def block(station: Station, order: Order, args: Switch) -> None:
     """BLOCK: stop after every block, or not."""
     station.part.is_single = args.on
-    station.machine.runner.block(args.on)
+    station.link.machine.runner.block(args.on)
 
 
 @command("run.skip")
 def skip(station: Station, order: Order, args: Switch) -> None:
     """Leave blocks with a slash out, or not."""
     station.part.is_skipping = args.on
-    station.machine.runner.stream.host.skips_always = args.on
+    station.link.machine.runner.stream.host.skips_always = args.on
 
 
 @command("run.optional")
 def optional(station: Station, order: Order, args: Switch) -> None:
     """Stop at M1, or not."""
     station.part.stops_optionally = args.on
-    station.machine.runner.stop_optionally(args.on)
+    station.link.machine.runner.stop_optionally(args.on)
 
 
 @command("run.trace", is_motion=True)
 def trace(station: Station, order: Order, args: Trace) -> None:
     """Trace the path in a feed hold: back, forward, or rest."""
-    station.machine.runner.trace(args.direction)
+    station.link.machine.runner.trace(args.direction)
 
 
 @command("run.answer", is_motion=True)
 def answer(station: Station, order: Order, args: Number) -> None:
     """Answer the question of a program."""
-    station.machine.runner.answer(args.value)
+    station.link.machine.runner.answer(args.value)
 
 
 @command("run.confirm", is_motion=True)
 def confirm(station: Station, order: Order, args: NoArgs) -> None:
     """Say that the tool is changed."""
-    changer = station.machine.runner.entry_actions.changer
+    changer = station.link.machine.runner.entry_actions.changer
     if not changer.wants_confirmation:
         raise UserError("no tool change waits")
     changer.confirm()
@@ -269,13 +269,13 @@ OVERRIDES = {"feed": Override.FEED, "rapid": Override.RAPID, "spindle": Override
 @command("override.choose")
 def override(station: Station, order: Order, args: Click) -> None:
     """Choose a click of an override."""
-    station.machine.runner.overrides.choose(OVERRIDES[args.which], args.click)
+    station.link.machine.runner.overrides.choose(OVERRIDES[args.which], args.click)
 
 
 @command("alarm.acknowledge", Role.OPERATE)
 def acknowledge(station: Station, order: Order, args: NoArgs) -> dict[str, list[str]]:
     """Clear the alarms whose cause is gone; those that stay, with what ends their cause."""
-    left = station.machine.runner.acknowledge()
+    left = station.link.machine.runner.acknowledge()
     return {"left": [_with_mend(alarm) for alarm in left]}
 
 

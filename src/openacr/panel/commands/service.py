@@ -146,7 +146,7 @@ def term_open(station: Station, order: Order, args: OfTerminal) -> Later:
 def term_line(station: Station, order: Order, args: OfLine) -> None:
     """Type a line; while the machine moves only those that begin with ?."""
     terminal = station.terminals[args.terminal]
-    terminal.line(args.text, is_busy=station.is_moved)
+    terminal.line(args.text, is_busy=station.interlocks.is_moved)
 
 
 @command("term.key", Role.SERVICE)
@@ -167,10 +167,10 @@ def query(station: Station, order: Order, args: Query) -> dict[str, list[str]]:
     line = args.line.strip().upper()
     if line not in QUERIES and not line.startswith("?"):
         raise UserError(f"{args.line}: only {', '.join(sorted(QUERIES))} and lines with ? are sent")
-    session = station.link
+    session = station.link.required
     if line in OF_ANY_LEVEL:
         return {"lines": session.card.command(line)}
-    if station.is_moved and not line.startswith("?"):
+    if station.interlocks.is_moved and not line.startswith("?"):
         raise UserError("the machine moves: only lines that begin with ? are sent")
     if args.plc is not None:
         session.card.go(Level.plc(args.plc))
@@ -218,7 +218,7 @@ def _armed(
 @command("scope.index", Role.SERVICE, is_motion=True)
 def scope_index(station: Station, order: Order, args: OfIndex) -> dict[str, object]:
     """Run an index profile (ACC, DEC, STP, JRK, F, RES, a move) and sample it from its start."""
-    runner = station.machine.runner
+    runner = station.link.machine.runner
     found = parse(args.profile, list(runner.settings.names()))
     station.hand_motion.presses.end_all(End.MODE, "an index profile was started")
     capture = _armed(station, order, args, None)
@@ -240,7 +240,7 @@ def scope_stop(station: Station, order: Order, args: NoArgs) -> None:
 @command("gain.set", Role.SERVICE)
 def gain(station: Station, order: Order, args: OfGain) -> dict[str, float | bool]:
     """Set a gain on the card at once, and store it; while the machine moves, once it rests."""
-    session = station.link
+    session = station.link.required
     is_stored = args.store and session.is_set_up  # else the axis is not that of the parameters
     axis = station.installation.axis(args.axis, is_stored=is_stored)
     names = {known(cells[axis]).name.lower(): k for k, cells in enumerate(GAINS)}
@@ -251,17 +251,17 @@ def gain(station: Station, order: Order, args: OfGain) -> dict[str, float | bool
     checked(cell, args.value, store.is_metric, store.letter_of(cell))
     session.machine.type([f"AXIS{axis} {GAIN_WORDS[place]} {number_text(args.value)}"])
     if is_stored:
-        station.store_at_rest(cell.number, args.value)
+        station.settings.store_at_rest(cell.number, args.value)
     return {"value": args.value, "is_stored": store.read(cell.number) == args.value}
 
 
 @command("card.write", Role.SERVICE)
 def card_write(station: Station, order: Order, args: Written) -> dict[str, float]:
     """Set a parameter of the card; at a moment of its history, this begins another branch."""
-    if station.times.is_away:
+    if station.link.is_away:
         station.times.write(args.parameter, args.value, is_flag=False)
-        return {"value": station.read([args.parameter])[0]}
-    session = station.link
+        return {"value": station.link.read([args.parameter])[0]}
+    session = station.link.required
     session.machine.write(args.parameter, args.value)
     return {"value": session.machine.read(args.parameter)}
 
@@ -269,10 +269,10 @@ def card_write(station: Station, order: Order, args: Written) -> dict[str, float
 @command("card.flag", Role.SERVICE, is_motion=True)
 def card_flag(station: Station, order: Order, args: Switched) -> dict[str, bool]:
     """Set or clear a flag of the card; at a moment of its history, this begins another branch."""
-    if station.times.is_away:
+    if station.link.is_away:
         station.times.write(args.flag, args.on, is_flag=True)
         return {"on": args.on}
-    card = station.link.card
+    card = station.link.required.card
     card.write_bit(args.flag, args.on)
     return {"on": card.read_bit(args.flag)}
 
@@ -284,15 +284,15 @@ def card_flag(station: Station, order: Order, args: Switched) -> dict[str, bool]
 def button(station: Station, order: Order, args: OfButton) -> None:
     """Press or release a virtual push button."""
     client = order.person.client
-    station.buttons.press(station.machine, args.number, client, is_pressed=args.pressed)
+    station.buttons.press(station.link.machine, args.number, client, is_pressed=args.pressed)
 
 
 @command("teach.length", Role.SETUP)
 def teach_length(station: Station, order: Order, args: OfLength) -> dict[str, float]:
     """Make the machine position of Z the length of a tool."""
-    session = station.machine
+    session = station.link.machine
     session.runner.alarms.require_none()
-    if station.is_moved:
+    if station.interlocks.is_moved:
         raise UserError("the machine is moving: a length can be taught only at rest")
     axis = session.runner.settings.named("Z").index
     value = session.runner.stream.host.position()[axis]

@@ -53,7 +53,7 @@ class OfProposal(OfAxis, frozen=True, kw_only=True):
 
 def _resting(station: Station, name: str, *, is_stored: bool = False) -> int:
     """The number of an axis of a machine that may be moved."""
-    session = station.link
+    session = station.link.required
     if session.is_set_up:
         session.runner.require_start()
     return station.installation.axis(name, is_stored=is_stored)
@@ -62,7 +62,7 @@ def _resting(station: Station, name: str, *, is_stored: bool = False) -> int:
 @command("tune.gains", Role.SERVICE, needs_control=False)
 def tune_gains(station: Station, order: Order, args: OfAxis) -> dict[str, float]:
     """The gains of an axis as the card has them now, by their names on the SERVO page."""
-    session = station.link
+    session = station.link.required
     axis = station.installation.axis(args.axis)
     values = session.machine.read_rows([row[axis] for row in tuned.GAINS.values()])
     return {
@@ -107,7 +107,7 @@ def tune_apply(station: Station, order: Order, args: OfProposal) -> Later:
 
     def done(found: dict[str, object]) -> dict[str, object]:
         for cell, value in cells.items():
-            station.store_at_rest(cell, value)
+            station.settings.store_at_rest(cell, value)
         return found
 
     answer_with(order, applying, done)

@@ -60,9 +60,9 @@ def buffer(station: Station, order: Order, args: Buffer) -> dict[str, object]:
 @command("teach.work", Role.SETUP)
 def teach_work(station: Station, order: Order, args: Taught) -> None:
     """TEACH: where the machine is becomes the zero of a work system."""
-    session = station.machine
+    session = station.link.machine
     session.runner.alarms.require_none()
-    if station.is_moved:
+    if station.interlocks.is_moved:
         raise UserError("the machine is moving: a work system can be taught only at rest")
     here = session.runner.stream.host.position()
     teach(session.cells, session.runner.settings, args.system, here, indices(station, args.axes))

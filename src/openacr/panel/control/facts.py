@@ -10,41 +10,30 @@ from openacr.mill.config.overrides import Override
 from openacr.mill.config.settings import NONE
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
-from openacr.panel.control.about import machine_data
-from openacr.panel.control.history import moment_data, timeline_data
-from openacr.panel.control.lamp import Lamp
+from openacr.panel.control.link import Link
 from openacr.panel.control.part import Part
-from openacr.panel.control.shared import Shared
-from openacr.panel.control.stopping import Stopping
-from openacr.panel.control.times import NOT_HERE, Times
-from openacr.panel.control.typed import Typed
+from openacr.panel.control.people import People
 from openacr.sysvar.tabs import CELLS
 
 Data = dict[str, Any]
 
 
 class Facts:
-    """The facts of one station, as they were sent last."""
+    """The facts of one station by name, as they were sent last."""
 
     def __init__(
-        self,
-        station: Shared,
-        part: Part,
-        typed: Typed,
-        times: Times,
-        of_card: tuple[Stopping, Lamp],
+        self, makers: Mapping[str, Callable[[], Data]], tell: Callable[[Data], None]
     ) -> None:
-        self._station, self._part, self._typed, self._times = station, part, typed, times
-        self._stopping, self._lamp = of_card
+        self._makers, self._tell = makers, tell
         self._reported: dict[str, Data] = {}
 
     def tell(self) -> None:
         """Tell the facts that have changed."""
-        for name, make in MAKERS.items():
-            data = make(self, self._station)
+        for name, make in self._makers.items():
+            data = make()
             if self._reported.get(name) != data:
                 self._reported[name] = data
-                self._station.tell({"event": name, **data})
+                self._tell({"event": name, **data})
 
     def all(self) -> list[Data]:
         """All facts, for a browser that has just connected."""
@@ -53,27 +42,37 @@ class Facts:
 
     @property
     def reported(self) -> Mapping[str, Data]:
-        """The facts by name, as they were reported last; each is replaced as a whole."""
+        """The facts as they were reported last; each is replaced as a whole. For any thread."""
         return self._reported
 
-    # --- facts ------------------------------------------------------------------------
 
-    def state(self, station: Shared) -> Data:
+class MachineFacts:
+    """What the screens are to know of the session of the machine."""
+
+    def __init__(self, link: Link, part: Part, people: People) -> None:
+        self._link, self._part, self._people = link, part, people
+
+    @property
+    def _lost(self) -> str:
+        """Why there is no session; empty at a moment of the history, which is a mode."""
+        return "" if self._link.is_away else self._link.lost
+
+    def state(self) -> Data:
         """What the machine does and waits for."""
-        session = station.session
+        session = self._link.session
         if session is None:
             return {
                 "state": State.IDLE.name,
-                "reason": "" if self._times.is_away else station.lost,
+                "reason": self._lost,
                 "busy": False,
                 "running": False,
                 "jogging": False,
-                "options": self._options(station),
+                "options": self._options(),
                 "asking": None,
                 "tool_wanted": False,
-                "mode": station.mode,
+                "mode": self._people.mode,
                 "estop": {"wired": False, "on": False, "alarm": False},
-                "link": "ok" if self._times.is_away else "lost",
+                "link": "ok" if self._link.is_away else "lost",
                 "passes": 0,
                 "parts": 0,
                 "homed": [],
@@ -90,10 +89,10 @@ class Facts:
             "busy": runner.is_busy,
             "running": self._part.executing.is_under_way,
             "jogging": runner.jogging.is_active,
-            "options": self._options(station),
+            "options": self._options(),
             "asking": None if ask is None else {"text": ask.text, "parameter": ask.parameter},
             "tool_wanted": runner.entry_actions.changer.wants_confirmation,
-            "mode": station.mode,
+            "mode": self._people.mode,
             "estop": {
                 "wired": settings.wiring.emergency_stop != NONE,
                 "on": _is_in(session, settings.wiring.emergency_stop),
@@ -107,8 +106,8 @@ class Facts:
             "can": {"run.begin": self._part.bar if runner.state is State.IDLE else ""},
         }
 
-    def _options(self, station: Shared) -> Data:
-        options = station.session.runner.options if station.session else None
+    def _options(self) -> Data:
+        options = self._link.session.runner.options if self._link.session else None
         return {
             "dry": options.is_dry if options else False,
             "single": self._part.is_single,
@@ -116,40 +115,29 @@ class Facts:
             "optional": self._part.stops_optionally,
         }
 
-    def stopped(self, _station: Shared) -> Data:
-        """What the last STOP has found on the card, and what moves in spite of it."""
-        return self._stopping.data()
-
-    def lamp(self, _station: Shared) -> Data:
-        """What moves and runs on the card, by any host."""
-        return self._lamp.data()
-
-    def program(self, station: Shared) -> Data:
-        """The loaded program and its executing block."""
-        return self._part.data()
-
-    def modals(self, station: Shared) -> Data:
+    def modals(self) -> Data:
         """The codes and words in force."""
         return (
-            modals(station.session, station.reading.work.run) if station.session else {"codes": []}
+            modals(self._link.session, self._link.reading.work.run)
+            if self._link.session
+            else {"codes": []}
         )
 
-    def alarms(self, station: Shared) -> Data:
+    def alarms(self) -> Data:
         """Alarms that are active, and those that were."""
-        if station.session is None:
-            text = "" if self._times.is_away else station.lost  # a mode, no alarm
-            lost = {"code": 1, "text": text, "effect": "REFUSE", "at_s": 0.0, "time": ""}
-            return {"active": [lost] if text else [], "history": [], "bars_start": True}
-        alarms = station.session.runner.alarms
+        if self._link.session is None:
+            lost = {"code": 1, "text": self._lost, "effect": "REFUSE", "at_s": 0.0, "time": ""}
+            return {"active": [lost] if self._lost else [], "history": [], "bars_start": True}
+        alarms = self._link.session.runner.alarms
         return {
             "active": [_alarm(each) for each in alarms.active],
             "history": [_alarm(each) for each in alarms.history],
-            "bars_start": alarms.bars_start or not station.session.is_set_up,
+            "bars_start": alarms.bars_start or not self._link.session.is_set_up,
         }
 
-    def messages(self, station: Shared) -> Data:
+    def messages(self) -> Data:
         """User messages that are shown."""
-        shown = station.session.messages.shown if station.session else []
+        shown = self._link.session.messages.shown if self._link.session else []
         return {
             "shown": [
                 {
@@ -163,15 +151,11 @@ class Facts:
             ]
         }
 
-    def control(self, station: Shared) -> Data:
-        """Who has control."""
-        return station.people.data()
-
-    def overrides(self, station: Shared) -> Data:
+    def overrides(self) -> Data:
         """The three override switches."""
-        if station.session is None:
+        if self._link.session is None:
             return {}
-        runner = station.session.runner
+        runner = self._link.session.runner
         names = {"feed": Override.FEED, "rapid": Override.RAPID, "spindle": Override.SPINDLE}
         return {
             name: {
@@ -183,21 +167,17 @@ class Facts:
             for name, which in names.items()
         }
 
-    def mdi(self, station: Shared) -> Data:
-        """What was typed in MDI."""
-        return self._typed.data()
-
-    def home(self, station: Shared) -> Data:
+    def home(self) -> Data:
         """How far homing is."""
-        if station.session is None:
+        if self._link.session is None:
             return {"axes": []}
-        settings = station.session.runner.settings
+        settings = self._link.session.runner.settings
         return {
             "axes": [
                 {
                     "name": axis.name,
                     "homed": settings.is_homed(axis.index),
-                    "state": self._homing(station.session, axis.index),
+                    "state": self._homing(self._link.session, axis.index),
                     "priority": settings.home(axis.index).priority,
                     "switch": settings.home(axis.index).switch_input,
                 }
@@ -211,22 +191,6 @@ class Facts:
         state = runner.homing.get(axis, "")
         is_over = runner.state is not State.HOMING
         return "failed" if is_over and state not in ("", "done") else state
-
-    def timeline(self, station: Shared) -> Data:
-        """The branches and bookmarks of the history."""
-        history = station.installation.history
-        if history is None:
-            return {"why": NOT_HERE}
-        return {"why": "", **timeline_data(history, self._times.speed)}
-
-    def moment(self, station: Shared) -> Data:
-        """Where the card is in its history."""
-        history = station.installation.history
-        return {} if history is None else moment_data(history)
-
-    def machine(self, station: Shared) -> Data:
-        """What the machine is: card, unit, axes."""
-        return machine_data(station.installation)
 
 
 def _is_in(session: MillSession, number: int) -> bool:
@@ -243,34 +207,6 @@ def _alarm(alarm: Alarm) -> Data:
         "at_s": alarm.at_s,
         "time": alarm.time,
     }
-
-
-def _scope(_facts: Facts, station: Shared) -> Data:
-    """The capture of the scope; its samples are frames."""
-    capture = station.scope.capture
-    if capture is None:
-        return {"running": False}
-    owner = station.people.person(capture.owner)
-    return {**capture.data(), "owner": None if owner is None else owner.data()["name"]}
-
-
-MAKERS: dict[str, Callable[[Facts, Shared], Data]] = {
-    "machine": Facts.machine,
-    "state": Facts.state,
-    "stopped": Facts.stopped,
-    "lamp": Facts.lamp,
-    "program": Facts.program,
-    "modals": Facts.modals,
-    "alarms": Facts.alarms,
-    "messages": Facts.messages,
-    "control": Facts.control,
-    "overrides": Facts.overrides,
-    "mdi": Facts.mdi,
-    "home": Facts.home,
-    "scope": _scope,
-    "timeline": Facts.timeline,
-    "moment": Facts.moment,
-}
 
 
 def modals(session: MillSession, run: Interpreter) -> dict[str, Any]:

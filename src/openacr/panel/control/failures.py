@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 
 from openacr.mill.card.alarms import CONTROL_FAILED
-from openacr.panel.control.shared import Shared
+from openacr.panel.control.link import Link
 
 MOST = 5  # failures without a poll between them that end what runs
 
@@ -12,8 +12,8 @@ MOST = 5  # failures without a poll between them that end what runs
 class Failures:
     """Counts the failures since the last poll of the machine, and ends what runs."""
 
-    def __init__(self, station: Shared, drop_keys: Callable[[str], None]) -> None:
-        self._station = station
+    def __init__(self, link: Link, drop_keys: Callable[[str], None]) -> None:
+        self._link = link
         self._drop_keys = drop_keys
         self._count = 0
         self._cut_s = math.inf  # when the power of the drives is cut
@@ -38,7 +38,7 @@ class Failures:
                 self._cut_power()
 
     def _end_run(self, cause: str, now_s: float) -> None:
-        session = self._station.session
+        session = self._link.session
         if session is None or not session.is_set_up:
             return
         if session.runner.is_busy:
@@ -51,5 +51,5 @@ class Failures:
 
     def _cut_power(self) -> None:
         self._cut_s = math.inf
-        if self._station.session is not None:
-            self._station.session.runner.cut_power()
+        if self._link.session is not None:
+            self._link.session.runner.cut_power()

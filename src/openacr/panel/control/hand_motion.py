@@ -1,13 +1,16 @@
 """Axes moved by hand from screens: held keys, increments, and everything that stops them."""
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 from openacr.errors import UserError
 from openacr.map.words import af4
 from openacr.mill.session import MillSession
+from openacr.panel.control.link import Link
 from openacr.panel.control.orders import PanelError
 from openacr.panel.control.presses import End, Key, Presses
-from openacr.panel.control.shared import Shared
+from openacr.panel.control.snapshot import Ticks
 
 LONGEST_AGE_S = 0.2  # of what a browser has drawn, when it begins or keeps motion
 
@@ -15,8 +18,8 @@ LONGEST_AGE_S = 0.2  # of what a browser has drawn, when it begins or keeps moti
 class HandMotion:
     """Axes moved by hand at the screens."""
 
-    def __init__(self, station: Shared) -> None:
-        self._station = station
+    def __init__(self, link: Link, ticks: Ticks, tell: Callable[[dict[str, Any]], None]) -> None:
+        self._link, self._ticks, self._report = link, ticks, tell
         self.presses = Presses(self._drop, self._tell)
 
     # --- held keys --------------------------------------------------------------------
@@ -39,7 +42,7 @@ class HandMotion:
         self.require_fresh(tick_ms, received_s)
         if now_s - received_s > LONGEST_AGE_S:
             raise PanelError("stale", "the press waited too long: press the key again")
-        session = self._station.machine
+        session = self._link.machine
         if axis in self.presses.axes:
             self.presses.end_all(End.STOP, "two keys of one axis")
             name = session.runner.settings.axis(axis).name
@@ -53,11 +56,11 @@ class HandMotion:
 
     def keep(self, key: Key, tick_ms: float, received_s: float) -> None:
         """Keep a press alive, if its browser has drawn what the machine does now."""
-        age_s = self._station.ticks.age_s(tick_ms, received_s)
+        age_s = self._ticks.age_s(tick_ms, received_s)
         if age_s is None or age_s > LONGEST_AGE_S:
             return
-        if self.presses.keep(key, received_s) and self._station.session is not None:
-            self._station.session.runner.controls.renew(_holder(key.client))
+        if self.presses.keep(key, received_s) and self._link.session is not None:
+            self._link.session.runner.controls.renew(_holder(key.client))
 
     def release(self, key: Key) -> None:
         """End a press by its release."""
@@ -70,7 +73,7 @@ class HandMotion:
 
     def require_fresh(self, tick_ms: float, received_s: float) -> None:
         """Refuse motion by a browser that shows something old."""
-        age_s = self._station.ticks.age_s(tick_ms, received_s)
+        age_s = self._ticks.age_s(tick_ms, received_s)
         if age_s is None or age_s > LONGEST_AGE_S:
             shown = "unknown" if age_s is None else f"{1000.0 * age_s:.0f} ms old"
             raise PanelError("stale", f"the positions on this screen are {shown}: nothing moves")
@@ -83,13 +86,13 @@ class HandMotion:
             raise UserError(f"the drive of axis {name} is off: DRIVE ON {name} switches it on")
 
     def _drop(self, client: int, axis: int) -> None:
-        session = self._station.session
+        session = self._link.session
         if session is not None:
             session.runner.controls.release(_holder(client), axis)
 
     def _tell(self, key: Key, why: End, text: str) -> None:
         event = {"event": "jog", "press": key.number, "ended": why.value, "text": text}
-        self._station.tell({**event, "to": key.client})
+        self._report({**event, "to": key.client})
 
     # --- increments -------------------------------------------------------------------
 
@@ -97,11 +100,11 @@ class HandMotion:
         self, axis: int, direction: int, *, preset: int, distance_u: float, fast: bool
     ) -> None:
         """Move an axis by an increment of the store (`preset`), or by a distance."""
-        runner = self._station.machine.runner
+        runner = self._link.machine.runner
         if self.presses.are_held:
             self.presses.end_all(End.STOP, "an increment was commanded")
             raise UserError("a key is held: the axes stop, no increment is made")
-        self._require_drive(self._station.machine, axis)
+        self._require_drive(self._link.machine, axis)
         if preset:
             runner.jog(lambda jogging: jogging.increment(axis, direction, preset, fast=fast))
         else:
@@ -111,7 +114,7 @@ class HandMotion:
     def stop(self) -> None:
         """Bring everything that is moved by hand to rest."""
         self.presses.end_all(End.STOP)
-        session = self._station.session
+        session = self._link.session
         if session is not None and session.runner.jogging.is_active:
             session.runner.jogging.stop_all()
 

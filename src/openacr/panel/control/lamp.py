@@ -6,7 +6,7 @@ from openacr.client.program_states import PROGRAMS
 from openacr.map.rows import axes
 from openacr.map.words import af4, pf
 from openacr.mill.config.settings import Settings
-from openacr.panel.control.shared import Shared
+from openacr.panel.control.link import Link
 
 EVERY_S = 0.25
 AXES = range(len(axes.primary_setpoint))
@@ -17,8 +17,8 @@ NOTHING: dict[str, list[str]] = {"moving": [], "running": [], "drives": []}
 class Lamp:
     """The card as it was read last; an axis moves while its setpoint changes."""
 
-    def __init__(self, station: Shared) -> None:
-        self._station = station
+    def __init__(self, link: Link) -> None:
+        self._link = link
         self._due_s = 0.0
         self._before: list[float] = []
         self._data: dict[str, Any] = NOTHING
@@ -28,9 +28,9 @@ class Lamp:
         if now_s < self._due_s:
             return
         self._due_s = now_s + EVERY_S
-        values = self._station.read(ROWS)
-        session = self._station.session
-        settings = Settings(self._station.installation.store)
+        values = self._link.read(ROWS)
+        session = self._link.session
+        settings = Settings(self._link.installation.store)
         names = {each.index: each.name for each in settings.axes}
         is_watched = session is None or session.is_set_up  # by a program of AcroMill
         count = len(PROGRAMS)

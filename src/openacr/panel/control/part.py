@@ -7,17 +7,19 @@ from math import nan
 from pathlib import Path
 from typing import Any
 
-from openacr.cnc.interpreter.replay import Rehearsal, Replay
+from openacr.cnc.canonical import Source
 from openacr.cnc.loading.batch import Entry, read_batch
 from openacr.errors import OpenacrError, UserError
+from openacr.mill.run.lifecycle import State
 from openacr.mill.session import Start
-from openacr.panel.control.executing import Executing
+from openacr.panel.control.jobs import Jobs
+from openacr.panel.control.link import Link
 from openacr.panel.control.loaded import Loaded
 from openacr.panel.control.orders import Order, failure
-from openacr.panel.control.shared import Shared
+from openacr.panel.control.rehearsals import Rehearsals
 from openacr.wording import counted
 
-AT_ONCE = 100  # moves and outputs of a rehearsal between two steps of the machine
+UNDER_WAY = frozenset({State.RUN, State.WAIT, State.PAUSED, State.HOLD})
 
 
 @dataclass(slots=True)
@@ -32,29 +34,46 @@ class _Batch:
     start: Start = field(default_factory=Start)
 
 
-@dataclass(slots=True)
-class _Rehearsing:
-    """The lines before a start line while they are read, and who waits for what differs."""
+class Executing:
+    """The block that a part program is at; empty while none runs. Neither MDI nor homing is one."""
 
-    steps: Rehearsal
-    loaded: Loaded
-    start: Start
-    order: Order
+    def __init__(self, link: Link) -> None:
+        self._link = link
+        self.file = ""
+        self.line = 0  # of that file
+        self.caller: Source | None = None  # the block whose cycle it belongs to
+        self.text = ""
+
+    @property
+    def is_under_way(self) -> bool:
+        """Whether a part program runs, waits or is held."""
+        session = self._link.session
+        if session is None or session.runner.options.is_mdi:
+            return False
+        return session.runner.state in UNDER_WAY
+
+    def follow(self, text_of: Callable[[Source], str]) -> None:
+        """Note the executing block, and its text when it is another one than before."""
+        session = self._link.session
+        source = session.runner.source if session is not None and self.is_under_way else None
+        found = (source.file, source.line, source.caller) if source is not None else ("", 0, None)
+        if found == (self.file, self.line, self.caller):
+            return
+        self.file, self.line, self.caller = found
+        self.text = "" if source is None else (source.text or text_of(source)).strip()
 
 
 class Part:
     """The program of one machine."""
 
-    def __init__(self, station: Shared) -> None:
-        self._station = station
+    def __init__(self, link: Link, jobs: Jobs) -> None:
+        self._link, self._jobs = link, jobs
         self.loaded: Loaded | None = None
         self.loading = ""
         self._batch: _Batch | None = None
-        self._rehearsed: tuple[str, Start, Replay] | None = None
-        self._rehearsing: _Rehearsing | None = None
-        self._tokens = 0
+        self._rehearsals = Rehearsals(link)
         self._first_line = 1  # of the run
-        self.executing = Executing(station)
+        self.executing = Executing(link)
         self.is_single = False
         self.is_skipping = False
         self.stops_optionally = False
@@ -81,7 +100,7 @@ class Part:
 
     def require_free(self) -> None:
         """Refuse another program while one runs or is being loaded."""
-        session = self._station.session
+        session = self._link.session
         if session is not None and session.runner.is_busy and not session.runner.options.is_mdi:
             raise UserError(f"a program runs: the state is {session.runner.state.name}")
         if self.loading:
@@ -90,7 +109,7 @@ class Part:
     def load(self, file: Path, path: str, order: Order, *, kind: str, dialect: str) -> None:
         """Load a program beside the control thread; the order is answered at the end."""
         self.require_free()
-        store = self._station.installation.store
+        store = self._link.installation.store
         self.loading = file.name
 
         def done(future: Future[Loaded]) -> None:
@@ -103,11 +122,12 @@ class Part:
             self.take(loaded)
             order.answer({"ok": True, "result": loaded.data()})
 
-        self._station.jobs.begin(lambda: Loaded.read(file, path, kind, store, dialect), done)
+        self._jobs.begin(lambda: Loaded.read(file, path, kind, store, dialect), done)
 
     def take(self, loaded: Loaded | None) -> None:
         """Make a program the one that START starts."""
-        self.loaded, self._batch, self._rehearsed = loaded, None, None
+        self.loaded, self._batch = loaded, None
+        self._rehearsals.forget()
         self.changed()
 
     def note_facts(
@@ -130,7 +150,7 @@ class Part:
     def load_batch(self, file: Path, order: Order, place: Callable[[Path], str]) -> None:
         """Load all programs of a batch file; it runs them one after the other."""
         self.require_free()
-        store = self._station.installation.store
+        store = self._link.installation.store
         self.loading = file.name
 
         def work() -> _Batch:
@@ -153,80 +173,26 @@ class Part:
             self._batch = batch
             order.answer({"ok": True, "result": self.required.data()})
 
-        self._station.jobs.begin(work, done)
+        self._jobs.begin(work, done)
 
     # --- running ----------------------------------------------------------------------
 
     def rehearse(self, start: Start, order: Order) -> None:
-        """Read the lines before a start line; what differs is confirmed by the operator.
+        """Read the lines before a start line; the order is answered at the end."""
+        _require_sound(self.required)
+        self._rehearsals.begin(self.required, start, order)
 
-        They are read between the steps of the control thread; the order is answered at the end.
-        """
-        loaded = self.required
-        _require_sound(loaded)
-        session = self._station.machine
-        session.runner.require_start()
-        if self._rehearsing is not None:
-            raise UserError("the lines before a start line are being read: wait")
-        self._rehearsing = _Rehearsing(
-            session.rehearsal(loaded.program, start), loaded, start, order
-        )
-
-    def rehearse_on(self, is_awaited: Callable[[], bool]) -> None:
-        """Go on reading the lines before a start line, for AT_ONCE steps or until a stop waits."""
-        under_way = self._rehearsing
-        if under_way is None:
-            return
-        try:
-            self._station.machine.runner.require_start()  # the machine is where it was
-            if self.loaded is not under_way.loaded:
-                raise UserError("another program was loaded")
-            for _ in range(AT_ONCE):
-                if is_awaited():
-                    return
-                next(under_way.steps)
-        except StopIteration as done:
-            self._rehearsing = None
-            result = self._confirmable(done.value, under_way)
-            under_way.order.answer({"ok": True, "result": {"rehearsal": result}})
-        except Exception as error:
-            self._rehearsing = None
-            under_way.order.answer({"ok": False, "error": failure(error)})
-
-    def _confirmable(self, replay: Replay, under_way: _Rehearsing) -> dict[str, Any]:
-        loaded, start = under_way.loaded, under_way.start
-        self._tokens += 1
-        token = f"{loaded.version[:8]}-{self._tokens}"
-        self._rehearsed = (token, start, replay)
-        return {
-            "token": token,
-            "line": start.line,
-            "differences": [
-                {
-                    "name": each.name,
-                    "present": each.shown(each.present),
-                    "wanted": each.shown(each.wanted),
-                }
-                for each in replay.differences
-            ],
-            "warnings": [str(each) for each in replay.warnings],
-            "needs_tool": replay.needs_tool,
-            "safe_z": replay.safe_level(),
-        }
+    def rehearse_on(self) -> None:
+        """Go on reading the lines before a start line, for a while."""
+        self._rehearsals.go_on(self.loaded)
 
     def begin(self, start: Start, confirm: str) -> None:
         """Start the loaded program; a later line only with what its rehearsal was confirmed by."""
         loaded = self.required
         _require_sound(loaded)
-        replay = None
-        if start.line > 1:
-            if self._rehearsed is None or self._rehearsed[0] != confirm:
-                raise UserError(f"line {start.line}: what differs there is confirmed first")
-            _token, rehearsed, replay = self._rehearsed
-            if rehearsed.line != start.line or rehearsed.is_dry != start.is_dry:
-                raise UserError(f"line {start.line}: line {rehearsed.line} was confirmed")
-        self._rehearsed = None
-        self._station.machine.start(loaded.program, start, replay)
+        replay = self._rehearsals.confirmed(start, confirm) if start.line > 1 else None
+        self._rehearsals.forget()
+        self._link.machine.start(loaded.program, start, replay)
         self._first_line = start.line
         if self._batch is not None:
             self._batch.is_running, self._batch.start = True, start
@@ -237,7 +203,7 @@ class Part:
         batch = self._batch
         if batch is None or not batch.is_running:
             return
-        session = self._station.machine
+        session = self._link.machine
         if session.runner.is_busy:
             return
         if session.runner.was_aborted or session.runner.alarms.bars_start:
@@ -272,7 +238,7 @@ class Part:
         NaN if it is unknown: while no program runs, and in a dry run, in a run from a later line
         and in one over a serial line, which have no prediction.
         """
-        session, loaded = self._station.session, self.loaded
+        session, loaded = self._link.session, self.loaded
         seconds = loaded.facts.get("seconds") if loaded is not None else None
         if session is None or loaded is None or seconds is None:
             return nan

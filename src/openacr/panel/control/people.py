@@ -42,6 +42,7 @@ class People:
         self._people: dict[int, Person] = {}
         self._asking: list[int] = []
         self.holder: int | None = None
+        self.mode = "auto"  # the screen that the operator is on
 
     def join(self, person: Person) -> None:
         """Add a browser that has connected."""

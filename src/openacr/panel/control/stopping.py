@@ -14,8 +14,9 @@ from openacr.errors import OpenacrError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.mill.card.stopping import watching
 from openacr.mill.config.settings import Settings
+from openacr.panel.control.link import Link
 from openacr.panel.control.opening import connected
-from openacr.panel.control.shared import Shared
+from openacr.panel.control.tuning import Tuning
 
 HELD_S = 0.5  # between two looks at what is held
 BARE_S = 1.0  # longest wait for a card without a session
@@ -24,8 +25,8 @@ BARE_S = 1.0  # longest wait for a card without a session
 class Stopping:
     """The last STOP: it goes on until its watch is over and nothing is held by it."""
 
-    def __init__(self, station: Shared) -> None:
-        self._station = station
+    def __init__(self, link: Link, tuning: Tuning) -> None:
+        self._link, self._tuning = link, tuning
         self._stop: Standstill | None = None
         self._bare: Card | None = None  # where the session has not given the card
         self._is_watched = False
@@ -38,14 +39,14 @@ class Stopping:
 
     def stop(self, now_s: float, *, ends: bool) -> list[str]:
         """Stop the card and watch it; what was found to move. A link error: it was not reached."""
-        history = self._station.installation.history
+        history = self._link.installation.history
         if history is not None and history.is_still:
             return []  # no time passes on the card
         card = self._card()
-        settings = Settings(self._station.installation.store)
-        session = self._station.session
+        settings = Settings(self._link.installation.store)
+        session = self._link.session
         is_ours = session is not None and session.runner.is_busy
-        measured = self._station.tuning.moved_axis  # its program ends it, and prints the record
+        measured = self._tuning.moved_axis  # its program ends it, and prints the record
         self._again = None if measured is None else ends
         former, was_held = self._stop, self.holds
         self._stop = Standstill(
@@ -72,19 +73,19 @@ class Stopping:
         self._card().kill_all(disable=True)
 
     def _card(self) -> Card:
-        session = self._station.session
+        session = self._link.session
         if session is not None:
             return session.card
         if self._bare is None:
             options = Options(timeout_s=BARE_S, reconnect_s=0.0)
-            self._bare, _ = connected(self._station.installation.target, options, limit_s=BARE_S)
+            self._bare, _ = connected(self._link.installation.target, options, limit_s=BARE_S)
         return self._bare
 
     # --- its course -------------------------------------------------------------------
 
     def step(self, now_s: float) -> None:
         """Look again where it is time; never waits longer than the card takes to answer."""
-        if self._again is not None and self._station.tuning.moved_axis is None:
+        if self._again is not None and self._tuning.moved_axis is None:
             self.stop(now_s, ends=self._again)
         stop = self._stop
         if stop is None or now_s < self._due_s:
@@ -158,6 +159,6 @@ class Stopping:
         }
 
     def _name(self, axis: int) -> str:
-        settings = Settings(self._station.installation.store)
+        settings = Settings(self._link.installation.store)
         named = {each.index: each.name for each in settings.axes}
         return named.get(axis, f"AXIS{axis}")

@@ -85,7 +85,7 @@ class ControlThread:
         self.station = station
         self._clock = clock
         self._orders: Waiting[Order | Work] = Waiting()
-        station.is_awaited = lambda: self._orders.is_urgent or station.is_ending
+        station.link.is_awaited = lambda: self._orders.is_urgent or station.link.is_ending
         self._failure, self._failure_s = "", 0.0  # cause of the last one, and when it was said
         self._is_over = threading.Event()
         self._thread = threading.Thread(target=self._run, name="control", daemon=True)
@@ -136,7 +136,7 @@ class ControlThread:
 
     def end_soon(self) -> None:
         """Open no card any more: what waits for the thread is answered before it ends."""
-        self.station.is_ending = True
+        self.station.link.is_ending = True
 
     def stop(self) -> None:
         """Bring the machine to rest and end the thread."""
@@ -199,7 +199,7 @@ class ControlThread:
     def rest(self) -> None:
         """Bring the machine to rest, however the server ends."""
         station = self.station
-        session = station.session
+        session = station.link.session
         try:
             station.times.wake(self._clock())
             if session is not None and session.is_set_up:

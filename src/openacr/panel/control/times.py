@@ -8,21 +8,28 @@ operator lets the machine be operated from there, and finds the card as after a 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from openacr.debugger.calls import is_running
+from openacr.debugger.session import DebugSession
+from openacr.engine.watches import Watch, Watched
 from openacr.errors import UserError
+from openacr.map import numbers as n
+from openacr.map.rows import masters
 from openacr.map.words import mf1
 from openacr.mill.card.watchdog import FEED_HOLD_REQUEST, FLAGS_PER_MASTER
 from openacr.mill.config.settings import Settings
-from openacr.panel.control.history import AWAY, STILL, History
+from openacr.motion.row_index import master_word
+from openacr.panel.control.history import AWAY, STILL, History, moment_data, timeline_data
+from openacr.panel.control.interlocks import Interlocks
+from openacr.panel.control.link import Link
 from openacr.panel.control.pace import OwnTime, Paced
 from openacr.panel.control.place import read_place
-from openacr.panel.control.shared import Shared
 from openacr.panel.control.snapshot import Light, Snapshot
-from openacr.panel.control.stepping import step_back, step_line, step_move, step_tick
 from openacr.timeline import Kind
 
 SLOWEST, FASTEST = 0.01, 100.0
+LONGEST_S = 10.0  # of card time that a step may take
 LONGEST_HOLD_S, HOLD_STEP_S = 10.0, 0.01  # of moves that the panel had under way
 NOT_HERE = "the time of this card is its own: only that of a virtual card in the panel can be moved"
 
@@ -40,8 +47,8 @@ class Around:
 class Times:
     """What moves the time of one card."""
 
-    def __init__(self, station: Shared, around: Around) -> None:
-        self._station, self._around = station, around
+    def __init__(self, link: Link, interlocks: Interlocks, around: Around) -> None:
+        self._link, self._interlocks, self._around = link, interlocks, around
         self._settings: Settings | None = None
         self.speed = 1.0
 
@@ -50,31 +57,31 @@ class Times:
     @property
     def history(self) -> History:
         """The history; UserError for a card that is not in this process."""
-        history = self._station.installation.history
+        history = self._link.installation.history
         if history is None:
             raise UserError(NOT_HERE)
         return history
 
-    @property
-    def is_still(self) -> bool:
-        """Whether no time passes."""
-        history = self._station.installation.history
-        return history is not None and history.is_still
+    def timeline(self) -> dict[str, Any]:
+        """The branches and bookmarks of the history, for the screens."""
+        history = self._link.installation.history
+        if history is None:
+            return {"why": NOT_HERE}
+        return {"why": "", **timeline_data(history, self.speed)}
 
-    @property
-    def is_away(self) -> bool:
-        """Whether the panel has left the card to show moments of its history."""
-        history = self._station.installation.history
-        return history is not None and history.is_away
+    def moment(self) -> dict[str, Any]:
+        """Where the card is in its history, for the screens."""
+        history = self._link.installation.history
+        return {} if history is None else moment_data(history)
 
     # --- running ----------------------------------------------------------------------
 
     def pause(self) -> None:
         """Let no more time pass; held keys end. UserError while an axis is measured."""
         history = self.history
-        self._station.require_unmeasured()
-        if self._station.session is None and not history.is_away:
-            raise UserError(self._station.lost)
+        self._interlocks.require_unmeasured()
+        if self._link.session is None and not history.is_away:
+            raise UserError(self._link.lost)
         self._around.release(STILL)
         history.is_still = True
 
@@ -92,12 +99,12 @@ class Times:
 
         True where nothing else has to be stopped.
         """
-        history = self._station.installation.history
+        history = self._link.installation.history
         if history is None:
             return False
-        if history.is_away or self._station.session is None:
+        if history.is_away or self._link.session is None:
             history.is_still = history.is_away = True
-            self._station.lost = AWAY
+            self._link.lost = AWAY
             return True
         if history.is_still or self.speed != 1.0:
             self.run(1.0, now_s)
@@ -105,12 +112,12 @@ class Times:
 
     def wake(self, now_s: float) -> None:
         """Let time pass in real time where the panel has to bring its machine to rest."""
-        if self.is_still and self._station.session is not None:
+        if self._link.is_still and self._link.session is not None:
             self.run(1.0, now_s)
 
     @property
     def _pace(self) -> Paced:
-        pace = self._station.installation.pace
+        pace = self._link.installation.pace
         if isinstance(pace, OwnTime):
             raise UserError(NOT_HERE)
         return pace
@@ -215,11 +222,11 @@ class Times:
 
     def _go_away(self) -> None:
         """Leave the card, and let its time be still; UserError while the panel moves it."""
-        history, session = self.history, self._station.session
+        history, session = self.history, self._link.session
         if history.is_away:
             history.is_still = True
             return
-        self._station.require_unmoved()
+        self._interlocks.require_unmoved()
         if session is not None:
             self.pause()
         self._settings = None if session is None else session.runner.settings
@@ -228,13 +235,13 @@ class Times:
         finally:
             history.is_still = True
         history.is_away = True
-        self._station.lost = AWAY
+        self._link.lost = AWAY
 
     # --- what is shown ----------------------------------------------------------------
 
     def snapshot(self, number: int, tick_ms: float, now_s: float) -> Snapshot:
         """The machine at a moment of the history: its positions, nothing of a run."""
-        settings = self._settings or Settings(self._station.installation.store)
+        settings = self._settings or Settings(self._link.installation.store)
         place = read_place(settings, self.history.read_rows)
         none = (math.nan,) * len(place.commanded)
         return Snapshot(
@@ -254,12 +261,55 @@ class Times:
 
     def watch_own(self) -> None:
         """The session is open: its own programs end without a bookmark."""
-        history, session = self._station.installation.history, self._station.session
+        history, session = self._link.installation.history, self._link.session
         if history is not None and session is not None:
             history.unmarked = frozenset({session.runner.settings.watchdog_program})
 
     def mark(self, kind: Kind, text: str) -> None:
         """Set a bookmark at the present tick, where there is a history."""
-        history = self._station.installation.history
+        history = self._link.installation.history
         if history is not None:
             history.mark(kind, text)
+
+
+def step_tick(history: History) -> None:
+    """Complete the present tick, or let one pass."""
+    history.timeline.advance(0 if history.card.within else 1)
+
+
+def step_back(history: History) -> None:
+    """Go back to the end of the tick before."""
+    history.timeline.seek(history.lived_tk - 1)
+
+
+def step_line(history: History, program: int) -> None:
+    """Go on to the next line of a program; UserError if it does not run or does not reach one."""
+    debugger = DebugSession(history.card, timeline=history.timeline)
+    debugger.begin_step(program, into=True)
+    try:
+        stop = debugger.run(_limit_tk(history))
+    finally:
+        history.arm()
+    if stop is None:
+        raise UserError(f"PROG{program} waits: it has reached no line in {LONGEST_S:g} s")
+
+
+def step_move(history: History, master: int) -> None:
+    """Go on until a move of a master begins or ends; UserError if none does."""
+    moves = masters.head[master]
+    history.card.watch(
+        [
+            Watch(Watched.WORD, moves),
+            Watch(Watched.WORD, master_word(master), n.MF1_IN_MOTION),
+        ]
+    )
+    try:
+        has_stopped = history.timeline.advance(_limit_tk(history))
+    finally:
+        history.arm()
+    if not has_stopped:
+        raise UserError(f"no move of MASTER{master} has begun or ended in {LONGEST_S:g} s")
+
+
+def _limit_tk(history: History) -> int:
+    return round(LONGEST_S / history.period_s)

@@ -8,7 +8,7 @@ from openacr.cnc.interpreter.mdi import Mdi
 from openacr.errors import OpenacrError, UserError
 from openacr.mill.card import alarms
 from openacr.mill.config.dialects import dialect_of
-from openacr.panel.control.shared import Shared
+from openacr.panel.control.link import Link
 
 MOST_TEXT = 1000  # blocks that were executed and are shown
 REFUSALS = frozenset({alarms.NOT_HOMED, alarms.TARGET_BEYOND, alarms.PROGRAM_ERROR})
@@ -17,8 +17,8 @@ REFUSALS = frozenset({alarms.NOT_HOMED, alarms.TARGET_BEYOND, alarms.PROGRAM_ERR
 class Typed:
     """The MDI of one machine."""
 
-    def __init__(self, station: Shared) -> None:
-        self._station = station
+    def __init__(self, link: Link) -> None:
+        self._link = link
         self._mdi: Mdi | None = None
         self._queue: deque[str] = deque()
         self._is_shown = True
@@ -37,7 +37,7 @@ class Typed:
         A block that cannot be read is refused with its line and column (BlockError).
         `is_shown`: they become part of the text of MDI, if its buffer is on.
         """
-        session = self._station.machine
+        session = self._link.machine
         if self._mdi is None or self._is_other_program():
             self._mdi = session.mdi(dialect or dialect_of(None, session.cells))
         if self._queue:
@@ -51,10 +51,10 @@ class Typed:
 
     def _is_other_program(self) -> bool:
         """Whether a program has run since: the modal state begins anew."""
-        return not self._station.machine.runner.options.is_mdi
+        return not self._link.machine.runner.options.is_mdi
 
     def _start(self, block: str) -> None:
-        session = self._station.machine
+        session = self._link.machine
         if self._mdi is None:
             return
         session.start_block(self._mdi, block)
@@ -67,7 +67,7 @@ class Typed:
         """Start the next block when the one before it has ended; an error drops the rest."""
         if not self._queue and self._kept is None:
             return
-        runner = self._station.machine.runner
+        runner = self._link.machine.runner
         if runner.is_busy:
             return
         self._take_back(runner.alarms)
@@ -97,7 +97,7 @@ class Typed:
 
     def data(self) -> dict[str, Any]:
         """What was typed, and what waits."""
-        session = self._station.session
+        session = self._link.session
         is_running = (
             session is not None and session.runner.options.is_mdi and session.runner.is_busy
         )

@@ -111,7 +111,7 @@ class Panel:
 
     def _stored(self, cells: frozenset[int]) -> None:
         """Cells were stored, here or by another process; called from any thread."""
-        self.station.note_stored(cells)
+        self.station.settings.note_stored(cells)
 
     async def end(self) -> None:
         """Say goodbye to all browsers, and end what is computed for them."""

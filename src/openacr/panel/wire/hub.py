@@ -42,10 +42,10 @@ class Hub:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._seq: dict[Topic, int] = dict.fromkeys(Topic, 0)
         self._shown_s = 0.0
-        station.tell = self._tell
+        station.screens.send = self._tell
         station.on_snapshot = self._looked
         station.watches.report = self._report
-        station.sampled = self._sampled
+        station.on_samples = self._sampled
         station.world.report = self._report_world
 
     def attach(self) -> None:
@@ -116,7 +116,7 @@ class Hub:
         if not wanted:
             return
         seq = self.next(Topic.STATUS)
-        is_lost = self._station.session is None and not self._station.times.is_away
+        is_lost = self._station.link.session is None and not self._station.link.is_away
         frame = frames.status(self._station.snapshot, seq, now_s, is_lost=is_lost)
         for browser in wanted:
             browser.outbox.offer(Topic.STATUS, seq, frame, now_s)

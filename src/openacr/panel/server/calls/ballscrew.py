@@ -83,7 +83,7 @@ async def store_table(call: Call) -> object:
 
     stored = await run_in_threadpool(work)
     cells = frozenset({OFFSETS.ballscrew_file[body.axis]})  # its name stays, its content does not
-    call.panel.control.call(lambda station: station.note_stored(cells))
+    call.panel.control.call(lambda station: station.settings.note_stored(cells))
     return stored
 
 

@@ -185,7 +185,7 @@ async def pparm(call: Call) -> object:
     """The operator variables P0 to P199: those of the card and those of the store."""
 
     def read(station: Station) -> list[float]:
-        session = station.link
+        session = station.link.required
         on_card = session.machine.read_rows(list(CARD_VARIABLES))
         return [*on_card, *(session.cells.read(n) for n in range(len(CARD_VARIABLES), LAST + 1))]
 
@@ -202,7 +202,7 @@ async def write_pparm(call: Call) -> object:
         raise PanelError("bad", "variables are named by their numbers: {'5': 1.5}") from None
 
     def write(station: Station) -> dict[str, float]:
-        session = station.link
+        session = station.link.required
         variables = OperatorParameters(session.cells, session.card)
         for number, value in wanted.items():
             variables.write(number, value)

@@ -42,7 +42,7 @@ async def buttons(call: Call) -> object:
     lamps = [flag for flag in flags.values() if flag >= 0]
 
     def read(station: Station) -> list[bool]:
-        return station.link.card.read_bits(lamps) if lamps else []
+        return station.link.required.card.read_bits(lamps) if lamps else []
 
     states = await asyncio.wrap_future(call.panel.control.call(read))
     lit = dict(zip(lamps, states, strict=True))

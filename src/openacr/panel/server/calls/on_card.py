@@ -73,7 +73,7 @@ async def card_programs(call: Call) -> object:
     """
 
     def read(station: Station) -> tuple[list[State], dict[str, str]]:
-        states = read_states(station.read)
+        states = read_states(station.link.read)
         levels = [*map(Level.program, PROGRAMS), *map(Level.plc, PLCS)]
         return states, {str(level): owner_of(station, level) for level in levels}
 

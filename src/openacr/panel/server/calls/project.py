@@ -72,9 +72,9 @@ async def differences(panel: Panel) -> list[str]:
 
     def own(station: Station) -> Level | None:
         """The program that the panel itself stores on the card: it is no part of the project."""
-        if station.session is None:
+        if station.link.session is None:
             return None
-        return Level.program(station.session.runner.settings.watchdog_program)
+        return Level.program(station.link.session.runner.settings.watchdog_program)
 
     theirs = await asyncio.wrap_future(panel.control.call(own))
     found = await talked(panel, _listings)
