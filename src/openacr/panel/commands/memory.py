@@ -9,8 +9,7 @@ from msgspec import Meta
 from openacr.client import Card, Level
 from openacr.errors import UserError
 from openacr.map.words import pf, plf
-from openacr.panel.commands.registry import Args, NoArgs, command
-from openacr.panel.control.orders import Order
+from openacr.panel.commands.registry import command
 from openacr.panel.control.presses import End
 from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
@@ -18,13 +17,6 @@ from openacr.panel.roles import Role
 DIMENSION = re.compile(r"DIM ((?:PROG|PLC)\d+)\((\d+)\)")
 SHARED = frozenset(f"PROG{number}" for number in range(8))  # these have a share without DIM
 Bytes = Annotated[int, Meta(ge=0, le=1 << 24)]
-
-
-class Division(Args, frozen=True):
-    """Bytes of every program and PLC program by name, PROG0 or PLC3; 0: none."""
-
-    sizes: dict[str, Bytes]
-    confirm: bool = False
 
 
 def _names(station: Station) -> list[str]:
@@ -78,17 +70,22 @@ def _found(station: Station) -> Found:
 
 
 @command("memory.read", Role.SETUP, needs_control=False)
-def read(station: Station, order: Order, args: NoArgs) -> dict[str, object]:
+def read(station: Station) -> dict[str, object]:
     """Read the bytes of every program and PLC program, and those that are free."""
     return _found(station).data()
 
 
 @command("memory.set", Role.SERVICE)
-def divide(station: Station, order: Order, args: Division) -> dict[str, object]:
-    """Divide the memory of the card anew; what is stored in its programs is lost."""
+def divide(
+    station: Station, *, sizes: dict[str, Bytes], confirm: bool = False
+) -> dict[str, object]:
+    """Divide the memory of the card anew; what is stored in its programs is lost.
+
+    `sizes`: bytes of programs and PLC programs by name, PROG0 or PLC3; 0: none.
+    """
     before = _found(station)
-    _check(args, before)
-    wanted = {**before.sizes, **args.sizes}
+    _check(sizes, before, confirm=confirm)
+    wanted = {**before.sizes, **sizes}
     station.hand_motion.presses.end_all(End.MODE, "the memory of the card is divided")
     station.close()
     try:
@@ -103,19 +100,19 @@ def divide(station: Station, order: Order, args: Division) -> dict[str, object]:
     return _found(station).data()
 
 
-def _check(args: Division, before: Found) -> None:
+def _check(sizes: dict[str, int], before: Found, *, confirm: bool) -> None:
     """Refuse what is not possible before anything is lost."""
     if before.running:
         names = " and ".join(before.running)
         raise UserError(f"{names} of the card: running; halt it first")
-    for name, size in args.sizes.items():
+    for name, size in sizes.items():
         if name not in before.sizes:
             raise UserError(f"{name}: the card has {', '.join(before.sizes)}")
         if not size and name in SHARED:
             raise UserError(f"{name} cannot be without memory: 1 byte at least")
     most = before.free + sum(before.sizes.values())
-    total = sum({**before.sizes, **args.sizes}.values())
+    total = sum({**before.sizes, **sizes}.values())
     if total > most:
         raise UserError(f"{total} bytes in all: the card has {most}")
-    if not args.confirm:
+    if not confirm:
         raise UserError("programs, PLC programs and variables on the card are lost: confirm it")

@@ -8,67 +8,27 @@ from msgspec import Meta
 from openacr.errors import UserError
 from openacr.mill.run.lifecycle import State
 from openacr.mill.run.runner import Runner
+from openacr.mill.session import MillSession
 from openacr.mill.zeroing import clear_all, goto_blocks, preset, reader, set_zero
-from openacr.panel.commands.registry import Args, NoArgs, command
+from openacr.panel.commands.registry import command
+from openacr.panel.control.hand_motion import HandMotion
+from openacr.panel.control.link import Link
 from openacr.panel.control.orders import Order
+from openacr.panel.control.people import People, Person
 from openacr.panel.control.presses import End, Key
 from openacr.panel.control.station import Station
+from openacr.panel.control.typed import Typed
 from openacr.panel.roles import Role
 
 PressNumber = Annotated[int, Meta(ge=0, le=2**53)]
 Direction = Literal[-1, 1]
-MODES = ("auto", "manual", "mdi", "home", "setup", "diagnose")
+Mode = Literal["auto", "manual", "mdi", "home", "setup", "diagnose"]
+Position = dict[str, dict[str, float]]
 
 
-class Press(Args, frozen=True):
-    """A jog key that is pressed; `first` says that this is a new press, not a keep-alive."""
-
-    press: PressNumber
-    axis: str
-    direction: Direction
-    tick: float
-    first: Literal[True]
-    fast: bool = False
-
-
-class Release(Args, frozen=True):
-    """A jog key that is released."""
-
-    press: PressNumber
-
-
-class Increment(Args, frozen=True):
-    """One increment: a preset of the store (1 to 5), or a distance."""
-
-    axis: str
-    direction: Direction
-    tick: float
-    preset: Annotated[int, Meta(ge=0, le=5)] = 0
-    distance: Annotated[float, Meta(ge=0.0, le=1e6)] = 0.0
-    fast: bool = False
-
-
-class OfAxes(Args, frozen=True):
-    """Names of axes; none: all of them."""
-
-    axes: str = ""
-
-
-class Values(Args, frozen=True):
-    """What axes are to read, by name, in the unit of the machine."""
-
-    values: dict[str, Annotated[float, Meta(ge=-1e9, le=1e9)]]
-
-
-class Mode(Args, frozen=True):
-    """The screen the operator is on."""
-
-    mode: Literal["auto", "manual", "mdi", "home", "setup", "diagnose"]
-
-
-def indices(station: Station, names: str) -> list[int]:
+def indices(machine: MillSession, names: str) -> list[int]:
     """The axes of these names; all configured ones without a name."""
-    settings = station.link.machine.runner.settings
+    settings = machine.runner.settings
     return [settings.named(name).index for name in names.upper() or settings.names()]
 
 
@@ -76,129 +36,153 @@ def indices(station: Station, names: str) -> list[int]:
 
 
 @command("jog.press", is_motion=True)
-def press(station: Station, order: Order, args: Press) -> None:
-    """Jog an axis while the key is held."""
-    axis = station.link.machine.runner.settings.named(args.axis.upper()).index
-    station.hand_motion.press(
-        Key(order.person.client, args.press),
-        axis,
-        args.direction,
-        fast=args.fast,
-        tick_ms=args.tick,
+def press(
+    order: Order,
+    client: int,
+    machine: MillSession,
+    hand_motion: HandMotion,
+    now_s: float,
+    *,
+    press: PressNumber,
+    axis: str,
+    direction: Direction,
+    tick: float,
+    first: Literal[True],
+    fast: bool = False,
+) -> None:
+    """Jog an axis while the key is held.
+
+    `first` says that this is a new press, not a keep-alive.
+    """
+    index = machine.runner.settings.named(axis.upper()).index
+    hand_motion.press(
+        Key(client, press),
+        index,
+        direction,
+        fast=fast,
+        tick_ms=tick,
         received_s=order.received_s,
-        now_s=station.now_s,
+        now_s=now_s,
     )
 
 
 @command("jog.release", Role.VIEW, needs_control=False)
-def release(station: Station, order: Order, args: Release) -> None:
+def release(client: int, hand_motion: HandMotion, *, press: PressNumber) -> None:
     """Release a jog key; accepted without control."""
-    station.hand_motion.release(Key(order.person.client, args.press))
+    hand_motion.release(Key(client, press))
 
 
 @command("jog.increment", is_motion=True)
-def increment(station: Station, order: Order, args: Increment) -> None:
-    """Move an axis by one increment."""
-    axis = station.link.machine.runner.settings.named(args.axis.upper()).index
-    if bool(args.preset) == bool(args.distance):
+def increment(
+    order: Order,
+    machine: MillSession,
+    hand_motion: HandMotion,
+    *,
+    axis: str,
+    direction: Direction,
+    tick: float,
+    preset: Annotated[int, Meta(ge=0, le=5)] = 0,
+    distance: Annotated[float, Meta(ge=0.0, le=1e6)] = 0.0,
+    fast: bool = False,
+) -> None:
+    """Move an axis by one increment: a preset of the store (1 to 5), or a distance."""
+    index = machine.runner.settings.named(axis.upper()).index
+    if bool(preset) == bool(distance):
         raise UserError("an increment is a preset from 1 to 5 or a distance above 0")
-    station.hand_motion.require_fresh(args.tick, order.received_s)
-    station.hand_motion.increment(
-        axis, args.direction, preset=args.preset, distance_u=args.distance, fast=args.fast
-    )
+    hand_motion.require_fresh(tick, order.received_s)
+    hand_motion.increment(index, direction, preset=preset, distance_u=distance, fast=fast)
 
 
 @command("jog.stop", Role.VIEW, needs_control=False, is_stop=True)
-def stop_jogs(station: Station, order: Order, args: NoArgs) -> None:
+def stop_jogs(hand_motion: HandMotion) -> None:
     """Ramp everything that is moved by hand to rest."""
-    station.hand_motion.stop()
+    hand_motion.stop()
 
 
 @command("handwheel", is_motion=True)
-def handwheel(station: Station, order: Order, args: OfAxes) -> dict[str, str]:
+def handwheel(link: Link, hand_motion: HandMotion, *, axes: str = "") -> dict[str, str]:
     """Connect the hand wheel with axes; without a name it is disconnected."""
-    station.hand_motion.presses.end_all(End.MODE, "the hand wheel was chosen")
-    station.link.machine.runner.turn(indices(station, args.axes) if args.axes else [])
-    return {"axes": args.axes.upper()}
+    hand_motion.presses.end_all(End.MODE, "the hand wheel was chosen")
+    machine = link.machine
+    machine.runner.turn(indices(machine, axes) if axes else [])
+    return {"axes": axes.upper()}
 
 
 @command("mode", needs_control=False)
-def mode(station: Station, order: Order, args: Mode) -> None:
+def mode(client: int, people: People, hand_motion: HandMotion, *, mode: Mode) -> None:
     """Say which screen the operator is on; a change ends every held key."""
-    if station.people.holder not in (None, order.person.client):
+    if people.holder not in (None, client):
         return  # the screens of others change nothing
-    if args.mode != station.people.mode:
-        station.hand_motion.presses.end_all(End.MODE, "another screen was chosen")
-        station.people.mode = args.mode
+    if mode != people.mode:
+        hand_motion.presses.end_all(End.MODE, "another screen was chosen")
+        people.mode = mode
 
 
 # --- home and zero --------------------------------------------------------------------
 
 
 @command("home.start", is_motion=True)
-def home(station: Station, order: Order, args: OfAxes) -> dict[str, list[str]]:
+def home(machine: MillSession, *, axes: str = "") -> dict[str, list[str]]:
     """HOME: find the reference points of axes, all that have a priority without a name."""
-    settings = station.link.machine.runner.settings
-    axes = indices(station, args.axes)
-    chosen = [axis for axis in axes if settings.home(axis).priority > 0]
+    settings = machine.runner.settings
+    wanted = indices(machine, axes)
+    chosen = [axis for axis in wanted if settings.home(axis).priority > 0]
     if not chosen:
-        names = args.axes.upper() or "any axis"
+        names = axes.upper() or "any axis"
         raise UserError(f"{names} has no homing priority: set Home Priority on the HOME page")
-    station.link.machine.runner.home(chosen)
+    machine.runner.home(chosen)
     return {"axes": [settings.axis(axis).name for axis in chosen]}
 
 
-def _position(station: Station, point: tuple[float, ...]) -> dict[str, dict[str, float]]:
-    axes = station.link.machine.runner.settings.axes
+def _position(machine: MillSession, point: tuple[float, ...]) -> Position:
+    axes = machine.runner.settings.axes
     return {"position": {axis.name: point[axis.index] for axis in axes}}
 
 
 @command("zero.set")
-def zero_set(station: Station, order: Order, args: OfAxes) -> dict[str, dict[str, float]]:
+def zero_set(machine: MillSession, *, axes: str = "") -> Position:
     """SET ZERO: axes read 0 where they are."""
-    session = station.link.machine
-    set_zero(session, indices(station, args.axes))
-    return _position(station, reader(session).position)
+    set_zero(machine, indices(machine, axes))
+    return _position(machine, reader(machine).position)
 
 
 @command("zero.preset")
-def zero_preset(station: Station, order: Order, args: Values) -> dict[str, dict[str, float]]:
+def zero_preset(
+    machine: MillSession, *, values: dict[str, Annotated[float, Meta(ge=-1e9, le=1e9)]]
+) -> Position:
     """Set the floating zero so that axes read these values where they are."""
-    settings = station.link.machine.runner.settings
-    values = {settings.named(name.upper()).index: value for name, value in args.values.items()}
-    return _position(station, preset(station.link.machine, values))
+    settings = machine.runner.settings
+    wanted = {settings.named(name.upper()).index: value for name, value in values.items()}
+    return _position(machine, preset(machine, wanted))
 
 
 @command("zero.clear")
-def zero_clear(station: Station, order: Order, args: NoArgs) -> dict[str, dict[str, float]]:
+def zero_clear(machine: MillSession) -> Position:
     """CLR ZERO: no axis has a floating zero."""
-    return _position(station, clear_all(station.link.machine))
+    return _position(machine, clear_all(machine))
 
 
 @command("zero.blocks", Role.VIEW, needs_control=False)
-def zero_blocks(station: Station, order: Order, args: OfAxes) -> dict[str, list[str]]:
+def zero_blocks(machine: MillSession, *, axes: str = "") -> dict[str, list[str]]:
     """The blocks of GOTO ZERO in the order they would be run; nothing moves."""
-    return {"blocks": goto_blocks(station.link.machine, indices(station, args.axes))}
+    return {"blocks": goto_blocks(machine, indices(machine, axes))}
 
 
 @command("zero.goto", is_motion=True)
-def zero_goto(station: Station, order: Order, args: OfAxes) -> None:
+def zero_goto(machine: MillSession, typed: Typed, *, axes: str = "") -> None:
     """GOTO ZERO: rapids to the floating zero, Z first where that is upward, else last."""
-    station.typed.put(
-        goto_blocks(station.link.machine, indices(station, args.axes)), is_shown=False
-    )
+    typed.put(goto_blocks(machine, indices(machine, axes)), is_shown=False)
 
 
 # --- set-up ---------------------------------------------------------------------------
 
 
 @command("card.setup")
-def set_up(station: Station, order: Order, args: NoArgs) -> None:
+def set_up(station: Station, session: MillSession) -> None:
     """Set the card up for AcroMill: it attaches its axes and sends its settings.
 
     Until this is agreed on, a card at the end of a link stays as it was found.
     """
-    session = station.link.required
     if session.is_set_up:
         raise UserError("AcroMill has set this card up already")
     station.interlocks.require_unmeasured()
@@ -211,7 +195,7 @@ def set_up(station: Station, order: Order, args: NoArgs) -> None:
 
 
 @command("stop.hold", Role.VIEW, needs_control=False, is_stop=True)
-def hold(station: Station, order: Order, args: NoArgs) -> dict[str, list[str]]:
+def hold(station: Station) -> dict[str, list[str]]:
     """STOP: everything that moves on the card comes to rest, at any time.
 
     Masters are held, jogs ramp down, gears and cams end, homing ends, programs pause: RESUME goes
@@ -230,17 +214,17 @@ def _hold(runner: Runner) -> None:
 
 
 @command("stop.all", Role.VIEW, needs_control=False, is_stop=True)
-def stop_all(station: Station, order: Order, args: NoArgs) -> dict[str, list[str]]:
+def stop_all(station: Station) -> dict[str, list[str]]:
     """End everything on the card: programs, moves, jogs, homing; spindle and coolant off."""
     return _stop(station, lambda runner: runner.bring_to_rest(), ends=True)
 
 
 @command("stop.estop", Role.VIEW, needs_control=False, is_stop=True)
-def estop(station: Station, order: Order, args: NoArgs) -> dict[str, list[str]]:
+def estop(station: Station, person: Person) -> dict[str, list[str]]:
     """Kill all motion and switch the drives off, by software: it is no emergency stop."""
     if station.link.session is None or not station.link.session.is_set_up:
         station.stopping.kill()
-    name = station.people.name_of(order.person)
+    name = station.people.name_of(person)
     return _stop(station, lambda runner: runner.kill(name), ends=True)
 
 

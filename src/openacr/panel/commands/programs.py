@@ -14,8 +14,10 @@ from openacr.client.stored import clear, replace, require_program
 from openacr.client.talk import Talk
 from openacr.client.transfer import download
 from openacr.errors import UserError
-from openacr.panel.commands.registry import Args, command
+from openacr.mill.session import MillSession
+from openacr.panel.commands.registry import command
 from openacr.panel.control.card_programs import read_states
+from openacr.panel.control.on_card import OnCard
 from openacr.panel.control.orders import LATER, Later, Order, answer_with
 from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
@@ -32,55 +34,6 @@ def level_of(program: int | None, plc: int | None) -> Level:
     if (program is None) == (plc is None):
         raise UserError("name a program or a PLC")
     return Level.program(program) if program is not None else Level.plc(plc or 0)
-
-
-class OfProgram(Args, frozen=True):
-    """A program of the card, or a PLC."""
-
-    program: Program | None = None
-    plc: Plc | None = None
-
-    @property
-    def level(self) -> Level:
-        """What is named; UserError unless it is exactly one."""
-        return level_of(self.program, self.plc)
-
-
-class OfBlock(OfProgram, frozen=True):
-    """Whether a program waits for STEP before every line."""
-
-    on: bool = True
-
-
-class OfText(OfProgram, frozen=True):
-    """The text that a program or PLC gets, itself or as it was parked.
-
-    `version` is that of the listing it was made of; empty: whatever is there is replaced.
-    """
-
-    text: Annotated[str, Meta(max_length=MOST_TEXT)] = ""
-    parked: Parked = ""
-    version: Annotated[str, Meta(max_length=40)] = ""
-
-
-class OfFile(Args, frozen=True):
-    """A controller file that was parked."""
-
-    parked: Parked
-
-
-class Assigned(Args, frozen=True):
-    """A variable of a program, and the expression it gets."""
-
-    program: Program
-    name: Annotated[str, Meta(pattern=r"^((LV|SV|DV|\$V)\d+|(LA|SA|DA|\$A)\d+\(\d+\))$")]
-    value: Annotated[str, Meta(min_length=1, max_length=80, pattern=r"^[ -~]*$")]
-
-
-class OfListened(Args, frozen=True):
-    """The program that is listened to."""
-
-    program: Program
 
 
 def owner_of(station: Station, level: Level) -> str:
@@ -106,9 +59,9 @@ def _take(station: Station, level: Level) -> None:
         station.hand_over(f"{level} is an ordinary program of the card now")
 
 
-def required(station: Station, args: OfProgram) -> Level:
-    """The program that is meant; UserError for one that this machine needs."""
-    level = args.level
+def required(station: Station, program: int | None, plc: int | None) -> Level:
+    """The program or PLC that is meant; UserError for one that this machine needs."""
+    level = level_of(program, plc)
     if owner := owner_of(station, level):
         raise UserError(owner)
     return level
@@ -142,70 +95,82 @@ def _require_halted(station: Station, level: Level) -> None:
 
 
 @command("card.run", Role.SERVICE, is_motion=True)
-def run(station: Station, order: Order, args: OfProgram) -> None:
+def run(station: Station, *, program: Program | None = None, plc: Plc | None = None) -> None:
     """Start a program or a PLC of the card."""
-    _begin(station, "RUN", required(station, args))
+    _begin(station, "RUN", required(station, program, plc))
 
 
 @command("card.resume", Role.SERVICE, is_motion=True)
-def resume(station: Station, order: Order, args: OfProgram) -> None:
+def resume(station: Station, *, program: Program | None = None, plc: Plc | None = None) -> None:
     """Go on where PAUSE has held a program."""
-    _begin(station, "RESUME", required(station, args))
+    _begin(station, "RESUME", required(station, program, plc))
 
 
 @command("card.step", Role.SERVICE, is_motion=True)
-def step(station: Station, order: Order, args: OfProgram) -> None:
+def step(station: Station, *, program: Program | None = None, plc: Plc | None = None) -> None:
     """Carry out one line of a program in block mode."""
-    _begin(station, "STEP", required(station, args))
+    _begin(station, "STEP", required(station, program, plc))
 
 
 @command("card.block", Role.SERVICE, is_motion=True)
-def block(station: Station, order: Order, args: OfBlock) -> None:
+def block(
+    station: Station, *, program: Program | None = None, plc: Plc | None = None, on: bool = True
+) -> None:
     """Let a program wait for STEP before every line (BLK), or go on by itself (AUT)."""
-    level = required(station, args)
-    if args.on:
+    level = required(station, program, plc)
+    if on:
         station.on_card.programs.command(station.link.required, "BLK", level)
     else:
         _begin(station, "AUT", level)
 
 
 @command("card.pause", Role.SERVICE)
-def pause(station: Station, order: Order, args: OfProgram) -> None:
+def pause(station: Station, *, program: Program | None = None, plc: Plc | None = None) -> None:
     """Hold a program and its motion."""
-    station.on_card.programs.command(station.link.required, "PAUSE", required(station, args))
+    station.on_card.programs.command(
+        station.link.required, "PAUSE", required(station, program, plc)
+    )
 
 
 @command("card.halt", Role.SERVICE)
-def halt(station: Station, order: Order, args: OfProgram) -> None:
+def halt(station: Station, *, program: Program | None = None, plc: Plc | None = None) -> None:
     """End a program or a PLC of the card, and the motion of its master."""
-    station.on_card.programs.command(station.link.required, "HALT", required(station, args))
+    level = required(station, program, plc)
+    station.on_card.programs.command(station.link.required, "HALT", level)
 
 
 # --- listening ------------------------------------------------------------------------
 
 
 @command("card.listen", Role.VIEW, needs_control=False)
-def listen(station: Station, order: Order, args: OfListened) -> None:
+def listen(client: int, on_card: OnCard, *, program: Program) -> None:
     """Show what a program prints from now on, as events `listen`; a serial card cannot."""
-    station.on_card.listening.begin(order.person.client, args.program)
+    on_card.listening.begin(client, program)
 
 
 @command("card.unlisten", Role.VIEW, needs_control=False)
-def unlisten(station: Station, order: Order, args: OfListened) -> None:
+def unlisten(client: int, on_card: OnCard, *, program: Program) -> None:
     """Listen no more; the program goes on."""
-    station.on_card.listening.forget(order.person.client)
+    on_card.listening.forget(client)
 
 
 @command("card.assign", Role.SERVICE, is_motion=True)
-def assign_variable(station: Station, order: Order, args: Assigned) -> Later:
+def assign_variable(
+    station: Station,
+    order: Order,
+    *,
+    program: Program,
+    name: Annotated[str, Meta(pattern=r"^((LV|SV|DV|\$V)\d+|(LA|SA|DA|\$A)\d+\(\d+\))$")],
+    value: Annotated[str, Meta(min_length=1, max_length=80, pattern=r"^[ -~]*$")],
+) -> Later:
     """Change a variable of a program, as its prompt would."""
-    level = Level.program(args.program)
+    level = Level.program(program)
     if owner := owner_of(station, level):
         raise UserError(owner)
 
     def talks(talk: Talk) -> Op[str]:
-        yield from assign(talk, args.program, args.name, args.value)
-        return (yield from answer(talk, args.program, args.name))
+        yield from assign(talk, program, name, value)
+        return (yield from answer(talk, program, name))
 
     answer_with(order, station.on_card.aside.begin(talks), lambda text: {"value": text})
     return LATER
@@ -215,29 +180,39 @@ def assign_variable(station: Station, order: Order, args: Assigned) -> Later:
 
 
 @command("card.send", Role.SERVICE)
-def send(station: Station, order: Order, args: OfText) -> Later:
+def send(
+    station: Station,
+    order: Order,
+    *,
+    program: Program | None = None,
+    plc: Plc | None = None,
+    text: Annotated[str, Meta(max_length=MOST_TEXT)] = "",
+    parked: Parked = "",
+    version: Annotated[str, Meta(max_length=40)] = "",
+) -> Later:
     """Store a text as a program or PLC of the card, verified; refused, the old one stays.
 
-    Between PROGRAM and ENDP, or in numbered lines. Nothing is run, and nothing saved by ESAVE.
+    Between PROGRAM and ENDP, or in numbered lines; `parked`: the mark of a text that was handed
+    over before. `version` is that of the listing it was made of; empty: whatever is there is
+    replaced. Nothing is run, and nothing saved by ESAVE.
     """
-    level = required(station, args)
-    text = station.on_card.parked.text(args.parked) if args.parked else args.text
-    require_program(text)
+    level = required(station, program, plc)
+    wanted = station.on_card.parked.text(parked) if parked else text
+    require_program(wanted)
     _require_halted(station, level)
-    future = station.on_card.aside.begin(lambda talk: replace(talk, level, text, args.version))
+    future = station.on_card.aside.begin(lambda talk: replace(talk, level, wanted, version))
     _then_tell(station, future, str(level))
     answer_with(order, future, lambda report: {"name": str(level), "sent": report.sent})
     return LATER
 
 
 @command("card.download", Role.SERVICE, is_motion=True)
-def download_file(station: Station, order: Order, args: OfFile) -> Later:
+def download_file(station: Station, order: Order, session: MillSession, *, parked: Parked) -> Later:
     """Send a controller file to the card line by line, and compare what it stores.
 
     Lines outside of programs are carried out. The error of a line that is refused names it.
     """
-    session = station.link.required
-    text = station.on_card.parked.text(args.parked)
+    text = station.on_card.parked.text(parked)
     _require_rest(station, Level.program(0), "no file is sent to the card")
     running = [
         each["name"]
@@ -259,9 +234,11 @@ def download_file(station: Station, order: Order, args: OfFile) -> Later:
 
 
 @command("card.clear", Role.SERVICE)
-def erase(station: Station, order: Order, args: OfProgram) -> Later:
+def erase(
+    station: Station, order: Order, *, program: Program | None = None, plc: Plc | None = None
+) -> Later:
     """Erase the lines of a program or PLC of the card; its memory stays."""
-    level = required(station, args)
+    level = required(station, program, plc)
     _require_halted(station, level)
     future = station.on_card.aside.begin(lambda talk: clear(talk, level))
     _then_tell(station, future, str(level))

@@ -1,9 +1,8 @@
 """Commands of part programs: load, start, hold, retrace, answer; overrides and alarms."""
 
-from pathlib import Path
 from typing import Annotated, Literal
 
-from msgspec import Meta, field
+from msgspec import Meta
 
 from openacr.errors import UserError
 from openacr.mill.card.alarms import (
@@ -19,11 +18,17 @@ from openacr.mill.config.folders import folders_of
 from openacr.mill.config.overrides import Override
 from openacr.mill.run.dripping import Drip
 from openacr.mill.run.lifecycle import State
-from openacr.mill.session import Start
-from openacr.panel.commands.registry import Args, NoArgs, command
+from openacr.mill.session import MillSession, Start
+from openacr.panel.commands.registry import command
+from openacr.panel.control.hand_motion import HandMotion
+from openacr.panel.control.installation import Installation
+from openacr.panel.control.link import Link
 from openacr.panel.control.orders import LATER, Later, Order
+from openacr.panel.control.part import Part
 from openacr.panel.control.presses import End
 from openacr.panel.control.station import Station
+from openacr.panel.control.stopping import Stopping
+from openacr.panel.control.typed import Typed
 from openacr.panel.files import Folder
 from openacr.panel.library import ready
 from openacr.panel.roles import Role
@@ -37,102 +42,59 @@ MENDS = {
     HARDWARE_LIMIT: "it has to leave its limit switch",
 }
 Finite = Annotated[float, Meta(ge=-1e12, le=1e12)]
-
-
-class OfFile(Args, frozen=True):
-    """A file in the folder of programs."""
-
-    path: str
-    dialect: Literal["", "auto", "acromill", "rs274ngc"] = ""
-
-
-class Begin(Args, frozen=True):
-    """How a program is started; `confirm` is the token of a rehearsal."""
-
-    line: Annotated[int, Meta(ge=1, le=10**9)] = 1
-    dry: bool = False
-    skip: bool | None = None
-    optional: bool | None = None
-    any_tool: bool = False
-    safe_z: Finite | None = None
-    confirm: str = ""
-
-
-class Switch(Args, frozen=True):
-    """On or off."""
-
-    on: bool
-
-
-class Trace(Args, frozen=True):
-    """Back along the path (-1), forward (1), or rest (0)."""
-
-    direction: Literal[-1, 0, 1]
-
-
-class Number(Args, frozen=True):
-    """An answer to INPUT."""
-
-    value: Finite
-
-
-class Click(Args, frozen=True):
-    """A click of an override."""
-
-    which: Literal["feed", "rapid", "spindle"]
-    click: Annotated[int, Meta(ge=0, le=15)]
+DialectName = Literal["", "auto", "acromill", "rs274ngc"]
 
 
 # --- loading --------------------------------------------------------------------------
 
 
-def folder_of(station: Station) -> Folder:
-    """The folder of programs."""
-    return Folder(station.installation.programs)
-
-
 @command("program.load")
-def load(station: Station, order: Order, args: OfFile) -> Later:
+def load(
+    order: Order,
+    installation: Installation,
+    part: Part,
+    *,
+    path: str,
+    dialect: DialectName = "",
+) -> Later:
     """LOAD PROG: make a file of the folder the program that START starts."""
-    file = folder_of(station).file(args.path)
-    station.part.load(file, args.path, order, kind="file", dialect=args.dialect)
+    file = Folder(installation.programs).file(path)
+    part.load(file, path, order, kind="file", dialect=dialect)
     return LATER
 
 
 @command("program.batch")
-def batch(station: Station, order: Order, args: OfFile) -> Later:
+def batch(
+    order: Order,
+    installation: Installation,
+    part: Part,
+    *,
+    path: str,
+    dialect: DialectName = "",
+) -> Later:
     """Load all programs of a batch file, which run one after the other."""
-    folder = folder_of(station)
-
-    def place(file: Path) -> str:
-        return folder.path_of(file)
-
-    station.part.load_batch(folder.file(args.path), order, place)
+    folder = Folder(installation.programs)
+    part.load_batch(folder.file(path), order, folder.path_of)
     return LATER
 
 
-class OfPart(Args, frozen=True):
-    """A part of the library with sizes by cell; the others have their defaults."""
-
-    part: str
-    values: dict[str, Finite] = field(default_factory=dict)
-    tool: Annotated[int, Meta(ge=0, le=400)] = 0
-
-
-class OfPort(Args, frozen=True):
-    """A serial port; else that of the COMMUNICATIONS page."""
-
-    port: str = ""
-    dialect: Literal["", "auto", "acromill", "rs274ngc"] = ""
-    dry: bool = False
-
-
 @command("program.part")
-def library_part(station: Station, order: Order, args: OfPart) -> Later:
-    """LIBRARY PART: make a part with these sizes the program that START starts."""
+def library_part(
+    station: Station,
+    order: Order,
+    installation: Installation,
+    *,
+    part: str,
+    values: dict[str, Finite] | None = None,
+    tool: Annotated[int, Meta(ge=0, le=400)] = 0,
+) -> Later:
+    """LIBRARY PART: make a part with these sizes the program that START starts.
+
+    `values` are the sizes by cell; those that are not given have their defaults.
+    """
     station.part.require_free()
-    made = ready(args.part, args.values, station.installation.store, args.tool)
-    folder = station.installation.programs / PARTS
+    made = ready(part, values or {}, installation.store, tool)
+    folder = installation.programs / PARTS
     file = folder / f"{made.part.name}.nc"
     try:
         folder.mkdir(exist_ok=True)
@@ -144,118 +106,142 @@ def library_part(station: Station, order: Order, args: OfPart) -> Later:
 
 
 @command("program.drip", is_motion=True)
-def drip(station: Station, order: Order, args: OfPort) -> None:
-    """RS232 DRIP FEED: run a program while it arrives over a serial line."""
-    station.part.require_free()
-    session = station.link.machine
+def drip(
+    link: Link,
+    installation: Installation,
+    part: Part,
+    *,
+    port: str = "",
+    dialect: DialectName = "",
+    dry: bool = False,
+) -> None:
+    """RS232 DRIP FEED: run a program while it arrives over a serial line.
+
+    Without a port over that of the COMMUNICATIONS page.
+    """
+    part.require_free()
+    session = link.machine
     session.runner.alarms.require_none()
-    name = dialect_of(None, session.cells, args.dialect or None)
-    folder = station.installation.store.path.parent if station.installation.store.path else None
-    line = Line.of(session.cells, args.port)
-    made = Drip(
-        line, session.cells, name, is_dry=args.dry, folders=folders_of(session.cells, folder)
-    )
+    name = dialect_of(None, session.cells, dialect or None)
+    folder = installation.store.path.parent if installation.store.path else None
+    line = Line.of(session.cells, port)
+    made = Drip(line, session.cells, name, is_dry=dry, folders=folders_of(session.cells, folder))
     session.keep_drip(made)
-    session.start_drip(made, Start(dialect=name, is_dry=args.dry))
+    session.start_drip(made, Start(dialect=name, is_dry=dry))
 
 
 @command("program.close")
-def close(station: Station, order: Order, args: NoArgs) -> None:
+def close(part: Part) -> None:
     """Unload the program."""
-    station.part.close()
+    part.close()
 
 
 # --- running --------------------------------------------------------------------------
 
 
 @command("run.begin", is_motion=True)
-def begin(station: Station, order: Order, args: Begin) -> dict[str, object] | Later:
-    """RUN: start the loaded program; a later line is rehearsed first and confirmed then."""
-    part = station.part
-    if args.skip is not None:
-        part.is_skipping = args.skip
-    if args.optional is not None:
-        part.stops_optionally = args.optional
+def begin(
+    order: Order,
+    hand_motion: HandMotion,
+    typed: Typed,
+    part: Part,
+    *,
+    line: Annotated[int, Meta(ge=1, le=10**9)] = 1,
+    dry: bool = False,
+    skip: bool | None = None,
+    optional: bool | None = None,
+    any_tool: bool = False,
+    safe_z: Finite | None = None,
+    confirm: str = "",
+) -> dict[str, object] | Later:
+    """RUN: start the loaded program; a later line is rehearsed first and confirmed then.
+
+    `confirm` is the token of the rehearsal.
+    """
+    if skip is not None:
+        part.is_skipping = skip
+    if optional is not None:
+        part.stops_optionally = optional
     start = Start(
         dialect=part.required.dialect,
-        line=args.line,
-        is_dry=args.dry,
+        line=line,
+        is_dry=dry,
         is_single=part.is_single,
         is_skipping=part.is_skipping,
         stops_optionally=part.stops_optionally,
-        accepts_tool=args.any_tool,
-        safe_z=args.safe_z,
+        accepts_tool=any_tool,
+        safe_z=safe_z,
     )
-    station.hand_motion.presses.end_all(End.MODE, "a program was started")
-    if args.line > 1 and not args.confirm:
+    hand_motion.presses.end_all(End.MODE, "a program was started")
+    if line > 1 and not confirm:
         part.rehearse(start, order)
         return LATER
-    station.typed.drop()
-    part.begin(start, args.confirm)
+    typed.drop()
+    part.begin(start, confirm)
     return {}
 
 
 @command("run.start", is_motion=True)
-def start(station: Station, order: Order, args: NoArgs) -> None:
+def start(machine: MillSession) -> None:
     """START: go on from a stop or a feed hold."""
-    station.link.machine.runner.start()
+    machine.runner.start()
 
 
 @command("run.resume", is_motion=True)
-def resume(station: Station, order: Order, args: NoArgs) -> None:
+def resume(link: Link, stopping: Stopping) -> None:
     """RESUME: go on with the path where it was held, and with what STOP has held on the card."""
-    session = station.link.session
-    is_held = station.stopping.holds
+    session = link.session
+    is_held = stopping.holds
     if not is_held or (session and session.runner.state in (State.PAUSED, State.HOLD)):
-        station.link.machine.runner.resume()
+        link.machine.runner.resume()
     if is_held:
-        station.stopping.resume()
+        stopping.resume()
 
 
 @command("run.abort")
-def abort(station: Station, order: Order, args: NoArgs) -> None:
+def abort(link: Link, typed: Typed) -> None:
     """ABORT: end the program; START begins it again."""
-    station.typed.drop()
-    station.link.machine.runner.abort()
+    typed.drop()
+    link.machine.runner.abort()
 
 
 @command("run.block")
-def block(station: Station, order: Order, args: Switch) -> None:
+def block(link: Link, part: Part, *, on: bool) -> None:
     """BLOCK: stop after every block, or not."""
-    station.part.is_single = args.on
-    station.link.machine.runner.block(args.on)
+    part.is_single = on
+    link.machine.runner.block(on)
 
 
 @command("run.skip")
-def skip(station: Station, order: Order, args: Switch) -> None:
+def skip(link: Link, part: Part, *, on: bool) -> None:
     """Leave blocks with a slash out, or not."""
-    station.part.is_skipping = args.on
-    station.link.machine.runner.stream.host.skips_always = args.on
+    part.is_skipping = on
+    link.machine.runner.stream.host.skips_always = on
 
 
 @command("run.optional")
-def optional(station: Station, order: Order, args: Switch) -> None:
+def optional(link: Link, part: Part, *, on: bool) -> None:
     """Stop at M1, or not."""
-    station.part.stops_optionally = args.on
-    station.link.machine.runner.stop_optionally(args.on)
+    part.stops_optionally = on
+    link.machine.runner.stop_optionally(on)
 
 
 @command("run.trace", is_motion=True)
-def trace(station: Station, order: Order, args: Trace) -> None:
-    """Trace the path in a feed hold: back, forward, or rest."""
-    station.link.machine.runner.trace(args.direction)
+def trace(machine: MillSession, *, direction: Literal[-1, 0, 1]) -> None:
+    """Trace the path in a feed hold: back (-1), forward (1), or rest (0)."""
+    machine.runner.trace(direction)
 
 
 @command("run.answer", is_motion=True)
-def answer(station: Station, order: Order, args: Number) -> None:
+def answer(machine: MillSession, *, value: Finite) -> None:
     """Answer the question of a program."""
-    station.link.machine.runner.answer(args.value)
+    machine.runner.answer(value)
 
 
 @command("run.confirm", is_motion=True)
-def confirm(station: Station, order: Order, args: NoArgs) -> None:
+def confirm(machine: MillSession) -> None:
     """Say that the tool is changed."""
-    changer = station.link.machine.runner.entry_actions.changer
+    changer = machine.runner.entry_actions.changer
     if not changer.wants_confirmation:
         raise UserError("no tool change waits")
     changer.confirm()
@@ -267,15 +253,20 @@ OVERRIDES = {"feed": Override.FEED, "rapid": Override.RAPID, "spindle": Override
 
 
 @command("override.choose")
-def override(station: Station, order: Order, args: Click) -> None:
+def override(
+    machine: MillSession,
+    *,
+    which: Literal["feed", "rapid", "spindle"],
+    click: Annotated[int, Meta(ge=0, le=15)],
+) -> None:
     """Choose a click of an override."""
-    station.link.machine.runner.overrides.choose(OVERRIDES[args.which], args.click)
+    machine.runner.overrides.choose(OVERRIDES[which], click)
 
 
 @command("alarm.acknowledge", Role.OPERATE)
-def acknowledge(station: Station, order: Order, args: NoArgs) -> dict[str, list[str]]:
+def acknowledge(machine: MillSession) -> dict[str, list[str]]:
     """Clear the alarms whose cause is gone; those that stay, with what ends their cause."""
-    left = station.link.machine.runner.acknowledge()
+    left = machine.runner.acknowledge()
     return {"left": [_with_mend(alarm) for alarm in left]}
 
 

@@ -1,8 +1,9 @@
 """Commands of the service: terminal, scope, gains, parameters and programs of the card."""
 
+from dataclasses import dataclass
 from typing import Annotated, Literal
 
-from msgspec import Meta
+from msgspec import Meta, structs
 
 from openacr.client import Level
 from openacr.client.names import named
@@ -11,12 +12,20 @@ from openacr.errors import UserError
 from openacr.mill.card.setup import GAIN_WORDS
 from openacr.mill.config.settings import GAINS
 from openacr.mill.manual.profile import parse
-from openacr.panel.commands.registry import Args, NoArgs, command
+from openacr.mill.session import MillSession
+from openacr.panel.commands.registry import Args, command
+from openacr.panel.control.buttons import Buttons
+from openacr.panel.control.captures import Captures
+from openacr.panel.control.hand_motion import HandMotion
+from openacr.panel.control.installation import Installation
+from openacr.panel.control.interlocks import Interlocks
+from openacr.panel.control.link import Link
 from openacr.panel.control.orders import LATER, Later, Order, answer_with
 from openacr.panel.control.presses import End
 from openacr.panel.control.scope import CHANNELS, LEAST_SAMPLES, MOST_SAMPLES, Capture, Trigger
-from openacr.panel.control.station import Station
-from openacr.panel.control.terminal import TERMINALS
+from openacr.panel.control.settings import StoredSettings
+from openacr.panel.control.terminal import TERMINALS, Terminals
+from openacr.panel.control.times import Times
 from openacr.panel.roles import Role
 from openacr.sysvar.lookup import known
 from openacr.sysvar.tabs import CELLS
@@ -27,33 +36,12 @@ QUERIES = frozenset(
     {"DIM", "MEM", "CPU", "LIST", "VER", "ATTACH", "CONFIG", "STREAM", "FSTAT", "AUT", "PLC"}
 )
 
+TerminalNumber = Annotated[int, Meta(ge=0, lt=TERMINALS)]
+CardProgram = Annotated[int, Meta(ge=0, le=15)]
+PeriodMs = Annotated[float, Meta(ge=0.0, le=1000.0)]
+SweepMs = Annotated[float, Meta(ge=0.0, le=1e7)]
+Count = Annotated[int, Meta(ge=LEAST_SAMPLES, le=MOST_SAMPLES)]
 OF_ANY_LEVEL = frozenset({"CPU"})  # nothing changes for a program that runs
-
-
-class OfTerminal(Args, frozen=True):
-    """A terminal of the card; each is a stream of its own."""
-
-    terminal: Annotated[int, Meta(ge=0, lt=TERMINALS)] = 0
-
-
-class OfLine(OfTerminal, frozen=True, kw_only=True):
-    """A line for the card."""
-
-    text: Annotated[str, Meta(max_length=255)]
-
-
-class OfKey(OfTerminal, frozen=True, kw_only=True):
-    """A control key."""
-
-    key: Literal["esc", "ctrl-c", "ctrl-x", "ctrl-y", "ctrl-z"]
-
-
-class Query(Args, frozen=True):
-    """A line that only reads; at a program, a PLC program, or SYS."""
-
-    line: Annotated[str, Meta(max_length=80)]
-    program: Annotated[int, Meta(ge=0, le=15)] | None = None
-    plc: Annotated[int, Meta(ge=0, le=7)] | None = None
 
 
 class OfTrigger(Args, frozen=True):
@@ -66,235 +54,247 @@ class OfTrigger(Args, frozen=True):
     before: Annotated[float, Meta(ge=0.0, le=0.9)] = 0.1
 
 
-class Arm(Args, frozen=True):
-    """What the scope samples: parameters and flags by name, P12290, BIT516 or number.
-
-    A sweep has the time of `sweep_ms` where that is above 0, else `samples`. A card at the end
-    of a link records into LA0 to LA7 and SA0 to SA7 of `program` (SAMP); else it is polled.
-    A capture of another client is replaced only with `take`.
-    """
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What a capture samples: one of another client is replaced only with `take`."""
 
     channels: tuple[int | str, ...]
-    period_ms: Annotated[float, Meta(ge=0.0, le=1000.0)] = 1.0
-    samples: Annotated[int, Meta(ge=LEAST_SAMPLES, le=MOST_SAMPLES)] = 5000
-    sweep_ms: Annotated[float, Meta(ge=0.0, le=1e7)] = 0.0
-    program: Annotated[int, Meta(ge=0, le=15)] | None = None
-    trigger: OfTrigger | None = None
-    take: bool = False
-
-
-class OfIndex(Args, frozen=True):
-    """A profile that is run, and what is sampled meanwhile."""
-
-    profile: Annotated[str, Meta(max_length=2000)]
-    channels: tuple[int | str, ...]
-    period_ms: Annotated[float, Meta(ge=0.0, le=1000.0)] = 5.0
-    samples: Annotated[int, Meta(ge=LEAST_SAMPLES, le=MOST_SAMPLES)] = 5000
-    sweep_ms: Annotated[float, Meta(ge=0.0, le=1e7)] = 0.0
-    program: Annotated[int, Meta(ge=0, le=15)] | None = None
-    take: bool = False
-
-
-class OfGain(Args, frozen=True):
-    """A gain of an axis, by its name on the SERVO page."""
-
-    axis: str
-    gain: str
-    value: Finite
-    store: bool = True
-
-
-class Written(Args, frozen=True):
-    """A parameter of the card and its value."""
-
-    parameter: int
-    value: Finite
-
-
-class Switched(Args, frozen=True):
-    """A flag of the card and its state."""
-
-    flag: Annotated[int, Meta(ge=0)]
-    on: bool
-
-
-class OfButton(Args, frozen=True):
-    """A virtual push button."""
-
-    number: Annotated[int, Meta(ge=0, le=31)]
-    pressed: bool
-
-
-class OfLength(Args, frozen=True):
-    """The number of a tool length."""
-
-    h: Annotated[int, Meta(ge=1, le=999)]
+    period_ms: float
+    samples: int
+    sweep_ms: float
+    program: int | None
+    take: bool
 
 
 # --- terminal -------------------------------------------------------------------------
 
 
 @command("term.open", Role.SERVICE)
-def term_open(station: Station, order: Order, args: OfTerminal) -> Later:
+def term_open(
+    order: Order,
+    client: int,
+    terminals: Terminals,
+    *,
+    terminal: TerminalNumber = 0,
+) -> Later:
     """Open a terminal of the card; what it prints comes as events `term`."""
-    opening = station.terminals[args.terminal].open(order.person.client)
+    opening = terminals[terminal].open(client)
     answer_with(order, opening, lambda _opened: None)
     return LATER
 
 
 @command("term.line", Role.SERVICE)
-def term_line(station: Station, order: Order, args: OfLine) -> None:
+def term_line(
+    terminals: Terminals,
+    interlocks: Interlocks,
+    *,
+    text: Annotated[str, Meta(max_length=255)],
+    terminal: TerminalNumber = 0,
+) -> None:
     """Type a line; while the machine moves only those that begin with ?."""
-    terminal = station.terminals[args.terminal]
-    terminal.line(args.text, is_busy=station.interlocks.is_moved)
+    terminals[terminal].line(text, is_busy=interlocks.is_moved)
 
 
 @command("term.key", Role.SERVICE)
-def term_key(station: Station, order: Order, args: OfKey) -> None:
+def term_key(
+    terminals: Terminals,
+    *,
+    key: Literal["esc", "ctrl-c", "ctrl-x", "ctrl-y", "ctrl-z"],
+    terminal: TerminalNumber = 0,
+) -> None:
     """Press a control key at a terminal."""
-    station.terminals[args.terminal].key(args.key)
+    terminals[terminal].key(key)
 
 
 @command("term.close", Role.SERVICE, needs_control=False)
-def term_close(station: Station, order: Order, args: OfTerminal) -> None:
+def term_close(client: int, terminals: Terminals, *, terminal: TerminalNumber = 0) -> None:
     """Close a terminal."""
-    station.terminals[args.terminal].close(order.person.client)
+    terminals[terminal].close(client)
 
 
 @command("card.query", Role.SETUP, needs_control=False)
-def query(station: Station, order: Order, args: Query) -> dict[str, list[str]]:
+def query(
+    link: Link,
+    interlocks: Interlocks,
+    *,
+    line: Annotated[str, Meta(max_length=80)],
+    program: CardProgram | None = None,
+    plc: Annotated[int, Meta(ge=0, le=7)] | None = None,
+) -> dict[str, list[str]]:
     """Ask the card with a line that only reads: DIM, MEM, CPU, LIST, ?P12288 ..."""
-    line = args.line.strip().upper()
-    if line not in QUERIES and not line.startswith("?"):
-        raise UserError(f"{args.line}: only {', '.join(sorted(QUERIES))} and lines with ? are sent")
-    session = station.link.required
-    if line in OF_ANY_LEVEL:
-        return {"lines": session.card.command(line)}
-    if station.interlocks.is_moved and not line.startswith("?"):
+    asked = line.strip().upper()
+    if asked not in QUERIES and not asked.startswith("?"):
+        raise UserError(f"{line}: only {', '.join(sorted(QUERIES))} and lines with ? are sent")
+    card = link.required.card
+    if asked in OF_ANY_LEVEL:
+        return {"lines": card.command(asked)}
+    if interlocks.is_moved and not asked.startswith("?"):
         raise UserError("the machine moves: only lines that begin with ? are sent")
-    if args.plc is not None:
-        session.card.go(Level.plc(args.plc))
-        return {"lines": session.card.command(line)}
-    if args.program is None:
-        session.card.go(Level())
-    return {"lines": session.card.command(line, program=args.program)}
+    if plc is not None:
+        card.go(Level.plc(plc))
+        return {"lines": card.command(asked)}
+    if program is None:
+        card.go(Level())
+    return {"lines": card.command(asked, program=program)}
 
 
 # --- scope, gains, parameters ---------------------------------------------------------
 
 
 @command("scope.arm", Role.SERVICE, needs_control=False)
-def scope_arm(station: Station, order: Order, args: Arm) -> dict[str, object]:
-    """Begin to sample up to eight parameters and flags; the samples are the topic `scope`."""
-    trigger = args.trigger
-    chosen = None
-    if trigger is not None:
-        chosen = Trigger(
-            trigger.channel, trigger.level, trigger.slope, trigger.mode, trigger.before
-        )
-    return _armed(station, order, args, chosen).data()
+def scope_arm(
+    client: int,
+    captures: Captures,
+    *,
+    channels: tuple[int | str, ...],
+    period_ms: PeriodMs = 1.0,
+    samples: Count = 5000,
+    sweep_ms: SweepMs = 0.0,
+    program: CardProgram | None = None,
+    trigger: OfTrigger | None = None,
+    take: bool = False,
+) -> dict[str, object]:
+    """Begin to sample up to eight parameters and flags; the samples are the topic `scope`.
+
+    They are named by name, P12290, BIT516 or number. A sweep has the time of `sweep_ms` where
+    that is above 0, else `samples`. A card at the end of a link records into LA0 to LA7 and SA0
+    to SA7 of `program` (SAMP); else it is polled. A capture of another client is replaced only
+    with `take`.
+    """
+    wanted = Wanted(channels, period_ms, samples, sweep_ms, program, take)
+    chosen = None if trigger is None else Trigger(**structs.asdict(trigger))
+    return _armed(captures, client, wanted, chosen).data()
 
 
-def _armed(
-    station: Station, order: Order, args: "Arm | OfIndex", trigger: Trigger | None
-) -> Capture:
+def _armed(captures: Captures, client: int, wanted: Wanted, trigger: Trigger | None) -> Capture:
     """Begin the capture that a command asks for; UserError for a sweep too short or too long."""
-    if not args.take:
-        station.captures.require_free(order.person.client)
-    channels = [named(str(each)) for each in args.channels]
-    sampling = station.captures.source(args.program)
-    period_s = sampling.period_s(args.period_ms / 1000.0)
-    samples = args.samples
-    if args.sweep_ms > 0.0:
-        samples = round(args.sweep_ms / 1000.0 / period_s)
+    if not wanted.take:
+        captures.require_free(client)
+    channels = [named(str(each)) for each in wanted.channels]
+    sampling = captures.source(wanted.program)
+    period_s = sampling.period_s(wanted.period_ms / 1000.0)
+    samples = wanted.samples
+    if wanted.sweep_ms > 0.0:
+        samples = round(wanted.sweep_ms / 1000.0 / period_s)
         if not LEAST_SAMPLES <= samples <= MOST_SAMPLES:
             raise UserError(
-                f"a sweep of {args.sweep_ms:g} ms has {samples} samples of {1000 * period_s:g} ms:"
-                f" {LEAST_SAMPLES} to {MOST_SAMPLES} are possible"
+                f"a sweep of {wanted.sweep_ms:g} ms has {samples} samples of"
+                f" {1000 * period_s:g} ms: {LEAST_SAMPLES} to {MOST_SAMPLES} are possible"
             )
-    return station.captures.arm(sampling, channels, period_s, samples, trigger, order.person.client)
+    return captures.arm(sampling, channels, period_s, samples, trigger, client)
 
 
 @command("scope.index", Role.SERVICE, is_motion=True)
-def scope_index(station: Station, order: Order, args: OfIndex) -> dict[str, object]:
+def scope_index(
+    client: int,
+    machine: MillSession,
+    hand_motion: HandMotion,
+    captures: Captures,
+    *,
+    profile: Annotated[str, Meta(max_length=2000)],
+    channels: tuple[int | str, ...],
+    period_ms: PeriodMs = 5.0,
+    samples: Count = 5000,
+    sweep_ms: SweepMs = 0.0,
+    program: CardProgram | None = None,
+    take: bool = False,
+) -> dict[str, object]:
     """Run an index profile (ACC, DEC, STP, JRK, F, RES, a move) and sample it from its start."""
-    runner = station.link.machine.runner
-    found = parse(args.profile, list(runner.settings.names()))
-    station.hand_motion.presses.end_all(End.MODE, "an index profile was started")
-    capture = _armed(station, order, args, None)
+    runner = machine.runner
+    found = parse(profile, list(runner.settings.names()))
+    hand_motion.presses.end_all(End.MODE, "an index profile was started")
+    wanted = Wanted(channels, period_ms, samples, sweep_ms, program, take)
+    capture = _armed(captures, client, wanted, None)
     try:
         runner.jog(lambda jogging: jogging.index(found))
     except BaseException:
-        station.captures.stop()
+        captures.stop()
         raise
     return {"time_s": found.time_s, **capture.data()}
 
 
 @command("scope.stop", Role.SERVICE, needs_control=False)
-def scope_stop(station: Station, order: Order, args: NoArgs) -> None:
+def scope_stop(client: int, captures: Captures) -> None:
     """End the capture, unless it is that of another client."""
-    station.captures.require_free(order.person.client)
-    station.captures.stop()
+    captures.require_free(client)
+    captures.stop()
 
 
 @command("gain.set", Role.SERVICE)
-def gain(station: Station, order: Order, args: OfGain) -> dict[str, float | bool]:
+def gain(
+    session: MillSession,
+    installation: Installation,
+    settings: StoredSettings,
+    *,
+    axis: str,
+    gain: str,
+    value: Finite,
+    store: bool = True,
+) -> dict[str, float | bool]:
     """Set a gain on the card at once, and store it; while the machine moves, once it rests."""
-    session = station.link.required
-    is_stored = args.store and session.is_set_up  # else the axis is not that of the parameters
-    axis = station.installation.axis(args.axis, is_stored=is_stored)
-    names = {known(cells[axis]).name.lower(): k for k, cells in enumerate(GAINS)}
-    place = names.get(args.gain.lower())
+    is_stored = store and session.is_set_up  # else the axis is not that of the parameters
+    index = installation.axis(axis, is_stored=is_stored)
+    names = {known(cells[index]).name.lower(): k for k, cells in enumerate(GAINS)}
+    place = names.get(gain.lower())
     if place is None:
-        raise UserError(f"{args.gain}: gains are {', '.join(names)}")
-    store, cell = station.installation.store, known(GAINS[place][axis])
-    checked(cell, args.value, store.is_metric, store.letter_of(cell))
-    session.machine.type([f"AXIS{axis} {GAIN_WORDS[place]} {number_text(args.value)}"])
+        raise UserError(f"{gain}: gains are {', '.join(names)}")
+    cells, cell = installation.store, known(GAINS[place][index])
+    checked(cell, value, cells.is_metric, cells.letter_of(cell))
+    session.machine.type([f"AXIS{index} {GAIN_WORDS[place]} {number_text(value)}"])
     if is_stored:
-        station.settings.store_at_rest(cell.number, args.value)
-    return {"value": args.value, "is_stored": store.read(cell.number) == args.value}
+        settings.store_at_rest(cell.number, value)
+    return {"value": value, "is_stored": cells.read(cell.number) == value}
 
 
 @command("card.write", Role.SERVICE)
-def card_write(station: Station, order: Order, args: Written) -> dict[str, float]:
+def card_write(link: Link, times: Times, *, parameter: int, value: Finite) -> dict[str, float]:
     """Set a parameter of the card; at a moment of its history, this begins another branch."""
-    if station.link.is_away:
-        station.times.write(args.parameter, args.value, is_flag=False)
-        return {"value": station.link.read([args.parameter])[0]}
-    session = station.link.required
-    session.machine.write(args.parameter, args.value)
-    return {"value": session.machine.read(args.parameter)}
+    if link.is_away:
+        times.write(parameter, value, is_flag=False)
+        return {"value": link.read([parameter])[0]}
+    session = link.required
+    session.machine.write(parameter, value)
+    return {"value": session.machine.read(parameter)}
 
 
 @command("card.flag", Role.SERVICE, is_motion=True)
-def card_flag(station: Station, order: Order, args: Switched) -> dict[str, bool]:
+def card_flag(
+    link: Link, times: Times, *, flag: Annotated[int, Meta(ge=0)], on: bool
+) -> dict[str, bool]:
     """Set or clear a flag of the card; at a moment of its history, this begins another branch."""
-    if station.link.is_away:
-        station.times.write(args.flag, args.on, is_flag=True)
-        return {"on": args.on}
-    card = station.link.required.card
-    card.write_bit(args.flag, args.on)
-    return {"on": card.read_bit(args.flag)}
+    if link.is_away:
+        times.write(flag, on, is_flag=True)
+        return {"on": on}
+    card = link.required.card
+    card.write_bit(flag, on)
+    return {"on": card.read_bit(flag)}
 
 
 # --- buttons, lengths -----------------------------------------------------------------
 
 
 @command("button")
-def button(station: Station, order: Order, args: OfButton) -> None:
+def button(
+    client: int,
+    link: Link,
+    buttons: Buttons,
+    *,
+    number: Annotated[int, Meta(ge=0, le=31)],
+    pressed: bool,
+) -> None:
     """Press or release a virtual push button."""
-    client = order.person.client
-    station.buttons.press(station.link.machine, args.number, client, is_pressed=args.pressed)
+    buttons.press(link.machine, number, client, is_pressed=pressed)
 
 
 @command("teach.length", Role.SETUP)
-def teach_length(station: Station, order: Order, args: OfLength) -> dict[str, float]:
+def teach_length(
+    machine: MillSession, interlocks: Interlocks, *, h: Annotated[int, Meta(ge=1, le=999)]
+) -> dict[str, float]:
     """Make the machine position of Z the length of a tool."""
-    session = station.link.machine
-    session.runner.alarms.require_none()
-    if station.interlocks.is_moved:
+    machine.runner.alarms.require_none()
+    if interlocks.is_moved:
         raise UserError("the machine is moving: a length can be taught only at rest")
-    axis = session.runner.settings.named("Z").index
-    value = session.runner.stream.host.position()[axis]
-    session.cells.write(CELLS.h_length[args.h], value)
+    axis = machine.runner.settings.named("Z").index
+    value = machine.runner.stream.host.position()[axis]
+    machine.cells.write(CELLS.h_length[h], value)
     return {"value": value}
