@@ -245,9 +245,9 @@ def test_a_condition_is_of_the_moment_of_its_block(target: PartTarget) -> None:
 def test_conditions_and_watches_read_the_card_where_it_is(target: PartTarget) -> None:
     position = f"P{axes.current_position[0]}"
     breaks(target, 4, condition="P200 = 0")
-    target.run(LONG_TK)
+    target.course.run(LONG_TK)
     assert target.answer(0, position) == "10000"
-    target.seek(Moment(target.live.reached_tk(0)))
+    target.course.seek(Moment(target.course.live.reached_tk(0)))
     assert target.answer(0, position) == "0"
 
 
@@ -343,13 +343,13 @@ def test_an_alarm_stops_if_it_is_wanted_and_ends_the_program(tmp_path: Path) -> 
 @pytest.mark.parametrize("is_past", [False, True])
 def test_what_is_closed_is_at_rest_with_its_outputs_off(tmp_path: Path, is_past: bool) -> None:
     target = target_of(tmp_path, CUTTING, SPINDLE)
-    target.entry()
-    assert target.run(2000) is None
+    target.course.entry()
+    assert target.course.run(2000) is None
     word = mf1.word[target.shop.machine.master]
     assert target.card.memory.I[word] & mf1.IN_MOTION
     assert [target.card.bit[each] for each in (40, 41)] == [True, True]
     if is_past:
-        target.seek(Moment(target.card.lived_tk - 1500))
+        target.course.seek(Moment(target.card.lived_tk - 1500))
     target.close()
     assert not target.card.memory.I[word] & mf1.IN_MOTION
     assert [target.card.bit[each] for each in (40, 41)] == [False, False]
