@@ -511,9 +511,10 @@ def test_the_calls_and_commands_are_described(web: httpx.Client) -> None:
     commands = document["x-commands"]
     assert {f"card.{word}" for word in (*CHANGES, "send", "listen", "unlisten")} <= set(commands)
     assert commands["card.listen"]["role"] == "view"
+    assert "Nothing is run" in commands["card.send"].pop("description")
     assert commands["card.send"] == {
         "summary": "Store a text as a program or PLC of the card, verified; refused, the old one"
         " stays.",
         "role": "service", "needs_control": True,
-        "args": {"$ref": "#/components/schemas/OfText"},
+        "args": {"$ref": "#/components/schemas/CardSend"},
     }  # fmt: skip

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from openacr.panel.commands.all import COMMANDS
+
 JS = Path(__file__).parents[2] / "src/openacr/panel/web/js"
 KEY = r"[a-z][A-Za-z0-9. ]*\.[A-Za-z0-9. ]+"
 # Keys that are made at run time begin with one of these.
@@ -22,6 +24,7 @@ def catalogue(language: str) -> dict[str, str]:
     found = [
         pair for text in texts for pair in re.findall(rf'"({KEY})": "((?:[^"\\]|\\.)*)"', text)
     ]
+    found += [(row.name, row.titles[language]) for row in COMMANDS.values() if row.titles]
     assert len(found) == len(dict(found))  # one text for each key
     return dict(found)
 

@@ -12,6 +12,7 @@ from openacr.map.words import pf, plf
 from openacr.panel.commands.registry import command
 from openacr.panel.control.presses import End
 from openacr.panel.control.station import Station
+from openacr.panel.helps import Page
 from openacr.panel.roles import Role
 
 DIMENSION = re.compile(r"DIM ((?:PROG|PLC)\d+)\((\d+)\)")
@@ -75,7 +76,16 @@ def read(station: Station) -> dict[str, object]:
     return _found(station).data()
 
 
-@command("memory.set", Role.SERVICE)
+@command(
+    "memory.set",
+    Role.SERVICE,
+    page=Page(
+        "memory",
+        "MEMORY CONFIG",
+        "The bytes of the card for each program and PLC program. A change loses what is stored in"
+        " it, so it is refused while anything runs, and asks first.",
+    ),
+)
 def divide(
     station: Station, *, sizes: dict[str, Bytes], confirm: bool = False
 ) -> dict[str, object]:

@@ -18,6 +18,7 @@ from openacr.panel.control.people import People, Person
 from openacr.panel.control.presses import End, Key
 from openacr.panel.control.station import Station
 from openacr.panel.control.typed import Typed
+from openacr.panel.helps import Page
 from openacr.panel.roles import Role
 
 PressNumber = Annotated[int, Meta(ge=0, le=2**53)]
@@ -35,7 +36,17 @@ def indices(machine: MillSession, names: str) -> list[int]:
 # --- jog ------------------------------------------------------------------------------
 
 
-@command("jog.press", is_motion=True)
+@command(
+    "jog.press",
+    is_motion=True,
+    page=Page(
+        "jog",
+        "JOG",
+        "An axis moves while its key is held and stops when it is released, when the connection"
+        " falls silent for 200 ms, and at every stop, alarm or change of screen. SLOW is Jog"
+        " Feedrate, FAST is Jog Rapid. An increment is made whole at one press.",
+    ),
+)
 def press(
     order: Order,
     client: int,
@@ -99,7 +110,13 @@ def stop_jogs(hand_motion: HandMotion) -> None:
     hand_motion.stop()
 
 
-@command("handwheel", is_motion=True)
+@command(
+    "handwheel",
+    is_motion=True,
+    page=Page(
+        "handwheel", "HANDWHEEL", "The wheel of each chosen axis moves it, by its ratio per click."
+    ),
+)
 def handwheel(link: Link, hand_motion: HandMotion, *, axes: str = "") -> dict[str, str]:
     """Connect the hand wheel with axes; without a name it is disconnected."""
     hand_motion.presses.end_all(End.MODE, "the hand wheel was chosen")
@@ -121,7 +138,20 @@ def mode(client: int, people: People, hand_motion: HandMotion, *, mode: Mode) ->
 # --- home and zero --------------------------------------------------------------------
 
 
-@command("home.start", is_motion=True)
+@command(
+    "home.start",
+    is_motion=True,
+    en="START HOME",
+    de="REFERENZFAHRT STARTEN",
+    page=Page(
+        "home",
+        "HOME",
+        "Choose all axes or some, then START HOME. Each axis runs fast to its switch, slowly off"
+        " it, then to the marker of its encoder; there its position becomes Home Preset. Axes of"
+        " priority 1 go first, those of priority 0 are never homed.\n\nSTOP ends homing with"
+        " alarm 34: the axes that were under way are not homed.",
+    ),
+)
 def home(machine: MillSession, *, axes: str = "") -> dict[str, list[str]]:
     """HOME: find the reference points of axes, all that have a priority without a name."""
     settings = machine.runner.settings
@@ -139,7 +169,15 @@ def _position(machine: MillSession, point: tuple[float, ...]) -> Position:
     return {"position": {axis.name: point[axis.index] for axis in axes}}
 
 
-@command("zero.set")
+@command(
+    "zero.set",
+    page=Page(
+        "setzero",
+        "SET ZERO",
+        "The chosen axes read 0 where they are, as by G92. The shift counts in every work system"
+        " and is kept until CLR ZERO. Nothing moves.",
+    ),
+)
 def zero_set(machine: MillSession, *, axes: str = "") -> Position:
     """SET ZERO: axes read 0 where they are."""
     set_zero(machine, indices(machine, axes))
@@ -156,7 +194,15 @@ def zero_preset(
     return _position(machine, preset(machine, wanted))
 
 
-@command("zero.clear")
+@command(
+    "zero.clear",
+    page=Page(
+        "clrzero",
+        "CLR ZERO",
+        "No axis has a floating zero any more: positions count from the zero of the work system"
+        " again. Nothing moves.",
+    ),
+)
 def zero_clear(machine: MillSession) -> Position:
     """CLR ZERO: no axis has a floating zero."""
     return _position(machine, clear_all(machine))
@@ -168,7 +214,13 @@ def zero_blocks(machine: MillSession, *, axes: str = "") -> dict[str, list[str]]
     return {"blocks": goto_blocks(machine, indices(machine, axes))}
 
 
-@command("zero.goto", is_motion=True)
+@command(
+    "zero.goto",
+    is_motion=True,
+    page=Page(
+        "gotozero", "GOTO ZERO", "Rapids to the floating zero; Z first if that is up, else last."
+    ),
+)
 def zero_goto(machine: MillSession, typed: Typed, *, axes: str = "") -> None:
     """GOTO ZERO: rapids to the floating zero, Z first where that is upward, else last."""
     typed.put(goto_blocks(machine, indices(machine, axes)), is_shown=False)
@@ -194,7 +246,21 @@ def set_up(station: Station, session: MillSession) -> None:
 # --- stops ----------------------------------------------------------------------------
 
 
-@command("stop.hold", Role.VIEW, needs_control=False, is_stop=True)
+@command(
+    "stop.hold",
+    Role.VIEW,
+    needs_control=False,
+    is_stop=True,
+    en="feed hold",
+    de="Vorschub-Halt",
+    page=Page(
+        "stop",
+        "STOP",
+        "The program is held. RESUME goes on where the path was left; axes that were jogged away"
+        " return first. ABORT ends the program. The path can be traced back and forward.\n\nA stop"
+        " by software is no emergency stop.",
+    ),
+)
 def hold(station: Station) -> dict[str, list[str]]:
     """STOP: everything that moves on the card comes to rest, at any time.
 

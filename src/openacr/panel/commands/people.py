@@ -13,12 +13,24 @@ from openacr.panel.control.interlocks import Interlocks
 from openacr.panel.control.link import Link
 from openacr.panel.control.people import People, Person
 from openacr.panel.control.presses import End
+from openacr.panel.helps import Page
 from openacr.panel.roles import Role
 
 Name = Annotated[str, Meta(max_length=40, pattern=r"^[^\x00-\x1f]*$")]
 
 
-@command("control.take", needs_control=False)
+@command(
+    "control.take",
+    needs_control=False,
+    en="TAKE CONTROL",
+    de="ÜBERNEHMEN",
+    page=Page(
+        "control",
+        "Control",
+        "One operator at a time has control of the machine. Others see everything and may stop it."
+        " Control can be handed over or taken.",
+    ),
+)
 def take(
     client: int, people: People, hand_motion: HandMotion, *, force: bool = False
 ) -> dict[str, object]:
@@ -36,7 +48,7 @@ def give(person: Person, people: People, hand_motion: HandMotion, *, client: int
     hand_motion.presses.end_all(End.CONTROL, "control was handed over")
 
 
-@command("control.release", needs_control=False)
+@command("control.release", needs_control=False, en="GIVE UP CONTROL", de="ABGEBEN")
 def release(client: int, people: People, hand_motion: HandMotion) -> None:
     """Give control up."""
     if people.holder == client:
@@ -50,7 +62,16 @@ def name(client: int, people: People, *, name: Name) -> None:
     people.rename(client, name.strip())
 
 
-@command("app.end")
+@command(
+    "app.end",
+    page=Page(
+        "exit",
+        "EXIT",
+        "LEAVE leaves the screens and gives up control; END, at the computer of the controller,"
+        " ends the controller program. What moves is brought to rest first, unless another operator"
+        " has control.",
+    ),
+)
 def end(person: Person, link: Link, interlocks: Interlocks, on_end: Callable[[], None]) -> None:
     """EXIT: end the controller program; at rest, and from its own computer only."""
     if not is_loopback(person.address):

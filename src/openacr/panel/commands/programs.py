@@ -20,6 +20,7 @@ from openacr.panel.control.card_programs import read_states
 from openacr.panel.control.on_card import OnCard
 from openacr.panel.control.orders import LATER, Later, Order, answer_with
 from openacr.panel.control.station import Station
+from openacr.panel.helps import Page
 from openacr.panel.roles import Role
 
 Program = Annotated[int, Meta(ge=0, lt=len(PROGRAMS))]
@@ -94,7 +95,28 @@ def _require_halted(station: Station, level: Level) -> None:
 # --- running --------------------------------------------------------------------------
 
 
-@command("card.run", Role.SERVICE, is_motion=True)
+@command(
+    "card.run",
+    Role.SERVICE,
+    is_motion=True,
+    page=Page(
+        "programs",
+        "PROGRAM/PLC",
+        "The programs and PLCs of the card: what each does, and its text with the line that is"
+        " executed. RUN starts one, HALT ends it and its motion, PAUSE holds it, RESUME goes on."
+        " With BLOCK a program waits before every line for STEP. LISTEN shows what it prints.\n\n"
+        "EDIT changes the text: numbered lines, or the text between PROGRAM and ENDP; SEND stores"
+        " it on the card and compares the listing. What the card refuses leaves the former text."
+        " ESAVE keeps programs without power. CLEAR erases the lines. Programs that this machine"
+        " needs, one that runs, and all of them while the machine moves cannot be changed.\n\n"
+        "STOP pauses programs of the card, also those that no screen has started. They know no"
+        " limits and overrides of this machine: only service personnel should start one. PROG0 and"
+        " its axes are taken from AcroMill where it is started or changed here: SET UP at the top"
+        " gives them back.\n\nThe tab PLC draws"
+        " a PLC as a ladder. Closed contacts and outputs that are set are filled; wires that carry"
+        " power are thick. The flags are read ten times a second: a pulse of one scan is not seen.",
+    ),
+)
 def run(station: Station, *, program: Program | None = None, plc: Plc | None = None) -> None:
     """Start a program or a PLC of the card."""
     _begin(station, "RUN", required(station, program, plc))

@@ -20,10 +20,12 @@ import msgspec
 
 from openacr.panel.control.orders import Order, PanelError, RoleError
 from openacr.panel.control.station import Station
+from openacr.panel.helps import Page
 from openacr.panel.roles import Role
 
 Do = Callable[..., object]
 D = TypeVar("D", bound=Do)
+LANGUAGES = ("en", "de")  # of the screens
 LONGEST_WAIT_S = 0.5  # a command that moves axes is not carried out later than this
 # What a command may need beside the parts of the station, which have their own names.
 NEEDS: dict[str, Callable[[Station, Order], object]] = {
@@ -50,19 +52,25 @@ class Command:
     args: type[Args]
     needs: tuple[str, ...]
     titles: dict[str, str]  # by language; without any no screen names it
+    page: Page | None  # of HELP, for operators
     needs_control: bool
     is_motion: bool
     is_stop: bool
 
     @property
     def text(self) -> str:
-        """What it does: its page of HELP."""
+        """What it does, for those who give it by a script."""
         return inspect.getdoc(self.do) or ""
 
     @property
     def summary(self) -> str:
         """What it does, in one line."""
         return self.text.partition("\n")[0]
+
+    @property
+    def more(self) -> str:
+        """What there is to know beside that; empty for most."""
+        return self.text.partition("\n")[2].strip()
 
     def carry_out(self, station: Station, order: Order, args: Args) -> object:
         """Call the function with what it needs; UserError where the machine is out of reach."""
@@ -82,11 +90,12 @@ def command(
     *,
     en: str = "",
     de: str = "",
+    page: Page | None = None,
     needs_control: bool = True,
     is_motion: bool = False,
     is_stop: bool = False,
 ) -> Callable[[D], D]:
-    """Declare a command; `en` and `de`: how a key names it.
+    """Declare a command; `en` and `de`: how a key names it, the text `name` of the screens.
 
     `is_motion`: it may begin motion, so an old one is refused. `is_stop`: what was received
     before it and may begin motion is refused: a stop overtakes it. ValueError for a name that is
@@ -101,7 +110,7 @@ def command(
             raise ValueError(f"there are two commands {name!r}")
         needs, args = _taken(name, do)
         COMMANDS[name] = Command(
-            name, role, do, args, needs, titles, needs_control, is_motion, is_stop
+            name, role, do, args, needs, titles, page, needs_control, is_motion, is_stop
         )
         return do
 

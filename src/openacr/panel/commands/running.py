@@ -30,6 +30,7 @@ from openacr.panel.control.station import Station
 from openacr.panel.control.stopping import Stopping
 from openacr.panel.control.typed import Typed
 from openacr.panel.files import Folder
+from openacr.panel.helps import Page
 from openacr.panel.library import ready
 from openacr.panel.roles import Role
 
@@ -48,7 +49,18 @@ DialectName = Literal["", "auto", "acromill", "rs274ngc"]
 # --- loading --------------------------------------------------------------------------
 
 
-@command("program.load")
+@command(
+    "program.load",
+    page=Page(
+        "load",
+        "LOAD PROG",
+        "USER FILE: a program of the folder. LIBRARY PART: a part with sizes to choose. DXF FILE: a"
+        " drawing that is converted to a program, cut at the Z that is asked for. BATCH FILE: a"
+        " list of programs, run one after the other. RS232 DRIP FEED: a program that runs"
+        " while it arrives over a serial line. RS-232 (LINK): a program that arrives over a serial"
+        " line is kept as a file, then loaded like any other.",
+    ),
+)
 def load(
     order: Order,
     installation: Installation,
@@ -139,7 +151,22 @@ def close(part: Part) -> None:
 # --- running --------------------------------------------------------------------------
 
 
-@command("run.begin", is_motion=True)
+@command(
+    "run.begin",
+    is_motion=True,
+    en="START",
+    de="START",
+    page=Page(
+        "run",
+        "RUN PROG",
+        "RUN starts the loaded program at a line. At a later line than 1 the lines before it are"
+        " read without motion: what differs is shown and confirmed; then Z goes up, the axes go"
+        " over the place and down at feed.\n\nSTOP holds the feed. START goes on after a stop of"
+        " the program, and where a tool is asked for once it is in the spindle. DRY RUN moves"
+        " at Trial Speed, M codes have no effect. BLOCK stops after"
+        " every block.",
+    ),
+)
 def begin(
     order: Order,
     hand_motion: HandMotion,
@@ -212,14 +239,14 @@ def block(link: Link, part: Part, *, on: bool) -> None:
     link.machine.runner.block(on)
 
 
-@command("run.skip")
+@command("run.skip", en="Block skip", de="Sätze ausblenden")
 def skip(link: Link, part: Part, *, on: bool) -> None:
     """Leave blocks with a slash out, or not."""
     part.is_skipping = on
     link.machine.runner.stream.host.skips_always = on
 
 
-@command("run.optional")
+@command("run.optional", en="Optional stop", de="Wahlweiser Halt")
 def optional(link: Link, part: Part, *, on: bool) -> None:
     """Stop at M1, or not."""
     part.stops_optionally = on
@@ -252,7 +279,15 @@ def confirm(machine: MillSession) -> None:
 OVERRIDES = {"feed": Override.FEED, "rapid": Override.RAPID, "spindle": Override.SPINDLE}
 
 
-@command("override.choose")
+@command(
+    "override.choose",
+    page=Page(
+        "overrides",
+        "OVERRIDES",
+        "Feed, rapid and spindle speed in 16 clicks of their table (SYS PARAM). Where a switch of"
+        " the panel is wired, the switch counts and the screen only shows it.",
+    ),
+)
 def override(
     machine: MillSession,
     *,
@@ -263,7 +298,17 @@ def override(
     machine.runner.overrides.choose(OVERRIDES[which], click)
 
 
-@command("alarm.acknowledge", Role.OPERATE)
+@command(
+    "alarm.acknowledge",
+    Role.OPERATE,
+    en="ACKNOWLEDGE",
+    de="QUITTIEREN",
+    page=Page(
+        "alarms",
+        "ALARMS",
+        "An alarm stays until its cause is gone and it was acknowledged; nothing starts before.",
+    ),
+)
 def acknowledge(machine: MillSession) -> dict[str, list[str]]:
     """Clear the alarms whose cause is gone; those that stay, with what ends their cause."""
     left = machine.runner.acknowledge()

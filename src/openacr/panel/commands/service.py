@@ -26,6 +26,7 @@ from openacr.panel.control.scope import CHANNELS, LEAST_SAMPLES, MOST_SAMPLES, C
 from openacr.panel.control.settings import StoredSettings
 from openacr.panel.control.terminal import TERMINALS, Terminals
 from openacr.panel.control.times import Times
+from openacr.panel.helps import Page
 from openacr.panel.roles import Role
 from openacr.sysvar.lookup import known
 from openacr.sysvar.tabs import CELLS
@@ -83,7 +84,16 @@ def term_open(
     return LATER
 
 
-@command("term.line", Role.SERVICE)
+@command(
+    "term.line",
+    Role.SERVICE,
+    page=Page(
+        "terminal",
+        "TERMINAL",
+        "A direct line to the card: what is typed is sent as it is, what the card prints is shown,"
+        " for example ?P3. While the machine moves only lines that begin with ? are sent.",
+    ),
+)
 def term_line(
     terminals: Terminals,
     interlocks: Interlocks,
@@ -141,7 +151,19 @@ def query(
 # --- scope, gains, parameters ---------------------------------------------------------
 
 
-@command("scope.arm", Role.SERVICE, needs_control=False)
+@command(
+    "scope.arm",
+    Role.SERVICE,
+    needs_control=False,
+    page=Page(
+        "scope",
+        "SCOPE",
+        "Up to four parameters of the card, sampled in its time, on ten by ten divisions. Every"
+        " channel has its source, units per division and offset; the sweep is in ms per division."
+        "\n\nWith INDEX the profile is run and recorded from its start: ACC, DEC, STP, JRK, F, RES"
+        " and the move of one axis, for example X15. The axis really moves.",
+    ),
+)
 def scope_arm(
     client: int,
     captures: Captures,
@@ -184,7 +206,7 @@ def _armed(captures: Captures, client: int, wanted: Wanted, trigger: Trigger | N
     return captures.arm(sampling, channels, period_s, samples, trigger, client)
 
 
-@command("scope.index", Role.SERVICE, is_motion=True)
+@command("scope.index", Role.SERVICE, is_motion=True, en="INDEX", de="INDEX")
 def scope_index(
     client: int,
     machine: MillSession,
@@ -213,14 +235,23 @@ def scope_index(
     return {"time_s": found.time_s, **capture.data()}
 
 
-@command("scope.stop", Role.SERVICE, needs_control=False)
+@command("scope.stop", Role.SERVICE, needs_control=False, en="STOP SCOPE", de="SCOPE HALT")
 def scope_stop(client: int, captures: Captures) -> None:
     """End the capture, unless it is that of another client."""
     captures.require_free(client)
     captures.stop()
 
 
-@command("gain.set", Role.SERVICE)
+@command(
+    "gain.set",
+    Role.SERVICE,
+    page=Page(
+        "gain",
+        "GAIN",
+        "The gains of an axis. A value reaches the card when ENTER is pressed in its field, and"
+        " acts at once; with the check set it is stored as well.",
+    ),
+)
 def gain(
     session: MillSession,
     installation: Installation,
@@ -246,7 +277,16 @@ def gain(
     return {"value": value, "is_stored": cells.read(cell.number) == value}
 
 
-@command("card.write", Role.SERVICE)
+@command(
+    "card.write",
+    Role.SERVICE,
+    page=Page(
+        "board",
+        "BOARD PARAMETERS",
+        "Every parameter of the card with its number, name and value, live. A touch on a value that"
+        " can be written sets it.",
+    ),
+)
 def card_write(link: Link, times: Times, *, parameter: int, value: Finite) -> dict[str, float]:
     """Set a parameter of the card; at a moment of its history, this begins another branch."""
     if link.is_away:
@@ -286,7 +326,7 @@ def button(
     buttons.press(link.machine, number, client, is_pressed=pressed)
 
 
-@command("teach.length", Role.SETUP)
+@command("teach.length", Role.SETUP, en="TOOL LENGTH H", de="LÄNGE H")
 def teach_length(
     machine: MillSession, interlocks: Interlocks, *, h: Annotated[int, Meta(ge=1, le=999)]
 ) -> dict[str, float]:

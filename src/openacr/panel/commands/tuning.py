@@ -45,7 +45,7 @@ def tune_gains(session: MillSession, installation: Installation, *, axis: str) -
     }
 
 
-@command("tune.measure", Role.SERVICE, is_motion=True)
+@command("tune.measure", Role.SERVICE, is_motion=True, en="MEASURE", de="MESSEN")
 def tune_measure(
     order: Order,
     client: int,
@@ -76,7 +76,7 @@ def tune_measure(
     return LATER
 
 
-@command("tune.step", Role.SERVICE, is_motion=True)
+@command("tune.step", Role.SERVICE, is_motion=True, en="STEP", de="SPRUNG")
 def tune_step(
     order: Order, client: int, link: Link, tuning: Tuning, *, axis: str, amplitude: Positive = 100.0
 ) -> Later:
@@ -90,7 +90,7 @@ def tune_step(
     return LATER
 
 
-@command("tune.apply", Role.SERVICE, is_motion=True)
+@command("tune.apply", Role.SERVICE, is_motion=True, en="SET THESE GAINS", de="DIESE WERTE SETZEN")
 def tune_apply(
     order: Order,
     client: int,

@@ -11,13 +11,25 @@ from openacr.panel.commands.motion import indices
 from openacr.panel.commands.registry import command
 from openacr.panel.control.interlocks import Interlocks
 from openacr.panel.control.typed import Typed
+from openacr.panel.helps import Page
 from openacr.panel.roles import Role
 
 Line = Annotated[str, Meta(max_length=256)]
 Lines = Annotated[tuple[Line, ...], Meta(max_length=10_000)]
 
 
-@command("mdi.execute", is_motion=True)
+@command(
+    "mdi.execute",
+    is_motion=True,
+    en="EXECUTE",
+    de="AUSFÜHREN",
+    page=Page(
+        "mdi",
+        "MDI",
+        "Blocks run one by one; what they switch on stays on. While BUFFER is on, the text keeps"
+        " what was executed; it can be edited and stored as a program.",
+    ),
+)
 def execute(typed: Typed, *, line: Line = "", lines: Lines = (), kept: bool = False) -> None:
     """EXECUTE: run a block that was typed, or several one after the other.
 
@@ -44,7 +56,16 @@ def buffer(
     return {"lines": list(typed.text), "on": typed.is_buffer_on}
 
 
-@command("teach.work", Role.SETUP)
+@command(
+    "teach.work",
+    Role.SETUP,
+    page=Page(
+        "teach",
+        "TEACH",
+        "The present machine position becomes the zero of a work system, on the chosen axes; or"
+        " that of Z the length of a tool. Nothing moves.",
+    ),
+)
 def teach_work(
     machine: MillSession, interlocks: Interlocks, *, system: str, axes: str = ""
 ) -> None:

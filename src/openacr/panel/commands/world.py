@@ -34,7 +34,7 @@ def world_fault(
     world.fault(person.data()["name"], axis, kind, value)
 
 
-@command("world.mend", Role.SERVICE, is_motion=True)
+@command("world.mend", Role.SERVICE, is_motion=True, en="MEND", de="BEHEBEN")
 def world_mend(
     person: Person, world: WorldPane, *, axis: AxisNumber, kind: MachineFault | None = None
 ) -> None:

@@ -1,10 +1,18 @@
 """Who is at the screens, and which one operator has control of the machine."""
 
 from dataclasses import dataclass, replace
+from itertools import count
 from typing import Any
 
 from openacr.errors import UserError
 from openacr.panel.roles import Role
+
+_numbers = count(1)
+
+
+def next_client() -> int:
+    """The number of a client that connects: never one of another."""
+    return next(_numbers)
 
 
 @dataclass(frozen=True, slots=True)

@@ -149,7 +149,11 @@ def _encoded(result: object) -> bytes:
 
 def refused(error: Exception) -> Response:
     """The answer to a call that is refused."""
-    about = failure(error)
+    return refusal(failure(error))
+
+
+def refusal(about: dict[str, Any]) -> Response:
+    """The answer to a call that is refused, from what browsers get of an error."""
     status = STATUS.get(about["code"], 422)
     return JSONResponse({"error": about}, status_code=status)
 

@@ -8,10 +8,11 @@ from typing import Any
 import msgspec
 
 from openacr.panel.commands.registry import Command
-from openacr.panel.server.api import Endpoint
+from openacr.panel.server.api import JSON, Endpoint
 from openacr.panel.wire import described
 
 _NAMED = re.compile(r"\{(\w+)\}")
+COMMAND = "/commands/{name}"  # each command has a path of its own
 REFERENCE = "#/components/schemas/{name}"
 REFUSAL = {
     "type": "object",
@@ -37,6 +38,9 @@ def document(endpoints: Iterable[Endpoint], commands: Iterable[Command]) -> dict
     paths: dict[str, Any] = {}
     for row in rows:
         paths.setdefault(f"/api{row.path}", {})[row.method.lower()] = _operation(row, by_kind)
+    given = paths.pop(f"/api{COMMAND}", {})
+    for order in orders if given else ():
+        paths[f"/api{COMMAND}".format(name=order.name)] = {"post": _command(order, by_kind)}
     return {
         "openapi": "3.1.0",
         "info": {"title": "openacr panel", "version": version("openacr")},
@@ -48,6 +52,8 @@ def document(endpoints: Iterable[Endpoint], commands: Iterable[Command]) -> dict
         "x-commands": {
             order.name: {
                 "summary": order.summary,
+                **({"description": order.more} if order.more else {}),
+                **({"titles": order.titles} if order.titles else {}),
                 "role": order.role.word,
                 "needs_control": order.needs_control,
                 "args": by_kind[order.args],
@@ -58,33 +64,44 @@ def document(endpoints: Iterable[Endpoint], commands: Iterable[Command]) -> dict
     }
 
 
+def _command(order: Command, by_kind: dict[Any, Any]) -> dict[str, Any]:
+    """A command as a call of its own."""
+    body = {"required": True, "content": {JSON: {"schema": by_kind[order.args]}}}
+    return {**_described(order.name, order.text, order.role.word, JSON), "requestBody": body}
+
+
 def _operation(row: Endpoint, by_kind: dict[Any, Any]) -> dict[str, Any]:
-    first, _, rest = row.text.partition("\n")
+    role = None if row.is_open else row.role.word
+    operation = _described(row.handler.__name__, row.text, role, row.gives)
+    operation["parameters"] = [*_places(row), *_queries(row)]
+    if row.body is not None:
+        operation["requestBody"] = {
+            "required": True,
+            "content": {JSON: {"schema": by_kind[row.body]}},
+        }
+    elif row.takes:
+        operation["requestBody"] = {"required": True, "content": {row.takes: {}}}
+    return operation
+
+
+def _described(name: str, text: str, role: str | None, gives: str) -> dict[str, Any]:
+    """What calls have in common; without a role it is open."""
+    first, _, rest = text.partition("\n")
     operation: dict[str, Any] = {
         "summary": first,
-        "operationId": row.handler.__name__,
-        "x-role": None if row.is_open else row.role.word,
-        "parameters": [*_places(row), *_queries(row)],
+        "operationId": name,
+        "x-role": role,
         "responses": {
-            "200": {"description": "done", "content": {row.gives: {}}},
+            "200": {"description": "done", "content": {gives: {}}},
             "default": {
                 "description": "refused",
-                "content": {
-                    "application/json": {"schema": {"$ref": REFERENCE.format(name="Refusal")}}
-                },
+                "content": {JSON: {"schema": {"$ref": REFERENCE.format(name="Refusal")}}},
             },
         },
     }
     if rest.strip():
         operation["description"] = rest.strip()
-    if row.body is not None:
-        operation["requestBody"] = {
-            "required": True,
-            "content": {"application/json": {"schema": by_kind[row.body]}},
-        }
-    elif row.takes:
-        operation["requestBody"] = {"required": True, "content": {row.takes: {}}}
-    if not row.is_open:
+    if role is not None:
         operation["security"] = [{"session": []}]
     return operation
 

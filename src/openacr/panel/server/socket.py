@@ -1,7 +1,6 @@
 """The WebSocket: commands and keep-alives in, answers, events and frames out."""
 
 import asyncio
-import itertools
 import json
 import logging
 from contextlib import suppress
@@ -10,7 +9,7 @@ from typing import Any
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from openacr.panel.control.orders import Order, PanelError, failure
-from openacr.panel.control.people import Person
+from openacr.panel.control.people import Person, next_client
 from openacr.panel.server.panel import Panel
 from openacr.panel.wire.described import LEAST_HZ, MOST_HZ
 from openacr.panel.wire.frames import Topic
@@ -23,7 +22,6 @@ WATCHED = (Topic.FLAGS, Topic.WATCH, Topic.WORLD)
 WORDS = ("programs",)  # topics whose news are events
 WATCHING = {"sub": "watch.begin", "unsub": "watch.end"}
 TOPICS = {topic.name.lower(): topic for topic in Topic}
-_numbers = itertools.count(1)
 
 
 class Connection:
@@ -189,7 +187,7 @@ async def serve_socket(panel: Panel, socket: WebSocket) -> None:
         return
     await socket.accept()
     address = socket.client.host if socket.client else ""
-    person = Person(next(_numbers), role, address)
+    person = Person(next_client(), role, address)
     connection = Connection(panel, socket, person, token)
     panel.connections.add(connection)
     try:

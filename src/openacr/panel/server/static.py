@@ -2,6 +2,7 @@
 
 import gzip
 import hashlib
+import json
 import re
 from collections.abc import Callable
 from functools import lru_cache
@@ -10,10 +11,13 @@ from pathlib import Path
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
+from openacr.panel.commands.all import COMMANDS
+from openacr.panel.commands.registry import LANGUAGES
 from openacr.panel.server.modules import with_modules
 
 WEB = Path(__file__).parents[1] / "web"
 PART = re.compile(r"^ *<!-- include ([\w/.]+) -->\n", re.MULTILINE)
+TITLES = "    <!-- titles -->\n"
 PAGES = {"": "index.html", "bench": "bench.html", "login": "login.html"}
 TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -60,7 +64,7 @@ def _page(text: str, root: Path) -> str:
     def read(name: str) -> str:
         return _body(root / name).decode()
 
-    return with_modules(with_parts(text, read), read)
+    return with_modules(with_titles(with_parts(text, read)), read)
 
 
 def _place(root: Path, name: str) -> Path | None:
@@ -87,6 +91,17 @@ def _read(place: Path, _changed_ns: int, _size: int) -> bytes:
 @lru_cache(maxsize=512)
 def _packed(body: bytes) -> bytes:
     return gzip.compress(body, mtime=0)
+
+
+def with_titles(page: str) -> str:
+    """A page with the titles of the commands by language, for `core/texts.js`."""
+    titles = {
+        language: {row.name: row.titles[language] for row in COMMANDS.values() if row.titles}
+        for language in LANGUAGES
+    }
+    text = json.dumps(titles).replace("<", "\\u003c")
+    element = f'    <script type="application/json" id="titles">{text}</script>\n'
+    return page.replace(TITLES, element)
 
 
 def with_parts(page: str, read: Callable[[str], str]) -> str:

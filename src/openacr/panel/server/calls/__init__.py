@@ -3,6 +3,7 @@
 from openacr.panel.server.calls import (
     ballscrew,
     card,
+    commands,
     configure,
     forms,
     help,
@@ -25,6 +26,7 @@ from openacr.panel.server.calls import (
 __all__ = [
     "ballscrew",
     "card",
+    "commands",
     "configure",
     "forms",
     "help",

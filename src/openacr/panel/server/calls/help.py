@@ -5,28 +5,36 @@ from starlette.concurrency import run_in_threadpool
 from openacr.errors import MapError
 from openacr.panel.commands.all import COMMANDS
 from openacr.panel.control.orders import PanelError
-from openacr.panel.helps import HELPS
+from openacr.panel.helps import HELPS, Page
 from openacr.panel.server.api import ENDPOINTS, Call, endpoint
 from openacr.panel.server.openapi import document
 from openacr.sysvar.lookup import known
 from openacr.sysvar.values import accepted
 
 
+def _pages() -> dict[str, Page]:
+    """All pages by their keys: those of screens, and those of commands."""
+    of_commands = (row.page for row in COMMANDS.values() if row.page is not None)
+    return {page.key: page for page in (*HELPS, *of_commands)}
+
+
 @endpoint("GET", "/help")
 async def help_keys(call: Call) -> object:
     """The keys of all help texts, with their titles."""
-    return {"keys": {key: title for key, (title, _text) in HELPS.items()}}
+    pages = {page.key: page.title for page in _pages().values()}
+    named = {row.name: row.titles["en"] for row in COMMANDS.values() if row.titles}
+    return {"keys": pages | named}
 
 
 @endpoint("GET", "/help/{key}")
 async def help_text(call: Call) -> object:
     """The help text of a menu, a command, or a cell by its number."""
     key = call.request.path_params["key"]
-    if key in HELPS:
-        title, text = HELPS[key]
-        return {"title": title, "text": text}
+    if (page := _pages().get(key)) is not None:
+        return {"title": page.title, "text": page.text}
     if key in COMMANDS:
-        return {"title": key, "text": (COMMANDS[key].do.__doc__ or "").strip()}
+        row = COMMANDS[key]
+        return {"title": row.titles.get("en", key), "text": row.text}
     if key.lstrip("Pp").isdecimal():
         store = call.panel.installation.store
         try:

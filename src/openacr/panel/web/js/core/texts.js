@@ -1,18 +1,21 @@
 // One catalogue of texts per language; a key that a language lacks is shown in English.
 import en from "../catalog/en.js";
 
-/** @typedef {keyof typeof en | keyof typeof import("../catalog/bench/en.js").default} TextKey */
+/** @typedef {keyof typeof en | keyof typeof import("../catalog/bench/en.js").default | `${string}.${string}`} TextKey the last: names of commands */
 
 export const LANGUAGES = Object.freeze({ en: "English", de: "Deutsch" });
+/** Titles of the commands by language, which the page brings. @type {Record<string, Record<string, string>>} */
+const titles = JSON.parse(document.getElementById("titles")?.textContent ?? "{}");
 /** @type {Record<string, string>} */
-let chosen = en;
+const english = { ...en, ...titles.en };
+let chosen = english;
 
 /**
  * Load the catalogue of a language.
  * @param {string} language
  */
 export async function useLanguage(language) {
-  if (language === "de") chosen = (await import("../catalog/de.js")).default;
+  if (language === "de") chosen = { ...(await import("../catalog/de.js")).default, ...titles.de };
   document.documentElement.lang = language;
 }
 
@@ -31,7 +34,7 @@ export function addTexts(texts) {
  * @param {Record<string, string | number>} [values]
  */
 export function t(key, values = {}) {
-  const text = chosen[key] ?? /** @type {Record<string, string>} */ (en)[key] ?? key;
+  const text = chosen[key] ?? english[key] ?? key;
   return text.replace(/\{(\w+)(?:\|([^|}]*)\|([^|}]*))?\}/g, (_whole, name, one, more) => {
     const value = String(values[name] ?? "");
     return one === undefined ? value : value === "1" ? one : more;
@@ -44,5 +47,5 @@ export function t(key, values = {}) {
  * @param {string} fallback
  */
 export function textOr(key, fallback) {
-  return chosen[key] ?? /** @type {Record<string, string>} */ (en)[key] ?? fallback;
+  return chosen[key] ?? english[key] ?? fallback;
 }

@@ -24,7 +24,7 @@ const BENCH = {
 const WORLD = {
   "pane.world": "World", "world.label": "Machine", "world.controls": "Inputs, faults and devices", "world.inputs": "Inputs", "world.faults": "Faults", "world.devices": "Devices", "world.others": "{count} more {count|input|inputs}, switched by hand", "world.by.hand": "switched by hand",
   "world.input.on": "ON", "world.input.off": "OFF", "world.input.released": "RELEASE", "world.input.on.of": "Input {input} on", "world.input.off.of": "Input {input} off", "world.input.released.of": "Release input {input}",
-  "world.forced.on": "forced on", "world.forced.off": "forced off", "world.fault.axis": "Axis of the fault", "world.fault.kind": "Kind of the fault", "world.fault.cause": "CAUSE", "world.mend": "MEND", "world.mend.of": "Mend {name}",
+  "world.forced.on": "forced on", "world.forced.off": "forced off", "world.fault.axis": "Axis of the fault", "world.fault.kind": "Kind of the fault", "world.fault.cause": "CAUSE", "world.mend.of": "Mend {name}",
   "world.fault.encoder-lost": "encoder line cut", "world.fault.encoder-noise": "encoder signals disturbed", "world.fault.drive": "drive fault", "world.fault.motor-cable": "motor cable cut", "world.fault.jam": "jammed",
   "world.fault.obstacle": "obstacle", "world.fault.friction": "more friction", "world.fault.supply": "supply too low", "world.fault.at": "place", "world.fault.torque_nm": "torque", "world.fault.volts": "voltage",
 };
@@ -53,14 +53,14 @@ const TEXTS = {
 
 // Tuning of an axis.
 const TUNING = {
-  "pane.tune": "Tuning", "tune.measure": "MEASURE", "tune.apply": "SET THESE GAINS", "tune.amplitude": "Amplitude, pulses", "tune.lowest": "Lowest frequency, Hz", "tune.highest": "Highest frequency, Hz",
+  "pane.tune": "Tuning", "tune.amplitude": "Amplitude, pulses", "tune.lowest": "Lowest frequency, Hz", "tune.highest": "Highest frequency, Hz",
   "tune.time": "Time, s (empty: what fits)", "tune.swept": "Measured for {time} s", "tune.worse": "Worse than with the present gains: {name} {after} instead of {before}", "tune.worse.overshoot_percent": "overshoot of a step, %", "tune.worse.rise_s": "rise of a step, ms", "tune.worse.settling_s": "settling of a step, ms", "tune.margin": "Phase margin, degrees", "tune.wanted": "Crossover, Hz (empty: the highest)", "tune.integral": "with IGAIN", "tune.measure.text": "Axis {axis} moves now: by {amplitude} pulses to both sides, for {time} s at most, quicker and quicker. Is it free to move? STOP ends it.", "tune.apply.text": "Axis {axis} gets {gains}. It then makes a step; predicted overshoot: {overshoot} %. Bad gains are taken back by the card.",
   "tune.moving": "Axis {axis} is measured. STOP ends it.", "tune.reading": "{done} of {count} {count|sample|samples}", "tune.done": "Axis {axis} is measured; nothing has been set", "tune.nothing": "Nothing is proposed: {why}", "tune.applied": "Axis {axis} has the proposed gains", "tune.facts": "Motor: {accel} pulses/s\u00b2 per V, rate {rate} /s, friction {friction} V, offset {offset} V, delay {delay} servo periods",
   "tune.sure": "{error} % of the response is unexplained, coherence {coherence}", "tune.unsure": "Not sure: {error} % of the response is unexplained, coherence {coherence}", "tune.limited": "Faster is barred: {why}", "tune.crossover": "Crossover, Hz", "tune.gain.margin": "Gain margin, dB", "tune.bandwidth": "Bandwidth, Hz",
   "tune.resonance": "Resonance: {hz} Hz \u00b1 {spread}, antiresonance {anti} Hz, damping {damping}, load {ratio} of the motor", "tune.rigid": "Resonance: {why}", "tune.notch": "NOTCH, Hz", "tune.width": "NOTCH width, Hz", "tune.lopass": "LOPASS, Hz", "tune.swing": "Load swings after a step, pulses",
   "tune.overshoot": "Overshoot of a step, %", "tune.present": "present", "tune.proposed": "proposed", "tune.setpoint": "setpoint", "tune.measured": "measured", "tune.modelled": "modelled",
   "tune.predicted": "predicted", "tune.motor": "motor, measured", "tune.model": "motor, model", "tune.record": "Record, pulses", "tune.steps": "Predicted steps, pulses", "tune.magnitude": "Magnitude, dB",
-  "tune.phase": "Phase, degrees", "tune.coherence": "Coherence", "tune.step": "STEP", "tune.step.text": "Axis {axis} moves now: by {amplitude} pulses and back, at once. Is it free to move? STOP ends it.", "tune.former": "before",
+  "tune.phase": "Phase, degrees", "tune.coherence": "Coherence", "tune.step.text": "Axis {axis} moves now: by {amplitude} pulses and back, at once. Is it free to move? STOP ends it.", "tune.former": "before",
   "tune.stepped": "Axis {axis}: overshoot {overshoot} %, rise {rise} ms, settling {settling} ms", "tune.trial": "Step, pulses", "tune.changes": "Changes", "tune.undo": "UNDO", "tune.redo": "REDO",
   "tune.start": "AS AT THE START", "tune.started": "The gains are as they were at the start", "tune.slider": "{gain}, slider", "tune.zero": "0: type a value",
 };
