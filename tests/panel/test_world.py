@@ -47,7 +47,7 @@ class Reports:
 
     def __init__(self, hand: HandStation) -> None:
         self.states: list[dict[str, Any]] = []
-        hand.station.world.report = lambda _client, state: self.states.append(state)
+        hand.station.world.watchers.report = lambda _client, state: self.states.append(state)
 
     @property
     def last(self) -> dict[str, Any]:

@@ -39,10 +39,10 @@ def begin(
 ) -> dict[str, object]:
     """Watch parameters, flag words, the world (frames) or the programs (events `programs`)."""
     if topic == "programs":
-        on_card.programs.watch(client, min(hz, MOST_STATES_HZ))
+        on_card.programs.watchers.watch(client, min(hz, MOST_STATES_HZ))
         return {"topic": topic, "hz": min(hz, MOST_STATES_HZ)}
     if topic == "world":
-        world.watch(client, hz)
+        world.watchers.watch(client, hz)
         return {"topic": topic, "hz": hz}
     if topic == "flags":
         chosen = [*words, *(INPUTS if inputs else ())]
@@ -68,9 +68,9 @@ def end(
 ) -> None:
     """Watch a topic no more."""
     if topic == "programs":
-        on_card.programs.forget(client)
+        on_card.programs.watchers.forget(client)
         return
     if topic == "world":
-        world.forget(client)
+        world.watchers.forget(client)
         return
     watches.end(Wish(client, topic))

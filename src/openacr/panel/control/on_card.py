@@ -11,7 +11,7 @@ from openacr.client.requests import Follow
 from openacr.client.talk import Talk
 from openacr.errors import UserError
 from openacr.panel.control.aside import Aside
-from openacr.panel.control.card_programs import CardPrograms
+from openacr.panel.control.card_programs import CardPrograms, read_states
 from openacr.panel.control.installation import Installation
 from openacr.panel.control.place import Rows
 
@@ -110,11 +110,11 @@ class OnCard:
 
     def look(self, read: Rows, now_s: float) -> None:
         """Read the states for those who watch them."""
-        self.programs.look(read, now_s)
+        self.programs.watchers.look(lambda: read_states(read), now_s)
 
     def forget(self, client: int) -> None:
         """A browser has gone."""
-        self.programs.forget(client)
+        self.programs.watchers.forget(client)
         self.listening.forget(client)
 
     def end(self) -> None:

@@ -18,7 +18,6 @@ class End(Enum):
 
     RELEASED = "released"
     SILENCE = "silence"
-    STALE = "stale"
     STOP = "stop"
     ALARM = "alarm"
     MODE = "mode"

@@ -357,7 +357,7 @@ class Station:
         self.hand_motion.presses.forget(client)
         self.watches.forget(client)
         self.on_card.forget(client)
-        self.world.forget(client)
+        self.world.watchers.forget(client)
         guarded(lambda: self.tuning.leave(client, session))
         self.terminals.leave(client)
         guarded(lambda: self.buttons.drop(session, client))

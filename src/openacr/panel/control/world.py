@@ -4,8 +4,7 @@ A card in this process shows and changes its world; of any other card only the p
 """
 
 import logging
-from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -14,24 +13,17 @@ from msgspec import structs
 from openacr.controller import Controller
 from openacr.errors import UserError
 from openacr.panel.control.installation import Installation
+from openacr.panel.control.watchers import Watchers
 from openacr.plant.links import Link, Subject, links_of
 from openacr.plant.schema import Switch
 from openacr.plant.world_view import Source, WorldView
 
 log = logging.getLogger(__name__)
 Data = dict[str, Any]
-Report = Callable[[int, Data], None]  # client, state
 OUT_OF_REACH = (
     "the world of this card is out of reach: inputs, faults and devices can be changed"
     " for a card in the process of the panel only"
 )
-
-
-@dataclass(slots=True)
-class _Watcher:
-    every_s: float
-    due_s: float = 0.0
-    reported: Data = field(default_factory=dict)
 
 
 class WorldPane:
@@ -39,8 +31,7 @@ class WorldPane:
 
     def __init__(self, installation: Installation) -> None:
         self._installation = installation
-        self._watchers: dict[int, _Watcher] = {}
-        self.report: Report = lambda _client, _state: None
+        self.watchers: Watchers[Data] = Watchers(lambda _client, _state: None)
 
     @property
     def card(self) -> Controller:
@@ -75,25 +66,10 @@ class WorldPane:
 
     # --- watching ---------------------------------------------------------------------
 
-    def watch(self, client: int, hz: float) -> None:
-        """Tell a client the state of the world, at once and when it has changed."""
-        self._watchers[client] = _Watcher(1.0 / hz)
-
-    def forget(self, client: int) -> None:
-        """Tell a client no more; without any the world is not read."""
-        self._watchers.pop(client, None)
-
     def look(self, now_s: float) -> None:
-        """Read the world for those whose time has come, and tell what has changed."""
-        due = {c: each for c, each in self._watchers.items() if now_s >= each.due_s - 0.005}
-        if not due or self._installation.controller is None:
-            return
-        state = self.state()
-        for client, each in due.items():
-            each.due_s = max(each.due_s + each.every_s, now_s)
-            if each.reported != state:
-                each.reported = state
-                self.report(client, state)
+        """Tell those who watch what has changed in the world of a card in this process."""
+        if self._installation.controller is not None:
+            self.watchers.look(self.state, now_s)
 
     def state(self) -> Data:
         """The state of the world at this moment."""

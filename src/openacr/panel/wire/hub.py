@@ -46,7 +46,7 @@ class Hub:
         station.on_snapshot = self._looked
         station.watches.report = self._report
         station.on_samples = self._sampled
-        station.world.report = self._report_world
+        station.world.watchers.report = self._report_world
 
     def attach(self) -> None:
         """Take over the running loop: from now on events reach the browsers."""
