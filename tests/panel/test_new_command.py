@@ -1,5 +1,6 @@
 """A command of the panel is one function, as in the piece of docs/adding-a-panel-command.md."""
 
+import html
 import inspect
 import json
 import re
@@ -16,7 +17,7 @@ from openacr.panel.commands.registry import NEEDS, command
 
 TEXT = (Path(__file__).parents[2] / "docs/adding-a-panel-command.md").read_text(encoding="utf-8")
 PIECE = re.findall(r"^```python\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)[0]
-TITLES = re.compile(r'<script type="application/json" id="titles">(.*)</script>')
+TITLES = re.compile(r'<meta name="titles" content="([^"]*)">')
 
 
 @pytest.fixture
@@ -74,7 +75,7 @@ def test_the_same_function_makes_its_call_its_description_its_help_and_its_texts
     assert page["text"] == "The spindle turns for some time, so that it is warm."
     found = TITLES.search(web.get("/").text)
     assert found is not None
-    titles = json.loads(found[1])
+    titles = json.loads(html.unescape(found[1]))
     assert {language: each["spindle.warm"] for language, each in titles.items()} == {
         "en": "WARM UP", "de": "WARMLAUFEN",
     }  # fmt: skip

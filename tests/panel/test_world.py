@@ -272,7 +272,7 @@ def test_of_a_card_elsewhere_only_the_axes_are_drawn_and_nothing_can_be_changed(
     ]  # fmt: skip
     assert (about["inputs"], about["faults"], about["devices"]) == ([], [], [])
     assert about["why_not"] == OUT_OF_REACH
-    pane.watch(1, 25.0)
+    pane.watchers.watch(1, 25.0)
     pane.look(0.0)  # nothing to report: the positions of the status are drawn
     for act in (
         lambda: pane.set_input("me", 0, "on"), lambda: pane.fault("me", 0, "jam", 0.0),

@@ -2,6 +2,7 @@
 
 import gzip
 import hashlib
+import html
 import json
 import re
 from collections.abc import Callable
@@ -99,9 +100,8 @@ def with_titles(page: str) -> str:
         language: {row.name: row.titles[language] for row in COMMANDS.values() if row.titles}
         for language in LANGUAGES
     }
-    text = json.dumps(titles).replace("<", "\\u003c")
-    element = f'    <script type="application/json" id="titles">{text}</script>\n'
-    return page.replace(TITLES, element)
+    text = html.escape(json.dumps(titles))
+    return page.replace(TITLES, f'    <meta name="titles" content="{text}">\n')
 
 
 def with_parts(page: str, read: Callable[[str], str]) -> str:

@@ -5,7 +5,7 @@ import en from "../catalog/en.js";
 
 export const LANGUAGES = Object.freeze({ en: "English", de: "Deutsch" });
 /** Titles of the commands by language, which the page brings. @type {Record<string, Record<string, string>>} */
-const titles = JSON.parse(document.getElementById("titles")?.textContent ?? "{}");
+const titles = JSON.parse(document.querySelector("meta[name=titles]")?.getAttribute("content") ?? "{}");
 /** @type {Record<string, string>} */
 const english = { ...en, ...titles.en };
 let chosen = english;
