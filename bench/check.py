@@ -97,7 +97,7 @@ def main() -> None:
 def _store(setup: SourceFile, text: str) -> None:
     card = Controller()
     session = card.system.sessions[CONSOLE]
-    loader = Loader(session, lambda: False)
+    loader = Loader(card.system, session, lambda: False)
     stored = SourceFile(Path("prog0.8k"), text.encode(), Place.PROGRAM)
     if errors := loader.load(Project(Path(), setup)):
         raise errors[0]

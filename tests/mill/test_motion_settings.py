@@ -63,9 +63,10 @@ def test_a_press_goes_one_increment(preset: int, pulses: int) -> None:
     assert shop.pulses()[0] == pulses
     fast |= {f"P{JOG + 1000}": 600.0, f"P{JOG + 1003}": 150.0}
     shop = Shop(**fast, **{f"P{JOG + 5 + preset}": 0.25, f"P{JOG + 1005 + preset}": 0.5})
-    for axis in (0, 1):
-        shop.runner.jog(lambda jog, axis=axis: jog.increment(axis, 1, preset))
-        shop.pass_time(0.6)
+    shop.runner.jog(lambda jog: jog.increment(0, 1, preset))
+    shop.pass_time(0.6)
+    shop.runner.jog(lambda jog: jog.increment(1, 1, preset))
+    shop.pass_time(0.6)
     assert shop.pulses()[:2] == (2500, 5000)
 
 

@@ -131,7 +131,7 @@ def test_an_index_profile_that_is_stopped_ends_and_leaves_no_jerk(hand: HandStat
     hand.do("stop.hold")
     hand.until(lambda: not hand.is_busy)
     assert 0.0 < hand.places()[0] < 5.0
-    assert hand.station.machine.card.read(axes.jog_jerk_setting[0]) == 0
+    assert hand.station.link.machine.card.read(axes.jog_jerk_setting[0]) == 0
 
 
 # --- inputs and outputs ---------------------------------------------------------------

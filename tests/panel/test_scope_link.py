@@ -12,7 +12,7 @@ from tests.panel.remote import Remote
 from tests.proxy import Proxy
 
 from openacr.client import Card
-from openacr.panel.control import live
+from openacr.panel.control import link
 from openacr.panel.control.scope import Samples
 from openacr.panel.machine import FOLDER, opened
 from openacr.sysvar.tabs import CONTROL
@@ -110,7 +110,7 @@ def test_records_go_on_after_a_link_that_was_cut_shortly(line: Line, reached: Re
 def test_records_end_with_a_session(
     line: Line, reached: Reach, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(live, "RETRY_S", 0.1)
+    monkeypatch.setattr(link, "RETRY_S", 0.1)
     remote, records = reached(line.proxy.address, 1.5)
     scope = remote.station.scope
 

@@ -128,7 +128,7 @@ class System:
             session.reset()
         self.listeners = Listeners(self.sessions)
         self.devices = Devices(card.memory, self.sessions, self.listeners)
-        self.setup = Setup()
+        self.setup: Setup = Setup()
         self.read_plc: PlcReader = _no_plc
 
     def scope(self, level: Level, program: int | None, *, stored: bool) -> Scope:

@@ -14,12 +14,10 @@ from openacr.debugger.calls import is_running
 from openacr.debugger.session import DebugSession
 from openacr.engine.watches import Watch, Watched
 from openacr.errors import UserError
-from openacr.map import numbers as n
 from openacr.map.rows import masters
 from openacr.map.words import mf1
 from openacr.mill.card.watchdog import FEED_HOLD_REQUEST, FLAGS_PER_MASTER
 from openacr.mill.config.settings import Settings
-from openacr.motion.row_index import master_word
 from openacr.panel.control.history import AWAY, STILL, History, moment_data, timeline_data
 from openacr.panel.control.interlocks import Interlocks
 from openacr.panel.control.link import Link
@@ -300,7 +298,7 @@ def step_move(history: History, master: int) -> None:
     history.card.watch(
         [
             Watch(Watched.WORD, moves),
-            Watch(Watched.WORD, master_word(master), n.MF1_IN_MOTION),
+            Watch(Watched.WORD, mf1.word[master], mf1.IN_MOTION),
         ]
     )
     try:
