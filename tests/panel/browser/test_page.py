@@ -59,6 +59,24 @@ def test_the_pad_enters_by_keys_and_keeps_a_wrong_text_open(page: Page) -> None:
     assert page.evaluate("window.chosen") == 6
 
 
+def speak(page: Page, language: str) -> None:
+    page.evaluate("(it) => localStorage.setItem('openacr.panel.language', it)", language)
+    page.reload()
+    page.wait_for_function(READY)
+
+
+def test_help_speaks_the_language_of_the_screens(page: Page) -> None:
+    for language, title, said in (
+        ("de", "REFERENZ", "solche mit Priorität 0 nie"), ("en", "HOME", "priority 0 are never"),
+    ):  # fmt: skip
+        speak(page, language)
+        to_main_menu(page)
+        page.keyboard.press("F9")
+        text = page.locator("#screen .help-text")
+        expect(text.locator("h2")).to_have_text(title)
+        expect(text).to_contain_text(said)
+
+
 # --- the tour -------------------------------------------------------------------------
 
 STEPS = """() => import('/js/tour/steps.js').then(({ STEPS }) => STEPS.map(([place]) => place))"""
@@ -71,12 +89,6 @@ COVERED = """() => {
   const found = document.elementFromPoint(stop.x + stop.width / 2, stop.y + stop.height / 2);
   return !found.closest('.stop-key') || box.top < 0 || box.bottom > stop.top;
 }"""
-
-
-def speak(page: Page, language: str) -> None:
-    page.evaluate("(it) => localStorage.setItem('openacr.panel.language', it)", language)
-    page.reload()
-    page.wait_for_function(READY)
 
 
 def begin(page: Page, title: str = "TOUR") -> None:

@@ -84,6 +84,12 @@ def read(station: Station) -> dict[str, object]:
         "MEMORY CONFIG",
         "The bytes of the card for each program and PLC program. A change loses what is stored in"
         " it, so it is refused while anything runs, and asks first.",
+        de=(
+            "SPEICHER",
+            "Die Bytes der Karte für jedes Programm und SPS-Programm. Eine Änderung"
+            " verliert, was darin gespeichert ist; deshalb wird sie abgelehnt, solange"
+            " etwas läuft, und fragt vorher.",
+        ),
     ),
 )
 def divide(

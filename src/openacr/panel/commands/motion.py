@@ -45,6 +45,13 @@ def indices(machine: MillSession, names: str) -> list[int]:
         "An axis moves while its key is held and stops when it is released, when the connection"
         " falls silent for 200 ms, and at every stop, alarm or change of screen. SLOW is Jog"
         " Feedrate, FAST is Jog Rapid. An increment is made whole at one press.",
+        de=(
+            "TIPPEN",
+            "Eine Achse bewegt sich, solange ihre Taste gedrückt ist; sie hält an beim"
+            " Loslassen, wenn die Verbindung 200 ms schweigt, und bei jedem Halt, Alarm"
+            " oder Wechsel des Bildschirms. LANGSAM ist Jog Feedrate, SCHNELL ist Jog"
+            " Rapid. Ein Schrittmaß wird mit einem Druck ganz gefahren.",
+        ),
     ),
 )
 def press(
@@ -114,7 +121,10 @@ def stop_jogs(hand_motion: HandMotion) -> None:
     "handwheel",
     is_motion=True,
     page=Page(
-        "handwheel", "HANDWHEEL", "The wheel of each chosen axis moves it, by its ratio per click."
+        "handwheel",
+        "HANDWHEEL",
+        "The wheel of each chosen axis moves it, by its ratio per click.",
+        de=("HANDRAD", "Das Rad jeder gewählten Achse bewegt sie, um ihr Verhältnis je Raste."),
     ),
 )
 def handwheel(link: Link, hand_motion: HandMotion, *, axes: str = "") -> dict[str, str]:
@@ -150,6 +160,15 @@ def mode(client: int, people: People, hand_motion: HandMotion, *, mode: Mode) ->
         " it, then to the marker of its encoder; there its position becomes Home Preset. Axes of"
         " priority 1 go first, those of priority 0 are never homed.\n\nSTOP ends homing with"
         " alarm 34: the axes that were under way are not homed.",
+        de=(
+            "REFERENZ",
+            "Alle Achsen oder einige wählen, dann REFERENZFAHRT STARTEN. Jede Achse"
+            " fährt schnell zu ihrem Schalter, langsam wieder herunter, dann zur"
+            " Nullmarke ihres Gebers; dort wird ihre Position Home Preset. Achsen mit"
+            " Priorität 1 fahren zuerst, solche mit Priorität 0 nie.\n\nSTOP beendet die"
+            " Referenzfahrt mit Alarm 34: Achsen, die unterwegs waren, sind nicht"
+            " referenziert.",
+        ),
     ),
 )
 def home(machine: MillSession, *, axes: str = "") -> dict[str, list[str]]:
@@ -176,6 +195,12 @@ def _position(machine: MillSession, point: tuple[float, ...]) -> Position:
         "SET ZERO",
         "The chosen axes read 0 where they are, as by G92. The shift counts in every work system"
         " and is kept until CLR ZERO. Nothing moves.",
+        de=(
+            "NULL SETZEN",
+            "Die gewählten Achsen zeigen dort 0, wo sie sind, wie mit G92. Die"
+            " Verschiebung gilt in jedem Werkstücksystem und bleibt bis NULL LÖSCHEN."
+            " Nichts bewegt sich.",
+        ),
     ),
 )
 def zero_set(machine: MillSession, *, axes: str = "") -> Position:
@@ -201,6 +226,11 @@ def zero_preset(
         "CLR ZERO",
         "No axis has a floating zero any more: positions count from the zero of the work system"
         " again. Nothing moves.",
+        de=(
+            "NULL LÖSCHEN",
+            "Keine Achse hat mehr einen verschobenen Nullpunkt: Positionen zählen wieder"
+            " vom Nullpunkt des Werkstücksystems. Nichts bewegt sich.",
+        ),
     ),
 )
 def zero_clear(machine: MillSession) -> Position:
@@ -218,7 +248,13 @@ def zero_blocks(machine: MillSession, *, axes: str = "") -> dict[str, list[str]]
     "zero.goto",
     is_motion=True,
     page=Page(
-        "gotozero", "GOTO ZERO", "Rapids to the floating zero; Z first if that is up, else last."
+        "gotozero",
+        "GOTO ZERO",
+        "Rapids to the floating zero; Z first if that is up, else last.",
+        de=(
+            "ZUM NULLPUNKT",
+            "Eilgang zum verschobenen Nullpunkt; Z zuerst, wenn das aufwärts ist, sonst zuletzt.",
+        ),
     ),
 )
 def zero_goto(machine: MillSession, typed: Typed, *, axes: str = "") -> None:
@@ -259,6 +295,13 @@ def set_up(station: Station, session: MillSession) -> None:
         "The program is held. RESUME goes on where the path was left; axes that were jogged away"
         " return first. ABORT ends the program. The path can be traced back and forward.\n\nA stop"
         " by software is no emergency stop.",
+        de=(
+            "STOP",
+            "Das Programm ist angehalten. WEITER geht dort weiter, wo die Bahn verlassen"
+            " wurde; Achsen, die weggetippt wurden, fahren zuerst zurück. ABBRUCH beendet"
+            " das Programm. Die Bahn kann rückwärts und vorwärts verfolgt werden.\n\nEin"
+            " Halt durch Software ist kein Not-Halt.",
+        ),
     ),
 )
 def hold(station: Station) -> dict[str, list[str]]:

@@ -29,6 +29,11 @@ Name = Annotated[str, Meta(max_length=40, pattern=r"^[^\x00-\x1f]*$")]
         "Control",
         "One operator at a time has control of the machine. Others see everything and may stop it."
         " Control can be handed over or taken.",
+        de=(
+            "Bedienung",
+            "Zu jeder Zeit bedient einer die Maschine. Andere sehen alles und dürfen sie"
+            " anhalten. Die Bedienung kann übergeben oder übernommen werden.",
+        ),
     ),
 )
 def take(
@@ -70,6 +75,12 @@ def name(client: int, people: People, *, name: Name) -> None:
         "LEAVE leaves the screens and gives up control; END, at the computer of the controller,"
         " ends the controller program. What moves is brought to rest first, unless another operator"
         " has control.",
+        de=(
+            "ENDE",
+            "VERLASSEN verlässt die Bildschirme und gibt die Bedienung ab; BEENDEN, am"
+            " Computer der Steuerung, beendet das Steuerungsprogramm. Was sich bewegt,"
+            " wird vorher angehalten, außer ein anderer bedient.",
+        ),
     ),
 )
 def end(person: Person, link: Link, interlocks: Interlocks, on_end: Callable[[], None]) -> None:

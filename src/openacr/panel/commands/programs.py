@@ -115,6 +115,27 @@ def _require_halted(station: Station, level: Level) -> None:
         " gives them back.\n\nThe tab PLC draws"
         " a PLC as a ladder. Closed contacts and outputs that are set are filled; wires that carry"
         " power are thick. The flags are read ten times a second: a pulse of one scan is not seen.",
+        de=(
+            "PROGRAMM/SPS",
+            "Die Programme und SPS-Programme der Karte: was jedes tut, und sein Text mit"
+            " der Zeile, die ausgeführt wird. START startet eines, HALT beendet es und"
+            " seine Bewegung, PAUSE hält es an, WEITER geht weiter. Mit EINZEL wartet ein"
+            " Programm vor jeder Zeile auf SCHRITT. MITHÖREN zeigt, was es"
+            " ausgibt.\n\nÄNDERN ändert den Text: nummerierte Zeilen oder den Text zwischen"
+            " PROGRAM und ENDP; SENDEN speichert ihn auf der Karte und vergleicht die"
+            " Auflistung. Was die Karte ablehnt, lässt den früheren Text bestehen. ESAVE"
+            " behält Programme ohne Strom. LÖSCHEN löscht die Zeilen. Programme, die"
+            " diese Maschine braucht, eines, das läuft, und alle, solange sich die"
+            " Maschine bewegt, können nicht geändert werden.\n\nSTOP hält Programme der"
+            " Karte an, auch solche, die kein Bildschirm gestartet hat. Sie kennen keine"
+            " Grenzen und Overrides dieser Maschine: Nur Servicepersonal sollte eines"
+            " starten. PROG0 und seine Achsen werden AcroMill genommen, wenn es hier"
+            " gestartet oder geändert wird: EINRICHTEN oben gibt sie zurück.\n\nDer Reiter"
+            " SPS zeichnet ein SPS-Programm als Kontaktplan. Geschlossene Kontakte und"
+            " gesetzte Ausgänge sind gefüllt; Leitungen mit Strom sind dick. Die Merker"
+            " werden zehnmal je Sekunde gelesen: Einen Impuls von einem Umlauf sieht man"
+            " nicht.",
+        ),
     ),
 )
 def run(station: Station, *, program: Program | None = None, plc: Plc | None = None) -> None:

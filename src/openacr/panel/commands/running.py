@@ -59,6 +59,16 @@ DialectName = Literal["", "auto", "acromill", "rs274ngc"]
         " list of programs, run one after the other. RS232 DRIP FEED: a program that runs"
         " while it arrives over a serial line. RS-232 (LINK): a program that arrives over a serial"
         " line is kept as a file, then loaded like any other.",
+        de=(
+            "LADEN",
+            "DATEI: ein Programm des Ordners. TEILEBIBLIOTHEK: ein Teil, dessen Maße"
+            " gewählt werden. DXF: eine Zeichnung, die in ein Programm umgewandelt wird,"
+            " geschnitten auf dem Z, das verlangt wird. STAPEL: eine Liste von"
+            " Programmen, die nacheinander laufen. SERIELL: ein Programm, das läuft,"
+            " während es über eine serielle Leitung ankommt. RS-232 (LINK): Ein Programm,"
+            " das über eine serielle Leitung ankommt, wird als Datei behalten und dann"
+            " wie jedes andere geladen.",
+        ),
     ),
 )
 def load(
@@ -165,6 +175,16 @@ def close(part: Part) -> None:
         " the program, and where a tool is asked for once it is in the spindle. DRY RUN moves"
         " at Trial Speed, M codes have no effect. BLOCK stops after"
         " every block.",
+        de=(
+            "PROGRAMM",
+            "AB ZEILE startet das geladene Programm bei einer Zeile. Bei einer späteren"
+            " Zeile als 1 werden die Zeilen davor ohne Bewegung gelesen: Was sich"
+            " unterscheidet, wird gezeigt und bestätigt; dann fährt Z hoch, die Achsen"
+            " über die Stelle und mit Vorschub hinunter.\n\nSTOP hält den Vorschub an."
+            " START geht nach einem Halt des Programms weiter, und wo ein Werkzeug"
+            " verlangt wird, sobald es in der Spindel ist. PROBELAUF fährt mit Trial"
+            " Speed, M-Funktionen wirken nicht. EINZELSATZ hält nach jedem Satz.",
+        ),
     ),
 )
 def begin(
@@ -286,6 +306,12 @@ OVERRIDES = {"feed": Override.FEED, "rapid": Override.RAPID, "spindle": Override
         "OVERRIDES",
         "Feed, rapid and spindle speed in 16 clicks of their table (SYS PARAM). Where a switch of"
         " the panel is wired, the switch counts and the screen only shows it.",
+        de=(
+            "OVERRIDES",
+            "Vorschub, Eilgang und Spindeldrehzahl in 16 Rasten ihrer Tabelle"
+            " (SYSTEMPARAM). Wo ein Schalter des Bedienpults verdrahtet ist, gilt der"
+            " Schalter, und der Bildschirm zeigt ihn nur.",
+        ),
     ),
 )
 def override(
@@ -307,6 +333,11 @@ def override(
         "alarms",
         "ALARMS",
         "An alarm stays until its cause is gone and it was acknowledged; nothing starts before.",
+        de=(
+            "ALARME",
+            "Ein Alarm bleibt, bis seine Ursache weg ist und er quittiert wurde; vorher"
+            " startet nichts.",
+        ),
     ),
 )
 def acknowledge(machine: MillSession) -> dict[str, list[str]]:

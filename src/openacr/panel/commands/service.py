@@ -92,6 +92,12 @@ def term_open(
         "TERMINAL",
         "A direct line to the card: what is typed is sent as it is, what the card prints is shown,"
         " for example ?P3. While the machine moves only lines that begin with ? are sent.",
+        de=(
+            "TERMINAL",
+            "Eine direkte Leitung zur Karte: Was eingegeben wird, geht unverändert hin,"
+            " was die Karte ausgibt, wird gezeigt, zum Beispiel ?P3. Solange sich die"
+            " Maschine bewegt, werden nur Zeilen gesendet, die mit ? beginnen.",
+        ),
     ),
 )
 def term_line(
@@ -162,6 +168,15 @@ def query(
         " channel has its source, units per division and offset; the sweep is in ms per division."
         "\n\nWith INDEX the profile is run and recorded from its start: ACC, DEC, STP, JRK, F, RES"
         " and the move of one axis, for example X15. The axis really moves.",
+        de=(
+            "SCOPE",
+            "Bis zu vier Parameter der Karte, in ihrer Zeit abgetastet, auf zehn mal"
+            " zehn Teilen. Jeder Kanal hat seine Quelle, Einheiten je Teil und"
+            " Verschiebung; die Ablenkung ist in ms je Teil.\n\nMit INDEX wird das Profil"
+            " gefahren und von seinem Beginn an aufgezeichnet: ACC, DEC, STP, JRK, F, RES"
+            " und die Bewegung einer Achse, zum Beispiel X15. Die Achse bewegt sich"
+            " wirklich.",
+        ),
     ),
 )
 def scope_arm(
@@ -250,6 +265,12 @@ def scope_stop(client: int, captures: Captures) -> None:
         "GAIN",
         "The gains of an axis. A value reaches the card when ENTER is pressed in its field, and"
         " acts at once; with the check set it is stored as well.",
+        de=(
+            "REGLER",
+            "Die Verstärkungen einer Achse. Ein Wert erreicht die Karte, wenn in seinem"
+            " Feld EINGABE gedrückt wird, und wirkt sofort; mit dem Haken wird er auch"
+            " gespeichert.",
+        ),
     ),
 )
 def gain(
@@ -285,6 +306,11 @@ def gain(
         "BOARD PARAMETERS",
         "Every parameter of the card with its number, name and value, live. A touch on a value that"
         " can be written sets it.",
+        de=(
+            "KARTENPARAM",
+            "Jeder Parameter der Karte mit Nummer, Name und Wert, laufend. Ein Druck auf"
+            " einen Wert, der geschrieben werden kann, setzt ihn.",
+        ),
     ),
 )
 def card_write(link: Link, times: Times, *, parameter: int, value: Finite) -> dict[str, float]:

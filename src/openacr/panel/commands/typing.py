@@ -28,6 +28,12 @@ Lines = Annotated[tuple[Line, ...], Meta(max_length=10_000)]
         "MDI",
         "Blocks run one by one; what they switch on stays on. While BUFFER is on, the text keeps"
         " what was executed; it can be edited and stored as a program.",
+        de=(
+            "MDI",
+            "Sätze laufen einer nach dem anderen; was sie einschalten, bleibt ein."
+            " Solange PUFFER ein ist, behält der Text, was ausgeführt wurde; er kann"
+            " geändert und als Programm gespeichert werden.",
+        ),
     ),
 )
 def execute(typed: Typed, *, line: Line = "", lines: Lines = (), kept: bool = False) -> None:
@@ -64,6 +70,12 @@ def buffer(
         "TEACH",
         "The present machine position becomes the zero of a work system, on the chosen axes; or"
         " that of Z the length of a tool. Nothing moves.",
+        de=(
+            "TEACH",
+            "Die jetzige Maschinenposition wird der Nullpunkt eines Werkstücksystems,"
+            " für die gewählten Achsen; oder die von Z die Länge eines Werkzeugs. Nichts"
+            " bewegt sich.",
+        ),
     ),
 )
 def teach_work(

@@ -28,7 +28,7 @@ export const screen = {
     } }, t("tour.title")));
     const show = async (/** @type {HTMLElement} */ item, /** @type {string} */ key, /** @type {string} */ label) => {
       for (const each of list.children) each.setAttribute("aria-current", String(each === item));
-      const page = await newest(get(`help/${key}`)).catch(() => ({ title: label, text: t("help.none") }));
+      const page = await newest(get(`help/${key}`, { language: document.documentElement.lang })).catch(() => ({ title: label, text: t("help.none") }));
       if (page) fill(text, h("h2", {}, page.title), ...page.text.split(/\n\s*\n/).map((/** @type {string} */ part) => h("p", {}, part)));
     };
     const seen = new Set();
