@@ -46,8 +46,8 @@ class Machine:
         row = system.tick_low
         for _ in range(ticks):
             self.card.memory.I[row] += 1
-            self.executor.step(self.card.tick)
-            if self.card.tick % SLOW_SCAN_TICKS == 0:
+            self.executor.step(self.card.clock.tick)
+            if self.card.clock.tick % SLOW_SCAN_TICKS == 0:
                 self.control.scan()
 
     def load(self, program: int, *lines: str) -> None:

@@ -80,16 +80,16 @@ class Bench:
         """Let servo interrupts pass."""
         for _ in range(count):
             _tick(self.memory.F, self.memory.I, self.memory.S)
-            self.executor.step(self.card.tick)
+            self.executor.step(self.card.clock.tick)
         return self
 
     def seconds(self, time_s: float) -> "Bench":
         """Let time pass."""
-        return self.ticks(round(time_s / self.card.period_s))
+        return self.ticks(round(time_s / self.card.clock.period_s))
 
     def until_clear(self, *flags: int, limit_s: float = 30.0) -> int:
         """Ticks until all of these flags are clear."""
-        for count in range(round(limit_s / self.card.period_s)):
+        for count in range(round(limit_s / self.card.clock.period_s)):
             if not any(self.memory.bit(flag) for flag in flags):
                 return count
             self.ticks(1)

@@ -86,7 +86,7 @@ def test_axes_of_different_and_negative_scale_make_round_circles() -> None:
 def test_maxvel_bounds_the_speed_on_a_circle() -> None:
     made = bench("VEL 1000", "MAXVEL X5", "CIRCCW X(0,1) Y(0,0)")
     made.until_clear(IN_MOTION)
-    assert made.card.tick == ticks(2 * math.pi / 5)
+    assert made.card.clock.tick == ticks(2 * math.pi / 5)
 
 
 @settings(max_examples=25, deadline=None)

@@ -84,7 +84,7 @@ def test_a_new_period_keeps_the_frequencies() -> None:
     filters.set_low_pass(card, 0, 100.0)
     filters.set_notch(card, 3, 50.0, 10.0)
     filters.change_period(card, 0.001)
-    assert card.period_s == 0.001
+    assert card.clock.period_s == 0.001
     assert stored(card, 0, 0) == pytest.approx(filters.low_pass(100.0, 0.001), rel=1e-6)
     assert stored(card, 3, 1) == pytest.approx(filters.notch(50.0, 10.0, 0.001), rel=1e-6)
     assert stored(card, 0, 1) == BYPASS

@@ -68,8 +68,8 @@ def test_the_clock_counts_on(step: Callable[..., None], crossing: int) -> None:
     rig.I[system.tick_low] = (crossing - 2) & 2**31 - 1
     seen = []
     for _ in range(4):
-        step(rig.F, rig.I, rig.card.period_s)
-        seen.append((rig.card.tick, rig.F[system.time_s]))
+        step(rig.F, rig.I, rig.card.clock.period_s)
+        seen.append((rig.card.clock.tick, rig.F[system.time_s]))
     assert seen == [(crossing + past, (crossing + past) * 0.0005) for past in (-1, 0, 1, 2)]
 
 

@@ -113,7 +113,7 @@ class AsyncProcessLink:
     """A card in this process; other tasks run between its steps."""
 
     def __init__(self, link: ProcessLink) -> None:
-        self.name, self.kind = link.name, link.kind
+        self.name, self.kind, self.now_s = link.name, link.kind, link.now_s
         self._link = link
 
     async def open(self) -> None:
@@ -134,10 +134,6 @@ class AsyncProcessLink:
         await asyncio.sleep(0)
         self._link.pause(seconds)
 
-    def now_s(self) -> float:
-        """Card time."""
-        return self._link.now_s()
-
     async def close(self) -> None:
         """Free the stream."""
         self._link.close()
@@ -147,7 +143,7 @@ class ThreadLink:
     """A blocking link whose calls run one at a time in a thread of its own."""
 
     def __init__(self, link: Link) -> None:
-        self.name, self.kind = link.name, link.kind
+        self.name, self.kind, self.now_s = link.name, link.kind, link.now_s
         self._link = link
         self._thread: ThreadPoolExecutor | None = None
 
@@ -166,10 +162,6 @@ class ThreadLink:
     async def pause(self, seconds: float) -> None:
         """Let time pass."""
         await asyncio.sleep(seconds)
-
-    def now_s(self) -> float:
-        """The time."""
-        return self._link.now_s()
 
     async def close(self) -> None:
         """Disconnect and end the thread."""

@@ -85,6 +85,7 @@ class TcpLink:
     """A TCP connection to the card's terminal port."""
 
     kind = StreamKind.TERMINAL
+    now_s, pause = staticmethod(time.monotonic), staticmethod(time.sleep)
 
     def __init__(self, host: str, port: int = ASCII_PORT) -> None:
         self.name = f"{host}:{port}"
@@ -131,14 +132,6 @@ class TcpLink:
             raise ConnectionLostError(f"{self.name} is not connected")
         return self._socket
 
-    def pause(self, seconds: float) -> None:
-        """Let time pass."""
-        time.sleep(seconds)
-
-    def now_s(self) -> float:
-        """The wall clock."""
-        return time.monotonic()
-
     def close(self) -> None:
         """Disconnect."""
         if self._socket is not None:
@@ -150,6 +143,7 @@ class SerialLink:
     """A serial line; XON and XOFF of the card hold the sender back."""
 
     kind = StreamKind.SERIAL
+    now_s, pause = staticmethod(time.monotonic), staticmethod(time.sleep)
 
     def __init__(self, path: str, baud: int = DEFAULT_BAUD) -> None:
         self.name = path
@@ -195,14 +189,6 @@ class SerialLink:
         if self._port is None:
             raise ConnectionLostError(f"{self.name} is not open")
         return self._port
-
-    def pause(self, seconds: float) -> None:
-        """Let time pass."""
-        time.sleep(seconds)
-
-    def now_s(self) -> float:
-        """The wall clock."""
-        return time.monotonic()
 
     def close(self) -> None:
         """Release the port."""

@@ -90,14 +90,15 @@ class Battery:
 
     @property
     def _is_due(self) -> bool:
-        lived_s = (self._system.card.tick - self._written_tk) * self._system.card.period_s
+        clock = self._system.card.clock
+        lived_s = (clock.tick - self._written_tk) * clock.period_s
         return not 0.0 <= lived_s < VALUES_EVERY_S  # REBOOT restarts the count
 
     def _write(self, *, values: bool) -> None:
         programs = self._system.programs
         changes = {f"{BATTERY_TEXT}{owner}": self._text(owner) for owner in programs.changed}
         if values:
-            self._written_tk = self._system.card.tick
+            self._written_tk = self._system.card.clock.tick
             content = self._data()
             if content != self._stored:
                 changes[BATTERY] = self._stored = content

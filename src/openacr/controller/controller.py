@@ -70,6 +70,7 @@ class Controller:
         self.model, self.world, self.card, self.memory = (
             parts.model, parts.world, parts.card, parts.memory
         )  # fmt: skip
+        self.clock = parts.clock
         self.system, self.executor, self.control = parts.system, parts.executor, parts.control
         self.plcs, self.networks, self.streams = parts.plcs, parts.networks, parts.streams
         self.devices = parts.devices
@@ -135,22 +136,22 @@ class Controller:
     @property
     def tick(self) -> int:
         """Servo interrupts since power-up."""
-        return self._parts.tick
+        return self.clock.tick
 
     @property
     def lived_tk(self) -> int:
         """Ticks this card has run in total; a restart does not reset the count."""
-        return self._parts.lived_tk
+        return self.clock.lived_tk
 
     @property
     def time_s(self) -> float:
         """Simulated seconds since power-up."""
-        return self.tick * self.period_s
+        return self.clock.time_s
 
     @property
     def period_s(self) -> float:
         """Length of a tick [s]."""
-        return self._parts.period_s
+        return self.clock.period_s
 
     def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
         """Advance the card by `ticks` ticks plus `seconds`, or until an event ends it.
@@ -314,7 +315,7 @@ class Controller:
         """
         self.streams.opened(stream)
         self._inputs.note(Entered.BYTES, stream, text=data.decode("latin-1"))
-        self.streams.receive(stream, data, self.tick)
+        self.streams.receive(stream, data, self.clock.tick)
         self._parts.reboot_if_requested()
         self.nonvolatile.battery.follow()
 
@@ -373,9 +374,9 @@ class Controller:
         seconds of card time do not suffice; what was heard until then is in its text.
         """
         heard = self.send(text)
-        end_tk = self.tick + round(timeout_s / self.period_s)
+        end_tk = self.clock.tick + round(timeout_s / self.clock.period_s)
         while not self.streams.is_answered(self.console):
-            if self.tick >= end_tk:
+            if self.clock.tick >= end_tk:
                 raise UserError(f"not answered within {timeout_s:g} s of the card: {heard!r}")
             self.advance(1)
             heard += self._heard()
@@ -461,7 +462,7 @@ class Controller:
         if thread < PROGRAMS:
             row = program_rows.line_number[thread]
             origin = self.origin(thread, self.memory.I[row])
-        self.empty_starts.setdefault(owner, EmptyStart(self.lived_tk, origin))
+        self.empty_starts.setdefault(owner, EmptyStart(self.clock.lived_tk, origin))
 
     def statistics(self, axis: int) -> AxisStatistics:
         """Totals of an axis since power-up."""
@@ -501,7 +502,7 @@ class Controller:
         finally:
             give_orders(self.memory, orders)
         self._engine.moved_in_time()
-        self._parts.lived_before_tk = snapshot.beside.lived_before_tk
+        self.clock.before_tk = snapshot.beside.lived_before_tk
 
     def take_over(self, snapshot: snapshots.Snapshot) -> None:
         """Become the card of a snapshot, with every connection it had."""

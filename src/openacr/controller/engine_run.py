@@ -37,7 +37,7 @@ class EngineRun:
 
     def __init__(self, parts: CardParts) -> None:
         self._parts = parts
-        self._memory = parts.memory
+        self._memory, self._clock = parts.memory, parts.clock
         self._poll: Callable[[], bool] | None = None
         self._ask_line: AskLine | None = None
         self.within = 0
@@ -51,7 +51,7 @@ class EngineRun:
         """
         if not (ticks >= 0 and 0.0 <= seconds < math.inf):
             raise UserError(f"advance by {ticks} ticks and {seconds} s: time only goes forward")
-        reason = self._live(ticks + round(seconds / self._parts.period_s))
+        reason = self._live(ticks + round(seconds / self._clock.period_s))
         self.was_ended = reason != loop_cy.DONE
 
     def until(
@@ -70,7 +70,7 @@ class EngineRun:
         self._set_engine(engine.until_word, word)
         self._set_engine(engine.until_mask, mask)
         self._set_engine(engine.until_state, int(is_))
-        limit = round(timeout_s / self._parts.period_s) if ticks is None else ticks
+        limit = round(timeout_s / self._clock.period_s) if ticks is None else ticks
         reason = self._live(limit)
         self._set_engine(engine.until_word, 0)
         return reason == loop_cy.UNTIL_MET
@@ -81,13 +81,13 @@ class EngineRun:
             self._pass_line()
         while True:
             step = self._parts.inputs.flush(min(ticks, LONGEST_RUN_TK))
-            before = self._parts.lived_tk
+            before = self._clock.lived_tk
             self._set_engine(engine.ticks_left, step)
             if self._parts.streams.is_overdue:
                 self._set_engine(engine.stop, 1)
             self.within = 0
             reason = self._run()
-            ticks -= self._parts.lived_tk - before
+            ticks -= self._clock.lived_tk - before
             if reason == _LINE:
                 self.within = self.next_statement
                 return reason
@@ -209,7 +209,7 @@ class EngineRun:
         elif reason == loop_cy.ROOM:
             self._parts.streams.moves.drain()
         elif reason == loop_cy.DEVICES:
-            self._parts.devices.attend(self._parts.tick, self._parts.period_s)
+            self._parts.devices.attend(self._clock.tick, self._clock.period_s)
         elif reason == loop_cy.NETWORKS:
             self._parts.networks.attend()
             self._parts.streams.settle()

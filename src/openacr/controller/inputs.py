@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from openacr.journal.entries import Entered, JournalEntry
+from openacr.motion.clock import Clock
 
 
 class JournalFile(Protocol):
@@ -31,8 +32,8 @@ class JournalFile(Protocol):
 class InputLog:
     """Records external inputs with the tick at which they arrive."""
 
-    def __init__(self, lived_tk: Callable[[], int]) -> None:
-        self._lived_tk = lived_tk
+    def __init__(self, clock: Clock) -> None:
+        self._clock = clock
         self.place: Callable[[], int] = lambda: 0  # see Controller.within
         self.entries: list[JournalEntry] = []
         self.is_kept = True  # in memory; a file is written nevertheless
@@ -44,7 +45,7 @@ class InputLog:
     ) -> None:
         """Record an external input in the journals."""
         if self.is_kept or self.file is not None:
-            tick, place = self._lived_tk(), self.place()
+            tick, place = self._clock.lived_tk, self.place()
             if place != (self._latest[1] if tick == self._latest[0] else 0):
                 self._keep(JournalEntry(tick, Entered.WITHIN, place))
             self._latest = tick, place
@@ -61,11 +62,11 @@ class InputLog:
         if self.file is None:
             return ticks
         self.file.flush()
-        return min(ticks, self.file.next_tk - self._lived_tk())
+        return min(ticks, self.file.next_tk - self._clock.lived_tk)
 
     def mark_if_due(self) -> None:
         """Write a digest to the file if it is due."""
-        if self.file is not None and self._lived_tk() >= self.file.next_tk:
+        if self.file is not None and self._clock.lived_tk >= self.file.next_tk:
             self.file.mark()
 
     def close(self) -> None:

@@ -55,7 +55,7 @@ class PacketHost:
         """The longest permitted gap between the bytes of a packet on a channel, in ticks."""
         row = _TIMEOUTS.get(channel)
         time_ms = TIMEOUT_MS if row is None else self._card.memory.I[row]
-        return max(1, round(time_ms / 1000 / self._card.period_s))
+        return max(1, round(time_ms / 1000 / self._card.clock.period_s))
 
     def override(self, masters: Sequence[int], value: float, *, rapid: bool) -> None:
         """Set FOV, or ROV if `rapid`, of these masters; negative values count as 0."""

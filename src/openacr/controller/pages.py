@@ -31,8 +31,8 @@ def card_page(system: System, world: World) -> str:
     """Model and time of a card, its motors, and each program and PLC that is stored."""
     card = system.card
     return (
-        f"<p>{escape(card.model.name)}: {card.tick * card.period_s:g} s since power-up,"
-        f" {counted(card.tick, 'servo period')}</p>"
+        f"<p>{escape(card.model.name)}: {card.clock.time_s:g} s since power-up,"
+        f" {counted(card.clock.tick, 'servo period')}</p>"
         + table(AXES, _axes(card, world))
         + table(PROGRAMS, _programs(system))
     )

@@ -56,7 +56,7 @@ class CardParts:
         self.model = _model(model)
         self.world = world or schema.default_world(self.model)
         self.card = Card(self.model)
-        self.memory = self.card.memory
+        self.memory, self.clock = self.card.memory, self.card.clock
         self.system = System(self.card)
         self.executor = Executor(self.system)
         self.plcs = Plcs(self.memory, self._plc_text)
@@ -73,30 +73,14 @@ class CardParts:
             short_overrides=self.world.card.short_override_packets,
         )
         self.streams = Streams(self.system.sessions, host, self.press)
-        self.inputs = InputLog(lambda: self.lived_tk)
+        self.inputs = InputLog(self.clock)
         self.p = Parameters(self.memory, partial(self.inputs.note, Entered.PARAMETER))
         self.bit = Bits(self.memory, partial(self.inputs.note, Entered.FLAG))
         self._wants_reboot = False
-        self.lived_before_tk = 0  # ticks before the latest restart
         self._apply_world()
         self.nonvolatile = Persistence.open(self.system, data)
         self.nonvolatile.power_up()
         self._start_boot_programs()
-
-    @property
-    def tick(self) -> int:
-        """Servo interrupts since power-up."""
-        return self.card.tick
-
-    @property
-    def lived_tk(self) -> int:
-        """Ticks this card has run in total; a restart does not reset the count."""
-        return self.lived_before_tk + self.tick
-
-    @property
-    def period_s(self) -> float:
-        """Length of a tick [s]."""
-        return self.card.period_s
 
     def press(self, key: ControlKey) -> None:
         """Act on Ctrl-X, Ctrl-Y or Ctrl-Z, typed on any stream."""
@@ -128,7 +112,7 @@ class CardParts:
         if not self._wants_reboot:
             return False
         self._wants_reboot = False
-        self.lived_before_tk += self.tick
+        self.clock.before_tk += self.clock.tick
         for plc in range(plcs.COUNT):
             self.system.listeners.plc_changes(plc)
         orders = take_orders(self.memory)

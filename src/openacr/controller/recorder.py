@@ -24,6 +24,7 @@ from openacr.journal.records import WORKER, Records
 from openacr.map.fingerprint import LAYOUT
 from openacr.map.memory import digest_of
 from openacr.models import Model
+from openacr.motion.clock import Clock
 from openacr.plant.schema import World
 from openacr.store import private
 
@@ -37,14 +38,7 @@ class RecordedCard(Protocol):
 
     model: Model
     world: World
-
-    @property
-    def period_s(self) -> float:
-        """Length of a tick [s]."""
-
-    @property
-    def lived_tk(self) -> int:
-        """Ticks in total, those before restarts included."""
+    clock: Clock
 
     def image(self) -> bytearray:
         """The state that a digest covers."""
@@ -70,11 +64,11 @@ class Recorder:
         self.left_out = 0
         self._path = path
         self.records = self._begun()
-        self.every_tk = max(1, round(DIGEST_EVERY_S / card.period_s))
-        self.next_tk = card.lived_tk + self.every_tk
+        self.every_tk = max(1, round(DIGEST_EVERY_S / card.clock.period_s))
+        self.next_tk = card.clock.lived_tk + self.every_tk
         image, kept = card.image(), card.snapshot()
-        model, world, period_s = card.model.name, card.world, card.period_s
-        tick, every_tk = card.lived_tk, self.every_tk
+        model, world, period_s = card.model.name, card.world, card.clock.period_s
+        tick, every_tk = card.clock.lived_tk, self.every_tk
 
         def header() -> bytes:
             found = Header(
@@ -140,16 +134,16 @@ class Recorder:
     def mark(self) -> None:
         """Write the digest that is due."""
         self._note_digest(Entered.DIGEST)
-        self.next_tk = self._card.lived_tk + self.every_tk
+        self.next_tk = self._card.clock.lived_tk + self.every_tk
 
     def _note_digest(self, what: Entered) -> None:
         if self.records.failure is not None:
             return
         if what is Entered.DIGEST and self.is_late:
             self._leave_out()
-            self.note(JournalEntry(self._card.lived_tk, what))
+            self.note(JournalEntry(self._card.clock.lived_tk, what))
             return
-        tick, image = self._card.lived_tk, self._card.image()
+        tick, image = self._card.clock.lived_tk, self._card.image()
         self.records.work_out(lambda: record_of(JournalEntry(tick, what, text=digest_of(image))))
 
     def _leave_out(self) -> None:

@@ -36,7 +36,7 @@ class Ring:
         waits: bool = True,
     ) -> None:
         self._card, self._folder, self._files = card, folder, files
-        self._file_tk = round(file_s / card.period_s)
+        self._file_tk = round(file_s / card.clock.period_s)
         self._most_bytes, self._waits = most_bytes, waits
         self._lock = FolderLock(folder)
         self._number = max(map(_number_of, journals(folder)), default=0)
@@ -66,7 +66,7 @@ class Ring:
         recorder = self._recorder
         is_full = recorder is not None and recorder.size_bytes > self._most_bytes
         is_late = recorder is not None and recorder.is_late  # no time for the state of a new file
-        if is_late or (self._card.lived_tk < self._end_tk and not is_full):
+        if is_late or (self._card.clock.lived_tk < self._end_tk and not is_full):
             if recorder is not None:
                 recorder.mark()
             return
@@ -86,7 +86,7 @@ class Ring:
 
     def _begin(self) -> Recorder:
         self._number += 1
-        self._end_tk = self._card.lived_tk + self._file_tk
+        self._end_tk = self._card.clock.lived_tk + self._file_tk
         for path in journals(self._folder)[: -self._files + 1 or None]:
             path.unlink(missing_ok=True)
         return Recorder(self._card, self._folder / f"{self._number:06}{SUFFIX}", waits=self._waits)

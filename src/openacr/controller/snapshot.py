@@ -25,6 +25,7 @@ from openacr.errors import StoreError
 from openacr.map.fingerprint import LAYOUT
 from openacr.map.memory import Memory
 from openacr.models import Model
+from openacr.motion.clock import Clock
 from openacr.plant import schema
 from openacr.plant.attached_devices import AttachedDevices
 from openacr.protocol.packets import PacketError
@@ -41,14 +42,7 @@ class WholeCard(Protocol):
     streams: Streams
     nonvolatile: Persistence
     devices: AttachedDevices
-
-    @property
-    def tick(self) -> int:
-        """Servo interrupts since power-up."""
-
-    @property
-    def lived_tk(self) -> int:
-        """Ticks in total, those before restarts included."""
+    clock: Clock
 
     def image(self) -> bytearray:
         """The rows without what this process requested from the engine."""
@@ -88,7 +82,7 @@ def take(card: WholeCard) -> Snapshot:
             card.streams.moves.state(),
             card.devices.state(),
             card.nonvolatile.state(),
-            card.lived_tk - card.tick,
+            card.clock.before_tk,
         ),
     )
 

@@ -12,6 +12,7 @@ from openacr.map.memory import Memory
 from openacr.map.rows import axes, encoders, kernel, masters, system
 from openacr.models import DEFAULT_MODEL, Model
 from openacr.motion.attachments import Attachments
+from openacr.motion.clock import Clock
 from openacr.motion.follower_defaults import set_follower_defaults
 
 AXES = 16
@@ -38,29 +39,16 @@ class Card:
     model: Model = DEFAULT_MODEL
     memory: Memory = field(default_factory=Memory)
     attachments: Attachments = field(default_factory=Attachments)
+    clock: Clock = field(init=False)
 
     def __post_init__(self) -> None:
+        self.clock = Clock(self.memory)
         self.power_up()
-
-    @property
-    def period_s(self) -> float:
-        """Servo period, the length of one tick [s]."""
-        return self.memory.F[system.period_s]
-
-    @property
-    def tick(self) -> int:
-        """Servo interrupts since power-up."""
-        rows = self.memory.I
-        return rows[system.tick_high] * 2**31 + rows[system.tick_low]
-
-    def ticks(self, time_s: float) -> int:
-        """The number of ticks nearest to a time, at least 1."""
-        return max(1, round(time_s / self.period_s))
 
     def set_period(self, period_s: float) -> None:
         """Set the servo period and what follows from it."""
         self.memory.F[system.period_s] = period_s
-        self.memory.I[kernel.slow_ticks] = self.ticks(SLOW_SCAN_S)
+        self.memory.I[kernel.slow_ticks] = self.clock.ticks(SLOW_SCAN_S)
 
     def power_up(self) -> None:
         """Return to the state after switching on; the world outside is not part of it."""

@@ -38,7 +38,7 @@ def test_a_ren_request_in_motion_waits_for_rest_and_nothing_jumps() -> None:
     before = card.memory.read(12294)
     ticks(card, SCAN_TK)
     assert card.memory.bit(REN_REQUEST)
-    assert 0 < card.memory.read(12294) - before <= 100 * SCAN_TK * card.period_s + 1
+    assert 0 < card.memory.read(12294) - before <= 100 * SCAN_TK * card.clock.period_s + 1
     ticks(card, 1000)
     assert not card.memory.bit(JOG_ACTIVE)
     assert not card.memory.bit(REN_REQUEST)

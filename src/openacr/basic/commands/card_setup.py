@@ -159,7 +159,7 @@ def eplc(run: Run, switch: str | None) -> None:
 @command("CPU", group=GROUP, levels=ANY, ref=REF)
 def cpu(run: Run) -> None:
     """Print the share of the servo interrupt and that of the rest of the processor time."""
-    foreground = min(servo_time_s(run.card) / run.card.period_s, 1.0) * 100
+    foreground = min(servo_time_s(run.card) / run.card.clock.period_s, 1.0) * 100
     run.print(f"Foreground {foreground:.1f}%")
     run.print(f"Background {100 - foreground:.1f}%")
 

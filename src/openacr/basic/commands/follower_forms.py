@@ -116,7 +116,7 @@ class PassingForm(Form):
             return None
         needs_parameter(run, found.number)
         seconds = 0.0 if timeout is None else run.value(timeout)
-        if seconds < 0.0 or run.card.ticks(seconds) > LONG_LIMIT:
+        if seconds < 0.0 or run.card.clock.ticks(seconds) > LONG_LIMIT:
             raise CardError(INVALID_ARGUMENT)
         return Passing(found.number, run.value(setpoint), found.negative, seconds)
 

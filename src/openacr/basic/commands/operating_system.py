@@ -218,7 +218,7 @@ def ver(run: Run) -> None:
 def period(run: Run, period_s: float | None) -> None:
     """Set or show the servo period."""
     if period_s is None:
-        run.print(double_text(run.card.period_s))
+        run.print(double_text(run.card.clock.period_s))
         return
     if not SHORTEST_PERIOD_S <= period_s <= LONGEST_PERIOD_S:
         raise CardError(INVALID_ARGUMENT)

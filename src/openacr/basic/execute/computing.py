@@ -77,9 +77,9 @@ class Computing:
     def _compute(self, thread: int, start: int) -> float:
         with self._aside(thread):
             self.threads.set_row(thread, thread_rows.pc, start)
-            event = vm.VM_CALL
+            event, clock = vm.VM_CALL, self.threads.clock
             while event == vm.VM_CALL:
-                event = self._vm_run(*self.threads.views(), thread, WHOLE_LINE, self.threads.tick)
+                event = self._vm_run(*self.threads.views(), thread, WHOLE_LINE, clock.tick)
                 if event == vm.VM_CALL:
                     self.push_operand(thread)
             if event == vm.VM_ERROR:

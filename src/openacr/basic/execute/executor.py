@@ -140,7 +140,7 @@ class Executor:
         self.threads.start(session.thread, chunk, self._session_run(session), 0)
         self.threads.sources[session.thread] = (line,)
         self.threads.set_row(session.thread, threads.budget, WHOLE_LINE)
-        while self._advance(*self.threads.views(), session.thread, self.threads.tick):
+        while self._advance(*self.threads.views(), session.thread, self.threads.clock.tick):
             self.attend(session.thread)
 
     def _session_run(self, session: Session) -> Run:
@@ -220,7 +220,7 @@ class Executor:
         self.memory.F[threads.wait_value[thread]] = wait.value
         is_next = wait.kind is WaitKind.NEXT_SLICE
         self.memory.F[threads.wait_deadline_tk[thread]] = (
-            self.threads.tick + 1.0 if is_next else 0.0
+            self.threads.clock.tick + 1.0 if is_next else 0.0
         )
         self.threads.set_row(thread, threads.state, scheduler.THREAD_WAITING)
         if thread < PROGRAMS:

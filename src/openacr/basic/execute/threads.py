@@ -49,16 +49,11 @@ class Threads:
 
     def __init__(self, system: System) -> None:
         self.system = system
-        self.memory = system.card.memory
+        self.memory, self.clock = system.card.memory, system.card.clock
         self.space = CodeSpace(self.memory)
         self._runs: list[Run | None] = [None] * threads.COUNT
         self.sources: dict[int, tuple[StoredLine, ...]] = {}  # what each thread executes
         self.failures: dict[int, str] = {}  # of programs that an error has ended
-
-    @property
-    def tick(self) -> int:
-        """The present tick."""
-        return self.system.card.tick
 
     def views(self) -> tuple[Any, Any, Any, Any, Any]:
         """What the sources of the core get: the memory and the code."""

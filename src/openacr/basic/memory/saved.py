@@ -257,7 +257,7 @@ def _put_canopen(system: System, values: dict[int, float]) -> None:
 
 _PERIOD = Saved(
     "PERIOD",
-    lambda system: system.card.period_s,
+    lambda system: system.card.clock.period_s,
     lambda system, period_s: filters.change_period(system.card, period_s),
 )
 _TABLE = (

@@ -42,7 +42,8 @@ def on(card: Card, axis: int) -> None:
         return
     _lift(card, axis)
     registers.ren(card, axis)
-    ticks = card.ticks(ENABLE_S) if card.memory.I[af4.word[axis]] & af4.DRIVE_I_O_ENABLE else 1
+    has_enable = card.memory.I[af4.word[axis]] & af4.DRIVE_I_O_ENABLE
+    ticks = card.clock.ticks(ENABLE_S) if has_enable else 1
     card.memory.I[axes.enable_ticks[axis]] = ticks
 
 

@@ -67,7 +67,7 @@ def notch_hz(card: Card, axis: int) -> tuple[float, float]:
 def set_low_pass(card: Card, axis: int, cutoff_hz: float) -> None:
     """LOPASS: 0 is bypass."""
     card.memory.F[axes.lopass_hz[axis]] = cutoff_hz
-    _put(card, axis, 0, low_pass(cutoff_hz, card.period_s))
+    _put(card, axis, 0, low_pass(cutoff_hz, card.clock.period_s))
     _activate(card, axis)
 
 
@@ -75,7 +75,7 @@ def set_notch(card: Card, axis: int, center_hz: float, width_hz: float) -> None:
     """NOTCH: 0 is bypass."""
     card.memory.F[axes.notch_hz[axis]] = center_hz
     card.memory.F[axes.notch_width_hz[axis]] = width_hz
-    _put(card, axis, 1, notch(center_hz, width_hz, card.period_s))
+    _put(card, axis, 1, notch(center_hz, width_hz, card.clock.period_s))
     _activate(card, axis)
 
 
@@ -97,7 +97,7 @@ def change_period(card: Card, period_s: float) -> None:
 
 def _designed(card: Card, axis: int) -> tuple[Biquad, Biquad]:
     """What both filters are at the present servo period, by their frequencies."""
-    period_s = card.period_s
+    period_s = card.clock.period_s
     return low_pass(low_pass_hz(card, axis), period_s), notch(*notch_hz(card, axis), period_s)
 
 

@@ -137,7 +137,7 @@ def arm_passing(
     memory = card.memory
     memory.F[triggers.setpoint[trigger]] = setpoint
     memory.I[triggers.parameter[trigger]] = parameter
-    memory.I[triggers.ticks_left[trigger]] = card.ticks(timeout_s) if timeout_s > 0.0 else 0
+    memory.I[triggers.ticks_left[trigger]] = card.clock.ticks(timeout_s) if timeout_s > 0.0 else 0
     memory.I[triggers.kind[trigger]] = source_cy.BELOW if below else source_cy.ABOVE
 
 
