@@ -31,6 +31,7 @@ from openacr.client.links import ProcessLink, SerialLink, TcpLink, link_to
 from openacr.client.values import next_due_s
 from openacr.controller import Controller
 from openacr.errors import UserError
+from openacr.protocol.data import DataRequest
 
 LOOPBACK = "127.0.0.1"
 PROGRAM = 'PROGRAM\nPRINT "one"\nDWL 0.3\nPRINT "two"\nENDP\n'
@@ -385,6 +386,14 @@ def test_every_link_has_its_form_for_asyncio() -> None:
     assert isinstance(for_asyncio(TcpLink("a")), AsyncTcpLink)
     assert isinstance(for_asyncio(SerialLink("/dev/x")), ThreadLink)
     assert isinstance(for_asyncio(ProcessLink(Controller())), AsyncProcessLink)
+
+
+def test_all_that_a_card_in_this_process_has_answered_is_read_at_once() -> None:
+    link = ProcessLink(Controller())
+    link.open()
+    requests = [DataRequest(0x10, index, 1).encode() for index in (0, 1)]
+    link.write(b"".join(requests))
+    assert [link.read(1.0), link.read(0.0)] == [b"".join(each + bytes(4) for each in requests), b""]
 
 
 def test_an_error_of_a_socket_is_reported_in_words() -> None:

@@ -225,6 +225,8 @@ class ProcessLink:
             step_tk = self._ticks(STEP_S)
             self._advance(step_tk)
             left_tk = None if left_tk is None else left_tk - step_tk
+        while more := self._card.take_output(stream):  # as a socket delivers what has arrived
+            data += more
         return data
 
     def write(self, data: bytes) -> None:

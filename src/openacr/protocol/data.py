@@ -4,8 +4,8 @@ The parameter of a mask bit follows from the numbering of the map, not from a li
 each group starts at 256 * code, and the next mask bit is the next object (or word).
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import ClassVar
 
 from openacr.protocol.host import Host, PacketError, value_of
@@ -73,16 +73,32 @@ class DataRequest(Packet):
         """One word per set bit of the mask."""
         return self.mask.bit_count()
 
+    def encode(self) -> bytes:
+        """The bytes a host sends, before any MODE conversion."""
+        return _encoded(self)
+
     def act(self, host: Host) -> bytes:
         """Read the parameters; 0 where there is none."""
-        return self.reply([value_of(host, number) for number in self.parameters()])
+        return self.reply([value_of(host, number) for number in _numbers(self)])
 
-    def parameters(self) -> Iterator[int]:
+    def parameters(self) -> tuple[int, ...]:
         """The requested parameter numbers, lowest mask bit first."""
-        group = GROUPS.get(self.group)
-        if group is None:
-            raise PacketError(f"there is no packet group 0x{self.group:02X}")
-        return (group.parameter(self.index, bit) for bit in range(FIELDS) if self.mask >> bit & 1)
+        return _numbers(self)
+
+
+# Hosts send the same requests thousands of times a second.
+@lru_cache(maxsize=4096)
+def _encoded(request: DataRequest) -> bytes:
+    return Packet.encode(request)
+
+
+@lru_cache(maxsize=4096)
+def _numbers(request: DataRequest) -> tuple[int, ...]:
+    group = GROUPS.get(request.group)
+    if group is None:
+        raise PacketError(f"there is no packet group 0x{request.group:02X}")
+    bits = (bit for bit in range(FIELDS) if request.mask >> bit & 1)
+    return tuple(group.parameter(request.index, bit) for bit in bits)
 
 
 def locate(parameter: int) -> DataRequest | None:

@@ -38,7 +38,7 @@ def encode(data: bytes, mode: BinaryMode) -> bytes:
 
 def encode_packet(packet: bytes, mode: BinaryMode) -> bytes:
     """Encode a whole packet for `mode`: its header byte is unchanged."""
-    return packet[:1] + encode(packet[1:], mode)
+    return packet[:1] + encode(packet[1:], mode) if mode.prefixes else packet
 
 
 @dataclass(slots=True)
