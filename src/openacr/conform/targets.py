@@ -23,7 +23,7 @@ from openacr.project import find_project
 from openacr.testing import machine as under_test
 
 CONSOLE = "STREAM1"
-POLL_TK = 10  # between two looks of a host at its card
+POLL_TK = 40  # between two looks of a host at its card: 20 ms, as a session polls
 KINDS = {name: kind for kind, names in CHANNELS.items() for name in names}
 KINDS |= {CONSOLE: StreamKind.TERMINAL, "PACKETS": StreamKind.PACKETS}
 _SET = re.compile(r"(BIT\s*\d+\s*(?:=|<>)\s*)-1", re.IGNORECASE)
