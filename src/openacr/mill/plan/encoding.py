@@ -7,7 +7,7 @@ float cannot hold 0.00001 inch over 200 inches.
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from openacr.cnc.canonical import (
     Arc,
@@ -20,11 +20,14 @@ from openacr.cnc.canonical import (
     Polyline,
     Probe,
     Rapid,
+    Source,
 )
+from openacr.compiled import pick
 from openacr.mill.config.curves import can_plan
 from openacr.mill.config.settings import S_PER_MIN, Settings
 from openacr.mill.plan.arcs import chords
-from openacr.mill.plan.geometry import Geometry, MoveShape
+from openacr.mill.plan.move_law import MoveLaw, Shape
+from openacr.mill.plan.move_rows_cy import move_pulses
 from openacr.mill.plan.planning import PlannedMove
 from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code0, Code1, Code3
@@ -32,6 +35,7 @@ from openacr.protocol.move_codes import Code0, Code1, Code3
 Motion = Rapid | Line | Arc | Probe
 Pulses = Sequence[int]  # of a machine position, one value per configured axis
 LONG_MAX = (1 << 31) - 1
+_pulses = pick(move_pulses)
 
 # How a move ends, in the two mode bits of header code 0 (Enable Rapid Move Modes is set).
 CONTINUOUS = 0
@@ -67,7 +71,7 @@ class Encoder:
         """`rounds`: the card supports path tolerances, an extension that real cards lack."""
         self._settings = settings
         self._speeds = settings.speeds
-        self._geometry = Geometry(settings)
+        self._law = MoveLaw(settings, is_dry=is_dry)
         self._axes = [axis.index for axis in settings.axes]
         self._scale = [0.0] * 8
         for axis in settings.axes:
@@ -106,78 +110,75 @@ class Encoder:
             begin = chord.end
 
     def _lines(self, entry: Polyline, begin: Point) -> Iterator[Job]:
-        from openacr.mill.plan.polylines import columns, lines
+        file, pace = entry.source.file, entry.pace
+        begin_cnt: Pulses | None = None
+        for end, line in zip(entry.ends.tolist(), entry.lines.tolist(), strict=True):
+            one = Line(Source(file, line, ""), tuple(end), pace)  # text: read from the file
+            job = self.job(one, begin, begin_cnt, is_in_polyline=True)
+            begin, begin_cnt = one.end, job.finish_cnt
+            yield job
 
-        tolerance = self.tolerance(entry.pace)
-        found = columns(entry, begin, self._settings, self.line_speed(entry.pace), tolerance)
-        mode = PathMode.EXACT if entry.pace.is_confirmed else entry.pace.mode
-        planned_u = self._planned_tolerance(entry.pace)
-        begin_cnt: Pulses = self.pulses(begin)
-        rows = zip(
-            lines(entry), found.length_u.tolist(), found.feed_ups.tolist(),
-            found.ramp_ups2.tolist(), found.jerk_ups3.tolist(), found.direction.tolist(),
-            found.turns.tolist(), found.tolerance_u.tolist(),
-            found.pulses[1:].tolist(), strict=True,
-        )  # fmt: skip
-        for line, length, feed, ramp, jerk, direction, turns, tolerance_u, finish_cnt in rows:
-            heading = direction if any(direction) else None
-            yield Job(
-                length_u=length, feed_ups=feed, ramp_ups2=ramp, start=heading, end=heading,
-                turns=turns, mode=mode, tolerance_u=tolerance_u, entry=line, begin=begin,
-                finish=line.end, begin_cnt=begin_cnt, finish_cnt=finish_cnt,
-                jerk_ups3=jerk, path_tolerance_u=planned_u,
-            )  # fmt: skip
-            begin, begin_cnt = line.end, finish_cnt
-
-    def job(self, entry: Motion, begin: Point) -> Job:
-        """Describe one move for the planner."""
-        shape = self._shape(entry, begin)
-        is_rapid = isinstance(entry, Rapid)
-        ramp = self._speeds.rapid_acc_ups2 if is_rapid else self._speeds.feed_acc_ups2
-        tolerance = planned_u = 0.0
-        if isinstance(entry, Line | Arc):
+    def job(
+        self,
+        entry: Motion,
+        begin: Point,
+        begin_cnt: Pulses | None = None,
+        *,
+        is_in_polyline: bool = False,
+    ) -> Job:
+        """Describe one move for the planner; `begin_cnt` are the pulses of its begin, if known."""
+        planned_u = 0.0
+        if isinstance(entry, (Line, Arc)):
             planned_u = self._planned_tolerance(entry.pace)
-        if isinstance(entry, Line) and self._geometry.is_linear(shape):
-            tolerance = self.tolerance(entry.pace)
-        begin_cnt, finish_cnt = self.pulses(begin), self.pulses(entry.end)
-        if tolerance > 0.0:
-            sent = self._geometry.line(self._place(begin_cnt), self._place(finish_cnt))
-            shape = sent if sent.length_u > 0.0 else shape
-        speed_ups = self._speed(entry, shape, is_planned=planned_u > 0.0)
+        shape = self._shape(entry, begin, planned_u, is_in_polyline=is_in_polyline)
         return Job(
             length_u=shape.length_u,
-            feed_ups=speed_ups,
-            ramp_ups2=self._geometry.ramp_limit(shape, ramp, speed_ups, rounds=tolerance > 0.0),
-            tolerance_u=tolerance,
+            feed_ups=shape.feed_ups,
+            ramp_ups2=shape.ramp_ups2,
+            tolerance_u=shape.tolerance_u,
             start=shape.start,
             end=shape.end,
             turns=shape.turns,
             mode=PathMode.EXACT if isinstance(entry, Rapid) else _mode(entry),
-            is_rapid=is_rapid,
+            is_rapid=isinstance(entry, Rapid),
             entry=entry,
             begin=begin,
             finish=entry.end,
-            begin_cnt=begin_cnt,
-            finish_cnt=finish_cnt,
-            jerk_ups3=self._geometry.jerk_limit(shape),
+            begin_cnt=self.pulses(begin) if begin_cnt is None else begin_cnt,
+            finish_cnt=self.pulses(entry.end),
+            jerk_ups3=shape.jerk_ups3,
             path_tolerance_u=planned_u,
+        )
+
+    def _shape(
+        self, entry: Motion, begin: Point, planned_u: float, *, is_in_polyline: bool
+    ) -> Shape:
+        if isinstance(entry, Rapid):
+            return self._law.straight(begin, entry.end)
+        wanted_ups = self.line_speed(entry.pace)
+        if isinstance(entry, Arc):
+            return self._law.arc(entry, begin, wanted_ups, is_planned=planned_u > 0.0)
+        tolerance_u = self.tolerance(entry.pace) if isinstance(entry, Line) else 0.0
+        return self._law.straight(
+            begin, entry.end, wanted_ups, tolerance_u, is_in_polyline=is_in_polyline
         )
 
     def sent_length_u(self, job: Job) -> float:
         """The length of a move between whole pulses, and of an arc about a centre on them."""
-        if not isinstance(job.entry, Arc):
+        begin, end, arc = self._place(job.begin_cnt), self._place(job.finish_cnt), job.entry
+        if not isinstance(arc, Arc):
             travel = [b - a for a, b in zip(job.begin_cnt, job.finish_cnt, strict=True)]
-            return self._geometry.line(self._place([0] * len(travel)), self._place(travel)).length_u
-        begin, end = self._place(job.begin_cnt), self._place(job.finish_cnt)
-        plane = (job.entry.plane.first, job.entry.plane.second)
-        pairs = zip(plane, job.entry.centre, strict=True)
+            return self._law.straight(self._place([0] * len(travel)), self._place(travel)).length_u
+        plane = arc.plane.first, arc.plane.second
+        pairs = zip(plane, arc.centre, strict=True)
         x, y = (self._pulse(axis, at_u) / self._scale[axis] for axis, at_u in pairs)
         from_rad, to_rad = (
             math.atan2(point[plane[1]] - y, point[plane[0]] - x) for point in (begin, end)
         )
-        turns = round((job.entry.sweep_rad - (to_rad - from_rad)) / math.tau)
+        turns = round((arc.sweep_rad - (to_rad - from_rad)) / math.tau)
         sweep_rad = to_rad - from_rad + math.tau * turns
-        return self._geometry.arc(begin, end, plane, (x, y), sweep_rad).length_u
+        sent = replace(arc, end=end, centre=(x, y), sweep_rad=sweep_rad)
+        return self._law.arc(sent, begin).length_u
 
     def _place(self, counts: Pulses) -> Point:
         """The machine position of whole pulses."""
@@ -185,21 +186,6 @@ class Encoder:
         for axis, count in zip(self._axes, counts, strict=True):
             point[axis] = count / self._scale[axis]
         return tuple(point)
-
-    def _shape(self, entry: Motion, begin: Point) -> MoveShape:
-        if not isinstance(entry, Arc):
-            return self._geometry.line(begin, entry.end)
-        plane = (entry.plane.first, entry.plane.second)
-        return self._geometry.arc(begin, entry.end, plane, entry.centre, entry.sweep_rad)
-
-    def _speed(self, entry: Motion, shape: MoveShape, *, is_planned: bool) -> float:
-        """Units per second (degrees where only rotary axes move), within all limits."""
-        speeds = self._speeds
-        if isinstance(entry, Rapid):
-            speed = min(speeds.rapid_ups, speeds.trial_ups) if self._is_dry else speeds.rapid_ups
-        else:
-            speed = self.line_speed(entry.pace)
-        return min(speed, self._geometry.speed_limit(shape, is_planned=is_planned))
 
     def tolerance(self, pace: Pace) -> float:
         """The largest deviation of the path at corners between straight moves."""
@@ -257,9 +243,7 @@ class Encoder:
         return [self._pulse(axis, point[axis]) for axis in self._axes]
 
     def _pulse(self, axis: int, position_u: float) -> int:
-        exact = position_u * self._scale[axis]
-        nearest = math.floor(abs(exact) + 0.5)  # half away from zero
-        return nearest if exact >= 0 else -nearest
+        return int(_pulses(position_u, self._scale[axis]))
 
     def beyond_pulses(self, job: Job) -> str | None:
         """The axis and position that exceed the 32 bits of a packet for pulses; None if all fit."""

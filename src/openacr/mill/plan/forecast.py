@@ -6,17 +6,17 @@ whose positions may be beyond something, and is asked nothing about the others.
 
 from __future__ import annotations
 
+from array import array
 from typing import TYPE_CHECKING, Protocol
 
 from openacr.cnc import canonical as c
-from openacr.cnc.canonical.batches import POINT
 from openacr.cnc.reading.line_shapes import MOST_ROWS, doubles, integers
 from openacr.compiled import pick
 from openacr.mill.config.settings import S_PER_MIN
 from openacr.mill.plan import forecast_cy as core
 from openacr.mill.plan import move_rows_cy as row
 from openacr.mill.plan import planning_cy as plan
-from openacr.mill.plan.geometry import weights
+from openacr.mill.plan.move_law import put_machine
 from openacr.mill.plan.planning import MODES, PASSES, CornerRules, put
 from openacr.mill.plan.predicting import Prediction, Timing
 
@@ -61,31 +61,11 @@ class Forecast(Timing):
         self._desk = desk
         self._files: list[str] = []
         self._dwell_s = 0.0
-        self._J, self._X = integers(core.J_SIZE), doubles(core.X_SIZE)
-        self._Y, self._U = doubles(len(settings.axes) * row.Y_SIZE), doubles(row.U_SIZE)
+        self._J, self._X = integers(core.J_FLAGS + MOST_ROWS), doubles(core.X_SIZE)
         self._Q, self._B = doubles(core.QUEUE * row.Q_SIZE), doubles(core.QUEUE)
-        self._P = doubles(plan.PHASE * plan.MOST_PHASES)
-        self._begin, self._flags = doubles(POINT), integers(MOST_ROWS)
-        self._set_up(settings, is_dry=is_dry)
-
-    def _set_up(self, settings: Settings, *, is_dry: bool) -> None:
-        speeds, X = settings.speeds, self._X
-        rapid_ups = min(speeds.rapid_ups, speeds.trial_ups) if is_dry else speeds.rapid_ups
-        X[row.X_RAPID], X[row.X_RAPID_RAMP] = rapid_ups, speeds.rapid_acc_ups2
-        X[row.X_FEED_RAMP], X[row.X_ARC_RAMP] = speeds.feed_acc_ups2, speeds.arc_acc_ups2
-        X[row.X_MAX], X[row.X_ROTARY] = speeds.max_ups, speeds.rotary_max
-        CornerRules.of(speeds).put(X)
-        self._J[row.J_AXES], self._J[plan.J_LEAST] = len(settings.axes), settings.forward_threshold
-        each = weights(settings)
-        for k, axis in enumerate(settings.axes):
-            high, low = axis.soft_limits or (0.0, 0.0)
-            numbers = (
-                axis.index, axis.is_linear, axis.pulses_per_unit, axis.max_speed_ups,
-                axis.max_acceleration_ups2, axis.soft_limits is not None, high, low,
-                each[axis.index],
-            )  # fmt: skip
-            for n, number in enumerate(numbers):
-                self._Y[k * row.Y_SIZE + n] = float(number)
+        put_machine(self._J, self._X, settings, is_dry=is_dry)
+        CornerRules.of(settings.speeds).put(self._X)
+        self._J[plan.J_LEAST] = settings.forward_threshold
 
     @property
     def found(self) -> Prediction:
@@ -104,7 +84,7 @@ class Forecast(Timing):
 
     def rest(self, dwell_s: float = 0.0) -> None:
         """Add a stop with a dwell."""
-        _release(self._J, self._X, self._Q, self._B, self._P, True)
+        _release(self._J, self._X, self._Q, self._B, True)
         self._dwell_s += dwell_s
 
     def close(self) -> None:
@@ -135,18 +115,17 @@ class Forecast(Timing):
         paces = doubles(len(moves.paces) * core.PACE)
         for k, pace in enumerate(moves.paces):
             mode = c.PathMode.EXACT if pace.is_confirmed else pace.mode
-            paces[k * core.PACE] = self._encoder.line_speed(pace)
-            paces[k * core.PACE + 1] = MODES.get(mode, PASSES)
-            paces[k * core.PACE + 2] = self._encoder.tolerance(pace)
-            paces[k * core.PACE + 3] = pace.feed_upm / S_PER_MIN
-        for axis, at in enumerate(self._position):
-            self._begin[axis] = at
-        flagged = _moves(
-            J, self._X, self._Y, self._U, self._Q, self._B, self._P, self._begin, moves.rows,
-            moves.ends, moves.arcs, paces, count, self._flags,
-        )  # fmt: skip
+            at = k * core.PACE
+            paces[at + core.PACE_UPS] = self._encoder.line_speed(pace)
+            paces[at + core.PACE_MODE] = MODES.get(mode, PASSES)
+            paces[at + core.PACE_CORNER_U] = self._encoder.tolerance(pace)
+            paces[at + core.PACE_WANTED_UPS] = pace.feed_upm / S_PER_MIN
+        X = self._X
+        X[row.X_BEGIN_U : row.X_BEGIN_U + row.AXES] = array("d", self._position)
+        J[core.J_ROWS] = count
+        flagged = _moves(J, X, self._Q, self._B, moves.rows, moves.ends, moves.arcs, paces)
         if self._desk is not None:
-            for k in self._flags[:flagged]:
+            for k in J[core.J_FLAGS : core.J_FLAGS + flagged]:
                 begin = moves.end_of(k - 1) if k else self._position
                 self._desk.read(self._encoder.job(moves.entry(k), begin))
         self._position = moves.end_of(count - 1)
@@ -161,9 +140,9 @@ class Forecast(Timing):
         Q, entry = self._Q, job.entry
         q = (self._J[plan.J_HEAD] + self._J[plan.J_COUNT]) * row.Q_SIZE
         put(Q, q, job)
-        Q[q + row.Q_WANTED] = _wanted(entry)
+        Q[q + row.Q_WANTED_UPS] = _wanted(entry)
         Q[q + row.Q_LINE], Q[q + row.Q_FILE] = entry.source.line, self._file(entry.source.file)
-        _add(self._J, self._X, Q, self._B, self._P)
+        _add(self._J, self._X, Q, self._B)
 
 
 def _wanted(entry: Motion) -> float:

@@ -1,16 +1,19 @@
-"""Planning data of moves, from arrays: lengths, tangents, limits, of straight moves and arcs.
+"""What a straight move or an arc is to the planner: length, tangents, limits. The law of moves.
 
-The formulas are those of `geometry` and `encoding`, where they are explained:
+The feed counts along the linear axes; rotary ones follow. A move of rotary axes alone has its
+length in degrees of the fastest one.
 
     line   L = |d|                        tangent d / L           share of an axis |d_a| / L
     arc    L = sqrt((r sweep)^2 + |rise|^2)    tangent a quarter turn ahead of the radius, tilted
     feed   the lowest of F, the machine, limit_a / share_a, and what an arc allows
     ramp   the lowest of the machine, limit_a / share_a, and what the turn of an arc leaves
+    jerk   the lowest of that of paths and limit_a / share_a
 
-`Q` is the row of a move, `Y` has the axes of the machine, AXIS numbers each, `X` the speeds of the
-machine, `J` integers. `U`: scratch, a displacement, shares, and the bend of an arc. A row whose
-positions are to be looked at one by one is flagged: it may be beyond a soft limit or the pulses of
-a packet.
+The radius r of a spiral is its mean. In a corner that the card rounds the ramp can have any
+direction, so that it is within the limit of every axis.
+
+`X`: numbers of the machine, then of the move in hand; `J`: counts, masks and kinds; `Q`: rows of
+moves, of which the present one begins at q.
 """
 
 from openacr.cmath import fabs, floor, sqrt
@@ -18,88 +21,120 @@ from openacr.mill.plan.arc_law_cy import arc_bend, arc_ramp, arc_skew, arc_speed
 from openacr.views import F64, I32
 
 AXES = 8
+MOST_LINEAR = 5
+MOST_ROTARY = 3
+
+# A corner, as the card rounds it.
+K_IS_ROUND = 0
+K_TURN = 1  # length of the difference of the two unit tangents
+K_REACH_U = 2  # along both moves
+K_CAP_UPS = 3  # highest speed
+K_RAMP_UPS2 = 4  # of the weaker of the two moves
+K_SIZE = 5
 
 # A move in the planner.
-Q_LENGTH = 0
-Q_FEED = 1
-Q_RAMP = 2
-Q_TOLERANCE = 3
-Q_MODE = 4
-Q_IS_RAPID = 5
-Q_HAS_TANGENT = 6
-Q_START = 7  # unit tangents, one number for each linear axis
-Q_END = 12
-Q_WANTED = 17  # F, units/s
-Q_LINE = 18
-Q_FILE = 19
-Q_CORNER = 20  # highest speed at its end
-Q_EXIT = 21  # planned speed at its end
-Q_IS_ROUND = 22  # its end is a rounded corner: turn, reach, highest speed
-Q_TURN = 23
-Q_REACH = 24
-Q_CAP = 25
-Q_ROTATION = 26  # of rotary axes by length, a degree as a length
-Q_ROUND_RAMP = 29  # of the weaker of the two moves at a rounded corner
-Q_IS_JOINED = 30  # rounded into the next move by the card, or straight on
-Q_SIZE = 31
+Q_LENGTH_U = 0
+Q_FEED_UPS = 1
+Q_RAMP_UPS2 = 2
+Q_JERK_UPS3 = 3
+Q_TOLERANCE_U = 4  # of the corner at its end, towards another move with one
+Q_MODE = 5
+Q_IS_RAPID = 6
+Q_HAS_TANGENT = 7
+Q_START = 8  # unit tangents, one number for each linear axis
+Q_END = Q_START + MOST_LINEAR
+Q_TURNS = Q_END + MOST_LINEAR  # of rotary axes by length, a degree as a length
+Q_WANTED_UPS = Q_TURNS + MOST_ROTARY  # F
+Q_LINE = Q_WANTED_UPS + 1
+Q_FILE = Q_WANTED_UPS + 2
+Q_CORNER_UPS = Q_WANTED_UPS + 3  # highest speed at its end
+Q_EXIT_UPS = Q_WANTED_UPS + 4  # planned speed at its end
+Q_IS_JOINED = Q_WANTED_UPS + 5  # rounded into the next move by the card, or straight on
+Q_ROUND = Q_WANTED_UPS + 6  # the corner at its end
+Q_SIZE = Q_ROUND + K_SIZE
 
 # An axis of the machine.
 Y_INDEX = 0
 Y_IS_LINEAR = 1
 Y_SCALE = 2  # pulses per unit
-Y_SPEED = 3  # limits; 0: unlimited
-Y_RAMP = 4
-Y_HAS_LIMITS = 5
-Y_HIGH = 6
-Y_LOW = 7
-Y_WEIGHT = 8  # the length that a unit or degree counts as
-Y_SIZE = 9
+Y_SPEED_UPS = 3  # limits; 0: unlimited
+Y_RAMP_UPS2 = 4
+Y_JERK_UPS3 = 5
+Y_HAS_LIMITS = 6
+Y_HIGH_U = 7
+Y_LOW_U = 8
+Y_WEIGHT = 9  # the length that a unit or degree counts as
+Y_SIZE = 10
 
-# Speeds of the machine.
-X_RAPID = 0
-X_RAPID_RAMP = 1
-X_FEED_RAMP = 2
-X_ARC_RAMP = 3
-X_MAX = 4
-X_ROTARY = 5
-X_MOVES = 6  # numbers before these
+# The machine.
+X_RAPID_UPS = 0
+X_RAPID_UPS2 = 1  # ramps
+X_FEED_UPS2 = 2
+X_ARC_UPS2 = 3
+X_MAX_UPS = 4
+X_ROTARY_UPS = 5
+X_JERK_UPS3 = 6
+X_AXES = 7  # Y_SIZE numbers for each axis of the machine
+
+# The move in hand: what it is,
+X_BEGIN_U = X_AXES + AXES * Y_SIZE  # machine positions of all axes
+X_END_U = X_BEGIN_U + AXES
+X_WANTED_UPS = X_END_U + AXES
+X_CORNER_U = X_WANTED_UPS + 1  # tolerance of its corners
+X_CENTRE_U = X_CORNER_U + 1  # of an arc, on the two axes of its plane
+X_SWEEP_RAD = X_CENTRE_U + 2
+X_RADII_U = X_SWEEP_RAD + 1  # the distances of its begin and end from the centre
+# and what follows.
+X_DELTA_U = X_RADII_U + 2
+X_SHARE = X_DELTA_U + AXES
+X_BEND_PER_U = X_SHARE + AXES  # of an arc, 0: of a line
+X_WIDENING = X_BEND_PER_U + 1
+X_SKEW = X_BEND_PER_U + 2
+X_MOVES = X_BEND_PER_U + 3  # numbers before these
 
 J_AXES = 0  # count
-J_UNHOMED = 1  # mask of axes whose first move is to be flagged
-J_MOVES = 2  # integers before these
+J_SHARES_RAMP = 1  # each rotary axis has the ramp of feed moves: of machines that plan paths
+J_UNHOMED = 2  # mask of axes whose first move is to be flagged
+J_KIND = 3  # of the move in hand
+J_FIRST = 4  # the axes of the plane of an arc
+J_SECOND = 5
+J_IS_PLANNED = 6  # its path is planned, which leaves its turns to the planner of the path
+J_IN_POLYLINE = 7  # its length and limits are those of its programmed ends
+J_MOVES = 8  # integers before these
 
 RAPID = 0
 LINE = 1
 ARC = 2
-ZX = 18
-YZ = 19
+UNLIMITED = 1.0e300
 LONG_MAX = 2147483647.0
 
-U_DELTA = 0
-U_SHARE = 8
-U_BEND = 16  # of an arc, 0: of a line
-U_WIDENING = 17
-U_SKEW = 18
-U_SIZE = 19
-
-__all__ = ["move_row"]
+__all__ = ["move_pulses", "move_row"]
 
 
 def move_pulses(at: float, scale: float) -> float:
     """A position in whole pulses, halves away from zero."""
     exact: float = at * scale
     nearest: float = floor(fabs(exact) + 0.5)
-    return nearest if exact >= 0.0 else -nearest
+    return nearest if exact >= 0.0 else 0.0 - nearest
 
 
-def move_line(J: I32, Y: F64, U: F64, Q: F64, q: int) -> None:
-    """Length, tangent and shares of a straight move by the displacement in U."""
+def move_radii(J: I32, X: F64) -> None:
+    """The distances of both ends of an arc from its centre."""
+    for end in range(2):
+        at: int = X_BEGIN_U if end == 0 else X_END_U
+        x: float = X[at + J[J_FIRST]] - X[X_CENTRE_U]
+        y: float = X[at + J[J_SECOND]] - X[X_CENTRE_U + 1]
+        X[X_RADII_U + end] = sqrt(x * x + y * y)
+
+
+def move_line(J: I32, X: F64, Q: F64, q: int) -> None:
+    """Length, tangent and shares of a straight move by its displacement."""
     along: float = 0.0
     turned: float = 0.0
     for k in range(J[J_AXES]):
-        y: int = k * Y_SIZE
-        delta: float = U[U_DELTA + int(Y[y + Y_INDEX])]
-        if Y[y + Y_IS_LINEAR] > 0.0:
+        y: int = X_AXES + k * Y_SIZE
+        delta: float = X[X_DELTA_U + int(X[y + Y_INDEX])]
+        if X[y + Y_IS_LINEAR] > 0.0:
             along += delta * delta
         elif fabs(delta) > turned:
             turned = fabs(delta)
@@ -107,197 +142,220 @@ def move_line(J: I32, Y: F64, U: F64, Q: F64, q: int) -> None:
     Q[q + Q_HAS_TANGENT] = 1.0 if length > 0.0 else 0.0
     place: int = 0
     for k in range(J[J_AXES]):
-        y = k * Y_SIZE
-        if Y[y + Y_IS_LINEAR] > 0.0:
+        y = X_AXES + k * Y_SIZE
+        if X[y + Y_IS_LINEAR] > 0.0:
             part: float = 0.0
             if length > 0.0:
-                part = U[U_DELTA + int(Y[y + Y_INDEX])] / length
+                part = X[X_DELTA_U + int(X[y + Y_INDEX])] / length
             Q[q + Q_START + place] = part
             Q[q + Q_END + place] = part
             place += 1
     if length <= 0.0:
         length = turned
     for axis in range(AXES):
-        U[U_SHARE + axis] = fabs(U[U_DELTA + axis]) / length if length > 0.0 else 0.0
-    Q[q + Q_LENGTH] = length
+        X[X_SHARE + axis] = fabs(X[X_DELTA_U + axis]) / length if length > 0.0 else 0.0
+    Q[q + Q_LENGTH_U] = length
 
 
-def move_arc(
-    J: I32, Y: F64, U: F64, Q: F64, q: int, begin: F64, ends: F64, at: int, arcs: F64, a: int,
-    first: int, second: int
-) -> None:  # fmt: skip
-    """Length, tangents and shares of an arc."""
-    x0: float = begin[first] - arcs[a]
-    y0: float = begin[second] - arcs[a + 1]
-    x1: float = ends[at + first] - arcs[a]
-    y1: float = ends[at + second] - arcs[a + 1]
-    r0: float = sqrt(x0 * x0 + y0 * y0)
-    r1: float = sqrt(x1 * x1 + y1 * y1)
-    arc_u: float = 0.5 * (r0 + r1) * fabs(arcs[a + 2])
+def move_arc(J: I32, X: F64, Q: F64, q: int) -> None:
+    """Length, tangents and shares of an arc, and how it bends."""
+    first: int = J[J_FIRST]
+    second: int = J[J_SECOND]
+    sweep: float = X[X_SWEEP_RAD]
+    r0: float = X[X_RADII_U]
+    r1: float = X[X_RADII_U + 1]
+    arc_u: float = 0.5 * (r0 + r1) * fabs(sweep)
     rise: float = 0.0
     for k in range(J[J_AXES]):
-        axis: int = int(Y[k * Y_SIZE + Y_INDEX])
-        if Y[k * Y_SIZE + Y_IS_LINEAR] > 0.0 and axis != first and axis != second:
-            rise += U[U_DELTA + axis] * U[U_DELTA + axis]
+        y: int = X_AXES + k * Y_SIZE
+        axis: int = int(X[y + Y_INDEX])
+        if X[y + Y_IS_LINEAR] > 0.0 and axis != first and axis != second:
+            rise += X[X_DELTA_U + axis] * X[X_DELTA_U + axis]
     length: float = sqrt(arc_u * arc_u + rise)
-    Q[q + Q_LENGTH] = length
+    Q[q + Q_LENGTH_U] = length
     Q[q + Q_HAS_TANGENT] = 1.0 if length > 0.0 else 0.0
     for each in range(AXES):
-        U[U_SHARE + each] = fabs(U[U_DELTA + each]) / length if length > 0.0 else 0.0
+        X[X_SHARE + each] = fabs(X[X_DELTA_U + each]) / length if length > 0.0 else 0.0
     if length <= 0.0:
         return
-    U[U_SHARE + first] = arc_u / length
-    U[U_SHARE + second] = arc_u / length
+    X[X_SHARE + first] = arc_u / length
+    X[X_SHARE + second] = arc_u / length
     if arc_u > 0.0:
-        U[U_BEND] = arc_bend(r0, r1, arcs[a + 2], arc_u / length)
-        U[U_WIDENING] = arc_widening(r0, r1, arcs[a + 2])
-        U[U_SKEW] = arc_skew(r0, r1, arcs[a + 2])
-    turn: float = arc_u / length if arcs[a + 2] > 0.0 else -arc_u / length
-    n0: float = r0 if r0 > 0.0 else 1.0
-    n1: float = r1 if r1 > 0.0 else 1.0
-    place: int = 0
+        X[X_BEND_PER_U] = arc_bend(r0, r1, sweep, arc_u / length)
+        X[X_WIDENING] = arc_widening(r0, r1, sweep)
+        X[X_SKEW] = arc_skew(r0, r1, sweep)
+    turn: float = arc_u / length if sweep > 0.0 else -arc_u / length
+    move_tangent(J, X, X_BEGIN_U, r0, turn, length, Q, q + Q_START)
+    move_tangent(J, X, X_END_U, r1, turn, length, Q, q + Q_END)
+
+
+def move_tangent(
+    J: I32, X: F64, at: int, radius: float, turn: float, length: float, Q: F64, tangent: int
+) -> None:
+    """The unit tangent of an arc at X[at]: a quarter turn ahead of the radius, tilted."""
+    n: float = radius if radius > 0.0 else 1.0
     for k in range(J[J_AXES]):
-        axis = int(Y[k * Y_SIZE + Y_INDEX])
-        if Y[k * Y_SIZE + Y_IS_LINEAR] > 0.0:
-            start: float = U[U_DELTA + axis] / length
-            end: float = start
-            if axis == first:
-                start = -y0 / n0 * turn
-                end = -y1 / n1 * turn
-            elif axis == second:
-                start = x0 / n0 * turn
-                end = x1 / n1 * turn
-            Q[q + Q_START + place] = start
-            Q[q + Q_END + place] = end
-            place += 1
+        y: int = X_AXES + k * Y_SIZE
+        if X[y + Y_IS_LINEAR] > 0.0:
+            axis: int = int(X[y + Y_INDEX])
+            part: float = X[X_DELTA_U + axis] / length
+            if axis == J[J_FIRST]:
+                part = -(X[at + J[J_SECOND]] - X[X_CENTRE_U + 1]) / n * turn
+            elif axis == J[J_SECOND]:
+                part = (X[at + J[J_FIRST]] - X[X_CENTRE_U]) / n * turn
+            Q[tangent] = part
+            tangent += 1
 
 
-def move_rotation(J: I32, Y: F64, U: F64, Q: F64, q: int) -> None:
+def move_turns(J: I32, X: F64, Q: F64, q: int) -> None:
     """What the rotary axes turn by the length of the move."""
     place: int = 0
     for k in range(J[J_AXES]):
-        y: int = k * Y_SIZE
-        if Y[y + Y_IS_LINEAR] <= 0.0:
-            turned: float = Y[y + Y_WEIGHT] * U[U_DELTA + int(Y[y + Y_INDEX])]
-            Q[q + Q_ROTATION + place] = turned / Q[q + Q_LENGTH] if Q[q + Q_LENGTH] > 0.0 else 0.0
+        y: int = X_AXES + k * Y_SIZE
+        if X[y + Y_IS_LINEAR] <= 0.0:
+            turned: float = X[y + Y_WEIGHT] * X[X_DELTA_U + int(X[y + Y_INDEX])]
+            length: float = Q[q + Q_LENGTH_U] if Q[q + Q_LENGTH_U] > 0.0 else 1.0
+            Q[q + Q_TURNS + place] = turned / length
             place += 1
 
 
-def move_limits(J: I32, X: F64, Y: F64, U: F64, Q: F64, q: int, rounds: bool) -> None:
-    """Lower feed and ramp of a move to the limits of the machine and of its axes."""
-    feed: float = Q[q + Q_FEED]
-    ramp: float = Q[q + Q_RAMP]
-    if Q[q + Q_HAS_TANGENT] > 0.0 and X[X_MAX] < feed:
-        feed = X[X_MAX]
+def move_limits(J: I32, X: F64, Q: F64, q: int) -> None:
+    """Lower feed, ramp and jerk of a move to the limits of the machine and of its axes."""
+    feed: float = Q[q + Q_FEED_UPS]
+    ramp: float = Q[q + Q_RAMP_UPS2]
+    jerk: float = UNLIMITED
+    rounds: bool = Q[q + Q_TOLERANCE_U] > 0.0
+    fastest_turn: float = 1.0
+    if Q[q + Q_HAS_TANGENT] > 0.0:
+        feed = X[X_MAX_UPS] if X[X_MAX_UPS] < feed else feed
+        jerk = X[X_JERK_UPS3]
     for k in range(J[J_AXES]):
-        y: int = k * Y_SIZE
-        share: float = U[U_SHARE + int(Y[y + Y_INDEX])]
+        y: int = X_AXES + k * Y_SIZE
+        share: float = X[X_SHARE + int(X[y + Y_INDEX])]
         if share > 0.0:
-            if Y[y + Y_SPEED] > 0.0 and Y[y + Y_SPEED] / share < feed:
-                feed = Y[y + Y_SPEED] / share
-            is_turned: bool = Y[y + Y_IS_LINEAR] <= 0.0 and X[X_ROTARY] > 0.0
-            if is_turned and X[X_ROTARY] / share < feed:
-                feed = X[X_ROTARY] / share
-            limit: float = Y[y + Y_RAMP] if rounds else Y[y + Y_RAMP] / share
-            if Y[y + Y_RAMP] > 0.0 and limit < ramp:
+            if X[y + Y_SPEED_UPS] > 0.0 and X[y + Y_SPEED_UPS] / share < feed:
+                feed = X[y + Y_SPEED_UPS] / share
+            is_turned: bool = X[y + Y_IS_LINEAR] <= 0.0
+            if is_turned and X[X_ROTARY_UPS] > 0.0 and X[X_ROTARY_UPS] / share < feed:
+                feed = X[X_ROTARY_UPS] / share
+            if is_turned and share > fastest_turn:
+                fastest_turn = share
+            limit: float = X[y + Y_RAMP_UPS2] if rounds else X[y + Y_RAMP_UPS2] / share
+            if X[y + Y_RAMP_UPS2] > 0.0 and limit < ramp:
                 ramp = limit
-    Q[q + Q_FEED] = feed
-    Q[q + Q_RAMP] = ramp
+            if X[y + Y_JERK_UPS3] > 0.0 and X[y + Y_JERK_UPS3] / share < jerk:
+                jerk = X[y + Y_JERK_UPS3] / share
+    if J[J_SHARES_RAMP] and Q[q + Q_RAMP_UPS2] / fastest_turn < ramp:
+        ramp = Q[q + Q_RAMP_UPS2] / fastest_turn
+    Q[q + Q_FEED_UPS] = feed
+    Q[q + Q_RAMP_UPS2] = ramp
+    Q[q + Q_JERK_UPS3] = jerk if jerk < UNLIMITED else X[X_JERK_UPS3]
 
 
-def move_turns(
-    J: I32, X: F64, Y: F64, U: F64, Q: F64, q: int, first: int, second: int
-) -> None:  # fmt: skip
+def move_bend(J: I32, X: F64, Q: F64, q: int) -> None:
     """Lower feed and ramp of an arc to what the limits of the two axes of its plane leave."""
-    limit: float = X[X_ARC_RAMP]
+    limit: float = X[X_ARC_UPS2]
     for k in range(J[J_AXES]):
-        axis: int = int(Y[k * Y_SIZE + Y_INDEX])
-        own: float = Y[k * Y_SIZE + Y_RAMP]
-        if (axis == first or axis == second) and 0.0 < own < limit:
+        axis: int = int(X[X_AXES + k * Y_SIZE + Y_INDEX])
+        own: float = X[X_AXES + k * Y_SIZE + Y_RAMP_UPS2]
+        if (axis == J[J_FIRST] or axis == J[J_SECOND]) and 0.0 < own < limit:
             limit = own
-    speed: float = arc_speed(limit, U[U_BEND])
-    if speed < Q[q + Q_FEED]:
-        Q[q + Q_FEED] = speed
-    ramp: float = arc_ramp(limit, U[U_BEND], U[U_WIDENING], U[U_SKEW], Q[q + Q_FEED])
-    if ramp < Q[q + Q_RAMP]:
-        Q[q + Q_RAMP] = ramp
+    speed: float = arc_speed(limit, X[X_BEND_PER_U])
+    if J[J_IS_PLANNED]:  # by axis; Arc Acceleration is not known to it
+        speed = sqrt(X[X_ARC_UPS2] / X[X_BEND_PER_U])
+    if speed < Q[q + Q_FEED_UPS]:
+        Q[q + Q_FEED_UPS] = speed
+    ramp: float = arc_ramp(limit, X[X_BEND_PER_U], X[X_WIDENING], X[X_SKEW], Q[q + Q_FEED_UPS])
+    if ramp < Q[q + Q_RAMP_UPS2]:
+        Q[q + Q_RAMP_UPS2] = ramp
 
 
-def move_is_linear(J: I32, Y: F64, U: F64) -> bool:
+def move_is_linear(J: I32, X: F64) -> bool:
     """Whether no rotary axis moves."""
     for k in range(J[J_AXES]):
-        if Y[k * Y_SIZE + Y_IS_LINEAR] <= 0.0 and U[U_SHARE + int(Y[k * Y_SIZE + Y_INDEX])] > 0.0:
+        y: int = X_AXES + k * Y_SIZE
+        if X[y + Y_IS_LINEAR] <= 0.0 and X[X_SHARE + int(X[y + Y_INDEX])] > 0.0:
             return False
     return True
 
 
-def move_as_sent(J: I32, Y: F64, U: F64, Q: F64, q: int, begin: F64, ends: F64, at: int) -> None:
-    """The same move between whole pulses, where it has a length then."""
+def move_as_sent(J: I32, X: F64, Q: F64, q: int) -> None:
+    """The same move between whole pulses, where it has a length then.
+
+    In short moves rounding creates corners that the program does not have.
+    """
     for axis in range(AXES):
-        U[U_DELTA + axis] = 0.0
+        X[X_DELTA_U + axis] = 0.0
     moves: bool = False
     for k in range(J[J_AXES]):
-        axis = int(Y[k * Y_SIZE + Y_INDEX])
-        scale: float = Y[k * Y_SIZE + Y_SCALE]
-        end: float = move_pulses(ends[at + axis], scale) / scale
-        U[U_DELTA + axis] = end - move_pulses(begin[axis], scale) / scale
-        moves = moves or U[U_DELTA + axis] != 0.0
+        axis = int(X[X_AXES + k * Y_SIZE + Y_INDEX])
+        scale: float = X[X_AXES + k * Y_SIZE + Y_SCALE]
+        end: float = move_pulses(X[X_END_U + axis], scale) / scale
+        X[X_DELTA_U + axis] = end - move_pulses(X[X_BEGIN_U + axis], scale) / scale
+        moves = moves or X[X_DELTA_U + axis] != 0.0
     if moves:
-        move_line(J, Y, U, Q, q)
+        move_line(J, X, Q, q)
 
 
-def move_is_flagged(
-    J: I32, Y: F64, begin: F64, ends: F64, at: int, arcs: F64, a: int, first: int, second: int
-) -> bool:
-    """Whether the positions of a move are to be looked at; `first` is -1 for straight moves."""
+def move_straight(J: I32, X: F64, Q: F64, q: int) -> None:
+    """Shape and limits of a straight move."""
+    move_line(J, X, Q, q)
+    rounds: bool = J[J_KIND] == LINE and X[X_CORNER_U] > 0.0 and Q[q + Q_HAS_TANGENT] > 0.0
+    rounds = rounds and move_is_linear(J, X)
+    if rounds:
+        Q[q + Q_TOLERANCE_U] = X[X_CORNER_U]
+    if rounds and not J[J_IN_POLYLINE]:
+        move_as_sent(J, X, Q, q)
+    move_turns(J, X, Q, q)
+    move_limits(J, X, Q, q)
+    if rounds and J[J_IN_POLYLINE]:
+        length: float = Q[q + Q_LENGTH_U]
+        move_as_sent(J, X, Q, q)
+        Q[q + Q_LENGTH_U] = length
+
+
+def move_row(J: I32, X: F64, Q: F64, q: int) -> None:
+    """Fill in the row of the move in hand."""
+    is_rapid: bool = J[J_KIND] == RAPID
+    X[X_BEND_PER_U] = 0.0
+    for axis in range(AXES):
+        X[X_DELTA_U + axis] = X[X_END_U + axis] - X[X_BEGIN_U + axis]
+    Q[q + Q_IS_RAPID] = 1.0 if is_rapid else 0.0
+    Q[q + Q_FEED_UPS] = X[X_RAPID_UPS] if is_rapid else X[X_WANTED_UPS]
+    Q[q + Q_RAMP_UPS2] = X[X_RAPID_UPS2] if is_rapid else X[X_FEED_UPS2]
+    Q[q + Q_TOLERANCE_U] = 0.0
+    if J[J_KIND] != ARC:
+        move_straight(J, X, Q, q)
+        return
+    move_arc(J, X, Q, q)
+    move_turns(J, X, Q, q)
+    move_limits(J, X, Q, q)
+    if X[X_BEND_PER_U] > 0.0:
+        move_bend(J, X, Q, q)
+
+
+def move_is_flagged(J: I32, X: F64, reach_u: float) -> bool:
+    """Whether the positions of a move are to be looked at one by one.
+
+    It may be beyond a soft limit or the pulses of a packet, or be the first of an axis whose
+    limits are not in force. `reach_u`: the larger radius of an arc.
+    """
     found: bool = False
     for k in range(J[J_AXES]):
-        y: int = k * Y_SIZE
-        axis: int = int(Y[y + Y_INDEX])
-        end: float = ends[at + axis]
-        if fabs(move_pulses(end, Y[y + Y_SCALE])) > LONG_MAX:
+        y: int = X_AXES + k * Y_SIZE
+        axis: int = int(X[y + Y_INDEX])
+        end: float = X[X_END_U + axis]
+        if fabs(move_pulses(end, X[y + Y_SCALE])) > LONG_MAX:
             found = True
         high: float = end
         low: float = end
-        if first >= 0 and (axis == first or axis == second):
-            reach: float = arcs[a + 3] if arcs[a + 3] > arcs[a + 4] else arcs[a + 4]
-            centre: float = arcs[a] if axis == first else arcs[a + 1]
-            high = centre + 1.001 * reach
-            low = centre - 1.001 * reach
-        if Y[y + Y_HAS_LIMITS] > 0.0 and (high > Y[y + Y_HIGH] or low < Y[y + Y_LOW]):
+        if J[J_KIND] == ARC and (axis == J[J_FIRST] or axis == J[J_SECOND]):
+            centre: float = X[X_CENTRE_U] if axis == J[J_FIRST] else X[X_CENTRE_U + 1]
+            high = centre + 1.001 * reach_u
+            low = centre - 1.001 * reach_u
+        if X[y + Y_HAS_LIMITS] > 0.0 and (high > X[y + Y_HIGH_U] or low < X[y + Y_LOW_U]):
             found = True
-        if end != begin[axis] and J[J_UNHOMED] & (1 << axis):
+        if end != X[X_BEGIN_U + axis] and J[J_UNHOMED] & (1 << axis):
             J[J_UNHOMED] = J[J_UNHOMED] - (1 << axis)
             found = True
     return found
-
-
-def move_row(
-    J: I32, X: F64, Y: F64, U: F64, Q: F64, q: int, begin: F64, kind: int, plane: int, ends: F64,
-    at: int, arcs: F64, a: int, wanted: float, tolerance: float
-) -> bool:  # fmt: skip
-    """Fill in the row of a move to the point at `at`; returns whether it is flagged."""
-    first: int = -1
-    second: int = -1
-    U[U_BEND] = 0.0
-    for axis in range(AXES):
-        U[U_DELTA + axis] = ends[at + axis] - begin[axis]
-    Q[q + Q_IS_RAPID] = 1.0 if kind == RAPID else 0.0
-    Q[q + Q_FEED] = wanted
-    Q[q + Q_RAMP] = X[X_RAPID_RAMP] if kind == RAPID else X[X_FEED_RAMP]
-    Q[q + Q_TOLERANCE] = 0.0
-    if kind == ARC:
-        first = 2 if plane == ZX else (1 if plane == YZ else 0)
-        second = 0 if plane == ZX else (2 if plane == YZ else 1)
-        move_arc(J, Y, U, Q, q, begin, ends, at, arcs, a, first, second)
-    else:
-        move_line(J, Y, U, Q, q)
-        if kind == LINE and tolerance > 0.0 and Q[q + Q_HAS_TANGENT] > 0.0:
-            if move_is_linear(J, Y, U):
-                Q[q + Q_TOLERANCE] = tolerance
-                move_as_sent(J, Y, U, Q, q, begin, ends, at)
-    move_rotation(J, Y, U, Q, q)
-    move_limits(J, X, Y, U, Q, q, Q[q + Q_TOLERANCE] > 0.0)
-    if U[U_BEND] > 0.0:
-        move_turns(J, X, Y, U, Q, q, first, second)
-    return move_is_flagged(J, Y, begin, ends, at, arcs, a, first, second)

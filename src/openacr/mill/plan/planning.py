@@ -48,12 +48,12 @@ class CornerRules:
 
     def put(self, X: F64) -> None:
         """Write them where the core reads them."""
-        X[core.X_ANGLE1], X[core.X_ANGLE2] = self.angle1_deg, self.angle2_deg
-        X[core.X_SLOWEST], X[core.X_STEP] = self.slowest_ups, self.step_ups
+        X[core.X_ANGLE1_DEG], X[core.X_ANGLE2_DEG] = self.angle1_deg, self.angle2_deg
+        X[core.X_SLOWEST_UPS], X[core.X_STEP_UPS] = self.slowest_ups, self.step_ups
 
 
 class Corner(NamedTuple):
-    """A rounded corner: the size of its turn, its reach along the path, its limits."""
+    """A rounded corner, in the order of `move_rows_cy`."""
 
     turn: float  # length of the difference of the two unit tangents
     reach_u: float
@@ -84,15 +84,15 @@ Moves = TypeVar("Moves", bound=PlannedMove)
 
 def put(Q: F64, q: int, move: PlannedMove) -> None:
     """Write what the core plans of a move to the row at `q`."""
-    Q[q + row.Q_LENGTH], Q[q + row.Q_FEED] = move.length_u, move.feed_ups
-    Q[q + row.Q_RAMP], Q[q + row.Q_TOLERANCE] = move.ramp_ups2, move.tolerance_u
+    Q[q + row.Q_LENGTH_U], Q[q + row.Q_FEED_UPS] = move.length_u, move.feed_ups
+    Q[q + row.Q_RAMP_UPS2], Q[q + row.Q_TOLERANCE_U] = move.ramp_ups2, move.tolerance_u
     Q[q + row.Q_MODE] = MODES.get(move.mode, PASSES)
     Q[q + row.Q_IS_RAPID] = move.is_rapid
     Q[q + row.Q_HAS_TANGENT] = move.start is not None
     for first, numbers in (
         (row.Q_START, move.start or ()),
         (row.Q_END, move.end or ()),
-        (row.Q_ROTATION, move.turns),
+        (row.Q_TURNS, move.turns),
     ):
         for k, number in enumerate(numbers, q + first):
             Q[k] = number
@@ -143,11 +143,9 @@ class Planner(Generic[Moves]):
     def _pop_first(self) -> Moves:
         """Remove the first move, with what was planned of it."""
         move, Q, q = self._moves.popleft(), self._Q, self._J[core.J_HEAD] * row.Q_SIZE
-        move.exit_ups, move.is_joined = Q[q + row.Q_EXIT], Q[q + row.Q_IS_JOINED] > 0.0
-        move.corner = None
-        if Q[q + row.Q_IS_ROUND]:
-            turn, reach, cap = Q[q + row.Q_TURN], Q[q + row.Q_REACH], Q[q + row.Q_CAP]
-            move.corner = Corner(turn, reach, cap, Q[q + row.Q_ROUND_RAMP])
+        move.exit_ups, move.is_joined = Q[q + row.Q_EXIT_UPS], Q[q + row.Q_IS_JOINED] > 0.0
+        is_round, *corner = Q[q + row.Q_ROUND : q + row.Q_SIZE]
+        move.corner = Corner(*corner) if is_round else None
         _drop(self._J, Q, self._B, 1)
         return move
 
@@ -165,19 +163,16 @@ class Ramps:
 
     def __init__(self) -> None:
         self._X, self._Q = doubles(core.X_PLAN), doubles(row.Q_SIZE)
-        self._P = doubles(core.PHASE * core.MOST_PHASES)
 
     def travel(self, move: PlannedMove) -> Phases:
         """The phases of a move that was released."""
-        Q, corner = self._Q, move.corner
+        X, Q, corner = self._X, self._Q, move.corner
         put(Q, 0, move)
-        Q[row.Q_EXIT], Q[row.Q_IS_ROUND] = move.exit_ups, corner is not None
-        if corner is not None:
-            Q[row.Q_TURN], Q[row.Q_REACH], Q[row.Q_CAP], Q[row.Q_ROUND_RAMP] = corner
-        count = _travel(self._X, Q, 0, self._P)
-        return [
-            even(*self._P[n : n + core.PHASE]) for n in range(0, count * core.PHASE, core.PHASE)
-        ]
+        Q[row.Q_EXIT_UPS], Q[row.Q_ROUND] = move.exit_ups, corner is not None
+        for k, number in enumerate(corner or (), row.Q_ROUND + row.K_TURN):
+            Q[k] = number
+        ends = range(core.X_PHASES, core.X_PHASES + _travel(X, Q, 0) * core.PHASE, core.PHASE)
+        return [even(*X[n : n + core.PHASE]) for n in ends]
 
 
 def _doubled(numbers: F64) -> F64:
