@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from openacr import compiled, messages, unity
+from openacr.cnc.rows import scans
 from openacr.kernel.tick_cy import tick
 from openacr.map.memory import Memory
 from openacr.map.rows import axes, kernel
@@ -181,6 +182,15 @@ def test_places_that_follow_each_other_are_not_multiplied(
 ) -> None:
     head = "from openacr.map.words import mf3\n"
     assert place_in_c(tmp_path, monkeypatch, "mf3.word[n]", head) == "4256LL + n"
+
+
+def test_places_of_a_range_are_its_first_one_and_the_index(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    head = "from openacr.cnc.rows import scans\n"
+    first = scans.word.start
+    assert place_in_c(tmp_path, monkeypatch, "scans.word[n + 1]", head) == f"{first}LL + (n + 1LL)"
+    assert place_in_c(tmp_path, monkeypatch, "scans.value", head) == f"{scans.value}LL"
 
 
 def test_a_row_in_two_runs_asks_which(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,8 @@ what C needs:
 - annotations become C types (float: double, int: 64-bit, F64/I32/F32/U8: pointers; with
   `checked`, bounds-checked memoryviews); literals and what is read from views of integers
   have 64 bits before anything is computed of them, as a sum of 32-bit operands would wrap;
-- the views F, I and S of the state are passed as one pointer into their buffer;
+- the views F, I and S of a state (that of the card, of an interpreter, of a chain) are passed as
+  one pointer into their buffer;
 - module constants (`NAME = number`, those of the generated modules of the map, and the numbers
   of the card's messages) become literals, so that the inner loop never looks a name up, and a
   place in a row of the map (`masters.hold[m]`) becomes a sum: the first place of the row and m
@@ -43,7 +44,8 @@ from openacr.unity_c import (
 
 PACKAGE = Path(__file__).parent
 CONSTANT_MODULES = ("openacr.map.numbers",)
-ROW_PACKAGES = ("openacr.map.rows", "openacr.map.words")  # generated, as the numbers are
+OWN_ROWS = "openacr.cnc.rows"  # written by hand; the others are generated, as the numbers are
+ROW_PACKAGES = ("openacr.map.rows", "openacr.map.words", OWN_ROWS)
 
 
 def source_files() -> list[Path]:
@@ -81,7 +83,8 @@ def source_hash() -> str:
     digest = hashlib.blake2b(digest_size=16)
     joining = [Path(__file__), PACKAGE / "unity_c.py"]
     places = PACKAGE / "map" / "fingerprint.py"  # of all names, those too that nothing reads
-    for path in [*source_files(), places, *joining]:
+    own = sorted(_source_of(OWN_ROWS).with_suffix("").glob("*.py"))
+    for path in [*source_files(), places, *own, *joining]:
         digest.update(path.read_bytes())
     digest.update(repr(_message_numbers()).encode())
     return digest.hexdigest()
@@ -152,7 +155,7 @@ def _imported_constants(node: ast.ImportFrom) -> dict[str, Constant]:
             f"{each.asname or each.name}.{name}": value
             for each in node.names
             for name, value in run_path(str(source / f"{each.name}.py")).items()
-            if not name.startswith("_")
+            if isinstance(value, int | float | tuple | range)
         }
     if module not in CONSTANT_MODULES and not module.endswith("_cy"):
         return {}

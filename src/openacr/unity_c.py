@@ -10,7 +10,8 @@ VIEWS = {"F64": "double", "I32": "int", "F32": "float", "U8": "uchar"}
 INTEGER_VIEWS = ("I32", "U8")  # elements narrower than the integers of the sources
 STATE = {"F": "F64", "I": "I32", "S": "F32"}  # the three views of the one state buffer
 Number = int | float
-Constant = Number | tuple[int, ...]  # a tuple: the places of a row, one for each object
+Row = tuple[int, ...] | range  # the places of a row, one for each object
+Constant = Number | Row
 
 
 class UnityError(Exception):
@@ -92,10 +93,10 @@ class Inline(ast.NodeTransformer):
         self.generic_visit(node)
         return node
 
-    def _row_of(self, node: ast.expr) -> tuple[int, ...] | None:
+    def _row_of(self, node: ast.expr) -> Row | None:
         """The places of a row, if an expression names one."""
         row = self.constants.get(ast.unparse(node)) if isinstance(node, ast.Attribute) else None
-        return row if isinstance(row, tuple) else None
+        return row if isinstance(row, tuple | range) else None
 
     def visit_Constant(self, node: ast.Constant) -> ast.expr:
         return _literal(node.value) if type(node.value) is int else node
@@ -113,8 +114,10 @@ def _cast(kind: str, values: list[ast.expr]) -> ast.Call:
     return ast.Call(cast, [ast.parse(SCALARS[kind], mode="eval").body, *values], [])
 
 
-def _place(row: tuple[int, ...], index: ast.expr, text: str) -> ast.expr:
+def _place(row: Row, index: ast.expr, text: str) -> ast.expr:
     """The place of object `index` in a row, computed; a row may have one break."""
+    if isinstance(row, range):
+        return _line(row.start, row.step, index)
     steps = [after - before for before, after in pairwise(row)]
     breaks = [n for n, step in enumerate(steps, 1) if step != steps[0]]
     if not breaks:

@@ -12,14 +12,16 @@ from tests.cnc.programs import Run, made, unrolled
 from tests.cnc.test_fuzz import ACROMILL, OTHER, mutated
 from tests.search import search
 
-from openacr.cnc.canonical import Arc, Coolant, Line, Moves, Plane, Rapid, Source, batches
+from openacr.cnc.canonical import Arc, Coolant, Line, Moves, Plane, Rapid, Source
 from openacr.cnc.codes.fast import Sets
 from openacr.cnc.codes.table import DIALECTS
-from openacr.cnc.interpreter import fast_plans, lines_cy, run_rows_cy, scanning
+from openacr.cnc.interpreter import fast_plans, lines_cy, scanning
 from openacr.cnc.interpreter.execution import MOST_IDLE
 from openacr.cnc.interpreter.interpreter import Options
 from openacr.cnc.loading.skimming import Skimmer
 from openacr.cnc.reading.findings import BlockError
+from openacr.cnc.rows import modes, runs
+from openacr.cnc.rows.moves import ARC, LINE, RAPID, ROW
 from openacr.cnc.state.modal import Modal
 from openacr.compiled import is_compiled
 
@@ -200,12 +202,12 @@ def batch(text: str, dialect: str = "rs274ngc") -> list[Moves]:
 def test_lines_arcs_rapids_and_modal_codes_are_one_batch() -> None:
     text = "F60\nG0 X1 (start)\nG17 G90\nG1 Y1\nN9 G3 X0 Y2 I-1 ; arc\nF30\n\nG1 X5\nM2"
     (moves,) = batch(text)
-    rows = [tuple(moves.rows[k : k + 4]) for k in range(0, len(moves.rows), batches.ROW)]
+    rows = [tuple(moves.rows[k : k + 4]) for k in range(0, len(moves.rows), ROW)]
     assert rows == [
-        (batches.RAPID, 2, 0, 17),
-        (batches.LINE, 4, 0, 17),
-        (batches.ARC, 5, 0, 17),
-        (batches.LINE, 8, 1, 17),
+        (RAPID, 2, 0, 17),
+        (LINE, 4, 0, 17),
+        (ARC, 5, 0, 17),
+        (LINE, 8, 1, 17),
     ]
     first, second, third, last = moves.entries()
     assert last.source.text == "G1 X5"
@@ -235,7 +237,7 @@ def test_a_wrong_arc_ends_the_batch_before_it() -> None:
 def test_feeds_of_one_batch_are_its_paces() -> None:
     (moves,) = batch("F60\nX1\nF30 X2\nX3\nF30\nF90\nX4\nM2")
     assert [pace.feed_upm for pace in moves.paces] == [60.0, 30.0, 90.0]
-    assert list(moves.rows[batches.ROW * 0 + 2 :: batches.ROW]) == [0, 1, 1, 2]
+    assert list(moves.rows[ROW * 0 + 2 :: ROW]) == [0, 1, 1, 2]
 
 
 def test_units_and_path_modes_have_batches_of_their_own() -> None:
@@ -295,17 +297,13 @@ def test_a_blank_line_after_the_last_block_hides_no_doubt() -> None:
 
 def test_the_fields_of_fast_forms_are_rows_of_the_core() -> None:
     fields = [name for name in fast_plans.FIELDS if hasattr(Modal(), name)]
-    assert len(fields) == run_rows_cy.M_FIELDS
+    assert len(fields) == modes.FIELDS
     for dialect in DIALECTS.values():
         rows = [*dialect.table.gcodes.values(), *dialect.table.mcodes.values()]
         forms = [form for code in rows for form in code.fast or ()]
         used = {form.field for form in forms if isinstance(form, Sets)}
         assert used <= set(fields)
-    assert (batches.RAPID, batches.LINE, batches.ARC) == (
-        run_rows_cy.RAPID, run_rows_cy.LINE, run_rows_cy.ARC,
-    )  # fmt: skip
-    assert (batches.ROW, batches.POINT, batches.CURVE) == (run_rows_cy.ROW, 8, run_rows_cy.CURVE)
-    assert run_rows_cy.MOST_IDLE == MOST_IDLE
+    assert runs.MOST_IDLE == MOST_IDLE
 
 
 def test_more_shapes_than_there_is_room_for_are_read_one_by_one() -> None:

@@ -19,6 +19,7 @@ from openacr.cnc.reading.expressions import ExpressionReader
 from openacr.cnc.reading.formulas import HOT
 from openacr.cnc.reading.grammar import ACROMILL, RS274NGC
 from openacr.cnc.reading.line_shapes import doubles, integers
+from openacr.cnc.rows import plans, scans, values
 from openacr.compiled import pick
 
 DIALECTS = ["acromill", "rs274ngc"]
@@ -102,15 +103,15 @@ def test_lines_with_formulas_do_what_each_does(dialect: str, seed: int) -> None:
 def test_a_formula_has_the_value_of_its_tree(dialect: str, seed: int) -> None:
     chance = random.Random(seed)
     run = made("M2\n", dialect=dialect).interpreter
-    values, parameters = [0.0] * 34, run.parameters
+    locals_, parameters = [0.0] * 34, run.parameters
     for n in range(1, 34):
-        values[n] = chance.choice([0.0, -0.0, 1.0, 200.0, chance.uniform(-9, 9)])
-    values[0] = 1.0 if dialect == "rs274ngc" or chance.random() < 0.5 else 0.0
-    parameters.swap(values)
-    cells, states = doubles(formulas_cy.CELLS), integers(formulas_cy.CELLS)
+        locals_[n] = chance.choice([0.0, -0.0, 1.0, 200.0, chance.uniform(-9, 9)])
+    locals_[0] = 1.0 if dialect == "rs274ngc" or chance.random() < 0.5 else 0.0
+    parameters.swap(locals_)
+    cells, states = doubles(values.CELLS), integers(values.CELLS)
     for n in range(199, 205):
         number = chance.choice([0.0, 1.0, 201.0, chance.uniform(-400, 400)])
-        cells[n], states[n] = number, formulas_cy.IS_KNOWN
+        cells[n], states[n] = number, values.IS_KNOWN
         if dialect == "acromill":
             run.cells.write(n, number)
         else:
@@ -123,24 +124,21 @@ def test_a_formula_has_the_value_of_its_tree(dialect: str, seed: int) -> None:
         code = FormulaWriter(parameters, found).code(tree)
     except NoCodeError:
         return
-    plan, stack = integers(len(code)), doubles(formulas_cy.MOST_OPERANDS)
-    for k, step in enumerate(code):
-        plan[k] = step
-    line_numbers = doubles(64)
+    F, I = run.memory.F, run.memory.I
+    plan = plans.number[0]
+    for at, step in enumerate(code, plan):
+        I[at] = step
     for k, size in found.values():
-        line_numbers[k] = size
-    own = doubles(1) if parameters.own is None else memoryview(parameters.own)
-    views = (plan, 0, line_numbers, stack, memoryview(parameters.values), own, cells, states,
-             access())  # fmt: skip
+        F[scans.number[k]] = size
+    run.memory.wholes(values.access)[:] = access()
     try:
         wanted = tree.value(parameters)
     except Exception:
         wanted = math.nan
     for evaluate in (FAST, formulas_cy.formula_run):
-        if evaluate(*views):  # type: ignore[arg-type]
-            assert (stack[0], math.copysign(1, stack[0])) == (wanted, math.copysign(1, wanted)), (
-                text
-            )
+        if evaluate(F, I, cells, states, plan):
+            result = F[values.stack[0]]
+            assert (result, math.copysign(1, result)) == (wanted, math.copysign(1, wanted)), text
 
 
 def numbers(tree: object) -> list[tuple[int, float]]:

@@ -17,6 +17,7 @@ from openacr.cnc.loading.load import load
 from openacr.cnc.reading import scan_cy as scan
 from openacr.cnc.reading.findings import BlockError
 from openacr.cnc.reading.line_shapes import LineShapes
+from openacr.cnc.rows import scans
 from openacr.compiled import pick
 
 
@@ -188,9 +189,9 @@ def test_numbers_are_read_as_float_reads_them() -> None:
         text = f"{digits[:cut]}.{digits[cut:]}"
         shapes = LineShapes({}, "(")
         data = memoryview(bytearray(text.encode()))
-        end = scan.scan_number(data, 0, len(text), shapes.W)
+        end = scan.scan_number(data, 0, len(text), shapes.F)
         assert end == len(text)
-        assert shapes.W[scan.W_VALUE] == float(text)
+        assert shapes.F[scans.value] == float(text)
 
 
 @pytest.mark.req("MILL-LOAD-BIG")

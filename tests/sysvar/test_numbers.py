@@ -12,7 +12,7 @@ SOURCES = Path(openacr.__file__).parent
 READERS = ("cnc", "mill", "cli", "source_check", "store")
 # Counts and sizes that happen to be numbers of cells, too.
 COUNTS = {
-    "cnc/interpreter/run_rows_cy.py": {100_000},
+    "cnc/rows/runs.py": {100_000},
     "cnc/interpreter/execution.py": {100_000},
     "cnc/interpreter/loops.py": {500_000},
     "cnc/loading/targets.py": {1_000_000},

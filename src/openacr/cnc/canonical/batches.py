@@ -7,15 +7,12 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical.common import PLANES, Pace, Point, Source
 from openacr.cnc.canonical.moves import Arc, Line, Rapid
+from openacr.cnc.rows.moves import COMPENSATED, CURVE, INSERTED, LINE, POINT, RAPID, ROW
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from openacr.views import F64, I32
-
-RAPID, LINE, ARC = 0, 1, 2  # kinds of moves
-INSERTED, COMPENSATED = 1, 2  # flags of moves
-ROW, POINT, CURVE = 8, 8, 5  # numbers of a move in `rows`, `ends` and `arcs`
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 from openacr.cnc.canonical import AXES, PLANES, Moves
-from openacr.cnc.canonical.batches import ARC, CURVE, RAPID, ROW, Origin
+from openacr.cnc.canonical.batches import Origin
 from openacr.cnc.geometry.elements import Element
 from openacr.cnc.reading.line_shapes import doubles, integers
+from openacr.cnc.rows.moves import ARC, CURVE, RAPID, ROW
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence

@@ -3,13 +3,13 @@
 from typing import Generic, TypeVar
 
 from openacr.cnc.canonical import AXES
-from openacr.cnc.canonical.batches import ROW
 from openacr.cnc.compensation import chain_cy as core
 from openacr.cnc.compensation.curve_cy import COLUMNS, comp_fit, comp_place, comp_range
 from openacr.cnc.compensation.join_cy import comp_join
 from openacr.cnc.compensation.rules import Rules
 from openacr.cnc.geometry.elements import Element
 from openacr.cnc.reading.line_shapes import doubles, integers
+from openacr.cnc.rows.moves import ROW
 from openacr.compiled import pick
 from openacr.views import I32
 

@@ -7,24 +7,15 @@ With the chord from the start a to the end z, |z - a| = c, and a radius R:
     radii    |a - m|, |z - m|
     sweep    angle(z - m) - angle(a - m), in (0, 2 pi] in the direction of the arc
 
-`A` (doubles) is one arc: its ends and centre, then what is computed of them.
+An arc begins at an index `i` of F (`rows/arcs.py`): its ends and centre, then what is computed
+of them.
 """
 
 from openacr.cmath import atan2, fabs, sqrt
+from openacr.cnc.rows import arcs
 from openacr.views import F64
 
 __all__ = ["arc_about", "arc_centre", "arc_is_near"]
-
-A_X0 = 0  # start
-A_Y0 = 1
-A_X1 = 2  # end
-A_Y1 = 3
-A_CX = 4  # centre
-A_CY = 5
-A_SWEEP = 6  # radians, + counter-clockwise
-A_R0 = 7  # radius at the start
-A_R1 = 8  # and at the end
-A_SIZE = 9
 
 ARC_DONE = 0
 ARC_SAME = 1  # start and end are one point
@@ -44,10 +35,10 @@ def arc_distance(x0: float, y0: float, x1: float, y1: float) -> float:
     return sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
 
 
-def arc_centre(A: F64, radius: float, direction: int, epsilon: float) -> int:
+def arc_centre(F: F64, i: int, radius: float, direction: int, epsilon: float) -> int:
     """Find the centre by the radius, negative for arcs of more than half a turn."""
-    dx: float = A[A_X1] - A[A_X0]
-    dy: float = A[A_Y1] - A[A_Y0]
+    dx: float = F[i + arcs.X1] - F[i + arcs.X0]
+    dy: float = F[i + arcs.Y1] - F[i + arcs.Y0]
     chord: float = sqrt(dx * dx + dy * dy)
     if chord < ARC_NEAREST:
         return ARC_SAME
@@ -58,28 +49,28 @@ def arc_centre(A: F64, radius: float, direction: int, epsilon: float) -> int:
     side: float = height / chord
     if (direction < 0) != (radius < 0.0):
         side = -side
-    A[A_CX] = (A[A_X0] + A[A_X1]) / 2.0 - dy * side
-    A[A_CY] = (A[A_Y0] + A[A_Y1]) / 2.0 + dx * side
+    F[i + arcs.CX] = (F[i + arcs.X0] + F[i + arcs.X1]) / 2.0 - dy * side
+    F[i + arcs.CY] = (F[i + arcs.Y0] + F[i + arcs.Y1]) / 2.0 + dx * side
     return ARC_DONE
 
 
-def arc_about(A: F64, direction: int) -> int:
+def arc_about(F: F64, i: int, direction: int) -> int:
     """Find radii and sweep of an arc with its centre."""
-    A[A_R0] = arc_distance(A[A_X0], A[A_Y0], A[A_CX], A[A_CY])
-    A[A_R1] = arc_distance(A[A_X1], A[A_Y1], A[A_CX], A[A_CY])
-    if A[A_R0] < ARC_NEAREST or A[A_R1] < ARC_NEAREST:
+    F[i + arcs.R0] = arc_distance(F[i + arcs.X0], F[i + arcs.Y0], F[i + arcs.CX], F[i + arcs.CY])
+    F[i + arcs.R1] = arc_distance(F[i + arcs.X1], F[i + arcs.Y1], F[i + arcs.CX], F[i + arcs.CY])
+    if F[i + arcs.R0] < ARC_NEAREST or F[i + arcs.R1] < ARC_NEAREST:
         return ARC_SMALL
     turn: float = 0.0
-    if arc_distance(A[A_X0], A[A_Y0], A[A_X1], A[A_Y1]) >= ARC_NEAREST:
-        turn = atan2(A[A_Y1] - A[A_CY], A[A_X1] - A[A_CX])
-        turn -= atan2(A[A_Y0] - A[A_CY], A[A_X0] - A[A_CX])
+    if arc_distance(F[i + arcs.X0], F[i + arcs.Y0], F[i + arcs.X1], F[i + arcs.Y1]) >= ARC_NEAREST:
+        turn = atan2(F[i + arcs.Y1] - F[i + arcs.CY], F[i + arcs.X1] - F[i + arcs.CX])
+        turn -= atan2(F[i + arcs.Y0] - F[i + arcs.CY], F[i + arcs.X0] - F[i + arcs.CX])
     if direction < 0:
         turn = -turn
     if fabs(turn) < ARC_NO_TURN:
         turn = ARC_TURN
     elif turn < 0.0:
         turn += ARC_TURN
-    A[A_SWEEP] = -turn if direction < 0 else turn
+    F[i + arcs.SWEEP_RAD] = -turn if direction < 0 else turn
     return ARC_DONE
 
 

@@ -11,6 +11,7 @@ from openacr.cnc.canonical import Plane, Point
 from openacr.cnc.geometry import arc_cy
 from openacr.cnc.geometry.coordinates import Coordinates
 from openacr.cnc.program.block_context import BlockContext
+from openacr.cnc.rows import arcs as rows
 from openacr.compiled import pick
 
 NO_TURN = arc_cy.ARC_NO_TURN  # radians
@@ -106,20 +107,20 @@ def _centre_by_radius(
     b: BlockContext, start: Pair, end: Pair, radius: float, direction: int, epsilon: float
 ) -> Pair:
     arc = _arc_of(start, end, start)
-    found = _centre(memoryview(arc), radius, direction, epsilon)
+    found = _centre(memoryview(arc), 0, radius, direction, epsilon)
     if found != arc_cy.ARC_DONE:
         raise b.fault(_FAULTS[found], "R")
-    return arc[arc_cy.A_CX], arc[arc_cy.A_CY]
+    return arc[rows.CX], arc[rows.CY]
 
 
 def _arc_about(
     b: BlockContext, start: Pair, end: Pair, centre: Pair, direction: int
 ) -> ArcGeometry:
     arc = _arc_of(start, end, centre)
-    found = _sweep(memoryview(arc), direction)
+    found = _sweep(memoryview(arc), 0, direction)
     if found != arc_cy.ARC_DONE:
         raise b.fault(_FAULTS[found])
-    return ArcGeometry(centre, arc[arc_cy.A_SWEEP], arc[arc_cy.A_R0], arc[arc_cy.A_R1])
+    return ArcGeometry(centre, arc[rows.SWEEP_RAD], arc[rows.R0], arc[rows.R1])
 
 
 def placed(

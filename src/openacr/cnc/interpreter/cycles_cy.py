@@ -1,8 +1,7 @@
 """Canned cycles: the holes of a block, each with the text of its cycle as plans.
 
-The text of a cycle is a stroke in `P`: the count of its lines, then for each line its plan, its
-number, and where it begins and ends. What a hole needs to know stands in the cells from P249 on, as
-the text finds them. A block is left where one of its holes cannot be executed so.
+What a hole needs to know is in the cells from P249 on, as the text finds them. A block is left
+where one of its holes cannot be executed so.
 """
 
 from openacr.cnc.geometry.arc_cy import plane_first, plane_second
@@ -16,108 +15,31 @@ from openacr.cnc.interpreter.blocks_cy import (
     block_straight,
 )
 from openacr.cnc.interpreter.formulas_cy import formula_run
-from openacr.cnc.interpreter.run_rows_cy import (
-    A_END,
-    A_WORDS,
-    BIT_L,
-    BIT_P,
-    BIT_Q,
-    BIT_R,
-    CENTRE_BITS,
-    CUT_SHORT,
-    FIRST_CYCLE,
-    HAS_PECK,
-    HAS_REST,
-    INCREMENTAL,
-    INCREMENTS,
-    K_LETTER,
-    LEFT,
-    LETTER_L,
-    LETTER_P,
-    LETTER_Q,
-    LETTER_R,
-    LETTER_X,
-    LETTERS,
-    M_AT,
-    M_BOTTOM,
-    M_COMPENSATION,
-    M_CYCLE,
-    M_DISTANCE,
-    M_HAS_TURNED,
-    M_IDLE,
-    M_IS_DRILLING,
-    M_LEVEL,
-    M_MOTION,
-    M_PLANE,
-    M_RETURN,
-    M_RISES,
-    M_ROWS,
-    M_STROKES,
-    M_WORDS,
-    MOST_REPEATS,
-    MOST_ROWS,
-    MOST_STROKE,
-    NO_CYCLE,
-    OFF,
-    P_AXES,
-    P_FIRST,
-    P_STEPS,
-    P_WORDS,
-    PECK,
-    PECK_BREAK,
-    RAPID,
-    RETURN_R,
-    RETURNED,
-    STEP_BAR,
-    STEP_FEED,
-    STEP_GO,
-    STEP_LIMIT,
-    STEP_MOVE,
-    STEP_NOTE,
-    STEP_RETURN,
-    STEP_SET,
-    STROKE,
-    TAKEN,
-    W_BEFORE,
-    W_BOTTOM,
-    W_CLEAR,
-    W_FEED,
-    W_INITIAL,
-    W_LEVEL,
-    W_PECK,
-    W_PER,
-    W_POSITION,
-    W_REST,
-    W_SIGNS,
-    W_SPIN,
-    W_TIMES,
-    WRITTEN,
-)
 from openacr.cnc.interpreter.values_cy import value_cell, value_step
-from openacr.cnc.reading.scan_cy import AXES, W_WORDS
+from openacr.cnc.rows import holes, modes, moves, plans, points, runs, scans, values
 from openacr.views import F64, I32
 
-POINTS = 16  # position and target
-DRILLING = 5  # numbers of the cycle
 CELL_CODE = 249  # the first of the cells of a cycle
 CELL_DIRECTION = 270  # the last one
 
 
-def cycle_keep(W: F64) -> None:
+def cycle_keep(F: F64) -> None:
     """Keep where the machine is, and the words of the cycle."""
-    for k in range(POINTS):
-        W[W_BEFORE + k] = W[W_POSITION + k]
-    for k in range(DRILLING):
-        W[W_BEFORE + POINTS + k] = W[W_INITIAL + k]
+    for axis in range(moves.AXES):
+        F[holes.kept_position_u[axis]] = F[points.position_u[axis]]
+        F[holes.kept_target_u[axis]] = F[points.target_u[axis]]
+    for k in range(holes.DRILLING):
+        F[holes.kept_drilling[k]] = F[holes.drilling[k]]
 
 
-def cycle_restore(W: F64) -> int:
+def cycle_restore(F: F64) -> int:
     """Go back to what was kept: the block is left."""
-    for k in range(POINTS):
-        W[W_POSITION + k] = W[W_BEFORE + k]
-    for k in range(DRILLING):
-        W[W_INITIAL + k] = W[W_BEFORE + POINTS + k]
-    return LEFT
+    for axis in range(moves.AXES):
+        F[points.position_u[axis]] = F[holes.kept_position_u[axis]]
+        F[points.target_u[axis]] = F[holes.kept_target_u[axis]]
+    for k in range(holes.DRILLING):
+        F[holes.drilling[k]] = F[holes.kept_drilling[k]]
+    return runs.LEFT
 
 
 def cycle_drill_axis(plane: int) -> int:
@@ -125,268 +47,258 @@ def cycle_drill_axis(plane: int) -> int:
     return 3 - plane_first(plane) - plane_second(plane)
 
 
-def cycle_begin(W: F64, M: I32, code: int) -> None:
+def cycle_begin(F: F64, I: I32, code: int) -> None:
     """A code of a cycle: without one that is active its words are new."""
-    is_first: bool = M[M_CYCLE] == NO_CYCLE
+    is_first: bool = I[modes.cycle] == modes.NO_CYCLE
     if is_first:
-        M[M_IS_DRILLING] = 1
-        M[M_LEVEL] = 0
-        M[M_BOTTOM] = 0
-        M[M_WORDS] = 0
-    if is_first or not M[M_RISES]:
-        W[W_INITIAL] = W[W_POSITION + cycle_drill_axis(M[M_PLANE])]
-    M[M_CYCLE] = code
+        I[modes.is_drilling] = 1
+        I[modes.level_form] = 0
+        I[modes.bottom_form] = 0
+        I[modes.cycle_words] = 0
+    if is_first or not I[holes.rises]:
+        F[holes.initial_u] = F[points.position_u[cycle_drill_axis(I[modes.plane])]]
+    I[modes.cycle] = code
 
 
-def cycle_end(M: I32) -> None:
+def cycle_end(I: I32) -> None:
     """G80."""
-    M[M_CYCLE] = NO_CYCLE
-    M[M_IS_DRILLING] = 0
+    I[modes.cycle] = modes.NO_CYCLE
+    I[modes.is_drilling] = 0
 
 
-def cycle_take(W: F64, K: I32, M: I32, axes: int, words: int, drill: int) -> None:
+def cycle_take(F: F64, I: I32, axes: int, words: int, drill: int) -> None:
     """Take the words of a block, which are kept for the blocks after it."""
-    how: int = INCREMENTS if M[M_DISTANCE] == INCREMENTAL else WRITTEN
+    how: int = modes.INCREMENTS if I[modes.distance] == modes.INCREMENTAL else modes.WRITTEN
     if axes & (1 << drill):
-        W[W_BOTTOM] = block_length(W, W[W_WORDS + K[K_LETTER + drill]])
-        M[M_BOTTOM] = how
-    if words & BIT_R:
-        W[W_LEVEL] = block_length(W, W[W_WORDS + LETTER_R])
-        M[M_LEVEL] = how
-    if words & BIT_Q:
-        W[W_PECK] = W[W_WORDS + LETTER_Q]
-        M[M_WORDS] = M[M_WORDS] | HAS_PECK
-    if words & BIT_P:
-        W[W_REST] = W[W_WORDS + LETTER_P]
-        M[M_WORDS] = M[M_WORDS] | HAS_REST
+        F[holes.bottom_u] = block_length(F, F[scans.word[I[runs.letter_of[drill]]]])
+        I[modes.bottom_form] = how
+    if words & plans.BIT_R:
+        F[holes.level_u] = block_length(F, F[scans.word[plans.LETTER_R]])
+        I[modes.level_form] = how
+    if words & plans.BIT_Q:
+        F[holes.peck] = F[scans.word[plans.LETTER_Q]]
+        I[modes.cycle_words] |= modes.HAS_PECK
+    if words & plans.BIT_P:
+        F[holes.rest_s] = F[scans.word[plans.LETTER_P]]
+        I[modes.cycle_words] |= modes.HAS_REST
 
 
-def cycle_level(W: F64, M: I32) -> float:
+def cycle_level(F: F64, I: I32) -> float:
     """The R level."""
-    return W[W_LEVEL] + W[W_INITIAL] if M[M_LEVEL] == INCREMENTS else W[W_LEVEL]
+    if I[modes.level_form] == modes.INCREMENTS:
+        return F[holes.level_u] + F[holes.initial_u]
+    return F[holes.level_u]
 
 
-def cycle_bottom(W: F64, M: I32, level: float) -> float:
+def cycle_bottom(F: F64, I: I32, level: float) -> float:
     """The bottom of the holes."""
-    return W[W_BOTTOM] + level if M[M_BOTTOM] == INCREMENTS else W[W_BOTTOM]
+    if I[modes.bottom_form] == modes.INCREMENTS:
+        return F[holes.bottom_u] + level
+    return F[holes.bottom_u]
 
 
-def cycle_peck(W: F64, M: I32) -> float:
+def cycle_peck(F: F64, I: I32) -> float:
     """Q, 0 where there is none."""
-    return W[W_PECK] if M[M_WORDS] & HAS_PECK else 0.0
+    return F[holes.peck] if I[modes.cycle_words] & modes.HAS_PECK else 0.0
 
 
-def cycle_is_plain(W: F64, M: I32) -> bool:
+def cycle_is_plain(F: F64, I: I32) -> bool:
     """Whether the words of a cycle are there, and nothing is doubtful."""
-    code: int = M[M_CYCLE]
-    if not M[M_IS_DRILLING] or not M[M_LEVEL] or not M[M_BOTTOM]:
+    code: int = I[modes.cycle]
+    if not I[modes.is_drilling] or not I[modes.level_form] or not I[modes.bottom_form]:
         return False
-    if (code == PECK or code == PECK_BREAK) and cycle_peck(W, M) <= 0.0:
+    if (code == modes.PECK or code == modes.PECK_BREAK) and cycle_peck(F, I) <= 0.0:
         return False
-    level: float = cycle_level(W, M)
-    if cycle_bottom(W, M, level) > level:
+    level: float = cycle_level(F, I)
+    if cycle_bottom(F, I, level) > level:
         return False
-    return M[M_RISES] != 0 or M[M_RETURN] == RETURN_R or W[W_INITIAL] >= level
+    if I[holes.rises] or I[modes.return_level] == modes.RETURN_R:
+        return True
+    return F[holes.initial_u] >= level
 
 
-def cycle_shown(W: F64, value: float) -> float:
+def cycle_shown(F: F64, value: float) -> float:
     """A length in default units, in active units."""
-    return value * W[W_PER] / W[W_TIMES]
+    return value * F[points.per] / F[points.times]
 
 
-def cycle_value(W: F64, M: I32, n: int, left: int) -> float:
+def cycle_value(F: F64, I: I32, n: int, left: int) -> float:
     """What the text of a cycle finds in cell `n`."""
-    level: float = cycle_level(W, M)
-    initial: float = W[W_INITIAL]
-    if M[M_RISES] and level > initial:
+    level: float = cycle_level(F, I)
+    initial: float = F[holes.initial_u]
+    if I[holes.rises] and level > initial:
         initial = level
     if n == 249:
-        return float(M[M_CYCLE])
+        return float(I[modes.cycle])
     if n == 250:
-        return cycle_shown(W, W[W_POSITION + plane_first(M[M_PLANE])])
+        return cycle_shown(F, F[points.position_u[plane_first(I[modes.plane])]])
     if n == 251:
-        return cycle_shown(W, W[W_POSITION + plane_second(M[M_PLANE])])
+        return cycle_shown(F, F[points.position_u[plane_second(I[modes.plane])]])
     if n == 252:
-        return cycle_shown(W, cycle_bottom(W, M, level))
+        return cycle_shown(F, cycle_bottom(F, I, level))
     if n == 253:
-        return cycle_shown(W, level)
+        return cycle_shown(F, level)
     if n == 254:
-        return cycle_shown(W, initial)
+        return cycle_shown(F, initial)
     if n == 255:
-        return cycle_shown(W, level if M[M_RETURN] == RETURN_R else initial)
+        return cycle_shown(F, level if I[modes.return_level] == modes.RETURN_R else initial)
     if n == 256:
-        return cycle_peck(W, M)
+        return cycle_peck(F, I)
     if n == 257:
-        return W[W_REST] if M[M_WORDS] & HAS_REST else 0.0
+        return F[holes.rest_s] if I[modes.cycle_words] & modes.HAS_REST else 0.0
     if n == 258:
-        return cycle_shown(W, W[W_FEED])
+        return cycle_shown(F, F[points.feed_upm])
     if n == 259:
         return float(left)
     if n == 260 or n == 261:
-        return cycle_shown(W, W[W_CLEAR + n - 260])
+        return cycle_shown(F, F[holes.clear_u[n - 260]])
     if n == 262 or n == 263:
-        return W[W_SIGNS + n - 262] * cycle_peck(W, M)
+        return F[holes.sign[n - 262]] * cycle_peck(F, I)
     if n == 264:
-        return W[W_SPIN]
+        return F[holes.spin]
     if n == 265:
-        return float(M[M_RETURN])
+        return float(I[modes.return_level])
     if n == 266:
-        return float(M[M_PLANE])
+        return float(I[modes.plane])
     if n == 267:
-        return float(M[M_DISTANCE])
+        return float(I[modes.distance])
     return 1.0 if n == CELL_DIRECTION else 0.0
 
 
-def cycle_cells(W: F64, M: I32, left: int, X: F64, C: F64, Z: I32) -> int:
+def cycle_cells(F: F64, I: I32, cells: F64, states: I32, left: int) -> int:
     """Fill the cells of a cycle."""
     for n in range(CELL_CODE, CELL_DIRECTION + 1):
-        if not value_cell(n, cycle_value(W, M, n, left), X, C, Z):
-            return LEFT
-    return TAKEN
+        if not value_cell(F, I, cells, states, n, cycle_value(F, I, n, left)):
+            return runs.LEFT
+    return runs.TAKEN
 
 
-def cycle_move(W: F64, M: I32, A: F64, ends: F64, R: I32, letters: int) -> int:
+def cycle_move(F: F64, I: I32, letters: int) -> int:
     """A straight move of the text: X, Y, Z are the axes of the plane and the one across it."""
-    if M[M_MOTION] != 0 and M[M_MOTION] != 1:
-        return LEFT
-    for axis in range(AXES):
-        A[A_END + axis] = W[W_POSITION + axis]
+    if I[modes.motion] != 0 and I[modes.motion] != 1:
+        return runs.LEFT
+    for axis in range(moves.AXES):
+        F[points.end_u[axis]] = F[points.position_u[axis]]
     for k in range(3):
         if letters & (1 << k):
-            place: int = cycle_drill_axis(M[M_PLANE])
+            place: int = cycle_drill_axis(I[modes.plane])
             if k < 2:
-                place = plane_second(M[M_PLANE]) if k else plane_first(M[M_PLANE])
-            A[A_END + place] = block_length(W, W[W_WORDS + LETTER_X + k])
-    block_straight(W, M, A, ends, R, M[M_MOTION])
-    return TAKEN
+                place = plane_second(I[modes.plane]) if k else plane_first(I[modes.plane])
+            F[points.end_u[place]] = block_length(F, F[scans.word[plans.LETTER_X + k]])
+    block_straight(F, I, I[modes.motion])
+    return runs.TAKEN
 
 
-def cycle_line(
-    W: F64, P: I32, plan: int, following: int, M: I32, A: F64, ends: F64, R: I32, paces: F64,
-    N: F64, X: F64, V: F64, U: F64, C: F64, Z: I32, B: I32
-) -> int:  # fmt: skip
+def cycle_line(F: F64, I: I32, cells: F64, states: I32, plan: int, following: int) -> int:
     """Execute a line of the text; the line after it, or RETURNED, or CUT_SHORT."""
-    done: int = TAKEN
-    at: int = plan + P_FIRST
-    for _ in range(P[plan + P_STEPS]):
-        step: int = P[at]
-        if step == STEP_MOVE:
-            done = cycle_move(W, M, A, ends, R, P[plan + P_AXES])
-        elif step == STEP_FEED:
-            done = block_feed(W, M, R, paces)
-        elif step == STEP_NOTE:
-            done = block_note(W, P, plan, at, M, R, ends)
-        elif step == STEP_LIMIT:
-            done = block_limit(W, P[at + 1], P[at + 2])
-        elif step == STEP_SET or step == STEP_BAR:
-            done = block_set(W, M, step, P[at + 1], P[at + 2])
-        elif step == STEP_GO or step == STEP_RETURN:
-            if P[at + 2] and not formula_run(P, plan + P[at + 2], N, X, V, U, C, Z, B):
-                return CUT_SHORT
-            if not P[at + 2] or X[0] != 0.0:
-                return P[at + 1] if step == STEP_GO else RETURNED
+    done: int = runs.TAKEN
+    at: int = plan + plans.STEPS
+    for _ in range(I[plan + plans.STEP_CNT]):
+        step: int = I[at]
+        if step == plans.STEP_MOVE:
+            done = cycle_move(F, I, I[plan + plans.AXES])
+        elif step == plans.STEP_FEED:
+            done = block_feed(F, I)
+        elif step == plans.STEP_NOTE:
+            done = block_note(F, I, plan, at)
+        elif step == plans.STEP_LIMIT:
+            done = block_limit(F, I[at + 1], I[at + 2])
+        elif step == plans.STEP_SET or step == plans.STEP_BAR:
+            done = block_set(F, I, step, I[at + 1], I[at + 2])
+        elif step == plans.STEP_GO or step == plans.STEP_RETURN:
+            if I[at + 2] and not formula_run(F, I, cells, states, plan + I[at + 2]):
+                return plans.CUT_SHORT
+            if not I[at + 2] or F[values.stack[0]] != 0.0:
+                return I[at + 1] if step == plans.STEP_GO else plans.RETURNED
         else:
-            done = value_step(W, P, plan, at, N, X, V, U, C, Z, B)
-        if done == LEFT:
-            return CUT_SHORT
+            done = value_step(F, I, cells, states, plan, at)
+        if done == runs.LEFT:
+            return plans.CUT_SHORT
         at += 3
     return following
 
 
-def cycle_stroke(
-    W: F64, P: I32, M: I32, A: F64, ends: F64, R: I32, paces: F64, N: F64, X: F64, V: F64, U: F64,
-    C: F64, Z: I32, B: I32
-) -> int:  # fmt: skip
+def cycle_stroke(F: F64, I: I32, cells: F64, states: I32) -> int:
     """Execute the text of the cycle at a hole."""
-    cycle: int = M[M_CYCLE]
-    motion: int = M[M_MOTION]
-    stroke: int = M[M_STROKES + cycle - FIRST_CYCLE]
+    cycle: int = I[modes.cycle]
+    motion: int = I[modes.motion]
+    stroke: int = I[holes.stroke[cycle - modes.FIRST_CYCLE]]
     line: int = 0
     lines: int = 0
-    M[M_CYCLE] = NO_CYCLE
-    while 0 <= line < P[stroke]:
-        at: int = stroke + 1 + STROKE * line
+    I[modes.cycle] = modes.NO_CYCLE
+    while 0 <= line < I[stroke]:
+        at: int = stroke + 1 + plans.STROKE * line
         lines += 1
-        if lines > MOST_STROKE or M[M_ROWS] + P[P[at] + P_STEPS] > MOST_ROWS:
-            return LEFT
-        for k in range(3):
-            M[M_AT + k] = P[at + 1 + k]
-        M[M_IDLE] = M[M_IDLE] + 1
-        line = cycle_line(
-            W, P, P[at], line + 1, M, A, ends, R, paces, N, X, V, U, C, Z, B
-        )  # fmt: skip
-    M[M_CYCLE] = cycle
-    M[M_MOTION] = motion
-    return TAKEN if line == RETURNED else LEFT
+        if lines > plans.MOST_STROKE:
+            return runs.LEFT
+        if I[modes.move_cnt] + I[I[at] + plans.STEP_CNT] > runs.MOST_ROWS:
+            return runs.LEFT
+        I[runs.line] = I[at + 1]
+        I[runs.line_start] = I[at + 2]
+        I[runs.line_stop] = I[at + 3]
+        I[modes.idle_cnt] += 1
+        line = cycle_line(F, I, cells, states, I[at], line + 1)
+    I[modes.cycle] = cycle
+    I[modes.motion] = motion
+    return runs.TAKEN if line == plans.RETURNED else runs.LEFT
 
 
-def cycle_hole(
-    W: F64, K: I32, P: I32, axes: int, left: int, M: I32, A: F64, ends: F64, R: I32, paces: F64,
-    N: F64, X: F64, V: F64, U: F64, C: F64, Z: I32, B: I32
-) -> int:  # fmt: skip
+def cycle_hole(F: F64, I: I32, cells: F64, states: I32, axes: int, left: int) -> int:
     """Go to the next hole and execute the text of the cycle."""
-    if M[M_ROWS] >= MOST_ROWS:
-        return LEFT
-    block_end(W, K, M, A, axes & ~(1 << cycle_drill_axis(M[M_PLANE])))
-    block_straight(W, M, A, ends, R, RAPID)
-    if cycle_cells(W, M, left, X, C, Z) == LEFT:
-        return LEFT
-    for k in range(LETTERS):
-        A[A_WORDS + k] = W[W_WORDS + k]
-    line: int = M[M_AT]
-    begin: int = M[M_AT + 1]
-    end: int = M[M_AT + 2]
-    M[M_AT + 3] = 1
-    done: int = cycle_stroke(W, P, M, A, ends, R, paces, N, X, V, U, C, Z, B)
-    for k in range(LETTERS):
-        W[W_WORDS + k] = A[A_WORDS + k]
-    M[M_AT] = line
-    M[M_AT + 1] = begin
-    M[M_AT + 2] = end
-    M[M_AT + 3] = 0
+    if I[modes.move_cnt] >= runs.MOST_ROWS:
+        return runs.LEFT
+    block_end(F, I, axes & ~(1 << cycle_drill_axis(I[modes.plane])))
+    block_straight(F, I, moves.RAPID)
+    if cycle_cells(F, I, cells, states, left) == runs.LEFT:
+        return runs.LEFT
+    for k in range(scans.LETTERS):
+        F[holes.kept_word[k]] = F[scans.word[k]]
+    line: int = I[runs.line]
+    begin: int = I[runs.line_start]
+    end: int = I[runs.line_stop]
+    I[runs.line_text] = 1
+    done: int = cycle_stroke(F, I, cells, states)
+    for k in range(scans.LETTERS):
+        F[scans.word[k]] = F[holes.kept_word[k]]
+    I[runs.line] = line
+    I[runs.line_start] = begin
+    I[runs.line_stop] = end
+    I[runs.line_text] = 0
     return done
 
 
-def cycle_holes(
-    W: F64, K: I32, P: I32, plan: int, M: I32, A: F64, ends: F64, R: I32, paces: F64, N: F64,
-    X: F64, V: F64, U: F64, C: F64, Z: I32, B: I32
-) -> int:  # fmt: skip
+def cycle_holes(F: F64, I: I32, cells: F64, states: I32, plan: int) -> int:
     """The holes of a block; LEFT where they need more than is known here."""
-    words: int = P[plan + P_WORDS]
-    drill: int = cycle_drill_axis(M[M_PLANE])
-    repeats: float = W[W_WORDS + LETTER_L] if words & BIT_L else 1.0
-    if words & CENTRE_BITS or not M[M_STROKES + M[M_CYCLE] - FIRST_CYCLE]:
-        return LEFT
-    if repeats > MOST_REPEATS or float(int(repeats)) != repeats:
-        return LEFT
-    cycle_take(W, K, M, P[plan + P_AXES], words, drill)
-    if not cycle_is_plain(W, M) or M[M_ROWS] >= MOST_ROWS:
-        return LEFT
-    level: float = cycle_level(W, M)
-    if M[M_RISES] and W[W_POSITION + drill] < level:
-        for axis in range(AXES):
-            A[A_END + axis] = W[W_POSITION + axis]
-        A[A_END + drill] = level
-        block_straight(W, M, A, ends, R, RAPID)
+    words: int = I[plan + plans.WORDS]
+    drill: int = cycle_drill_axis(I[modes.plane])
+    repeats: float = F[scans.word[plans.LETTER_L]] if words & plans.BIT_L else 1.0
+    if words & plans.CENTRE_BITS or not I[holes.stroke[I[modes.cycle] - modes.FIRST_CYCLE]]:
+        return runs.LEFT
+    if repeats > plans.MOST_REPEATS or float(int(repeats)) != repeats:
+        return runs.LEFT
+    cycle_take(F, I, I[plan + plans.AXES], words, drill)
+    if not cycle_is_plain(F, I) or I[modes.move_cnt] >= runs.MOST_ROWS:
+        return runs.LEFT
+    level: float = cycle_level(F, I)
+    if I[holes.rises] and F[points.position_u[drill]] < level:
+        for axis in range(moves.AXES):
+            F[points.end_u[axis]] = F[points.position_u[axis]]
+        F[points.end_u[drill]] = level
+        block_straight(F, I, moves.RAPID)
     left: int = int(repeats)
-    done: int = TAKEN
-    while left > 0 and done == TAKEN:
-        done = cycle_hole(
-            W, K, P, P[plan + P_AXES], left, M, A, ends, R, paces, N, X, V, U, C, Z, B
-        )  # fmt: skip
+    done: int = runs.TAKEN
+    while left > 0 and done == runs.TAKEN:
+        done = cycle_hole(F, I, cells, states, I[plan + plans.AXES], left)
         left -= 1
     return done
 
 
-def cycle_run(
-    W: F64, K: I32, P: I32, plan: int, code: int, M: I32, A: F64, ends: F64, R: I32, paces: F64,
-    N: F64, X: F64, V: F64, U: F64, C: F64, Z: I32, B: I32
-) -> int:  # fmt: skip
+def cycle_run(F: F64, I: I32, cells: F64, states: I32, plan: int, code: int) -> int:
     """The holes of a block, with the code of a cycle or 0; a block that is left changes nothing."""
-    if M[M_COMPENSATION] != OFF or M[M_HAS_TURNED]:
-        return LEFT
-    cycle_keep(W)
+    if I[modes.compensation] != modes.OFF or I[runs.has_turned]:
+        return runs.LEFT
+    cycle_keep(F)
     if code:
-        cycle_begin(W, M, code)
-    done: int = cycle_holes(W, K, P, plan, M, A, ends, R, paces, N, X, V, U, C, Z, B)
-    return cycle_restore(W) if done == LEFT else TAKEN
+        cycle_begin(F, I, code)
+    done: int = cycle_holes(F, I, cells, states, plan)
+    return cycle_restore(F) if done == runs.LEFT else runs.TAKEN

@@ -6,44 +6,45 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.codes.active import Drilling
 from openacr.cnc.codes.gcodes.cycles import clearances, shift_signs
-from openacr.cnc.interpreter import run_rows_cy as core
+from openacr.cnc.rows import holes, modes
 
 if TYPE_CHECKING:
     from openacr.cnc.interpreter.inside import Inside
-    from openacr.views import F64, I32
 
-_WORDS = (("Q", core.HAS_PECK, core.W_PECK), ("P", core.HAS_REST, core.W_REST))
+_WORDS = (("Q", modes.HAS_PECK, holes.peck), ("P", modes.HAS_REST, holes.rest_s))
 
 
-def take_drilling(run: Inside, W: F64, M: I32) -> None:
+def take_drilling(run: Inside) -> None:
     """Write what cycles need to know of an interpreter."""
+    F, I = run.memory.F, run.memory.I
     drilling = run.drilling or Drilling()
-    M[core.M_IS_DRILLING], M[core.M_RISES] = run.drilling is not None, run.dialect.rises_first
-    W[core.W_INITIAL] = drilling.initial
-    levels = (drilling.level, core.W_LEVEL, core.M_LEVEL), (
-        drilling.bottom, core.W_BOTTOM, core.M_BOTTOM,
+    I[modes.is_drilling], I[holes.rises] = run.drilling is not None, run.dialect.rises_first
+    F[holes.initial_u] = drilling.initial
+    levels = (drilling.level, holes.level_u, modes.level_form), (
+        drilling.bottom, holes.bottom_u, modes.bottom_form,
     )  # fmt: skip
     for level, number, how in levels:
-        W[number] = level[0] if level else 0.0
-        M[how] = (core.INCREMENTS if level[1] else core.WRITTEN) if level else 0
-    M[core.M_WORDS] = 0
+        F[number] = level[0] if level else 0.0
+        I[how] = (modes.INCREMENTS if level[1] else modes.WRITTEN) if level else 0
+    I[modes.cycle_words] = 0
     for letter, mask, number in _WORDS:
         if letter in drilling.words:
-            M[core.M_WORDS] |= mask
-            W[number] = drilling.words[letter]
-    W[core.W_SPIN] = float(run.modal.spin.value)
-    W[core.W_CLEAR], W[core.W_CLEAR + 1] = clearances(run)
-    W[core.W_SIGNS], W[core.W_SIGNS + 1] = shift_signs(run)
+            I[modes.cycle_words] |= mask
+            F[number] = drilling.words[letter]
+    F[holes.spin] = float(run.modal.spin.value)
+    F[holes.clear_u[0]], F[holes.clear_u[1]] = clearances(run)
+    F[holes.sign[0]], F[holes.sign[1]] = shift_signs(run)
 
 
-def hand_back_drilling(run: Inside, W: F64, M: I32) -> None:
+def hand_back_drilling(run: Inside) -> None:
     """Give an interpreter the cycle in force after lines that were executed together."""
-    if not M[core.M_IS_DRILLING]:
+    F, I = run.memory.F, run.memory.I
+    if not I[modes.is_drilling]:
         run.drilling = None
         return
-    words = {a: W[number] for a, mask, number in _WORDS if M[core.M_WORDS] & mask}
+    words = {a: F[number] for a, mask, number in _WORDS if I[modes.cycle_words] & mask}
     level, bottom = (
-        (W[number], M[how] == core.INCREMENTS) if M[how] else None
-        for number, how in ((core.W_LEVEL, core.M_LEVEL), (core.W_BOTTOM, core.M_BOTTOM))
+        (F[number], I[how] == modes.INCREMENTS) if I[how] else None
+        for number, how in ((holes.level_u, modes.level_form), (holes.bottom_u, modes.bottom_form))
     )
-    run.drilling = Drilling(W[core.W_INITIAL], level, bottom, words)
+    run.drilling = Drilling(F[holes.initial_u], level, bottom, words)

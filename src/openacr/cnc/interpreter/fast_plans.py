@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import AXES
 from openacr.cnc.codes.fast import Does, Fast, Sets
-from openacr.cnc.interpreter import run_rows_cy as core
 from openacr.cnc.interpreter.formula_code import FormulaWriter, NoCodeError
-from openacr.cnc.interpreter.values_cy import MOST_VALUES
 from openacr.cnc.reading.blocks import Assignment, Block, Goto, If, OWord, Statement
 from openacr.cnc.reading.formulas import Call, Node, Number, Parameter
 from openacr.cnc.reading.functions import EQUAL
 from openacr.cnc.reading.statements import INPUTS
+from openacr.cnc.rows import plans, values
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -26,13 +25,13 @@ FIELDS = ("motion", "plane", "distance", "centres", "unit", "return_level", "pat
           "compensation")  # fmt: skip
 MOTION_WORDS = "IJKRQPL"  # of arcs and cycles
 STRAIGHT = 1
-_SET_STEPS = {"unit": core.STEP_UNIT, "compensation": core.STEP_KEEP}
+_SET_STEPS = {"unit": plans.STEP_UNIT, "compensation": plans.STEP_KEEP}
 _NOTE_STEPS = {
-    Does.RESTS: core.STEP_NOTE,
-    Does.SHOWS: core.STEP_SHOW,
-    Does.TURNS: core.STEP_TURN,
+    Does.RESTS: plans.STEP_NOTE,
+    Does.SHOWS: plans.STEP_SHOW,
+    Does.TURNS: plans.STEP_TURN,
 }
-_LOOPS = core.JUMP_COUNTS
+_LOOPS = plans.JUMP_COUNTS
 # O-words that may jump, as far as the line alone says where to.
 _BRANCHES = {"ENDWHILE": _LOOPS, "WHILE": 0, "IF": 0, "ELSE": 0}
 
@@ -53,7 +52,7 @@ class Notes:
     def limit(self, limit: Limit) -> int:
         """The number of a limit; NoCodeError without room."""
         if limit not in self._limits:
-            if len(self._limits) == core.MOST_LIMITS:
+            if len(self._limits) == plans.MOST_LIMITS:
                 raise NoCodeError
             self._limits.append(limit)
             self._write(len(self._limits) - 1, limit)
@@ -74,7 +73,7 @@ class Steps:
         """The steps, then the code: a formula is named by its place in the plan."""
         written: list[int] = []
         code: list[int] = []
-        begin = core.P_FIRST + 3 * len(self.steps)
+        begin = plans.STEPS + 3 * len(self.steps)
         for step, first, second in self.steps:
             if isinstance(second, list):
                 written += (step, first, begin + len(code))
@@ -115,7 +114,7 @@ def rich_plan(
         if not assigns_last:
             _each(block, writer, body)
         for letter, word in plan.words.items():
-            body.add(core.STEP_WORD, _letter(letter), writer.code(word.value))
+            body.add(plans.STEP_WORD, _letter(letter), writer.code(word.value))
         if assigns_last:
             _together(block, writer, body)
         if block.statement is not None:
@@ -139,19 +138,19 @@ def _planned(
     for code in acts:
         for limit in code.limits:
             if limit.letter in plan.words:
-                body.add(core.STEP_LIMIT, _letter(limit.letter), notes.limit(limit))
+                body.add(plans.STEP_LIMIT, _letter(limit.letter), notes.limit(limit))
     is_alone = has_feed = False
     for code in acts:
         for form in code.fast or (None,):
             if isinstance(form, Sets) and form.field == "unit" and has_feed:
                 # Only the handler warns where the unit changes after F of its block was read.
                 value = int(code.number) if form.value is None else form.value
-                body.add(core.STEP_KEEP, FIELDS.index("unit"), value)
+                body.add(plans.STEP_KEEP, FIELDS.index("unit"), value)
             else:
                 _act(form, code, plan, body, notes)
             has_feed |= form is Does.TAKES_FEED
             is_alone |= isinstance(form, Sets) and form.is_alone
-    if len(body.steps) > core.MOST_STEPS:
+    if len(body.steps) > plans.MOST_STEPS:
         raise NoCodeError
     axes = sum(1 << axis for axis, _ in plan.axes)
     taken = {each for code in acts if code.fast != (Does.DRILLS,) for each in code.takes}
@@ -175,36 +174,36 @@ def _act(form: Fast | None, code: Code, plan: Plan, body: Steps, notes: Notes) -
         case Does.NOTHING:
             pass
         case Does.TAKES_FEED:
-            body.add(core.STEP_FEED)
+            body.add(plans.STEP_FEED)
         case Does.MOVES:
-            body.add(core.STEP_MOVE)
+            body.add(plans.STEP_MOVE)
         case Does.DRILLS:
-            body.add(core.STEP_DRILL, int(code.number))
+            body.add(plans.STEP_DRILL, int(code.number))
         case Does.ENDS_CYCLE:
-            body.add(core.STEP_END_CYCLE)
+            body.add(plans.STEP_END_CYCLE)
         case Does.RESTS | Does.SHOWS | Does.TURNS if len(plan.words) <= AXES:
             letters = [_letter(letter) for letter in plan.words]
             body.add(_NOTE_STEPS[form], notes.add(plan, code), [len(letters), *letters])
         case Sets(name, value) if name in FIELDS:
-            kind = core.STEP_BAR if form.is_barred else _SET_STEPS.get(name, core.STEP_SET)
+            kind = plans.STEP_BAR if form.is_barred else _SET_STEPS.get(name, plans.STEP_SET)
             body.add(kind, FIELDS.index(name), int(code.number) if value is None else value)
         case _:
             raise NoCodeError
 
 
 def _value(one: Assignment, slot: int, writer: FormulaWriter, body: Steps) -> None:
-    if isinstance(one.index, str) or slot + 1 >= MOST_VALUES:
+    if isinstance(one.index, str) or slot + 1 >= values.MOST_VALUES:
         raise NoCodeError
-    body.add(core.STEP_VALUE, slot, writer.target(one.index))
-    body.add(core.STEP_VALUE, slot + 1, writer.code(one.value))
+    body.add(plans.STEP_VALUE, slot, writer.target(one.index))
+    body.add(plans.STEP_VALUE, slot + 1, writer.code(one.value))
 
 
 def _each(block: Block, writer: FormulaWriter, body: Steps) -> None:
     """Assignments one after another; with computed numbers of parameters they wait for rest."""
     for one in block.assignments:
         _value(one, 0, writer, body)
-        body.add(core.STEP_STORE, writer.store(one.kind), 0)
-    if len(block.assignments) > MOST_VALUES or writer.is_computed:
+        body.add(plans.STEP_STORE, writer.store(one.kind), 0)
+    if len(block.assignments) > values.MOST_VALUES or writer.is_computed:
         raise NoCodeError
 
 
@@ -213,7 +212,7 @@ def _together(block: Block, writer: FormulaWriter, body: Steps) -> None:
     for k, one in enumerate(block.assignments):
         _value(one, 2 * k, writer, body)
     for k, one in enumerate(block.assignments):
-        body.add(core.STEP_STORE, writer.store(one.kind), 2 * k)
+        body.add(plans.STEP_STORE, writer.store(one.kind), 2 * k)
 
 
 def _may_test_input(condition: Node, writer: FormulaWriter) -> bool:
@@ -235,14 +234,14 @@ def jump(
     """
     match statement:
         case Goto(Number()):
-            body.add(core.STEP_JUMP, core.JUMP_COUNTS)
+            body.add(plans.STEP_JUMP, plans.JUMP_COUNTS)
         case If(condition, Goto(Number())) if not _may_test_input(condition, writer):
-            how = core.JUMP_COUNTS | core.JUMP_IF_TRUE
-            body.add(core.STEP_JUMP, how, writer.code(condition))
+            how = plans.JUMP_COUNTS | plans.JUMP_IF_TRUE
+            body.add(plans.STEP_JUMP, how, writer.code(condition))
         case OWord(_, "ENDIF") if branches(statement):
             pass
         case OWord(_, kind, values) if kind in _BRANCHES and branches(statement):
             code: int | list[int] = writer.code(values[0]) if values else 0
-            body.add(core.STEP_JUMP, _BRANCHES[kind], code)
+            body.add(plans.STEP_JUMP, _BRANCHES[kind], code)
         case _:
             raise NoCodeError

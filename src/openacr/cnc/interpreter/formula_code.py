@@ -6,9 +6,9 @@ import math
 from typing import TYPE_CHECKING
 
 from openacr.cnc.interpreter import formulas_cy as vm
-from openacr.cnc.interpreter import values_cy as values
 from openacr.cnc.reading import functions as f
 from openacr.cnc.reading.formulas import Call, Node, Number, Parameter
+from openacr.cnc.rows import values
 
 if TYPE_CHECKING:
     from openacr.cnc.state.parameters import Parameters
@@ -87,9 +87,9 @@ class FormulaWriter:
     def _parameter(self, n: int, *, is_hash: bool) -> tuple[int, int]:
         parameters = self._parameters
         if is_hash and parameters.own is not None:
-            if 1 <= n <= vm.LAST_OWN:
-                return vm.DO_LOCAL if n <= vm.OWN_LOCALS else vm.DO_OWN, n
-        elif is_hash and 1 <= n <= vm.LOCALS:
+            if 1 <= n <= values.LAST_OWN:
+                return vm.DO_LOCAL if n <= values.OWN_LOCALS else vm.DO_OWN, n
+        elif is_hash and 1 <= n <= values.LOCALS:
             return vm.DO_HASH, n
         elif parameters.is_plain_cell(n, is_hash=is_hash):
             return vm.DO_CELL, n
@@ -104,7 +104,7 @@ class FormulaWriter:
 
     def _push(self) -> None:
         self._depth += 1
-        if self._depth > vm.MOST_OPERANDS:
+        if self._depth > values.MOST_OPERANDS:
             raise NoCodeError
 
     def _number(self, node: Number) -> tuple[int, int]:

@@ -1,12 +1,10 @@
 """Formulas of part programs as byte code: numbers of the line, cells, operators, functions.
 
-Code stands in `P`, operands on the stack `X`. The numbers are those of the trees
+Code is part of a plan, operands are on `values.stack`. The numbers are those of the trees
 (`reading/formulas.py`, `reading/functions.py`), bit for bit. Where a tree would raise an error, or
 a result is not finite, or a cell is not at hand, there is no value: the tree then says why.
 
-`N`: numbers of the line. `V`: #1 and up of the call in force, V[0] is 1 inside a call. `U`:
-numbered parameters of the rs274ngc dialect. `C`: cells of the store, with their state in `Z` and
-in `B` what a program may do with them.
+`cells` are those of the store, with their state in `states`.
 """
 
 from openacr.cmath import (
@@ -27,6 +25,7 @@ from openacr.cmath import (
     tan,
     trunc,
 )
+from openacr.cnc.rows import scans, values
 from openacr.views import F64, I32
 
 __all__ = ["formula_run"]
@@ -76,17 +75,8 @@ DO_MOD_UP = 41
 DO_POWER = 42
 DO_ATAN2 = 43
 
-MOST_OPERANDS = 32
 RADIANS = 0.017453292519943295
 DEGREES = 57.29577951308232
-LOCALS = 33  # of acromill
-OWN_LOCALS = 30
-LAST_OWN = 5000
-CELLS = 4096
-IS_KNOWN = 1  # state of a cell
-IS_WRITTEN = 2
-MAY_READ = 1  # access to a cell
-MAY_WRITE = 2
 NO_VALUE = 1.0e308 * 10.0
 
 
@@ -232,67 +222,65 @@ def formula_whole(x: float) -> int:
     return int(x)
 
 
-def formula_cell(n: int, C: F64, Z: I32, B: I32) -> float:
+def formula_cell(I: I32, cells: F64, states: I32, n: int) -> float:
     """A cell of the store."""
-    if n < 0 or n >= CELLS or not B[n] & MAY_READ or not Z[n] & IS_KNOWN:
+    if n < 0 or n >= values.CELLS or not I[values.access[n]] & values.MAY_READ:
         return NO_VALUE
-    return C[n]
+    return cells[n] if states[n] & values.IS_KNOWN else NO_VALUE
 
 
-def formula_hash(n: int, V: F64, C: F64, Z: I32, B: I32) -> float:
+def formula_hash(F: F64, I: I32, cells: F64, states: I32, n: int) -> float:
     """Parameter #n of the acromill dialect."""
-    if V[0] != 0.0 and 1 <= n <= LOCALS:
-        return V[n]
-    return formula_cell(n, C, Z, B)
+    if F[values.local[0]] != 0.0 and 1 <= n <= values.LOCALS:
+        return F[values.local[n]]
+    return formula_cell(I, cells, states, n)
 
 
-def formula_own(n: int, V: F64, U: F64) -> float:
+def formula_own(F: F64, n: int) -> float:
     """Parameter #n of the rs274ngc dialect."""
-    if n < 1 or n > LAST_OWN:
+    if n < 1 or n > values.LAST_OWN:
         return NO_VALUE
-    return V[n] if n <= OWN_LOCALS else U[n]
+    return F[values.local[n]] if n <= values.OWN_LOCALS else F[values.own[n]]
 
 
-def formula_read(op: int, n: int, V: F64, U: F64, C: F64, Z: I32, B: I32) -> float:
+def formula_read(F: F64, I: I32, cells: F64, states: I32, op: int, n: int) -> float:
     """A parameter; not finite where only the tree can read it."""
     if op == DO_LOCAL:
-        return V[n]
+        return F[values.local[n]]
     if op == DO_HASH or op == DO_ANY_HASH:
-        return formula_hash(n, V, C, Z, B)
+        return formula_hash(F, I, cells, states, n)
     if op == DO_OWN or op == DO_ANY_OWN:
-        return formula_own(n, V, U)
-    return formula_cell(n, C, Z, B)
+        return formula_own(F, n)
+    return formula_cell(I, cells, states, n)
 
 
-def formula_run(
-    P: I32, at: int, N: F64, X: F64, V: F64, U: F64, C: F64, Z: I32, B: I32
-) -> bool:  # fmt: skip
-    """Compute a formula to X[0]; False where it has no value, or only the tree has it."""
-    top: int = 0
+def formula_run(F: F64, I: I32, cells: F64, states: I32, at: int) -> bool:
+    """Compute a formula to the stack; False where it has no value, or only the tree has it."""
+    top: int = values.stack[0]  # after the last operand
     is_open: bool = True
-    op: int = P[at]
+    op: int = I[at]
     while is_open and op != DO_RESULT:
         if op <= DO_WHOLE:
-            n: int = P[at + 1]
+            n: int = I[at + 1]
             at += 2
             if op == DO_NUMBER:
-                X[top] = N[n]
+                F[top] = F[scans.number[n]]
             elif op == DO_NEGATED:
-                X[top] = -N[n]
+                F[top] = -F[scans.number[n]]
             elif op == DO_WHOLE:
-                X[top] = float(n)
+                F[top] = float(n)
             else:
-                X[top] = formula_read(op, n, V, U, C, Z, B)
+                F[top] = formula_read(F, I, cells, states, op, n)
             top += 1
         else:
             at += 1
             if op < DO_NEGATE:
-                X[top - 1] = formula_read(op, formula_whole(X[top - 1]), V, U, C, Z, B)
+                F[top - 1] = formula_read(F, I, cells, states, op, formula_whole(F[top - 1]))
             elif op < DO_ADD:
-                X[top - 1] = formula_unary(op, X[top - 1])
+                F[top - 1] = formula_unary(op, F[top - 1])
             else:
                 top -= 1
-                X[top - 1] = formula_binary(op, X[top - 1], X[top])
-        is_open = X[top - 1] - X[top - 1] == 0.0
-        op = P[at]
+                F[top - 1] = formula_binary(op, F[top - 1], F[top])
+        is_open = F[top - 1] - F[top - 1] == 0.0
+        op = I[at]
     return is_open

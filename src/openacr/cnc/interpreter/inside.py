@@ -19,6 +19,7 @@ from openacr.cnc.interpreter.loops import Loops
 from openacr.cnc.program.labels import Part
 from openacr.cnc.program.program import Node
 from openacr.cnc.reading.formulas import Formula
+from openacr.cnc.rows.room import Memory
 
 Assign = Callable[[Node], None]
 Act = Callable[[Node], Iterator[Entry] | None]
@@ -93,6 +94,10 @@ class Inside(Run, Protocol):
 
     out: list[Entry]  # not handed out yet
     is_rested: bool
+
+    @property
+    def memory(self) -> Memory:
+        """Its rows, as lines read them that are executed together."""
 
     @property
     def dialect(self) -> Dialect:

@@ -45,6 +45,8 @@ from openacr.cnc.program.flow import Flow
 from openacr.cnc.program.labels import Part
 from openacr.cnc.program.program import Node, Program
 from openacr.cnc.reading.findings import MOST, BlockError, CodeError, Finding, found
+from openacr.cnc.rows import results
+from openacr.cnc.rows.room import Memory
 from openacr.cnc.state.cells import (
     CMP_RAD,
     LENGTH,
@@ -92,6 +94,7 @@ class Interpreter:
         dialect: str = "acromill",
         options: Options | None = None,
     ) -> None:
+        self.memory = Memory(results.SIZE)
         self.program = program
         self.cells = cells
         self.machine = machine
@@ -169,7 +172,7 @@ class Interpreter:
         self.path.begin(self.machine.position() or self.path.target)
         modal, parameters = self.modal.copy(), self.parameters
         kept = self.motions, self.macro, self.drilling, parameters.names
-        values = parameters.values[:]
+        values = list(parameters.values)
         try:
             yield from self._guarded(self.execution.single(node))
         except BlockError:

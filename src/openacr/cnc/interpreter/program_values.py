@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import AXES
-from openacr.cnc.interpreter import formulas_cy as vm
-from openacr.cnc.interpreter import run_rows_cy as core
-from openacr.cnc.interpreter import values_cy as values
 from openacr.cnc.program.labels import Place
 from openacr.cnc.reading.line_shapes import doubles, integers
+from openacr.cnc.rows import runs
+from openacr.cnc.rows import values as rows
 from openacr.cnc.state.parameters import (
     FEED_CELL,
     FIRST_STORED,
@@ -18,51 +17,47 @@ from openacr.cnc.state.parameters import (
     LAST_STORED,
     SHOWN,
 )
-from openacr.cnc.state.shadow import NEAR, Shadow
+from openacr.cnc.state.shadow import Shadow
 
 if TYPE_CHECKING:
     from openacr.cnc.interpreter.inside import Inside
     from openacr.cnc.program.labels import Part
-    from openacr.views import F64, I32
+    from openacr.views import I32
 
 
 @cache
 def access() -> I32:
     """What programs may do with cells, by number: read those of the store, write the free ones."""
-    found = integers(NEAR)
-    for n in range(FIRST_STORED, min(LAST_STORED, NEAR - 1) + 1):
-        found[n] = vm.MAY_READ
+    found = integers(rows.CELLS)
+    for n in range(FIRST_STORED, min(LAST_STORED, rows.CELLS - 1) + 1):
+        found[n] = rows.MAY_READ
     for first, last in FREE_CELLS:
         for n in range(first, last + 1):
-            found[n] = vm.MAY_READ | vm.MAY_WRITE
+            found[n] = rows.MAY_READ | rows.MAY_WRITE
     for n in (*SHOWN, FEED_CELL):
-        if n < NEAR:
+        if n < rows.CELLS:
             found[n] = 0
     return found
 
 
 class ProgramValues:
-    """Views of what parameters are kept in, and what programs may do with the cells.
+    """The cells of a run as arrays, and what its program may do with them.
 
     Cells are read and written by the core where they are those of a `Shadow`.
     """
 
     def __init__(self, run: Inside) -> None:
-        parameters, cells = run.parameters, run.cells
-        self._cells = cells if isinstance(cells, Shadow) else None
-        self.locals = cast("F64", memoryview(parameters.values))
-        own = parameters.own
-        self.own = doubles(1) if own is None else cast("F64", memoryview(own))
-        self.access = access()
-        if self._cells is None:
-            self.cells, self.states = doubles(NEAR), integers(NEAR)
+        self._shadow = run.cells if isinstance(run.cells, Shadow) else None
+        run.memory.wholes(rows.access)[:] = access()
+        if self._shadow is None:
+            self.cells, self.states = doubles(rows.CELLS), integers(rows.CELLS)
         else:
-            self.cells, self.states = self._cells.values, self._cells.states
+            self.cells, self.states = self._shadow.values, self._shadow.states
 
     @property
     def are_here(self) -> bool:
         """Whether the core may read and write the cells."""
-        return self._cells is not None and self._cells.has_values
+        return self._shadow is not None and self._shadow.has_values
 
 
 class Jumps:
@@ -74,19 +69,15 @@ class Jumps:
 
     def __init__(self, run: Inside) -> None:
         self._run = run
-        self.rows = integers(values.JUMPS * values.JUMP)
-        self.kept = doubles(values.JUMPS * AXES)
         self._part: Part | None = None
         self._pending = 0  # the line that was left, which may be a jump
-        self._K: I32 = integers(core.K_RUN_SIZE)
 
-    def begin(self, part: Part, first: int, K: I32) -> None:
+    def begin(self, part: Part, first: int) -> None:
         """Lines of a text are executed; `first` is the place of their data in it."""
         if part is not self._part:
-            self.rows[:] = integers(len(self.rows))
+            self._run.memory.wholes(rows.jump)[:] = integers(len(rows.jump))
             self._part = part
-        K[core.K_FIRST] = first
-        self._K = K
+        self._run.memory.I[runs.first_at] = first
         self._pending = 0
 
     def left(self, at: Place) -> None:
@@ -95,12 +86,12 @@ class Jumps:
 
     def end(self) -> None:
         """Hand the passes to `Loops`."""
-        if not self._K[core.K_JUMPS] or self._run.loops is None or self._part is None:
+        I, loops = self._run.memory.I, self._run.loops
+        if not I[runs.jump_cnt] or loops is None or self._part is None:
             return
-        J = self.rows
-        for at in range(0, len(J), values.JUMP):
-            if J[at + values.J_LINE]:
-                self._run.loops.count(self._part, J[at + values.J_LINE], J[at + values.J_PASSES])
+        for at in rows.jump[:: rows.JUMP]:
+            if I[at + rows.JUMP_LINE]:
+                loops.count(self._part, I[at + rows.JUMP_LINE], I[at + rows.JUMP_PASSES])
 
     def arrived(self, place: Place) -> None:
         """The program goes on at a place: that is the target of the line that was left."""
@@ -110,13 +101,14 @@ class Jumps:
             return
         if node.part is not self._part or place.part is not self._part:
             return
-        slot = line & values.JUMP_MASK
-        at, J = slot * values.JUMP, self.rows
-        J[at + values.J_LINE], J[at + values.J_PLACE] = line, place.offset
-        J[at + values.J_TARGET], J[at + values.J_IS_KEPT] = place.line, 0
+        F, I = self._run.memory.F, self._run.memory.I
+        slot = line & rows.JUMP_MASK
+        at = rows.jump[slot * rows.JUMP]
+        I[at + rows.JUMP_LINE], I[at + rows.JUMP_PLACE] = line, place.offset
+        I[at + rows.JUMP_TARGET], I[at + rows.JUMP_IS_KEPT] = place.line, 0
         if self._run.loops is not None:
-            J[at + values.J_PASSES], kept = self._run.loops.passes(node)
+            I[at + rows.JUMP_PASSES], kept = self._run.loops.passes(node)
             if kept is not None:
-                J[at + values.J_IS_KEPT] = 1
+                I[at + rows.JUMP_IS_KEPT] = 1
                 for axis in range(AXES):
-                    self.kept[slot * AXES + axis] = kept[axis]
+                    F[rows.kept_u[slot * AXES + axis]] = kept[axis]

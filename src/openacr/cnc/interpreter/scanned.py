@@ -7,12 +7,13 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Moves, Pace, Point, Polyline, Source
-from openacr.cnc.canonical.batches import CURVE, POINT, ROW, Origin
-from openacr.cnc.interpreter import run_rows_cy as core
+from openacr.cnc.canonical.batches import Origin
 from openacr.cnc.program.block_context import BlockContext
 from openacr.cnc.program.program import Node
 from openacr.cnc.reading.line_shapes import doubles, integers
 from openacr.cnc.reading.text import decoded
+from openacr.cnc.rows import moves, results
+from openacr.cnc.rows.moves import CURVE, POINT, ROW
 
 if TYPE_CHECKING:
     from openacr.cnc.interpreter.fast_plans import Notes
@@ -28,33 +29,33 @@ class Scanned:
         self._run = run
         self._notes = notes
         self._nodes = nodes  # of the cycles
-        room = core.MOST_ROWS + core.MOST_STEPS
-        self.ends, self.arcs = doubles(room * POINT), doubles(room * CURVE)
-        self.rows, self.paces = integers(room * ROW), doubles(room + 1)
+        memory = run.memory
+        self._ends, self._arcs = memory.reals(results.end_u), memory.reals(results.arc)
+        self._rows, self._feeds = memory.wholes(results.row), memory.reals(results.feed_upm)
 
     def moves(self, count: int, paces: int, part: Part, data: memoryview, begin: Point) -> None:
         """Hand out moves of `paces` paces from a machine point on, with entries between them."""
         run, rows = self._run, integers(count * ROW)
-        rows[:] = self.rows[: count * ROW]
+        rows[:] = self._rows[: count * ROW]
         ends, arcs = doubles(count * POINT), doubles(count * CURVE)
-        ends[:], arcs[:] = self.ends[: count * POINT], self.arcs[: count * CURVE]
+        ends[:], arcs[:] = self._ends[: count * POINT], self._arcs[: count * CURVE]
         origins = self._origins(part, data)
         known = self._paces(paces)
         first = 0
-        kinds = rows[core.R_KIND :: ROW].tolist() if count else []
-        notes = [k for k, kind in enumerate(kinds) if kind == core.NOTE]
+        kinds = rows[moves.KIND :: ROW].tolist() if count else []
+        notes = [k for k, kind in enumerate(kinds) if kind == moves.NOTE]
         for k in (*notes, count):
             if k > first:
-                moves = Moves(
+                found = Moves(
                     origins, rows[first * ROW : k * ROW], ends[first * POINT : k * POINT],
                     arcs[first * CURVE : k * CURVE], known,
                 )  # fmt: skip
                 if run.path.elements is None:
-                    run.out.append(moves)
+                    run.out.append(found)
                     run.is_rested = False
                 else:
-                    run.offset_path.add_many(moves, begin)
-                begin = moves.end_of(k - first - 1)
+                    run.offset_path.add_many(found, begin)
+                begin = found.end_of(k - first - 1)
             if k < count:
                 self._note(k, rows, ends, part, data)
             first = k + 1
@@ -63,7 +64,7 @@ class Scanned:
         """Let a code act that tells something between two moves."""
         line, number, begin, end, text = (
             rows[ROW * k + at]
-            for at in (core.R_LINE, core.R_PLANE, core.R_START, core.R_STOP, core.R_TEXT)
+            for at in (moves.LINE_NUMBER, moves.PLANE, moves.START, moves.STOP, moves.TEXT)
         )
         plan, code = self._notes.codes[number]
         node = self._nodes[begin] if text else Node(part, line, _text(data, begin, end), end)
@@ -76,10 +77,10 @@ class Scanned:
         """Hand out straight feed moves of one pace."""
         import numpy as np
 
-        R = self.rows
-        ends = np.array(self.ends[: count * POINT]).reshape(count, POINT)
-        lines = np.array(R[core.R_LINE : count * ROW : ROW], np.int64)
-        text = _text(data, R[core.R_START], R[core.R_STOP])
+        R = self._rows
+        ends = np.array(self._ends[: count * POINT]).reshape(count, POINT)
+        lines = np.array(R[moves.LINE_NUMBER : count * ROW : ROW], np.int64)
+        text = _text(data, R[moves.START], R[moves.STOP])
         source = Source(part.text.name, int(lines[0]), text)
         self._run.out.append(Polyline(source, ends, lines, self._paces(1)[0]))
         self._run.is_rested = False
@@ -87,7 +88,7 @@ class Scanned:
     def _paces(self, count: int) -> tuple[Pace, ...]:
         """The paces of the moves: they differ in the feed alone."""
         present = self._run.path.plain_pace()
-        return tuple(_with_feed(present, feed) for feed in self.paces[:count])
+        return tuple(_with_feed(present, feed) for feed in self._feeds[:count])
 
     def _origins(self, part: Part, data: memoryview) -> tuple[Origin, ...]:
         """The texts of the moves: that of the program, then that of the cycles."""

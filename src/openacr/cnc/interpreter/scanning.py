@@ -13,12 +13,10 @@ from array import array
 from functools import partial
 from typing import TYPE_CHECKING, cast
 
-from openacr.cnc.canonical import AXES
 from openacr.cnc.codes.fast import Does
 from openacr.cnc.codes.gcodes.motion import MOTIONS, NO_MOTION
 from openacr.cnc.codes.radii import NEAR_INCH
 from openacr.cnc.interpreter import lines_cy, loops
-from openacr.cnc.interpreter import run_rows_cy as core
 from openacr.cnc.interpreter.drill_state import hand_back_drilling, take_drilling
 from openacr.cnc.interpreter.fast_plans import FIELDS, Notes, fast_plan, jump, rich_plan
 from openacr.cnc.interpreter.formula_code import FormulaWriter
@@ -26,15 +24,13 @@ from openacr.cnc.interpreter.offset_path import OFF
 from openacr.cnc.interpreter.program_values import Jumps, ProgramValues
 from openacr.cnc.interpreter.ready import acting
 from openacr.cnc.interpreter.scanned import Scanned
-from openacr.cnc.interpreter.strokes import MOST_NUMBERS, Strokes
-from openacr.cnc.interpreter.values_cy import X_SIZE
+from openacr.cnc.interpreter.strokes import Strokes
 from openacr.cnc.program.labels import Place
-from openacr.cnc.reading import rich_cy as rich
-from openacr.cnc.reading import scan_cy as scan
 from openacr.cnc.reading.findings import CodeError
-from openacr.cnc.reading.line_shapes import LineShapes, doubles, integers
+from openacr.cnc.reading.line_shapes import LineShapes
 from openacr.cnc.reading.parser import parse
 from openacr.cnc.reading.text import decoded
+from openacr.cnc.rows import holes, modes, plans, points, results, runs, scans
 from openacr.cnc.state.cells import EPSILON
 from openacr.cnc.state.modal import INCH, METRIC, PER_MINUTE
 from openacr.compiled import pick
@@ -47,8 +43,6 @@ if TYPE_CHECKING:
 
 MOST_SLOW = 20_000  # places of lines that are known to be left to the parser
 LEAST_ROWS = 16  # a Polyline has more
-MOST_PLANNED = 32768  # numbers of all plans
-NO_CYCLE = 80
 FAST_MOTIONS = frozenset({0, 1, 2, 3, NO_MOTION})
 _run_lines = pick(lines_cy.run_lines)
 
@@ -59,15 +53,13 @@ class Scanner:
     def __init__(self, run: Inside) -> None:
         self._run = run
         bracket = run.dialect.grammar.brackets[0]
-        sizes = core.W_RUN_SIZE, core.K_RUN_SIZE, rich.MOST_NUMBERS + MOST_NUMBERS
-        self._shapes = LineShapes(run.planner.axes, bracket, *sizes)
+        self._F, self._I = run.memory.F, run.memory.I
+        self._shapes = LineShapes(run.planner.axes, bracket, run.memory)
         for letter, axis in run.planner.axes.items():
-            self._shapes.K[core.K_LETTER + axis] = ord(letter) - ord("A")
-        self._plans, self._plans_end = integers(MOST_PLANNED), 1
-        self._stack = doubles(X_SIZE)
-        self._modal, self._arc = integers(core.M_SIZE), doubles(core.A_RUN_SIZE)
+            self._I[runs.letter_of[axis]] = ord(letter) - ord("A")
+        self._plans_end = plans.number.start
         self._notes = Notes(self._limit)
-        self._strokes = Strokes(run, self._shapes.N, self._notes, self._keep)
+        self._strokes = Strokes(run, self._notes, self._keep)
         self._scanned = Scanned(run, self._notes, self._strokes.nodes)
         self._values = ProgramValues(run)
         self._jumps = Jumps(run)
@@ -90,7 +82,7 @@ class Scanner:
             and path.coordinates.is_plain
             and run.motions is MOTIONS
             and not run.is_replaying
-            and (run.options.has_batches or (modal.motion == 1 and modal.cycle == NO_CYCLE))
+            and (run.options.has_batches or (modal.motion == 1 and modal.cycle == modes.NO_CYCLE))
         )
 
     @property
@@ -102,7 +94,7 @@ class Scanner:
         return (
             run.offset_path.is_following
             and run.options.has_batches
-            and run.modal.cycle == NO_CYCLE
+            and run.modal.cycle == modes.NO_CYCLE
             and run.modal.compensation != OFF
         )
 
@@ -128,8 +120,8 @@ class Scanner:
         if is_plain:
             self._scanned.polyline(rows, start.part, data)
         else:
-            self._scanned.moves(rows, self._modal[core.M_PACE] + 1, start.part, data, begin)
-        self._run.execution.idle_cnt = self._modal[core.M_IDLE]
+            self._scanned.moves(rows, self._I[modes.pace] + 1, start.part, data, begin)
+        self._run.execution.idle_cnt = self._I[modes.idle_cnt]
         self.last = self._last
         return after
 
@@ -138,32 +130,26 @@ class Scanner:
 
         `first` is the offset of the data in the text.
         """
-        shapes, found = self._shapes, self._scanned
-        values, jumps = self._values, self._jumps
+        shapes, values, jumps = self._shapes, self._values, self._jumps
+        F, I = self._F, self._I
         self._cnt = 0
-        jumps.begin(at.part, first, shapes.K)
+        jumps.begin(at.part, first)
         while True:
-            self._modal[core.M_LINE] = at.line
-            _run_lines(
-                data, at.offset, stop, shapes.W, shapes.K, shapes.L, shapes.T, self._plans,
-                self._modal, self._arc, found.ends, found.arcs, found.rows, found.paces,
-                shapes.N, shapes.Q, self._stack, values.locals, values.own, values.cells,
-                values.states, values.access, jumps.rows, jumps.kept,
-            )  # fmt: skip
-            K = shapes.K
-            if K[core.K_READ]:
-                self._cnt += K[core.K_READ]
-                self._last = Place(at.part, first + K[scan.K_LAST], K[core.K_LAST_LINE])
-            at = Place(at.part, K[scan.K_NEXT], K[scan.K_LINES])
-            if shapes.status == scan.SCAN_LEFT:
+            I[runs.first_line] = at.line
+            _run_lines(data, at.offset, stop, F, I, values.cells, values.states)
+            if I[scans.line_cnt]:
+                self._cnt += I[scans.line_cnt]
+                self._last = Place(at.part, first + I[scans.last_at], I[scans.last_line])
+            at = Place(at.part, I[scans.next_at], I[scans.next_line])
+            if shapes.status == scans.LEFT:
                 jumps.left(at)
-            if shapes.status != scan.SCAN_NEW or not self._learn(at.part, first + at.offset):
+            if shapes.status != scans.NEW or not self._learn(at.part, first + at.offset):
                 jumps.end()
-                return self._modal[core.M_ROWS], at
+                return I[modes.move_cnt], at
 
     def _note_slow(self, start: Place) -> None:
         """Remember that a line is always left to the parser."""
-        if self._shapes.status in (scan.SCAN_HARD, scan.SCAN_SLOW) and len(self._slow) < MOST_SLOW:
+        if self._shapes.status in (scans.HARD, scans.SLOW) and len(self._slow) < MOST_SLOW:
             self._slow.add((id(start.part), start.offset))
 
     def _is_barred(self, start: Place) -> bool:
@@ -186,23 +172,22 @@ class Scanner:
         found = part.text.line(offset)
         numbers = self._planned(decoded(found[0]), part) if found else None
         first = self._keep(numbers) if numbers else 0
-        return self._shapes.learn(tokens, first or scan.SHAPE_SLOW)
+        return self._shapes.learn(tokens, first or scans.SLOW_SHAPE)
 
     def _keep(self, numbers: list[int]) -> int:
         """The place of a plan among all; 0 without room."""
         first, end = self._plans_end, self._plans_end + len(numbers)
-        if end > MOST_PLANNED:
+        if end > plans.number.stop:
             return 0
         self._plans_end = end
-        for k, number in enumerate(numbers, first):
-            self._plans[k] = number
+        for at, number in enumerate(numbers, first):
+            self._I[at] = number
         return first
 
     def _limit(self, k: int, limit: Limit) -> None:
         """Keep a limit of words."""
-        at = core.W_LIMITS + 3 * k
-        for place, number in enumerate((limit.low, limit.high, limit.is_whole)):
-            self._shapes.W[at + place] = number
+        for at, number in enumerate((limit.low, limit.high, limit.is_whole), plans.LIMIT * k):
+            self._F[plans.limit[at]] = number
 
     def _planned(self, raw: str, part: Part) -> list[int] | None:
         run = self._run
@@ -223,49 +208,44 @@ class Scanner:
 
     def _use_cycle(self, code: int) -> None:
         """Let the core know the text of a cycle."""
-        self._modal[core.M_STROKES + code - core.FIRST_CYCLE] = self._strokes.place(code)
+        self._I[holes.stroke[code - modes.FIRST_CYCLE]] = self._strokes.place(code)
 
     # --- the state of the interpreter -----------------------------------------------------
 
     def _take_state(self, *, is_plain: bool) -> None:
-        run, W, M = self._run, self._shapes.W, self._modal
+        run, F, I = self._run, self._F, self._I
         modal, path = run.modal, run.path
-        W[core.W_POSITION : core.W_POSITION + AXES] = _view(path.program)
-        W[core.W_TARGET : core.W_TARGET + AXES] = _view(path.target)
-        W[core.W_SHIFT : core.W_SHIFT + AXES] = _view(path.coordinates.shift)
-        for k, factor in enumerate((*path.factors(INCH), *path.factors(METRIC))):
-            W[core.W_UNITS + k] = factor
-        W[core.W_TIMES], W[core.W_PER], W[core.W_FEED] = path.times, path.per, modal.feed
-        W[core.W_NEAR], W[core.W_EPSILON] = path.inches(NEAR_INCH), run.cells.read(EPSILON)
+        self._put(points.position_u, path.program)
+        self._put(points.target_u, path.target)
+        self._put(points.shift_u, path.coordinates.shift)
+        self._put(points.factor, (*path.factors(INCH), *path.factors(METRIC)))
+        F[points.times], F[points.per], F[points.feed_upm] = path.times, path.per, modal.feed
+        F[points.near_u], F[points.epsilon_u] = path.inches(NEAR_INCH), run.cells.read(EPSILON)
         for row, field in enumerate(FIELDS):
-            M[row] = int(getattr(modal, field))
-        M[core.M_PACE], M[core.M_HAS_FEED] = 0, modal.has_feed
-        M[core.M_HAS_TURNED] = 0
-        M[core.M_IDLE] = run.execution.idle_cnt
-        M[core.M_HAS_VALUES] = self._values.are_here and not is_plain
-        M[core.M_MOST_PASSES] = loops.MOST_PASSES if run.loops is not None else 0
-        M[core.M_IS_SHIFTED], M[core.M_IS_PLAIN] = path.coordinates.is_shifted, is_plain
-        self._scanned.paces[0] = modal.feed
-        M[core.M_ROWS] = M[core.M_AT + 3] = 0
-        take_drilling(run, W, M)
-        if modal.cycle != NO_CYCLE:
+            I[modes.state[row]] = int(getattr(modal, field))
+        I[modes.pace], I[modes.has_feed] = 0, modal.has_feed
+        I[modes.idle_cnt] = run.execution.idle_cnt
+        I[modes.move_cnt] = I[runs.line_text] = I[runs.has_turned] = 0
+        I[runs.has_values] = self._values.are_here and not is_plain
+        I[runs.most_passes] = loops.MOST_PASSES if run.loops is not None else 0
+        I[runs.is_shifted], I[runs.is_plain] = path.coordinates.is_shifted, is_plain
+        F[results.feed_upm[0]] = modal.feed
+        take_drilling(run)
+        if modal.cycle != modes.NO_CYCLE:
             self._use_cycle(modal.cycle)
 
+    def _put(self, row: range, numbers: tuple[float, ...]) -> None:
+        self._F[row.start : row.stop] = cast("F64", memoryview(array("d", numbers)))
+
     def _hand_back(self) -> None:
-        run, W, M = self._run, self._shapes.W, self._modal
+        run, F, I = self._run, self._F, self._I
         modal, path = run.modal, run.path
         for row, field in enumerate(FIELDS):
-            if M[row] != getattr(modal, field):
-                setattr(modal, field, M[row])
-        modal.feed, modal.has_feed = W[core.W_FEED], bool(M[core.M_HAS_FEED])
-        path.times, path.per = W[core.W_TIMES], W[core.W_PER]
+            if I[modes.state[row]] != getattr(modal, field):
+                setattr(modal, field, I[modes.state[row]])
+        modal.feed, modal.has_feed = F[points.feed_upm], bool(I[modes.has_feed])
+        path.times, path.per = F[points.times], F[points.per]
         path.change_pace()
-        path.jump(
-            tuple(W[core.W_POSITION : core.W_POSITION + AXES]),
-            tuple(W[core.W_TARGET : core.W_TARGET + AXES]),
-        )
-        hand_back_drilling(run, W, M)
-
-
-def _view(point: tuple[float, ...]) -> F64:
-    return cast("F64", memoryview(array("d", point)))
+        memory = run.memory
+        path.jump(tuple(memory.reals(points.position_u)), tuple(memory.reals(points.target_u)))
+        hand_back_drilling(run)

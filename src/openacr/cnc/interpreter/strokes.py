@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from openacr.cnc.codes.gcodes.cycles import TURNS, label_of
-from openacr.cnc.interpreter import run_rows_cy as core
-from openacr.cnc.interpreter.fast_plans import Notes, Steps, rich_plan
+from openacr.cnc.interpreter.fast_plans import FIELDS, Notes, Steps, rich_plan
 from openacr.cnc.interpreter.formula_code import FormulaWriter, NoCodeError
 from openacr.cnc.interpreter.ready import acting
 from openacr.cnc.reading import rich_cy as rich
@@ -15,6 +14,7 @@ from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.reading.formulas import Number
 from openacr.cnc.reading.line_shapes import LineShapes
 from openacr.cnc.reading.parser import parse
+from openacr.cnc.rows import plans, scans
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,28 +22,33 @@ if TYPE_CHECKING:
     from openacr.cnc.interpreter.inside import Inside
     from openacr.cnc.program.program import Node
     from openacr.cnc.reading.blocks import Block
-    from openacr.views import F64
 
 MOST_LINES = 64
-MOST_NUMBERS = 256  # of all texts
 LETTERS = "XYZ"
-_CYCLE_ROWS = (core.M_MOTION, core.M_CYCLE)
+_CYCLE_FIELDS = (FIELDS.index("motion"), FIELDS.index("cycle"))
 _STEPS = (
-    core.STEP_SET, core.STEP_FEED, core.STEP_MOVE, core.STEP_WORD, core.STEP_VALUE,
-    core.STEP_STORE, core.STEP_NOTE, core.STEP_LIMIT, core.STEP_GO, core.STEP_RETURN,
-)  # fmt: skip
+    plans.STEP_SET,
+    plans.STEP_FEED,
+    plans.STEP_MOVE,
+    plans.STEP_WORD,
+    plans.STEP_VALUE,
+    plans.STEP_STORE,
+    plans.STEP_NOTE,
+    plans.STEP_LIMIT,
+    plans.STEP_GO,
+    plans.STEP_RETURN,
+)
 
 
 class Strokes:
-    """The cycles of one run; `N` gets their numbers after those of a line.
+    """The cycles of one run; their numbers are kept after those of a line.
 
     `keep` takes the numbers of a plan and returns its place, 0 without room.
     """
 
-    def __init__(self, run: Inside, N: F64, notes: Notes, keep: Callable[[list[int]], int]) -> None:
+    def __init__(self, run: Inside, notes: Notes, keep: Callable[[list[int]], int]) -> None:
         self._run = run
-        self._N = N
-        self._numbers_end = rich.MOST_NUMBERS
+        self._numbers_end = scans.MOST_NUMBERS
         self._notes = notes
         self._keep = keep
         self._known: dict[int, int] = {}
@@ -113,21 +118,21 @@ class Strokes:
         if plan.is_motion:
             if any(letter not in (*LETTERS, "F") for letter in plan.words):
                 raise NoCodeError
-            body[core.P_AXES] = sum(1 << LETTERS.index(a) for _, a in plan.axes)
+            body[plans.AXES] = sum(1 << LETTERS.index(a) for _, a in plan.axes)
         return body
 
     def _numbers_of(self, node: Node) -> dict[int, tuple[int, float]]:
-        """The numbers of a line by their place in it, kept in N."""
+        """The numbers of a line by their place in it, kept with those of the cycles."""
         shapes = LineShapes({}, "(")
         text = bytearray(node.raw.encode("ascii", "replace") + b"\n")
         data = memoryview(text)
-        if rich.scan_rich(data, 0, len(data), shapes.W, shapes.K, shapes.L, shapes.N, shapes.Q) < 0:
+        if rich.scan_rich(data, 0, len(data), shapes.F, shapes.I) < 0:
             raise NoCodeError
         found = {}
         for at, (_, value) in shapes.numbers().items():
-            if self._numbers_end == len(self._N):
+            if self._numbers_end == len(scans.number):
                 raise NoCodeError
-            self._N[self._numbers_end] = value
+            self._run.memory.F[scans.number[self._numbers_end]] = value
             found[at] = self._numbers_end, value
             self._numbers_end += 1
         return found
@@ -145,9 +150,9 @@ class Strokes:
                 code, statement = writer.code(statement.condition), statement.then
             target = self._target(statement, node)
             if target is not None and target.offset in places:
-                body.add(core.STEP_GO, places[target.offset], code)
+                body.add(plans.STEP_GO, places[target.offset], code)
             elif isinstance(statement, Return):
-                body.add(core.STEP_RETURN, 0, code)
+                body.add(plans.STEP_RETURN, 0, code)
             else:
                 raise NoCodeError
 
@@ -176,9 +181,9 @@ class _CycleWriter(FormulaWriter):
 
 def _is_of_a_cycle(body: list[int]) -> bool:
     """Whether the steps of a plan are those that the core executes at a hole."""
-    last = core.P_FIRST + 3 * body[core.P_STEPS]
-    for at in range(core.P_FIRST, last, 3):
+    last = plans.STEPS + 3 * body[plans.STEP_CNT]
+    for at in range(plans.STEPS, last, 3):
         step, row = body[at : at + 2]
-        if step not in _STEPS or (step == core.STEP_SET and row not in _CYCLE_ROWS):
+        if step not in _STEPS or (step == plans.STEP_SET and row not in _CYCLE_FIELDS):
             return False
     return True

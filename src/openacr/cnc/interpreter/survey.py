@@ -20,14 +20,14 @@ from openacr.cnc.canonical import (
     Probe,
     Rapid,
     Tool,
-    batches,
 )
-from openacr.cnc.canonical.batches import CURVE, ROW
 from openacr.cnc.interpreter import survey_cy as core
 from openacr.cnc.interpreter.interpreter import Interpreter, Options
 from openacr.cnc.program.program import Program
 from openacr.cnc.reading.findings import MOST, BlockError, Finding
 from openacr.cnc.reading.line_shapes import doubles, integers
+from openacr.cnc.rows import moves
+from openacr.cnc.rows.moves import CURVE, ROW
 from openacr.cnc.state.hosts import Cells, Machine, VirtualMachine
 from openacr.cnc.state.modal import METRIC
 from openacr.cnc.state.shadow import Shadow
@@ -218,18 +218,18 @@ class _Count:
             case Moves():
                 _add(self._V, self._N, entry.rows, entry.ends, entry.arcs, len(entry))
             case Rapid():
-                self._one(batches.RAPID, entry.end)
+                self._one(moves.RAPID, entry.end)
             case Line() | Probe():
-                self._one(batches.LINE, entry.end)
+                self._one(moves.LINE, entry.end)
             case Arc():
                 radii = entry.start_radius, entry.end_radius
                 for k, number in enumerate((*entry.centre, entry.sweep_rad, *radii)):
                     self._arc[k] = number
                 self._row[3] = CODES[entry.plane]
-                self._one(batches.ARC, entry.end)
+                self._one(moves.ARC, entry.end)
             case Polyline():
                 for end in entry.ends.tolist():
-                    self._one(batches.LINE, end)
+                    self._one(moves.LINE, end)
             case Dwell():
                 self._found.move_cnts["dwell"] += 1
             case Tool():

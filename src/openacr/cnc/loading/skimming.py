@@ -9,9 +9,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from openacr.cnc.codes.table import Step
-from openacr.cnc.reading import scan_cy as scan
 from openacr.cnc.reading import skim_cy
 from openacr.cnc.reading.line_shapes import MOST_ROWS, LineShapes, integers
+from openacr.cnc.rows import scans
 from openacr.compiled import pick
 
 if TYPE_CHECKING:
@@ -44,22 +44,19 @@ class Skimmer:
         shapes = self._shapes
         data, place = shapes.bytes(text, offset)
         stop = min(len(data), text.end - offset + place)
-        count = _skim_lines(
-            data, place, stop, shapes.W, shapes.K, shapes.L, shapes.T, shapes.N, shapes.Q,
-            self._labels, MOST_ROWS,
-        )  # fmt: skip
-        K = shapes.K
-        if K[scan.K_STATUS] == scan.SCAN_NEW:
+        count = _skim_lines(data, place, stop, shapes.F, shapes.I, self._labels, MOST_ROWS)
+        I = shapes.I
+        if I[scans.status] == scans.NEW:
             self._asked = shapes.tokens()
-        self.motion = K[scan.K_MOTION] // TENTHS if K[scan.K_MOTION] >= 0 else -1
-        self.has_words = bool(K[scan.K_HAS_WORDS])
+        self.motion = I[scans.motion] // TENTHS if I[scans.motion] >= 0 else -1
+        self.has_words = bool(I[scans.has_words])
         self._place = place
-        return count, offset + K[scan.K_NEXT] - place
+        return count, offset + I[scans.next_at] - place
 
     @property
     def labels(self) -> Rows | None:
         """The labels of these lines: label, line from 0, offset from the first line."""
-        count = self._shapes.K[scan.K_LABELS]
+        count = self._shapes.I[scans.label_cnt]
         if not count:
             return None
         import numpy as np
@@ -74,7 +71,7 @@ class Skimmer:
     def learn(self, asked: list[int], plan: Plan | None) -> None:
         """Note the plan of a line of that shape; None: the loader had something to say."""
         is_known = plan is not None and _is_settled(plan)
-        self._shapes.learn(asked, KNOWN if is_known else scan.SHAPE_SLOW)
+        self._shapes.learn(asked, KNOWN if is_known else scans.SLOW_SHAPE)
 
 
 def _is_settled(plan: Plan) -> bool:

@@ -1,4 +1,4 @@
-"""The arrays the scanner works on, and what is known of the shapes of lines (`scan_cy`)."""
+"""What is known of the shapes of lines, and the rows in which they are read (`scan_cy`)."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 from openacr.cnc.canonical import ROTARY
 from openacr.cnc.reading import rich_cy as rich
 from openacr.cnc.reading import scan_cy as scan
+from openacr.cnc.rows import scans
+from openacr.cnc.rows.room import Memory
 
 if TYPE_CHECKING:
     from openacr.cnc.reading.text import Text
@@ -27,31 +29,20 @@ def integers(count: int) -> I32:
 
 
 class LineShapes:
-    """Views for the scanner, with the axes of a machine; no shape is known at first.
+    """The shapes of lines, with the axes of a machine; none is known at first.
 
-    `bracket` opens expressions.
+    `bracket` opens expressions; `memory` has rows for all that is read of lines.
     """
 
-    def __init__(
-        self,
-        axes: dict[str, int],
-        bracket: str,
-        w_size: int = scan.W_SCAN_SIZE,
-        k_size: int = rich.K_RICH_SIZE,
-        n_size: int = rich.MOST_NUMBERS,
-    ) -> None:
-        self.W, self.K = doubles(w_size), integers(k_size)
-        self.N, self.Q = doubles(n_size), integers(rich.MOST_NUMBERS)
-        self.K[rich.K_BRACKET] = ord(bracket)
-        self.L, self.T = integers(rich.MOST_RICH), integers(scan.T_SIZE)
-        for letter in range(26):
-            self.K[letter] = -1
+    def __init__(self, axes: dict[str, int], bracket: str, memory: Memory | None = None) -> None:
+        memory = memory or Memory(scans.SIZE)
+        self.F, self.I = memory.F, memory.I
+        self.I[scans.bracket] = ord(bracket)
         for name, axis in axes.items():
-            self.K[ord(name) - ord("A")] = axis
             if name in ROTARY:
-                self.K[scan.K_ROTARY] |= 1 << axis
+                self.I[scans.rotary_axes] |= 1 << axis
         self._shape_cnt = 0
-        self._pool_end = scan.T_POOL
+        self._tokens_end = scans.shape_token.start
         self._window = b""
         self._bytes = memoryview(bytearray(1))
 
@@ -65,44 +56,45 @@ class LineShapes:
 
     @property
     def status(self) -> int:
-        """Why the scanner ended (SCAN_...)."""
-        return self.K[scan.K_STATUS]
+        """Why the scanner ended (`scans`)."""
+        return self.I[scans.status]
 
     @property
     def is_full(self) -> bool:
         """Whether no more shapes can be kept: further ones are left to the parser."""
-        room = scan.T_SIZE - self._pool_end
-        return self._shape_cnt >= MOST_SHAPES or room < rich.MOST_RICH
+        room = scans.shape_token.stop - self._tokens_end
+        return self._shape_cnt >= MOST_SHAPES or room < scans.MOST_RICH
 
     def tokens(self) -> list[int]:
         """The shape of the line the scanner read last."""
-        return self.L[: self.K[scan.K_TOKENS]].tolist()
+        first = scans.token.start
+        return self.I[first : first + self.I[scans.token_cnt]].tolist()
 
     @property
     def is_rich(self) -> bool:
         """Whether the line the scanner read last has formulas, or what else is more than words."""
-        return bool(self.K[scan.K_TOKENS]) and self.L[0] == rich.RICH_LINE
+        return bool(self.I[scans.token_cnt]) and self.I[scans.token[0]] == rich.RICH_LINE
 
     def numbers(self) -> dict[int, tuple[int, float]]:
         """The numbers of that line by their place in it, with their order."""
-        count = self.K[rich.K_NUMBERS]
-        return {self.Q[k]: (k, self.N[k]) for k in range(count)}
+        F, I = self.F, self.I
+        return {I[scans.number_at[k]]: (k, F[scans.number[k]]) for k in range(I[scans.number_cnt])}
 
     def learn(self, tokens: list[int], meaning: int) -> bool:
         """Keep what a shape means; False where there is no room for it."""
         if self.is_full or not tokens:
             return False
-        hashed = 0
+        I, hashed = self.I, 0
         for k, token in enumerate(tokens):
-            self.L[k] = token
+            I[scans.token[k]] = token
             hashed = (hashed * 31 + token) & scan.HASH_MASK
-        self.K[scan.K_TOKENS], self.K[scan.K_HASH] = len(tokens), hashed
-        slot = scan.scan_slot(self.K, self.L, self.T)
-        if not self.T[3 * slot + 1]:
-            self.T[3 * slot], self.T[3 * slot + 1] = self._pool_end, len(tokens)
+        I[scans.token_cnt], I[scans.token_hash] = len(tokens), hashed
+        slot = scan.scan_slot(I)
+        if not I[slot + scans.SLOT_COUNT]:
+            I[slot + scans.SLOT_FIRST], I[slot + scans.SLOT_COUNT] = self._tokens_end, len(tokens)
             for token in tokens:
-                self.T[self._pool_end] = token
-                self._pool_end += 1
+                I[self._tokens_end] = token
+                self._tokens_end += 1
             self._shape_cnt += 1
-        self.T[3 * slot + 2] = meaning
+        I[slot + scans.SLOT_MEANING] = meaning
         return True

@@ -7,35 +7,24 @@ parameters (`#5`, `P5`). So all lines of a shape are parsed alike.
 
     token = 256 + character,  RICH_... ,  RICH_NAMED + n of a parameter,  codes as in `scan_cy`
 
-`N` gets the other numbers in their order, `Q` where they stand in the line. Quotes, characters that
-are not ASCII, and what a remark may hide are left to the parser.
+`scans.number` gets the other numbers in their order. Quotes, characters that are not ASCII, and
+what a remark may hide are left to the parser.
 """
 
 from openacr.cnc.reading.scan_cy import (
     HASH_MASK,
-    K_HASH,
-    K_LABEL,
-    K_SCAN_SIZE,
-    K_TOKENS,
     LAST_CODE,
     TOKEN_CODE,
-    W_VALUE,
     scan_blanks,
     scan_label,
     scan_next,
     scan_number,
     scan_remark,
 )
+from openacr.cnc.rows import scans
 from openacr.views import F64, I32, U8
 
 __all__ = ["scan_rich"]
-
-K_NUMBERS = K_SCAN_SIZE  # count of numbers
-K_BRACKET = K_SCAN_SIZE + 1  # what opens an expression
-K_RICH_SIZE = K_SCAN_SIZE + 2
-
-MOST_RICH = 128  # tokens
-MOST_NUMBERS = 32
 
 RICH_LINE = 200  # the first token
 RICH_WHOLE = 201
@@ -64,25 +53,24 @@ def rich_is_letter(character: int) -> bool:
     return 65 <= character <= 90
 
 
-def rich_token(K: I32, L: I32, token: int) -> bool:
+def rich_token(I: I32, token: int) -> bool:
     """Add a token; False where there is no room."""
-    if K[K_TOKENS] >= MOST_RICH:
+    if I[scans.token_cnt] >= scans.MOST_RICH:
         return False
-    L[K[K_TOKENS]] = token
-    K[K_TOKENS] = K[K_TOKENS] + 1
-    K[K_HASH] = (K[K_HASH] * 31 + token) & HASH_MASK
+    I[scans.token[I[scans.token_cnt]]] = token
+    I[scans.token_cnt] += 1
+    I[scans.token_hash] = (I[scans.token_hash] * 31 + token) & HASH_MASK
     return True
 
 
 def rich_number(
-    data: U8, pos: int, stop: int, start: int, W: F64, K: I32, L: I32, N: F64, Q: I32,
-    before: int, earlier: int
-) -> int:  # fmt: skip
+    data: U8, pos: int, stop: int, F: F64, I: I32, start: int, before: int, earlier: int
+) -> int:
     """Read a number after the characters `before` and `earlier`; -1 if it is left."""
-    after: int = scan_number(data, pos, stop, W)
+    after: int = scan_number(data, pos, stop, F)
     if after < 0:
         return -1
-    value: float = W[W_VALUE]
+    value: float = F[scans.value]
     is_whole: bool = True
     for k in range(pos, after):
         if data[k] == 46:
@@ -93,28 +81,30 @@ def rich_number(
         tenths: int = int(value * 10.0)
         if value > LAST_CODE or float(tenths) != value * 10.0:
             return -1
-        return after if rich_token(K, L, (before - 64) * TOKEN_CODE + tenths) else -1
-    if is_word and K[K_BRACKET] == PAREN and before == LETTER_P:
+        return after if rich_token(I, (before - 64) * TOKEN_CODE + tenths) else -1
+    if is_word and I[scans.bracket] == PAREN and before == LETTER_P:
         names = is_whole
-    if is_word and K[K_BRACKET] != PAREN and before == LETTER_O:
+    if is_word and I[scans.bracket] != PAREN and before == LETTER_O:
         names = True
     if names:
         if not is_whole or value > LAST_NAMED:
             return -1
-        return after if rich_token(K, L, RICH_NAMED + int(value)) else -1
-    if K[K_NUMBERS] >= MOST_NUMBERS or not rich_token(K, L, RICH_WHOLE if is_whole else RICH_POINT):
+        return after if rich_token(I, RICH_NAMED + int(value)) else -1
+    if I[scans.number_cnt] >= scans.MOST_NUMBERS:
         return -1
-    N[K[K_NUMBERS]] = value
-    Q[K[K_NUMBERS]] = pos - start
-    K[K_NUMBERS] = K[K_NUMBERS] + 1
+    if not rich_token(I, RICH_WHOLE if is_whole else RICH_POINT):
+        return -1
+    F[scans.number[I[scans.number_cnt]]] = value
+    I[scans.number_at[I[scans.number_cnt]]] = pos - start
+    I[scans.number_cnt] += 1
     return after
 
 
-def rich_name(data: U8, pos: int, stop: int, K: I32, L: I32) -> int:
+def rich_name(data: U8, pos: int, stop: int, I: I32) -> int:
     """Read `<name>`; returns the position after it, -1 if it has no end."""
     while pos < stop:
         character: int = rich_capital(data[pos])
-        if character < 32 or character > 126 or not rich_token(K, L, RICH_CHARACTER + character):
+        if character < 32 or character > 126 or not rich_token(I, RICH_CHARACTER + character):
             return -1
         pos += 1
         if character == 62:
@@ -131,19 +121,19 @@ def rich_is_taken(character: int) -> bool:
     return character == 64 or character == 91 or character == 93 or character == 94
 
 
-def scan_rich(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32, N: F64, Q: I32) -> int:
+def scan_rich(data: U8, pos: int, stop: int, F: F64, I: I32) -> int:
     """Read the line at `pos`; returns the position of the next one, -1 if it is left."""
     start: int = pos
-    K[K_LABEL] = 0
-    K[K_TOKENS] = 0
-    K[K_HASH] = 0
-    K[K_NUMBERS] = 0
+    I[scans.label] = 0
+    I[scans.token_cnt] = 0
+    I[scans.token_hash] = 0
+    I[scans.number_cnt] = 0
     pos = scan_blanks(data, pos, stop)
     if pos < stop and rich_capital(data[pos]) == 78:
-        pos = scan_label(data, scan_blanks(data, pos + 1, stop), stop, K)
+        pos = scan_label(data, scan_blanks(data, pos + 1, stop), stop, I)
         if pos < 0:
             return -1
-    rich_token(K, L, RICH_LINE)
+    rich_token(I, RICH_LINE)
     before: int = 0  # the last character, 0 at the start; 49 after a number
     earlier: int = 0
     depth: int = 0
@@ -157,7 +147,7 @@ def scan_rich(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32, N: F64, Q: 
                 break
             character = rich_capital(data[pos])
         is_remark: bool = character == PAREN and (
-            K[K_BRACKET] != PAREN or before == 0 or before == 49 or before == 41
+            I[scans.bracket] != PAREN or before == 0 or before == 49 or before == 41
         )
         if character == 59 and depth == 0:
             while pos < stop and data[pos] != 10 and data[pos] != 13:
@@ -165,32 +155,32 @@ def scan_rich(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32, N: F64, Q: 
             break
         if is_remark and depth == 0:
             pos = scan_remark(data, pos, stop)
-            if pos < 0 or not rich_token(K, L, RICH_REMARK):
+            if pos < 0 or not rich_token(I, RICH_REMARK):
                 return -1
             continue
         if is_remark or (first and character == 47):
             return -1
-        if has_blank and not first and not rich_token(K, L, RICH_BLANK):
+        if has_blank and not first and not rich_token(I, RICH_BLANK):
             return -1
         first = False
         if 48 <= character <= 57 or character == 46:
             if before == 49:
                 return -1
-            pos = rich_number(data, pos, stop, start, W, K, L, N, Q, before, earlier)
+            pos = rich_number(data, pos, stop, F, I, start, before, earlier)
             if pos < 0:
                 return -1
             earlier = before
             before = 49
             continue
-        if not rich_is_taken(character) or not rich_token(K, L, RICH_CHARACTER + character):
+        if not rich_is_taken(character) or not rich_token(I, RICH_CHARACTER + character):
             return -1
         if character == PAREN:
             depth += 1
         elif character == 41:
             depth -= 1
         pos += 1
-        if character == 60 and K[K_BRACKET] != PAREN and (before == HASH or before == LETTER_O):
-            pos = rich_name(data, pos, stop, K, L)
+        if character == 60 and I[scans.bracket] != PAREN and (before == HASH or before == LETTER_O):
+            pos = rich_name(data, pos, stop, I)
             if pos < 0:
                 return -1
         earlier = 0 if has_blank else before

@@ -9,50 +9,19 @@ The shape of a line is its words in their order without their values, G and M co
     token = 1 + letter                                    of a word, A is 0
     token = (1 + letter) * TOKEN_CODE + 10 * value        of a code
 
-What is known of shapes is in a table `T`: slots (first token, count of tokens, meaning), found by
-the hash of the tokens, then the tokens. The meaning is the caller's: 0 and above is a shape of
-lines it reads many at a time, SHAPE_SLOW one of lines that are left to the parser.
-
-`K` (integers): 0..25 the axis of a letter, -1 if absent; then results. `W` (doubles): the values of
-a line by letter, then the state of the program. `L`: the tokens of the line.
+What is known of shapes is in a table of slots, found by the hash of the tokens. The meaning is
+the caller's: 0 and above is a shape of lines it reads many at a time, `SLOW_SHAPE` one of lines
+that are left to the parser.
 """
 
+from openacr.cnc.rows import scans
 from openacr.views import F64, I32, U8
 
-K_LABEL = 26  # N where it names a line, 0 none
-K_TOKENS = 27  # count of tokens
-K_HASH = 28
-K_LINES = 29  # count of lines read
-K_NEXT = 30  # offset of the first line that was not read
-K_STATUS = 31  # why no more lines were read
-K_LABELS = 32  # labels found
-K_MOTION = 33  # the last of G0 to G3, -1 none
-K_ROTARY = 34  # mask of the axes that have no unit
-K_HAS_WORDS = 35  # whether a line read had words
-K_LAST = 36  # offset of the last line read
-K_SCAN_SIZE = 37
-
-W_VALUE = 0
-W_WORDS = 1  # by letter
-W_SCAN_SIZE = 27
-
-SCAN_END = 0  # the data, or the room for results, ends
-SCAN_HARD = 1  # a line that is not plain
-SCAN_NEW = 2  # a shape that is not known
-SCAN_SLOW = 3  # a shape that is left to the parser
-SCAN_LEFT = 4  # a line the caller leaves to the parser for its values
+__all__ = ["scan_line", "scan_shape"]
 
 TOKEN_CODE = 16384
-MOST_TOKENS = 32
-SLOTS = 1024
 SLOT_MASK = 1023
 HASH_MASK = 1073741823
-SHAPE_NONE = -2
-SHAPE_SLOW = -1
-T_POOL = 3072  # three numbers for each slot
-T_SIZE = 40960
-
-AXES = 8
 LONGEST = 256
 MOST_DIGITS = 15
 LAST_LABEL = 999_999
@@ -63,8 +32,6 @@ CODE_O = 14
 LAST_CODE = 1000.0
 LONGEST_KIND = 12  # letters of MSG, DEBUG, PRINT and what else may come before a comma
 
-__all__ = ["scan_line", "scan_shape"]
-
 
 def scan_blanks(data: U8, pos: int, stop: int) -> int:
     """Skip blanks; returns the position after them."""
@@ -73,8 +40,8 @@ def scan_blanks(data: U8, pos: int, stop: int) -> int:
     return pos
 
 
-def scan_number(data: U8, pos: int, stop: int, W: F64) -> int:
-    """Read a signed number to W[W_VALUE]; returns the position after it, -1 if not plain."""
+def scan_number(data: U8, pos: int, stop: int, F: F64) -> int:
+    """Read a signed number to F[scans.value]; returns the position after it, -1 if not plain."""
     is_negative: bool = False
     if pos < stop and (data[pos] == 45 or data[pos] == 43):
         is_negative = data[pos] == 45
@@ -100,7 +67,7 @@ def scan_number(data: U8, pos: int, stop: int, W: F64) -> int:
     if digits == 0 or (pos < stop and data[pos] == 46):
         return -1
     value: float = float(mantissa) / scale
-    W[W_VALUE] = -value if is_negative else value
+    F[scans.value] = -value if is_negative else value
     return pos
 
 
@@ -123,7 +90,7 @@ def scan_remark(data: U8, pos: int, stop: int) -> int:
     return pos + 1 if pos < stop else -1
 
 
-def scan_label(data: U8, pos: int, stop: int, K: I32) -> int:
+def scan_label(data: U8, pos: int, stop: int, I: I32) -> int:
     """Read the digits of N; N0, N1.5 and numbers above the labels only count lines."""
     first: int = pos
     label: int = 0
@@ -141,11 +108,11 @@ def scan_label(data: U8, pos: int, stop: int, K: I32) -> int:
             pos += 1
         if pos < stop and data[pos] == 46:
             return -1
-    K[K_LABEL] = label if label <= LAST_LABEL else 0
+    I[scans.label] = label if label <= LAST_LABEL else 0
     return pos
 
 
-def scan_word(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32) -> int:
+def scan_word(data: U8, pos: int, stop: int, F: F64, I: I32) -> int:
     """Read the word at `pos`; returns the position after it, -1 if it is not plain."""
     letter: int = data[pos]
     if 97 <= letter <= 122:
@@ -153,13 +120,13 @@ def scan_word(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32) -> int:
     letter -= 65
     if letter < 0 or letter > 25 or letter == LABEL_N or letter == CODE_O:
         return -1
-    if K[K_TOKENS] >= MOST_TOKENS:
+    if I[scans.token_cnt] >= scans.MOST_TOKENS:
         return -1
     start: int = scan_blanks(data, pos + 1, stop)
-    pos = scan_number(data, start, stop, W)
+    pos = scan_number(data, start, stop, F)
     if pos < 0:
         return -1
-    value: float = W[W_VALUE]
+    value: float = F[scans.value]
     token: int = letter + 1
     if letter == CODE_G or letter == CODE_M:
         if data[start] == 45 or data[start] == 43 or value > LAST_CODE:
@@ -169,10 +136,10 @@ def scan_word(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32) -> int:
             return -1
         token = token * TOKEN_CODE + tenths
     else:
-        W[W_WORDS + letter] = value
-    L[K[K_TOKENS]] = token
-    K[K_TOKENS] = K[K_TOKENS] + 1
-    K[K_HASH] = (K[K_HASH] * 31 + token) & HASH_MASK
+        F[scans.word[letter]] = value
+    I[scans.token[I[scans.token_cnt]]] = token
+    I[scans.token_cnt] += 1
+    I[scans.token_hash] = (I[scans.token_hash] * 31 + token) & HASH_MASK
     return pos
 
 
@@ -189,15 +156,15 @@ def scan_next(data: U8, pos: int, stop: int, start: int) -> int:
     return pos
 
 
-def scan_line(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32) -> int:
+def scan_line(data: U8, pos: int, stop: int, F: F64, I: I32) -> int:
     """Read the line at `pos`; returns the position of the next one, -1 if it is not plain."""
-    K[K_LABEL] = 0
-    K[K_TOKENS] = 0
-    K[K_HASH] = 0
+    I[scans.label] = 0
+    I[scans.token_cnt] = 0
+    I[scans.token_hash] = 0
     start: int = pos
     pos = scan_blanks(data, pos, stop)
     if pos < stop and (data[pos] == 78 or data[pos] == 110):
-        pos = scan_label(data, scan_blanks(data, pos + 1, stop), stop, K)
+        pos = scan_label(data, scan_blanks(data, pos + 1, stop), stop, I)
         if pos < 0:
             return -1
         pos = scan_blanks(data, pos, stop)
@@ -208,43 +175,42 @@ def scan_line(data: U8, pos: int, stop: int, W: F64, K: I32, L: I32) -> int:
             while pos < stop and data[pos] != 10 and data[pos] != 13:
                 pos += 1
         else:
-            pos = scan_word(data, pos, stop, W, K, L)
+            pos = scan_word(data, pos, stop, F, I)
         if pos < 0:
             return -1
         pos = scan_blanks(data, pos, stop)
     return scan_next(data, pos, stop, start)
 
 
-def scan_slot(K: I32, L: I32, T: I32) -> int:
+def scan_slot(I: I32) -> int:
     """The slot of the shape of the line, or the free one where it belongs."""
-    count: int = K[K_TOKENS]
-    slot: int = K[K_HASH] & SLOT_MASK
-    while T[3 * slot + 1]:
-        if T[3 * slot + 1] == count:
-            first: int = T[3 * slot]
+    count: int = I[scans.token_cnt]
+    slot: int = I[scans.token_hash] & SLOT_MASK
+    at: int = scans.slot[scans.SLOT * slot]
+    while I[at + scans.SLOT_COUNT]:
+        if I[at + scans.SLOT_COUNT] == count:
+            first: int = I[at + scans.SLOT_FIRST]
             k: int = 0
-            while k < count and T[first + k] == L[k]:
+            while k < count and I[first + k] == I[scans.token[k]]:
                 k += 1
             if k == count:
-                return slot
+                return at
         slot = (slot + 1) & SLOT_MASK
-    return slot
+        at = scans.slot[scans.SLOT * slot]
+    return at
 
 
-def scan_shape(K: I32, L: I32, T: I32) -> int:
-    """The meaning of the shape of the line; SHAPE_NONE if it is not known."""
-    slot: int = scan_slot(K, L, T)
-    meaning: int = SHAPE_NONE
-    if T[3 * slot + 1]:
-        meaning = T[3 * slot + 2]
-    return meaning
+def scan_shape(I: I32) -> int:
+    """The meaning of the shape of the line; NO_SHAPE if it is not known."""
+    at: int = scan_slot(I)
+    return I[at + scans.SLOT_MEANING] if I[at + scans.SLOT_COUNT] else scans.NO_SHAPE
 
 
-def scan_motion(K: I32, L: I32) -> int:
+def scan_motion(I: I32) -> int:
     """The last of G0 to G3 in the line, -1 none."""
     found: int = -1
-    for k in range(K[K_TOKENS]):
-        code: int = L[k] - (CODE_G + 1) * TOKEN_CODE
+    for k in range(I[scans.token_cnt]):
+        code: int = I[scans.token[k]] - (CODE_G + 1) * TOKEN_CODE
         if code == 0 or code == 10 or code == 20 or code == 30:
             found = code
     return found

@@ -16,10 +16,13 @@ from openacr.cnc.canonical import Point
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.reading.formulas import LOCALS, NEAR
 from openacr.cnc.reading.grammar import Grammar
+from openacr.cnc.rows import values as rows
+from openacr.cnc.rows.room import Memory
 from openacr.cnc.state.hosts import Cells, Machine
 from openacr.cnc.state.modal import Modal
 from openacr.errors import MapError, OpenacrError
 from openacr.sysvar.tabs import CELLS, CONTROL
+from openacr.views import F64
 
 FIRST_STORED, LAST_STORED = 100, 4095
 NINTH_SYSTEM = 840  # offsets of G59.3 and its rotation
@@ -100,6 +103,10 @@ class ParameterHost(Protocol):
         """The cells of the store."""
 
     @property
+    def memory(self) -> Memory:
+        """Where its numbers are."""
+
+    @property
     def machine(self) -> Machine:
         """The machine, to be asked at rest only."""
 
@@ -131,7 +138,7 @@ class Parameters:
     """Reads and writes by number, name or state."""
 
     last_local = LOCALS
-    own: array[float] | None = None  # numbers that are no cells, where a dialect has them
+    own: F64 | None = None  # numbers that are no cells, where a dialect has them
 
     def __init__(self, run: ParameterHost) -> None:
         self._run = run
@@ -139,7 +146,7 @@ class Parameters:
         self._modal = run.modal
         self._read_cell = run.cells.read
         # #1 to #33 of the call in force; #0, which no program can name, is 1 inside a call.
-        self.values = array("d", bytes(8 * (LOCALS + 1)))
+        self.values = run.memory.reals(rows.local)
         self.names: dict[str, float] = {}  # of this call
         self.global_names: dict[str, float] = {}
         self.assigned: set[int] = set()  # variables of the card the program has assigned
@@ -156,9 +163,9 @@ class Parameters:
         """Whether #1 to #33 are locals now."""
         return self.values[0] != 0.0
 
-    def swap(self, values: Iterable[float]) -> array[float]:
+    def swap(self, values: Iterable[float]) -> list[float]:
         """Replace the locals of the call; returns the previous ones."""
-        kept = self.values[:]
+        kept = list(self.values)
         self.values[:] = array("d", values)
         return kept
 

@@ -16,6 +16,7 @@ from openacr.cnc.canonical import AXES, AXIS_LETTERS, ROTARY
 from openacr.cnc.codes.ngc.named import PREDEFINED
 from openacr.cnc.geometry.coordinates import TURN, system_base
 from openacr.cnc.reading.findings import CodeError
+from openacr.cnc.rows import values as rows
 from openacr.cnc.state.cells import LAST_RADIUS, LENGTHS, RADII
 from openacr.cnc.state.hosts import Cells
 from openacr.cnc.state.parameters import SHOWN, ParameterHost, Parameters, number
@@ -23,13 +24,12 @@ from openacr.sysvar import tabs
 
 if TYPE_CHECKING:
     from openacr.cnc.codes.run import Run
+    from openacr.views import F64
 
 FIRST_SYSTEM, SYSTEMS, SYSTEM_STEP = 5221, 9, 20
 ROTATION = 9  # of the parameters of a system: its rotation
 FIRST_POSITION = 5420
-LAST_OWN = 5000
-LAST = 5999
-
+LAST = rows.OWN - 1
 
 CELLS = {5070: tabs.CELLS.g31_tripped, 5210: tabs.CELLS.floating_zero_active}
 POINTS = {
@@ -63,10 +63,10 @@ class NgcParameters(Parameters):
     """Reads and writes as the dialect numbers them."""
 
     last_local = 30
-    own: array[float]  # #31 to #5000, and what M66 found
+    own: F64  # #31 to #5000, and what M66 found
 
     def __init__(self, run: ParameterHost) -> None:
-        self.own = array("d", bytes(8 * (LAST + 1)))
+        self.own = run.memory.reals(rows.own)
         self._axes = axes_by_letter(cast("Run", run).planner.axes)
         self._cell_of = dict(CELLS)
         for first, cell in POINTS.items():
@@ -139,7 +139,7 @@ class NgcParameters(Parameters):
             self.values[k] = value
         elif k in self._cell_of:
             self.store(self._cell_of[k], value)
-        elif 1 <= k <= LAST_OWN:
+        elif 1 <= k <= rows.LAST_OWN:
             self.own[k] = value
         else:
             raise CodeError("E212" if k <= LAST else "E211", 0, f"#{k}")
