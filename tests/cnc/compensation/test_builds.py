@@ -4,7 +4,8 @@ import math
 import random
 
 from openacr.cnc.compensation import curve_cy, join_cy
-from openacr.cnc.compensation.curve_cy import COLUMNS
+from openacr.cnc.compensation.curve_cy import CX, CY, SWEEP, X0, X1, Y0, Y1
+from openacr.cnc.rows.chains import COLUMNS
 from openacr.compiled import pick
 from openacr.views import F64
 
@@ -31,7 +32,10 @@ def lay(F: F64, i: int, ends: list[float], bulge: float, run: dict[str, object])
         h = 0.5 * (1 / bulge - bulge) / 2
         centre = ((x0 + x1) / 2 - h * (y1 - y0), (y0 + y1) / 2 + h * (x1 - x0))
         sweep = 4 * math.atan(bulge)
-    return run["curve"](F, i, x0, y0, x1, y1, *centre, sweep, AWAY, 1e-3, 0.01)  # type: ignore[operator, no-any-return]
+    for column, number in ((X0, x0), (Y0, y0), (X1, x1), (Y1, y1), (SWEEP, sweep)):
+        F[i + column] = number
+    F[i + CX], F[i + CY] = centre
+    return run["curve"](F, i, AWAY, 1e-3, 0.01)  # type: ignore[operator, no-any-return]
 
 
 def test_both_builds_agree_in_every_bit() -> None:

@@ -40,15 +40,18 @@ from openacr.cnc.compensation.pieces import Held, Pieces
 from openacr.cnc.compensation.rows import Piece, Table, fit, place
 from openacr.cnc.compensation.rules import Report, Rules
 from openacr.cnc.geometry.elements import Element
+from openacr.cnc.rows import chains
 from openacr.compiled import pick
 
 HELD_CNT = 100  # most entries that wait for the end of an element
 LEFT_OUT_CNT = 5  # most consecutive elements that may be left out
-_follow, _connect, _push = (
-    pick(core.chain_follow), pick(core.chain_connect), pick(core.chain_push),
-)  # fmt: skip
-_meet, _drop = pick(core.chain_meet), pick(core.chain_drop)
-_move, _between = pick(core.chain_move), pick(core.chain_between)
+_follow = pick(core.chain_follow)
+_connect = pick(core.chain_connect)
+_push = pick(core.chain_push)
+_meet = pick(core.chain_meet)
+_drop = pick(core.chain_drop)
+_move = pick(core.chain_move)
+_between = pick(core.chain_between)
 
 
 class Chain(Pieces[Held]):
@@ -68,9 +71,9 @@ class Chain(Pieces[Held]):
         if self._watch:
             self._collect()
             self._watch.end()
-        self._S[core.S_LAST] = -1
+        self._I[chains.last_slot] = -1
         self.at = None
-        self._S[core.S_IS_INSIDE] = 0
+        self._I[chains.is_inside] = 0
         self.news.clear()
 
     def report_pending(self, element: Element) -> None:
@@ -93,19 +96,19 @@ class Chain(Pieces[Held]):
         lead = self._laid_out(element)
         lead.is_lead_in = True
         begin_lead_in(self._F, lead)
-        _push(*self._state)
+        _push(self._F, self._I)
 
     def begin_with_arc(self, contour: Element) -> None:
         """Begin with a lead-in along an arc: the tool is beside its start."""
         self._laid_out(contour)
         if self._watch:
             self._watch.contour(contour)
-        _push(*self._state)
+        _push(self._F, self._I)
 
     def follow(self, element: Element) -> None:
         """Add the next element."""
         self._take(element)
-        status = _follow(self._F, self._S, self._row, self._end, self._arc, 0, 1, *self._table.out)
+        status = _follow(self._F, self._I, self._row, self._end, self._arc, 0, 1)
         if self._watch and status != core.STILL:
             self._watch.contour(element)
         if status != core.DONE:
@@ -118,21 +121,19 @@ class Chain(Pieces[Held]):
 
         Yields what is issued, before each finding.
         """
-        F, S = self._F, self._S
+        F, I = self._F, self._I
         many = self._many = Many(contour, start, self._known())
-        F[core.T_AT : core.T_AT + AXES] = array("d", start)
-        F[core.T_SHIFT : core.T_SHIFT + AXES] = array("d", shift)
-        F[core.T_AWAY], S[core.S_TAG] = self.away, 0
+        self._table.at[:] = array("d", start)
+        self._table.shift[:] = array("d", shift)
+        F[chains.away_u], I[chains.tag] = self.away, 0
         k, count = 0, len(contour)
         while k < count:
-            S[core.S_HAS_NEWS] = bool(self.news)
-            status = _follow(
-                F, S, contour.rows, contour.ends, contour.arcs, k, count, *self._table.out
-            )
+            I[chains.has_news] = bool(self.news)
+            status = _follow(F, I, contour.rows, contour.ends, contour.arcs, k, count)
             yield self.drain()
             if status == core.DONE:
                 break
-            k = S[core.S_AT]
+            k = I[chains.element]
             if status == core.FULL:
                 continue
             if status == core.STILL:
@@ -144,7 +145,7 @@ class Chain(Pieces[Held]):
             self._watch.elements(many)
         for piece in self._known():
             piece.number(0, piece.slot, 0)
-        F[core.T_SHIFT : core.T_SHIFT + AXES] = array("d", (0.0,) * AXES)
+        self._table.shift[:] = array("d", (0.0,) * AXES)
         self._many = None
 
     def _attend(self, status: int) -> None:
@@ -152,7 +153,7 @@ class Chain(Pieces[Held]):
         if status == core.HOLDS:
             self._release()
             return
-        piece = self._piece(self._S[core.S_NEXT])
+        piece = self._piece(self._I[chains.next_slot])
         if status == core.STILL:
             self.hold(piece.element, False)
             return
@@ -160,13 +161,13 @@ class Chain(Pieces[Held]):
             status = self._found(piece)
         if status in (core.BROKEN, core.LEADS, core.GOUGED):
             self._join(status, piece)
-            status = _push(*self._state)
+            status = _push(self._F, self._I)
         if status == core.HOLDS:
             self._release()
 
     def _found(self, piece: Piece[Held]) -> int:
         """Report what is wrong with an element, and connect it if the tool fits into it."""
-        found, element = self._S[core.S_FOUND], piece.element
+        found, element = self._I[chains.found], piece.element
         if self.news:
             self.report_pending(element)
         if found & UNEQUAL:
@@ -174,9 +175,9 @@ class Chain(Pieces[Held]):
             self._report("E315", f"start and end radius differ by more than {limit:g}", element)
         if found & SMALL:
             report_small(self._report, piece, self._table, self._rules)
-            self._S[core.S_IS_INSIDE] = 1
+            self._I[chains.is_inside] = 1
             return core.DONE
-        return _connect(*self._state)
+        return _connect(self._F, self._I)
 
     def _join(self, status: int, piece: Piece[Held]) -> None:
         """Join a piece to the one before where that is not ordinary."""
@@ -192,7 +193,7 @@ class Chain(Pieces[Held]):
         if last.is_lead_in:
             end_lead_in(self._F, last, piece, self._report, self._rules.epsilon)
         else:
-            _meet(self._F, self._S, last.slot, piece.slot, is_inside)
+            _meet(self._F, self._I, last.slot, piece.slot, is_inside)
 
     def _restart(self, piece: Piece[Held]) -> None:
         """Continue after a broken chain: from where the tool rests to the new start."""
@@ -200,7 +201,7 @@ class Chain(Pieces[Held]):
         if last is None or self.at is None:
             return
         F, j, fits = self._F, piece.row, last.fits
-        _meet(F, self._S, last.slot, piece.slot, False)
+        _meet(F, self._I, last.slot, piece.slot, False)
         last.fits = fits
         if last.meets == JOINED and (F[j + AX], F[j + AY]) == self.at:
             return
@@ -235,7 +236,7 @@ class Chain(Pieces[Held]):
 
     def _take_out(self, before: Piece[Held], bad: Piece[Held]) -> None:
         """Remove a piece; what waited for its end now waits for that of the one before it."""
-        self._S[core.S_COUNT] -= 1
+        self._I[chains.piece_cnt] -= 1
         before.left_out_cnt += 1 + bad.left_out_cnt
         waiting = [*(before.held or ()), *(bad.held or ()), *(bad.held_after or ())]
         before.held = waiting or None
@@ -291,15 +292,15 @@ class Chain(Pieces[Held]):
 
     def _release(self, waiting_cnt: int | None = None) -> None:
         """Issue pieces until only those wait that have to; `waiting_cnt`: or this count."""
-        most = self._S[core.S_WAITING] if waiting_cnt is None else waiting_cnt
+        most = self._I[chains.most_waiting] if waiting_cnt is None else waiting_cnt
         chain = self._chain
         while len(chain) > most:
             piece = chain.pop(0)
-            _drop(self._S)
+            _drop(self._I)
             self._issue(piece, chain[0] if chain else None)
 
     def _issue(self, piece: Piece[Held], following: Piece[Held] | None) -> None:
-        _move(self._F, self._S, piece.slot, *self._table.out)
+        _move(self._F, self._I, piece.slot)
         if piece.held or following is None:
             self._rest_at(piece.row + BX, piece.held)
         if following is not None and piece.meets > CROSSING:
@@ -318,7 +319,7 @@ class Chain(Pieces[Held]):
             lines = f"lines {piece.element.source.line} and {following.element.source.line}"
             text = f"geometry adjusted: the paths beside {lines} do not cross"
             self._report("W320", text, following.element)
-        _between(self._F, self._S, piece.slot, following.slot, *self._table.out)
+        _between(self._F, self._I, piece.slot, following.slot)
 
     def lead_out(self, element: Element) -> None:
         """Issue the move after the end of the contour."""

@@ -37,7 +37,6 @@ TOOL_SWEEP = 18  # the sweep of its arc
 ROLL = 19  # the sweep about the corner after it
 START = 20  # the element: where it starts,
 END = 28  # and where it ends, 8 axes
-COLUMNS = 36
 
 PI = 3.141592653589793
 SHORTEST = 1.0e-6  # what moves less in the plane is no element
@@ -55,52 +54,23 @@ EMPTY = 1
 GOUGES = 2
 
 
-def comp_lay(
-    F: F64,
-    i: int,
-    x0: float,
-    y0: float,
-    x1: float,
-    y1: float,
-    cx: float,
-    cy: float,
-    sweep: float,
-    away: float,
-    epsilon: float,
-    sweep_epsilon: float,
-) -> int:
-    """Lay out a line, or with a sweep an arc, and the tool beside it; say what was found."""
-    found: int = _comp_curve(F, i, x0, y0, x1, y1, cx, cy, sweep, epsilon, sweep_epsilon)
+def comp_lay(F: F64, i: int, away: float, epsilon: float, sweep_epsilon: float) -> int:
+    """Lay out the line between two points, or with a sweep an arc, and the tool beside it.
+
+    Returns what was found.
+    """
+    found: int = _comp_curve(F, i, epsilon, sweep_epsilon)
     if found != NOTHING and not comp_place(F, i, away):
         return SMALL + UNEQUAL if found == UNEQUAL else SMALL
     return found
 
 
-def _comp_curve(
-    F: F64,
-    i: int,
-    x0: float,
-    y0: float,
-    x1: float,
-    y1: float,
-    cx: float,
-    cy: float,
-    sweep: float,
-    epsilon: float,
-    sweep_epsilon: float,
-) -> int:
+def _comp_curve(F: F64, i: int, epsilon: float, sweep_epsilon: float) -> int:
     """The contour; an arc of less than the sweep epsilon is the line between its ends."""
-    F[i + X0] = x0
-    F[i + Y0] = y0
-    F[i + X1] = x1
-    F[i + Y1] = y1
-    if sweep != 0.0 and fabs(sweep) >= sweep_epsilon:
-        F[i + CX] = cx
-        F[i + CY] = cy
-        F[i + SWEEP] = sweep
+    if F[i + SWEEP] != 0.0 and fabs(F[i + SWEEP]) >= sweep_epsilon:
         return _comp_arc(F, i, epsilon, sweep_epsilon)
-    dx: float = x1 - x0
-    dy: float = y1 - y0
+    dx: float = F[i + X1] - F[i + X0]
+    dy: float = F[i + Y1] - F[i + Y0]
     length: float = sqrt(dx * dx + dy * dy)
     if length < SHORTEST:
         return NOTHING

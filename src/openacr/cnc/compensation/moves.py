@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from typing import TypeVar, cast
 
 from openacr.cnc.canonical import PLANES, Moves, Pace, Plane, Point, Source
-from openacr.cnc.compensation.chain_cy import EXTRA
 from openacr.cnc.compensation.curve_cy import SHORTEST
 from openacr.cnc.compensation.rows import Piece, Table
 from openacr.cnc.geometry.elements import Element
+from openacr.cnc.rows.chains import EXTRA
 from openacr.cnc.rows.moves import ARC, CURVE, INSERTED, POINT, ROW
 
 Held = TypeVar("Held")

@@ -5,11 +5,12 @@ from typing import Generic, TypeVar, cast
 
 from openacr.cnc.canonical import AXES, PLANES
 from openacr.cnc.compensation import chain_cy as core
-from openacr.cnc.compensation.curve_cy import COLUMNS, START
+from openacr.cnc.compensation.curve_cy import START
 from openacr.cnc.compensation.many import Many, Watch
 from openacr.cnc.compensation.moves import element_of
 from openacr.cnc.compensation.rows import Piece, Table
 from openacr.cnc.geometry.elements import Element
+from openacr.cnc.rows import chains, moves
 from openacr.compiled import pick
 from openacr.views import F64, I32
 
@@ -28,12 +29,11 @@ class Pieces(Generic[Held]):
         self._ready: list[Held | Element] = []
         self._watch = watch
         self._table = table
-        self._F, self._S = table.F, table.S
-        self._state = table.F, table.S, *table.out
-        self._row: I32 = memoryview(array("i", [0] * core.ROW))  # of one element
+        self._F, self._I = table.F, table.I
+        self._row: I32 = memoryview(array("i", [0] * moves.ROW))  # of one element
         self._end: F64 = memoryview(array("d", [0.0] * AXES))
-        self._arc: F64 = memoryview(array("d", [0.0] * core.CURVE))
-        self._pieces: list[Piece[Held] | None] = [None] * core.SLOTS
+        self._arc: F64 = memoryview(array("d", [0.0] * moves.CURVE))
+        self._pieces: list[Piece[Held] | None] = [None] * chains.SLOTS
         self._many: Many | None = None  # what elements and pieces are numbers of
 
     def put(self, thing: Held | Element) -> None:
@@ -50,53 +50,53 @@ class Pieces(Generic[Held]):
 
     def _collect(self) -> None:
         """Take the moves out of the table."""
-        count = self._S[core.S_OUT]
+        count = self._I[chains.out_cnt]
         if not count:
             return
-        self._S[core.S_OUT] = 0
+        self._I[chains.out_cnt] = 0
         if self._many is not None:
-            moves = self._many.issued(self._table, count)
-            self._ready.append(cast(Held, moves))  # many are added where `Held` is any entry
+            issued = self._many.issued(self._table, count)
+            self._ready.append(cast(Held, issued))  # many are added where `Held` is any entry
             if self._watch:
-                self._watch.tool_moves(moves, self._table.extra[: count * core.EXTRA].tolist())
+                self._watch.tool_moves(issued, self._table.extra[: count * chains.EXTRA].tolist())
             return
         for k in range(count):
             element = element_of(self._table, k, self._pieces)
             self._ready.append(element)
             if self._watch:
-                self._watch.centre_path(element, self._table.extra[core.EXTRA * k + 2])
+                self._watch.centre_path(element, self._table.extra[chains.EXTRA * k + 2])
 
     def _laid_out(self, element: Element) -> Piece[Held]:
         """Lay out the element that a chain begins with."""
         self._take(element)
-        slot = self._S[core.S_NEXT]
-        _lay(self._F, self._S, self._row, self._end, self._arc, 0)
+        slot = self._I[chains.next_slot]
+        _lay(self._F, self._I, self._row, self._end, self._arc, 0)
         return self._piece(slot)
 
     def _take(self, element: Element) -> None:
         """Write one element where the core takes it from; the next slot is its."""
-        F, S, row, slot = self._F, self._S, self._row, self._S[core.S_NEXT]
+        F, I, row, slot = self._F, self._I, self._row, self._I[chains.next_slot]
         arc = element.centre is not None
-        kind = core.RAPID if element.pace is None else core.ARC if arc else core.LINE
+        kind = moves.RAPID if element.pace is None else moves.ARC if arc else moves.LINE
         row[0], row[2], row[3], row[4] = kind, slot, CODES[element.plane], slot
         if element.centre is not None:
             self._arc[0], self._arc[1] = element.centre
             self._arc[2] = element.sweep_rad
         self._end[:] = array("d", element.end)
-        F[core.T_AT : core.T_AT + AXES] = array("d", element.start)
-        F[core.T_AWAY] = self.away
-        S[core.S_TAG], S[core.S_HAS_NEWS] = -1, bool(self.news)
-        self._pieces[slot] = Piece(element, slot, S)
+        self._table.at[:] = array("d", element.start)
+        F[chains.away_u] = self.away
+        I[chains.tag], I[chains.has_news] = -1, bool(self.news)
+        self._pieces[slot] = Piece(element, slot, I)
 
     def _piece(self, slot: int) -> Piece[Held]:
         """The piece of a slot."""
-        at = core.S_PIECES + slot * core.PIECE + core.P_TAG
-        tag, piece = self._S[at], self._pieces[slot]
+        at = chains.piece[slot * chains.PIECE] + chains.TAG
+        tag, piece = self._I[at], self._pieces[slot]
         if tag >= 0 and self._many is not None:
-            start = START + slot * COLUMNS
+            start = START + slot * chains.COLUMNS
             element = self._many.element(tag, tuple(self._F[start : start + AXES]))
-            piece = self._pieces[slot] = Piece(element, slot, self._S)
-            self._S[at] = -1
+            piece = self._pieces[slot] = Piece(element, slot, self._I)
+            self._I[at] = -1
         if piece is None:
             raise LookupError(slot)
         return piece
@@ -104,7 +104,7 @@ class Pieces(Generic[Held]):
     @property
     def _last(self) -> Piece[Held] | None:
         """The piece that was issued last."""
-        slot = self._S[core.S_LAST]
+        slot = self._I[chains.last_slot]
         return None if slot < 0 else self._piece(slot)
 
     @property

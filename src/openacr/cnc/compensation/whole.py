@@ -9,8 +9,8 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from openacr.cnc.compensation.chain_cy import EXTRA
 from openacr.cnc.compensation.moves import tool_element_at
+from openacr.cnc.rows.chains import EXTRA
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
