@@ -88,7 +88,11 @@ class Scanned:
     def _paces(self, count: int) -> tuple[Pace, ...]:
         """The paces of the moves: they differ in the feed alone."""
         present = self._run.path.plain_pace()
-        return tuple(_with_feed(present, feed) for feed in self._feeds[:count])
+        feeds = self._feeds[:count].tolist()
+        known = {present.feed_upm: present}
+        for feed in set(feeds) - known.keys():
+            known[feed] = replace(present, feed_upm=feed)
+        return tuple(known[feed] for feed in feeds)
 
     def _origins(self, part: Part, data: memoryview) -> tuple[Origin, ...]:
         """The texts of the moves: that of the program, then that of the cycles."""
@@ -98,10 +102,6 @@ class Scanned:
         nodes = self._nodes
         name = next(iter(nodes.values())).part.text.name
         return own, Origin(name, lambda begin, _: nodes[begin].raw)
-
-
-def _with_feed(pace: Pace, feed: float) -> Pace:
-    return pace if pace.feed_upm == feed else replace(pace, feed_upm=feed)
 
 
 def _text(data: memoryview, begin: int, end: int) -> str:
