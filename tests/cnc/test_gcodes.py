@@ -3,7 +3,7 @@
 import pytest
 from tests.cnc.programs import errors, run
 
-from openacr.cnc.canonical import Arc, Line, Rapid
+from openacr.cnc.canonical import Arc, Line, PathMode, Rapid
 
 
 def placed(**axes: float) -> str:
@@ -53,6 +53,12 @@ def test_each_reading_counts_for_both_centres_of_every_plane_in_g90_and_g91(
     for distance, end in (("G90", f"{u}3 {v}1"), ("G91", f"{u}2 {v}0")):
         shown = run(f"{begin}{distance} G2 {end} {about}").moves[-1]
         assert shown == f"A {placed(**{u: 3, v: 1, third: 7})} about 2,1.5 -233", distance
+
+
+def test_a_path_mode_acts_on_the_moves_after_it() -> None:
+    lines = run("F10 G1 X1\nG61\nX2\nG63\nX3\nG64\nX4").of(Line)
+    modes = [PathMode.FREE, PathMode.EXACT, PathMode.LOCKED, PathMode.FREE]
+    assert [line.pace.mode for line in lines if isinstance(line, Line)] == modes
 
 
 # --- work systems, offsets ----------------------------------------------------------------

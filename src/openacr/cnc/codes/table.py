@@ -8,17 +8,18 @@ in the reference are derived from these rows.
     def dwell(run: Run, b: BlockContext) -> None:
         \"\"\"Rest for F seconds.\"\"\"
 
-A row may have a fast form (`fast.py`) beside its handler; without it the code is only slower.
+A row may have a fast form (`fast.py`) beside its handler; without it the code is only slower. Codes
+that only set values of the modal state have no other handler (`Table.sets`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from enum import Enum, auto
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypedDict, Unpack
 
-from openacr.cnc.codes.fast import FastForms, Forms, forms_of
+from openacr.cnc.codes.fast import FastForms, Forms, Sets, forms_of
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.reading.formulas import NEAR
 from openacr.cnc.reading.grammar import Grammar
@@ -154,6 +155,48 @@ class Code:
         return (self.act.__doc__ or "").strip().split("\n")[0]
 
 
+class Row(TypedDict, total=False):
+    """What is said of a code beside its numbers and its step: fields of `Code`.
+
+    `words` are here those that act by themselves beside it; those it takes are added.
+    """
+
+    group: Group
+    words: str
+    takes: str
+    axes: Axes
+    limits: tuple[Limit, ...]
+    acts_dry: bool
+    takes_all: bool
+    is_polar: bool
+
+
+# What takes over a value after which moves differ in more than their ends.
+_FOLLOWS: dict[str, Callable[[Run], None]] = {
+    "unit": lambda run: run.path.set_unit(),
+    "path": lambda run: run.path.change_pace(),
+}
+
+
+def _sets_of(forms: FastForms, number: float) -> list[Sets]:
+    """What a code sets, each with its value."""
+    found = [form for form in forms_of(forms, number) or () if isinstance(form, Sets)]
+    return [form if form.value is not None else replace(form, value=int(number)) for form in found]
+
+
+def _setter(changes: Mapping[float, list[Sets]], summary: str) -> Handler:
+    """The handler of codes that only set values."""
+
+    def act(run: Run, b: BlockContext) -> None:
+        for form in changes[b.number]:
+            setattr(run.modal, form.field, form.value)
+            if form.is_alone:
+                _FOLLOWS[form.field](run)
+
+    act.__doc__ = summary
+    return act
+
+
 @dataclass(slots=True)
 class Table:
     """Codes by number, letters by name; ValueError for a name registered twice."""
@@ -175,70 +218,41 @@ class Table:
             rows[code.number] = code
 
     def gcode(
-        self,
-        *numbers: float,
-        step: Step,
-        group: Group | None = None,
-        words: str = "",
-        takes: str = "",
-        axes: Axes = Axes.NONE,
-        limits: tuple[Limit, ...] = (),
-        takes_all: bool = False,
-        fast: FastForms | None = None,
-        is_polar: bool = False,
+        self, *numbers: float, step: Step, fast: FastForms | None = None, **row: Unpack[Row]
     ) -> Callable[[Handler], Handler]:
         """Register a function as G codes."""
-
-        def register(act: Handler) -> Handler:
-            for number in numbers:
-                self.add(
-                    Code(
-                        "G", number, step, act, group, words + takes, takes, axes, limits,
-                        takes_all=takes_all, fast=forms_of(fast, number), is_polar=is_polar,
-                    )
-                )  # fmt: skip
-            return act
-
-        return register
+        return self._register("G", numbers, step, fast, row)
 
     def mcode(
-        self,
-        *numbers: float,
-        step: Step,
-        words: str = "",
-        takes: str = "",
-        acts_dry: bool = True,
-        limits: tuple[Limit, ...] = (),
-        fast: FastForms | None = None,
+        self, *numbers: float, step: Step, fast: FastForms | None = None, **row: Unpack[Row]
     ) -> Callable[[Handler], Handler]:
         """Register a function as M codes."""
+        return self._register("M", numbers, step, fast, row)
+
+    def letter(
+        self, letter: str, *, step: Step, fast: FastForms | None = None, **row: Unpack[Row]
+    ) -> Callable[[Handler], Handler]:
+        """Register a function as a word that acts by itself."""
+        return self._register(letter, (0.0,), step, fast, {"words": letter, **row})
+
+    def sets(self, summary: str, *numbers: float, forms: FastForms, words: str = "") -> None:
+        """Register G codes that do nothing but what their fast forms say.
+
+        Their step and group have the name of the first field they set.
+        """
+        changes = {number: _sets_of(forms, number) for number in numbers}
+        name = changes[numbers[0]][0].field.upper()
+        register = self.gcode(*numbers, step=Step[name], group=Group[name], words=words, fast=forms)
+        register(_setter(changes, summary))
+
+    def _register(
+        self, letter: str, numbers: tuple[float, ...], step: Step, fast: FastForms | None, row: Row
+    ) -> Callable[[Handler], Handler]:
+        row["words"] = row.get("words", "") + row.get("takes", "")
 
         def register(act: Handler) -> Handler:
             for number in numbers:
-                self.add(
-                    Code(
-                        "M", number, step, act, None, words + takes, takes,
-                        limits=limits, acts_dry=acts_dry, fast=forms_of(fast, number),
-                    )
-                )  # fmt: skip
-            return act
-
-        return register
-
-    def letter(
-        self,
-        letter: str,
-        *,
-        step: Step,
-        limits: tuple[Limit, ...] = (),
-        fast: FastForms | None = None,
-    ) -> Callable[[Handler], Handler]:
-        """Register a function as a word that acts by itself."""
-
-        def register(act: Handler) -> Handler:
-            self.add(
-                Code(letter, 0.0, step, act, words=letter, limits=limits, fast=forms_of(fast, 0.0))
-            )
+                self.add(Code(letter, number, step, act, fast=forms_of(fast, number), **row))
             return act
 
         return register

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Dwell
 from openacr.cnc.codes.fast import Does, Sets
-from openacr.cnc.codes.table import Axes, Group, Limit, Step
+from openacr.cnc.codes.table import Axes, Limit, Step
 from openacr.cnc.codes.tables import ACROMILL
 
 if TYPE_CHECKING:
     from openacr.cnc.codes.run import Run
     from openacr.cnc.program.block_context import BlockContext
 
-gcode = ACROMILL.gcode
+gcode, sets = ACROMILL.gcode, ACROMILL.sets
 SECONDS = Limit("F", 0.1, 999.9, "E240", is_needed=True)
 
 
@@ -29,8 +29,8 @@ def confirm(run: Run, b: BlockContext) -> None:
     b.is_confirmed = True
 
 
-@gcode(61, 62, 63, 64, step=Step.PATH, group=Group.PATH, fast=Sets("path", is_alone=True))
-def path_mode(run: Run, b: BlockContext) -> None:
-    """G61 exact stops, G62 slow at corners, G63 without feed override, G64 without slowing."""
-    run.modal.path = int(b.number)
-    run.path.change_pace()
+sets(
+    "G61 exact stops, G62 slow at corners, G63 without feed override, G64 without slowing.",
+    *(61, 62, 63, 64),
+    forms=Sets("path", is_alone=True),
+)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from openacr.cnc.codes.fast import Does, Sets
 from openacr.cnc.codes.gcodes.cycles import CYCLE_WORDS, drill
 from openacr.cnc.codes.radii import Words, check_radii
-from openacr.cnc.codes.table import Group, Limit, Step, check_limit
+from openacr.cnc.codes.table import Limit, Step, check_limit
 from openacr.cnc.codes.tables import ACROMILL
 from openacr.cnc.geometry import arcs
 from openacr.cnc.reading.findings import CodeError
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from openacr.cnc.geometry.arcs import ArcGeometry
     from openacr.cnc.program.block_context import BlockContext
 
-gcode, letter = ACROMILL.gcode, ACROMILL.letter
+letter, sets = ACROMILL.letter, ACROMILL.sets
 NO_CYCLE, NO_MOTION = 80, 80
 CLOCKWISE, COUNTER_CLOCKWISE = -1, 1
 SELECTS = Sets("motion"), Sets("cycle", NO_CYCLE)
@@ -30,22 +30,17 @@ _LENGTHS = "IJKR"
 _TURNS = Limit("P", 1, 9999, "E222", is_whole=True)
 
 
-@gcode(0, 1, step=Step.MOTION, group=Group.MOTION, fast=SELECTS)
-def straight(run: Run, b: BlockContext) -> None:
-    """G0 moves at rapid speed, G1 at feed, in a straight line; a cycle ends."""
-    select(run, b)
-
-
-@gcode(2, 3, step=Step.MOTION, group=Group.MOTION, words="IJKRP", fast=SELECTS)
-def arc(run: Run, b: BlockContext) -> None:
-    """G2 cuts arcs clockwise, G3 counter-clockwise, in P turns; a cycle ends."""
-    select(run, b)
-
-
-def select(run: Run, b: BlockContext) -> None:
-    """The motion that is active from now on."""
-    run.modal.motion = b.number
-    run.modal.cycle = NO_CYCLE
+sets(
+    "G0 moves at rapid speed, G1 at feed, in a straight line; a cycle ends.",
+    *(0, 1),
+    forms=SELECTS,
+)
+sets(
+    "G2 cuts arcs clockwise, G3 counter-clockwise, in P turns; a cycle ends.",
+    *(2, 3),
+    forms=SELECTS,
+    words="IJKRP",
+)
 
 
 @letter("MOTION", step=Step.MOTION, fast=Does.MOVES)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from openacr.cnc.codes.run import Run
     from openacr.cnc.program.block_context import BlockContext
 
-gcode = ACROMILL.gcode
+gcode, sets = ACROMILL.gcode, ACROMILL.sets
 READING = Limit("F", 0, 2, "E222", is_needed=True, is_whole=True)
 
 
@@ -29,30 +29,18 @@ def plane(run: Run, b: BlockContext) -> None:
     run.modal.plane = int(b.number)
 
 
-@gcode(20, 70, step=Step.UNIT, group=Group.UNIT, fast=Sets("unit", INCH, is_alone=True))
-def inch(run: Run, b: BlockContext) -> None:
-    """Words are inches and inches per minute."""
-    run.modal.unit = INCH
-    run.path.set_unit()
-
-
-@gcode(21, 71, step=Step.UNIT, group=Group.UNIT, fast=Sets("unit", METRIC, is_alone=True))
-def metric(run: Run, b: BlockContext) -> None:
-    """Words are millimetres and millimetres per minute."""
-    run.modal.unit = METRIC
-    run.path.set_unit()
-
-
-@gcode(90, 91, step=Step.DISTANCE, group=Group.DISTANCE, fast=Sets("distance"))
-def distance(run: Run, b: BlockContext) -> None:
-    """G90: axis words are positions; G91: distances from the last position."""
-    run.modal.distance = int(b.number)
-
-
-@gcode(98, 99, step=Step.RETURN_LEVEL, group=Group.RETURN_LEVEL, fast=Sets("return_level"))
-def return_level(run: Run, b: BlockContext) -> None:
-    """Cycles end at the initial level (G98) or at R (G99)."""
-    run.modal.return_level = int(b.number)
+sets("Words are inches and inches per minute.", 20, 70, forms=Sets("unit", INCH, is_alone=True))
+sets(
+    "Words are millimetres and millimetres per minute.",
+    *(21, 71),
+    forms=Sets("unit", METRIC, is_alone=True),
+)
+sets(
+    "G90: axis words are positions; G91: distances from the last position.",
+    *(90, 91),
+    forms=Sets("distance"),
+)
+sets("Cycles end at the initial level (G98) or at R (G99).", 98, 99, forms=Sets("return_level"))
 
 
 @gcode(200, step=Step.CENTRES, group=Group.CENTRES, takes="F", limits=(READING,))

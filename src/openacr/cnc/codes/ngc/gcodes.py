@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from openacr.cnc.codes.run import Run
     from openacr.cnc.program.block_context import BlockContext
 
-gcode = RS274NGC.gcode
+gcode, sets = RS274NGC.gcode, RS274NGC.sets
 INCREMENTAL = 91
 TABLE, FIXTURE = 1, 11  # L of G10: as given; read in G59.3 without G92
 LAST_OF_ALL = 9  # work systems
@@ -130,7 +130,8 @@ PROBES = (38.2, 38.3, 38.4, 38.5)
 def probe(run: Run, b: BlockContext) -> Iterator[Entry]:
     """Probe toward (.2 .3) or away (.4 .5); .2 and .4 have to trip."""
     no_open_curve(run, b)
-    motion.select(run, b)
+    run.modal.motion = b.number
+    run.modal.cycle = motion.NO_CYCLE
     yield from probe_again(run, b)
 
 
@@ -263,13 +264,11 @@ def _path(run: Run, mode: int, tolerance_u: float = 0.0) -> None:
     run.path.change_pace()
 
 
-@gcode(
-    90.1, 91.1, step=Step.CENTRES, group=Group.CENTRES,
-    fast={90.1: Sets("centres", 2), 91.1: Sets("centres", 1)},
-)  # fmt: skip
-def centres(run: Run, b: BlockContext) -> None:
-    """I, J, K are absolute (G90.1) or count from the start (G91.1)."""
-    run.modal.centres = 2 if b.number == 90.1 else 1
+sets(
+    "I, J, K are absolute (G90.1) or count from the start (G91.1).",
+    *(90.1, 91.1),
+    forms={90.1: Sets("centres", 2), 91.1: Sets("centres", 1)},
+)
 
 
 @gcode(93, 94, step=Step.FEED_MODE, group=Group.FEED_MODE, fast={94: Does.NOTHING})
