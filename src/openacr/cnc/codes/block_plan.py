@@ -328,7 +328,7 @@ def _check_limits(
                 if limit.is_needed:
                     column = places[code].column if code in places else 1
                     reasons = (refusals.of_word(letter, [code.name]) for letter in words)
-                    hint = next(filter(None, reasons), "")
+                    hint = next(filter(None, reasons), limit.reach)
                     raise CodeError(limit.error, column, f"{limit.letter} is missing", hint)
             else:
                 _check_written(limit, words)

@@ -116,14 +116,18 @@ class Limit:
     is_needed: bool = False
     is_whole: bool = False
 
+    @property
+    def reach(self) -> str:
+        """The values, as a hint."""
+        return f"{self.letter} {self.low:g} to {self.high:g}"
+
 
 def check_limit(limit: Limit, value: float, column: int) -> None:
     """Refuse a value outside its limits."""
     if limit.is_whole and abs(value - round(value)) > NEAR:
         raise CodeError("E204", column, limit.letter)
     if not limit.low <= value <= limit.high:
-        reach = f"{limit.letter} {limit.low:g} to {limit.high:g}"
-        raise CodeError(limit.error, column, f"{limit.letter}{value:g}", reach)
+        raise CodeError(limit.error, column, f"{limit.letter}{value:g}", limit.reach)
 
 
 @dataclass(frozen=True, slots=True)
