@@ -11,6 +11,7 @@
 #   make docs    write the reference pages, the names of the map and the grammars of editors anew
 #   make editor-test  the extension in Visual Studio Code in a browser (CODE_SERVER=folder, needs Node)
 #   make web-lint   type-check and lint the screens' JavaScript (needs Node)
+#   make web-format  format the screens' JavaScript with Prettier (needs Node)
 #   make web-bundle bundle the libraries of the screens anew (needs Node and a registry)
 #   make site    the documentation as web pages with a search, in build/site
 #   make clean   remove everything that can be made again (also .venv)
@@ -25,7 +26,7 @@ MAKEFLAGS += --jobs=2 # the core is compiled while packages are installed
 # Tests start some hundred processes; without this each would compile all sources anew where the
 # user has asked Python not to keep what it compiles.
 export PYTHONDONTWRITEBYTECODE :=
-.PHONY: help setup demo test browser lint style types bench soak lowest audit mutate docs editor-test web-lint web-bundle site clean
+.PHONY: help setup demo test browser lint style types bench soak lowest audit mutate docs editor-test web-lint web-format web-bundle site clean
 
 VENV := .venv
 PY := $(VENV)/bin/python
@@ -53,7 +54,7 @@ BEAT = ( while sleep $(BEAT_S) >/dev/null 2>&1 && kill -0 $$$$ 2>/dev/null; do \
 	echo "  $$(date +%H:%M:%S) still busy"; done ) &
 
 help:
-	@sed -n '3,17s/^# *//p' Makefile
+	@sed -n '3,18s/^# *//p' Makefile
 
 setup: $(BUILT) $(INSTALLED)
 
@@ -169,6 +170,9 @@ $(WEB_TOOLS): $(WEB)/package-lock.json
 
 web-lint: $(WEB_TOOLS)
 	$(NPM) run lint
+
+web-format: $(WEB_TOOLS)
+	$(NPM) run format
 
 # editors/vscode/README.md says how code-server is installed.
 editor-test: setup

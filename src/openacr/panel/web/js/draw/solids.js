@@ -9,6 +9,7 @@ import { along } from "./kinematics.js";
  */
 
 /** Bodies by the axis they belong to. */
+/** @type {Readonly<Record<string, string>>} */
 const BODIES = Object.freeze({ X: "#d2605a", Y: "#57a268", Z: "#4f82cf" });
 export const OTHER = "#c59a3f";
 
@@ -34,7 +35,7 @@ export function partsOf(link) {
 
 /** @param {Link} link */
 function colourOf(link) {
-  return link.colour || (/** @type {Record<string, string>} */ (BODIES)[link.name[0]?.toUpperCase()] ?? OTHER);
+  return link.colour || (BODIES[link.name[0]?.toUpperCase()] ?? OTHER);
 }
 
 /**

@@ -82,19 +82,19 @@ function drawEvents(chart) {
 
 /**
  * @param {HTMLElement} parent
- * @param {object} options
+ * @param {{ scales?: object, draws?: ((chart: uPlot) => void)[], [option: string]: any }} options of uPlot; `draws`: what is drawn over the events
  * @param {any} data
  */
-function timeChart(parent, options, data) {
+function timeChart(parent, { scales = {}, draws = [], ...options }, data) {
   const chart = new uPlot(/** @type {any} */ ({
     width: WIDE,
     height: 200,
     cursor: { y: false, sync: { key: "run", setSeries: false, scales: ["x", null] }, drag: { x: true, y: false }, points: { size: 6 }, bind: { dblclick: () => () => { zoom([...run.span]); return null; } } },
     axes: [{ size: 28 }, { size: 68, values: (/** @type {uPlot} */ _chart, /** @type {number[]} */ values) => values.map(short) }],
     ...options,
-    scales: { x: { time: false, min: view[0], max: view[1] }, .../** @type {any} */ (options).scales },
+    scales: { x: { time: false, min: view[0], max: view[1] }, ...scales },
     hooks: {
-      draw: [drawEvents, ...(/** @type {any} */ (options).draws ?? [])],
+      draw: [drawEvents, ...draws],
       setSelect: [(/** @type {uPlot} */ one) => {
         if (one.select.width < 4) return;
         zoom([one.posToVal(one.select.left, "x"), one.posToVal(one.select.left + one.select.width, "x")]);
