@@ -1,4 +1,4 @@
-// Rules for the modules of src/openacr/panel/web/js; formatting is left to the reader's eye.
+// Rules for the modules of src/openacr/panel/web/js; Prettier formats them.
 import js from "@eslint/js";
 import globals from "globals";
 
@@ -19,7 +19,8 @@ export default [
       "no-shadow": "error",
       "no-var": "error",
       "prefer-const": "error",
-      "max-lines": ["error", 300],
+      "max-lines": ["error", { max: 350, skipBlankLines: true, skipComments: true }],
     },
   },
+  { files: ["**/catalog/*.js"], rules: { "max-lines": "off" } }, // tables of texts
 ];

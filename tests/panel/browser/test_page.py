@@ -81,8 +81,8 @@ def test_help_speaks_the_language_of_the_screens(page: Page) -> None:
 
 STEPS = """() => import('/js/tour/steps.js').then(({ STEPS }) => STEPS.map(([place]) => place))"""
 TEXTS = """(language) =>
-  Promise.all([import('/js/tour/steps.js'), import(`/js/catalog/${language}.js`)])
-  .then(([{ STEPS }, texts]) => STEPS.map(([, key]) => texts.default[key]))"""
+  Promise.all([import('/js/tour/steps.js'), import('/js/catalog/operator.js')])
+  .then(([{ STEPS }, texts]) => STEPS.map(([, key]) => texts.default[key][language]))"""
 COVERED = """() => {
   const [box, stop] = ['.tour', '.stop-key']
     .map((each) => document.querySelector(each).getBoundingClientRect());

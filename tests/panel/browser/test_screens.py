@@ -162,8 +162,8 @@ def test_stop_is_within_reach_while_a_dialog_is_open(page: Page) -> None:
 WITH_BANNER = """async () => {
   const { model } = await import('/js/core/app.js');
   model.state.set({ ...model.state.value, reason: 'the feed hold of the panel is on' });
-  const texts = (await Promise.all(['en', 'de'].map((name) => import(`/js/catalog/${name}.js`)))).flatMap(
-    (texts) => ['stale.old', 'stale.lost', 'stale.card'].map((name) => texts.default[name]));
+  const { default: catalogue } = await import('/js/catalog/operator.js');
+  const texts = ['stale.old', 'stale.lost', 'stale.card'].flatMap((name) => Object.values(catalogue[name]));
   const banner = document.querySelector('#banner');
   const places = () => [...document.querySelectorAll('button, .position-row, #prompt, #work')]
     .filter((each) => !each.closest('#alarms')).map((each) => {

@@ -13,7 +13,6 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
 from openacr.panel.commands.all import COMMANDS
-from openacr.panel.commands.registry import LANGUAGES
 from openacr.panel.server.modules import with_modules
 
 WEB = Path(__file__).parents[1] / "web"
@@ -95,11 +94,8 @@ def _packed(body: bytes) -> bytes:
 
 
 def with_titles(page: str) -> str:
-    """A page with the titles of the commands by language, for `core/texts.js`."""
-    titles = {
-        language: {row.name: row.titles[language] for row in COMMANDS.values() if row.titles}
-        for language in LANGUAGES
-    }
+    """A page with the titles of the commands in each language, for `core/texts.js`."""
+    titles = {row.name: row.titles for row in COMMANDS.values() if row.titles}
     text = html.escape(json.dumps(titles))
     return page.replace(TITLES, f'    <meta name="titles" content="{text}">\n')
 

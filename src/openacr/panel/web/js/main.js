@@ -10,7 +10,7 @@ async function start() {
   link.open(); // values arrive while the modules do
   applyTheme();
   followSystemTheme();
-  await useLanguage(setting("language", "en"));
+  useLanguage(setting("language", "en"));
   const [clock, status, menuBar, top, prompt, stop, held, screens] = await Promise.all([
     import("./frame/clock.js"), import("./frame/status.js"), import("./frame/menu_bar.js"), import("./frame/top.js"),
     import("./frame/prompt.js"), import("./frame/stop.js"), import("./motion/hold.js"), import("./frame/screen_host.js"),

@@ -14,7 +14,7 @@ export function startBar() {
 }
 
 /**
- * @param {import("../core/texts.js").TextKey} label
+ * @param {import("../core/texts.js").Said} label
  * @param {() => void} onclick
  * @param {object} [more]
  */

@@ -2,7 +2,7 @@
 import { link, model } from "../core/app.js";
 import { applyTheme, followSystemTheme, setting } from "../core/settings.js";
 import { addTexts, useLanguage } from "../core/texts.js";
-import english from "../catalog/bench/en.js";
+import texts from "../catalog/bench.js";
 
 async function start() {
   link.onEvent = (event) => model.takeEvent(event);
@@ -11,9 +11,8 @@ async function start() {
   link.open();
   applyTheme();
   followSystemTheme();
-  const language = setting("language", "en");
-  await useLanguage(language);
-  addTexts(language === "de" ? (await import("../catalog/bench/de.js")).default : english);
+  useLanguage(setting("language", "en"));
+  addTexts(texts);
   const [clock, top, prompt, stop, workspace, bar, shortcuts] = await Promise.all([
     import("../frame/clock.js"), import("../frame/top.js"), import("../frame/prompt.js"), import("../frame/stop.js"), import("./workspace.js"), import("./bar.js"), import("./shortcuts.js"),
   ]);

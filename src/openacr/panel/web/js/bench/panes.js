@@ -10,28 +10,28 @@ import { modulePane, screenPane, tabPane } from "./adapters.js";
  * @property {(ask: () => boolean | Promise<boolean>) => void} beforeClose asked before the pane is closed
  *
  * @typedef {(host: HTMLElement, place: Place) => (() => void) | Promise<() => void>} Mount
- * @typedef {{ title: import("../core/texts.js").TextKey, role?: string, most?: number, load: () => Promise<Mount> }} Pane
+ * @typedef {{ title: import("../core/texts.js").Said, role?: string, most?: number, load: () => Promise<Mount> }} Pane
  */
 
 /** @type {Record<string, Pane>} */
 export const PANES = {
   terminal: { title: "terminal.title", role: "service", most: 4, load: modulePane(() => import("../panes/terminal.js")) },
-  status: { title: "pane.status", most: 8, load: modulePane(() => import("./panes/status.js")) },
-  programs: { title: "pane.programs", load: screenPane(() => import("../screens/programs.js")) },
-  editor: { title: "pane.editor", most: 4, load: modulePane(() => import("./panes/editor.js")) },
-  variables: { title: "pane.variables", most: 4, load: modulePane(() => import("./panes/variables.js")) },
-  plc: { title: "pane.plc", load: tabPane(async () => (await import("../frame/tab_plc.js")).plcTab) },
+  status: { title: { en: "Status", de: "Zustand" }, most: 8, load: modulePane(() => import("./panes/status.js")) },
+  programs: { title: { en: "Programs", de: "Programme" }, load: screenPane(() => import("../screens/programs.js")) },
+  editor: { title: { en: "Editor", de: "Editor" }, most: 4, load: modulePane(() => import("./panes/editor.js")) },
+  variables: { title: { en: "Variables", de: "Variablen" }, most: 4, load: modulePane(() => import("./panes/variables.js")) },
+  plc: { title: { en: "PLC", de: "PLC" }, load: tabPane(async () => (await import("../frame/tab_plc.js")).plcTab) },
   servo: { title: "servo.title", load: screenPane(() => import("../screens/servo.js")) },
   jog: { title: "jog.title", role: "operate", load: screenPane(() => import("../screens/jog.js")) },
-  gain: { title: "pane.gain", role: "service", load: screenPane(() => import("../screens/gain.js")) },
-  tune: { title: "pane.tune", role: "service", load: modulePane(() => import("./panes/tune.js")) },
+  gain: { title: { en: "Gains", de: "Verst\u00e4rkungen" }, role: "service", load: screenPane(() => import("../screens/gain.js")) },
+  tune: { title: { en: "Tuning", de: "Einstellen" }, role: "service", load: modulePane(() => import("./panes/tune.js")) },
   scope: { title: "scope.title", role: "service", load: modulePane(() => import("./panes/scope.js")) },
   tree: { title: "pane.tree", load: modulePane(() => import("./panes/tree.js")) },
-  watch: { title: "pane.watch", load: modulePane(() => import("./panes/watch.js")) },
-  io: { title: "pane.io", load: tabPane(async () => (await import("../frame/tab_io.js")).ioTab) },
+  watch: { title: { en: "Watch list", de: "Beobachten" }, load: modulePane(() => import("./panes/watch.js")) },
+  io: { title: { en: "I/O", de: "E/A" }, load: tabPane(async () => (await import("../frame/tab_io.js")).ioTab) },
   board: { title: "board.title", role: "service", load: screenPane(() => import("../screens/board.js")) },
-  world: { title: "pane.world", load: modulePane(() => import("./panes/world.js")) },
-  wizard: { title: "pane.wizard", role: "service", load: modulePane(() => import("./panes/wizard.js")) },
-  timeline: { title: "pane.timeline", role: "service", load: modulePane(() => import("./panes/timeline.js")) },
-  alarms: { title: "pane.alarms", load: tabPane(async () => (await import("../frame/tab_alarms.js")).alarmsTab) },
+  world: { title: { en: "World", de: "Welt" }, load: modulePane(() => import("./panes/world.js")) },
+  wizard: { title: { en: "Configuration", de: "Konfiguration" }, role: "service", load: modulePane(() => import("./panes/wizard.js")) },
+  timeline: { title: { en: "Timeline", de: "Zeitachse" }, role: "service", load: modulePane(() => import("./panes/timeline.js")) },
+  alarms: { title: { en: "ALARMS", de: "ALARME" }, load: tabPane(async () => (await import("../frame/tab_alarms.js")).alarmsTab) },
 };

@@ -1,40 +1,43 @@
-// One catalogue of texts per language; a key that a language lacks is shown in English.
-import en from "../catalog/en.js";
-
-/** @typedef {keyof typeof en | keyof typeof import("../catalog/bench/en.js").default | `${string}.${string}`} TextKey the last: names of commands */
-
-export const LANGUAGES = Object.freeze({ en: "English", de: "Deutsch" });
-/** Titles of the commands by language, which the page brings. @type {Record<string, Record<string, string>>} */
-const titles = JSON.parse(document.querySelector("meta[name=titles]")?.getAttribute("content") ?? "{}");
-/** @type {Record<string, string>} */
-const english = { ...en, ...titles.en };
-let chosen = english;
+// What the screens say, in every language: texts that modules share have keys, the others are written where they are used.
+import shared from "../catalog/operator.js";
 
 /**
- * Load the catalogue of a language.
- * @param {string} language
+ * @typedef {{ en: string, de: string }} Text
+ * @typedef {keyof typeof shared | keyof typeof import("../catalog/bench.js").default} TextKey
+ * @typedef {Text | TextKey} Said
+ * @typedef {keyof typeof LANGUAGES} Language
  */
-export async function useLanguage(language) {
-  if (language === "de") chosen = { ...(await import("../catalog/de.js")).default, ...titles.de };
+
+export const LANGUAGES = Object.freeze({ en: "English", de: "Deutsch" });
+/** Titles of the commands by their names, which the page brings. @type {Record<string, Text>} */
+const titles = JSON.parse(document.querySelector("meta[name=titles]")?.getAttribute("content") ?? "{}");
+/** @type {Record<string, Text>} */
+let catalogue = { ...shared, ...titles };
+/** @type {Language} */
+let chosen = "en";
+
+/** @param {string} language any other than those of LANGUAGES: English */
+export function useLanguage(language) {
+  if (language in LANGUAGES) chosen = /** @type {Language} */ (language);
   document.documentElement.lang = language;
 }
 
 /**
- * Add the texts of another workspace, in the chosen language.
- * @param {Record<string, string>} texts
+ * Add the texts of another workspace.
+ * @param {Record<string, Text>} texts
  */
 export function addTexts(texts) {
-  chosen = { ...chosen, ...texts };
+  catalogue = { ...catalogue, ...texts };
 }
 
 /**
- * The text of a key with its values filled in: `t("zero.done", { axes: "X Y" })`. `{count|line|lines}` is the first
- * word for a value of 1, else the second.
- * @param {TextKey} key
+ * A text, given as it is or by its key, with its values filled in: `t("zero.done", { axes: "X Y" })`. `{count|line|lines}`
+ * is the first word for a value of 1, else the second.
+ * @param {Said} what
  * @param {Record<string, string | number>} [values]
  */
-export function t(key, values = {}) {
-  const text = chosen[key] ?? english[key] ?? key;
+export function t(what, values = {}) {
+  const text = typeof what === "string" ? textOr(what, what) : what[chosen];
   return text.replace(/\{(\w+)(?:\|([^|}]*)\|([^|}]*))?\}/g, (_whole, name, one, more) => {
     const value = String(values[name] ?? "");
     return one === undefined ? value : value === "1" ? one : more;
@@ -47,5 +50,5 @@ export function t(key, values = {}) {
  * @param {string} fallback
  */
 export function textOr(key, fallback) {
-  return chosen[key] ?? english[key] ?? fallback;
+  return catalogue[key]?.[chosen] ?? fallback;
 }

@@ -3,7 +3,7 @@
 /**
  * @typedef {object} MenuKey
  * @property {number} key number of the function key, 1 to 10
- * @property {import("../core/texts.js").TextKey} label
+ * @property {import("../core/texts.js").Said} label
  * @property {string} [menu] the menu it opens
  * @property {string} [screen] the screen it opens
  * @property {any} [args] for the screen
@@ -14,29 +14,29 @@
  * @property {string} [style] "danger" or "is-stop"
  */
 
-const MAIN = /** @type {MenuKey} */ ({ key: 10, label: "menu.main", menu: "main" });
+const MAIN = /** @type {MenuKey} */ ({ key: 10, label: { en: "MAIN MENU", de: "HAUPT\u00adMENÜ" }, menu: "main" });
 const form = (/** @type {string} */ name) => ({ screen: "form", args: { form: name } });
 
 /** @type {Record<string, MenuKey[]>} */
 export const MENUS = {
   main: [
-    { key: 1, label: "menu.home", screen: "home", role: "operate", style: "danger" },
+    { key: 1, label: { en: "HOME", de: "REFE\u00adRENZ" }, screen: "home", role: "operate", style: "danger" },
     { key: 2, label: "menu.clrzero", action: "clearZero", role: "operate" },
     { key: 3, label: "menu.setzero", screen: "zero", role: "operate" },
     { key: 4, label: "menu.edit", screen: "edit" },
-    { key: 5, label: "menu.setup", menu: "setup" },
-    { key: 6, label: "menu.run", menu: "run" },
-    { key: 7, label: "menu.manual", menu: "manual" },
-    { key: 8, label: "menu.diag", menu: "diag" },
-    { key: 9, label: "menu.help", screen: "help" },
+    { key: 5, label: { en: "RUN SETUP", de: "EIN\u00adRICHTEN" }, menu: "setup" },
+    { key: 6, label: { en: "RUN PROG", de: "PRO\u00adGRAMM" }, menu: "run" },
+    { key: 7, label: { en: "MANUAL", de: "HAND" }, menu: "manual" },
+    { key: 8, label: { en: "SET/\u200bDIAG", de: "SETUP/\u200bDIAGN." }, menu: "diag" },
+    { key: 9, label: { en: "HELP", de: "HILFE" }, screen: "help" },
     { key: 10, label: "menu.exit", action: "exit" },
   ],
   setup: [
-    { key: 1, label: "menu.cmprad", ...form("CMPRAD") },
-    { key: 3, label: "menu.load", screen: "load", role: "operate" },
+    { key: 1, label: { en: "CMP RAD", de: "RADIUS" }, ...form("CMPRAD") },
+    { key: 3, label: { en: "LOAD PROG", de: "LADEN" }, screen: "load", role: "operate" },
     { key: 4, label: "menu.feedrate", ...form("FEEDRATE") },
     { key: 6, label: "menu.pparm", screen: "pparm" },
-    { key: 7, label: "menu.modals", ...form("MODALS") },
+    { key: 7, label: { en: "SET MODALS", de: "G-CODES" }, ...form("MODALS") },
     MAIN,
   ],
   run: [
@@ -46,57 +46,57 @@ export const MENUS = {
     { key: 4, label: "menu.dryrun", action: "dryRun", role: "operate", can: "run.begin", pressed: "dry" },
     { key: 5, label: "menu.feedrate", ...form("FEEDRATE") },
     { key: 6, label: "menu.fov", screen: "overrides" },
-    { key: 7, label: "menu.block", action: "block", role: "operate", pressed: "single" },
+    { key: 7, label: { en: "BLOCK", de: "EINZEL\u00adSATZ" }, action: "block", role: "operate", pressed: "single" },
     { key: 8, label: "menu.setzero", screen: "zero", role: "operate" },
     { key: 9, label: "menu.edit", screen: "edit", args: { other: true } },
     MAIN,
   ],
   stop: [
-    { key: 1, label: "menu.abort", action: "abort", role: "operate", style: "is-stop" },
-    { key: 3, label: "menu.back", action: "traceBack", role: "operate" },
-    { key: 4, label: "menu.halt", action: "traceStop", role: "operate" },
-    { key: 5, label: "menu.forward", action: "traceForward", role: "operate" },
+    { key: 1, label: { en: "ABORT", de: "AB\u00adBRUCH" }, action: "abort", role: "operate", style: "is-stop" },
+    { key: 3, label: { en: "BACK", de: "RÜCK\u00adWÄRTS" }, action: "traceBack", role: "operate" },
+    { key: 4, label: { en: "HALT", de: "HALT" }, action: "traceStop", role: "operate" },
+    { key: 5, label: { en: "FOR\u00adWARD", de: "VOR\u00adWÄRTS" }, action: "traceForward", role: "operate" },
     { key: 6, label: "menu.jog", screen: "jog", role: "operate" },
     { key: 8, label: "menu.resume", action: "resume", role: "operate", style: "danger" },
     MAIN,
   ],
   manual: [
-    { key: 1, label: "menu.mdi", screen: "mdi", role: "operate" },
+    { key: 1, label: { en: "MDI", de: "MDI" }, screen: "mdi", role: "operate" },
     { key: 2, label: "menu.jog", screen: "jog", role: "operate" },
-    { key: 3, label: "menu.handwheel", screen: "handwheel", role: "operate" },
+    { key: 3, label: { en: "HAND WHEEL", de: "HAND\u00adRAD" }, screen: "handwheel", role: "operate" },
     { key: 4, label: "menu.teach", screen: "teach", role: "setup" },
     { key: 8, label: "menu.gotozero", action: "gotoZero", role: "operate", style: "danger" },
     MAIN,
   ],
   diag: [
-    { key: 1, label: "menu.sysparam", screen: "parameters", role: "service" },
+    { key: 1, label: { en: "SYS PARAM", de: "SYSTEM\u00adPARAM" }, screen: "parameters", role: "service" },
     { key: 2, label: "menu.pparm", screen: "pparm" },
-    { key: 3, label: "menu.offsets", screen: "offsets" },
-    { key: 4, label: "menu.work", ...form("WORK") },
-    { key: 5, label: "menu.diagnostics", menu: "diagnostics" },
-    { key: 6, label: "menu.programs", screen: "programs" },
-    { key: 7, label: "menu.display", menu: "display" },
+    { key: 3, label: { en: "OFFSETS", de: "KORREK\u00adTUREN" }, screen: "offsets" },
+    { key: 4, label: { en: "WORK COORD", de: "NULL\u00adPUNKTE" }, ...form("WORK") },
+    { key: 5, label: { en: "DIAG\u00adNOSTICS", de: "DIAG\u00adNOSE" }, menu: "diagnostics" },
+    { key: 6, label: { en: "PROG/\u200bPLC", de: "PROG/\u200bSPS" }, screen: "programs" },
+    { key: 7, label: { en: "DIS\u00adPLAY", de: "ANZEIGE" }, menu: "display" },
     MAIN,
   ],
   diagnostics: [
-    { key: 1, label: "menu.iostatus", screen: "io" },
-    { key: 2, label: "menu.terminal", screen: "terminal", role: "service" },
-    { key: 3, label: "menu.scope", screen: "scope", role: "service" },
-    { key: 4, label: "menu.gain", screen: "gain", role: "service" },
-    { key: 5, label: "menu.board", screen: "board", role: "service" },
-    { key: 6, label: "menu.servo", screen: "servo" },
-    { key: 7, label: "menu.cpu", screen: "cpu", role: "setup" },
-    { key: 8, label: "menu.fast", screen: "fast" },
-    { key: 9, label: "menu.memory", screen: "memory", role: "service" },
+    { key: 1, label: { en: "I/O STATUS", de: "E/A STATUS" }, screen: "io" },
+    { key: 2, label: { en: "TERMI\u00adNAL", de: "TERMI\u00adNAL" }, screen: "terminal", role: "service" },
+    { key: 3, label: { en: "SCOPE", de: "SCOPE" }, screen: "scope", role: "service" },
+    { key: 4, label: { en: "GAIN", de: "REGLER" }, screen: "gain", role: "service" },
+    { key: 5, label: { en: "BOARD PARAM", de: "KARTEN\u00adPARAM" }, screen: "board", role: "service" },
+    { key: 6, label: { en: "SERVO LOOP", de: "REGEL\u00adKREIS" }, screen: "servo" },
+    { key: 7, label: { en: "CPU LOAD", de: "CPU-LAST" }, screen: "cpu", role: "setup" },
+    { key: 8, label: { en: "FAST STATUS", de: "FAST STATUS" }, screen: "fast" },
+    { key: 9, label: { en: "MEMORY CONFIG", de: "SPEI\u00adCHER" }, screen: "memory", role: "service" },
     MAIN,
   ],
   display: [
-    { key: 1, label: "menu.buttons", ...form("BUTTONS") },
+    { key: 1, label: { en: "BUTTON PANEL", de: "TASTEN\u00adFELD" }, ...form("BUTTONS") },
     { key: 2, label: "menu.fov", screen: "overrides" },
-    { key: 3, label: "menu.ionames", ...form("IONAMES") },
-    { key: 7, label: "menu.resize", action: "resize" },
-    { key: 8, label: "menu.messages", ...form("MESSAGES") },
-    { key: 9, label: "menu.views", screen: "views" },
+    { key: 3, label: { en: "I/O NAMES", de: "E/A NAMEN" }, ...form("IONAMES") },
+    { key: 7, label: { en: "RESIZE SCREEN", de: "FENSTER ZURÜCK" }, action: "resize" },
+    { key: 8, label: { en: "USER MES\u00adSAGES", de: "MEL\u00adDUNGEN" }, ...form("MESSAGES") },
+    { key: 9, label: { en: "SETUP SCREEN", de: "ANSICH\u00adTEN" }, screen: "views" },
     MAIN,
   ],
 };

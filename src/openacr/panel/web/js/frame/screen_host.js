@@ -13,7 +13,7 @@ import { t } from "../core/texts.js";
  * @property {(title: string) => void} setTitle
  * @property {(ask: () => boolean | Promise<boolean>) => void} beforeClose asked before the screen is left
  *
- * @typedef {{ title: import("../core/texts.js").TextKey, area?: "side" | "full", mode?: string, show: (place: Place) => void | Promise<void> }} Screen
+ * @typedef {{ title: import("../core/texts.js").Said, area?: "side" | "full", mode?: string, show: (place: Place) => void | Promise<void> }} Screen
  */
 
 /** The name of the shown screen; empty for none. */

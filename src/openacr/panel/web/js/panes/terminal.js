@@ -5,6 +5,11 @@ import { Endings } from "../core/signal.js";
 import { t } from "../core/texts.js";
 import { FitAddon, Terminal } from "../../vendor/xterm.js";
 
+const TEXTS = {
+  line: { en: "Line for the card", de: "Zeile an die Karte" },
+  send: { en: "SEND", de: "SENDEN" },
+};
+
 const KEYS = ["esc", "ctrl-c", "ctrl-x", "ctrl-y", "ctrl-z"];
 
 /**
@@ -53,7 +58,7 @@ export async function mount(host, { head, number }) {
  * @param {(text: string) => void} send
  */
 function lineOf(send) {
-  const line = h("input.field.mono.grow", { ariaLabel: t("terminal.line"), autocomplete: "off", spellcheck: false });
+  const line = h("input.field.mono.grow", { ariaLabel: t(TEXTS.line), autocomplete: "off", spellcheck: false });
   /** @type {string[]} */
   const history = [];
   let place = 0;
@@ -69,7 +74,7 @@ function lineOf(send) {
     place = 0;
     send(line.value);
     line.value = "";
-  } }, line, h("button.key.main", { type: "submit" }, t("terminal.send")));
+  } }, line, h("button.key.main", { type: "submit" }, t(TEXTS.send)));
 }
 
 /**

@@ -7,6 +7,13 @@ import { needValues } from "../core/values.js";
 import { changeValue, shownValue } from "../frame/card_value.js";
 import { askNumber } from "../frame/number_pad.js";
 
+const TEXTS = {
+  search: { en: "Name or number", de: "Name oder Nummer" },
+  doc: { en: "Meaning", de: "Bedeutung" },
+};
+
+/** @type {import("../core/texts.js").Said[]} */
+const HEADS = ["board.number", "board.name", "board.value", TEXTS.doc];
 const PAGE = 60;
 
 /** @type {import("../frame/screen_host.js").Screen} */
@@ -14,13 +21,13 @@ export const screen = {
   title: "board.title",
   area: "full",
   async show({ body, head, endings }) {
-    const field = h("input.field", { type: "search", placeholder: t("board.search"), ariaLabel: t("board.search") });
+    const field = h("input.field", { type: "search", placeholder: t(TEXTS.search), ariaLabel: t(TEXTS.search) });
     let first = 0;
     const pages = h("div.row", {});
     head.append(pages, field);
     const rows = h("tbody", {});
     body.append(h("div.notice", {}, t("diag.warning")), h("div.grow.scroll", {}, h("table.grid", {}, h("thead", {}, h("tr", {},
-      ...["board.number", "board.name", "board.value", "board.doc"].map((key) => h("th", {}, t(/** @type {any} */ (key)))))), rows)));
+      ...HEADS.map((each) => h("th", {}, t(each))))), rows)));
     /** @type {HTMLElement[]} */
     let values = [];
     let unsubscribe = () => {};

@@ -4,12 +4,17 @@ import { link, refuse } from "../core/app.js";
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 
+const TEXTS = {
+  foreground: { en: "Servo interrupt", de: "Servo-Interrupt" },
+  background: { en: "Left for programs", de: "Für Programme übrig" },
+};
+
 const EVERY_MS = 1000;
 const SHARE = /^(\w+) ([\d.]+)%$/;
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "cpu.title",
+  title: { en: "CPU load", de: "CPU-Last" },
   area: "full",
   async show({ body, endings }) {
     const host = h("div.stack", { role: "status" });
@@ -36,6 +41,6 @@ export const screen = {
 function rowOf(line) {
   const found = SHARE.exec(line);
   if (!found) return h("p", {}, line);
-  const label = t(found[1] === "Foreground" ? "cpu.foreground" : "cpu.background");
+  const label = t(found[1] === "Foreground" ? TEXTS.foreground : TEXTS.background);
   return h("label.cpu-row", {}, h("span", {}, label), h("meter", { min: 0, max: 100, value: Number(found[2]) }), h("strong.number", {}, `${found[2]} %`));
 }

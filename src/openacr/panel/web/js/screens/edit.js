@@ -8,9 +8,23 @@ import { findingItems } from "../frame/findings.js";
 import { openScreen } from "../frame/screen_host.js";
 import { fileList } from "../load/file_list.js";
 
+const TEXTS = {
+  title: { en: "Edit", de: "Editor" },
+  dxf: { en: "DXF", de: "DXF" },
+  open: { en: "OPEN", de: "ÖFFNEN" },
+  new: { en: "NEW", de: "NEU" },
+  save: { en: "SAVE", de: "SPEICHERN" },
+  saveas: { en: "SAVE AS", de: "SPEICHERN ALS" },
+  unnamed: { en: "new file", de: "neue Datei" },
+  locked: {
+    en: "This program runs: it cannot be changed now",
+    de: "Dieses Programm läuft: Es lässt sich jetzt nicht ändern",
+  },
+};
+
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "edit.title",
+  title: TEXTS.title,
   area: "full",
   async show({ body, head, endings, args, setTitle, beforeClose }) {
     const { createEditor } = await import("../edit/editor.js");
@@ -22,10 +36,10 @@ export const screen = {
     const host = h("div.editor-host.grow", {});
     const findings = h("div.findings.scroll", { hidden: true });
     const state = h("span.hint.grow", { role: "status" });
-    const saveKey = h("button.key.main", { type: "button", onclick: () => save() }, t("edit.save"));
-    head.append(h("button.key", { type: "button", onclick: async () => { if (await mayDrop()) await open(path); } }, t("edit.open")), h("button.key", { type: "button", onclick: () => begin() }, t("edit.new")),
-      h("button.key", { type: "button", onclick: () => openScreen("load", { source: "dxf" }) }, t("edit.dxf")),
-      h("button.key", { type: "button", onclick: () => saveAs() }, t("edit.saveas")), saveKey);
+    const saveKey = h("button.key.main", { type: "button", onclick: () => save() }, t(TEXTS.save));
+    head.append(h("button.key", { type: "button", onclick: async () => { if (await mayDrop()) await open(path); } }, t(TEXTS.open)), h("button.key", { type: "button", onclick: () => begin() }, t(TEXTS.new)),
+      h("button.key", { type: "button", onclick: () => openScreen("load", { source: "dxf" }) }, t(TEXTS.dxf)),
+      h("button.key", { type: "button", onclick: () => saveAs() }, t(TEXTS.saveas)), saveKey);
     body.classList.add("is-editor");
     body.append(host, findings, h("div.row", {}, state));
     const editor = createEditor(host, {
@@ -41,17 +55,17 @@ export const screen = {
     const isChanged = () => editor.text() !== saved;
     const isLocked = () => Boolean(path && model.program.value.loaded?.path === path && model.state.value.running);
     function draw() {
-      setTitle(`${t("edit.title")}: ${path || t("edit.unnamed")}${isChanged() ? " *" : ""}`);
+      setTitle(`${t(TEXTS.title)}: ${path || t(TEXTS.unnamed)}${isChanged() ? " *" : ""}`);
       saveKey.disabled = isLocked() || !isChanged();
-      setText(state, isLocked() ? t("edit.locked") : t("edit.lines", { count: editor.lines() }));
+      setText(state, isLocked() ? t(TEXTS.locked) : t("edit.lines", { count: editor.lines() }));
       editor.setReadOnly(isLocked());
     }
     endings.add(model.state.watch(draw));
 
     async function mayDrop() {
       if (!isChanged()) return true;
-      const chosen = await ask({ title: t("edit.leave"), body: [h("p", {}, t("edit.leave.text", { name: path || t("edit.unnamed") }))], choices: [
-        { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" }, { text: t("edit.save"), value: "save", kind: "main" },
+      const chosen = await ask({ title: t("edit.leave"), body: [h("p", {}, t("edit.leave.text", { name: path || t(TEXTS.unnamed) }))], choices: [
+        { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" }, { text: t(TEXTS.save), value: "save", kind: "main" },
       ] });
       return chosen === "drop" || (chosen === "save" && (await save()));
     }
@@ -85,8 +99,8 @@ export const screen = {
     async function open(preset) {
       const name = h("input.field.grow", { value: preset, ariaLabel: t("edit.name"), autocomplete: "off", spellcheck: false });
       const list = fileList({ kinds: ["program", "other", "batch"], chosen: (entry) => { name.value = entry.path; } });
-      const chosen = await ask({ title: t("edit.open"), body: [list.element, h("label.row", {}, t("edit.name"), name)], first: name, className: "wide", choices: [
-        { text: t("key.cancel"), value: null }, { text: t("edit.open"), kind: "main", isSubmit: true, value: () => withEnding(name.value.trim()) || undefined },
+      const chosen = await ask({ title: t(TEXTS.open), body: [list.element, h("label.row", {}, t("edit.name"), name)], first: name, className: "wide", choices: [
+        { text: t("key.cancel"), value: null }, { text: t(TEXTS.open), kind: "main", isSubmit: true, value: () => withEnding(name.value.trim()) || undefined },
       ] });
       if (chosen) await read(chosen);
     }
@@ -101,7 +115,7 @@ export const screen = {
     }
 
     async function saveAs() {
-      const name = withEnding((await askText(t("edit.saveas"), t("edit.name"), path || "NEW.TXT")) ?? "");
+      const name = withEnding((await askText(t(TEXTS.saveas), t("edit.name"), path || "NEW.TXT")) ?? "");
       if (!name) return false;
       if (name !== path) [path, version] = [name, null];
       return save();

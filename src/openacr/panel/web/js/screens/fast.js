@@ -5,7 +5,7 @@ import { watchTable } from "../frame/watch_table.js";
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "fast.title",
+  title: { en: "Fast status", de: "Fast Status" },
   area: "full",
   async show({ body, endings }) {
     const host = h("div.fact-groups", {});

@@ -3,7 +3,7 @@ import { showForm } from "../frame/form.js";
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "form.title",
+  title: { en: "Parameters", de: "Parameter" },
   show({ body, args, endings, setTitle, beforeClose }) {
     beforeClose(showForm(body, args.form, endings, setTitle));
   },

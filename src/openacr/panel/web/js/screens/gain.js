@@ -6,9 +6,18 @@ import { evaluate } from "../core/arithmetic.js";
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 
+const TEXTS = {
+  enter: { en: "ENTER", de: "EINGABE" },
+  done: { en: "{gain} is {value}", de: "{gain} ist {value}" },
+  later: {
+    en: "{gain} is {value}; it is stored once the machine rests",
+    de: "{gain} ist {value}; gespeichert wird, sobald die Maschine ruht",
+  },
+};
+
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "gain.title",
+  title: { en: "Gain", de: "Reglerverstärkung" },
   async show({ body, endings }) {
     const axes = h("div.row.wrap", { role: "radiogroup", ariaLabel: t("form.axis") });
     const store = h("input", { type: "checkbox", checked: true });
@@ -47,7 +56,7 @@ function rowOf(axis, row, store) {
     const answer = await give("gain.set", { axis: axis.name, gain: row.name, value, store: store.checked && axis.isMachines });
     if (!answer) return;
     field.value = String(answer.value);
-    report(t(store.checked && !answer.is_stored ? "gain.later" : "gain.done", { gain: row.name, value: answer.value }));
+    report(t(store.checked && !answer.is_stored ? TEXTS.later : TEXTS.done, { gain: row.name, value: answer.value }));
   };
-  return h("form.gain-row", { onsubmit: enter }, h("label", { htmlFor: field.id, title: row.help }, row.name), field, h("span.unit", {}, row.unit), h("button.key", { type: "submit" }, t("gain.enter")));
+  return h("form.gain-row", { onsubmit: enter }, h("label", { htmlFor: field.id, title: row.help }, row.name), field, h("span.unit", {}, row.unit), h("button.key", { type: "submit" }, t(TEXTS.enter)));
 }

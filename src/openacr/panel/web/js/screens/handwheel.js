@@ -5,22 +5,33 @@ import { t } from "../core/texts.js";
 import { axisChoice } from "../frame/axis_choice.js";
 import { mayMove } from "../motion/actions.js";
 
+const TEXTS = {
+  text: {
+    en: "The wheel moves the chosen axes until this screen is left.",
+    de: "Das Rad bewegt die gewählten Achsen, bis dieser Bildschirm verlassen wird.",
+  },
+  axes: { en: "Axes on the wheel", de: "Achsen am Rad" },
+  start: { en: "CONNECT", de: "VERBINDEN" },
+  end: { en: "DISCONNECT", de: "TRENNEN" },
+  on: { en: "The wheel moves {axes}", de: "Das Rad bewegt {axes}" },
+};
+
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "handwheel.title",
+  title: { en: "Handwheel", de: "Handrad" },
   mode: "manual",
   show({ body, endings }) {
-    const choice = axisChoice({ label: t("handwheel.axes") });
+    const choice = axisChoice({ label: t(TEXTS.axes) });
     const state = h("div.notice", { role: "status", hidden: true });
     const turn = async (/** @type {string} */ axes) => {
       if (await give("handwheel", { axes })) {
         state.hidden = !axes;
-        setText(state, t("handwheel.on", { axes: axes.split("").join(" ") }));
+        setText(state, t(TEXTS.on, { axes: axes.split("").join(" ") }));
       }
     };
-    body.append(h("p", {}, t("handwheel.text")), choice.element, h("div.row", {},
-      h("button.key.big.main", { type: "button", onclick: () => mayMove() && turn(choice.names()) }, t("handwheel.start")),
-      h("button.key.big", { type: "button", onclick: () => turn("") }, t("handwheel.end"))), state);
+    body.append(h("p", {}, t(TEXTS.text)), choice.element, h("div.row", {},
+      h("button.key.big.main", { type: "button", onclick: () => mayMove() && turn(choice.names()) }, t(TEXTS.start)),
+      h("button.key.big", { type: "button", onclick: () => turn("") }, t(TEXTS.end))), state);
     endings.add(() => {
       if (!state.hidden) void give("handwheel", { axes: "" });
     });

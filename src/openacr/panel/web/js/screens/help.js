@@ -5,6 +5,10 @@ import { t } from "../core/texts.js";
 import { MENUS } from "../frame/menus.js";
 import { closeScreen } from "../frame/screen_host.js";
 
+const TEXTS = {
+  none: { en: "There is no page on this key.", de: "Zu dieser Taste gibt es keine Seite." },
+};
+
 /** Keys that are explained on a page with others. @type {Record<string, string>} */
 const PAGES = {
   main: "", diag: "setdiag", parameters: "setdiag", clearZero: "clrzero", zero: "setzero", gotoZero: "gotozero",
@@ -14,7 +18,7 @@ const PAGES = {
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "help.title",
+  title: { en: "Help", de: "Hilfe" },
   area: "full",
   show({ body, head, endings }) {
     const newest = latest(endings);
@@ -28,7 +32,7 @@ export const screen = {
     } }, t("tour.title")));
     const show = async (/** @type {HTMLElement} */ item, /** @type {string} */ key, /** @type {string} */ label) => {
       for (const each of list.children) each.setAttribute("aria-current", String(each === item));
-      const page = await newest(get(`help/${key}`, { language: document.documentElement.lang })).catch(() => ({ title: label, text: t("help.none") }));
+      const page = await newest(get(`help/${key}`, { language: document.documentElement.lang })).catch(() => ({ title: label, text: t(TEXTS.none) }));
       if (page) fill(text, h("h2", {}, page.title), ...page.text.split(/\n\s*\n/).map((/** @type {string} */ part) => h("p", {}, part)));
     };
     const seen = new Set();

@@ -5,14 +5,26 @@ import { t, textOr } from "../core/texts.js";
 import { axisChoice } from "../frame/axis_choice.js";
 import { mayMove } from "../motion/actions.js";
 
+const TEXTS = {
+  text: {
+    en: "The axes move to their switches: clear the table. Order by priority.",
+    de: "Die Achsen fahren zu ihren Schaltern: Tisch freimachen. Reihenfolge nach Priorität.",
+  },
+  axes: { en: "Axes to be homed", de: "Achsen" },
+  start: { en: "START HOME", de: "REFERENZFAHRT STARTEN" },
+  progress: { en: "Homing is in progress: {reason}", de: "Die Referenzfahrt läuft: {reason}" },
+  homed: { en: "homed", de: "referenziert" },
+  nothomed: { en: "not homed", de: "nicht referenziert" },
+};
+
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "home.title",
+  title: { en: "Home", de: "Referenzfahrt" },
   mode: "home",
   show({ body, endings }) {
     /** @type {Map<string, HTMLElement>} */
     const states = new Map();
-    const choice = axisChoice({ label: t("home.axes"), isOn: () => true, extra: (axis) => {
+    const choice = axisChoice({ label: t(TEXTS.axes), isOn: () => true, extra: (axis) => {
       const state = h("span.home-state", {}, "");
       states.set(axis.name, state);
       return state;
@@ -21,15 +33,15 @@ export const screen = {
       const axes = choice.names();
       if (!axes) refuse(t("axes.none"));
       else if (mayMove()) await give("home.start", { axes });
-    } }, t("home.start"));
+    } }, t(TEXTS.start));
     const stop = h("button.key.big.bad", { type: "button", onclick: () => give("stop.hold") }, t("menu.stop"));
     const progress = h("div.notice", { role: "status" });
-    body.append(h("p", {}, t("home.text")), choice.element, h("div.row", {}, h("div.grow", {}, start), stop), progress);
+    body.append(h("p", {}, t(TEXTS.text)), choice.element, h("div.row", {}, h("div.grow", {}, start), stop), progress);
     endings.add(
       model.home.watch(({ axes }) => axes.forEach((each) => {
         const element = states.get(each.name);
         if (!element) return;
-        const text = each.homed ? `\u2302 ${t("home.homed")}` : each.state ? textOr(`home.state.${each.state}`, each.state) : t("home.nothomed");
+        const text = each.homed ? `\u2302 ${t(TEXTS.homed)}` : each.state ? textOr(`home.state.${each.state}`, each.state) : t(TEXTS.nothomed);
         setText(element, text);
         element.classList.toggle("is-homed", each.homed);
       })),
@@ -38,7 +50,7 @@ export const screen = {
         stop.hidden = !isHoming;
         start.disabled = state.busy;
         progress.hidden = !isHoming;
-        setText(progress, isHoming ? t("home.progress", { reason: state.reason || "" }) : "");
+        setText(progress, isHoming ? t(TEXTS.progress, { reason: state.reason || "" }) : "");
       }),
     );
   },

@@ -7,6 +7,18 @@ import { t } from "../core/texts.js";
 import { mayMove } from "../motion/actions.js";
 import { holdByKeyboard, makeHeld, releaseAll, releaseKeyboard } from "../motion/hold.js";
 
+const TEXTS = {
+  speed: { en: "Speed", de: "Geschwindigkeit" },
+  slow: { en: "SLOW", de: "LANGSAM" },
+  fast: { en: "FAST", de: "SCHNELL" },
+  how: { en: "Continuous or increment", de: "Dauernd oder schrittweise" },
+  continuous: { en: "CONTINUOUS", de: "DAUERND" },
+  text: {
+    en: "Hold a key to move. Arrow keys move X and Y, Page Up and Page Down move Z. STOP is not an emergency stop.",
+    de: "Taste halten zum Fahren. Pfeiltasten fahren X und Y, Bild auf und ab fahren Z. STOP ist kein Not-Halt.",
+  },
+};
+
 const PRESETS = [1, 2, 3, 4, 5];
 const CROSS = ["X", "Y"];
 const CROSS_WIDE = 3; // columns
@@ -20,10 +32,10 @@ export const screen = {
   title: "jog.title",
   mode: "manual",
   show({ body, endings }) {
-    const increments = h("div.row.wrap", { role: "radiogroup", ariaLabel: t("jog.how") });
-    const speeds = h("div.row", { role: "radiogroup", ariaLabel: t("jog.speed") });
+    const increments = h("div.row.wrap", { role: "radiogroup", ariaLabel: t(TEXTS.how) });
+    const speeds = h("div.row", { role: "radiogroup", ariaLabel: t(TEXTS.speed) });
     const keys = h("div.jog-keys", {});
-    body.append(h("div.jog-choices", {}, speeds, increments), keys, h("p.hint", {}, t("jog.text")));
+    body.append(h("div.jog-choices", {}, speeds, increments), keys, h("p.hint", {}, t(TEXTS.text)));
     /** @type {Map<string, HTMLElement>} */
     const held = new Map();
     const beside = model.axes.filter(({ name }) => !CROSS.includes(name));
@@ -40,8 +52,8 @@ export const screen = {
     });
     const draw = (/** @type {(number | string)[]} */ steps) => {
       const focused = [speeds, increments].find((each) => each.contains(document.activeElement));
-      fill(speeds, radio(t("jog.slow"), !fast.value, () => choose(fast, false)), radio(t("jog.fast"), fast.value, () => choose(fast, true)));
-      fill(increments, radio(t("jog.continuous"), preset.value === 0, () => choose(preset, 0)),
+      fill(speeds, radio(t(TEXTS.slow), !fast.value, () => choose(fast, false)), radio(t(TEXTS.fast), fast.value, () => choose(fast, true)));
+      fill(increments, radio(t(TEXTS.continuous), preset.value === 0, () => choose(preset, 0)),
         ...PRESETS.map((n) => radio(String(steps[n - 1] ?? n), preset.value === n, () => choose(preset, n))));
       /** @type {HTMLElement | null | undefined} */ (focused?.querySelector("[aria-checked=true]"))?.focus();
     };

@@ -11,16 +11,20 @@ import { dxfSource } from "../load/dxf.js";
 import { linkSource } from "../load/link.js";
 import { partSource } from "../load/parts.js";
 
+const TEXTS = {
+  source: { en: "Source", de: "Quelle" },
+};
+
 const SOURCES = { file: fileSource, part: partSource, dxf: dxfSource, batch: batchSource, drip: dripSource, link: linkSource };
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "load.title",
+  title: { en: "Load program", de: "Programm laden" },
   area: "full",
   show({ body, endings, args }) {
     const own = new Endings();
     endings.add(() => own.end());
-    const list = h("div.row.wrap.source-keys", { role: "radiogroup", ariaLabel: t("load.source") });
+    const list = h("div.row.wrap.source-keys", { role: "radiogroup", ariaLabel: t(TEXTS.source) });
     const host = h("div.load-host.grow", {});
     body.append(list, host);
     const choose = (/** @type {keyof typeof SOURCES} */ name) => {

@@ -6,13 +6,26 @@ import { t } from "../core/texts.js";
 import { askText } from "../frame/dialog.js";
 import { mayMove } from "../motion/actions.js";
 
+const TEXTS = {
+  buffer: { en: "Executed blocks", de: "Ausgeführte Sätze" },
+  line: { en: "Block", de: "Satz" },
+  execute: { en: "EXECUTE", de: "AUSFÜHREN" },
+  on: { en: "BUFFER", de: "PUFFER" },
+  keep: { en: "KEEP EDIT", de: "ÜBERNEHMEN" },
+  runall: { en: "RUN ALL", de: "ALLE AUSFÜHREN" },
+  save: { en: "SAVE AS", de: "SPEICHERN" },
+  clear: { en: "CLEAR", de: "LEEREN" },
+  running: { en: "A block is being executed", de: "Ein Satz wird ausgeführt" },
+  count: { en: "{count} {count|block|blocks}", de: "{count} {count|Satz|Sätze}" },
+};
+
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "mdi.title",
+  title: { en: "MDI", de: "MDI" },
   mode: "mdi",
   show({ body, endings }) {
-    const buffer = h("textarea.field.mono.grow", { ariaLabel: t("mdi.buffer"), spellcheck: false, wrap: "off" });
-    const line = h("input.field.mono.grow", { ariaLabel: t("mdi.line"), placeholder: "G0 X10 Y5", autocomplete: "off", spellcheck: false, autocapitalize: "characters", autofocus: true });
+    const buffer = h("textarea.field.mono.grow", { ariaLabel: t(TEXTS.buffer), spellcheck: false, wrap: "off" });
+    const line = h("input.field.mono.grow", { ariaLabel: t(TEXTS.line), placeholder: "G0 X10 Y5", autocomplete: "off", spellcheck: false, autocapitalize: "characters", autofocus: true });
     const state = h("span.hint", { role: "status" });
     const isOn = h("input", { type: "checkbox", onchange: () => give("mdi.buffer", { on: isOn.checked }) });
     /** @type {string[]} */
@@ -51,33 +64,33 @@ export const screen = {
       keep.hidden = !isEdited;
       return done;
     };
-    const keep = h("button.key", { type: "button", hidden: true, onclick: keepEdit }, t("mdi.keep"));
+    const keep = h("button.key", { type: "button", hidden: true, onclick: keepEdit }, t(TEXTS.keep));
     const runAll = h("button.key", { type: "button", onclick: async () => {
       if (mayMove() && (!isEdited || (await keepEdit()))) await give("mdi.execute", { lines: lines(), kept: true });
-    } }, t("mdi.runall"));
-    const save = h("button.key", { type: "button", onclick: () => saveAs(buffer.value) }, t("mdi.save"));
+    } }, t(TEXTS.runall));
+    const save = h("button.key", { type: "button", onclick: () => saveAs(buffer.value) }, t(TEXTS.save));
     const clear = h("button.key", { type: "button", onclick: async () => {
       if (await give("mdi.buffer", { lines: [] })) buffer.value = "";
-    } }, t("mdi.clear"));
-    body.append(buffer, h("div.row.wrap", {}, h("label.check.row", {}, isOn, t("mdi.on")), state, h("span.grow", {}), keep, runAll, save, clear),
+    } }, t(TEXTS.clear));
+    body.append(buffer, h("div.row.wrap", {}, h("label.check.row", {}, isOn, t(TEXTS.on)), state, h("span.grow", {}), keep, runAll, save, clear),
       h("form.row", { onsubmit: (/** @type {Event} */ event) => {
         event.preventDefault();
         void execute();
-      } }, line, h("button.key.main.big", { type: "submit" }, t("mdi.execute"))));
+      } }, line, h("button.key.main.big", { type: "submit" }, t(TEXTS.execute))));
     endings.add(model.mdi.watch((mdi) => {
       isOn.checked = mdi.on;
       if (mdi.on) unkept = [];
       history = [...mdi.buffer, ...unkept];
       if (!isEdited) buffer.value = mdi.buffer.join("\n");
       buffer.scrollTop = buffer.scrollHeight;
-      setText(state, mdi.running ? t("mdi.running") : t("mdi.count", { count: mdi.buffer.length }));
+      setText(state, mdi.running ? t(TEXTS.running) : t(TEXTS.count, { count: mdi.buffer.length }));
     }));
   },
 };
 
 /** @param {string} text */
 async function saveAs(text) {
-  const name = await askText(t("mdi.save"), t("edit.name"), "MDI.TXT");
+  const name = await askText(t(TEXTS.save), t("edit.name"), "MDI.TXT");
   if (!name) return;
   try {
     await writeFile(name, `${text}\n`, null);

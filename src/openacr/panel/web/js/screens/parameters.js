@@ -4,13 +4,18 @@ import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { showFormTabs } from "../frame/form_tabs.js";
 
+const TEXTS = {
+  search: { en: "Find a parameter", de: "Parameter suchen" },
+  nothing: { en: "Nothing found", de: "Nichts gefunden" },
+};
+
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "parameters.title",
+  title: { en: "System parameters", de: "Systemparameter" },
   area: "full",
   async show(place) {
     const found = h("div.search-results.list", { hidden: true });
-    const field = h("input.field", { type: "search", placeholder: t("parameters.search"), ariaLabel: t("parameters.search"), oninput: () => void search() });
+    const field = h("input.field", { type: "search", placeholder: t(TEXTS.search), ariaLabel: t(TEXTS.search), oninput: () => void search() });
     place.head.append(h("div.search", {}, field, found));
     const newest = latest(place.endings);
     const search = async () => {
@@ -20,7 +25,7 @@ export const screen = {
       const answer = await newest(get("settings/search", { text })).catch(() => ({ cells: [] }));
       if (!answer) return;
       const { cells } = answer;
-      fill(found, ...(cells.length ? cells.slice(0, 30).map(rowOf) : [h("p.hint", {}, t("parameters.nothing"))]));
+      fill(found, ...(cells.length ? cells.slice(0, 30).map(rowOf) : [h("p.hint", {}, t(TEXTS.nothing))]));
     };
     const rowOf = (/** @type {any} */ cell) => h("button.key.item", { type: "button", onclick: () => {
       found.hidden = true;

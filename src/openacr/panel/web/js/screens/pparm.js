@@ -5,12 +5,16 @@ import { h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { askNumber } from "../frame/number_pad.js";
 
+const TEXTS = {
+  done: { en: "P{n} is {value}", de: "P{n} ist {value}" },
+};
+
 const COUNT = 200;
 const EVERY_MS = 1000;
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "pparm.title",
+  title: { en: "P parameters", de: "P-Parameter" },
   area: "full",
   show({ body, endings }) {
     /** @type {number[]} */
@@ -33,7 +37,7 @@ export const screen = {
       if (value === null) return;
       try {
         await send("PUT", "pparm", { values: { [n]: value } });
-        report(t("pparm.done", { n, value }));
+        report(t(TEXTS.done, { n, value }));
         await read();
       } catch (error) {
         refuse(error);

@@ -7,6 +7,45 @@ import { t, textOr } from "../core/texts.js";
 import { ask, confirm } from "../frame/dialog.js";
 import { createListing } from "../frame/listing.js";
 
+const TEXTS = {
+  list: { en: "Programs and PLCs", de: "Programme und SPS" },
+  text: { en: "Text as the card lists it", de: "Text, wie ihn die Karte auflistet" },
+  printed: { en: "What the program prints", de: "Ausgaben des Programms" },
+  choose: { en: "Choose a program", de: "Programm wählen" },
+  bytes: { en: "{used} bytes", de: "{used} Byte" },
+  differs: { en: "≠ project", de: "≠ Projekt" },
+  differsText: {
+    en: "Its text on the card is another one than in the project: it is lost with the process of the panel unless it is saved into the project (Editor)",
+    de: "Auf der Karte steht ein anderer Text als im Projekt: er geht mit dem Prozess des Panels verloren, wenn er nicht ins Projekt gespeichert wird (Editor)",
+  },
+  nomemory: { en: "no memory", de: "kein Speicher" },
+  run: { en: "RUN", de: "START" },
+  halt: { en: "HALT", de: "HALT" },
+  pause: { en: "PAUSE", de: "PAUSE" },
+  resume: { en: "RESUME", de: "WEITER" },
+  block: { en: "BLOCK", de: "EINZEL" },
+  step: { en: "STEP", de: "SCHRITT" },
+  listen: { en: "LISTEN", de: "MITHÖREN" },
+  edit: { en: "EDIT", de: "ÄNDERN" },
+  clear: { en: "CLEAR", de: "LÖSCHEN" },
+  send: { en: "SEND", de: "SENDEN" },
+  sent: {
+    en: "{name}: {count} {count|line is|lines are} stored on the card",
+    de: "{name}: {count} {count|Zeile ist|Zeilen sind} auf der Karte gespeichert",
+  },
+  runTitle: { en: "Start {name}?", de: "{name} starten?" },
+  runText: {
+    en: "A program of the card can move axes at once. STOP pauses it; it is not held by the overrides of this machine.",
+    de: "Ein Programm der Karte kann sofort Achsen bewegen. STOP hält es an; die Overrides dieser Maschine wirken nicht darauf.",
+  },
+  clearTitle: { en: "Erase {name}?", de: "{name} löschen?" },
+  clearText: {
+    en: "Its lines are erased from the memory of the card.",
+    de: "Seine Zeilen werden im Speicher der Karte gelöscht.",
+  },
+  cleared: { en: "{name} is empty", de: "{name} ist leer" },
+};
+
 /**
  * @typedef {{ name: string, state: string, line?: number, block?: boolean }} State
  * @typedef {State & { bytes: number, used: number, owner: string }} Listed
@@ -16,7 +55,7 @@ const HALTED = "halted";
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "programs.title",
+  title: { en: "Programs and PLCs of the card", de: "Programme und SPS der Karte" },
   area: "full",
   async show({ body, head, endings, args, beforeClose }) {
     /** @type {Listed[]} */
@@ -29,17 +68,17 @@ export const screen = {
     let isRead = false; // `lines` are those of the chosen program
     let listened = "";
     const [newest, newestList, newestProject] = [latest(endings), latest(endings), latest(endings)];
-    const items = h("div.list.scroll.program-list", { role: "listbox", ariaLabel: t("programs.list") });
+    const items = h("div.list.scroll.program-list", { role: "listbox", ariaLabel: t(TEXTS.list) });
     const title = h("strong", { role: "status" });
     const keys = h("div.program-keys", {});
-    const text = h("textarea.field.mono.grow", { ariaLabel: t("programs.text"), spellcheck: false, wrap: "off", hidden: true });
+    const text = h("textarea.field.mono.grow", { ariaLabel: t(TEXTS.text), spellcheck: false, wrap: "off", hidden: true });
     const place = h("div.program-text.grow", {});
-    const printed = h("pre.listing-plain.mono.printed", { role: "log", ariaLabel: t("programs.printed"), tabIndex: 0, hidden: true });
+    const printed = h("pre.listing-plain.mono.printed", { role: "log", ariaLabel: t(TEXTS.printed), tabIndex: 0, hidden: true });
     body.classList.add("is-tabbed");
     body.append(items, h("div.program-side", {}, title, keys, place, text, printed));
     const listing = createListing(place, {
       read: async (first, count) => lines.slice(first - 1, first - 1 + count).map((each) => each.text),
-      numberOf: (row) => String(lines[row - 1]?.number ?? ""), clicked: () => {}, scrolled: () => {}, label: t("programs.text"),
+      numberOf: (row) => String(lines[row - 1]?.number ?? ""), clicked: () => {}, scrolled: () => {}, label: t(TEXTS.text),
     });
     head.append(h("button.key", { type: "button", onclick: () => readList() }, t("programs.read")));
 
@@ -52,7 +91,7 @@ export const screen = {
     async function mayDrop() {
       if (!isEdited()) return true;
       const chosen = await ask({ title: t("edit.leave"), body: [h("p", {}, t("edit.leave.text", { name }))], choices: [
-        { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" }, { text: t("programs.send"), value: "send" }] });
+        { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" }, { text: t(TEXTS.send), value: "send" }] });
       return chosen === "drop" || (chosen === "send" && (await send()));
     }
 
@@ -70,7 +109,7 @@ export const screen = {
 
     function drawList() {
       fill(items, ...listed.map((each) => h("button.key.item", { type: "button", role: "option", data: { name: each.name }, attr: { "aria-selected": String(each.name === name) }, onclick: () => choose(each.name) },
-        h("span.name", {}, each.name), h("span.program-state", {}), h("span.program-differs", { title: t("programs.differs.text") }, differing.includes(each.name) ? t("programs.differs") : ""), h("span.quiet.number", {}, each.bytes ? t("programs.bytes", { used: each.used }) : t("programs.nomemory")))));
+        h("span.name", {}, each.name), h("span.program-state", {}), h("span.program-differs", { title: t(TEXTS.differsText) }, differing.includes(each.name) ? t(TEXTS.differs) : ""), h("span.quiet.number", {}, each.bytes ? t(TEXTS.bytes, { used: each.used }) : t(TEXTS.nomemory)))));
       drawStates();
     }
 
@@ -82,7 +121,7 @@ export const screen = {
         item.classList.toggle("is-running", state !== undefined && state.state !== HALTED);
       }
       const state = states.get(name);
-      setText(title, name ? [name, state ? stateText(state) : "", state?.line ? t("programs.line", { line: state.line }) : ""].filter(Boolean).join(" \u00b7 ") : t("programs.choose"));
+      setText(title, name ? [name, state ? stateText(state) : "", state?.line ? t("programs.line", { line: state.line }) : ""].filter(Boolean).join(" \u00b7 ") : t(TEXTS.choose));
       listing.mark(state?.line ? lines.findIndex((each) => each.number === state.line) + 1 : 0, true);
       drawKeys(state);
     }
@@ -127,29 +166,29 @@ export const screen = {
       const key = (/** @type {any} */ label, /** @type {() => void} */ does, more = {}) => h("button.key", { type: "button", disabled: Boolean(bar), title: bar, onclick: does, ...more }, t(label));
       const order = (/** @type {string} */ cmd, values = {}) => () => void give(cmd, { ...which(), ...values });
       const focused = keys.contains(document.activeElement) ? document.activeElement?.textContent : "";
-      if (!text.hidden) fill(keys, key("programs.send", () => send(), { className: "key main", disabled: false }), h("button.key", { type: "button", onclick: () => drop() }, t("form.drop")));
+      if (!text.hidden) fill(keys, key(TEXTS.send, () => send(), { className: "key main", disabled: false }), h("button.key", { type: "button", onclick: () => drop() }, t("form.drop")));
       else fill(keys,
-        key("programs.run", () => run(), { className: bar || isRunning ? "key" : "key danger", disabled: Boolean(bar) || isRunning, ...shortcut("run", "Alt+R", bar) }), key("programs.halt", order("card.halt")),
+        key(TEXTS.run, () => run(), { className: bar || isRunning ? "key" : "key danger", disabled: Boolean(bar) || isRunning, ...shortcut("run", "Alt+R", bar) }), key(TEXTS.halt, order("card.halt")),
         ...(isPlc ? [] : [
-          key("programs.pause", order("card.pause"), { disabled: Boolean(bar) || !isRunning || isPaused }), key("programs.resume", order("card.resume"), { disabled: Boolean(bar) || !isPaused }),
-          key("programs.block", order("card.block", { on: !state?.block }), { ariaPressed: String(Boolean(state?.block)) }), key("programs.step", order("card.step"), { disabled: Boolean(bar) || !state?.block, ...shortcut("step", "Alt+S", bar) }),
-          key("programs.listen", () => listen(), { ariaPressed: String(listened === name), disabled: false, title: "" }),
+          key(TEXTS.pause, order("card.pause"), { disabled: Boolean(bar) || !isRunning || isPaused }), key(TEXTS.resume, order("card.resume"), { disabled: Boolean(bar) || !isPaused }),
+          key(TEXTS.block, order("card.block", { on: !state?.block }), { ariaPressed: String(Boolean(state?.block)) }), key(TEXTS.step, order("card.step"), { disabled: Boolean(bar) || !state?.block, ...shortcut("step", "Alt+S", bar) }),
+          key(TEXTS.listen, () => listen(), { ariaPressed: String(listened === name), disabled: false, title: "" }),
         ]),
-        key("programs.edit", () => edit(true), { disabled: Boolean(bar) || isRunning || !isRead }), key("programs.clear", () => clear(), { disabled: Boolean(bar) || isRunning || !lines.length }));
+        key(TEXTS.edit, () => edit(true), { disabled: Boolean(bar) || isRunning || !isRead }), key(TEXTS.clear, () => clear(), { disabled: Boolean(bar) || isRunning || !lines.length }));
       if (bar) keys.append(h("p.hint", {}, bar));
       const again = [...keys.querySelectorAll("button")].find((each) => each.textContent === focused && !each.disabled);
       again?.focus();
     }
 
     async function run() {
-      if (!(await confirm(t("programs.run.title", { name }), t("programs.run.text"), t("programs.run")))) return;
+      if (!(await confirm(t(TEXTS.runTitle, { name }), t(TEXTS.runText), t(TEXTS.run)))) return;
       await give("card.run", which());
     }
 
     async function clear() {
-      if (!(await confirm(t("programs.clear.title", { name }), t("programs.clear.text"), t("programs.clear"), "bad"))) return;
+      if (!(await confirm(t(TEXTS.clearTitle, { name }), t(TEXTS.clearText), t(TEXTS.clear), "bad"))) return;
       const cleared = name;
-      if (await give("card.clear", which())) report(t("programs.cleared", { name: cleared }));
+      if (await give("card.clear", which())) report(t(TEXTS.cleared, { name: cleared }));
       await readText();
     }
 
@@ -172,7 +211,7 @@ export const screen = {
       const sent = name;
       const done = await give("card.send", { ...which(), text: text.value });
       if (!done) return false;
-      report(t("programs.sent", { name: sent, count: done.sent }));
+      report(t(TEXTS.sent, { name: sent, count: done.sent }));
       if (sent === name) edit(false);
       await readText();
       return true;

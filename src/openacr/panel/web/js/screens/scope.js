@@ -12,6 +12,15 @@ import { DIVISIONS, fitting } from "../scope/scales.js";
 import { COLORS, createScreen } from "../scope/screen.js";
 import { stateOf, stateText } from "../scope/state.js";
 
+const TEXTS = {
+  indexText: {
+    en: "The axis moves now: {move}. Is its path free?",
+    de: "Die Achse fährt jetzt: {move}. Ist ihr Weg frei?",
+  },
+  profile: { en: "Index profile", de: "Index-Profil" },
+  range: { en: "Sweep and sampling are times above 0 ms", de: "Ablenkung und Abtastung sind Zeiten über 0 ms" },
+};
+
 const CHANNELS = 4;
 const PROFILE = "ACC 500\nDEC 500\nSTP 500\nJRK 0\nF500\nRES X\nX15";
 const SOURCES = ["P12291", "P12290", "P12295", ""];
@@ -32,7 +41,7 @@ export const screen = {
     const level = numberField(t("scope.level"), "scope.level", "0");
     const mode = selectField(t("scope.mode"), ["free", "auto", "normal", "single"]);
     const slope = selectField(t("scope.slope"), ["rising", "falling"]);
-    const profile = h("textarea.field.mono", { ariaLabel: t("scope.profile"), value: setting("scope.profile", PROFILE), spellcheck: false, rows: 7 });
+    const profile = h("textarea.field.mono", { ariaLabel: t(TEXTS.profile), value: setting("scope.profile", PROFILE), spellcheck: false, rows: 7 });
     const state = h("span.hint.grow", { role: "status" });
     const chart = h("div.scope-chart.grow", {});
     const recording = new Recording();
@@ -43,7 +52,7 @@ export const screen = {
       h("div.scope-channel", {}, h("span", {}), ...["scope.head.source", "scope.head.scale", "scope.head.offset"].map((each) => h("span.hint", {}, t(/** @type {any} */ (each))))),
       ...channels.map((each, n) => h("div.scope-channel", { data: { channel: String(n + 1) } }, h("strong", {}, String(n + 1)), each.source, each.scale, each.offset)),
       h("div.scope-settings", {}, row(t("scope.sweep"), sweep), row(t("scope.period"), period), row(t("scope.mode"), mode), row(t("scope.slope"), slope), row(t("scope.level"), level)),
-      h("label.stack", {}, t("scope.profile"), profile)), h("div.stack.grow", {}, chart, state));
+      h("label.stack", {}, t(TEXTS.profile), profile)), h("div.stack.grow", {}, chart, state));
     body.classList.add("is-scope");
     const screenOf = createScreen(chart, endings);
     const draw = () => {
@@ -74,7 +83,7 @@ export const screen = {
       for (const field of body.querySelectorAll("input[data-setting]")) keepSetting(/** @type {any} */ (field).dataset.setting, /** @type {any} */ (field).value);
       const [sweepMs, periodMs] = [numberOf(sweep), numberOf(period)];
       if (!(sweepMs > 0) || !(periodMs > 0)) {
-        refuse(t("scope.range"));
+        refuse(t(TEXTS.range));
         return null;
       }
       return { channels: channels.map(({ source }) => source.value.trim()).filter(Boolean), period_ms: periodMs, sweep_ms: DIVISIONS * sweepMs };
@@ -96,7 +105,7 @@ export const screen = {
 
     async function index() {
       keepSetting("scope.profile", profile.value);
-      if (!mayMove() || !(await confirm(t("scope.index"), t("scope.index.text", { move: profile.value.trim().split("\n").at(-1) ?? "" }), t("scope.index")))) return;
+      if (!mayMove() || !(await confirm(t("scope.index"), t(TEXTS.indexText, { move: profile.value.trim().split("\n").at(-1) ?? "" }), t("scope.index")))) return;
       await arm(profile.value);
     }
 
@@ -125,7 +134,7 @@ function numberOf(field) {
 }
 
 /**
- * @param {import("../core/texts.js").TextKey} text
+ * @param {import("../core/texts.js").Said} text
  * @param {() => void} onclick
  * @param {string} [kind]
  */

@@ -8,6 +8,14 @@ import { t } from "../core/texts.js";
 import { needValues } from "../core/values.js";
 import { PLACES, drawLoop } from "../draw/loop.js";
 
+const TEXTS = {
+  label: { en: "Servo loop of axis {axis}", de: "Regelkreis der Achse {axis}" },
+  open: { en: "Loop open", de: "Regelkreis offen" },
+  closed: { en: "Loop closed", de: "Regelkreis geschlossen" },
+  filtering: { en: "filters on", de: "Filter ein" },
+  bypassed: { en: "filters off", de: "Filter aus" },
+};
+
 const [FIRST, EACH] = [12288, 256]; // parameters of axis 0, distance to those of the next axis
 const [OPEN, FILTER, FLAGS] = [785, 786, 32]; // flags of axis 0: open servo loop, filter active
 
@@ -26,7 +34,7 @@ export const screen = {
       own.end();
       const name = all.find((axis) => axis.index === index)?.title ?? "";
       fill(axes, ...all.map((axis) => h("button.key", { type: "button", role: "radio", ariaChecked: String(axis.index === index), onclick: () => choose(axis.index) }, axis.title)));
-      const picture = drawLoop(t("loop.label", { axis: name }));
+      const picture = drawLoop(t(TEXTS.label, { axis: name }));
       fill(host, picture.element);
       const first = FIRST + EACH * index;
       const flags = [OPEN + FLAGS * index, FILTER + FLAGS * index];
@@ -34,7 +42,7 @@ export const screen = {
         needValues(PLACES.map((place) => first + place), (values) => picture.update((place) => values.get(first + place))), needWords(wordsOf(flags)),
         model.flags.watch((words) => {
           const [isOpen, isFiltering] = flags.map((flag) => stateOf(words, flag));
-          setText(state, [isOpen === undefined ? "" : t(isOpen ? "loop.open" : "loop.closed"), isFiltering === undefined ? "" : t(isFiltering ? "loop.filtering" : "loop.bypassed")].filter(Boolean).join(" \u00b7 "));
+          setText(state, [isOpen === undefined ? "" : t(isOpen ? TEXTS.open : TEXTS.closed), isFiltering === undefined ? "" : t(isFiltering ? TEXTS.filtering : TEXTS.bypassed)].filter(Boolean).join(" \u00b7 "));
           picture.element.classList.toggle("is-bypassed", isFiltering === false);
         }),
       );

@@ -6,12 +6,17 @@ import { axisChoice } from "../frame/axis_choice.js";
 import { ACTIONS } from "../motion/actions.js";
 import { openMenu } from "../frame/menu_bar.js";
 
+const TEXTS = {
+  text: { en: "The chosen axes read 0 where they are (G92).", de: "Die gewählten Achsen zeigen hier 0 an (G92)." },
+  axes: { en: "Axes", de: "Achsen" },
+};
+
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
-  title: "zero.title",
+  title: { en: "Set zero", de: "Null setzen" },
   show({ body }) {
-    const choice = axisChoice({ label: t("zero.axes") });
-    body.append(h("p", {}, t("zero.text")), choice.element, h("div.row.wrap", {},
+    const choice = axisChoice({ label: t(TEXTS.axes) });
+    body.append(h("p", {}, t(TEXTS.text)), choice.element, h("div.row.wrap", {},
       h("button.key.big.main", { type: "button", onclick: async () => {
         const axes = choice.names();
         if (!axes) refuse(t("axes.none"));

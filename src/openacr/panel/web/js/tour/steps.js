@@ -1,6 +1,6 @@
 // The parts of the operator's screen in the order in which the tour shows them.
 
-/** @type {[string, import("../core/texts.js").TextKey][]} selector and text */
+/** @type {[string, import("../core/texts.js").Said][]} selector and text */
 export const STEPS = [
   [".top .state", "tour.state"],
   ["#status", "tour.status"],

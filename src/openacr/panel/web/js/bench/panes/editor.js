@@ -15,6 +15,42 @@ import { comparison } from "../editor/compare.js";
 import { nameActions } from "../editor/name_actions.js";
 import { projectPart } from "../editor/project_part.js";
 
+const TEXTS = {
+  which: { en: "Program or file", de: "Programm oder Datei" },
+  file: { en: "File", de: "Datei" },
+  read: { en: "READ", de: "LESEN" },
+  send: { en: "DOWNLOAD", de: "SENDEN" },
+  compare: { en: "COMPARE", de: "VERGLEICHEN" },
+  open: { en: "OPEN FILE \u2026", de: "DATEI \u00d6FFNEN \u2026" },
+  save: { en: "SAVE FILE", de: "DATEI SPEICHERN" },
+  uses: { en: "USES", de: "VERWENDUNG" },
+  format: { en: "FORMAT", de: "FORMATIEREN" },
+  outline: { en: "OUTLINE", de: "GLIEDERUNG" },
+  close: { en: "CLOSE", de: "SCHLIESSEN" },
+  beside: { en: "Beside the text", de: "Neben dem Text" },
+  findings: { en: "Findings and places", de: "Befunde und Stellen" },
+  changed: { en: "changed", de: "ge\u00e4ndert" },
+  runs: { en: "{name} runs: halt it first", de: "{name} l\u00e4uft: erst anhalten" },
+  more: { en: "{count} more {count|finding|findings}", de: "{count} {count|weiterer Befund|weitere Befunde}" },
+  downloadTitle: { en: "Download {name}?", de: "{name} senden?" },
+  downloadText: {
+    en: "The card stores the programs in this file and carries out all other lines at once: they can erase programs, change settings and move axes.",
+    de: "Die Karte speichert die Programme dieser Datei und f\u00fchrt alle anderen Zeilen sofort aus: Sie k\u00f6nnen Programme l\u00f6schen, Einstellungen \u00e4ndern und Achsen bewegen.",
+  },
+  sent: {
+    en: "{name}: {count} {count|line was|lines were} sent",
+    de: "{name}: {count} {count|Zeile wurde|Zeilen wurden} gesendet",
+  },
+  noprogram: {
+    en: "No line of this file is stored in a program",
+    de: "Keine Zeile dieser Datei wird in einem Programm gespeichert",
+  },
+  notcompared: {
+    en: "The text could not be compared: try again",
+    de: "Der Text konnte nicht verglichen werden: noch einmal versuchen",
+  },
+};
+
 const [SIGNATURE_MS, HALTED] = [150, "halted"];
 
 /** @typedef {import("../editor/card_text.js").Opened} Opened */
@@ -42,15 +78,15 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   let editor;
 
   const actions = nameActions({ asked, editor: () => editor, list, showBeside });
-  const choice = h("select.field", { ariaLabel: t("texts.which"), onchange: () => void chooseLevel() });
-  const input = h("input", { type: "file", hidden: true, ariaLabel: t("texts.open"), accept: ".8k,.8K,.txt,.prg", onchange: () => void chooseFile() });
-  const sendKey = keyOf("texts.send", () => sendNow(), "main");
+  const choice = h("select.field", { ariaLabel: t(TEXTS.which), onchange: () => void chooseLevel() });
+  const input = h("input", { type: "file", hidden: true, ariaLabel: t(TEXTS.open), accept: ".8k,.8K,.txt,.prg", onchange: () => void chooseFile() });
+  const sendKey = keyOf(TEXTS.send, () => sendNow(), "main");
   const project = projectPart({ opened: () => opened, text: () => editor.text(), show: (now) => show(now), mayDrop: () => mayDrop(), draw: () => draw() });
-  head.append(choice, keyOf("texts.read", () => chooseLevel()), sendKey, keyOf("texts.compare", () => compare()), keyOf("texts.open", () => input.click()), input, keyOf("texts.save", () => save()), ...project.keys,
-    keyOf("texts.rename", actions.rename), keyOf("texts.uses", actions.uses), keyOf("texts.format", actions.format), keyOf("texts.outline", actions.outline));
+  head.append(choice, keyOf(TEXTS.read, () => chooseLevel()), sendKey, keyOf(TEXTS.compare, () => compare()), keyOf(TEXTS.open, () => input.click()), input, keyOf(TEXTS.save, () => save()), ...project.keys,
+    keyOf("texts.rename", actions.rename), keyOf(TEXTS.uses, actions.uses), keyOf(TEXTS.format, actions.format), keyOf(TEXTS.outline, actions.outline));
   const code = h("div.editor-host.grow", {});
-  const beside = h("div.stack.scroll.text-beside", { hidden: true, tabIndex: 0, role: "region", ariaLabel: t("texts.beside") });
-  const problems = h("div.findings.scroll", { hidden: true, role: "region", ariaLabel: t("texts.findings") });
+  const beside = h("div.stack.scroll.text-beside", { hidden: true, tabIndex: 0, role: "region", ariaLabel: t(TEXTS.beside) });
+  const problems = h("div.findings.scroll", { hidden: true, role: "region", ariaLabel: t(TEXTS.findings) });
   const signature = h("div.mono.text-signature", { ariaLive: "off" });
   const status = h("span.hint.grow", { role: "status" });
   host.classList.add("is-editor");
@@ -83,9 +119,9 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     const state = stateOf(opened.level);
     const isRunning = state !== undefined && state.state !== HALTED;
     sendKey.disabled = !model.may("service") || isRunning;
-    sendKey.title = isRunning ? t("texts.runs", { name: opened.level }) : model.may("service") ? "" : t("role.needed", { role: t("role.service") });
+    sendKey.title = isRunning ? t(TEXTS.runs, { name: opened.level }) : model.may("service") ? "" : t("role.needed", { role: t("role.service") });
     project.draw();
-    const about = [opened.level || opened.name, state ? stateText(state) : "", t("edit.lines", { count: editor.doc().lines }), isChanged() ? t("texts.changed") : "",
+    const about = [opened.level || opened.name, state ? stateText(state) : "", t("edit.lines", { count: editor.doc().lines }), isChanged() ? t(TEXTS.changed) : "",
       project.differs()];
     setText(status, about.filter(Boolean).join(" \u00b7 "));
     drawMarks();
@@ -140,7 +176,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
    */
   function showFindings(findings, more) {
     list(findings.map(({ span, text, is_warning, fix }) => ({ span, text, kind: is_warning ? "warning" : "error", fix })));
-    if (more) problems.append(h("p.hint", {}, t("texts.more", { count: more })));
+    if (more) problems.append(h("p.hint", {}, t(TEXTS.more, { count: more })));
   }
 
   /** @param {import("../editor/name_actions.js").Item[]} items */
@@ -153,7 +189,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
 
   /** @param {...Node} content */
   function showBeside(...content) {
-    fill(beside, h("div.row", {}, h("span.grow", {}), keyOf("texts.close", closeBeside)), ...content);
+    fill(beside, h("div.row", {}, h("span.grow", {}), keyOf(TEXTS.close, closeBeside)), ...content);
     beside.hidden = false;
   }
 
@@ -180,7 +216,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     const chosen = await ask({ title: t("edit.leave"), body: [h("p", {}, t("edit.leave.text", { name: opened.level || opened.name }))], choices: [
       { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" },
       ...(project.maySave() ? [{ text: t("texts.project.save"), value: "project" }] : []),
-      ...(!opened.level ? [{ text: t("texts.save"), value: "file" }] : sendKey.disabled ? [] : [{ text: t("texts.send"), value: "send" }])] });
+      ...(!opened.level ? [{ text: t(TEXTS.save), value: "file" }] : sendKey.disabled ? [] : [{ text: t(TEXTS.send), value: "send" }])] });
     if (chosen === "project") return project.save();
     if (chosen === "file") save();
     else if (chosen === "send") await sendNow();
@@ -217,10 +253,10 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     const text = editor.text();
     const sent = opened;
     const isLeft = () => opened !== sent; // another text was opened while an answer was waited for
-    if (!opened.level && !(await confirm(t("texts.download.title", { name: opened.name }), t("texts.download.text"), t("texts.send")))) return;
+    if (!opened.level && !(await confirm(t(TEXTS.downloadTitle, { name: opened.name }), t(TEXTS.downloadText), t(TEXTS.send)))) return;
     try {
       const done = await toCard(sent, text);
-      report(t("texts.sent", { name: sent.level || sent.name, count: done.sent }));
+      report(t(TEXTS.sent, { name: sent.level || sent.name, count: done.sent }));
       const version = sent.level ? (await fromCard(sent.level)).version : sent.version;
       if (isLeft()) return;
       list((done.remarks ?? []).map(([line, remark]) => ({ span: [line - 1, 0, line - 1, 0], text: remark, kind: "remark" })));
@@ -239,7 +275,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   async function notTaken(error) {
     if (error.code === "conflict") {
       const isSure = await ask({ title: t("edit.conflict"), body: [h("p", {}, error.message)], choices: [
-        { text: t("key.cancel"), value: false }, { text: t("texts.compare"), value: "compare" }, { text: t("edit.overwrite"), kind: "danger", value: true }] });
+        { text: t("key.cancel"), value: false }, { text: t(TEXTS.compare), value: "compare" }, { text: t("edit.overwrite"), kind: "danger", value: true }] });
       if (isSure === "compare") await compare();
       else if (isSure) {
         opened = { ...opened, version: "" };
@@ -260,11 +296,11 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     const programs = opened.level ? [opened.level] : Object.keys(entered);
     const found = await asked("compare", { programs });
     if (!found) {
-      refuse(t("texts.notcompared"));
+      refuse(t(TEXTS.notcompared));
       return;
     }
     showBeside(...found.map((/** @type {any} */ each) => comparison(each, (line) => editor.goTo([line - 1, 0, line - 1, 0]))),
-      ...(found.length ? [] : [h("p.hint", {}, t("texts.noprogram"))]));
+      ...(found.length ? [] : [h("p.hint", {}, t(TEXTS.noprogram))]));
     await knowStored(found.filter((/** @type {any} */ each) => each.is_equal).map((/** @type {any} */ each) => each.name));
   }
 
@@ -283,7 +319,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     project.watch(),
   );
   const { programs } = await get("card/programs");
-  fill(choice, h("option", { value: "" }, t("texts.file")),
+  fill(choice, h("option", { value: "" }, t(TEXTS.file)),
     ...programs.filter((/** @type {any} */ each) => each.bytes).map((/** @type {any} */ each) => h("option", { value: each.name }, each.name)));
   choice.value = [...choice.options].some((each) => each.value === kept.level) ? kept.level : "";
   if (choice.value) await chooseLevel();
@@ -291,7 +327,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
 }
 
 /**
- * @param {import("../../core/texts.js").TextKey} label
+ * @param {import("../../core/texts.js").Said} label
  * @param {() => void | Promise<void>} onclick
  * @param {string} [kind]
  */

@@ -21,6 +21,26 @@ import { triggerPlugin } from "../../scope/trigger_mark.js";
 import { within, zoomed } from "../../scope/view.js";
 import { createXy } from "../../scope/xy.js";
 
+const TEXTS = {
+  settings: { en: "SETTINGS", de: "EINSTEL\u00adLUNGEN" },
+  cursors: { en: "CURSORS", de: "CURSOR" },
+  reference: { en: "REFER\u00adENCE", de: "REFE\u00adRENZ" },
+  referenceShort: { en: "ref", de: "Ref" },
+  branch: { en: "BRANCH \u2026", de: "ZWEIG \u2026" },
+  branchText: {
+    en: "What another branch of the timeline did at the same ticks is drawn dashed; REFERENCE takes it away.",
+    de: "Was ein anderer Zweig der Zeitleiste in denselben Takten tat, wird gestrichelt gezeichnet; REFERENZ nimmt es weg.",
+  },
+  zoom: {
+    en: "wheel: zoom, drag: pan, double click: the sweep",
+    de: "Rad: Zoom, ziehen: verschieben, Doppelklick: die Ablenkung",
+  },
+  zoomLabel: {
+    en: "Screen of the scope: + and - zoom a record at rest, arrow keys pan it, 0 shows its sweep",
+    de: "Schirm des Scope: + und - vergrößern oder verkleinern eine ruhende Aufzeichnung, Pfeiltasten verschieben sie, 0 zeigt ihre Ablenkung",
+  },
+};
+
 const VIEWS = /** @type {const} */ (["time", "xy", "spectrum"]);
 const SLOW_S = 0.5; // a sweep of this time and more is also drawn while it comes
 const KEYS = /** @type {Record<string, number>} */ ({ "+": 1, "-": -1 }); // zoom
@@ -53,26 +73,26 @@ export async function mount(host, { head, kept, keep }) {
   const channels = new Channels(kept.channels ?? [], changed);
   const settings = new Settings(kept, changed);
   const hosts = VIEWS.map((each) => h("div.scope-chart.grow", { hidden: each !== view, data: { view: each } }));
-  Object.assign(hosts[0], { role: "group", tabIndex: 0, ariaLabel: t("scope.zoom.label"), onkeydown: zoomByKey });
+  Object.assign(hosts[0], { role: "group", tabIndex: 0, ariaLabel: t(TEXTS.zoomLabel), onkeydown: zoomByKey });
   const state = h("span.scope-state.grow", { role: "status" });
-  const zooming = h("span.hint", {}, t("scope.zoom"));
+  const zooming = h("span.hint", {}, t(TEXTS.zoom));
   const distance = h("span.hint", { data: { cursors: "" } });
   const table = h("table.grid.scope-measures", {});
   const keys = VIEWS.map((each) => key(/** @type {any} */ (`scope.view.${each}`), () => show(each)));
   const side = h("div.scope-side.scroll", { tabIndex: 0, hidden: Boolean(kept.isFull) }, channels.element(), settings.element());
-  const sideKey = key("scope.settings", () => {
+  const sideKey = key(TEXTS.settings, () => {
     side.hidden = !side.hidden;
     sideKey.ariaPressed = String(!side.hidden);
     side.scrollIntoView();
     changed();
   });
   sideKey.ariaPressed = String(!side.hidden);
-  const cursorKey = key("scope.cursors", toggleCursors);
-  const referenceKey = key("scope.reference", toggleReference);
+  const cursorKey = key(TEXTS.cursors, toggleCursors);
+  const referenceKey = key(TEXTS.reference, toggleReference);
   head.append(key("scope.start", () => void sample().catch(refuse), "main"), key("scope.stop", () => void give("scope.stop")), key("scope.autoscale", () => {
     channels.fit(shownNow().traces);
     changed();
-  }), ...keys, cursorKey, referenceKey, key("scope.branch", () => void referToBranch().catch(refuse)), sideKey, key("scope.export", choose));
+  }), ...keys, cursorKey, referenceKey, key(TEXTS.branch, () => void referToBranch().catch(refuse)), sideKey, key("scope.export", choose));
   head.classList.add("is-full");
   host.classList.add("is-scope", "is-wide");
   host.append(side, h("div.stack.grow.scope-right", {}, ...hosts, h("div.row.wrap.scope-line", {}, state, zooming, distance), h("div.scroll.scope-table", { tabIndex: 0 }, table)));
@@ -122,7 +142,7 @@ export async function mount(host, { head, kept, keep }) {
     const other = reference ? at(reference.traces, reference.start) : [];
     if (view === "time") {
       const next = coming();
-      const named = other.map((each) => ({ ...each, label: `${each.label} ${t("scope.reference.short")}`, isReference: true }));
+      const named = other.map((each) => ({ ...each, label: `${each.label} ${t(TEXTS.referenceShort)}`, isReference: true }));
       screen.draw([...present, ...named, ...at(next.traces, next.start).map((each) => ({ ...each, isFaint: true }))], frame);
     } else if (view === "xy") xy.draw(settings.traceOf(present, "x"), settings.traceOf(present, "y"));
     else drawSpectrum(present, period, start / 1000);
@@ -227,7 +247,7 @@ export async function mount(host, { head, kept, keep }) {
     const { why, branch: present, branches, period_s: tickTime } = model.timeline.value;
     const others = branches.flatMap((each) => (each.number === present || each.last === null ? [] : { ...each, last: each.last }));
     if (why || !others.length) throw new Error(why || t("time.noother"));
-    const chosen = await ask({ title: t("scope.branch"), body: [h("p", {}, t("scope.branch.text"))], choices: others.map((each) => ({ text: each.name, value: each })) });
+    const chosen = await ask({ title: t(TEXTS.branch), body: [h("p", {}, t(TEXTS.branchText))], choices: others.map((each) => ({ text: each.name, value: each })) });
     const { first, zero, period } = recording.window();
     if (chosen) refer(channels.traces(await samplesOf(chosen, recording, tickTime), period), (first - zero) * 1000 * period);
   }
@@ -290,7 +310,7 @@ export async function mount(host, { head, kept, keep }) {
 }
 
 /**
- * @param {import("../../core/texts.js").TextKey} text
+ * @param {import("../../core/texts.js").Said} text
  * @param {() => void} onclick
  * @param {string} [kind]
  */

@@ -9,6 +9,11 @@ import { needValues } from "../../core/values.js";
 import { isFlag, shownValue } from "../../frame/card_value.js";
 import { showFacts } from "../facts.js";
 
+const TEXTS = {
+  which: { en: "What is shown", de: "Was gezeigt wird" },
+  objects: { en: "Which of them", de: "Welche davon" },
+};
+
 const FIRST = 4; // objects that are shown at first where the machine does not say which
 
 /**
@@ -24,8 +29,8 @@ const FIRST = 4; // objects that are shown at first where the machine does not s
 export async function mount(host, { head, kept, keep }) {
   const endings = new Endings();
   const live = new Endings();
-  const choice = h("select.field", { ariaLabel: t("panels.which"), onchange: () => choose(choice.value) });
-  const objects = h("div.row.scroll.grow", { role: "group", ariaLabel: t("panels.objects") });
+  const choice = h("select.field", { ariaLabel: t(TEXTS.which), onchange: () => choose(choice.value) });
+  const objects = h("div.row.scroll.grow", { role: "group", ariaLabel: t(TEXTS.objects) });
   const table = h("table.grid.status-table", {});
   head.append(choice, objects);
   const facts = h("div.tree-facts", { role: "status" });

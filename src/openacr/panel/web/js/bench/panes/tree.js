@@ -10,6 +10,11 @@ import { changeValue, isFlag, shownValue } from "../../frame/card_value.js";
 import { showFacts } from "../facts.js";
 import { addToWatchList } from "../watch_list.js";
 
+const TEXTS = {
+  search: { en: "Words of a name, or a number", de: "W\u00f6rter eines Namens, oder eine Nummer" },
+  card: { en: "Card", de: "Karte" },
+};
+
 const [ROW_PX, SPARE, SETTLE_MS] = [32, 4, 120];
 const PAGE = 500; // rows of one request
 const NO_OBJECT = "none";
@@ -27,7 +32,7 @@ const NO_OBJECT = "none";
 export async function mount(host, { head }) {
   const endings = new Endings();
   const seen = new Endings(); // what the rows that are seen need
-  const field = h("input.field.grow", { type: "search", placeholder: t("tree.search"), ariaLabel: t("tree.search") });
+  const field = h("input.field.grow", { type: "search", placeholder: t(TEXTS.search), ariaLabel: t(TEXTS.search) });
   const space = h("div.tree-space", {});
   const box = h("div.tree.grow", { role: "tree", tabIndex: 0, ariaLabel: t("pane.tree") }, space);
   const facts = h("div.tree-facts", { role: "status" });
@@ -69,7 +74,7 @@ export async function mount(host, { head }) {
     const objects = [...new Set(groups.map((group) => group.object))].sort();
     rows = objects.flatMap((object) => {
       const own = groups.filter((group) => group.object === object);
-      const name = object === NO_OBJECT ? t("tree.card") : object;
+      const name = object === NO_OBJECT ? t(TEXTS.card) : object;
       const count = own.reduce((sum, each) => sum + each.parameters + each.flags, 0);
       const single = own.length === 1 && own[0].index === null ? own[0] : undefined;
       const node = { key: object, level: 1, text: name, count, group: single };

@@ -11,6 +11,16 @@ import { changeValue, fullName, isFlag, shownValue } from "../../frame/card_valu
 import { askText } from "../../frame/dialog.js";
 import { stateText } from "../../screens/programs.js";
 
+const TEXTS = {
+  program: { en: "Program", de: "Programm" },
+  levels: { en: "Flow stack", de: "Ablaufstapel" },
+  nolevels: { en: "No level is open", de: "Keine Ebene ist offen" },
+  own: { en: "Variables of the program", de: "Variablen des Programms" },
+  none: { en: "None is dimensioned", de: "Keine ist dimensioniert" },
+  used: { en: "Parameters and flags in its text", de: "Parameter und Merker in seinem Text" },
+  value: { en: "Value or expression", de: "Wert oder Ausdruck" },
+};
+
 const EVERY_MS = 1000;
 const COUNT = 16;
 
@@ -36,11 +46,11 @@ export async function mount(host, { head, kept, keep }) {
   let used = [];
   /** @type {Map<number, number>} */
   let values = new Map();
-  const choice = h("select.field", { ariaLabel: t("vars.program"), onchange: () => void choose(Number(choice.value)) },
+  const choice = h("select.field", { ariaLabel: t(TEXTS.program), onchange: () => void choose(Number(choice.value)) },
     ...Array.from({ length: COUNT }, (_each, n) => h("option", { value: String(n) }, `PROG${n}`)));
   const state = h("strong.grow", { role: "status" });
   head.append(choice, state, h("button.key", { type: "button", onclick: () => void choose(program) }, t("programs.read")));
-  const levels = h("div.program-levels", { role: "region", ariaLabel: t("vars.levels") });
+  const levels = h("div.program-levels", { role: "region", ariaLabel: t(TEXTS.levels) });
   const own = h("tbody", { data: { part: "own" } });
   const shared = h("tbody", { data: { part: "used" } });
   host.append(levels, h("div.grow.scroll", { tabIndex: 0 }, h("table.grid.watch-table", {}, own, shared)));
@@ -73,9 +83,9 @@ export async function mount(host, { head, kept, keep }) {
     const text = JSON.stringify(found);
     if (text === drawn) return;
     drawn = text;
-    fill(levels, ...(found.levels.length ? found.levels.map(({ word, line }) => h("span.level", {}, `${word} ${line}`)) : [h("span.hint", {}, found.why || t("vars.nolevels"))]));
+    fill(levels, ...(found.levels.length ? found.levels.map(({ word, line }) => h("span.level", {}, `${word} ${line}`)) : [h("span.hint", {}, found.why || t(TEXTS.nolevels))]));
     const focused = own.contains(document.activeElement) ? /** @type {HTMLElement} */ (document.activeElement).ariaLabel : "";
-    fill(own, headOf("vars.own"), ...(found.variables.length ? found.variables.flatMap((each) => (each.elements.length ? [rowOf(each, true), ...each.elements.map((element) => rowOf(element))] : [rowOf(each)])) : [h("tr", {}, h("td.quiet", { colSpan: 2 }, t("vars.none")))]));
+    fill(own, headOf(TEXTS.own), ...(found.variables.length ? found.variables.flatMap((each) => (each.elements.length ? [rowOf(each, true), ...each.elements.map((element) => rowOf(element))] : [rowOf(each)])) : [h("tr", {}, h("td.quiet", { colSpan: 2 }, t(TEXTS.none)))]));
     if (focused) [...own.querySelectorAll("button")].find((each) => each.ariaLabel === focused)?.focus();
   }
 
@@ -87,7 +97,7 @@ export async function mount(host, { head, kept, keep }) {
     return h("tr", { data: { variable: name } }, h("td", {}, name), h("td.number", {}, isArray ? text : h("button.key", { type: "button", ariaLabel: t("watch.change", { name }), onclick: () => change(name, text) }, h("strong.live", {}, text))));
   }
 
-  /** @param {import("../../core/texts.js").TextKey} title */
+  /** @param {import("../../core/texts.js").Said} title */
   function headOf(title) {
     return h("tr", {}, h("th", { colSpan: 2, scope: "rowgroup" }, t(title)));
   }
@@ -97,7 +107,7 @@ export async function mount(host, { head, kept, keep }) {
    * @param {string} text
    */
   async function change(name, text) {
-    const value = await askText(t("watch.change", { name }), t("vars.value"), name.startsWith("$") ? `"${text.slice(1, -1)}"` : text);
+    const value = await askText(t("watch.change", { name }), t(TEXTS.value), name.startsWith("$") ? `"${text.slice(1, -1)}"` : text);
     if (value === null) return;
     const answer = await give("card.assign", { program, name, value });
     if (answer) report(t("values.is", { name, value: answer.value }));
@@ -109,7 +119,7 @@ export async function mount(host, { head, kept, keep }) {
     if (found === undefined) return;
     live.end();
     used = (found?.items ?? []).map((/** @type {Item} */ item) => ({ item, value: h("strong.live", {}) }));
-    fill(shared, headOf("vars.used"), ...used.map(({ item, value }) => {
+    fill(shared, headOf(TEXTS.used), ...used.map(({ item, value }) => {
       const cell = item.writable ? h("button.key", { type: "button", ariaLabel: t("watch.change", { name: item.id }), onclick: () => changeValue(item, shownValue(item, values)) }, value) : value;
       return h("tr", { data: { item: item.id } }, h("td", { title: item.doc }, `${item.id} ${fullName(item)}`), h("td.number", {}, cell));
     }));

@@ -9,6 +9,16 @@ import { needValues } from "../../core/values.js";
 import { FORMATS, changeValue, fullName, isFlag, shownValue } from "../../frame/card_value.js";
 import { wanted } from "../watch_list.js";
 
+const TEXTS = {
+  name: { en: "P12288, BIT516 or axis0.actual position", de: "P12288, BIT516 oder axis0.actual position" },
+  add: { en: "ADD", de: "DAZU" },
+  remove: { en: "Remove", de: "Entfernen" },
+  format: { en: "Format", de: "Format" },
+  formatOf: { en: "Format of {name}", de: "Format von {name}" },
+};
+/** @type {import("../../core/texts.js").Said[]} */
+const HEADS = ["board.number", "board.name", "board.value", TEXTS.format, TEXTS.remove];
+
 /**
  * @typedef {import("../../frame/card_value.js").Item} Item
  * @typedef {{ id: string, format: string }} Kept
@@ -26,14 +36,14 @@ export async function mount(host, { head, kept, keep }) {
   let rows = [];
   /** @type {Map<number, number>} */
   let values = new Map();
-  const field = h("input.field.grow", { ariaLabel: t("watch.name"), placeholder: t("watch.name"), autocomplete: "off", spellcheck: false });
+  const field = h("input.field.grow", { ariaLabel: t(TEXTS.name), placeholder: t(TEXTS.name), autocomplete: "off", spellcheck: false });
   const body = h("tbody", {});
   head.append(h("form.row.grow", { onsubmit: (/** @type {Event} */ event) => {
     event.preventDefault();
     void add(field.value.split(";").filter((name) => name.trim())).then((isDone) => { if (isDone) field.value = ""; });
-  } }, field, h("button.key.main", { type: "submit" }, t("watch.add"))));
+  } }, field, h("button.key.main", { type: "submit" }, t(TEXTS.add))));
   host.append(h("div.grow.scroll", { tabIndex: 0 }, h("table.grid.watch-table", {}, h("thead", {}, h("tr", {},
-    ...["board.number", "board.name", "board.value", "watch.format", "watch.remove"].map((key) => h("th", {}, t(/** @type {any} */ (key)))))), body)));
+    ...HEADS.map((each) => h("th", {}, t(each))))), body)));
 
   /**
    * @param {string[]} names
@@ -72,7 +82,7 @@ export async function mount(host, { head, kept, keep }) {
   function rowOf(row) {
     const { item, value } = row;
     const cell = item.writable ? h("button.key", { type: "button", ariaLabel: t("watch.change", { name: item.id }), onclick: () => changeValue(item, shownValue(item, values)) }, value) : value;
-    const format = h("select.field", { ariaLabel: t("watch.format.of", { name: item.id }), onchange: () => {
+    const format = h("select.field", { ariaLabel: t(TEXTS.formatOf, { name: item.id }), onchange: () => {
       row.format = format.value;
       draw();
     } }, ...FORMATS.map((each) => h("option", { value: each, selected: each === row.format }, t(/** @type {any} */ (`watch.format.${each}`)))));

@@ -7,6 +7,21 @@ import { t } from "../../core/texts.js";
 import { changed, valueAt, whereOf, withOneMore } from "../wizard/answers.js";
 import { formOf } from "../wizard/form.js";
 
+const TEXTS = {
+  dialogs: { en: "Dialogs", de: "Dialoge" },
+  card: { en: "Card", de: "Karte" },
+  ofAxis: { en: "Axis {number}: {name}", de: "Achse {number}: {name}" },
+  ofMaster: { en: "Master {number}", de: "Master {number}" },
+  axis: { en: "ADD AXIS", de: "ACHSE DAZU" },
+  master: { en: "ADD MASTER", de: "MASTER DAZU" },
+  remove: { en: "REMOVE {name}", de: "{name} ENTFERNEN" },
+  open: { en: "OPEN FILE \u2026", de: "DATEI \u00d6FFNEN \u2026" },
+  new: { en: "NEW", de: "NEU" },
+  read: { en: "Answers were read from {name}", de: "Antworten aus {name} gelesen" },
+  download: { en: "DOWNLOAD {name}", de: "{name} LADEN" },
+  wrong: { en: "wrong", de: "falsch" },
+};
+
 const REMARK = / : REM (.*)$/;
 
 /**
@@ -31,11 +46,11 @@ export async function mount(host, { head, kept, keep }) {
   let code = { errors: [] };
   const endings = new Endings();
   const newest = latest(endings);
-  const nav = h("nav.list.scroll.wizard-nav", { ariaLabel: t("wizard.dialogs") });
+  const nav = h("nav.list.scroll.wizard-nav", { ariaLabel: t(TEXTS.dialogs) });
   const form = h("div.scroll.wizard-dialog", {});
   const output = h("div.stack.wizard-code", {});
-  const input = h("input", { type: "file", hidden: true, ariaLabel: t("wizard.open"), accept: ".8k,.toml,.txt", onchange: () => void open() });
-  head.append(keyOf("wizard.axis", () => more("axis")), keyOf("wizard.master", () => more("master")), keyOf("wizard.open", () => input.click()), input, keyOf("wizard.new", () => take(first)));
+  const input = h("input", { type: "file", hidden: true, ariaLabel: t(TEXTS.open), accept: ".8k,.toml,.txt", onchange: () => void open() });
+  head.append(keyOf(TEXTS.axis, () => more("axis")), keyOf(TEXTS.master, () => more("master")), keyOf(TEXTS.open, () => input.click()), input, keyOf(TEXTS.new, () => take(first)));
   host.append(h("div.wizard", {}, nav, form, output));
 
   /**
@@ -76,7 +91,7 @@ export async function mount(host, { head, kept, keep }) {
       const found = await send("POST", "configure/read", body);
       chosen = { dialog: dialogs[0], place: 0 };
       await take(found.answers, found.notes);
-      report(t("wizard.read", { name: picked.name }));
+      report(t(TEXTS.read, { name: picked.name }));
     } catch (error) {
       refuse(error);
     }
@@ -90,7 +105,7 @@ export async function mount(host, { head, kept, keep }) {
     const where = whereOf(chosen.dialog, chosen.place);
     const refusals = Object.fromEntries(code.errors.filter((each) => isWithin(each.where, where)).map((each) => [each.where[where.length], each.text]));
     fill(form, formOf(chosen.dialog, valueAt(answers, where) ?? {}, refusals, (key, value) => void take(changed(answers, [...where, key], value), notes)),
-      ...(chosen.dialog.of === "card" ? [] : [h("button.key.bad", { type: "button", onclick: () => remove() }, t("wizard.remove", { name: titleOf(chosen.dialog.of, chosen.place) }))]));
+      ...(chosen.dialog.of === "card" ? [] : [h("button.key.bad", { type: "button", onclick: () => remove() }, t(TEXTS.remove, { name: titleOf(chosen.dialog.of, chosen.place) }))]));
     drawCode();
     if (focused) document.getElementById(focused)?.focus();
   }
@@ -119,7 +134,7 @@ export async function mount(host, { head, kept, keep }) {
     return h("button.item", { id: `wizard-${where.join("-")}`, type: "button", attr: { "aria-current": String(isChosen) }, onclick: () => {
       chosen = { dialog, place };
       draw();
-    } }, h("span.name", {}, dialog.title), isWrong ? h("span.bad-text", { ariaLabel: t("wizard.wrong") }, "\u26a0") : "");
+    } }, h("span.name", {}, dialog.title), isWrong ? h("span.bad-text", { ariaLabel: t(TEXTS.wrong) }, "\u26a0") : "");
   }
 
   /**
@@ -127,16 +142,16 @@ export async function mount(host, { head, kept, keep }) {
    * @param {number} place
    */
   function titleOf(of, place) {
-    if (of === "card") return t("wizard.card");
+    if (of === "card") return t(TEXTS.card);
     const table = (answers[of] ?? [])[place] ?? {};
-    return of === "axis" ? t("wizard.of.axis", { name: table.name ?? "?", number: table.number ?? "?" }) : t("wizard.of.master", { number: table.number ?? "?" });
+    return of === "axis" ? t(TEXTS.ofAxis, { name: table.name ?? "?", number: table.number ?? "?" }) : t(TEXTS.ofMaster, { number: table.number ?? "?" });
   }
 
   function drawCode() {
     const files = code.files ?? {};
     if (!(file in files)) file = "setup.8k";
     const lines = (files[file] ?? "").split("\n");
-    const link = h("a.key", { role: "button", href: `data:text/plain;charset=utf-8,${encodeURIComponent(files[file] ?? "")}`, download: file }, t("wizard.download", { name: file }));
+    const link = h("a.key", { role: "button", href: `data:text/plain;charset=utf-8,${encodeURIComponent(files[file] ?? "")}`, download: file }, t(TEXTS.download, { name: file }));
     fill(output,
       ...code.errors.map(({ where: [of, place], text }) => h("p.notice.bad", {}, `${titleOf(/** @type {any} */ (of), Number(place))}, ${text}`)),
       ...[...(code.warnings ?? []), ...notes].map((text) => h("p.notice", {}, text)),
@@ -171,7 +186,7 @@ function isWithin(where, table) {
 }
 
 /**
- * @param {import("../../core/texts.js").TextKey} label
+ * @param {import("../../core/texts.js").Said} label
  * @param {() => void} onclick
  */
 function keyOf(label, onclick) {

@@ -7,6 +7,13 @@ import { t } from "../../core/texts.js";
 import { deviceList, faultForm, inputTable } from "../world/controls.js";
 import { createDrawing } from "../world/drawing.js";
 
+const TEXTS = {
+  controls: { en: "Inputs, faults and devices", de: "Eing\u00e4nge, Fehler und Ger\u00e4te" },
+  inputs: { en: "Inputs", de: "Eing\u00e4nge" },
+  faults: { en: "Faults", de: "Fehler" },
+  devices: { en: "Devices", de: "Ger\u00e4te" },
+};
+
 /**
  * @typedef {object} About
  * @property {import("../../draw/kinematics.js").Link[]} links
@@ -25,10 +32,10 @@ export async function mount(host) {
   const about = await get("world");
   const view = h("div.world-view", {});
   const [inputs, faults, devices] = [inputTable(about.inputs), faultForm(about), deviceList(about.devices)];
-  const side = about.why_not ? h("p.notice.world-note", {}, about.why_not) : h("div.world-side.scroll", { tabIndex: 0, role: "region", ariaLabel: t("world.controls") },
-    h("h3", {}, t("world.faults")), ...faults.elements,
-    ...(devices.elements.length ? [h("h3", {}, t("world.devices")), ...devices.elements] : []),
-    h("h3", {}, t("world.inputs")), ...inputs.elements);
+  const side = about.why_not ? h("p.notice.world-note", {}, about.why_not) : h("div.world-side.scroll", { tabIndex: 0, role: "region", ariaLabel: t(TEXTS.controls) },
+    h("h3", {}, t(TEXTS.faults)), ...faults.elements,
+    ...(devices.elements.length ? [h("h3", {}, t(TEXTS.devices)), ...devices.elements] : []),
+    h("h3", {}, t(TEXTS.inputs)), ...inputs.elements);
   host.append(h("div.world", {}, view, side));
   const drawing = createDrawing(view, endings, about);
 

@@ -153,7 +153,7 @@ function latest(act) {
 }
 
 /**
- * @param {import("../../core/texts.js").TextKey} text
+ * @param {import("../../core/texts.js").Said} text
  * @param {() => void} onclick
  */
 function key(text, onclick) {
