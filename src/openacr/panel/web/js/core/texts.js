@@ -10,7 +10,7 @@ import shared from "../catalog/operator.js";
 
 export const LANGUAGES = Object.freeze({ en: "English", de: "Deutsch" });
 /** Titles of the commands by their names, which the page brings. @type {Record<string, Text>} */
-const titles = JSON.parse(document.querySelector("meta[name=titles]")?.getAttribute("content") ?? "{}");
+const titles = JSON.parse(globalThis.document?.querySelector("meta[name=titles]")?.getAttribute("content") ?? "{}");
 /** @type {Record<string, Text>} */
 let catalogue = { ...shared, ...titles };
 /** @type {Language} */
