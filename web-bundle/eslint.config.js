@@ -1,4 +1,4 @@
-// Rules for the modules of src/openacr/panel/web/js; Prettier formats them.
+// Rules for the modules of src/openacr/panel/web/js and their tests; Prettier formats them.
 import js from "@eslint/js";
 import globals from "globals";
 
@@ -22,5 +22,6 @@ export default [
       "max-lines": ["error", { max: 350, skipBlankLines: true, skipComments: true }],
     },
   },
+  { files: ["tests/panel/web/*.js"], languageOptions: { globals: globals.node } },
   { files: ["**/catalog/*.js"], rules: { "max-lines": "off" } }, // tables of texts
 ];

@@ -112,33 +112,6 @@ def test_a_reason_stays_with_its_value_when_an_older_question_is_answered_after_
     page.unroute("**/api/forms/**")
 
 
-# Three replies that come in another order, a refusal, and one that comes after the end.
-NEWEST = """async () => {
-  const { latest } = await import('/js/core/api.js');
-  const { Endings } = await import('/js/core/signal.js');
-  const endings = new Endings();
-  const newest = latest(endings);
-  const asked = [];
-  const ask = () => newest(new Promise((give, refuse) => asked.push({ give, refuse })));
-  const three = [ask(), ask(), ask()];
-  asked[2].give('third');
-  asked[0].give('first');
-  asked[1].refuse(new Error('second'));
-  const shown = await Promise.all(three);
-  const refused = ask().catch((error) => error.message);
-  asked[3].refuse(new Error('no'));
-  shown.push(await refused);
-  const late = ask();
-  endings.end();
-  asked[4].give('late');
-  return [...shown, await late];
-}"""
-
-
-def test_of_replies_in_another_order_the_newest_counts_until_the_end(page: Page) -> None:
-    assert page.evaluate(NEWEST) == [None, None, "third", "no", None]
-
-
 def test_the_axis_of_a_form_that_was_chosen_last_is_shown(page: Page) -> None:
     """However late the answer for the one before comes."""
     parameters(page, "Servo")

@@ -4,7 +4,6 @@ import re
 import time
 from collections.abc import Callable
 from functools import partial
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -97,18 +96,6 @@ def test_peaks_are_those_of_scipy_the_highest_first(page: Page) -> None:
     assert call(page, "spectrum", "peaks", NOISE[:200], 12) == ordered[:12]
 
 
-def test_a_record_with_a_gap_has_no_spectrum(page: Page) -> None:
-    evaluated = page.evaluate(
-        "import('/js/scope/spectrum.js').then((m) => m.spectrum([1, NaN, 2], 1, 'hann'))"
-    )
-    assert evaluated is None
-
-
-@pytest.mark.parametrize(("value", "decibels"), [(1.0, 0.0), (0.1, -20.0), (0.0, -300.0)])
-def test_decibels_are_of_one_unit(page: Page, value: float, decibels: float) -> None:
-    assert call(page, "spectrum", "decibels", value) == pytest.approx(decibels)
-
-
 # --- measures -------------------------------------------------------------------------
 
 
@@ -123,260 +110,7 @@ def test_measures_are_of_the_samples_between_the_cursors(page: Page, first: int,
     )  # fmt: skip
 
 
-def test_missing_samples_are_not_measured(page: Page) -> None:
-    assert page.evaluate("""import('/js/scope/measures.js').then(({ measured, deviation }) => [
-        measured([NaN, 3, NaN, -4], 0, 3), measured([1, NaN], 1, 1),
-        deviation([1, NaN, 5], [2, 9, 3, 100]), deviation([NaN], [1])])""") == [
-        {"count": 2, "min": -4, "max": 3, "mean": -0.5, "rms": pytest.approx(12.5**0.5), "span": 7},
-        None, 2, None,
-    ]  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("values", "scale", "offset"),
-    [
-        ([0, 80], 10, 40), ([-1, 7.1], 2, 4), ([0, 32], 5, 15), ([3, 3], 1, 3),
-        ([-4e-6, 4e-6], 1e-6, 0),
-    ],
-)  # fmt: skip
-def test_autoscale_shows_the_whole_in_steps_of_1_2_and_5(
-    page: Page, values: list[float], scale: float, offset: float
-) -> None:
-    assert call(page, "scales", "fitting", values) == {"scale": scale, "offset": offset}
-    assert call(page, "scales", "fitting", []) is None
-
-
-# --- what is on the screen ------------------------------------------------------------
-
-STEPS = """([samples, trigger, run, steps]) => import('/js/scope/recording.js').then((m) => {
-  const recording = new m.Recording();
-  recording.begin(1, { first: 100, samples, period_s: 0.001 }, trigger, run);
-  const plain = (each) => each && [each.first, each.zero, [...each.channels[0]]];
-  return steps.map((each) => {
-    if (Array.isArray(each)) recording.add({ first: each[0], period: 0.001, channels: [Float64Array.from(each[1])] });
-    else recording.note(each);
-    return [plain(recording.window()), plain(recording.underWay()), recording.isTaken];
-  });
-})"""  # noqa: E501
-Step = tuple[int, list[int]] | dict[str, Any]  # samples from a number on, or a state
-
-
-def lived(page: Page, trigger: dict[str, Any] | None, steps: list[Step], run: str = "sweep") -> Any:
-    """Windows, sweeps under way and whether it was taken, of sweeps of 4, after each step."""
-    return page.evaluate(STEPS, [4, trigger, run, steps])
-
-
-def numbered(first: int, count: int) -> tuple[int, list[int]]:
-    """Samples that are their own numbers."""
-    return first, [*range(first, first + count)]
-
-
-def state(trigger: int | None = None, swept: int | None = None, first: int = 100) -> Step:
-    return {"running": True, "first": first, "trigger": trigger, "swept": swept}
-
-
-@pytest.mark.parametrize("mode", ["normal", "single"])
-def test_nothing_is_shown_before_a_trigger_then_a_whole_sweep_until_the_next_one_is_whole(
-    page: Page, mode: str
-) -> None:
-    steps: list[Step] = [
-        numbered(100, 7), state(), state(105), numbered(107, 1), state(105, 105),
-        numbered(108, 20), state(120, 105), state(123, 120), state(126, 123), numbered(128, 1),
-    ]  # fmt: skip
-    found = lived(page, {"mode": mode, "before": 0.25}, steps)
-    windows = [each[0] for each in found]
-    assert windows[:2] == [[107, 108, []]] * 2  # its left edge is before the trigger to come
-    assert windows[2:4] == [[104, 105, [104, 105, 106]], [104, 105, [104, 105, 106, 107]]]
-    assert windows[4:7] == [[104, 105, [104, 105, 106, 107]]] * 3  # whole; it stays
-    assert windows[7] == [119, 120, [119, 120, 121, 122]]
-    assert windows[8:] == [[122, 123, [122, 123, 124, 125]]] * 2
-    coming = [each[1] for each in found]
-    assert coming[:4] == [None] * 4
-    assert coming[8:] == [[125, 126, [125, 126, 127]], [125, 126, [125, 126, 127, 128]]]
-
-
-def test_a_whole_sweep_is_shown_once_its_samples_have_come_and_kept_when_they_are_old(
-    page: Page,
-) -> None:
-    trigger = {"mode": "normal", "before": 0.0}
-    steps: list[Step] = [
-        numbered(100, 2), state(101, 101), numbered(102, 2), state(104, 104), numbered(104, 1),
-        numbered(105, 3), numbered(108, 25_000), numbered(25_108, 100),
-    ]  # fmt: skip
-    windows = [each[0] for each in lived(page, trigger, steps)]
-    assert windows[1] == [101, 101, [101]]
-    assert windows[4] == [101, 101, [101, 102, 103, 104]]
-    assert windows[5:] == [[104, 104, [104, 105, 106, 107]]] * 3
-
-
-def test_the_record_holds_its_whole_sweep_also_where_newer_samples_have_taken_its_place(
-    page: Page,
-) -> None:
-    found = page.evaluate("""import('/js/scope/recording.js').then((m) => {
-      const recording = new m.Recording();
-      recording.begin(1, { first: 0, samples: 4, period_s: 0.001 }, { mode: "normal", before: 0 });
-      const add = (first, count) => recording.add({ first, period: 0.001, channels: [Float64Array.from({ length: count }, (_, n) => first + n)] });
-      add(0, 20);
-      recording.note({ running: true, first: 0, trigger: 10, swept: 10 });
-      add(20, 30_000);
-      const part = (from, to) => [...recording.part(0, from, to)].map((each) => Number.isNaN(each) ? null : each);
-      return [recording.kept, part(9, 16), part(10_006, 10_010), part(30_018, 30_022)];
-    })""")  # noqa: E501
-    assert found == [
-        [10, 30_020],
-        [None, 10, 11, 12, 13, None, None],
-        [None, None, 10_008, 10_009],  # three sweeps and 20,000 samples are kept
-        [30_018, 30_019, None, None],
-    ]
-
-
-def test_without_a_trigger_the_last_whole_sweep_is_shown(page: Page) -> None:
-    steps: list[Step] = [numbered(100, 3), numbered(103, 2), numbered(105, 6), numbered(111, 1)]
-    found = lived(page, None, steps)
-    assert [each[0] for each in found] == [
-        [100, 100, [100, 101, 102]],
-        [100, 100, [100, 101, 102, 103]],
-        [104, 104, [104, 105, 106, 107]],
-        [108, 108, [108, 109, 110, 111]],
-    ]
-    coming = [None, [104, 104, [104]], [108, 108, [108, 109, 110]], [112, 112, []]]
-    assert [each[1] for each in found] == coming
-    rolled = [each[0] for each in lived(page, None, steps[:3], "roll")]
-    assert rolled[1:] == [[101, 101, [101, 102, 103, 104]], [107, 107, [107, 108, 109, 110]]]
-    once = [each[0] for each in lived(page, None, steps[:3], "once")]
-    assert once[2] == [100, 100, [100, 101, 102, 103]]
-
-
-def test_an_automatic_sweep_is_that_of_a_trigger_until_two_sweeps_bring_none(page: Page) -> None:
-    steps: list[Step] = [
-        numbered(100, 5), state(106), numbered(105, 5), state(106, 106), numbered(110, 8),
-        numbered(118, 1),
-    ]  # fmt: skip
-    windows = [each[0] for each in lived(page, {"mode": "auto", "before": 0.0}, steps)]
-    assert windows[0] == [100, 100, [100, 101, 102, 103]]
-    assert windows[3:5] == [[106, 106, [106, 107, 108, 109]]] * 2
-    assert windows[5] == [114, 114, [114, 115, 116, 117]]
-
-
-def test_samples_of_another_browsers_capture_are_not_added(page: Page) -> None:
-    steps: list[Step] = [numbered(100, 4), state(first=300), numbered(300, 4), state(first=100)]
-    found = lived(page, None, steps)
-    assert [each[2] for each in found] == [False, True, True, True]
-    assert found[3][0] == [100, 100, [100, 101, 102, 103]]
-
-
-@pytest.mark.parametrize(
-    ("capture", "recording", "expected"),
-    [
-        ({"running": True}, None, "idle"),
-        ({"running": True}, {"trigger": None, "isTaken": True}, "taken"),
-        ({"running": False, "trigger": 4}, {"trigger": {}, "isTaken": False}, "stopped"),
-        ({"running": True}, {"trigger": None, "isTaken": False}, "running"),
-        ({"running": True, "trigger": None}, {"trigger": {}, "isTaken": False}, "waiting"),
-        ({"running": True, "trigger": 4, "swept": None}, {"trigger": {}, "isTaken": False},
-         "triggered"),
-        ({"running": True, "trigger": 9, "swept": 4}, {"trigger": {}, "isTaken": False},
-         "triggered"),
-        ({"running": True, "trigger": 9, "swept": 9}, {"trigger": {}, "isTaken": False},
-         "waiting"),
-    ],
-)  # fmt: skip
-def test_the_state_of_the_scope_follows_from_its_triggers(
-    page: Page, capture: dict[str, Any], recording: dict[str, Any] | None, expected: str
-) -> None:
-    found = page.evaluate(
-        "([a, b]) => import('/js/scope/state.js').then((m) => m.stateOf(a, b))",
-        [capture, recording],
-    )
-    assert found == expected
-
-
-def drawn(fit: dict[str, float], value: float) -> float:
-    """Where a value is drawn, in divisions."""
-    return (value - fit["offset"]) / fit["scale"]
-
-
-@pytest.mark.parametrize(("flags", "curves"), [(1, 1), (2, 1), (3, 0), (8, 0), (7, 1), (0, 2)])
-def test_autoscale_gives_every_flag_a_lane_and_curves_the_rest(
-    page: Page, flags: int, curves: int
-) -> None:
-    traces = [{"values": [n % 2], "isFlag": True} for n in range(flags)]
-    traces += [{"values": [-3.0, 5.0], "isFlag": False}] * curves
-    found = page.evaluate(
-        "(traces) => import('/js/scope/scales.js').then((m) => m.laidOut(traces))", traces
-    )
-    lanes = [(drawn(fit, 0), drawn(fit, 1)) for fit in found[:flags]]
-    heights = [high - low for low, high in lanes]
-    assert all(height > 0.6 for height in heights)
-    for (low, _), (_, high) in pairwise(lanes):  # the first one is the uppermost
-        assert low > high
-    for fit in found[flags:]:
-        assert drawn(fit, 5.0) <= 5.0
-        assert drawn(fit, -3.0) > (lanes[0][1] if lanes else -5.0)
-    if lanes:
-        assert lanes[-1][0] > -5.0
-        assert lanes[0][1] < 5.0
-
-
-@pytest.mark.parametrize(
-    ("start", "step", "lines"),
-    [(0, 100, range(0, 1001, 100)), (-25, 10, range(-20, 71, 10)), (-10, 5, range(-10, 41, 5))],
-)
-def test_lines_of_the_grid_are_multiples_of_a_division(
-    page: Page, start: float, step: float, lines: range
-) -> None:
-    assert call(page, "scales", "gridOf", start, step) == [*lines]
-
-
-def test_labels_are_left_out_where_they_would_overlap_and_zero_has_one(page: Page) -> None:
-    wide, narrow, tiny = (
-        page.evaluate(
-            "([lines, room]) => import('/js/scope/scales.js')"
-            ".then((m) => m.labelsOf(lines, 100, room))",
-            [[*range(-200, 801, 100)], room],
-        )
-        for room in (60, 21, 4)
-    )
-    assert wide == ["\u2212200", "\u2212100", *map(str, range(0, 801, 100))]
-    assert narrow == ["\u2212200", "", "0", "", "200", "", "400", "", "600", "", "800"]
-    assert [text for text in tiny if text] == ["0"]
-
-
-@pytest.mark.parametrize(
-    ("step", "finer", "coarser"), [(1, 0.5, 2), (2, 1, 5), (5, 2, 10), (0.2, 0.1, 0.5), (3, 2, 5)]
-)
-def test_zoom_goes_by_steps_of_1_2_and_5_about_the_pointer(
-    page: Page, step: float, finer: float, coarser: float
-) -> None:
-    for is_finer, expected in ((True, finer), (False, coarser)):
-        view = {"from": 100.0, "step": step}
-        found = page.evaluate(
-            "([view, isFiner]) => import('/js/scope/view.js')"
-            ".then((m) => m.zoomed(view, isFiner, view.from + 4 * view.step, [-1000, 1000], 0.05))",
-            [view, is_finer],
-        )
-        assert found["step"] == expected
-        assert found["from"] + 4 * expected == pytest.approx(100 + 4 * step)
-
-
-@pytest.mark.parametrize(
-    ("view", "is_finer", "expected"),
-    [
-        ((0, 100), False, (0, 100)),  # the whole record is shown
-        ((0, 1), True, (0, 1)),  # a sample in a division
-        ((900, 20), False, (500, 50)),  # not beyond the end
-        ((0, 20), False, (0, 50)),  # nor before the beginning
-    ],
-)
-def test_zoom_stays_within_the_record(
-    page: Page, view: tuple[float, float], is_finer: bool, expected: tuple[float, float]
-) -> None:
-    found = page.evaluate(
-        "([[from, step], isFiner]) => import('/js/scope/view.js')"
-        ".then((m) => m.zoomed({ from, step }, isFiner, from, [0, 1000], 1))",
-        [list(view), is_finer],
-    )
-    assert (found["from"], found["step"]) == expected
+# --- files ----------------------------------------------------------------------------
 
 
 def test_a_file_is_named_after_its_second(page: Page) -> None:
@@ -387,16 +121,6 @@ def test_a_file_is_named_after_its_second(page: Page) -> None:
         )
         == "scope-2026-01-07-090503.csv"
     )
-
-
-def test_scales_of_xy_are_in_the_unit_of_their_trace(page: Page) -> None:
-    trace = {"scale": 0.5, "offset": 3}
-    found = page.evaluate(
-        "(trace) => import('/js/scope/xy.js')"
-        ".then((m) => [-5, 0, 4].map((n) => m.valueAt(trace, n)))",
-        trace,
-    )
-    assert found == ["0.5", "3", "5"]
 
 
 # --- maths ----------------------------------------------------------------------------
@@ -431,26 +155,6 @@ def test_the_maths_channel_computes_as_numpy_does(
     np.testing.assert_allclose(
         call(page, "maths", "computed", text, channels, 0.0005), expected, rtol=1e-12, atol=1e-12
     )
-
-
-@pytest.mark.parametrize(
-    ("text", "what"),
-    [
-        ("", ""), ("CH1 +", ""), ("CH3", "CH3"), ("CH1 CH2", "CH2"), ("sqrt CH1", "CH1"),
-        ("min(CH1)", ")"), ("abs(CH1, CH2)", ","), ("(CH1", ""), ("CH1)", ")"),
-        ("CH1 = 2", "="), ("window", "window"), ("constructor", "constructor"), ("CH1.x", "."),
-        ("toString(CH1)", "toString"), ("1e3", "e3"), ("alert(1)", "alert"),
-    ],
-)  # fmt: skip
-def test_a_text_that_is_no_expression_is_refused_with_the_word(
-    page: Page, text: str, what: str
-) -> None:
-    assert page.evaluate(
-        """(text) => import('/js/scope/maths.js').then((m) => {
-          try { m.computed(text, [[1], [2]], 1); } catch (error) { return [error.constructor.name, error.what]; }
-        })""",  # noqa: E501
-        text,
-    ) == ["ExpressionError", what]
 
 
 # --- the pane -------------------------------------------------------------------------

@@ -210,31 +210,6 @@ def test_a_new_branch_here_keeps_what_followed_on_its_own(page: Page, served: Se
     assert page.complaints == []  # type: ignore[attr-defined]
 
 
-def test_times_are_typed_as_seconds_or_with_minutes_and_hours(page: Page) -> None:
-    times: dict[str, float | None] = {
-        "885.8": 885.8, "885,8": 885.8, "14:45.5": 885.5, "1:00:01": 3601, " 0 ": 0,
-        "": None, "soon": None, "-1": None, "1:2:3:4": None, "1e3": None, ":5": None,
-    }  # fmt: skip
-    found = page.evaluate(
-        "(all) => import('/js/bench/time_view.js').then((m) => all.map((it) => m.secondsOf(it)))",
-        [*times],
-    )
-    assert dict(zip(times, found, strict=True)) == times
-
-
-def test_the_shown_part_stays_within_the_history_and_the_ruler_has_round_times(page: Page) -> None:
-    found = page.evaluate("""() => import('/js/bench/time_view.js').then((m) => [
-      m.within([-50, 50], [0, 1000]), m.within([950, 1050], [0, 1000]), m.within([0, 5000], [10, 1000]),
-      m.zoomed([0, 1600], true, 400, [0, 1600]), m.zoomed([0, 1000], false, 1000, [0, 1600]),
-      m.zoomed([100, 120], true, 110, [0, 1600]), m.placeOf(150, [100, 200]),
-      m.rulerOf([0, 2000], 0.0005, 6), m.rulerOf([500, 1500], 0.001, 4), m.rulerOf([7, 7], 1, 4),
-    ])""")  # noqa: E501
-    assert found == [
-        [0, 100], [900, 1000], [10, 1000], [150, 1150], [0, 1600], [100, 120], 50,
-        [0, 0.2, 0.4, 0.6, 0.8, 1], [0.5, 1, 1.5], [],
-    ]  # fmt: skip
-
-
 def compare(page: Page, parameters: str) -> None:
     page.get_by_label("Parameters to compare").fill(parameters)
     page.get_by_role("button", name="COMPARE").click()

@@ -240,18 +240,6 @@ DRAWN = """() => {
   const span = (values) => values.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [1e9, 0]);
   return [span(xs).map((v) => v / copy.width), span(ys).map((v) => v / copy.height)];
 }"""
-FITTED = """async () => {
-  const { Camera } = await import('/js/draw/camera.js');
-  const camera = new Camera();
-  [camera.width, camera.height, camera.inset] = [500, 300, 100];
-  camera.look('front');
-  const seen = [[10, 5, 0], [210, -70, 20], [60, 0, 40]];
-  camera.fitPoints(seen);
-  const shows = (x, y) => camera.shows([[110 + x / camera.scale, 0, 20 + y / camera.scale]]);
-  return [camera.scale, camera.project(110, 0, 20), camera.shows(seen),
-    [[-199, 0], [-201, 0], [199, 0], [201, 0], [0, 149], [0, 151], [0, -149], [0, -151]]
-      .map(([x, y]) => shows(x, y))];
-}"""
 
 
 def test_a_fitted_machine_fills_its_picture_again_after_it_was_enlarged(
@@ -268,14 +256,6 @@ def test_a_fitted_machine_fills_its_picture_again_after_it_was_enlarged(
     pane.get_by_role("button", name="FIT").click()
     page.wait_for_function(f"() => {{ const [x, y] = ({DRAWN})(); return y[1] < 0.95; }}")
     assert page.complaints == []  # type: ignore[attr-defined]
-
-
-def test_a_camera_fits_points_beside_the_keys_and_knows_which_ones_it_shows(page: Page) -> None:
-    scale, middle, all_shown, shown = page.evaluate(FITTED)
-    assert scale == pytest.approx(0.86 * 400 / 200)
-    assert middle == pytest.approx([200, 150])
-    assert all_shown
-    assert shown == [True, False] * 4
 
 
 LEAVING = """async () => {
