@@ -9,7 +9,8 @@ import { t, textOr } from "../../../src/openacr/panel/web/js/core/texts.js";
 const JS = new URL("../../../src/openacr/panel/web/js/", import.meta.url);
 const STRING = String.raw`"((?:[^"\\]|\\.)*)"`;
 const KEY = String.raw`"([a-z][A-Za-z0-9 ]*(?:\.[A-Za-z0-9_ -]+)+)"`;
-const PAIR = new RegExp(String.raw`\{\s*en:\s*${STRING},\s*de:\s*${STRING},?\s*\}`, "g");
+const SUM = String.raw`(${STRING}(?:\s*\+\s*${STRING})*)`;
+const PAIR = new RegExp(String.raw`\{\s*en:\s*(?<en>${SUM}),\s*de:\s*(?<de>${SUM}),?\s*\}`, "g");
 const OWN = new RegExp(String.raw`(\w+):\s*\{\s*en:\s*"`, "g");
 
 const sources = new Map(
@@ -29,10 +30,11 @@ test("every text has both languages, with the same places for values", () => {
     const pairs = [...source.matchAll(PAIR)];
     assert.equal(pairs.length, source.match(/\ben:/g)?.length ?? 0, name);
     count += pairs.length;
-    for (const [, english, german] of pairs) {
+    for (const { groups } of pairs) {
+      const { en: english, de: german } = groups;
       const places = (text) => (text.match(/\{\w+\}/g) ?? []).sort();
       assert.deepEqual(places(german), places(english), `${name}: ${english}`);
-      assert.ok(english && german, name);
+      assert.ok(english !== '""' && german !== '""', name);
     }
   }
   assert.ok(count > 850);
@@ -60,7 +62,7 @@ test("every key of the catalogues is asked for, as it is or by how it begins", (
 test("every text that a module has for itself is said there", () => {
   for (const [name, source] of modules) {
     for (const [, own] of source.matchAll(OWN)) {
-      const isUsed = ["title", "label"].includes(own) || new RegExp(String.raw`\bTEXTS\.${own}\b`).test(source);
+      const isUsed = ["title", "label", "help"].includes(own) || new RegExp(String.raw`\bTEXTS\.${own}\b`).test(source);
       assert.ok(isUsed, `${name}: ${own}`);
     }
   }

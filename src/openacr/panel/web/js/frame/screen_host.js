@@ -13,7 +13,12 @@ import { t } from "../core/texts.js";
  * @property {(title: string) => void} setTitle
  * @property {(ask: () => boolean | Promise<boolean>) => void} beforeClose asked before the screen is left
  *
- * @typedef {{ title: import("../core/texts.js").Said, area?: "side" | "full", mode?: string, show: (place: Place) => void | Promise<void> }} Screen
+ * @typedef {object} Screen
+ * @property {import("../core/texts.js").Said} title
+ * @property {import("../core/texts.js").Text} [help] its page of HELP, paragraphs with an empty line between them; else the server has one
+ * @property {"side" | "full"} [area] beside the read-out (as long as nothing is given) or over it
+ * @property {string} [mode] of the machine while it is shown
+ * @property {(place: Place) => void | Promise<void>} show
  */
 
 /** The name of the shown screen; empty for none. */

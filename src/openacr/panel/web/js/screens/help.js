@@ -9,7 +9,7 @@ const TEXTS = {
   none: { en: "There is no page on this key.", de: "Zu dieser Taste gibt es keine Seite." },
 };
 
-/** Keys that are explained on a page with others. @type {Record<string, string>} */
+/** Keys that are explained on a page of the server with others. @type {Record<string, string>} */
 const PAGES = {
   main: "", diag: "setdiag", parameters: "setdiag", clearZero: "clrzero", zero: "setzero", gotoZero: "gotozero",
   start: "run", runLine: "run", dryRun: "run", block: "run", abort: "stop", resume: "stop", traceBack: "stop", traceStop: "stop", traceForward: "stop",
@@ -30,18 +30,17 @@ export const screen = {
       await closeScreen();
       (await import("../tour/tour.js")).startTour();
     } }, t("tour.title")));
-    const show = async (/** @type {HTMLElement} */ item, /** @type {string} */ key, /** @type {string} */ label) => {
+    const show = async (/** @type {HTMLElement} */ item, /** @type {import("../frame/menus.js").MenuKey} */ entry) => {
       for (const each of list.children) each.setAttribute("aria-current", String(each === item));
-      const page = await newest(get(`help/${key}`, { language: document.documentElement.lang })).catch(() => ({ title: label, text: t(TEXTS.none) }));
+      const page = await newest(pageOf(entry)).catch(() => ({ title: t(entry.label), text: t(TEXTS.none) }));
       if (page) fill(text, h("h2", {}, page.title), ...page.text.split(/\n\s*\n/).map((/** @type {string} */ part) => h("p", {}, part)));
     };
     const seen = new Set();
     for (const [menu, keys] of Object.entries(MENUS)) {
       for (const entry of keys) {
-        const [topic, key] = [entry.label, pageOf(entry)];
-        if (!key || seen.has(topic)) continue;
-        seen.add(topic);
-        const item = h("button.key.item", { type: "button", onclick: () => show(item, key, t(entry.label)) }, h("span.name", {}, t(entry.label)), h("span.quiet", { title: menu }, `F${entry.key}`));
+        if (!nameOf(entry) || seen.has(entry.label)) continue;
+        seen.add(entry.label);
+        const item = h("button.key.item", { type: "button", onclick: () => show(item, entry) }, h("span.name", {}, t(entry.label)), h("span.quiet", { title: menu }, `F${entry.key}`));
         list.append(item);
       }
     }
@@ -49,8 +48,18 @@ export const screen = {
   },
 };
 
+/**
+ * The page on a key: that of its screen, else one of the server.
+ * @param {import("../frame/menus.js").MenuKey} entry
+ * @returns {Promise<{ title: string, text: string }>}
+ */
+async function pageOf(entry) {
+  const help = entry.screen && (await import(`./${entry.screen}.js`)).screen.help;
+  return help ? { title: t(entry.label), text: t(help) } : get(`help/${nameOf(entry)}`, { language: document.documentElement.lang });
+}
+
 /** @param {import("../frame/menus.js").MenuKey} entry */
-function pageOf(entry) {
+function nameOf(entry) {
   const name = entry.menu ?? entry.args?.form?.toLowerCase() ?? entry.screen ?? entry.action ?? "";
   return PAGES[name] ?? name;
 }
