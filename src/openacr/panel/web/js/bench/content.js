@@ -1,6 +1,7 @@
 // What a pane shows: its module once this browser has the role for it, else a key that asks for it.
 import { model, refuse } from "../core/app.js";
 import { fill, h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { Endings } from "../core/signal.js";
 import { t } from "../core/texts.js";
 import { logIn } from "../frame/log_in.js";
@@ -38,7 +39,7 @@ export function showPane(element, pane, layout) {
     if (!client || isShown) return;
     const role = pane.role;
     if (!role || model.may(role)) void mount();
-    else fill(element, h("div.notice.row.wrap", {}, h("span.grow", {}, t("role.needed", { role: t(/** @type {any} */ (`role.${role}`)) })), h("button.key", { type: "button", onclick: () => logIn(role) }, t("login.go"))));
+    else fill(element, h("div.notice.row.wrap", {}, h("span.grow", {}, t("role.needed", { role: t(/** @type {any} */ (`role.${role}`)) })), keyOf("login.go", () => logIn(role))));
   }));
   return {
     end() {

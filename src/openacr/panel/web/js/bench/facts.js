@@ -1,5 +1,6 @@
 // What is known of a chosen parameter or flag, with keys that watch and change it.
 import { fill, h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { changeValue, fullName } from "../frame/card_value.js";
 import { addToWatchList } from "./watch_list.js";
@@ -12,6 +13,6 @@ import { addToWatchList } from "./watch_list.js";
 export function showFacts(host, item, shown) {
   if (!item) return fill(host);
   return fill(host, h("div.grow", {}, h("strong", {}, `${item.id} ${fullName(item)}`), h("p.hint", {}, [item.section, item.doc].filter(Boolean).join(" \u2014 "))),
-    h("button.key", { type: "button", onclick: () => addToWatchList(item.id) }, t("tree.watch")),
-    h("button.key", { type: "button", disabled: !item.writable, title: item.writable ? "" : t("values.fixed"), onclick: () => changeValue(item, shown()) }, t("tree.change")));
+    keyOf("tree.watch", () => addToWatchList(item.id)),
+    keyOf("tree.change", () => changeValue(item, shown()), "", { disabled: !item.writable, title: item.writable ? "" : t("values.fixed") }));
 }

@@ -14,7 +14,7 @@ const SWITCHES = [{ which: "feed", value: "fov" }, { which: "rapid", value: "rov
  * @param {"feed" | "rapid" | "spindle"} which
  * @param {1 | -1} step
  */
-export function stepOverride(which, step) {
+function stepOverride(which, step) {
   const click = (model.overrides.value[which]?.click ?? 0) + step;
   if (click >= 0 && click <= LAST_CLICK) void give("override.choose", { which, click });
 }

@@ -1,6 +1,6 @@
 // Binary frames of the server: typed views of what arrived, without a copy.
 
-export const TOPICS = Object.freeze({ 1: "status", 2: "flags", 3: "watch", 4: "scope", 5: "world" });
+const TOPICS = Object.freeze({ 1: "status", 2: "flags", 3: "watch", 4: "scope", 5: "world" });
 export const STATES = Object.freeze(["IDLE", "RUN", "WAIT", "HOMING", "PAUSED", "HOLD", "ALARM"]);
 export const BITS = Object.freeze({
   busy: 1, moving: 2, dry: 4, single: 8, alarm: 16, estop: 32, linkLost: 64, skip: 128, optional: 256,

@@ -38,7 +38,7 @@ export function carried(rung, stateOf, isRunning) {
  * @param {Symbol} symbol
  * @param {StateOf} stateOf
  */
-export function isClosed(symbol, stateOf) {
+function isClosed(symbol, stateOf) {
   const state = stateOf(symbol.flag ?? -1);
   return state !== undefined && state !== symbol.is_negated;
 }

@@ -29,7 +29,7 @@ export const chosenLine = new Signal(0);
  * @param {ArrayBuffer} data
  * @returns {ToolPath}
  */
-export function readPath(data) {
+function readPath(data) {
   const view = new DataView(data);
   const mark = String.fromCharCode(...new Uint8Array(data, 0, 4));
   if (mark !== MARK) throw new Error(`a tool path begins with ${MARK}, not with ${mark}`);

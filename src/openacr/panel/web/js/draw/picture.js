@@ -1,5 +1,6 @@
 // A picture of a tool path: ground, path and chosen line on three canvases, the tool as an element.
 import { h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { Camera } from "./camera.js";
 import { PENS } from "./colors.js";
@@ -109,8 +110,8 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
   }
 
   keys.append(
-    ...["top", "front", "side", "iso"].map((name) => h("button.key", { type: "button", data: { view: name }, onclick: () => look(name) }, t(/** @type {any} */ (`graphics.${name}`)))),
-    h("button.key", { type: "button", onclick: fit }, t("graphics.fit")),
+    ...["top", "front", "side", "iso"].map((name) => keyOf(/** @type {any} */ (`graphics.${name}`), () => look(name), "", { data: { view: name } })),
+    keyOf("graphics.fit", fit),
     h("button.key", { type: "button", ariaLabel: t("graphics.in"), onclick: () => zoom(1.4) }, "+"),
     h("button.key", { type: "button", ariaLabel: t("graphics.out"), onclick: () => zoom(1 / 1.4) }, "\u2212"),
     ...more,

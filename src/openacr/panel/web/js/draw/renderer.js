@@ -5,7 +5,7 @@ import { flatPainter } from "./flat.js";
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
 /** Whether WebGL here is drawn by a graphics card. */
-export function hasGpu() {
+function hasGpu() {
   const probe = document.createElement("canvas").getContext("webgl2");
   if (!probe) return false;
   const info = probe.getExtension("WEBGL_debug_renderer_info");

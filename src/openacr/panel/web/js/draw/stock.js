@@ -32,7 +32,7 @@ const LIGHT = [-0.4, 0.45, 0.8];
  * @param {ArrayBuffer} data
  * @returns {Stock}
  */
-export function readStock(data) {
+function readStock(data) {
   const view = new DataView(data);
   const mark = String.fromCharCode(...new Uint8Array(data, 0, 4));
   if (mark !== MARK) throw new Error(`a stock begins with ${MARK}, not with ${mark}`);

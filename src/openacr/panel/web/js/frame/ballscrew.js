@@ -2,6 +2,7 @@
 import { ApiError, address, get, latest, send } from "../core/api.js";
 import { model, refuse, report } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { mayDrop } from "./unsaved.js";
 
@@ -22,15 +23,15 @@ export function showBallscrew(host, endings) {
   const [first, second] = [h("th.number", {}), h("th.number", {})];
   const rows = h("tbody", {});
   const note = h("span.grow.hint", { role: "status" });
-  const saveKey = h("button.key.main", { type: "button", onclick: () => save() }, t("form.save"));
-  const undoKey = h("button.key", { type: "button", onclick: () => load(kept.axis) }, t("form.undo"));
+  const saveKey = keyOf("form.save", () => save(), ".main");
+  const undoKey = keyOf("form.undo", () => load(kept.axis));
   const file = h("input", { type: "file", hidden: true, ariaLabel: t("ballscrew.import"), onchange: () => void take() });
   const exported = h("a.key", { role: "button" }, t("ballscrew.export"));
   host.classList.add("form");
   host.append(
-    h("div.row.wrap.form-tools", {}, axes, h("label.check.row", {}, isOn, t("ballscrew.on")), h("button.key", { type: "button", onclick: () => file.click() }, t("ballscrew.import")), file, exported),
+    h("div.row.wrap.form-tools", {}, axes, h("label.check.row", {}, isOn, t("ballscrew.on")), keyOf("ballscrew.import", () => file.click()), file, exported),
     h("div.form-rows.scroll.grow", { tabIndex: -1 }, h("p.hint", {}, t("ballscrew.text")), h("table.grid.ballscrew", {}, h("thead", {}, h("tr", {}, first, second, h("th", {}))), rows),
-      h("button.key", { type: "button", onclick: () => add("", "").focus() }, t("ballscrew.add"))),
+      keyOf("ballscrew.add", () => add("", "").focus())),
     h("div.row.form-foot", {}, note, undoKey, saveKey),
   );
 

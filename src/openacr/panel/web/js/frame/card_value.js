@@ -1,8 +1,9 @@
 // A parameter or flag of the card: how its value is shown, and how it is changed.
 import { give, model, report } from "../core/app.js";
 import { h } from "../core/dom.js";
-import { stateOf } from "../core/flags.js";
+import { needWords, stateOf, wordsOf } from "../core/flags.js";
 import { t } from "../core/texts.js";
+import { needValues } from "../core/values.js";
 import { ask } from "./dialog.js";
 import { logIn } from "./log_in.js";
 import { askNumber } from "./number_pad.js";
@@ -22,6 +23,20 @@ export function isFlag(item) {
 /** @param {Item} item */
 export function fullName(item) {
   return `${item.object}${item.index ?? ""} ${item.name}`.trim();
+}
+
+/**
+ * Have the values of other items come, until `live` ends.
+ * @param {Item[]} items
+ * @param {import("../core/signal.js").Endings} live of the items before
+ * @param {(values: Map<number, number>) => void} changed called with the values of the parameters
+ */
+export function needItems(items, live, changed) {
+  live.end();
+  const numbers = items.filter((item) => !isFlag(item)).map((item) => item.number);
+  const words = wordsOf(items.filter(isFlag).map((item) => item.number));
+  if (numbers.length) live.add(needValues(numbers, changed));
+  if (words.length) live.add(needWords(words));
 }
 
 /**

@@ -2,6 +2,7 @@
 import { ApiError, get, latest, send } from "../core/api.js";
 import { model, refuse, report } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { fieldFor } from "./field.js";
 import { logIn } from "./log_in.js";
@@ -43,8 +44,8 @@ export function showForm(host, name, endings, setTitle = () => {}) {
   const tools = h("div.row.wrap.form-tools", {});
   const rows = h("div.form-rows.scroll.grow", { tabIndex: -1 });
   const note = h("span.grow.hint", { attr: { "aria-live": "polite" } });
-  const saveKey = h("button.key.main", { type: "button", onclick: () => save(), disabled: true }, t("form.save"));
-  const undoKey = h("button.key", { type: "button", onclick: () => load(), disabled: true }, t("form.undo"));
+  const saveKey = keyOf("form.save", () => save(), ".main", { disabled: true });
+  const undoKey = keyOf("form.undo", () => load(), "", { disabled: true });
   host.classList.add("form");
   host.append(tools, rows, h("div.row.form-foot", {}, note, undoKey, saveKey));
 
@@ -104,7 +105,7 @@ export function showForm(host, name, endings, setTitle = () => {}) {
     fill(tools, ...axisKeys(shown), ...pageKeys(shown));
     tools.hidden = !tools.childElementCount;
     fill(rows, ...(isBarred ? [h("div.notice.row", {}, h("span.grow", {}, t("role.needed", { role: t(/** @type {any} */ (`role.${shown.role}`)) })),
-        h("button.key", { type: "button", onclick: async () => (await logIn(shown.role)) && load() }, t("login.go")))] : []),
+        keyOf("login.go", async () => (await logIn(shown.role)) && load()))] : []),
       ...shown.groups.map((group) => h("fieldset.form-group", { disabled: isBarred }, group.title ? h("legend", {}, group.title) : "",
         ...group.rows.map((row) => {
           const field = fieldFor(row, changedNow, shown.per_axis);

@@ -1,6 +1,7 @@
 // The prompt line: what program and machine print, refusals, and questions to the operator.
 import { give, model, prompt } from "../core/app.js";
 import { byId, fill, h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { mayMove } from "../motion/actions.js";
 import { askNumber } from "./number_pad.js";
@@ -14,16 +15,16 @@ export function startPrompt() {
     const last = model.says.value.at(-1);
     const said = !last || (last.homing && state !== "HOMING") ? "" : last.text; // no step of a homing that is over
     if (moving.length) {
-      const key = h("button.key.danger", { type: "button", onclick: () => give(next) }, t(next === "stop.all" ? "stopped.all" : "stopped.estop"));
+      const key = keyOf(next === "stop.all" ? "stopped.all" : "stopped.estop", () => give(next), ".danger");
       show("error", t("stopped.moving", { axes: moving.join(" ") }), key);
     } else if (asking) {
-      const key = h("button.key.main", { type: "button", onclick: () => answer(asking) }, t("ask.answer"));
+      const key = keyOf("ask.answer", () => answer(asking), ".main");
       const isNew = show("ask", asking.text || t("ask.value"), key);
       if (isNew && !document.activeElement?.closest("dialog, #screen, input")) key.focus(); // Enter answers
     } else if (toolWanted) {
-      show("ask", reason || t("tool.wanted"), h("button.key.main", { type: "button", onclick: () => give("run.confirm") }, t("tool.changed")));
+      show("ask", reason || t("tool.wanted"), keyOf("tool.changed", () => give("run.confirm"), ".main"));
     } else if (holds) {
-      show("ask", t("stopped.held", { what: found.join(", ") }), h("button.key.main", { type: "button", onclick: () => mayMove() && give("run.resume") }, t("menu.resume")));
+      show("ask", t("stopped.held", { what: found.join(", ") }), keyOf("menu.resume", () => mayMove() && give("run.resume"), ".main"));
     } else if (prompt.value.text) show(prompt.value.kind, prompt.value.text);
     else show("say", said);
   };

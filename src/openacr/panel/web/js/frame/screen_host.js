@@ -1,6 +1,7 @@
 // Where screens are opened and closed. A screen is a module of screens/ loaded when it is first shown.
 import { link, model, prompt, refuse } from "../core/app.js";
 import { byId, fill, h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { Endings, Signal } from "../core/signal.js";
 import { t } from "../core/texts.js";
 
@@ -53,7 +54,7 @@ export async function openScreen(name, args = {}) {
   cameFrom = shown.value ? cameFrom : document.activeElement;
   const { screen } = module;
   const [title, keys] = [h("h2", { id: "screen-title" }, t(screen.title)), h("div.row", {})];
-  const close = h("button.key", { type: "button", onclick: () => closeScreen(), data: { close: "" } }, t("key.close"));
+  const close = keyOf("key.close", () => closeScreen(), "", { data: { close: "" } });
   const body = h("div.screen-body", { tabIndex: 0 }); // where it scrolls, the keyboard scrolls it
   const pane = byId("screen");
   pane.dataset.area = screen.area ?? "side";

@@ -1,6 +1,7 @@
 // The ALARMS tab: what is active, and what has been.
 import { give, model } from "../core/app.js";
 import { fill, h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 
 /**
@@ -9,7 +10,7 @@ import { t } from "../core/texts.js";
  */
 export function alarmsTab(panel, endings) {
   panel.classList.add("scroll");
-  const acknowledge = h("button.key.main", { type: "button", onclick: () => give("alarm.acknowledge") }, t("alarm.acknowledge"));
+  const acknowledge = keyOf("alarm.acknowledge", () => give("alarm.acknowledge"), ".main");
   const count = h("strong.grow", {});
   const body = h("tbody", {});
   panel.append(h("div.row.pane-tools", {}, count, acknowledge),

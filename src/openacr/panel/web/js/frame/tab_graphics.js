@@ -3,6 +3,7 @@
 import { get } from "../core/api.js";
 import { model } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { duration } from "../core/format.js";
 import { t } from "../core/texts.js";
 import { chosenLine, fetchPath, path, reached } from "../draw/path.js";
@@ -21,10 +22,10 @@ export async function graphicsTab(panel, endings) {
   panel.classList.add("graphics");
   const note = h("div.picture-note", { attr: { "aria-live": "polite" } });
   const stock = stockView();
-  const drawKey = h("button.key", { type: "button", hidden: true, onclick: () => {
+  const drawKey = keyOf("graphics.draw", () => {
     drawKey.hidden = true;
     void begin(model.program.value.loaded?.id ?? "");
-  } }, t("graphics.draw"));
+  }, "", { hidden: true });
   const picture = await createPicture(panel, endings, { clicked: (line) => chosenLine.set(line), hasTool: true, more: [drawKey, stock.key] });
   stock.show(picture, endings);
   let isOld = false;

@@ -2,6 +2,7 @@
 import { get, latest } from "../core/api.js";
 import { model, refuse } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { needWords, stateOf, wordsOf } from "../core/flags.js";
 import { keepSetting, setting } from "../core/settings.js";
 import { Endings } from "../core/signal.js";
@@ -29,10 +30,10 @@ export async function plcTab(panel, endings) {
   const state = h("span.grow", { role: "status" });
   const choice = h("select.field", { ariaLabel: t("plc.choose"), onchange: () => choose(Number(choice.value)) },
     ...Array.from({ length: COUNT }, (_each, n) => h("option", { value: String(n) }, `PLC${n}`)));
-  const listKey = h("button.key", { type: "button", onclick: () => toggleList() }, t("plc.listing"));
+  const listKey = keyOf("plc.listing", () => toggleList());
   const ladder = h("div.ladder.scroll", { tabIndex: 0, role: "region", ariaLabel: t("plc.ladder") });
   const list = h("pre.plc-list.mono.scroll", { tabIndex: 0, role: "region", ariaLabel: t("plc.listing") });
-  panel.append(h("div.row.pane-tools", {}, choice, state, listKey, h("button.key", { type: "button", onclick: () => choose(plc) }, t("plc.read"))), h("div.plc-view.grow", {}, ladder, list));
+  panel.append(h("div.row.pane-tools", {}, choice, state, listKey, keyOf("plc.read", () => choose(plc))), h("div.plc-view.grow", {}, ladder, list));
   const names = namesOf();
   const newest = latest(endings);
 

@@ -2,6 +2,7 @@
 import { get } from "../core/api.js";
 import { model } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { chosenLine } from "../draw/path.js";
 import { beginRun } from "../motion/begin.js";
@@ -15,7 +16,7 @@ export function programTab(panel, endings) {
   let isFollowing = true;
   const [name, phase] = [h("strong.name", {}, ""), h("span.grow.quiet", { role: "status" }, "")];
   const elsewhere = h("div.active-block.mono", { role: "status", hidden: true }); // a block of an included text
-  const followKey = h("button.key", { type: "button", ariaPressed: "true", onclick: () => setFollowing(!isFollowing) }, t("program.follow"));
+  const followKey = keyOf("program.follow", () => setFollowing(!isFollowing), "", { ariaPressed: "true" });
   const fromKey = h("button.key", { type: "button", hidden: true, onclick: () => beginRun({ dry: false, line: chosenLine.value }) }, "");
   panel.append(h("div.row.pane-tools", {}, name, phase, fromKey, followKey), elsewhere);
   const listing = createListing(panel, {

@@ -1,6 +1,7 @@
 // The top of the main screen: state, alarms and user messages, who has control, appearance.
 import { give, model, refuse, report } from "../core/app.js";
 import { byId, fill, h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { applyTheme, keepSetting, setting } from "../core/settings.js";
 import { LANGUAGES, t, textOr } from "../core/texts.js";
 import { PLAIN } from "../draw/colors.js";
@@ -79,7 +80,7 @@ function modeParts() {
   if (still) return [h("span.text", {}, t("mode.still"))];
   const { lacks } = model.hello.value.machine;
   if (!lacks) return [];
-  return [h("span.text", { title: lacks }, lacks), h("button.key", { type: "button", onclick: () => setUp(lacks) }, t("mode.setup"))];
+  return [h("span.text", { title: lacks }, lacks), keyOf("mode.setup", () => setUp(lacks))];
 }
 
 /** @param {string} lacks */
@@ -92,8 +93,8 @@ async function setUp(lacks) {
 function alarmParts([first, ...others]) {
   return [h("span", { ariaHidden: "true" }, "\u26a0"), h("span.text", { title: first.text }, `${first.code} ${first.text}`),
     others.length ? h("span", {}, t("alarm.more", { count: others.length })) : "",
-    h("button.key.bad", { type: "button", onclick: acknowledge }, t("alarm.acknowledge")),
-    h("button.key", { type: "button", onclick: () => show("alarms") }, t("alarm.show"))];
+    keyOf("alarm.acknowledge", acknowledge, ".bad"),
+    keyOf("alarm.show", () => show("alarms"))];
 }
 
 /** Acknowledge the alarms; of those that stay, what has to be done is in the prompt line. */

@@ -3,6 +3,7 @@ import { ApiError, get, latest, send } from "../core/api.js";
 import { refuse, report } from "../core/app.js";
 import { numberIn } from "../core/arithmetic.js";
 import { fill, h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { fetchPath } from "../draw/path.js";
 import { createPicture } from "../draw/picture.js";
@@ -21,9 +22,9 @@ export async function dxfSource(host, endings, load) {
   const fields = createFields();
   const drawing = h("div.preview.grow", {});
   const notes = h("div.scroll.dxf-notes", { role: "status" });
-  const convert = h("button.key.main", { type: "button", disabled: true, onclick: () => make(false) }, t("dxf.convert"));
-  const edit = h("button.key", { type: "button", disabled: true, onclick: () => openScreen("edit", { path: written }) }, t("menu.edit"));
-  const go = h("button.key.big", { type: "button", disabled: true, onclick: () => load("program.load", { path: written }) }, t("load.go"));
+  const convert = keyOf("dxf.convert", () => make(false), ".main", { disabled: true });
+  const edit = keyOf("menu.edit", () => openScreen("edit", { path: written }), "", { disabled: true });
+  const go = keyOf("load.go", () => load("program.load", { path: written }), ".big", { disabled: true });
   const list = fileList({ kinds: ["dxf"], chosen: async (entry) => {
     path = entry.path;
     convert.disabled = false;

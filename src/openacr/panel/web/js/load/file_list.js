@@ -2,6 +2,7 @@
 import { address, call, get, latest } from "../core/api.js";
 import { model, refuse, report } from "../core/app.js";
 import { fill, h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { size } from "../core/format.js";
 import { t } from "../core/texts.js";
 
@@ -14,7 +15,7 @@ export function fileList({ kinds, chosen, opened = () => {} }) {
   const rows = h("div.list.grow.scroll", { role: "listbox", ariaLabel: t("load.files") });
   const place = h("span.grow.mono", {});
   const input = h("input", { type: "file", hidden: true, multiple: true, onchange: () => void upload([...(input.files ?? [])]) });
-  const element = h("section.file-list", {}, h("div.row", {}, place, h("button.key", { type: "button", onclick: () => input.click() }, t("load.upload")), input), rows, h("p.hint", {}, t("load.drop")));
+  const element = h("section.file-list", {}, h("div.row", {}, place, keyOf("load.upload", () => input.click()), input), rows, h("p.hint", {}, t("load.drop")));
   let folder = "";
   const newest = latest();
   element.addEventListener("dragover", (event) => {

@@ -2,6 +2,7 @@
 import { get, latest } from "../core/api.js";
 import { refuse } from "../core/app.js";
 import { fill, h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { fileList } from "./file_list.js";
 
@@ -35,7 +36,7 @@ export function batchSource(host, endings, load) {
 export function dripSource(host, _endings, load) {
   const port = h("input.field", { ariaLabel: t("load.port"), placeholder: "COM1, /dev/ttyS0", autocomplete: "off" });
   host.append(h("div.stack", {}, h("p", {}, t("load.drip.text")), h("label.row", {}, h("span.grow", {}, t("load.port")), port),
-    h("button.key.main.big", { type: "button", onclick: () => load("program.drip", { port: port.value.trim() }) }, t("load.drip.start"))));
+    keyOf("load.drip.start", () => load("program.drip", { port: port.value.trim() }), ".main.big")));
 }
 
 /**
@@ -50,7 +51,7 @@ function source(host, endings, kinds, load) {
   const newest = latest(endings);
   const text = h("pre.listing-plain.mono.grow.scroll", { tabIndex: 0, role: "region", ariaLabel: t("load.text") });
   const name = h("span.grow.quiet", {}, t("load.choose"));
-  const key = h("button.key.main.big", { type: "button", disabled: true, onclick: () => load(path) }, t("load.go"));
+  const key = keyOf("load.go", () => load(path), ".main.big", { disabled: true });
   const list = fileList({ kinds, chosen: async (entry) => {
     path = entry.path;
     key.disabled = false;

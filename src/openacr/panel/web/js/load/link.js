@@ -2,6 +2,7 @@
 import { ApiError, call, get, send } from "../core/api.js";
 import { refuse } from "../core/app.js";
 import { h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { size } from "../core/format.js";
 import { t } from "../core/texts.js";
 import { confirm } from "../frame/dialog.js";
@@ -20,9 +21,9 @@ export function linkSource(host, endings, load) {
   let isShown = true;
   const port = h("input.field", { ariaLabel: t("load.port"), placeholder: "COM1, /dev/ttyS0", autocomplete: "off" });
   const file = h("input.field.mono", { ariaLabel: t("load.link.file"), autocomplete: "off", spellcheck: false, oninput: () => { begin.disabled = file.value.trim() === ""; } });
-  const begin = h("button.key.main.big", { type: "button", disabled: true, onclick: () => receive(false) }, t("load.link.start"));
-  const cancel = h("button.key.big", { type: "button", hidden: true, onclick: () => call("/api/link", { method: "DELETE" }).then(follow, refuse) }, t("key.cancel"));
-  const go = h("button.key.big", { type: "button", disabled: true, onclick: () => load("program.load", { path: kept }) }, t("load.go"));
+  const begin = keyOf("load.link.start", () => receive(false), ".main.big", { disabled: true });
+  const cancel = keyOf("key.cancel", () => call("/api/link", { method: "DELETE" }).then(follow, refuse), ".big", { hidden: true });
+  const go = keyOf("load.go", () => load("program.load", { path: kept }), ".big", { disabled: true });
   const note = h("p.notice", { role: "status", hidden: true });
   host.append(h("div.stack", {}, h("p", {}, t("load.link.text")),
     h("label.row", {}, h("span.grow", {}, t("load.port")), port), h("label.row", {}, h("span.grow", {}, t("load.link.file")), file),

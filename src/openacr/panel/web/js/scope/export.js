@@ -16,7 +16,7 @@ import { fullLabel } from "./channels.js";
  * @param {number} period s
  * @param {number} begin s of the first sample
  */
-export function csvOf(traces, period, begin) {
+function csvOf(traces, period, begin) {
   const quoted = (/** @type {string} */ text) => (/[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
   const lines = [["time_s", ...traces.map(fullLabel)].map(quoted).join(",")];
   for (let n = 0; n < (traces[0]?.values.length ?? 0); n++) {
@@ -31,7 +31,7 @@ export function csvOf(traces, period, begin) {
  * @param {number} period s
  * @param {number} begin s of the first sample
  */
-export async function parquetOf(traces, period, begin) {
+async function parquetOf(traces, period, begin) {
   const samples = traces[0]?.values.length ?? 0;
   const body = new Float64Array(samples * traces.length);
   traces.forEach(({ values }, n) => body.set(values, n * samples));
@@ -45,7 +45,7 @@ export async function parquetOf(traces, period, begin) {
  * @param {{ text: string, color?: string }[]} lines a colour is a key of the text
  * @returns {Promise<Blob>}
  */
-export function pngOf(canvas, lines) {
+function pngOf(canvas, lines) {
   const size = 13 * devicePixelRatio;
   const row = 1.5 * size;
   const copy = h("canvas", {});
@@ -87,7 +87,7 @@ export function fileName(kind, now) {
  * @param {string} name
  * @param {Blob} blob
  */
-export function keepFile(name, blob) {
+function keepFile(name, blob) {
   const link = h("a", { href: URL.createObjectURL(blob), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);

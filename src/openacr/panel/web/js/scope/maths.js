@@ -12,7 +12,7 @@ const OF_SAMPLES = {
 const OF_RECORDS = { d: derivative, i: integral };
 
 /** Functions with the count of their arguments. */
-export const FUNCTIONS = Object.freeze({ d: 1, i: 1, abs: 1, sqrt: 1, sin: 1, cos: 1, tan: 1, atan: 1, exp: 1, log: 1, log10: 1, min: 2, max: 2 });
+const FUNCTIONS = Object.freeze({ d: 1, i: 1, abs: 1, sqrt: 1, sin: 1, cos: 1, tan: 1, atan: 1, exp: 1, log: 1, log10: 1, min: 2, max: 2 });
 
 /**
  * The samples of an expression such as "d(CH1) - CH2 / 2"; ExpressionError for any other text.

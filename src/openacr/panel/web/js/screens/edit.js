@@ -2,6 +2,7 @@
 import { ApiError, latest, readFile, send, writeFile } from "../core/api.js";
 import { model, refuse, report } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { ask, askText } from "../frame/dialog.js";
 import { findingItems } from "../frame/findings.js";
@@ -36,10 +37,10 @@ export const screen = {
     const host = h("div.editor-host.grow", {});
     const findings = h("div.findings.scroll", { hidden: true });
     const state = h("span.hint.grow", { role: "status" });
-    const saveKey = h("button.key.main", { type: "button", onclick: () => save() }, t(TEXTS.save));
-    head.append(h("button.key", { type: "button", onclick: async () => { if (await mayDrop()) await open(path); } }, t(TEXTS.open)), h("button.key", { type: "button", onclick: () => begin() }, t(TEXTS.new)),
-      h("button.key", { type: "button", onclick: () => openScreen("load", { source: "dxf" }) }, t(TEXTS.dxf)),
-      h("button.key", { type: "button", onclick: () => saveAs() }, t(TEXTS.saveas)), saveKey);
+    const saveKey = keyOf(TEXTS.save, () => save(), ".main");
+    head.append(keyOf(TEXTS.open, async () => { if (await mayDrop()) await open(path); }), keyOf(TEXTS.new, () => begin()),
+      keyOf(TEXTS.dxf, () => openScreen("load", { source: "dxf" })),
+      keyOf(TEXTS.saveas, () => saveAs()), saveKey);
     body.classList.add("is-editor");
     body.append(host, findings, h("div.row", {}, state));
     const editor = createEditor(host, {

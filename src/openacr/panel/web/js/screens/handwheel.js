@@ -1,6 +1,7 @@
 // HANDWHEEL: choose the axes that the wheel moves.
 import { give } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { axisChoice } from "../frame/axis_choice.js";
 import { mayMove } from "../motion/actions.js";
@@ -30,8 +31,8 @@ export const screen = {
       }
     };
     body.append(h("p", {}, t(TEXTS.text)), choice.element, h("div.row", {},
-      h("button.key.big.main", { type: "button", onclick: () => mayMove() && turn(choice.names()) }, t(TEXTS.start)),
-      h("button.key.big", { type: "button", onclick: () => turn("") }, t(TEXTS.end))), state);
+      keyOf(TEXTS.start, () => mayMove() && turn(choice.names()), ".big.main"),
+      keyOf(TEXTS.end, () => turn(""), ".big")), state);
     endings.add(() => {
       if (!state.hidden) void give("handwheel", { axes: "" });
     });

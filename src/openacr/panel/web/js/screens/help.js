@@ -1,6 +1,7 @@
 // HELP: a page for every key of every menu.
 import { get, latest } from "../core/api.js";
 import { fill, h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { MENUS } from "../frame/menus.js";
 import { closeScreen } from "../frame/screen_host.js";
@@ -26,10 +27,10 @@ export const screen = {
     const list = h("div.form-tabs.scroll", {});
     body.classList.add("is-tabbed");
     body.append(list, text);
-    head.append(h("button.key", { type: "button", onclick: async () => {
+    head.append(keyOf("tour.title", async () => {
       await closeScreen();
       (await import("../tour/tour.js")).startTour();
-    } }, t("tour.title")));
+    }));
     const show = async (/** @type {HTMLElement} */ item, /** @type {import("../frame/menus.js").MenuKey} */ entry) => {
       for (const each of list.children) each.setAttribute("aria-current", String(each === item));
       const page = await newest(pageOf(entry)).catch(() => ({ title: t(entry.label), text: t(TEXTS.none) }));

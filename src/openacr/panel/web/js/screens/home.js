@@ -1,6 +1,7 @@
 // HOME: choose axes, start, and see how far each one is.
 import { give, model, refuse } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t, textOr } from "../core/texts.js";
 import { axisChoice } from "../frame/axis_choice.js";
 import { mayMove } from "../motion/actions.js";
@@ -29,12 +30,12 @@ export const screen = {
       states.set(axis.name, state);
       return state;
     } });
-    const start = h("button.key.big.danger", { type: "button", onclick: async () => {
+    const start = keyOf(TEXTS.start, async () => {
       const axes = choice.names();
       if (!axes) refuse(t("axes.none"));
       else if (mayMove()) await give("home.start", { axes });
-    } }, t(TEXTS.start));
-    const stop = h("button.key.big.bad", { type: "button", onclick: () => give("stop.hold") }, t("menu.stop"));
+    }, ".big.danger");
+    const stop = keyOf("menu.stop", () => give("stop.hold"), ".big.bad");
     const progress = h("div.notice", { role: "status" });
     body.append(h("p", {}, t(TEXTS.text)), choice.element, h("div.row", {}, h("div.grow", {}, start), stop), progress);
     endings.add(

@@ -1,5 +1,6 @@
 // LOAD PROG: user file, library part, DXF, batch, drip feed or LINK; afterwards the menu RUN PROG.
 import { h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { Endings } from "../core/signal.js";
 import { give } from "../core/app.js";
 import { t } from "../core/texts.js";
@@ -33,7 +34,7 @@ export const screen = {
       for (const key of list.querySelectorAll("button")) key.ariaChecked = String(key.dataset.source === name);
       void SOURCES[name](host, own, load);
     };
-    list.append(...Object.keys(SOURCES).map((name) => h("button.key", { type: "button", role: "radio", data: { source: name }, onclick: () => choose(/** @type {any} */ (name)) }, t(/** @type {any} */ (`load.${name}`)))));
+    list.append(...Object.keys(SOURCES).map((name) => keyOf(/** @type {any} */ (`load.${name}`), () => choose(/** @type {any} */ (name)), "", { role: "radio", data: { source: name } })));
     choose(args.source ?? "file");
   },
 };

@@ -2,6 +2,7 @@
 import { ApiError, writeFile } from "../core/api.js";
 import { give, model, refuse, report } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { askText } from "../frame/dialog.js";
 import { mayMove } from "../motion/actions.js";
@@ -64,14 +65,14 @@ export const screen = {
       keep.hidden = !isEdited;
       return done;
     };
-    const keep = h("button.key", { type: "button", hidden: true, onclick: keepEdit }, t(TEXTS.keep));
-    const runAll = h("button.key", { type: "button", onclick: async () => {
+    const keep = keyOf(TEXTS.keep, keepEdit, "", { hidden: true });
+    const runAll = keyOf(TEXTS.runall, async () => {
       if (mayMove() && (!isEdited || (await keepEdit()))) await give("mdi.execute", { lines: lines(), kept: true });
-    } }, t(TEXTS.runall));
-    const save = h("button.key", { type: "button", onclick: () => saveAs(buffer.value) }, t(TEXTS.save));
-    const clear = h("button.key", { type: "button", onclick: async () => {
+    });
+    const save = keyOf(TEXTS.save, () => saveAs(buffer.value));
+    const clear = keyOf(TEXTS.clear, async () => {
       if (await give("mdi.buffer", { lines: [] })) buffer.value = "";
-    } }, t(TEXTS.clear));
+    });
     body.append(buffer, h("div.row.wrap", {}, h("label.check.row", {}, isOn, t(TEXTS.on)), state, h("span.grow", {}), keep, runAll, save, clear),
       h("form.row", { onsubmit: (/** @type {Event} */ event) => {
         event.preventDefault();

@@ -1,6 +1,7 @@
 // MEMORY CONFIG: the bytes of the card for each program and PLC program.
 import { give, link, refuse, report } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { CommandError } from "../core/link.js";
 import { t } from "../core/texts.js";
 import { confirm } from "../frame/dialog.js";
@@ -31,7 +32,7 @@ export const screen = {
   async show({ body, endings, beforeClose }) {
     const rows = h("div.memory-rows.grow.scroll", {});
     const free = h("strong.grow", { role: "status" });
-    const saveKey = h("button.key.danger", { type: "button", disabled: true, onclick: save }, t(TEXTS.save));
+    const saveKey = keyOf(TEXTS.save, save, ".danger", { disabled: true });
     body.append(h("div.notice", {}, t(TEXTS.warning)), rows, h("div.row", {}, free, saveKey));
     /** @type {{ name: string, input: HTMLInputElement, before: string }[]} */
     let fields = [];

@@ -2,6 +2,7 @@
 import { get, latest } from "../core/api.js";
 import { give, link, model, refuse, report } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { chosenProgram, needPrograms } from "../core/programs.js";
 import { t, textOr } from "../core/texts.js";
 import { ask, confirm } from "../frame/dialog.js";
@@ -80,7 +81,7 @@ export const screen = {
       read: async (first, count) => lines.slice(first - 1, first - 1 + count).map((each) => each.text),
       numberOf: (row) => String(lines[row - 1]?.number ?? ""), clicked: () => {}, scrolled: () => {}, label: t(TEXTS.text),
     });
-    head.append(h("button.key", { type: "button", onclick: () => readList() }, t("programs.read")));
+    head.append(keyOf("programs.read", () => readList()));
 
     /** @type {string[]} */
     let differing = []; // from the project of the card
@@ -166,7 +167,7 @@ export const screen = {
       const key = (/** @type {any} */ label, /** @type {() => void} */ does, more = {}) => h("button.key", { type: "button", disabled: Boolean(bar), title: bar, onclick: does, ...more }, t(label));
       const order = (/** @type {string} */ cmd, values = {}) => () => void give(cmd, { ...which(), ...values });
       const focused = keys.contains(document.activeElement) ? document.activeElement?.textContent : "";
-      if (!text.hidden) fill(keys, key(TEXTS.send, () => send(), { className: "key main", disabled: false }), h("button.key", { type: "button", onclick: () => drop() }, t("form.drop")));
+      if (!text.hidden) fill(keys, key(TEXTS.send, () => send(), { className: "key main", disabled: false }), keyOf("form.drop", () => drop()));
       else fill(keys,
         key(TEXTS.run, () => run(), { className: bar || isRunning ? "key" : "key danger", disabled: Boolean(bar) || isRunning, ...shortcut("run", "Alt+R", bar) }), key(TEXTS.halt, order("card.halt")),
         ...(isPlc ? [] : [

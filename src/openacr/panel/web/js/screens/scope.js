@@ -1,6 +1,7 @@
 // SCOPE: four channels sampled by the card on ten by ten divisions, with a trigger and an index move.
 import { give, link, model, refuse } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { keepSetting, setting } from "../core/settings.js";
 import { Endings } from "../core/signal.js";
 import { t } from "../core/texts.js";
@@ -47,7 +48,7 @@ export const screen = {
     const recording = new Recording();
     const run = new Endings();
     endings.add(() => run.end(), () => void (link.isOpen.value && link.command("scope.stop").catch(() => {})));
-    head.append(key("scope.start", () => arm(null), "main"), key("scope.index", index, "danger"), key("scope.stop", stop), key("scope.autoscale", autoscale));
+    head.append(keyOf("scope.start", () => arm(null), ".main"), keyOf("scope.index", index, ".danger"), keyOf("scope.stop", stop), keyOf("scope.autoscale", autoscale));
     body.append(h("div.scope-side.scroll", {},
       h("div.scope-channel", {}, h("span", {}), ...["scope.head.source", "scope.head.scale", "scope.head.offset"].map((each) => h("span.hint", {}, t(/** @type {any} */ (each))))),
       ...channels.map((each, n) => h("div.scope-channel", { data: { channel: String(n + 1) } }, h("strong", {}, String(n + 1)), each.source, each.scale, each.offset)),
@@ -131,15 +132,6 @@ export const screen = {
 /** @param {HTMLInputElement} field */
 function numberOf(field) {
   return Number(field.value.replace(",", "."));
-}
-
-/**
- * @param {import("../core/texts.js").Said} text
- * @param {() => void} onclick
- * @param {string} [kind]
- */
-function key(text, onclick, kind = "") {
-  return h("button.key", { type: "button", className: `key ${kind}`, onclick }, t(text));
 }
 
 /**

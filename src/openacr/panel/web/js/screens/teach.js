@@ -1,6 +1,7 @@
 // TEACH: the machine position becomes the origin of a work coordinate system.
 import { give, model, refuse, report } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { position } from "../core/format.js";
 import { viewOf } from "../core/units.js";
 import { t } from "../core/texts.js";
@@ -44,7 +45,7 @@ export const screen = {
       if (number !== null && (await give("teach.length", { h: number }))) report(t(TEXTS.lengthDone, { h: number }));
     };
     body.append(h("p", {}, t(TEXTS.text)), h("label.row", {}, h("span.grow", {}, t(TEXTS.system)), system), choice.element, h("div.row.wrap", {},
-      h("button.key.big.main", { type: "button", onclick: teach }, t("menu.teach")), h("button.key.big", { type: "button", onclick: length }, t(TEXTS.length))));
+      keyOf("menu.teach", teach, ".big.main"), keyOf(TEXTS.length, length, ".big")));
     endings.add(model.status.watch((status) => status && model.axes.forEach((axis, n) => setText(places[n], position(status.machine[n] * viewOf(axis).factor, viewOf(axis).decimals)))));
   },
 };

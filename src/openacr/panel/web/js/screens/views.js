@@ -2,6 +2,7 @@
 import { get, send } from "../core/api.js";
 import { model, refuse, report } from "../core/app.js";
 import { h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { BLOCK_NAMES } from "../blocks/blocks.js";
 
@@ -33,6 +34,6 @@ export const screen = {
     };
     body.append(h("table.grid", {}, h("thead", {}, h("tr", {}, h("th", {}, t(TEXTS.block)), ...VIEWS.map((n) => h("th", {}, t("status.view", { n: n + 1 }))))),
       h("tbody", {}, ...boxes.map(({ name, cells }) => h("tr", {}, h("td", {}, t(/** @type {any} */ (`block.${name}`))), ...cells.map((cell) => h("td", {}, h("label.check", {}, cell))))))),
-    h("div.row", {}, h("span.grow", {}), h("button.key.main", { type: "button", onclick: save }, t(TEXTS.save))));
+    h("div.row", {}, h("span.grow", {}), keyOf(TEXTS.save, save, ".main")));
   },
 };

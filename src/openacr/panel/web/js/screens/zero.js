@@ -1,6 +1,7 @@
 // SET ZERO: the position of chosen axes becomes 0 of the program.
 import { give, refuse, report } from "../core/app.js";
 import { h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { axisChoice } from "../frame/axis_choice.js";
 import { ACTIONS } from "../motion/actions.js";
@@ -17,11 +18,11 @@ export const screen = {
   show({ body }) {
     const choice = axisChoice({ label: t(TEXTS.axes) });
     body.append(h("p", {}, t(TEXTS.text)), choice.element, h("div.row.wrap", {},
-      h("button.key.big.main", { type: "button", onclick: async () => {
+      keyOf("menu.setzero", async () => {
         const axes = choice.names();
         if (!axes) refuse(t("axes.none"));
         else if (await give("zero.set", { axes })) report(t("zero.done", { axes: axes.split("").join(" ") }));
-      } }, t("menu.setzero")),
-      h("button.key.big", { type: "button", onclick: () => ACTIONS.clearZero({ openMenu }) }, t("menu.clrzero"))));
+      }, ".big.main"),
+      keyOf("menu.clrzero", () => ACTIONS.clearZero({ openMenu }), ".big")));
   },
 };

@@ -1,5 +1,6 @@
 // The tour: one part of the screen after the other is framed and explained. It bars nothing: every key works meanwhile.
 import { fill, h } from "../core/dom.js";
+import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { STEPS } from "./steps.js";
 
@@ -11,15 +12,15 @@ export function startTour() {
   const before = document.activeElement;
   const place = h("span.quiet", {});
   const text = h("p", { role: "status" });
-  const back = h("button.key", { type: "button", onclick: () => show(at - 1) }, t("tour.back"));
-  const next = h("button.key.main", { type: "button", onclick: () => show(at + 1) }, t("tour.next"));
+  const back = keyOf("tour.back", () => show(at - 1));
+  const next = keyOf("tour.next", () => show(at + 1), ".main");
   const box = h("section.tour", { ariaLabel: t("tour.title"), onkeydown: (/** @type {KeyboardEvent} */ event) => {
     const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (!by) return;
     event.preventDefault();
     event.stopPropagation(); // the arrows jog elsewhere
     if (at + by >= 0 && at + by < STEPS.length) show(at + by);
-  } }, text, h("div.row", {}, place, h("span.grow", {}), back, next, h("button.key", { type: "button", onclick: () => end() }, t("tour.end"))));
+  } }, text, h("div.row", {}, place, h("span.grow", {}), back, next, keyOf("tour.end", () => end())));
   /** @type {Element | null} */
   let framed = null;
   let at = 0;

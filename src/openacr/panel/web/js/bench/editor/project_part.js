@@ -1,6 +1,6 @@
 // What the editor does with the project of the card: its text stored there, or that of the project opened.
 import { model, refuse, report } from "../../core/app.js";
-import { h } from "../../core/dom.js";
+import { keyOf } from "../../core/keys.js";
 import { t } from "../../core/texts.js";
 import { hasProject, inProject, toProject } from "./card_text.js";
 
@@ -10,8 +10,8 @@ import { hasProject, inProject, toProject } from "./card_text.js";
  * @param {{ opened: () => Opened, text: () => string, show: (opened: Opened) => void, mayDrop: () => Promise<boolean>, draw: () => void }} editor
  */
 export function projectPart({ opened, text, show, mayDrop, draw }) {
-  const saveKey = h("button.key", { type: "button", onclick: () => void save() }, t("texts.project.save"));
-  const openKey = h("button.key", { type: "button", onclick: () => void open() }, t("texts.project.open"));
+  const saveKey = keyOf("texts.project.save", () => void save());
+  const openKey = keyOf("texts.project.open", () => void open());
   const maySave = () => Boolean(opened().project && !opened().project?.why_not) && model.may("service");
 
   /** Store the text in the project; whether it is there. */

@@ -2,6 +2,7 @@
 import { get, latest } from "../../core/api.js";
 import { model, refuse, report } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
+import { keyOf } from "../../core/keys.js";
 import { CommandError } from "../../core/link.js";
 import { chosenProgram, needPrograms } from "../../core/programs.js";
 import { Endings } from "../../core/signal.js";
@@ -80,7 +81,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   const actions = nameActions({ asked, editor: () => editor, list, showBeside });
   const choice = h("select.field", { ariaLabel: t(TEXTS.which), onchange: () => void chooseLevel() });
   const input = h("input", { type: "file", hidden: true, ariaLabel: t(TEXTS.open), accept: ".8k,.8K,.txt,.prg", onchange: () => void chooseFile() });
-  const sendKey = keyOf(TEXTS.send, () => sendNow(), "main");
+  const sendKey = keyOf(TEXTS.send, () => sendNow(), ".main");
   const project = projectPart({ opened: () => opened, text: () => editor.text(), show: (now) => show(now), mayDrop: () => mayDrop(), draw: () => draw() });
   head.append(choice, keyOf(TEXTS.read, () => chooseLevel()), sendKey, keyOf(TEXTS.compare, () => compare()), keyOf(TEXTS.open, () => input.click()), input, keyOf(TEXTS.save, () => save()), ...project.keys,
     keyOf("texts.rename", actions.rename), keyOf(TEXTS.uses, actions.uses), keyOf(TEXTS.format, actions.format), keyOf(TEXTS.outline, actions.outline));
@@ -324,13 +325,4 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   choice.value = [...choice.options].some((each) => each.value === kept.level) ? kept.level : "";
   if (choice.value) await chooseLevel();
   return () => endings.end();
-}
-
-/**
- * @param {import("../../core/texts.js").Said} label
- * @param {() => void | Promise<void>} onclick
- * @param {string} [kind]
- */
-function keyOf(label, onclick, kind = "") {
-  return h("button", { type: "button", className: `key ${kind}`, onclick: () => void onclick() }, t(label));
 }

@@ -1,6 +1,7 @@
 // The oscilloscope: eight channels and one computed, trigger, cursors, XY, spectrum, references, files.
 import { give, link, model, refuse } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
+import { keyOf } from "../../core/keys.js";
 import { Endings, Signal } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
 import { ask } from "../../frame/dialog.js";
@@ -78,21 +79,21 @@ export async function mount(host, { head, kept, keep }) {
   const zooming = h("span.hint", {}, t(TEXTS.zoom));
   const distance = h("span.hint", { data: { cursors: "" } });
   const table = h("table.grid.scope-measures", {});
-  const keys = VIEWS.map((each) => key(/** @type {any} */ (`scope.view.${each}`), () => show(each)));
+  const keys = VIEWS.map((each) => keyOf(/** @type {any} */ (`scope.view.${each}`), () => show(each)));
   const side = h("div.scope-side.scroll", { tabIndex: 0, hidden: Boolean(kept.isFull) }, channels.element(), settings.element());
-  const sideKey = key(TEXTS.settings, () => {
+  const sideKey = keyOf(TEXTS.settings, () => {
     side.hidden = !side.hidden;
     sideKey.ariaPressed = String(!side.hidden);
     side.scrollIntoView();
     changed();
   });
   sideKey.ariaPressed = String(!side.hidden);
-  const cursorKey = key(TEXTS.cursors, toggleCursors);
-  const referenceKey = key(TEXTS.reference, toggleReference);
-  head.append(key("scope.start", () => void sample().catch(refuse), "main"), key("scope.stop", () => void give("scope.stop")), key("scope.autoscale", () => {
+  const cursorKey = keyOf(TEXTS.cursors, toggleCursors);
+  const referenceKey = keyOf(TEXTS.reference, toggleReference);
+  head.append(keyOf("scope.start", () => void sample().catch(refuse), ".main"), keyOf("scope.stop", () => void give("scope.stop")), keyOf("scope.autoscale", () => {
     channels.fit(shownNow().traces);
     changed();
-  }), ...keys, cursorKey, referenceKey, key(TEXTS.branch, () => void referToBranch().catch(refuse)), sideKey, key("scope.export", choose));
+  }), ...keys, cursorKey, referenceKey, keyOf(TEXTS.branch, () => void referToBranch().catch(refuse)), sideKey, keyOf("scope.export", choose));
   head.classList.add("is-full");
   host.classList.add("is-scope", "is-wide");
   host.append(side, h("div.stack.grow.scope-right", {}, ...hosts, h("div.row.wrap.scope-line", {}, state, zooming, distance), h("div.scroll.scope-table", { tabIndex: 0 }, table)));
@@ -307,13 +308,4 @@ export async function mount(host, { head, kept, keep }) {
   );
   show(view);
   return () => endings.end();
-}
-
-/**
- * @param {import("../../core/texts.js").Said} text
- * @param {() => void} onclick
- * @param {string} [kind]
- */
-function key(text, onclick, kind = "") {
-  return h("button.key", { type: "button", className: `key ${kind}`, onclick }, t(text));
 }

@@ -2,11 +2,9 @@
 import { get, latest } from "../../core/api.js";
 import { model, refuse } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
-import { needWords, wordsOf } from "../../core/flags.js";
 import { Endings } from "../../core/signal.js";
 import { t, textOr } from "../../core/texts.js";
-import { needValues } from "../../core/values.js";
-import { isFlag, shownValue } from "../../frame/card_value.js";
+import { isFlag, needItems, shownValue } from "../../frame/card_value.js";
 import { showFacts } from "../facts.js";
 
 const TEXTS = {
@@ -81,14 +79,10 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   function needed() {
-    live.end();
-    const parameters = cells.filter(({ item }) => !isFlag(item)).map(({ item }) => item.number);
-    const words = wordsOf(cells.filter(({ item }) => isFlag(item)).map(({ item }) => item.number));
-    if (parameters.length) live.add(needValues(parameters, (known) => {
+    needItems(cells.map(({ item }) => item), live, (known) => {
       values = known;
       update();
-    }));
-    if (words.length) live.add(needWords(words));
+    });
     update();
   }
 

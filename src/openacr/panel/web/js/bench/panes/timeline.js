@@ -2,6 +2,7 @@
 import { get, latest } from "../../core/api.js";
 import { give, model, refuse } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
+import { keyOf } from "../../core/keys.js";
 import { plain } from "../../core/format.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
@@ -57,17 +58,16 @@ const MEGA = 1e6;
  */
 export async function mount(host, { head, kept, keep }) {
   const endings = new Endings();
-  const key = (/** @type {import("../../core/texts.js").Said} */ text, /** @type {() => void} */ onclick, kind = "") => h(/** @type {"button"} */ (`button.key${kind}`), { type: "button", onclick }, t(text));
   const speed = h("select.field", { ariaLabel: t(TEXTS.speed), onchange: () => void run() }, ...SPEEDS.map((each) => h("option", { value: String(each) }, each ? `${each}\u00d7` : t(TEXTS.most))));
   speed.value = "1";
   const run = () => give("timeline.run", { speed: Number(speed.value) || null });
-  const pause = key(TEXTS.pause, () => void (model.timeline.value.still ? run() : give("timeline.pause")), ".main");
+  const pause = keyOf(TEXTS.pause, () => void (model.timeline.value.still ? run() : give("timeline.pause")), ".main");
   const what = h("select.field", { ariaLabel: t(TEXTS.stepWhat), onchange: showNumber }, ...STEPS.map((each) => h("option", { value: each }, t(/** @type {any} */ (`time.step.${each}`)))));
   const number = h("input.field.time-number", { type: "number", min: "0", max: "15", value: "0", ariaLabel: t(TEXTS.stepNumber) });
   const step = () => give("timeline.step", { what: what.value, number: Number(number.value) || 0 });
-  const operate = key(TEXTS.operate, () => void give("timeline.operate"));
-  const branch = key(TEXTS.branch, () => void give("timeline.branch"));
-  head.append(pause, speed, key(TEXTS.step, () => void step()), what, number, branch, operate);
+  const operate = keyOf(TEXTS.operate, () => void give("timeline.operate"));
+  const branch = keyOf(TEXTS.branch, () => void give("timeline.branch"));
+  head.append(pause, speed, keyOf(TEXTS.step, () => void step()), what, number, branch, operate);
   function showNumber() {
     number.hidden = what.value === "tick" || what.value === "back";
   }
@@ -92,7 +92,7 @@ export async function mount(host, { head, kept, keep }) {
     const typed = secondsOf(at.value);
     if (typed === null) refuse(t(TEXTS.atWrong, { text: at.value }));
     else void seek(Math.round(typed / model.timeline.value.period_s));
-  } }, ...JUMPS.map((each) => h("button.key", { type: "button", onclick: () => void jump(each) }, `${each < 0 ? "\u2212" : "+"}${Math.abs(each)} s`)), at, h("button.key", { type: "submit" }, t(TEXTS.go)), key(TEXTS.whole, () => look(null)), shown);
+  } }, ...JUMPS.map((each) => h("button.key", { type: "button", onclick: () => void jump(each) }, `${each < 0 ? "\u2212" : "+"}${Math.abs(each)} s`)), at, h("button.key", { type: "submit" }, t(TEXTS.go)), keyOf(TEXTS.whole, () => look(null)), shown);
   /** The part that is shown; null: all of the branch. @type {import("../time_view.js").Part | null} */
   let part = null;
   /** @type {import("../lanes.js").Lane[]} */
@@ -202,7 +202,7 @@ export async function mount(host, { head, kept, keep }) {
     fill(marks, ...bookmarks.map((each) => h("button.key", { type: "button", data: { kind: each.kind }, onclick: () => void give("timeline.seek", { tick: each.tick }) }, `${seconds(each.tick)} s ${t(/** @type {any} */ (`time.kind.${each.kind}`))}: ${each.text}`)));
     fill(rows, ...branches.map((each) => h("tr", { data: { branch: String(each.number) }, className: each.number === present ? "is-present" : "" },
       h("td", {}, each.number === present ? h("strong", {}, each.name, " \u25c0") : each.name), h("td.number", {}, seconds(each.fork ?? each.first)), h("td.number", {}, each.last === null ? "\u2026" : seconds(each.last)),
-      h("td.row.wrap", {}, key(TEXTS.name, () => void rename(each)), ...(each.number === present ? [] : [key(TEXTS.switch, () => void give("timeline.switch", { number: each.number })), key(TEXTS.forget, () => void give("timeline.forget", { number: each.number }))])))));
+      h("td.row.wrap", {}, keyOf(TEXTS.name, () => void rename(each)), ...(each.number === present ? [] : [keyOf(TEXTS.switch, () => void give("timeline.switch", { number: each.number })), keyOf(TEXTS.forget, () => void give("timeline.forget", { number: each.number }))])))));
     comparing.offer(branches.filter((each) => each.number !== present));
     draw();
   }

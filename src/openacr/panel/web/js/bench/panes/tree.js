@@ -2,11 +2,9 @@
 import { get, latest } from "../../core/api.js";
 import { model, refuse } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
-import { needWords, wordsOf } from "../../core/flags.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
-import { needValues } from "../../core/values.js";
-import { changeValue, isFlag, shownValue } from "../../frame/card_value.js";
+import { changeValue, needItems, shownValue } from "../../frame/card_value.js";
 import { showFacts } from "../facts.js";
 import { addToWatchList } from "../watch_list.js";
 
@@ -116,14 +114,10 @@ export async function mount(host, { head }) {
 
   /** @param {Item[]} wanted */
   function need(wanted) {
-    const parameters = wanted.filter((item) => !isFlag(item)).map((item) => item.number);
-    const words = wordsOf(wanted.filter(isFlag).map((item) => item.number));
-    seen.end();
-    if (parameters.length) seen.add(needValues(parameters, (known) => {
+    needItems(wanted, seen, (known) => {
       values = known;
       update();
-    }));
-    if (words.length) seen.add(needWords(words));
+    });
   }
 
   function update() {

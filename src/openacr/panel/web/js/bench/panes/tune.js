@@ -2,6 +2,7 @@
 import { give, link, model, report } from "../../core/app.js";
 import { cardAxes } from "../../core/card_axes.js";
 import { fill, h, setText } from "../../core/dom.js";
+import { keyOf } from "../../core/keys.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
 import { confirm } from "../../frame/dialog.js";
@@ -97,9 +98,9 @@ export async function mount(host, { head, kept, keep }) {
   const fields = FIELDS.map(([name, text, value]) => h("input.field.number", { ariaLabel: t(text), value: kept[name] ?? value, inputMode: "decimal", autocomplete: "off", data: { field: name } }));
   const integral = h("input", { type: "checkbox", checked: true });
   const store = h("input", { type: "checkbox" });
-  const measure = h("button.key.danger", { type: "button", onclick: () => void onMeasure() }, t(TEXTS.measure));
-  const step = h("button.key.danger", { type: "button", onclick: () => void onStep() }, t(TEXTS.step));
-  const apply = h("button.key.danger", { type: "button", disabled: true, onclick: () => void onApply() }, t(TEXTS.apply));
+  const measure = keyOf(TEXTS.measure, () => void onMeasure(), ".danger");
+  const step = keyOf(TEXTS.step, () => void onStep(), ".danger");
+  const apply = keyOf(TEXTS.apply, () => void onApply(), ".danger", { disabled: true });
   const state = h("p.hint", { role: "status" });
   const facts = h("div.stack", {});
   const charts = h("div.tune-charts", {});

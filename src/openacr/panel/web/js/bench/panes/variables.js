@@ -2,12 +2,11 @@
 import { get, latest } from "../../core/api.js";
 import { give, model, refuse, report } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
-import { needWords, wordsOf } from "../../core/flags.js";
+import { keyOf } from "../../core/keys.js";
 import { chosenProgram, needPrograms } from "../../core/programs.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
-import { needValues } from "../../core/values.js";
-import { changeValue, fullName, isFlag, shownValue } from "../../frame/card_value.js";
+import { changeValue, fullName, needItems, shownValue } from "../../frame/card_value.js";
 import { askText } from "../../frame/dialog.js";
 import { stateText } from "../../screens/programs.js";
 
@@ -49,7 +48,7 @@ export async function mount(host, { head, kept, keep }) {
   const choice = h("select.field", { ariaLabel: t(TEXTS.program), onchange: () => void choose(Number(choice.value)) },
     ...Array.from({ length: COUNT }, (_each, n) => h("option", { value: String(n) }, `PROG${n}`)));
   const state = h("strong.grow", { role: "status" });
-  head.append(choice, state, h("button.key", { type: "button", onclick: () => void choose(program) }, t("programs.read")));
+  head.append(choice, state, keyOf("programs.read", () => void choose(program)));
   const levels = h("div.program-levels", { role: "region", ariaLabel: t(TEXTS.levels) });
   const own = h("tbody", { data: { part: "own" } });
   const shared = h("tbody", { data: { part: "used" } });
@@ -117,19 +116,15 @@ export async function mount(host, { head, kept, keep }) {
   async function readUsed() {
     const found = await newestUsed(get("card/used", { program })).catch(() => null);
     if (found === undefined) return;
-    live.end();
     used = (found?.items ?? []).map((/** @type {Item} */ item) => ({ item, value: h("strong.live", {}) }));
     fill(shared, headOf(TEXTS.used), ...used.map(({ item, value }) => {
       const cell = item.writable ? h("button.key", { type: "button", ariaLabel: t("watch.change", { name: item.id }), onclick: () => changeValue(item, shownValue(item, values)) }, value) : value;
       return h("tr", { data: { item: item.id } }, h("td", { title: item.doc }, `${item.id} ${fullName(item)}`), h("td.number", {}, cell));
     }));
-    const numbers = used.filter(({ item }) => !isFlag(item)).map(({ item }) => item.number);
-    const words = wordsOf(used.filter(({ item }) => isFlag(item)).map(({ item }) => item.number));
-    if (numbers.length) live.add(needValues(numbers, (known) => {
+    needItems(used.map(({ item }) => item), live, (known) => {
       values = known;
       update();
-    }));
-    if (words.length) live.add(needWords(words));
+    });
     update();
   }
 

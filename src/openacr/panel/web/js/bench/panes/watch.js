@@ -2,11 +2,9 @@
 import { get } from "../../core/api.js";
 import { model, refuse } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
-import { needWords, wordsOf } from "../../core/flags.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
-import { needValues } from "../../core/values.js";
-import { FORMATS, changeValue, fullName, isFlag, shownValue } from "../../frame/card_value.js";
+import { FORMATS, changeValue, fullName, isFlag, needItems, shownValue } from "../../frame/card_value.js";
 import { wanted } from "../watch_list.js";
 
 const TEXTS = {
@@ -63,14 +61,10 @@ export async function mount(host, { head, kept, keep }) {
   function draw() {
     keep({ rows: rows.map(({ item, format }) => ({ id: item.id, format })) });
     fill(body, ...rows.map(rowOf));
-    live.end();
-    const numbers = rows.filter(({ item }) => !isFlag(item)).map(({ item }) => item.number);
-    const words = wordsOf(rows.filter(({ item }) => isFlag(item)).map(({ item }) => item.number));
-    if (numbers.length) live.add(needValues(numbers, (known) => {
+    needItems(rows.map(({ item }) => item), live, (known) => {
       values = known;
       update();
-    }));
-    if (words.length) live.add(needWords(words));
+    });
     update();
   }
 

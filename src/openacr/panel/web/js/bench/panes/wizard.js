@@ -2,6 +2,7 @@
 import { get, latest, send } from "../../core/api.js";
 import { refuse, report } from "../../core/app.js";
 import { fill, h } from "../../core/dom.js";
+import { keyOf } from "../../core/keys.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
 import { changed, valueAt, whereOf, withOneMore } from "../wizard/answers.js";
@@ -183,12 +184,4 @@ function lineOf(line) {
  */
 function isWithin(where, table) {
   return where.length > table.length && table.every((key, n) => where[n] === key);
-}
-
-/**
- * @param {import("../../core/texts.js").Said} label
- * @param {() => void} onclick
- */
-function keyOf(label, onclick) {
-  return h("button.key", { type: "button", onclick }, t(label));
 }

@@ -3,6 +3,7 @@ import { give, link, refuse, report } from "../../core/app.js";
 import { gainRows } from "../../core/card_axes.js";
 import { evaluate } from "../../core/arithmetic.js";
 import { fill, h } from "../../core/dom.js";
+import { keyOf } from "../../core/keys.js";
 import { t } from "../../core/texts.js";
 import { History } from "./history.js";
 
@@ -25,7 +26,7 @@ export async function gainSliders(host, axis, isStored) {
   /** @type {Map<string, Gain>} */
   const gains = new Map();
   const list = h("ol.tune-changes.scroll", { ariaLabel: t("tune.changes") });
-  const [undo, redo, start] = [key("tune.undo", () => back(history.undo(), "before")), key("tune.redo", () => back(history.redo(), "after")), key("tune.start", toStart)];
+  const [undo, redo, start] = [keyOf("tune.undo", () => back(history.undo(), "before"), "", { disabled: true }), keyOf("tune.redo", () => back(history.redo(), "after"), "", { disabled: true }), keyOf("tune.start", toStart, "", { disabled: true })];
   const rows = h("div.stack", {});
   fill(host, h("div.notice", {}, t("gain.warning")), rows, h("div.row.wrap", {}, undo, redo, start), list);
 
@@ -150,12 +151,4 @@ function latest(act) {
     running = running.then(run);
     return running;
   };
-}
-
-/**
- * @param {import("../../core/texts.js").Said} text
- * @param {() => void} onclick
- */
-function key(text, onclick) {
-  return h("button.key", { type: "button", onclick, disabled: true }, t(text));
 }

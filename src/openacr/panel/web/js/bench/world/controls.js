@@ -1,6 +1,7 @@
 // What is changed by hand in the world: inputs, devices, faults.
 import { give, model } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
+import { keyOf } from "../../core/keys.js";
 import { textOr, t } from "../../core/texts.js";
 import { logIn } from "../../frame/log_in.js";
 
@@ -25,7 +26,7 @@ async function change(command, args) {
 export function inputTable(inputs) {
   const rows = inputs.map(({ input, what, is_driven: isDriven }) => {
     const [lamp, state] = [h("span.lamp", { ariaHidden: "true" }), h("span.io-state", {})];
-    const key = (/** @type {"on" | "off" | "released"} */ wish) => h("button.key", { type: "button", ariaLabel: t(`world.input.${wish}.of`, { input }), onclick: () => void change("world.input", { input, state: wish }) }, t(`world.input.${wish}`));
+    const key = (/** @type {"on" | "off" | "released"} */ wish) => keyOf(`world.input.${wish}`, () => void change("world.input", { input, state: wish }), "", { ariaLabel: t(`world.input.${wish}.of`, { input }) });
     const keys = { on: key("on"), off: key("off"), released: key("released") };
     const element = h("div.world-input", { data: { input: String(input) } }, lamp, h("span.number", {}, String(input)), h("span.world-source", { title: what }, what || t("world.by.hand")), state,
       h("span.row", {}, keys.on, keys.off, isDriven ? keys.released : ""));
@@ -97,7 +98,7 @@ export function faultForm({ links, faults }) {
         const about = faults.find((each) => each.axis === fault.axis && each.kind === fault.kind);
         const name = `${nameOf(fault.axis)}: ${wordOf(fault.kind)}${about?.key ? ` ${fault.value} ${about.unit}` : ""}`;
         return h("div.notice.bad.row", { data: { fault: `${fault.axis}.${fault.kind}` } }, h("span.grow", {}, name),
-          h("button.key", { type: "button", ariaLabel: t("world.mend.of", { name }), onclick: () => void change("world.mend", { axis: fault.axis, kind: fault.kind }) }, t("world.mend")));
+          keyOf("world.mend", () => void change("world.mend", { axis: fault.axis, kind: fault.kind }), "", { ariaLabel: t("world.mend.of", { name }) }));
       }));
     },
   };

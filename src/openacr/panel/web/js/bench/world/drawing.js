@@ -2,6 +2,7 @@
 import { address, call } from "../../core/api.js";
 import { refuse } from "../../core/app.js";
 import { h, setText } from "../../core/dom.js";
+import { keyOf } from "../../core/keys.js";
 import { t } from "../../core/texts.js";
 import { Camera } from "../../draw/camera.js";
 import { listenToGestures } from "../../draw/gestures.js";
@@ -79,8 +80,8 @@ export function createDrawing(host, endings, { links, devices }) {
     moved();
   };
   keys.append(
-    ...["iso", "top", "front", "side"].map((name) => h("button.key", { type: "button", data: { view: name }, onclick: () => look(name) }, t(/** @type {any} */ (`graphics.${name}`)))),
-    h("button.key", { type: "button", onclick: fit }, t("graphics.fit")),
+    ...["iso", "top", "front", "side"].map((name) => keyOf(/** @type {any} */ (`graphics.${name}`), () => look(name), "", { data: { view: name } })),
+    keyOf("graphics.fit", fit),
     h("button.key", { type: "button", ariaLabel: t("graphics.in"), onclick: () => zoom(1.4) }, "+"),
     h("button.key", { type: "button", ariaLabel: t("graphics.out"), onclick: () => zoom(1 / 1.4) }, "\u2212"),
   );
