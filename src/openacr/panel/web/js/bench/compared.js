@@ -13,7 +13,8 @@ const HEIGHT = 96; // pixels of a chart
 const AXIS = 34; // and of the time below the last one
 
 /**
- * @param {{ kept: Record<string, any>, keep: (values: Record<string, any>) => void, seconds: (tick: number) => string }} place
+ * @param {{ kept: Record<string, any>, keep: (values: Record<string, any>) => void,
+ *   seconds: (tick: number) => string }} place
  */
 export function compare({ kept, keep, seconds }) {
   const names = h("input.field.grow", { ariaLabel: t("time.parameters"), placeholder: t("time.names"), value: kept.parameters ?? "", autocomplete: "off", spellcheck: false });

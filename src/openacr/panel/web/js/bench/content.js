@@ -21,7 +21,8 @@ export function showPane(element, pane, layout) {
 
   async function mount() {
     isShown = true;
-    const [head, host] = [h("div.row.wrap.pane-head", {}), h("div.pane-body", { inert: true })]; // a pane that is shown takes no focus from another
+    // A pane that is shown takes no focus from another.
+    const [head, host] = [h("div.row.wrap.pane-head", {}), h("div.pane-body", { inert: true })];
     fill(element, head, host);
     try {
       const load = await pane.load();

@@ -1,4 +1,5 @@
-// The picture of the timeline: a ruler with bookmarks, lanes of axes and programs, and the moment. The keys of the bookmarks are below it.
+// The picture of the timeline: a ruler with bookmarks, lanes of axes and programs, and the moment. The keys of the
+// bookmarks are below it.
 import { fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { placeOf, rulerOf } from "./time_view.js";
@@ -12,7 +13,8 @@ const LABEL = 90; // pixels of a time on the ruler
  */
 
 /**
- * @param {{ seek: (tick: number) => void, zoom: (isFiner: boolean, at: number) => void, pan: (by: number) => void, seconds: (tick: number) => string }} asked
+ * @param {{ seek: (tick: number) => void, zoom: (isFiner: boolean, at: number) => void, pan: (by: number) => void,
+ *   seconds: (tick: number) => string }} asked
  */
 export function createLanes({ seek, zoom, pan, seconds }) {
   const [ruler, rows, now] = [h("div.time-ruler", {}), h("div.time-rows", {}), h("div.time-cursor", {})];

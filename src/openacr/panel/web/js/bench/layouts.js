@@ -3,7 +3,8 @@ import { keepSetting, setting } from "../core/settings.js";
 
 /**
  * @typedef {import("../../vendor/dockview.js").SerializedDockview} Layout
- * @typedef {{ pane: string, kept?: Record<string, any>, beside?: string, direction?: "left" | "right" | "above" | "below" | "within", share?: number }} Part
+ * @typedef {{ pane: string, kept?: Record<string, any>, beside?: string,
+ *   direction?: "left" | "right" | "above" | "below" | "within", share?: number }} Part
  */
 
 /** The first layout: each pane beside another one. @type {Part[]} */

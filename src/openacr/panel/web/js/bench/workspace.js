@@ -82,7 +82,8 @@ function load() {
 }
 
 /**
- * Lay panes out; without a layout, or with one that cannot be used, as at first. A narrow screen has all panes in one place.
+ * Lay panes out; without a layout, or with one that cannot be used, as at first. A narrow screen has all panes in one
+ * place.
  * @param {import("./layouts.js").Layout | null} layout
  */
 export function arrange(layout) {

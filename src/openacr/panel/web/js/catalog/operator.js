@@ -1,5 +1,5 @@
-// Texts that several modules of the screens share, or that are made at run time, in every language. Names of keys are those of
-// the AcroMill guide, in German where they are usual on machines.
+// Texts that several modules of the screens share, or that are made at run time, in every language. Names of keys
+// are those of the AcroMill guide, in German where they are usual on machines.
 const MENU = {
   "menu.label": { en: "Function keys", de: "Funktionstasten" },
   "menu.clrzero": { en: "CLR ZERO", de: "NULL LÖSCHEN" },

@@ -45,7 +45,8 @@ export async function get(path, query) {
 }
 
 /**
- * Replies may arrive in another order than they were asked for: of those that pass the function that is returned, the newest counts.
+ * Replies may arrive in another order than they were asked for: of those that pass the function that is returned, the
+ * newest counts.
  * One that another was asked for after, or that arrives after the end, is undefined, also where it is a refusal.
  * @param {import("./signal.js").Endings} [endings]
  * @returns {<T>(reply: Promise<T>) => Promise<T | undefined>}

@@ -15,7 +15,8 @@ export async function cardAxes() {
 }
 
 /**
- * The gains of an axis as rows of the page SERVO; values of an axis that the machine does not have are those of the card.
+ * The gains of an axis as rows of the page SERVO; values of an axis that the machine does not have are those of the
+ * card.
  * @param {CardAxis} axis
  * @returns {Promise<any[]>}
  */

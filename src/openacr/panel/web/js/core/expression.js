@@ -3,8 +3,10 @@
 const TOKEN = /\s*(?:(\d+(?:\.\d*)?|\.\d+)|([A-Za-z]\w*)|([-+*/(),]))/y;
 
 /**
- * @typedef {{ kind: "number", value: number } | { kind: "name", name: string } | { kind: "call", name: string, args: Node[] }} Node
- * @typedef {{ names?: readonly string[], functions?: Readonly<Record<string, number>> }} Known functions with the count of their arguments
+ * @typedef {{ kind: "number", value: number } | { kind: "name", name: string } | { kind: "call", name: string,
+ *   args: Node[] }} Node
+ * @typedef {{ names?: readonly string[], functions?: Readonly<Record<string, number>> }} Known functions with the count
+ *   of their arguments
  */
 
 /** A text that is no expression; `what` is the word at which that is seen, empty at the end. */

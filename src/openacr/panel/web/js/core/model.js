@@ -3,16 +3,21 @@ import { BITS, readFlags, readScope, readStatus, readWatch, readWorld } from "./
 import { Signal } from "./signal.js";
 
 /**
- * @typedef {{ name: string, index: number, unit: string, decimals: { mm: number, inch: number }, low: number | null, high: number | null, home_required: boolean }} Axis
- * @typedef {{ kind: string, name: string, card: string, unit: string, shown: string, is_small: boolean, is_virtual: boolean, axes: Axis[], lacks: string,
+ * @typedef {{ name: string, index: number, unit: string, decimals: { mm: number, inch: number }, low: number | null,
+ *   high: number | null, home_required: boolean }} Axis
+ * @typedef {{ kind: string, name: string, card: string, unit: string, shown: string, is_small: boolean,
+ *   is_virtual: boolean, axes: Axis[], lacks: string,
  *   attached: { name: string, index: number, master: number }[] }} Machine
- * @typedef {{ name: string, path: string, kind: string, lines: number, errors: number, warnings: number, checked: boolean, seconds: number | null,
+ * @typedef {{ name: string, path: string, kind: string, lines: number, errors: number, warnings: number,
+ *   checked: boolean, seconds: number | null,
  *   extents: Record<string, [number, number]> | null, tools: number[], id: string, drawn: boolean }} Loaded
  */
 
 /**
- * @typedef {{ number: number, name: string, parent: number | null, fork: number | null, first: number, last: number | null }} TimeBranch
- * @typedef {{ why: string, period_s: number, still: boolean, away: boolean, speed: number | null, branch: number, most_bytes: number, branches: TimeBranch[],
+ * @typedef {{ number: number, name: string, parent: number | null, fork: number | null, first: number,
+ *   last: number | null }} TimeBranch
+ * @typedef {{ why: string, period_s: number, still: boolean, away: boolean, speed: number | null, branch: number,
+ *   most_bytes: number, branches: TimeBranch[],
  *   bookmarks: { tick: number, kind: string, text: string }[] }} Times
  */
 

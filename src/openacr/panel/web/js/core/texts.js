@@ -1,4 +1,5 @@
-// What the screens say, in every language: texts that modules share have keys, the others are written where they are used.
+// What the screens say, in every language: texts that modules share have keys, the others are written where
+// they are used.
 import shared from "../catalog/operator.js";
 
 /**
@@ -31,8 +32,8 @@ export function addTexts(texts) {
 }
 
 /**
- * A text, given as it is or by its key, with its values filled in: `t("zero.done", { axes: "X Y" })`. `{count|line|lines}`
- * is the first word for a value of 1, else the second.
+ * A text, given as it is or by its key, with its values filled in: `t("zero.done", { axes: "X Y" })`.
+ * `{count|line|lines}` is the first word for a value of 1, else the second.
  * @param {Said} what
  * @param {Record<string, string | number>} [values]
  */

@@ -16,7 +16,8 @@ const SAME_PX = 0.4; // a point nearer to the last one drawn is left out
  *
  * @typedef {object} Painter draws into its canvas
  * @property {(drawing: Drawing | null) => void} setDrawing
- * @property {(camera: import("./camera.js").Camera, looks: Look[], isMoving: boolean, last?: number) => void} paint up to the point `last`
+ * @property {(camera: import("./camera.js").Camera, looks: Look[], isMoving: boolean, last?: number) => void} paint up
+ *   to the point `last`
  * @property {(from: number, to: number, color: string) => void} paintCut the points between, over the rest
  * @property {() => void} close
  */

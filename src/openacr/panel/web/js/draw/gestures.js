@@ -4,7 +4,8 @@ const CLICK_PX = 6;
 
 /**
  * @param {HTMLElement} area
- * @param {{ camera: import("./camera.js").Camera, moved: (isMoving: boolean) => void, clicked: (x: number, y: number) => void }} options
+ * @param {{ camera: import("./camera.js").Camera, moved: (isMoving: boolean) => void,
+ *   clicked: (x: number, y: number) => void }} options
  */
 export function listenToGestures(area, { camera, moved, clicked }) {
   /** @type {Map<number, { x: number, y: number }>} */

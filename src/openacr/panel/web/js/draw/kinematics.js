@@ -28,7 +28,8 @@
 const GROUND = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
 /**
- * The frames of links: `fixed` does not follow its own axis (rails and switches), `moving` does (bodies, carried links).
+ * The frames of links: `fixed` does not follow its own axis (rails and switches), `moving` does (bodies, carried
+ * links).
  * @param {Link[]} links
  * @param {number[]} positions in units, in the order of the links
  */

@@ -8,8 +8,8 @@ const [ACROSS, MOST_LINES, LINE] = [16, 2, 11]; // of a name under its symbol: c
 const RAIL = 0;
 
 /**
- * @typedef {{ kind: string, text: string, flag: number | null, is_negated: boolean, number: number | null, column: number, row: number,
- *   source: number, sink: number, reset: number | null, reset_row: number | null }} Symbol
+ * @typedef {{ kind: string, text: string, flag: number | null, is_negated: boolean, number: number | null,
+ *   column: number, row: number, source: number, sink: number, reset: number | null, reset_row: number | null }} Symbol
  * @typedef {{ net: number, column: number, row: number, to_column: number, to_row: number }} Wire
  * @typedef {{ line: number, columns: number, rows: number, nets: number, symbols: Symbol[], wires: Wire[] }} Rung
  * @typedef {(flag: number) => boolean | undefined} StateOf

@@ -8,9 +8,10 @@ const ROW = 17; // height of a line of text in a box
 const HEAD = 24; // height of a box with a title only
 
 /**
- * A box of the drawing. Values are named by the place of their parameter in the block of the axis, and shown with decimals (-1: six digits): `value` beside the
- * title, each of `rows` under its name, in as many columns as `columns` says.
- * @typedef {{ id: string, x: number, y: number, wide: number, title: import("../core/texts.js").Said, value?: [number, number], rows?: [string, number, number][], columns?: number }} Box
+ * A box of the drawing. Values are named by the place of their parameter in the block of the axis, and shown with
+ * decimals (-1: six digits): `value` beside the title, each of `rows` under its name, in as many columns as `columns` says.
+ * @typedef {{ id: string, x: number, y: number, wide: number, title: import("../core/texts.js").Said,
+ *   value?: [number, number], rows?: [string, number, number][], columns?: number }} Box
  */
 
 const COUNTS = 0;

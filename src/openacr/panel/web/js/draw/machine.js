@@ -9,7 +9,8 @@ import { follow, newView } from "./view.js";
  * @typedef {[number, number, number]} Point
  * @typedef {{ name: string, sign: { at: Point, parent: string } | null }} Device
  * @typedef {import("./solids.js").Colours} Colours
- * @typedef {{ positions: number[], isActive: (input: number, contact: "open" | "closed") => boolean, isForced: (input: number) => boolean, isBusy: (device: number) => boolean }} State
+ * @typedef {{ positions: number[], isActive: (input: number, contact: "open" | "closed") => boolean,
+ *   isForced: (input: number) => boolean, isBusy: (device: number) => boolean }} State
  */
 
 const CELLS = 24; // of the ground, at most

@@ -17,7 +17,8 @@ const CROSS = "M0 -14V14M-14 0H14M-6 0A6 6 0 1 0 6 0A6 6 0 1 0 -6 0";
 
 /**
  * @typedef {object} Picture
- * @property {(path: import("./path.js").ToolPath | null) => void} setPath shown from the next painting on; fitted, if its extents are others
+ * @property {(path: import("./path.js").ToolPath | null) => void} setPath shown from the next painting on; fitted, if
+ *   its extents are others
  * @property {(n: number) => void} cutTo up to this point the path is cut
  * @property {(x: number, y: number, z: number) => void} setTool
  * @property {(limits: number[] | null) => void} setLimits
@@ -29,7 +30,8 @@ const CROSS = "M0 -14V14M-14 0H14M-6 0A6 6 0 1 0 6 0A6 6 0 1 0 -6 0";
 /**
  * @param {HTMLElement} host
  * @param {import("../core/signal.js").Endings} endings
- * @param {{ clicked?: (line: number) => void, hasTool?: boolean, more?: HTMLElement[] }} [options] `more`: keys of the user of the picture
+ * @param {{ clicked?: (line: number) => void, hasTool?: boolean, more?: HTMLElement[] }} [options] `more`: keys of the
+ *   user of the picture
  * @returns {Promise<Picture>}
  */
 export async function createPicture(host, endings, { clicked = () => {}, hasTool = false, more = [] } = {}) {

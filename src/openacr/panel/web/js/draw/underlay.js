@@ -7,8 +7,8 @@ const WISHED_PX = 56; // between lines of the grid
  * @param {CanvasRenderingContext2D} pen in CSS pixels
  * @param {import("./camera.js").Camera} camera
  * @param {Record<string, string>} colors
- * @param {{ limits: number[] | null, blank: number[] | null, zero: number[] }} places boxes (min x y z, max x y z) of the
- *   machine and of the material, and the zero of the work coordinates
+ * @param {{ limits: number[] | null, blank: number[] | null, zero: number[] }} places boxes (min x y z, max x y z) of
+ *   the machine and of the material, and the zero of the work coordinates
  */
 export function paintGround(pen, camera, colors, { limits, blank, zero }) {
   pen.clearRect(0, 0, camera.width, camera.height);

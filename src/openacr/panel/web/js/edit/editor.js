@@ -28,7 +28,8 @@ const COLORS = HighlightStyle.define([
  * @typedef {import("../frame/findings.js").Finding} Finding
  *
  * @param {HTMLElement} host
- * @param {{ check: (text: string) => Promise<Finding[]>, found: (findings: Finding[]) => void, changed: () => void }} options
+ * @param {{ check: (text: string) => Promise<Finding[]>, found: (findings: Finding[]) => void,
+ *   changed: () => void }} options
  */
 export function createEditor(host, { check, found, changed }) {
   const place = h("div.editor", {});

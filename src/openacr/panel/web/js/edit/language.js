@@ -1,4 +1,5 @@
-// What a controller file looks like while it is typed: colours, folds, hints, findings, completion and hover, as the server answers.
+// What a controller file looks like while it is typed: colours, folds, hints, findings, completion and hover, as the
+// server answers.
 import { Decoration, EditorView, autocompletion, completionKeymap, hoverTooltip, keymap, lintGutter, linter } from "../../vendor/codemirror.js";
 import { folding } from "./folding.js";
 import { hints } from "./hints.js";

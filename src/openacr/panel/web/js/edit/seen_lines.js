@@ -1,4 +1,5 @@
-// What the server says of the lines that are seen, drawn in them: asked again when the text changes or others come into view.
+// What the server says of the lines that are seen, drawn in them: asked again when the text changes or others come into
+// view.
 import { EditorView, StateEffect, StateField, ViewPlugin, Decoration } from "../../vendor/codemirror.js";
 
 const SOON_MS = 60;
@@ -7,7 +8,8 @@ const BEYOND = 40; // lines above and below what is seen
 /**
  * @param {import("./synced.js").SyncedText} text
  * @param {string} question its answer has rows that begin with a line
- * @param {(row: any[], from: number) => import("../../vendor/codemirror.js").Range<Decoration>} drawn a row of it; its line begins at `from`
+ * @param {(row: any[], from: number) => import("../../vendor/codemirror.js").Range<Decoration>} drawn a row of it; its
+ *   line begins at `from`
  */
 export function seenLines(text, question, drawn) {
   /** @type {import("../../vendor/codemirror.js").StateEffectType<{ from: number, to: number, marks: any[] }>} */

@@ -4,7 +4,8 @@ import { h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 
 /**
- * @param {{ label: string, isOn?: (axis: import("../core/model.js").Axis) => boolean, extra?: (axis: import("../core/model.js").Axis) => HTMLElement | string }} options
+ * @param {{ label: string, isOn?: (axis: import("../core/model.js").Axis) => boolean,
+ *   extra?: (axis: import("../core/model.js").Axis) => HTMLElement | string }} options
  */
 export function axisChoice({ label, isOn = () => false, extra = () => "" }) {
   const boxes = model.axes.map((axis) => ({ axis, box: h("input", { type: "checkbox", checked: isOn(axis) }) }));

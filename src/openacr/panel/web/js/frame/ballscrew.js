@@ -6,7 +6,10 @@ import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { mayDrop } from "./unsaved.js";
 
-/** @typedef {{ axis: number, name: string, axes: { index: number, name: string }[], unit: string, is_on: boolean, entries: [number, number][], problem: string }} Kept */
+/**
+ * @typedef {{ axis: number, name: string, axes: { index: number, name: string }[], unit: string, is_on: boolean,
+ *   entries: [number, number][], problem: string }} Kept
+ */
 
 /**
  * @param {HTMLElement} host

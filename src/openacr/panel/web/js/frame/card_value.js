@@ -9,7 +9,8 @@ import { logIn } from "./log_in.js";
 import { askNumber } from "./number_pad.js";
 
 /**
- * @typedef {{ id: string, number: number, name: string, object: string, index: number | null, section: string, doc: string, writable: boolean, unit?: string, parameter?: number }} Item
+ * @typedef {{ id: string, number: number, name: string, object: string, index: number | null, section: string,
+ *   doc: string, writable: boolean, unit?: string, parameter?: number }} Item
  */
 
 /** How numbers can be shown. */

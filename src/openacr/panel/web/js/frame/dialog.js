@@ -40,7 +40,8 @@ function part() {
  * A choice whose value is a function is called; it keeps the dialog open by returning undefined.
  * A dialog that `comes` by itself begins at its first choice: an Enter meant for what was there before
  * does no harm.
- * @param {{ title: string, body: (Node | string)[], choices: Choice[], first?: HTMLElement, className?: string, comes?: boolean }} options
+ * @param {{ title: string, body: (Node | string)[], choices: Choice[], first?: HTMLElement, className?: string,
+ *   comes?: boolean }} options
  * @returns {Promise<any>}
  */
 export function ask({ title, body, choices, first, className = "", comes = false }) {

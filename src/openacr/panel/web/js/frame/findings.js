@@ -7,7 +7,8 @@ import { ask } from "./dialog.js";
 import { openScreen } from "./screen_host.js";
 
 /**
- * @typedef {{ line: number, column: number, severity: "error" | "warning", code: string, text: string, hint: string, file: string }} Finding
+ * @typedef {{ line: number, column: number, severity: "error" | "warning", code: string, text: string, hint: string,
+ *   file: string }} Finding
  * @typedef {import("../core/model.js").Loaded & { findings: Finding[] }} Found
  *
  * @param {Finding[]} list

@@ -5,12 +5,14 @@ const CHUNK = 200;
 const AROUND = 15; // lines kept before and after the ones in sight
 
 /**
- * @typedef {{ setTotal: (total: number) => void, mark: (line: number, follow: boolean) => void, choose: (line: number) => void, forget: () => void }} Listing
+ * @typedef {{ setTotal: (total: number) => void, mark: (line: number, follow: boolean) => void,
+ *   choose: (line: number) => void, forget: () => void }} Listing
  */
 
 /**
  * @param {HTMLElement} host
- * @param {{ read: (first: number, count: number) => Promise<string[]>, numberOf?: (line: number) => string, clicked: (line: number) => void, scrolled: () => void, label: string }} options
+ * @param {{ read: (first: number, count: number) => Promise<string[]>, numberOf?: (line: number) => string,
+ *   clicked: (line: number) => void, scrolled: () => void, label: string }} options
  * @returns {Listing}
  */
 export function createListing(host, { read, clicked, scrolled, label, numberOf = String }) {

@@ -23,7 +23,8 @@ window.addEventListener("click", ({ target }) => {
  * Ask for a number; null when cancelled.
  *
  * `check` returns why a value is not allowed, or "" if it is.
- * @param {{ title: string, value?: number | null, unit?: string, hint?: string, check?: (value: number) => string }} options
+ * @param {{ title: string, value?: number | null, unit?: string, hint?: string,
+ *   check?: (value: number) => string }} options
  * @returns {Promise<number | null>}
  */
 export function askNumber({ title, value = null, unit = "", hint = "", check = () => "" }) {

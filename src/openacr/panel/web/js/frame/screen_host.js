@@ -16,7 +16,8 @@ import { t } from "../core/texts.js";
  *
  * @typedef {object} Screen
  * @property {import("../core/texts.js").Said} title
- * @property {import("../core/texts.js").Text} [help] its page of HELP, paragraphs with an empty line between them; else the server has one
+ * @property {import("../core/texts.js").Text} [help] its page of HELP, paragraphs with an empty line between them; else
+ *   the server has one
  * @property {"side" | "full"} [area] beside the read-out (as long as nothing is given) or over it
  * @property {string} [mode] of the machine while it is shown
  * @property {(place: Place) => void | Promise<void>} show
@@ -106,7 +107,8 @@ function tellMode(next) {
 
 export function startScreens() {
   model.hello.watch(({ client }) => {
-    if (client && mode !== "auto" && model.may("operate")) void link.command("mode", { mode }).catch(() => {}); // of the new connection
+    // The machine learns the mode from each new connection.
+    if (client && mode !== "auto" && model.may("operate")) void link.command("mode", { mode }).catch(() => {});
   });
   window.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && shown.value && !document.querySelector("dialog[open]") && !event.defaultPrevented) void closeScreen();

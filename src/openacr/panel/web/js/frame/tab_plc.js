@@ -61,7 +61,8 @@ export async function plcTab(panel, endings) {
   }
 
   /**
-   * @param {{ lines: { number: number, text: string }[], rungs: import("../draw/ladder.js").Rung[], why: string }} found
+   * @param {{ lines: { number: number, text: string }[], rungs: import("../draw/ladder.js").Rung[],
+   *   why: string }} found
    * @param {Map<number, string>} named
    */
   function show({ lines, rungs, why }, named) {
@@ -94,7 +95,8 @@ export async function plcTab(panel, endings) {
 
 /**
  * A ladder with what its flags mean: the names of inputs and outputs, else those of the card.
- * @param {Promise<{ lines: { number: number, text: string }[], rungs: import("../draw/ladder.js").Rung[], why: string }>} reading
+ * @param {Promise<{ lines: { number: number, text: string }[], rungs: import("../draw/ladder.js").Rung[],
+ *   why: string }>} reading
  * @param {Promise<Map<number, string>>} names
  * @returns {Promise<[any, Map<number, string>]>}
  */

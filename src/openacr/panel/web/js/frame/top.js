@@ -35,7 +35,8 @@ function drawState() {
   const { state, reason, jogging } = model.state.value;
   const chip = byId("state");
   const { moving, running, drives } = model.lamp.value;
-  const ofCard = state === "IDLE" && !jogging && (moving.length > 0 || running.length > 0); // what AcroMill does not know of
+  // What moves or runs on the card without AcroMill.
+  const ofCard = state === "IDLE" && !jogging && (moving.length > 0 || running.length > 0);
   const shown = ofCard ? "RUN" : state;
   chip.dataset.state = shown;
   const name = state === "PAUSED" ? "----PAUSE----" : jogging && state === "IDLE" ? t("state.JOG")

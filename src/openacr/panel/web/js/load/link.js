@@ -10,7 +10,8 @@ import { confirm } from "../frame/dialog.js";
 const AGAIN_MS = 300;
 
 /**
- * @typedef {{ state: "" | "receiving" | "kept" | "cancelled" | "failed", path: string, port: string, bytes: number, lines: number, text: string }} Reception
+ * @typedef {{ state: "" | "receiving" | "kept" | "cancelled" | "failed", path: string, port: string, bytes: number,
+ *   lines: number, text: string }} Reception
  *
  * @param {HTMLElement} host
  * @param {import("../core/signal.js").Endings} endings

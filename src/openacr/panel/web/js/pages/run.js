@@ -82,7 +82,8 @@ function drawEvents(chart) {
 
 /**
  * @param {HTMLElement} parent
- * @param {{ scales?: object, draws?: ((chart: uPlot) => void)[], [option: string]: any }} options of uPlot; `draws`: what is drawn over the events
+ * @param {{ scales?: object, draws?: ((chart: uPlot) => void)[], [option: string]: any }} options of uPlot; `draws`:
+ *   what is drawn over the events
  * @param {any} data
  */
 function timeChart(parent, { scales = {}, draws = [], ...options }, data) {

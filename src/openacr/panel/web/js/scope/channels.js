@@ -16,9 +16,11 @@ const FIRST = ["P12291", "P12290", "P12295"];
 const MATHS_COLOR = "#7f7f7f";
 
 /**
- * @typedef {import("./screen.js").Trace & { unit: string, format: string, id: string, name: string, isFlag: boolean }} Channel `id`: P12290, BIT516, or the expression; `name`: of the parameter or flag
+ * @typedef {import("./screen.js").Trace & { unit: string, format: string, id: string, name: string,
+ *   isFlag: boolean }} Channel `id`: P12290, BIT516, or the expression; `name`: of the parameter or flag
  * @typedef {{ source: string, color: string, scale: string, offset: string, unit: string, format: string }} Kept
- * @typedef {Record<"source" | "color" | "scale" | "offset" | "unit", HTMLInputElement> & { format: HTMLSelectElement }} Fields
+ * @typedef {Record<"source" | "color" | "scale" | "offset" | "unit", HTMLInputElement> &
+ *   { format: HTMLSelectElement }} Fields
  */
 
 export class Channels {

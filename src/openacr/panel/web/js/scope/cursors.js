@@ -1,6 +1,8 @@
 // Two cursors over the screen of the scope: they are dragged, or set as times.
 
-/** @typedef {import("../core/signal.js").Signal<[number, number] | null>} Cursors times in ms, null while they are off */
+/**
+ * @typedef {import("../core/signal.js").Signal<[number, number] | null>} Cursors times in ms, null while they are off
+ */
 
 /**
  * The plugin of uPlot that draws cursors and has them dragged.

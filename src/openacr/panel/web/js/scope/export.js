@@ -95,7 +95,8 @@ function keepFile(name, blob) {
 
 /**
  * Ask for the kind of a file, and keep what is shown as one.
- * @param {{ traces: Channel[], period: number, begin: number, canvas: HTMLCanvasElement | null | undefined, trigger: any }} shown s
+ * @param {{ traces: Channel[], period: number, begin: number, canvas: HTMLCanvasElement | null | undefined,
+ *   trigger: any }} shown s
  */
 export async function exportAs({ traces, period, begin, canvas, trigger }) {
   const kind = await ask({ title: t("scope.export"), body: [h("p", {}, t("scope.export.text"))], choices: ["csv", "parquet", "png"].map((each) => ({ text: each.toUpperCase(), value: each })) });

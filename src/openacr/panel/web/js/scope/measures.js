@@ -1,6 +1,9 @@
 // Measurements between two cursors; samples that are missing (NaN) do not count.
 
-/** @typedef {{ count: number, min: number, max: number, mean: number, rms: number, span: number }} Measures `span` is peak to peak */
+/**
+ * @typedef {{ count: number, min: number, max: number, mean: number, rms: number, span: number }} Measures `span` is
+ *   peak to peak
+ */
 
 /**
  * Measures of the samples `from` to `to`, both included; null without samples.

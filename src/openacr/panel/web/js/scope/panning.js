@@ -2,7 +2,8 @@
 
 /**
  * The plugin of uPlot that asks for another part of the record.
- * @param {{ isAsked: () => boolean, zoom: (isFiner: boolean, at: number) => void, pan: (by: number) => void, reset: () => void }} asked times in ms; `isAsked`: a drag pans
+ * @param {{ isAsked: () => boolean, zoom: (isFiner: boolean, at: number) => void, pan: (by: number) => void,
+ *   reset: () => void }} asked times in ms; `isAsked`: a drag pans
  */
 export function panningPlugin({ isAsked, zoom, pan, reset }) {
   return {

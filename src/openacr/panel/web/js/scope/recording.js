@@ -5,10 +5,13 @@ const LEAST = 20000; // samples kept besides: a trigger is known up to a second 
 const PATIENCE = 2; // sweeps without a trigger after which an automatic one runs freely
 
 /**
- * @typedef {{ running: boolean, first?: number, trigger?: number | null, swept?: number | null, owner?: string | null }} Capture
- * @typedef {{ first: number, samples: number, period_s: number, channels?: string[], tick?: number | null }} Armed what the server says of a new capture
+ * @typedef {{ running: boolean, first?: number, trigger?: number | null, swept?: number | null,
+ *   owner?: string | null }} Capture
+ * @typedef {{ first: number, samples: number, period_s: number, channels?: string[], tick?: number | null }} Armed what
+ *   the server says of a new capture
  * @typedef {{ before: number, mode: string } | null} Trigger
- * @typedef {{ first: number, zero: number, period: number, channels: Float64Array[] }} Window samples that are missing are NaN; `zero`: number of the sample with time 0
+ * @typedef {{ first: number, zero: number, period: number, channels: Float64Array[] }} Window samples that are missing
+ *   are NaN; `zero`: number of the sample with time 0
  * @typedef {"sweep" | "roll" | "once"} Run without a trigger: one sweep after the other, the latest, or the first only
  */
 
@@ -80,7 +83,8 @@ export class Recording {
 
   /** @param {{ first: number, period: number, channels: Float64Array[] }} piece */
   add(piece) {
-    if (this.isTaken || piece.first < this.begun || piece.channels.length !== this.data.length) return; // of another capture
+    const isOthers = piece.first < this.begun || piece.channels.length !== this.data.length;
+    if (this.isTaken || isOthers) return;
     for (const ring of this.data) for (let n = this.next; n < Math.min(piece.first, this.next + this.size); n++) ring[n % this.size] = Number.NaN;
     piece.channels.forEach((values, channel) => values.forEach((value, n) => { this.data[channel][(piece.first + n) % this.size] = value; }));
     this.next = Math.max(this.next, piece.first + piece.channels[0].length);
@@ -152,7 +156,8 @@ export class Recording {
   }
 
   /**
-   * What the screen shows and measures are taken of: the latest whole sweep, before the first one the part that has come.
+   * What the screen shows and measures are taken of: the latest whole sweep, before the first one the part that has
+   * come.
    * @returns {Window}
    */
   window() {

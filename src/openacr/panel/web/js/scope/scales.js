@@ -27,7 +27,8 @@ export function stepBelow(value) {
 }
 
 /**
- * A scale of 1, 2 or 5 that shows values whole in a part of the screen, and the offset that has their middle in its middle; null without values.
+ * A scale of 1, 2 or 5 that shows values whole in a part of the screen, and the offset that has their middle in its
+ * middle; null without values.
  * @param {ArrayLike<number>} values
  * @param {number} [height] divisions of the part
  * @param {number} [middle] divisions from the middle of the screen up

@@ -11,8 +11,10 @@ const DASH = [6, 4];
 const FAINT = "70"; // opacity of what comes of the next sweep
 
 /**
- * @typedef {{ label: string, color: string, values: ArrayLike<number>, scale: number, offset: number, isFlag?: boolean, isReference?: boolean, isFaint?: boolean }} Trace `scale`: units of a division
- * @typedef {{ start: number, period: number, from: number, step: number }} Frame ms of the first sample, s between two, ms of the left edge and of a division
+ * @typedef {{ label: string, color: string, values: ArrayLike<number>, scale: number, offset: number, isFlag?: boolean,
+ *   isReference?: boolean, isFaint?: boolean }} Trace `scale`: units of a division
+ * @typedef {{ start: number, period: number, from: number, step: number }} Frame ms of the first sample, s between two,
+ *   ms of the left edge and of a division
  */
 
 /** What is drawn: ends of both scales, times in ms, traces in divisions. */

@@ -33,7 +33,8 @@ export class Settings {
   }
 
   element() {
-    const isHidden = (/** @type {string} */ name) => name === "program" && model.hello.value.machine.is_virtual; // its engine records
+    // The engine of a virtual card records: there are no arrays to name.
+    const isHidden = (/** @type {string} */ name) => name === "program" && model.hello.value.machine.is_virtual;
     return h("div.scope-settings", {}, ...Object.entries(this.fields).map(([name, field]) => h("label.row", { hidden: isHidden(name) }, h("span.grow", {}, t(/** @type {any} */ (`scope.${name}`))), field)));
   }
 

@@ -17,7 +17,8 @@ export function windowOf(name, length) {
 }
 
 /**
- * Amplitudes from 0 Hz to half the sampling rate; a sine of amplitude A at a bin has A there. Null for a record with a gap.
+ * Amplitudes from 0 Hz to half the sampling rate; a sine of amplitude A at a bin has A there. Null for a record with a
+ * gap.
  * @param {ArrayLike<number>} values
  * @param {number} period s
  * @param {string} name of the window

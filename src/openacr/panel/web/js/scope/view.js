@@ -17,7 +17,8 @@ export function within({ from, step }, [first, last]) {
 }
 
 /**
- * The next finer or coarser view; what is at a time stays where it is. No coarser one than the whole record, no finer one than a sample in a division.
+ * The next finer or coarser view; what is at a time stays where it is. No coarser one than the whole record, no finer
+ * one than a sample in a division.
  * @param {View} view
  * @param {boolean} isFiner
  * @param {number} at

@@ -108,7 +108,8 @@ function step(axis, direction) {
 }
 
 /**
- * Arrow and page keys hold the keys of X, Y and Z while no field has the focus; as a pane among others, while the focus is in it.
+ * Arrow and page keys hold the keys of X, Y and Z while no field has the focus; as a pane among others, while the focus
+ * is in it.
  * @param {Map<string, HTMLElement>} keys
  * @param {HTMLElement} body
  */

@@ -1,4 +1,5 @@
-// PROGRAM/PLC: the programs and PLCs of the card, what each of them does, its text; run, halt, step, listen, edit, clear.
+// PROGRAM/PLC: the programs and PLCs of the card, what each of them does, its text; run, halt, step, listen, edit,
+// clear.
 import { get, latest } from "../core/api.js";
 import { give, link, model, refuse, report } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";

@@ -6,8 +6,10 @@ import { textOf } from "../../screens/programs.js";
 const OF_CARD = /^(prog|plc)(\d+)\.8k$/i;
 
 /**
- * @typedef {{ file: string, text: string, version: string, is_same: boolean, why_not: string }} InProject how the project of the card has a program
- * @typedef {{ name: string, level: string, text: string, version: string, setup: string, isCards: boolean, project?: InProject | null }} Opened
+ * @typedef {{ file: string, text: string, version: string, is_same: boolean, why_not: string }} InProject how the
+ *   project of the card has a program
+ * @typedef {{ name: string, level: string, text: string, version: string, setup: string, isCards: boolean,
+ *   project?: InProject | null }} Opened
  *   `level` is that of a program of the card, empty for a whole file; `version` that of the listing it replaces
  */
 
@@ -17,7 +19,8 @@ export function which(level) {
 }
 
 /**
- * A program as the card lists it; where its project has the same, as it is written there, with its comments. A project that cannot be read is said.
+ * A program as the card lists it; where its project has the same, as it is written there, with its comments. A project
+ * that cannot be read is said.
  * @param {string} level
  * @returns {Promise<Opened>}
  */

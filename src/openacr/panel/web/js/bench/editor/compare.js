@@ -5,7 +5,8 @@ import { t } from "../../core/texts.js";
 const AROUND = 3; // equal lines above and below a difference
 
 /**
- * @typedef {[number, string, number, string, boolean]} Row line and text here, number and text on the card, whether they mean the same
+ * @typedef {[number, string, number, string, boolean]} Row line and text here, number and text on the card, whether
+ *   they mean the same
  * @typedef {{ name: string, rows: Row[], is_equal: boolean }} Compared
  *
  * @param {Compared} compared

@@ -5,10 +5,12 @@ import { t } from "../../core/texts.js";
 import { askText } from "../../frame/dialog.js";
 
 /**
- * @typedef {{ span: number[], text: string, kind: string, fix?: import("../../edit/language.js").Finding["fix"] }} Item a place of the text with what is to be said of it
+ * @typedef {{ span: number[], text: string, kind: string, fix?: import("../../edit/language.js").Finding["fix"] }} Item
+ *   a place of the text with what is to be said of it
  *
  * @typedef {object} Pane
- * @property {(question: string, about?: object) => Promise<any>} asked the answer about the present text, null without one
+ * @property {(question: string, about?: object) => Promise<any>} asked the answer about the present text, null without
+ *   one
  * @property {() => ReturnType<typeof import("../../edit/controller_editor.js").createControllerEditor>} editor
  * @property {(items: Item[]) => void} list show places below the text
  * @property {(...content: Node[]) => void} showBeside show something beside the text

@@ -7,7 +7,8 @@ import { hasProject, inProject, toProject } from "./card_text.js";
 /** @typedef {import("./card_text.js").Opened} Opened */
 
 /**
- * @param {{ opened: () => Opened, text: () => string, show: (opened: Opened) => void, mayDrop: () => Promise<boolean>, draw: () => void }} editor
+ * @param {{ opened: () => Opened, text: () => string, show: (opened: Opened) => void, mayDrop: () => Promise<boolean>,
+ *   draw: () => void }} editor
  */
 export function projectPart({ opened, text, show, mayDrop, draw }) {
   const saveKey = keyOf("texts.project.save", () => void save());

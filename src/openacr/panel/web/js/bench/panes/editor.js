@@ -1,4 +1,5 @@
-// Editor: controller files and the programs of the card, checked while they are typed, sent, compared, their running lines marked.
+// Editor: controller files and the programs of the card, checked while they are typed, sent, compared, their running
+// lines marked.
 import { get, latest } from "../../core/api.js";
 import { model, refuse, report } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";

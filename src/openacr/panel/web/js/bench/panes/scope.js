@@ -114,7 +114,9 @@ export async function mount(host, { head, kept, keep }) {
     return recording.count > 0 && ["stopped", "taken"].includes(stateNow());
   }
 
-  /** The part of the record that is shown: its traces, ms of the first sample and of the left edge, ms of a division. */
+  /**
+   * The part of the record that is shown: its traces, ms of the first sample and of the left edge, ms of a division.
+   */
   function shownNow() {
     const period = recording.period;
     const ms = 1000 * period;

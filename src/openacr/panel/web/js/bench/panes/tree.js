@@ -1,4 +1,5 @@
-// Parameters and flags of the card as a tree that can be searched; the card is asked for the values of rows that can be seen.
+// Parameters and flags of the card as a tree that can be searched; the card is asked for the values of rows that can be
+// seen.
 import { get, latest } from "../../core/api.js";
 import { model, refuse } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
@@ -20,7 +21,8 @@ const NO_OBJECT = "none";
 /**
  * @typedef {import("../../frame/card_value.js").Item} Item
  * @typedef {{ object: string, index: number | null, parameters: number, flags: number }} Group
- * @typedef {{ key: string, level: number, text: string, count?: number, group?: Group, item?: Item, value?: HTMLElement }} Row
+ * @typedef {{ key: string, level: number, text: string, count?: number, group?: Group, item?: Item,
+ *   value?: HTMLElement }} Row
  */
 
 /**

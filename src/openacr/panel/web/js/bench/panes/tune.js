@@ -219,7 +219,8 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   endings.add(() => drawn.end(), () => tried.end(), () => {
-    if (isMoving && link.isOpen.value) void link.command("stop.hold").catch(() => {}); // the pane that watches it has gone
+    // The pane that watches the motion has gone.
+    if (isMoving && link.isOpen.value) void link.command("stop.hold").catch(() => {});
   }, model.tuned.watch((progress) => {
     if (progress && isMoving && progress.done > 0) setText(state, t(TEXTS.reading, { done: progress.done, count: progress.count }));
   }));

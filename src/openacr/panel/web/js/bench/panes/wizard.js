@@ -28,7 +28,8 @@ const REMARK = / : REM (.*)$/;
 /**
  * @typedef {import("../wizard/answers.js").Dialog} Dialog
  * @typedef {import("../wizard/answers.js").Answers} Answers
- * @typedef {{ errors: { where: (string | number)[], text: string }[], warnings?: string[], files?: Record<string, string> }} Code
+ * @typedef {{ errors: { where: (string | number)[], text: string }[], warnings?: string[],
+ *   files?: Record<string, string> }} Code
  */
 
 /**

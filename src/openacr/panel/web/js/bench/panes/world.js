@@ -19,7 +19,8 @@ const TEXTS = {
  * @property {import("../../draw/kinematics.js").Link[]} links
  * @property {{ input: number, what: string, is_driven: boolean }[]} inputs
  * @property {{ axis: number, kind: string, why_not: string, key: string, unit: string, range: string }[]} faults
- * @property {{ name: string, kind: string, by_hand: Record<string, string>, sign: { at: [number, number, number], parent: string } | null }[]} devices
+ * @property {{ name: string, kind: string, by_hand: Record<string, string>,
+ *   sign: { at: [number, number, number], parent: string } | null }[]} devices
  * @property {string} why_not why nothing can be changed; "" where it can
  */
 

@@ -11,7 +11,8 @@ const FULL_DEG = 180;
 const SPACE = 22; // pixels from one line of the grid to the next, at least
 
 /**
- * @typedef {{ label: string, ink: keyof typeof INK, x: number[], y: number[], isDots?: boolean, dash?: number[] }} Curve
+ * @typedef {{ label: string, ink: keyof typeof INK, x: number[], y: number[], isDots?: boolean,
+ *   dash?: number[] }} Curve
  * @typedef {{ at: number, from: number, to: number, ink: keyof typeof INK }} Mark
  *
  * @typedef {object} Looks

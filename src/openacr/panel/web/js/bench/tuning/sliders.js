@@ -12,14 +12,16 @@ const STEPS = 100; // of a decade
 
 /**
  * A gain: its value on the card, the one that the list of changes ends with, and the one in the middle of its slider.
- * @typedef {{ name: string, value: number, listed: number, base: number, field: HTMLInputElement, slider: HTMLInputElement | null }} Gain
+ * @typedef {{ name: string, value: number, listed: number, base: number, field: HTMLInputElement,
+ *   slider: HTMLInputElement | null }} Gain
  */
 
 /**
  * Show the sliders of an axis in an element; `reload` reads all gains of the card anew, as after a proposal was set.
  * @param {HTMLElement} host
  * @param {import("../../core/card_axes.js").CardAxis} axis
- * @param {() => boolean} isStored whether a gain is also kept in the parameters of the machine, once its slider is let go
+ * @param {() => boolean} isStored whether a gain is also kept in the parameters of the machine, once its slider is let
+ *   go
  */
 export async function gainSliders(host, axis, isStored) {
   const history = new History();

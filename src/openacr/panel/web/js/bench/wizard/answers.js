@@ -1,7 +1,9 @@
 // The answers of the wizard as the tables of configure.toml, and where in them a dialog has its own.
 
 /**
- * @typedef {{ key: string, title: string, unit: string, help: string, kind: "switch" | "count" | "number" | "text" | "choice" | "pair" | "names", is_optional: boolean, default: any, choices?: string[], low?: number, high?: number }} Row
+ * @typedef {{ key: string, title: string, unit: string, help: string,
+ *   kind: "switch" | "count" | "number" | "text" | "choice" | "pair" | "names", is_optional: boolean, default: any,
+ *   choices?: string[], low?: number, high?: number }} Row
  * @typedef {{ name: string, title: string, of: "card" | "axis" | "master", within: string, rows: Row[] }} Dialog
  * @typedef {{ card?: Record<string, any>, axis: Record<string, any>[], master?: Record<string, any>[] }} Answers
  * @typedef {(string | number)[]} Where keys and places of a value in the tables
@@ -70,7 +72,8 @@ function firstFree(taken, of) {
 }
 
 /**
- * What is typed, as a value of the file; undefined: as by default. Text that is no value stays text, for the server to refuse.
+ * What is typed, as a value of the file; undefined: as by default. Text that is no value stays text, for the server to
+ * refuse.
  * @param {Row} row
  * @param {string} text
  */
