@@ -52,7 +52,7 @@ def test_the_packets_that_complete_a_piece_are_counted() -> None:
     for _ in range(9):
         packet = many.point([0.0, 0.0, 0.0], 100.0)
         counted.append(many.is_counted)
-        assert packet.counter_step == many.is_counted
+        assert packet.header.counter_step == many.is_counted
     assert counted == [False] * 6 + [True] * 3
 
 

@@ -30,7 +30,7 @@ def test_fields_come_in_the_documented_order() -> None:
     assert move.targets == ((0, 1.0), (2, 2.0), (9, 3.0))
     assert move.centers == (4.0, 5.0)
     assert move.scaling == (0.5, 0.25)
-    assert move.curve is Curve.ARC
+    assert move.header.curve is Curve.ARC
     assert move.encode() == codes + words(10.0, 2.5, 200.0, 1.0, 2.0, 3.0, 4.0, 5.0, 0.5, 0.25)
 
 
@@ -41,10 +41,10 @@ def test_curves_use_the_arc_bits_for_themselves() -> None:
         {0: 1}, code1=Code1.SPLINE | Code1.SPLINE_KNOTS, code3=Code3.CURVE, scaling=(0.5, 0.0)
     )
     again = decoded(spline.encode())
-    assert again.curve is Curve.SPLINE
+    assert again.header.curve is Curve.SPLINE
     assert again.code1 & Code1.SPLINE_KNOTS
     assert (again.centers, again.scaling) == (None, (0.5, 0.0))
-    assert decoded(nurb.encode()).curve is Curve.NURB
+    assert decoded(nurb.encode()).header.curve is Curve.NURB
 
 
 @given(

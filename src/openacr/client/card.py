@@ -4,7 +4,7 @@ from collections.abc import Callable, Generator, Iterable
 from contextlib import suppress
 from pathlib import Path
 from threading import RLock
-from typing import Self, TypeVar
+from typing import Generic, Self, TypeVar
 
 from openacr.client import stored, transfer, values
 from openacr.client.drive import carry_out
@@ -28,30 +28,17 @@ from openacr.protocol.packets import Packet
 T = TypeVar("T")
 
 
-class Parameters:
-    """Parameters by number or name: `card.p[12288]`, `card.p["axis0.following error"]`."""
+class Cells(Generic[T]):
+    """Parameters or flags by number or name: `card.p[12288]`, `card.bit["master0.in motion"]`."""
 
-    def __init__(self, card: "Card") -> None:
-        self._card = card
+    def __init__(self, read: Callable[[What], T], write: Callable[[What, T], None]) -> None:
+        self._read, self._write = read, write
 
-    def __getitem__(self, what: What) -> Number:
-        return self._card.read(what)
+    def __getitem__(self, what: What) -> T:
+        return self._read(what)
 
-    def __setitem__(self, what: What, value: Number) -> None:
-        self._card.write(what, value)
-
-
-class Flags:
-    """Flags by number or name: `card.bit[516]`, `card.bit["master0.in motion"]`."""
-
-    def __init__(self, card: "Card") -> None:
-        self._card = card
-
-    def __getitem__(self, what: What) -> bool:
-        return self._card.read_bit(what)
-
-    def __setitem__(self, what: What, on: bool) -> None:
-        self._card.write_bit(what, on)
+    def __setitem__(self, what: What, value: T) -> None:
+        self._write(what, value)
 
 
 class Card(Closing):
@@ -61,8 +48,8 @@ class Card(Closing):
         self._link = link
         self._talk = Talk(link.name, link.kind, options or Options(), link.now_s)
         self._lock = RLock()
-        self.p = Parameters(self)
-        self.bit = Flags(self)
+        self.p = Cells[Number](self.read, self.write)
+        self.bit = Cells[bool](self.read_bit, self.write_bit)
 
     @classmethod
     def open(

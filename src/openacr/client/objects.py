@@ -60,12 +60,16 @@ class Thing(Generic[R, B, W]):
         return f"{self.word}{self.number}"
 
 
-class Quantity:
-    """A parameter of an object."""
+class _Named:
+    """A parameter or flag of an object by its name."""
 
     def __init__(self, name: str, doc: str) -> None:
         self.name = name
         self.__doc__ = doc
+
+
+class Quantity(_Named):
+    """A parameter of an object."""
 
     @overload
     def __get__(self, thing: None, owner: type) -> "Quantity": ...
@@ -78,12 +82,8 @@ class Quantity:
         raise AttributeError(f'use write("{self.name}", {value})')
 
 
-class Condition:
+class Condition(_Named):
     """A flag of an object."""
-
-    def __init__(self, name: str, doc: str) -> None:
-        self.name = name
-        self.__doc__ = doc
 
     @overload
     def __get__(self, thing: None, owner: type) -> "Condition": ...

@@ -70,7 +70,7 @@ class MoveQueue:
         self._note()
 
     def _make(self, move: Move) -> None:
-        if move.curve in _FAMILIES:
+        if move.header.curve in _FAMILIES:
             host_moves.take_point(self._card, _host_point(self._card, move))
         else:
             host_moves.issue(self._card, _host_move(self._card, move))
@@ -83,7 +83,7 @@ class MoveQueue:
 
     def _room(self, move: Move) -> tuple[int, int]:
         """Row in I, and the value below which it must stay, for a move to have room."""
-        if move.curve in _FAMILIES:
+        if move.header.curve in _FAMILIES:
             return curve_moves.room_row(self._card, move.master, curve_moves.MOST)
         return moves.room_row(self._card, move.master)
 
@@ -118,8 +118,8 @@ def _host_move(card: Card, move: Move) -> HostMove:
     return HostMove(
         master=move.master,
         targets_cnt=dict(_pulses(card, move, move.targets)),
-        relative=move.is_relative,
-        arc=_arc(card, move) if move.curve is Curve.ARC else None,
+        relative=move.header.is_relative,
+        arc=_arc(card, move) if move.header.curve is Curve.ARC else None,
         vel_ups=move.vel,
         acc_ups2=move.acc,
         fvel_ups=move.fvel,
@@ -127,9 +127,9 @@ def _host_move(card: Card, move: Move) -> HostMove:
         final_velocity_zero=profile.final_velocity_zero,
         rapid=profile.rapid,
         override_locked=profile.override_locked,
-        count=move.counter_step,
-        interrupt=move.interrupts,
-        block_skip=move.is_block_skip,
+        count=move.header.counter_step,
+        interrupt=move.header.interrupts,
+        block_skip=move.header.is_block_skip,
         tolerance_u=move.tolerance,
     )
 
@@ -137,22 +137,22 @@ def _host_move(card: Card, move: Move) -> HostMove:
 def _host_point(card: Card, move: Move) -> HostPoint:
     """A point of a curve: the first scaling field is its knot, the second a NURB's weight."""
     knot, weight = move.scaling or (None, None)
-    is_nurb = move.curve is Curve.NURB
+    is_nurb = move.header.curve is Curve.NURB
     profile = move.profile(host_moves.has_rapid_modes(card, move.master))
     if not is_nurb and not move.code1 & Code1.SPLINE_KNOTS:
         knot = None
     return HostPoint(
         master=move.master,
-        family=_FAMILIES[move.curve],
+        family=_FAMILIES[move.header.curve],
         targets_cnt=dict(_pulses(card, move, move.targets)),
-        relative=move.is_relative,
+        relative=move.header.is_relative,
         knot=knot,
         weight=weight if is_nurb and move.targets else None,
         vel_ups=move.vel,
         acc_ups2=move.acc,
         fvel_ups=move.fvel,
         override_locked=profile.override_locked,
-        count=move.counter_step,
+        count=move.header.counter_step,
     )
 
 
@@ -174,7 +174,7 @@ def _arc(card: Card, move: Move) -> Arc:
     return Arc(
         slaves,
         (center[0], center[1]),
-        Direction.COUNTER_CLOCKWISE if move.is_counterclockwise else Direction.CLOCKWISE,
-        relative_center=move.has_relative_center,
+        Direction.COUNTER_CLOCKWISE if move.header.is_counterclockwise else Direction.CLOCKWISE,
+        relative_center=move.header.has_relative_center,
         radius_scale=move.scaling or (1.0, 1.0),
     )

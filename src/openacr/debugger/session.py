@@ -29,8 +29,6 @@ from openacr.engine.watches import WATCHES
 from openacr.errors import UserError
 from openacr.timeline import Moment, Timeline
 
-ALL_PROGRAMS = (1 << PROGRAMS) - 1
-
 
 @dataclass(frozen=True, slots=True)
 class Step:

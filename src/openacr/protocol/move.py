@@ -35,7 +35,7 @@ from openacr.protocol.move_codes import (
     Code0,
     Code1,
     Code3,
-    Curve,
+    Header,
     Profile,
     all_codes,
     code_text,
@@ -135,7 +135,7 @@ class Move(Packet):
     def encode(self) -> bytes:
         """Header as long as the codes announce, then the fields."""
         head = self.HEADER + self.codes
-        header = header_of(self.codes)
+        header = self.header
         data = b"".join([pack_word(value) for value in self.values()])
         if len(data) != header.fields.size:
             raise PacketError("Move: the fields are not those that the header codes announce")
@@ -150,7 +150,7 @@ class Move(Packet):
 
     def values(self) -> Iterator[int | float]:
         """The data fields in wire order and wire type."""
-        header = header_of(self.codes)
+        header = self.header
         kind = float if header.floating else int
         for value in (self.vel, self.fvel, self.acc):
             if value is not None:
@@ -189,14 +189,14 @@ class Move(Packet):
         return Code3(self.codes[3])
 
     @property
-    def master(self) -> int:
-        """The master this move is for, 0 to 15."""
-        return header_of(self.codes).master
+    def header(self) -> Header:
+        """What the header codes say of the move."""
+        return header_of(self.codes)
 
     @property
-    def curve(self) -> Curve:
-        """Line, arc, NURB or spline."""
-        return header_of(self.codes).curve
+    def master(self) -> int:
+        """The master this move is for, 0 to 15."""
+        return self.header.master
 
     @property
     def arc_slaves(self) -> tuple[int, int]:
@@ -206,36 +206,6 @@ class Move(Packet):
             raise PacketError("arc plane 3 is reserved")
         return plane, (plane + 1) % 3
 
-    @property
-    def counter_step(self) -> int:
-        """What this move adds to the master move counter: 0, 1 or -1."""
-        return header_of(self.codes).counter_step
-
-    @property
-    def is_relative(self) -> bool:
-        """Targets count from the end of the move before."""
-        return header_of(self.codes).is_relative
-
-    @property
-    def has_relative_center(self) -> bool:
-        """Centers count from the beginning of the arc."""
-        return header_of(self.codes).has_relative_center
-
-    @property
-    def is_counterclockwise(self) -> bool:
-        """Whether an arc runs counterclockwise."""
-        return header_of(self.codes).is_counterclockwise
-
-    @property
-    def is_block_skip(self) -> bool:
-        """The move is left out while block skip is on."""
-        return header_of(self.codes).is_block_skip
-
-    @property
-    def interrupts(self) -> bool:
-        """The card interrupts the PC at this move."""
-        return header_of(self.codes).interrupts
-
     def profile(self, rapid_move_modes: bool) -> Profile:
         """Ramps and override, with Enable Rapid Move Modes of the master set or clear."""
         return profile_of(self.codes[0], rapid_move_modes)
@@ -243,7 +213,7 @@ class Move(Packet):
     def explain(self) -> list[Part]:
         """Header codes and data fields, one line each."""
         data = self.encode()
-        start = header_of(self.codes).length
+        start = self.header.length
         parts = [Part(data[:1], "header", "Move")]
         parts += [
             Part(data[at : at + 1], f"header code {at - 1}", code_text(at - 1, data[at]))

@@ -89,12 +89,12 @@ class Header:
     floating: bool
     master: int
     curve: Curve
-    counter_step: int
-    is_relative: bool
-    has_relative_center: bool
+    counter_step: int  # what the move adds to the master move counter: 0, 1 or -1
+    is_relative: bool  # targets count from the end of the move before
+    has_relative_center: bool  # centers count from the beginning of the arc
     is_counterclockwise: bool
-    is_block_skip: bool
-    interrupts: bool
+    is_block_skip: bool  # the move is left out while block skip is on
+    interrupts: bool  # the card interrupts the PC at this move
     fields: struct.Struct  # of the data, in wire order
 
     @property

@@ -24,10 +24,7 @@ HEADER_IDS = frozenset(header[0] for header in PACKETS)  # bytes that begin a pa
 
 def total_length(prefix: bytes) -> int:
     """Length of the packet that starts with `prefix` (at least its header), as far as known."""
-    found = packet_class(prefix)
-    if found is None:
-        raise PacketError(f"no packet starts with {prefix[:2].hex(' ')}")
-    return found.total_length(prefix)
+    return _known(prefix).total_length(prefix)
 
 
 def dpcb_padding(prefix: bytes) -> int:
@@ -38,10 +35,14 @@ def dpcb_padding(prefix: bytes) -> int:
 
 def decode(packet: bytes) -> Packet:
     """The packet in exactly these bytes (after any MODE conversion)."""
-    found = packet_class(packet)
+    return _known(packet).decode(packet)
+
+
+def _known(prefix: bytes) -> type[Packet]:
+    found = packet_class(prefix)
     if found is None:
-        raise PacketError(f"no packet starts with {packet[:2].hex(' ')}")
-    return found.decode(packet)
+        raise PacketError(f"no packet starts with {prefix[:2].hex(' ')}")
+    return found
 
 
 def explain(packet: bytes) -> str:

@@ -21,7 +21,6 @@ class Base:
         self.snapshot = snapshot
         self.words: Words = np.frombuffer(snapshot.rows, _WORD)
         self.latest = snapshot.beside
-        self.latest_bytes = len(msgspec.msgpack.encode(snapshot.beside))
 
     def shared(self, beside: Beside) -> tuple[Beside, int]:
         """Texts and queues, kept once while they do not change, and the bytes they take anew."""
