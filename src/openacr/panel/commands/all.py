@@ -1,6 +1,6 @@
 """Imports every module of commands: the table is complete then."""
 
-from openacr.panel.commands import (
+from openacr.panel.commands import (  # noqa: F401
     memory,
     motion,
     people,
@@ -12,10 +12,6 @@ from openacr.panel.commands import (
     typing,
     watching,
     world,
-)  # fmt: skip
-from openacr.panel.commands.registry import COMMANDS, carry_out
-
-__all__ = [
-    "COMMANDS", "carry_out", "memory", "motion", "people", "programs", "running", "service",
-    "timeline", "tuning", "typing", "watching", "world",
-]  # fmt: skip
+)
+from openacr.panel.commands.registry import COMMANDS as COMMANDS
+from openacr.panel.commands.registry import carry_out as carry_out

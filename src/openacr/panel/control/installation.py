@@ -104,6 +104,11 @@ class Installation:
         self.attached = session.card.perform(attached)
         return session
 
+    def axis_name(self, index: int) -> str:
+        """The name of an axis of the card: that of the machine, or AXISn."""
+        named = (each.name for each in Settings(self.store).axes if each.index == index)
+        return next(named, f"AXIS{index}")
+
     def axis(self, name: str, *, is_stored: bool = False) -> int:
         """An axis of the card by the name that AcroMill or one of its masters gives it, or AXISn.
 

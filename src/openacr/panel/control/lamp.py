@@ -31,7 +31,7 @@ class Lamp:
         values = self._link.read(ROWS)
         session = self._link.session
         settings = Settings(self._link.installation.store)
-        names = {each.index: each.name for each in settings.axes}
+        name = self._link.installation.axis_name
         is_watched = session is None or session.is_set_up  # by a program of AcroMill
         count = len(PROGRAMS)
         programs, drives = values[:count], values[count : count + len(AXES)]
@@ -39,18 +39,14 @@ class Lamp:
         changed = zip(self._before or setpoints, setpoints, strict=True)
         self._before = setpoints
         self._data = {
-            "moving": [names.get(n, f"AXIS{n}") for n, (a, b) in enumerate(changed) if a != b],
+            "moving": [name(n) for n, (a, b) in enumerate(changed) if a != b],
             "running": [
                 f"PROG{n}"
                 for n, word in enumerate(programs)
                 if int(word) & pf.PROGRAM_RUNNING
                 and not (is_watched and n == settings.watchdog_program)
             ],
-            "drives": [
-                names.get(n, f"AXIS{n}")
-                for n, word in enumerate(drives)
-                if int(word) & af4.DRIVE_ENABLED
-            ],
+            "drives": [name(n) for n, word in enumerate(drives) if int(word) & af4.DRIVE_ENABLED],
         }
 
     def end(self) -> None:

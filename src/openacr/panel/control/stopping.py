@@ -154,11 +154,6 @@ class Stopping:
         return {
             "found": stop.found,
             "holds": self.holds,
-            "moving": [self._name(axis) for axis in left],
+            "moving": [self._link.installation.axis_name(axis) for axis in left],
             "next": "stop.estop" if stop.ends else "stop.all",
         }
-
-    def _name(self, axis: int) -> str:
-        settings = Settings(self._link.installation.store)
-        named = {each.index: each.name for each in settings.axes}
-        return named.get(axis, f"AXIS{axis}")

@@ -4,7 +4,7 @@ import asyncio
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 from starlette.concurrency import run_in_threadpool
 
@@ -24,6 +24,7 @@ from openacr.panel.wire.hub import Hub
 from openacr.panel.work.pool import Pool
 
 ENDS = "the server ends"
+T = TypeVar("T")
 
 
 class Connected(Protocol):
@@ -62,6 +63,10 @@ class Panel:
         self.cookie = "openacr"
         self._tasks: set[asyncio.Future[None]] = set()
         self._unsubscribe: Callable[[], None] | None = None
+
+    async def ask(self, work: Callable[[Station], T]) -> T:
+        """Run a function in the control thread; its result, or its error."""
+        return await asyncio.wrap_future(self.control.call(work))
 
     def hello(self, person: Person) -> dict[str, Any]:
         """The first words to a browser."""

@@ -1,6 +1,5 @@
 """The card: its parameters and flags with their names, operator variables."""
 
-import asyncio
 from collections.abc import Iterable, Sequence
 from typing import Annotated, TypeVar
 
@@ -189,7 +188,7 @@ async def pparm(call: Call) -> object:
         on_card = session.machine.read_rows(list(CARD_VARIABLES))
         return [*on_card, *(session.cells.read(n) for n in range(len(CARD_VARIABLES), LAST + 1))]
 
-    values = await asyncio.wrap_future(call.panel.control.call(read))
+    values = await call.panel.ask(read)
     return {"values": values}
 
 
@@ -208,4 +207,4 @@ async def write_pparm(call: Call) -> object:
             variables.write(number, value)
         return {str(number): variables.read(number) for number in wanted}
 
-    return {"values": await asyncio.wrap_future(call.panel.control.call(write))}
+    return {"values": await call.panel.ask(write)}

@@ -1,6 +1,5 @@
 """Inputs and outputs with their names, and the virtual push buttons."""
 
-import asyncio
 from collections.abc import Sequence
 
 from openacr.map import numbers as n
@@ -44,7 +43,7 @@ async def buttons(call: Call) -> object:
     def read(station: Station) -> list[bool]:
         return station.link.required.card.read_bits(lamps) if lamps else []
 
-    states = await asyncio.wrap_future(call.panel.control.call(read))
+    states = await call.panel.ask(read)
     lit = dict(zip(lamps, states, strict=True))
     return {
         "buttons": [

@@ -59,8 +59,7 @@ class _NoAliases:
 async def talked(panel: Panel, talks: Talks[T]) -> T:
     """The result of a conversation beside the session."""
     future: Future[T] = Future()
-    begun = panel.control.call(lambda station: station.on_card.aside.begin(talks, future))
-    await asyncio.wrap_future(begun)
+    await panel.ask(lambda station: station.on_card.aside.begin(talks, future))
     return await asyncio.wrap_future(future)
 
 
@@ -77,7 +76,7 @@ async def card_programs(call: Call) -> object:
         levels = [*map(Level.program, PROGRAMS), *map(Level.plc, PLCS)]
         return states, {str(level): owner_of(station, level) for level in levels}
 
-    states, owners = await asyncio.wrap_future(call.panel.control.call(read))
+    states, owners = await call.panel.ask(read)
     memory = {str(level): room for level, room in (await talked(call.panel, rooms)).items()}
     return {
         "programs": [

@@ -1,6 +1,5 @@
 """The project of the card: which programs differ from it, their texts, another text stored."""
 
-import asyncio
 from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
@@ -76,7 +75,7 @@ async def differences(panel: Panel) -> list[str]:
             return None
         return Level.program(station.link.session.runner.settings.watchdog_program)
 
-    theirs = await asyncio.wrap_future(panel.control.call(own))
+    theirs = await panel.ask(own)
     found = await talked(panel, _listings)
     return [each for each in await panel.checks.run(differing, root, found) if each != str(theirs)]
 

@@ -1,6 +1,5 @@
 """Texts of controller files while they are edited: questions to the engine of editors."""
 
-import asyncio
 from collections.abc import Iterable
 from typing import Annotated, Literal
 
@@ -105,4 +104,4 @@ async def park_text(call: Call) -> object:
     def park(station: Station) -> str:
         return station.on_card.parked.put(call.body.text)
 
-    return {"parked": await asyncio.wrap_future(call.panel.control.call(park))}
+    return {"parked": await call.panel.ask(park)}

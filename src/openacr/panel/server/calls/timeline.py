@@ -1,6 +1,5 @@
 """The timeline: samples and differences of branches, by living through them in a process."""
 
-import asyncio
 import tempfile
 from pathlib import Path
 from typing import Annotated
@@ -12,7 +11,6 @@ from starlette.responses import FileResponse
 from openacr.client.names import named
 from openacr.errors import UserError
 from openacr.map import parameters
-from openacr.mill.config.settings import Settings
 from openacr.panel.control.sampling import row_of, value_in
 from openacr.panel.control.scope import name_of
 from openacr.panel.control.station import Station
@@ -97,20 +95,18 @@ async def lanes(call: Call) -> object:
 
     def look(station: Station) -> list[dict[str, object]]:
         history = station.times.history
-        names = {each.index: each.name for each in Settings(station.installation.store).axes}
+        name = station.installation.axis_name
         found = history.lanes.between(query.branch, query.first, query.last, history.unmarked)
         return [
             {
-                "name": names.get(each.number, f"AXIS{each.number}")
-                if each.kind == "axis"
-                else f"PROG{each.number}",
+                "name": name(each.number) if each.kind == "axis" else f"PROG{each.number}",
                 "kind": each.kind,
                 "spans": each.spans,
             }
             for each in found
         ]
 
-    return {"lanes": await asyncio.wrap_future(call.panel.control.call(look))}
+    return {"lanes": await call.panel.ask(look)}
 
 
 @endpoint("GET", "/timeline/differences", query=Compared)
@@ -157,10 +153,8 @@ async def journal(call: Call) -> object:
 
 async def _course(call: Call, branch: int, first_tk: int | None, last_tk: int | None) -> Course:
     """A branch as plain data, taken in the control thread; UserError for an unknown moment."""
-    return await asyncio.wrap_future(
-        call.panel.control.call(
-            lambda station: station.times.history.timeline.course(branch, first_tk, last_tk)
-        )
+    return await call.panel.ask(
+        lambda station: station.times.history.timeline.course(branch, first_tk, last_tk)
     )
 
 

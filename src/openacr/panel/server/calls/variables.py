@@ -1,6 +1,5 @@
 """What a program works with: variables, the parameters and flags in its text, its flow stack."""
 
-import asyncio
 from collections.abc import Sequence
 from dataclasses import asdict
 
@@ -40,7 +39,7 @@ async def card_variables(call: Call) -> object:
         state = state_of(card, number) if is_running(card, number) else ""
         return {"state": state, "levels": list(map(asdict, levels_of(card, number))), "why": ""}
 
-    place = await asyncio.wrap_future(call.panel.control.call(read))
+    place = await call.panel.ask(read)
     return {"name": f"PROG{number}", "variables": list(map(asdict, found)), **place}
 
 

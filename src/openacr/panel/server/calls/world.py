@@ -1,6 +1,5 @@
 """The world around the card: what the pane World draws, and the files of its bodies."""
 
-import asyncio
 from typing import Annotated
 
 from msgspec import Meta
@@ -26,14 +25,12 @@ async def world(call: Call) -> object:
     def about(station: Station) -> object:
         return station.world.about(axes(station.installation.store))
 
-    return await asyncio.wrap_future(call.panel.control.call(about))
+    return await call.panel.ask(about)
 
 
 @endpoint("GET", "/world/body", query=OfAxis, gives="application/octet-stream")
 async def body(call: Call) -> Response:
     """The file (STL or glTF) with the body of an axis that machine.toml names."""
-    path = await asyncio.wrap_future(
-        call.panel.control.call(lambda station: station.world.file(call.query.axis))
-    )
+    path = await call.panel.ask(lambda station: station.world.file(call.query.axis))
     data = await run_in_threadpool(lambda: read_bytes(path))
     return Response(data, media_type="application/octet-stream")
