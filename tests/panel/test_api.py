@@ -17,7 +17,7 @@ from openacr.client.panels import PANELS
 from openacr.cnc.parts.library import part_named
 from openacr.map import flags, parameters
 from openacr.mill.plan.blank import SIZES
-from openacr.sysvar.tabs import CELLS, GENERAL
+from openacr.sysvar.tabs import CELLS, GENERAL, OFFSETS
 
 HEAD = 88  # of the block of a path
 
@@ -80,6 +80,22 @@ def test_every_form_can_be_read(web: httpx.Client) -> None:
     for name in names:
         form = web.get(f"/api/forms/{name}").json()
         assert form["groups"] and all(group["rows"] for group in form["groups"]), name
+
+
+@pytest.mark.req("MILL-G101-SET")
+def test_fixture_offsets_are_listed_by_number_without_z_and_are_stored(
+    web: httpx.Client, panel: Served
+) -> None:
+    rows = web.get("/api/forms/FIXTURES", params={"first": 3, "count": 2}).json()
+    x, y = OFFSETS.fixtures[0][1], OFFSETS.fixtures[1][1]
+    assert [row["number"] for row in rows["groups"][0]["rows"]] == [x, y]
+    assert [row["axis_name"] for row in rows["groups"][0]["rows"]] == ["X", "Y"]
+    assert rows["page"] == {"first": 3, "count": 2, "total": 198}
+    assert web.put("/api/forms/FIXTURES", json={"values": {str(x): "2", str(y): "-3"}}).json() == {
+        "stored": {str(x): "2", str(y): "-3"}, "refused": {}
+    }  # fmt: skip
+    store = panel.panel.installation.store
+    assert (store.read(x), store.read(y)) == (2.0, -3.0)
 
 
 def test_values_are_stored_and_shown_as_the_store_has_them(

@@ -161,12 +161,13 @@ def test_the_running_program_cannot_be_edited_but_others_can(page: Page, served:
 TABS = {
     "R offsets (geometric)": CELLS.d_radius[2], "R offsets (wear)": CELLS.d_wear[2],
     "H offsets (geometric)": CELLS.h_length[2], "H offsets (wear)": CELLS.h_wear[2],
+    "Fixture offsets": OFFSETS.fixtures[1][1],
     "Backlash": OFFSETS.backlash[1],
     "Reference points": CELLS.reference_point_2[0],
 }  # fmt: skip
 
 
-@pytest.mark.req("MILL-OFS-MENU")
+@pytest.mark.req("MILL-OFS-MENU", "MILL-G101-SET")
 @pytest.mark.req("MILL-OFS-SAVEPAGE")
 def test_every_page_of_offsets_is_on_the_disk_after_save_page_and_unchanged_without(
     page: Page, served: Served

@@ -1,6 +1,6 @@
 """All forms of the panel, by the menus of the guide."""
 
-from openacr.panel.forms.form import Form, Group, by_axis, listed, per_axis, whole
+from openacr.panel.forms.form import Form, Group, axes_of, by_axis, listed, per_axis, whole
 from openacr.panel.roles import Role
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import (
@@ -61,6 +61,13 @@ def _references(store: Store, _axis: int | None) -> list[Group]:
     )
     rows = ((f"Reference point {n}", cells) for n, cells in enumerate(points, 1))
     return list(by_axis(*rows)(store, None))
+
+
+def _fixtures(store: Store, _axis: int | None) -> list[Group]:
+    """G101 to G199, axis by axis; their Z is a length, which the H offsets have."""
+    axes = [axis for axis, name in axes_of(store) if name != "Z"]
+    by_number = zip(*(OFFSETS.fixtures[axis] for axis in axes), strict=True)
+    return [Group("", [cell for cells in by_number for cell in cells])]
 
 
 def _messages(_store: Store, _axis: int | None) -> list[Group]:
@@ -156,6 +163,7 @@ FORMS: dict[str, Form] = {
             "H-WEAR", "H offsets (wear)", OFFSET, Role.OPERATE,
             listed("", CELLS.h_wear[1:]), is_paged=True,
         ),
+        Form("FIXTURES", "Fixture offsets", OFFSET, Role.SETUP, _fixtures, is_paged=True),
         Form(
             "BACKLASH", "Backlash", OFFSET, Role.SERVICE, by_axis(("Backlash", OFFSETS.backlash))
         ),
