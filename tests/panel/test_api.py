@@ -259,16 +259,18 @@ def test_a_text_is_checked_while_it_is_typed(web: httpx.Client) -> None:
     assert good["extents"]["X"] == [200.0, 210.0]
 
 
-@pytest.mark.req("MILL-DXF-02")
+@pytest.mark.req("MILL-DXF-02", "MILL-DXF-05")
 @pytest.mark.parametrize(
-    ("asked", "line"),
+    ("asked", "corners"),
     [
-        ({"drill": False}, "G1 X2 Y2"),
-        ({"drill": True, "drill_z": -6.35}, "G98 G81 X0.5 Y1 Z-0.25"),
+        ({"drill": False}, ["X0 Y2", "X2 Y2", "X2 Y0"]),
+        ({"drill": False, "direction": 0}, ["X0 Y2", "X2 Y2", "X2 Y0"]),
+        ({"drill": False, "direction": 1}, ["X2 Y0", "X2 Y2", "X0 Y2"]),
+        ({"drill": True, "drill_z": -6.35}, ["G98 G81 X0.5 Y1 Z-0.25"]),
     ],
 )
 def test_a_drawing_becomes_a_continuous_path_or_a_drill_pattern_as_asked(
-    web: httpx.Client, panel: Served, asked: dict[str, object], line: str
+    web: httpx.Client, panel: Served, asked: dict[str, object], corners: list[str]
 ) -> None:
     document = ezdxf.new("R2010")  # type: ignore[attr-defined]
     document.header["$INSUNITS"] = 1
@@ -278,9 +280,10 @@ def test_a_drawing_becomes_a_continuous_path_or_a_drill_pattern_as_asked(
     answer = web.post("/api/dxf", json={"path": "plate.dxf", "output": "plate.TXT", **asked})
     assert answer.status_code == 200
     text = (panel.programs / "plate.TXT").read_text()
-    assert line in text
+    places = [text.index(corner) for corner in corners]
+    assert places == sorted(places)
     assert ("G81" in text) is bool(asked["drill"])
-    assert ("G1 X2 Y2" in text) is not bool(asked["drill"])
+    assert ("X2 Y2" in text) is not bool(asked["drill"])
 
 
 def test_the_path_of_the_loaded_program_is_one_block_of_bytes(
