@@ -36,9 +36,9 @@ def test_a_constant_speed_keeps_the_slow_shares_of_all_limits(
     limits = Limits((SPEED,) * 2, (ACCEL,) * 2, (jerk,) * 2)
 
     def rules(knots: Reals) -> Rules:
-        ones = np.ones(len(knots))
+        ones = np.ones(len(knots) - 4)
         row = np.array(limits.planned(PERIOD_S))
-        return Rules(feed * ones, math.inf * ones, ones[2:-2], ones, ones, ones, 1e12 * ones, row,
+        return Rules(feed * ones, math.inf * ones, ones, ones, ones, ones, 1e12 * ones, row,
                      math.inf)  # fmt: skip
 
     curve = circle(radius, 12.0)

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from typing import cast
 
 from openacr.trajectory.setpoints import Reals
-from openacr.views import F64
+from openacr.views import F64, I32
 
 
 def flat(values: Reals) -> F64:
@@ -21,3 +21,8 @@ def numbers(values: Iterable[float]) -> F64:
 def room(count: int) -> F64:
     """Room for numbers, all 0."""
     return cast("F64", memoryview(array("d", bytes(8 * count))))
+
+
+def whole(count: int) -> I32:
+    """Room for whole numbers, all 0."""
+    return cast("I32", memoryview(array("i", bytes(4 * count))))

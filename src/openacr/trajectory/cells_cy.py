@@ -7,13 +7,33 @@ path turns, q' of an axis is larger between knots than the squared speed at knot
 """
 
 from openacr.cmath import fabs, sqrt
-from openacr.trajectory.speed_curve_cy import VALUES
+from openacr.trajectory.speed_curve_cy import (
+    CELL,
+    J_AXES,
+    J_KNOTS,
+    J_POINTS,
+    J_ROW,
+    K_AT_U,
+    K_CELL,
+    K_H,
+    K_ZONE,
+    N_LIMITS,
+    N_LONG_S,
+    N_ORIGIN_U,
+    N_STEP_U,
+    SLOPES,
+    knot_row,
+)
 from openacr.trajectory.speed_rows_cy import speed_hermite
 from openacr.trajectory.spline_cy import spline_slopes
-from openacr.views import F64
+from openacr.views import F64, I32
 
 PARTS = 4
 TOO_MUCH = 2.0  # where h falls to 0
+# Groups of the axes that are summed up over a cell.
+HIGHEST = 2  # acceleration and jerk, after their means
+FASTEST2 = 4
+SUMS = 5
 
 __all__ = ["cells_excess"]
 
@@ -27,65 +47,83 @@ def boole_weight(n: int) -> float:
     return 32.0 / 90.0
 
 
-def cells_excess(
-    C: F64, points: int, axes: int, step: float, origin: float, at: F64, first: int, stop: int,
-    long_s: float, soft: F64, limits: F64, H: F64, Q: F64, N: F64, speeds: F64,
-    pushes: F64, jerks: F64,
-) -> None:  # fmt: skip
-    """Write squared speed, acceleration and jerk of the cells first ... stop-1 by the limits.
+def cell_axes(J: I32, N: F64, h: float, h1: float, h2: float, weight: float) -> None:
+    """Add a place in a cell, whose slopes are in N, to what is summed up over it."""
+    axes: int = J[J_AXES]
+    root: float = sqrt(h)
+    for k in range(axes):
+        q: int = N_LIMITS + SLOPES * axes + k
+        n: int = N_LIMITS + CELL * axes + k
+        q1: float = N[q]
+        q2: float = N[q + axes]
+        push: float = 0.5 * q1 * h1 + q2 * h
+        jerk: float = root * (0.5 * q1 * h2 + 1.5 * q2 * h1 + N[q + 2 * axes] * h)
+        N[n] = N[n] + weight * push
+        N[n + axes] = N[n + axes] + weight * jerk
+        if q1 * q1 * h > N[n + FASTEST2 * axes]:
+            N[n + FASTEST2 * axes] = q1 * q1 * h
+        if fabs(push) > N[n + HIGHEST * axes]:
+            N[n + HIGHEST * axes] = fabs(push)
+        if fabs(jerk) > N[n + (HIGHEST + 1) * axes]:
+            N[n + (HIGHEST + 1) * axes] = fabs(jerk)
 
-    The largest of all axes count. H are h, h' and h'' at the knots (speed_curve_cy.py), `soft` the
-    shares of the jerk limits at knots, of which the larger one counts. Q is room for 4
-    numbers of every axis, N for 5.
+
+def cell_sums(J: I32, N: F64, K: F64, C: F64, row: int) -> bool:
+    """Sum up the cell after the knot at K[row]; whether h falls to 0 in it."""
+    axes: int = J[J_AXES]
+    v: int = row + K_H
+    w: int = v + J[J_ROW]
+    at: float = K[row + K_AT_U]
+    d: float = K[row + J[J_ROW] + K_AT_U] - at
+    bend: float = K[w + 2] - K[v + 2]
+    is_low: bool = False
+    for k in range(SUMS * axes):
+        N[N_LIMITS + CELL * axes + k] = 0.0
+    for n in range(PARTS + 1):
+        x: float = float(n) / float(PARTS)
+        h: float = speed_hermite(K[v], K[v + 1], K[w], K[w + 1], d, x)
+        if h <= 0.0:
+            is_low = True
+            h = 0.0
+        h1: float = K[v + 1] + d * x * (K[v + 2] + 0.5 * x * bend)
+        h2: float = K[v + 2] + x * bend
+        s: float = at + x * d - N[N_ORIGIN_U]
+        spline_slopes(C, J[J_POINTS], axes, N[N_STEP_U], s, N, N_LIMITS + SLOPES * axes)
+        cell_axes(J, N, h, h1, h2, boole_weight(n))
+    return is_low
+
+
+def cells_excess(J: I32, N: F64, K: F64, C: F64) -> None:
+    """Write squared speed, acceleration and jerk of all cells by the limits.
+
+    The largest of all axes count; of the shares of the jerk at both knots the larger one. The
+    values at the knots are those of the weights without ties.
     """
-    for i in range(first, stop):
-        v: int = VALUES * i
-        d: float = at[i + 3] - at[i + 2]
-        for k in range(5 * axes):
-            N[k] = 0.0
-        is_low: bool = False
-        for n in range(PARTS + 1):
-            x: float = float(n) / float(PARTS)
-            h: float = speed_hermite(H[v], H[v + 1], H[v + VALUES], H[v + VALUES + 1], d, x)
-            if h <= 0.0:
-                is_low = True
-                h = 0.0
-            bend: float = H[v + VALUES + 2] - H[v + 2]
-            h1: float = H[v + 1] + d * x * (H[v + 2] + 0.5 * x * bend)
-            h2: float = H[v + 2] + x * bend
-            weight: float = boole_weight(n)
-            root: float = sqrt(h)
-            spline_slopes(C, points, axes, step, at[i + 2] + x * d - origin, Q, 0)
-            for k in range(axes):
-                push: float = 0.5 * Q[k] * h1 + Q[axes + k] * h
-                jerk: float = root * (
-                    0.5 * Q[k] * h2 + 1.5 * Q[axes + k] * h1 + Q[2 * axes + k] * h
-                )
-                N[k] = N[k] + weight * push
-                N[axes + k] = N[axes + k] + weight * jerk
-                if Q[k] * Q[k] * h > N[4 * axes + k]:
-                    N[4 * axes + k] = Q[k] * Q[k] * h
-                if fabs(push) > N[2 * axes + k]:
-                    N[2 * axes + k] = fabs(push)
-                if fabs(jerk) > N[3 * axes + k]:
-                    N[3 * axes + k] = fabs(jerk)
-        slow: float = H[v] if H[v] < H[v + VALUES] else H[v + VALUES]
-        shift: int = 2 * axes if d * d > long_s * long_s * slow else 0
+    axes: int = J[J_AXES]
+    for i in range(J[J_KNOTS] - 1):
+        row: int = knot_row(J, i)
+        after: int = row + J[J_ROW]
+        is_low: bool = cell_sums(J, N, K, C, row)
+        d: float = K[after + K_AT_U] - K[row + K_AT_U]
+        slow: float = K[row + K_H] if K[row + K_H] < K[after + K_H] else K[after + K_H]
+        is_long: bool = d * d > N[N_LONG_S] * N[N_LONG_S] * slow
         fastest: float = 0.0
         most: float = 0.0
         worst: float = 0.0
         for k in range(axes):
-            ratio: float = N[4 * axes + k] / (limits[k] * limits[k])
+            n: int = N_LIMITS + CELL * axes + k
+            limit: int = N_LIMITS + k
+            ratio: float = N[n + FASTEST2 * axes] / (N[limit] * N[limit])
             if ratio > fastest:
                 fastest = ratio
-            ratio = fabs(N[shift + k]) / limits[axes + k]
+            n = n + HIGHEST * axes if is_long else n
+            ratio = fabs(N[n]) / N[limit + axes]
             if ratio > most:
                 most = ratio
-            ratio = fabs(N[shift + axes + k]) / limits[2 * axes + k]
+            ratio = fabs(N[n + axes]) / N[limit + 2 * axes]
             if ratio > worst:
                 worst = ratio
-        speeds[i] = fastest
-        pushes[i] = most
-        jerks[i] = worst / (soft[i] if soft[i] > soft[i + 1] else soft[i + 1])
-        if is_low:
-            jerks[i] = TOO_MUCH
+        K[row + K_CELL] = fastest
+        K[row + K_CELL + 1] = most
+        zone: float = K[row + K_ZONE] if K[row + K_ZONE] > K[after + K_ZONE] else K[after + K_ZONE]
+        K[row + K_CELL + 2] = TOO_MUCH if is_low else worst / zone

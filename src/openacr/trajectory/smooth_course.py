@@ -13,8 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from openacr.compiled import pick
-from openacr.trajectory import course_cy, speed_rows_cy
+from openacr.trajectory import course_cy
 from openacr.trajectory.arrays import flat
 from openacr.trajectory.course import Course, Soft
 from openacr.trajectory.end_law import rest_shape, turn_row
@@ -36,12 +35,11 @@ from openacr.trajectory.slow_law import (
     to_rest,
 )
 from openacr.trajectory.spacing import continued, sharpest, widest
+from openacr.trajectory.speed_rows_cy import PARTS
 from openacr.trajectory.tube import AHEAD, Tube, tube_share
 from openacr.trajectory.window import Curve, Window
 
 State = tuple[Any, ...]
-_law = pick(speed_rows_cy.law_from_speed)
-PARTS = speed_rows_cy.PARTS
 
 SLOW_STEPS = 2.0  # of time between two knots where the feed is low
 END_ROWS = 8  # control points that shape an end
@@ -417,17 +415,17 @@ class SmoothCourse(Course):
 
     def _commit(self, window: Window, is_first: bool) -> None:
         """Make the law of the window, and commit its first part."""
-        knots, kept, count, plain = self._knots, len(self._kept), window.count, window.plain
+        knots, kept, count = self._knots, len(self._kept), window.count
         z = np.zeros((kept + PARTS * count + 4, 4))
         z[:kept] = self._kept
         row = kept - 1
         if is_first:
             row = kept + 1
-            w = plain[0].reshape(3, 3) @ self._x[:3]
+            w = window.plain[0].reshape(3, 3) @ self._x[:3]
             s, swing_u, v = float(knots[2]), self._grid.swing_u, math.sqrt(w[0])
             z[row] = (rest_shape(s, swing_u)[2] / v, s, v, 0.5 * w[1])
             z[kept] = turn_row(z[row, 0], s, swing_u)
-        _law(flat(knots), flat(self._x), flat(plain), 0, count, flat(z), row)
+        window.continue_law(self._x, z, row)
         last = row + PARTS * (count - 1)
         self._begun_s = 0.0 if is_first else float(z[row, 0])
         if self._reaches_end:

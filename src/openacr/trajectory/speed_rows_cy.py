@@ -2,9 +2,31 @@
 
 from openacr.cmath import fabs, sqrt
 from openacr.trajectory.law_cy import A_ROW, ROW, S_ROW, T_ROW, V_ROW
-from openacr.trajectory.speed_curve_cy import AXIS_ROWS, WEIGHTS
+from openacr.trajectory.speed_curve_cy import (
+    A_JERK,
+    A_PUSH,
+    A_SPREAD,
+    AXIS,
+    J_AXES,
+    J_KNOTS,
+    J_POINTS,
+    K_AT_U,
+    K_AXES,
+    K_CAP,
+    K_FEED_UPS,
+    K_NORMAL_UPS2,
+    K_PLAIN,
+    K_PUSH,
+    K_SOFT,
+    K_TOOL_UPS,
+    N_LIMITS,
+    N_ORIGIN_U,
+    N_STEP_U,
+    SLOPES,
+    knot_row,
+)
 from openacr.trajectory.spline_cy import spline_row, spline_slopes, spline_third
-from openacr.views import F64
+from openacr.views import F64, I32
 
 NODE1 = 0.06943184420297371  # of a Gauss formula with four nodes
 NODE2 = 0.33000947820757187
@@ -15,73 +37,74 @@ PARTS = 3  # rows of a law for every cell
 __all__ = ["law_from_speed", "speed_rows"]
 
 
-def speed_rows(
-    C: F64,
-    points: int,
-    axes: int,
-    step: float,
-    origin: float,
-    at: F64,
-    first: int,
-    stop: int,
-    feed: F64,
-    tool: F64,
-    push: F64,
-    soft: F64,
-    normal: F64,
-    limits: F64,
-    Q: F64,
-    D: F64,
-    cap: F64,
-) -> None:
-    """Write the rows of the knots first ... stop-1 (`at` has two knots before them) and their caps.
+def speed_axis(J: I32, N: F64, K: F64, C: F64, row: int, k: int, low: int, high: int) -> None:
+    """Write the rows of an axis at a knot; q''' counts on the rows low ... high of C."""
+    axes: int = J[J_AXES]
+    slopes: int = N_LIMITS + SLOPES * axes
+    q1: float = N[slopes + k]
+    q2: float = N[slopes + axes + k]
+    least: float = spline_third(C, axes, low * axes + k, N[N_STEP_U])
+    greatest: float = least
+    for n in range(low + 1, high + 1):
+        q3: float = spline_third(C, axes, n * axes + k, N[N_STEP_U])
+        if q3 < least:
+            least = q3
+        if q3 > greatest:
+            greatest = q3
+    a: int = row + K_AXES + AXIS * k
+    push: float = N[N_LIMITS + axes + k] * K[row + K_PUSH]
+    K[a + A_PUSH] = q2 / push
+    K[a + A_PUSH + 1] = 0.5 * q1 / push
+    jerk: float = N[N_LIMITS + 2 * axes + k] * K[row + K_SOFT]
+    K[a + A_JERK] = 0.5 * (greatest + least) / jerk
+    K[a + A_JERK + 1] = 1.5 * q2 / jerk
+    K[a + A_JERK + 2] = 0.5 * q1 / jerk
+    K[a + A_SPREAD] = 0.5 * (greatest - least) / jerk
 
-    `limits` are velocities, accelerations and jerks, and 1 for axes that carry the tool, whose
-    common speed is `tool` at most; `feed` is that of all axes. `push` and `soft` are the shares of
-    the limits of acceleration and jerk that count at a knot, `normal` is the largest acceleration
-    across the path.
-    """
-    for i in range(first, stop):
-        s: float = at[i + 2] - origin
-        low: int = spline_row(s - 0.5 * (at[i + 2] - at[i + 1]), step, points)
-        high: int = spline_row(s + 0.5 * (at[i + 3] - at[i + 2]), step, points)
-        spline_slopes(C, points, axes, step, s, Q, 0)
-        along2: float = 0.0
-        tool2: float = 0.0
-        bend2: float = 0.0
-        best: float = 1e300
+
+def speed_cap(J: I32, N: F64, K: F64, row: int) -> None:
+    """Write the highest h at a knot: by the feeds, by the axes, and by the turn of the path."""
+    axes: int = J[J_AXES]
+    slopes: int = N_LIMITS + SLOPES * axes
+    along2: float = 0.0
+    tool2: float = 0.0
+    bend2: float = 0.0
+    best: float = 1e300
+    for k in range(axes):
+        q1: float = N[slopes + k]
+        q2: float = N[slopes + axes + k]
+        most: float = N[N_LIMITS + k]
+        along2 += q1 * q1
+        tool2 += N[N_LIMITS + 3 * axes + k] * q1 * q1
+        bend2 += q2 * q2
+        if fabs(q1) * sqrt(best) > most:
+            best = most * most / (q1 * q1)
+    cap: float = K[row + K_FEED_UPS] * K[row + K_FEED_UPS] / along2
+    if best < cap:
+        cap = best
+    tool: float = K[row + K_TOOL_UPS]
+    if tool2 * cap > tool * tool:
+        cap = tool * tool / tool2
+    if sqrt(bend2) * cap > K[row + K_NORMAL_UPS2]:
+        cap = K[row + K_NORMAL_UPS2] / sqrt(bend2)
+    K[row + K_CAP] = cap
+
+
+def speed_rows(J: I32, N: F64, K: F64, C: F64) -> None:
+    """Write the rows and the caps of all knots, by their feeds and shares of the limits."""
+    axes: int = J[J_AXES]
+    for i in range(J[J_KNOTS]):
+        row: int = knot_row(J, i)
+        at: float = K[row + K_AT_U]
+        s: float = at - N[N_ORIGIN_U]
+        before: float = at - K[knot_row(J, i - 1) + K_AT_U]
+        after: float = K[knot_row(J, i + 1) + K_AT_U] - at
+        low: int = spline_row(s - 0.5 * before, N[N_STEP_U], J[J_POINTS])
+        high: int = spline_row(s + 0.5 * after, N[N_STEP_U], J[J_POINTS])
+        spline_slopes(C, J[J_POINTS], axes, N[N_STEP_U], s, N, N_LIMITS + SLOPES * axes)
         for k in range(axes):
-            q1: float = Q[k]
-            q2: float = Q[axes + k]
-            least: float = spline_third(C, axes, low * axes + k, step)
-            greatest: float = least
-            for row in range(low + 1, high + 1):
-                q3: float = spline_third(C, axes, row * axes + k, step)
-                if q3 < least:
-                    least = q3
-                if q3 > greatest:
-                    greatest = q3
-            along2 += q1 * q1
-            tool2 += limits[3 * axes + k] * q1 * q1
-            bend2 += q2 * q2
-            d: int = AXIS_ROWS * (i * axes + k)
-            most: float = limits[axes + k] * push[i]
-            D[d] = q2 / most
-            D[d + 1] = 0.5 * q1 / most
-            jerk: float = limits[2 * axes + k] * soft[i]
-            D[d + 2] = 0.5 * (greatest + least) / jerk
-            D[d + 5] = 0.5 * (greatest - least) / jerk
-            D[d + 3] = 1.5 * q2 / jerk
-            D[d + 4] = 0.5 * q1 / jerk
-            if fabs(q1) * sqrt(best) > limits[k]:
-                best = limits[k] * limits[k] / (q1 * q1)
-        cap[i] = feed[i] * feed[i] / along2
-        if best < cap[i]:
-            cap[i] = best
-        if tool2 * cap[i] > tool[i] * tool[i]:
-            cap[i] = tool[i] * tool[i] / tool2
-        if sqrt(bend2) * cap[i] > normal[i]:
-            cap[i] = normal[i] / sqrt(bend2)
+            speed_axis(J, N, K, C, row, k, low, high)
+        speed_cap(J, N, K, row)
 
 
 def speed_hermite(h: float, h1: float, g: float, g1: float, d: float, x: float) -> float:
@@ -100,30 +123,32 @@ def cell_time(h: float, h1: float, g: float, g1: float, d: float, x0: float, x1:
     return mean * d * w
 
 
-def law_from_speed(at: F64, X: F64, W: F64, first: int, stop: int, Z: F64, row: int) -> None:
-    """Continue a law by PARTS rows for every cell from knot `first` to stop-1.
+def law_from_speed(J: I32, K: F64, X: F64, Z: F64, row: int) -> None:
+    """Continue a law by PARTS rows for every cell between two knots.
 
-    Row `row` is that of the knot `first`: its time and distance are given.
+    Row `row` is that of the first knot: its time and distance are given.
     """
     h: float = 0.0
     h1: float = 0.0
     h2: float = 0.0
-    for i in range(first, stop):
-        w: int = WEIGHTS * i
-        g: float = W[w] * X[i] + W[w + 1] * X[i + 1] + W[w + 2] * X[i + 2]
-        g1: float = W[w + 3] * X[i] + W[w + 4] * X[i + 1] + W[w + 5] * X[i + 2]
-        g2: float = W[w + 6] * X[i] + W[w + 7] * X[i + 1] + W[w + 8] * X[i + 2]
-        if i > first:
-            d: float = at[i + 2] - at[i + 1]
+    for i in range(J[J_KNOTS]):
+        w: int = knot_row(J, i) + K_PLAIN
+        g: float = K[w] * X[i] + K[w + 1] * X[i + 1] + K[w + 2] * X[i + 2]
+        g1: float = K[w + 3] * X[i] + K[w + 4] * X[i + 1] + K[w + 5] * X[i + 2]
+        g2: float = K[w + 6] * X[i] + K[w + 7] * X[i + 1] + K[w + 8] * X[i + 2]
+        if i > 0:
+            at: float = K[knot_row(J, i) + K_AT_U]
+            before: float = K[knot_row(J, i - 1) + K_AT_U]
+            d: float = at - before
             for part in range(PARTS):
                 x0: float = float(part) / float(PARTS)
                 x1: float = float(part + 1) / float(PARTS)
-                o: int = ROW * (row + PARTS * (i - first - 1) + part + 1)
+                o: int = ROW * (row + PARTS * (i - 1) + part + 1)
                 Z[o + T_ROW] = Z[o - ROW + T_ROW] + cell_time(h, h1, g, g1, d, x0, x1)
-                Z[o + S_ROW] = at[i + 1] + d * x1
+                Z[o + S_ROW] = before + d * x1
                 Z[o + V_ROW] = sqrt(speed_hermite(h, h1, g, g1, d, x1))
                 Z[o + A_ROW] = 0.5 * (h1 + d * x1 * (h2 + 0.5 * x1 * (g2 - h2)))
-            Z[o + S_ROW] = at[i + 2]
+            Z[o + S_ROW] = at
         h = g
         h1 = g1
         h2 = g2

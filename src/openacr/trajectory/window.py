@@ -5,19 +5,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from openacr.compiled import pick
-from openacr.trajectory import cells_cy, speed_curve_cy, speed_cy, speed_rows_cy
-from openacr.trajectory.arrays import flat
+from openacr.trajectory import cells_cy, speed_cy, speed_rows_cy
+from openacr.trajectory import speed_curve_cy as row
+from openacr.trajectory.arrays import flat, room, whole
 from openacr.trajectory.end_law import rest_shape
 from openacr.trajectory.knots import Rest, rest_weights, tie_end, tie_start
 from openacr.trajectory.setpoints import Reals
 from openacr.views import F64
 
-_weights = pick(speed_curve_cy.speed_weights)
-_values = pick(speed_curve_cy.speed_values)
+_weights = pick(row.speed_weights)
+_values = pick(row.speed_values)
 _solve = pick(speed_cy.speed_solve)
-_worst = pick(speed_curve_cy.speed_worst)
+_worst = pick(row.speed_worst)
 _rows = pick(speed_rows_cy.speed_rows)
 _excess = pick(cells_cy.cells_excess)
+_law = pick(speed_rows_cy.law_from_speed)
 
 FINE = 2e-4  # of the largest gap: about 0.2 % of the time
 STEPS = 120
@@ -65,50 +67,65 @@ class Rules:
 
 
 class Window:
-    """Knots (with two more on each side) and all that depends on them alone."""
+    """Knots (with two more on each side) and all that depends on them alone.
+
+    The arrays are parts of the table that compiled functions take (speed_curve_cy.py).
+    """
 
     def __init__(
         self, curve: Curve, knots: Reals, rules: Rules, start: Rest | None, end: Rest | None
     ) -> None:
         """`start`, `end`: how the path begins and ends at rest; None where it goes on."""
-        self.curve, self.knots, self.rules = curve, knots, rules
+        self.curve, self.rules, axes = curve, rules, curve.axes
         self.count = count = len(knots) - 4
-        self.plain = np.empty((count, 9))
-        _weights(flat(knots), count, flat(self.plain))
-        self.weights = self.plain.copy()
+        size = row.K_AXES + row.AXIS * axes
+        self._J, self._N = whole(row.J_SIZE), room(row.N_LIMITS + row.GROUPS * axes)
+        self._J[row.J_AXES], self._J[row.J_POINTS] = axes, curve.count
+        self._J[row.J_KNOTS], self._J[row.J_ROW], self._J[row.J_STEPS] = count, size, STEPS
+        self._N[row.N_STEP_U], self._N[row.N_ORIGIN_U] = curve.step, curve.origin
+        self._N[row.N_LONG_S] = rules.long_s
+        self._N[row.N_LIMITS : row.N_LIMITS + len(rules.limits)] = flat(rules.limits)
+        table = np.zeros((count + 4, size))
+        table[:, row.K_AT_U] = knots
+        self._K, table = flat(table), table[2:-2]
+        self._table = table
+        self.plain = table[:, row.K_PLAIN : row.K_PLAIN + row.WEIGHTS]
+        _weights(self._J, self._K)
+        tied = table[:, row.K_TIED : row.K_TIED + row.WEIGHTS]
+        tied[:] = self.plain
         self._start = self._end = None
         gaps = np.diff(knots[2:-2])
-        self._lengths = np.zeros(count)
-        self._lengths[:-1] += 0.5 * gaps
-        self._lengths[1:] += 0.5 * gaps
-        self.first, self.head, self.stop, self.tail = 1, 3, count - 1, count - 1
+        lengths = table[:, row.K_LENGTH_U]
+        lengths[:-1] += 0.5 * gaps
+        lengths[1:] += 0.5 * gaps
+        first, head, stop, tail = 1, 3, count - 1, count - 1
         if start is not None:
             s = float(knots[2]) - start.at_u
             self._start = rest_weights(self.plain[0], s, start.swing_u, 1)
-            tie_start(self.weights, self._start)
-            self._lengths[0] += rest_shape(s, start.swing_u)[2]
-            self.first, self.head = 0, 2
+            tie_start(tied, self._start)
+            lengths[0] += rest_shape(s, start.swing_u)[2]
+            first, head = 0, 2
         if end is not None:
             s = end.at_u - float(knots[-3])
             self._end = rest_weights(self.plain[-1], s, end.swing_u, -1)
-            tie_end(self.weights, self._end)
-            self._lengths[-1] += rest_shape(s, end.swing_u)[2]
-            self.stop = self.tail = count
-        self._values = np.zeros((count, speed_curve_cy.VALUES))
+            tie_end(tied, self._end)
+            lengths[-1] += rest_shape(s, end.swing_u)[2]
+            stop = tail = count
+        self._J[row.J_FIRST], self._J[row.J_STOP] = first, stop
+        self._J[row.J_HEAD], self._J[row.J_TAIL] = head, tail
+        self._values = table[:, row.K_H : row.K_H + 3]
+        self.cap = table[:, row.K_CAP]
+        by_axis = table[:, row.K_AXES :].reshape(count, axes, row.AXIS)
+        self.rows = by_axis[:, :, : row.A_DUAL]
         self.set_rows()
 
     def set_rows(self) -> None:
         """Compute the rows of the limits for the present shares."""
-        curve, rules = self.curve, self.rules
-        self.rows, self.cap = (
-            np.empty((self.count, curve.axes, speed_curve_cy.AXIS_ROWS)),
-            np.empty(self.count),
-        )
-        _rows(curve.points, curve.count, curve.axes, curve.step, curve.origin,
-              flat(self.knots), 0, self.count, flat(rules.feed), flat(rules.tool),
-              flat(rules.push), flat(rules.soft), flat(rules.normal),
-              flat(rules.limits), flat(np.empty(4 * curve.axes)),
-              flat(self.rows), flat(self.cap))  # fmt: skip
+        table, rules = self._table, self.rules
+        table[:, row.K_FEED_UPS], table[:, row.K_TOOL_UPS] = rules.feed, rules.tool
+        table[:, row.K_PUSH], table[:, row.K_SOFT] = rules.push, rules.soft
+        table[:, row.K_ZONE], table[:, row.K_NORMAL_UPS2] = rules.zone, rules.normal
+        _rows(self._J, self._N, self._K, self.curve.points)
         self.cap *= rules.fast
 
     def tie(self, x: Reals) -> Reals:
@@ -121,20 +138,13 @@ class Window:
 
     def slack(self, x: Reals) -> float:
         """The smallest slack of a row, relative to its limit; below 0 where one is broken."""
-        return _worst(flat(x), flat(self.weights), flat(self.rows), flat(self.cap),
-                      self.first, self.stop, self.curve.axes, flat(self._values))  # fmt: skip
+        return _worst(self._J, self._K, flat(x))
 
     def solve(self, x: Reals, kappa: float, least: float) -> int:
         """Improve coefficients that keep all limits; the number of steps."""
-        axes, count = self.curve.axes, self.count
-        rows = count * (1 + 4 * axes)
-        steps = _solve(
-            flat(x), flat(self.weights), flat(self.rows), flat(self.cap),
-            flat(self._lengths), self.first, self.stop, self.head, self.tail, axes,
-            kappa, least, STEPS, flat(self._values), flat(np.empty(rows)),
-            flat(np.empty(rows)), flat(np.zeros(3 * count + 6)),
-            flat(np.zeros(count + 2)), flat(np.zeros(2)),
-        )  # fmt: skip
+        self._N[row.N_KAPPA], self._N[row.N_LEAST] = kappa, least
+        system = room(speed_cy.UNKNOWN * (self.count + 2))
+        steps = _solve(self._J, self._N, self._K, flat(x), system)
         self.tie(x)
         return steps
 
@@ -143,16 +153,15 @@ class Window:
 
         `fast` is the share of the squared speed that a cell may use.
         """
-        curve, rules, count = self.curve, self.rules, self.count
-        _values(flat(x), flat(self.plain), 0, count, flat(self._values), 0)
-        found = np.zeros((3, count))
-        _excess(curve.points, curve.count, curve.axes, curve.step, curve.origin,
-                flat(self.knots), 0, count - 1, rules.long_s,
-                flat(rules.zone), flat(rules.limits), flat(self._values),
-                flat(np.empty(4 * curve.axes)), flat(np.empty(5 * curve.axes)),
-                *(flat(each) for each in found))  # fmt: skip
+        _values(self._J, self._K, flat(x), 1, 0, self.count, row.K_PLAIN, row.K_H)
+        _excess(self._J, self._N, self._K, self.curve.points)
+        found: Reals = self._table[:, row.K_CELL : row.K_CELL + 3].T.copy()
         found[0] /= fast
         return found
+
+    def continue_law(self, x: Reals, rows: Reals, at: int) -> None:
+        """Write the law of the cells after the row `at` of a law."""
+        _law(self._J, self._K, flat(x), flat(rows), at)
 
     def fit(self, start: Reals, slowness: float, fast: float) -> tuple[Reals, int]:
         """The fastest coefficients, from a start that keeps all limits; `slowness` is 1/feed.
@@ -207,7 +216,7 @@ class Window:
     def _used(self, x: Reals) -> tuple[Reals, Reals, Reals]:
         """The parts of the rows of squared speed, acceleration and jerk used at every knot."""
         self.slack(x)
-        h = self._values[:, None, :3]
+        h = self._values[:, None]
         push = np.abs(self.rows[:, :, 0] * h[:, :, 0] + self.rows[:, :, 1] * h[:, :, 1])
         jerk = np.abs((self.rows[:, :, 2:5] * h).sum(axis=2)) + self.rows[:, :, 5] * h[:, :, 0]
         jerk *= np.sqrt(np.abs(h[:, :, 0]))
