@@ -19,6 +19,7 @@ const sources = new Map(
     .map((name) => [name.replaceAll("\\", "/"), readFileSync(new URL(name, JS), "utf8")]),
 );
 const modules = [...sources].filter(([name]) => !name.startsWith("catalog/"));
+const commands = JSON.parse(process.env.TITLES ?? "[]"); // names of the commands that have a title
 const keys = new Set([...Object.keys(operator), ...Object.keys(bench)]);
 const found = (pattern) =>
   new Set(modules.flatMap(([, source]) => [...source.matchAll(new RegExp(pattern, "g"))].map((match) => match[1])));
@@ -44,7 +45,11 @@ test("every key that is asked for is in a catalogue, and in one alone", () => {
   const asked = [...found(String.raw`\bt\(\s*${KEY}`), ...found(String.raw`\b(?:title|label): ${KEY}`)];
   assert.ok(asked.length > 250);
   assert.deepEqual(
-    asked.filter((key) => !keys.has(key)),
+    asked.filter((key) => !keys.has(key) && !commands.includes(key)),
+    [],
+  );
+  assert.deepEqual(
+    commands.filter((name) => keys.has(name)),
     [],
   );
   assert.equal(keys.size, Object.keys(operator).length + Object.keys(bench).length);
@@ -55,6 +60,15 @@ test("every key of the catalogues is asked for, as it is or by how it begins", (
   const made = [...found(String.raw`\`([a-z][\w. ]*\.)\$\{`), ...found(String.raw`"([a-z][\w.]*\.)"`)];
   assert.deepEqual(
     [...keys].filter((key) => !used.has(key) && !made.some((start) => key.startsWith(start))),
+    [],
+  );
+});
+
+test("every title of a command is asked for", () => {
+  const used = found(KEY);
+  assert.ok(commands.length > 15);
+  assert.deepEqual(
+    commands.filter((name) => !used.has(name)),
     [],
   );
 });
@@ -77,13 +91,16 @@ test("a text is said with its values, a count with the word that fits it", () =>
   assert.equal(textOr("key.none", "as it is"), "as it is");
 });
 
-test("another language than those of the catalogues is English", async () => {
-  globalThis.document = { documentElement: {} };
+test("texts and titles are in the chosen language, in another than those known in English", async () => {
+  const titles = { "home.start": { en: "START HOME", de: "REFERENZFAHRT STARTEN" } };
+  const element = { getAttribute: () => JSON.stringify(titles) };
+  globalThis.document = { documentElement: {}, querySelector: () => element };
   const texts = await import("../../../src/openacr/panel/web/js/core/texts.js?another");
   const text = { en: "none", de: "keine" };
   texts.useLanguage("de");
   assert.equal(texts.t(text), "keine");
   assert.equal(texts.t("key.cancel"), operator["key.cancel"].de);
+  assert.equal(texts.t("home.start"), titles["home.start"].de);
   texts.useLanguage("en");
   texts.useLanguage("fr");
   assert.deepEqual([texts.t(text), document.documentElement.lang], ["none", "fr"]);

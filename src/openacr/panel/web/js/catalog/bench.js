@@ -130,7 +130,6 @@ const WORLD = {
   "world.fault.axis": { en: "Axis of the fault", de: "Achse des Fehlers" },
   "world.fault.kind": { en: "Kind of the fault", de: "Art des Fehlers" },
   "world.fault.cause": { en: "CAUSE", de: "AUSL\u00d6SEN" },
-  "world.mend": { en: "MEND", de: "BEHEBEN" },
   "world.mend.of": { en: "Mend {name}", de: "{name} beheben" },
   "world.fault.encoder-lost": { en: "encoder line cut", de: "Geberleitung unterbrochen" },
   "world.fault.encoder-noise": { en: "encoder signals disturbed", de: "Gebersignale gest\u00f6rt" },

@@ -4,7 +4,7 @@ import shared from "../catalog/operator.js";
 
 /**
  * @typedef {{ en: string, de: string }} Text
- * @typedef {keyof typeof shared | keyof typeof import("../catalog/bench.js").default} TextKey
+ * @typedef {keyof typeof shared | keyof typeof import("../catalog/bench.js").default | `${string}.${string}`} TextKey the last: names of commands
  * @typedef {Text | TextKey} Said
  * @typedef {keyof typeof LANGUAGES} Language
  */

@@ -12,7 +12,6 @@ const TEXTS = {
     de: "Die Achsen fahren zu ihren Schaltern: Tisch freimachen. Reihenfolge nach Priorität.",
   },
   axes: { en: "Axes to be homed", de: "Achsen" },
-  start: { en: "START HOME", de: "REFERENZFAHRT STARTEN" },
   progress: { en: "Homing is in progress: {reason}", de: "Die Referenzfahrt läuft: {reason}" },
   homed: { en: "homed", de: "referenziert" },
   nothomed: { en: "not homed", de: "nicht referenziert" },
@@ -30,7 +29,7 @@ export const screen = {
       states.set(axis.name, state);
       return state;
     } });
-    const start = keyOf(TEXTS.start, async () => {
+    const start = keyOf("home.start", async () => {
       const axes = choice.names();
       if (!axes) refuse(t("axes.none"));
       else if (mayMove()) await give("home.start", { axes });

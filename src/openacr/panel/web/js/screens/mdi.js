@@ -10,7 +10,6 @@ import { mayMove } from "../motion/actions.js";
 const TEXTS = {
   buffer: { en: "Executed blocks", de: "Ausgeführte Sätze" },
   line: { en: "Block", de: "Satz" },
-  execute: { en: "EXECUTE", de: "AUSFÜHREN" },
   on: { en: "BUFFER", de: "PUFFER" },
   keep: { en: "KEEP EDIT", de: "ÜBERNEHMEN" },
   runall: { en: "RUN ALL", de: "ALLE AUSFÜHREN" },
@@ -77,7 +76,7 @@ export const screen = {
       h("form.row", { onsubmit: (/** @type {Event} */ event) => {
         event.preventDefault();
         void execute();
-      } }, line, h("button.key.main.big", { type: "submit" }, t(TEXTS.execute))));
+      } }, line, h("button.key.main.big", { type: "submit" }, t("mdi.execute"))));
     endings.add(model.mdi.watch((mdi) => {
       isOn.checked = mdi.on;
       if (mdi.on) unkept = [];

@@ -16,7 +16,6 @@ const TEXTS = {
   system: { en: "Work coordinate system", de: "Koordinatensystem" },
   axes: { en: "Axes, machine position", de: "Achsen, Maschinenposition" },
   done: { en: "{system}: {axes} taught", de: "{system}: {axes} übernommen" },
-  length: { en: "TOOL LENGTH H", de: "LÄNGE H" },
   lengthDone: { en: "H{h} taught", de: "H{h} übernommen" },
 };
 
@@ -41,11 +40,11 @@ export const screen = {
       else if (await give("teach.work", { system: system.value, axes })) report(t(TEXTS.done, { system: system.value, axes: axes.split("").join(" ") }));
     };
     const length = async () => {
-      const number = await askNumber({ title: t(TEXTS.length), value: model.modals.value.H || 1, check: (n) => (Number.isInteger(n) && n >= 1 && n <= 999 ? "" : t("field.range", { low: 1, high: 999 })) });
+      const number = await askNumber({ title: t("teach.length"), value: model.modals.value.H || 1, check: (n) => (Number.isInteger(n) && n >= 1 && n <= 999 ? "" : t("field.range", { low: 1, high: 999 })) });
       if (number !== null && (await give("teach.length", { h: number }))) report(t(TEXTS.lengthDone, { h: number }));
     };
     body.append(h("p", {}, t(TEXTS.text)), h("label.row", {}, h("span.grow", {}, t(TEXTS.system)), system), choice.element, h("div.row.wrap", {},
-      keyOf("menu.teach", teach, ".big.main"), keyOf(TEXTS.length, length, ".big")));
+      keyOf("menu.teach", teach, ".big.main"), keyOf("teach.length", length, ".big")));
     endings.add(model.status.watch((status) => status && model.axes.forEach((axis, n) => setText(places[n], position(status.machine[n] * viewOf(axis).factor, viewOf(axis).decimals)))));
   },
 };

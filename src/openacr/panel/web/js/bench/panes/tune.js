@@ -11,8 +11,6 @@ import { chart, drawTuning } from "../tuning/charts.js";
 import { gainSliders } from "../tuning/sliders.js";
 
 const TEXTS = {
-  measure: { en: "MEASURE", de: "MESSEN" },
-  apply: { en: "SET THESE GAINS", de: "DIESE WERTE SETZEN" },
   amplitude: { en: "Amplitude, pulses", de: "Amplitude, Pulse" },
   lowest: { en: "Lowest frequency, Hz", de: "Tiefste Frequenz, Hz" },
   highest: { en: "Highest frequency, Hz", de: "H\u00f6chste Frequenz, Hz" },
@@ -65,7 +63,6 @@ const TEXTS = {
   swing: { en: "Load swings after a step, pulses", de: "Last schwingt nach einem Sprung, Pulse" },
   overshoot: { en: "Overshoot of a step, %", de: "\u00dcberschwingen eines Sprungs, %" },
   predicted: { en: "predicted", de: "vorhergesagt" },
-  step: { en: "STEP", de: "SPRUNG" },
   stepText: {
     en: "Axis {axis} moves now: by {amplitude} pulses and back, at once. Is it free to move? STOP ends it.",
     de: "Achse {axis} bewegt sich jetzt: um {amplitude} Pulse und zur\u00fcck, auf einmal. Ist ihr Weg frei? STOP beendet es.",
@@ -98,9 +95,9 @@ export async function mount(host, { head, kept, keep }) {
   const fields = FIELDS.map(([name, text, value]) => h("input.field.number", { ariaLabel: t(text), value: kept[name] ?? value, inputMode: "decimal", autocomplete: "off", data: { field: name } }));
   const integral = h("input", { type: "checkbox", checked: true });
   const store = h("input", { type: "checkbox" });
-  const measure = keyOf(TEXTS.measure, () => void onMeasure(), ".danger");
-  const step = keyOf(TEXTS.step, () => void onStep(), ".danger");
-  const apply = keyOf(TEXTS.apply, () => void onApply(), ".danger", { disabled: true });
+  const measure = keyOf("tune.measure", () => void onMeasure(), ".danger");
+  const step = keyOf("tune.step", () => void onStep(), ".danger");
+  const apply = keyOf("tune.apply", () => void onApply(), ".danger", { disabled: true });
   const state = h("p.hint", { role: "status" });
   const facts = h("div.stack", {});
   const charts = h("div.tune-charts", {});
@@ -173,7 +170,7 @@ export async function mount(host, { head, kept, keep }) {
   async function onMeasure() {
     const given = args();
     const text = t(TEXTS.measureText, { axis: axis.name, amplitude: given.amplitude ?? 100, time: given.time_s ?? LONGEST_S });
-    if (!mayMove() || !(await confirm(t(TEXTS.measure), text, t(TEXTS.measure)))) return;
+    if (!mayMove() || !(await confirm(t("tune.measure"), text, t("tune.measure")))) return;
     const advice = await moved("tune.measure", given);
     if (!advice) return;
     show(advice);
@@ -183,7 +180,7 @@ export async function mount(host, { head, kept, keep }) {
   async function onStep() {
     const { amplitude = 100 } = args();
     const text = t(TEXTS.stepText, { axis: axis.name, amplitude });
-    if (!mayMove() || !(await confirm(t(TEXTS.step), text, t(TEXTS.step)))) return;
+    if (!mayMove() || !(await confirm(t("tune.step"), text, t("tune.step")))) return;
     const answer = await moved("tune.step", { axis: axis.name, amplitude });
     if (!answer) return;
     drawStep(answer);
@@ -210,7 +207,7 @@ export async function mount(host, { head, kept, keep }) {
   async function onApply() {
     const { overshoot_percent: overshoot } = found.proposed.figures;
     const text = t(TEXTS.applyText, { axis: axis.name, overshoot: shown(overshoot), gains: GAINS.map((word) => `${word} ${shown(found.proposed.gains[word])}`).join(", ") + filterText(found.proposed) });
-    if (!mayMove() || !(await confirm(t(TEXTS.apply), text, t(TEXTS.apply)))) return;
+    if (!mayMove() || !(await confirm(t("tune.apply"), text, t("tune.apply")))) return;
     const answer = await moved("tune.apply", { axis: axis.name, store: store.checked && axis.isMachines });
     await gains?.reload();
     if (!answer) return;
