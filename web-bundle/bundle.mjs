@@ -80,11 +80,10 @@ for (const entry of entries) {
   put(basename(entry), before ? text.replaceAll(before, after) : text);
 }
 for (const [name, source] of Object.entries(SHEETS)) {
-  put(name, (await build({
-    stdin: { contents: source(), loader: "css" },
-    minify: true,
-    write: false,
-  })).outputFiles[0].contents);
+  put(
+    name,
+    (await build({ stdin: { contents: source(), loader: "css" }, minify: true, write: false })).outputFiles[0].contents,
+  );
 }
 for (const name of readdirSync(join(HERE, "types")).sort()) put(name, read(`types/${name}`));
 const versions = {};
@@ -97,7 +96,11 @@ for (const name of [...packages].sort()) {
 const folders = ["entries", "types"];
 const inputs = [...INPUTS];
 for (const folder of folders) {
-  inputs.push(...readdirSync(join(HERE, folder)).sort().map((name) => `${folder}/${name}`));
+  inputs.push(
+    ...readdirSync(join(HERE, folder))
+      .sort()
+      .map((name) => `${folder}/${name}`),
+  );
 }
 // For the tests alone: the checker of accessibility, beside its licence.
 const checker = join(HERE, "../tests/panel/browser/axe");

@@ -12,8 +12,14 @@ async function start() {
   followSystemTheme();
   useLanguage(setting("language", "en"));
   const [clock, status, menuBar, top, prompt, stop, held, screens] = await Promise.all([
-    import("./frame/clock.js"), import("./frame/status.js"), import("./frame/menu_bar.js"), import("./frame/top.js"),
-    import("./frame/prompt.js"), import("./frame/stop.js"), import("./motion/hold.js"), import("./frame/screen_host.js"),
+    import("./frame/clock.js"),
+    import("./frame/status.js"),
+    import("./frame/menu_bar.js"),
+    import("./frame/top.js"),
+    import("./frame/prompt.js"),
+    import("./frame/stop.js"),
+    import("./motion/hold.js"),
+    import("./frame/screen_host.js"),
   ]);
   top.startTop(async (tab) => (await import("./frame/display.js")).showTab(tab));
   status.startStatus();

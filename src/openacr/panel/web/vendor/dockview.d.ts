@@ -1,2 +1,11 @@
 export { createDockview } from "dockview-core";
-export type { DockviewApi, DockviewPanelApi, GroupPanelPartInitParameters, IContentRenderer, IDockviewPanel, ITabRenderer, SerializedDockview, TabPartInitParameters } from "dockview-core";
+export type {
+  DockviewApi,
+  DockviewPanelApi,
+  GroupPanelPartInitParameters,
+  IContentRenderer,
+  IDockviewPanel,
+  ITabRenderer,
+  SerializedDockview,
+  TabPartInitParameters,
+} from "dockview-core";

@@ -10,7 +10,17 @@ import { arrange, closePane, layoutNow, mayCloseAll, openPane } from "./workspac
 export function startBar() {
   const bar = byId("menu");
   bar.ariaLabel = t("bench.keys");
-  fill(bar, keyOf("bench.panes", choosePane, { data: { does: "panes" }, title: "Alt+P, Alt+1 \u2026 9", attr: { "aria-keyshortcuts": "Alt+P" } }), keyOf("bench.layouts", chooseLayout), keyOf("bench.close", closePane), h("a.menu-key", { href: "/" }, t("bench.operator")));
+  fill(
+    bar,
+    keyOf("bench.panes", choosePane, {
+      data: { does: "panes" },
+      title: "Alt+P, Alt+1 \u2026 9",
+      attr: { "aria-keyshortcuts": "Alt+P" },
+    }),
+    keyOf("bench.layouts", chooseLayout),
+    keyOf("bench.close", closePane),
+    h("a.menu-key", { href: "/" }, t("bench.operator")),
+  );
 }
 
 /**
@@ -25,9 +35,26 @@ function keyOf(label, onclick, more = {}) {
 /** Choose a pane from all there are. */
 async function choosePane() {
   let chosen = "";
-  const tiles = Object.entries(PANES).map(([pane, { title }]) => h("button.key", { type: "submit", onclick: () => { chosen = pane; } }, t(title)));
+  const tiles = Object.entries(PANES).map(([pane, { title }]) =>
+    h(
+      "button.key",
+      {
+        type: "submit",
+        onclick: () => {
+          chosen = pane;
+        },
+      },
+      t(title),
+    ),
+  );
   const submit = { text: t("key.cancel"), value: () => chosen || null, isSubmit: true };
-  const pane = await ask({ title: t("bench.panes"), className: "wide", first: tiles[0], body: [h("div.tiles", {}, ...tiles)], choices: [submit] });
+  const pane = await ask({
+    title: t("bench.panes"),
+    className: "wide",
+    first: tiles[0],
+    body: [h("div.tiles", {}, ...tiles)],
+    choices: [submit],
+  });
   if (pane) openPane(pane, { isNew: true });
 }
 
@@ -35,17 +62,44 @@ async function choosePane() {
 async function chooseLayout() {
   const named = namedLayouts();
   let chosen = "";
-  const rows = Object.keys(named).sort().map((name) => h("div.row", { data: { layout: name } },
-    h("button.key.grow", { type: "submit", onclick: () => { chosen = name; } }, name),
-    h("button.key.bad", { type: "button", ariaLabel: t("bench.delete", { name }), title: t("bench.delete", { name }), onclick: () => {
-      delete named[name];
-      keepNamedLayouts(named);
-      document.querySelector(`[data-layout="${CSS.escape(name)}"]`)?.remove();
-    } }, "\u00d7")));
+  const rows = Object.keys(named)
+    .sort()
+    .map((name) =>
+      h(
+        "div.row",
+        { data: { layout: name } },
+        h(
+          "button.key.grow",
+          {
+            type: "submit",
+            onclick: () => {
+              chosen = name;
+            },
+          },
+          name,
+        ),
+        h(
+          "button.key.bad",
+          {
+            type: "button",
+            ariaLabel: t("bench.delete", { name }),
+            title: t("bench.delete", { name }),
+            onclick: () => {
+              delete named[name];
+              keepNamedLayouts(named);
+              document.querySelector(`[data-layout="${CSS.escape(name)}"]`)?.remove();
+            },
+          },
+          "\u00d7",
+        ),
+      ),
+    );
   const what = await ask({
-    title: t("bench.layouts"), body: rows.length ? rows : [h("p.hint", {}, t("bench.nolayout"))],
+    title: t("bench.layouts"),
+    body: rows.length ? rows : [h("p.hint", {}, t("bench.nolayout"))],
     choices: [
-      { text: t("bench.reset"), value: "reset" }, { text: t("bench.save"), value: "save" },
+      { text: t("bench.reset"), value: "reset" },
+      { text: t("bench.save"), value: "save" },
       { text: t("key.close"), value: () => (chosen ? "take" : null), isSubmit: true },
     ],
   });
@@ -57,7 +111,8 @@ async function chooseLayout() {
 /** @param {Record<string, import("./layouts.js").Layout>} named */
 async function keepNamed(named) {
   const name = await askText(t("bench.save"), t("bench.name"));
-  if (!name || (name in named && !(await confirm(t("bench.save"), t("bench.replace", { name }), t("bench.save"))))) return;
+  if (!name || (name in named && !(await confirm(t("bench.save"), t("bench.replace", { name }), t("bench.save")))))
+    return;
   keepNamedLayouts({ ...named, [name]: layoutNow() });
   report(t("bench.saved", { name }));
 }

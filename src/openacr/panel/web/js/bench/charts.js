@@ -13,7 +13,9 @@ export function axisSize(labels) {
 
 /** @param {number | null | undefined} value */
 export function valueText(value) {
-  return value === null || value === undefined || !Number.isFinite(value) ? "\u2013" : String(Number(value.toPrecision(9))).replace("-", "\u2212");
+  return value === null || value === undefined || !Number.isFinite(value)
+    ? "\u2013"
+    : String(Number(value.toPrecision(9))).replace("-", "\u2212");
 }
 
 /**

@@ -17,17 +17,42 @@ const AXIS = 34; // and of the time below the last one
  *   seconds: (tick: number) => string }} place
  */
 export function compare({ kept, keep, seconds }) {
-  const names = h("input.field.grow", { ariaLabel: t("time.parameters"), placeholder: t("time.names"), value: kept.parameters ?? "", autocomplete: "off", spellcheck: false });
+  const names = h("input.field.grow", {
+    ariaLabel: t("time.parameters"),
+    placeholder: t("time.names"),
+    value: kept.parameters ?? "",
+    autocomplete: "off",
+    spellcheck: false,
+  });
   const other = h("select.field.time-other", { ariaLabel: t("time.other") });
-  const around = h("select.field", { ariaLabel: t("time.around") }, ...[0.1, 1, 10].map((each) => h("option", { value: String(each) }, `\u00b1 ${each} s`)));
+  const around = h(
+    "select.field",
+    { ariaLabel: t("time.around") },
+    ...[0.1, 1, 10].map((each) => h("option", { value: String(each) }, `\u00b1 ${each} s`)),
+  );
   around.value = "1";
   const chart = h("div.time-chart", {});
   const found = h("div.time-found", {});
-  const element = h("div", {}, h("form.row.wrap", { onsubmit: (/** @type {Event} */ event) => {
-    event.preventDefault();
-    keep({ parameters: names.value });
-    void draw().catch(refuseHere);
-  } }, names, other, around, h("button.key", { type: "submit" }, t("time.compare"))), chart, found);
+  const element = h(
+    "div",
+    {},
+    h(
+      "form.row.wrap",
+      {
+        onsubmit: (/** @type {Event} */ event) => {
+          event.preventDefault();
+          keep({ parameters: names.value });
+          void draw().catch(refuseHere);
+        },
+      },
+      names,
+      other,
+      around,
+      h("button.key", { type: "submit" }, t("time.compare")),
+    ),
+    chart,
+    found,
+  );
   /** One for each parameter. @type {any[]} */
   let plots = [];
   const newest = latest();
@@ -56,15 +81,42 @@ export function compare({ kept, keep, seconds }) {
     if (to <= from) return refuseHere(t("time.apart"));
     setText(found, t("time.comparing"));
     const query = { parameters: names.value, first: from, last: to, count: SAMPLES };
-    const sampled = async () => (query.parameters.trim() ? [await get("timeline/samples", { branch, ...query }), await get("timeline/samples", { branch: chosen.number, ...query })] : []);
+    const sampled = async () =>
+      query.parameters.trim()
+        ? [
+            await get("timeline/samples", { branch, ...query }),
+            await get("timeline/samples", { branch: chosen.number, ...query }),
+          ]
+        : [];
     const both = await newest(sampled());
     if (!both) return;
     show(both, period, [own.name, chosen.name]);
     const answer = await newest(get("timeline/differences", { branch, other: chosen.number, tick: at }));
     if (!answer) return;
     const { count, differences } = answer;
-    fill(found, h("p", { data: { count: String(count) } }, t("time.differences", { count: String(count), seconds: seconds(at) })), h("table.grid", {}, h("tbody", {}, ...differences.map((/** @type {any} */ each) =>
-      h("tr", {}, h("td.number", {}, `P${each.number}`), h("td", {}, each.name), ...each.values.map((/** @type {number | null} */ value) => h("td.number", {}, value === null ? "\u2013" : plain(value, 6))))))));
+    fill(
+      found,
+      h("p", { data: { count: String(count) } }, t("time.differences", { count: String(count), seconds: seconds(at) })),
+      h(
+        "table.grid",
+        {},
+        h(
+          "tbody",
+          {},
+          ...differences.map((/** @type {any} */ each) =>
+            h(
+              "tr",
+              {},
+              h("td.number", {}, `P${each.number}`),
+              h("td", {}, each.name),
+              ...each.values.map((/** @type {number | null} */ value) =>
+                h("td.number", {}, value === null ? "\u2013" : plain(value, 6)),
+              ),
+            ),
+          ),
+        ),
+      ),
+    );
   }
 
   /**
@@ -78,23 +130,69 @@ export function compare({ kept, keep, seconds }) {
     if (!both.length) return;
     const { first, every, names: shown, channels } = both[0];
     const style = getComputedStyle(chart);
-    const axis = { stroke: style.color, grid: { stroke: style.borderColor, width: 1 }, ticks: { stroke: style.borderColor } };
+    const axis = {
+      stroke: style.color,
+      grid: { stroke: style.borderColor, width: 1 },
+      ticks: { stroke: style.borderColor },
+    };
     const times = channels[0].map((_each, n) => (first + n * every) * period);
-    const size = Math.max(...shown.map((_each, place) => axisSize(endsOf(both.map((each) => each.channels[place])).map((each) => valueText(Number(each.toPrecision(3)))))));
+    const size = Math.max(
+      ...shown.map((_each, place) =>
+        axisSize(
+          endsOf(both.map((each) => each.channels[place])).map((each) => valueText(Number(each.toPrecision(3)))),
+        ),
+      ),
+    );
     plots = shown.map((name, place) => {
       const curves = both.map((each) => each.channels[place]);
       const isLast = place === shown.length - 1;
       const color = COLORS[place];
-      const legend = h("p.time-legend", {}, h("strong", { style: `color: ${color}` }, name), ...branches.map((each, n) => h("span", {}, h(n ? "span.time-key.is-other" : "span.time-key", { style: `border-color: ${color}` }), `${each} `, h("span", { data: { value: String(n) } }))));
+      const legend = h(
+        "p.time-legend",
+        {},
+        h("strong", { style: `color: ${color}` }, name),
+        ...branches.map((each, n) =>
+          h(
+            "span",
+            {},
+            h(n ? "span.time-key.is-other" : "span.time-key", { style: `border-color: ${color}` }),
+            `${each} `,
+            h("span", { data: { value: String(n) } }),
+          ),
+        ),
+      );
       const host = h("div", { data: { parameter: name } }, legend);
       chart.append(host);
-      const values = (/** @type {any} */ self) => legend.querySelectorAll("[data-value]").forEach((each, n) => setText(each, self.cursor.idx === null || self.cursor.idx === undefined ? "" : valueText(curves[n][self.cursor.idx])));
-      return new uPlot({
-        width: Math.max(200, chart.clientWidth), height: HEIGHT + (isLast ? AXIS : 0), legend: { show: false }, cursor: { sync: { key: "time-compare" } }, hooks: { setCursor: [values] },
-        scales: { x: { time: false }, y: { range: () => endsOf(curves) } },
-        axes: [isLast ? { ...axis, label: "s", labelSize: 16, size: AXIS } : { ...axis, size: 4, values: () => [] }, { ...axis, size: (_self, labels) => Math.max(size, axisSize(labels)), values: (_self, splits) => splits.map((each) => valueText(each)) }],
-        series: [{}, ...curves.map((_each, n) => ({ stroke: color, width: 1.6, dash: n ? [6, 4] : [] }))],
-      }, /** @type {any} */ ([times, ...curves]), host);
+      const values = (/** @type {any} */ self) =>
+        legend
+          .querySelectorAll("[data-value]")
+          .forEach((each, n) =>
+            setText(
+              each,
+              self.cursor.idx === null || self.cursor.idx === undefined ? "" : valueText(curves[n][self.cursor.idx]),
+            ),
+          );
+      return new uPlot(
+        {
+          width: Math.max(200, chart.clientWidth),
+          height: HEIGHT + (isLast ? AXIS : 0),
+          legend: { show: false },
+          cursor: { sync: { key: "time-compare" } },
+          hooks: { setCursor: [values] },
+          scales: { x: { time: false }, y: { range: () => endsOf(curves) } },
+          axes: [
+            isLast ? { ...axis, label: "s", labelSize: 16, size: AXIS } : { ...axis, size: 4, values: () => [] },
+            {
+              ...axis,
+              size: (_self, labels) => Math.max(size, axisSize(labels)),
+              values: (_self, splits) => splits.map((each) => valueText(each)),
+            },
+          ],
+          series: [{}, ...curves.map((_each, n) => ({ stroke: color, width: 1.6, dash: n ? [6, 4] : [] }))],
+        },
+        /** @type {any} */ ([times, ...curves]),
+        host,
+      );
     });
     chart.dataset.parameters = String(shown.length);
   }

@@ -27,7 +27,13 @@ export function showPane(element, pane, layout) {
     try {
       const load = await pane.load();
       if (isEnded) return;
-      const end = await load(host, { ...layout, head, beforeClose: (ask) => { mayClose = ask; } });
+      const end = await load(host, {
+        ...layout,
+        head,
+        beforeClose: (ask) => {
+          mayClose = ask;
+        },
+      });
       if (isEnded) end();
       else endings.add(end);
     } catch (error) {
@@ -36,12 +42,23 @@ export function showPane(element, pane, layout) {
     host.inert = false;
   }
 
-  endings.add(model.hello.watch(({ client }) => {
-    if (!client || isShown) return;
-    const role = pane.role;
-    if (!role || model.may(role)) void mount();
-    else fill(element, h("div.notice.row.wrap", {}, h("span.grow", {}, t("role.needed", { role: t(/** @type {any} */ (`role.${role}`)) })), keyOf("login.go", () => logIn(role))));
-  }));
+  endings.add(
+    model.hello.watch(({ client }) => {
+      if (!client || isShown) return;
+      const role = pane.role;
+      if (!role || model.may(role)) void mount();
+      else
+        fill(
+          element,
+          h(
+            "div.notice.row.wrap",
+            {},
+            h("span.grow", {}, t("role.needed", { role: t(/** @type {any} */ (`role.${role}`)) })),
+            keyOf("login.go", () => logIn(role)),
+          ),
+        );
+    }),
+  );
   return {
     end() {
       isEnded = true;

@@ -12,7 +12,18 @@ import { addToWatchList } from "./watch_list.js";
  */
 export function showFacts(host, item, shown) {
   if (!item) return fill(host);
-  return fill(host, h("div.grow", {}, h("strong", {}, `${item.id} ${fullName(item)}`), h("p.hint", {}, [item.section, item.doc].filter(Boolean).join(" \u2014 "))),
+  return fill(
+    host,
+    h(
+      "div.grow",
+      {},
+      h("strong", {}, `${item.id} ${fullName(item)}`),
+      h("p.hint", {}, [item.section, item.doc].filter(Boolean).join(" \u2014 ")),
+    ),
     keyOf("tree.watch", () => addToWatchList(item.id)),
-    keyOf("tree.change", () => changeValue(item, shown()), "", { disabled: !item.writable, title: item.writable ? "" : t("values.fixed") }));
+    keyOf("tree.change", () => changeValue(item, shown()), "", {
+      disabled: !item.writable,
+      title: item.writable ? "" : t("values.fixed"),
+    }),
+  );
 }

@@ -28,11 +28,16 @@ export function createLanes({ seek, zoom, pan, seconds }) {
     return Math.round(part[0] + ((event.clientX - box.left) / box.width) * (part[1] - part[0]));
   }
 
-  element.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) pan(Math.sign(event.deltaX || event.deltaY) * 0.1 * (part[1] - part[0]));
-    else zoom(event.deltaY < 0, tickAt(event));
-  }, { passive: false });
+  element.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY))
+        pan(Math.sign(event.deltaX || event.deltaY) * 0.1 * (part[1] - part[0]));
+      else zoom(event.deltaY < 0, tickAt(event));
+    },
+    { passive: false },
+  );
   element.addEventListener("click", (event) => {
     const mark = event.target instanceof HTMLElement ? event.target.dataset.tick : undefined;
     seek(mark === undefined ? Math.max(part[0], Math.min(part[1], tickAt(event))) : Number(mark));
@@ -52,9 +57,36 @@ export function createLanes({ seek, zoom, pan, seconds }) {
     draw(shown, period, lanes, bookmarks) {
       part = shown;
       const times = rulerOf(part, period, Math.max(2, ruler.clientWidth / LABEL));
-      fill(ruler, ...times.map((time) => h("span.time-time", { style: `left: ${left(time / period)}` }, String(time))),
-        ...bookmarks.filter(({ tick }) => isShown(tick)).map(({ tick, kind, text }) => h("span.time-tick", { style: `left: ${left(tick)}`, data: { tick: String(tick), kind }, title: `${seconds(tick)} s ${text}`, ariaHidden: "true" })));
-      fill(rows, ...lanes.map(({ name, kind, spans }) => h("div.time-lane", { data: { lane: name } }, h("span.time-name", {}, name), ...spans.map(([from, to]) => h("span.time-span", { data: { kind }, style: `left: ${left(Math.max(from, part[0]))}; width: ${placeOf(Math.min(to, part[1]), part) - placeOf(Math.max(from, part[0]), part)}%` })))));
+      fill(
+        ruler,
+        ...times.map((time) => h("span.time-time", { style: `left: ${left(time / period)}` }, String(time))),
+        ...bookmarks
+          .filter(({ tick }) => isShown(tick))
+          .map(({ tick, kind, text }) =>
+            h("span.time-tick", {
+              style: `left: ${left(tick)}`,
+              data: { tick: String(tick), kind },
+              title: `${seconds(tick)} s ${text}`,
+              ariaHidden: "true",
+            }),
+          ),
+      );
+      fill(
+        rows,
+        ...lanes.map(({ name, kind, spans }) =>
+          h(
+            "div.time-lane",
+            { data: { lane: name } },
+            h("span.time-name", {}, name),
+            ...spans.map(([from, to]) =>
+              h("span.time-span", {
+                data: { kind },
+                style: `left: ${left(Math.max(from, part[0]))}; width: ${placeOf(Math.min(to, part[1]), part) - placeOf(Math.max(from, part[0]), part)}%`,
+              }),
+            ),
+          ),
+        ),
+      );
     },
     /** @param {number} tick */
     mark(tick) {

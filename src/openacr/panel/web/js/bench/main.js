@@ -14,7 +14,13 @@ async function start() {
   useLanguage(setting("language", "en"));
   addTexts(texts);
   const [clock, top, prompt, stop, workspace, bar, shortcuts] = await Promise.all([
-    import("../frame/clock.js"), import("../frame/top.js"), import("../frame/prompt.js"), import("../frame/stop.js"), import("./workspace.js"), import("./bar.js"), import("./shortcuts.js"),
+    import("../frame/clock.js"),
+    import("../frame/top.js"),
+    import("../frame/prompt.js"),
+    import("../frame/stop.js"),
+    import("./workspace.js"),
+    import("./bar.js"),
+    import("./shortcuts.js"),
   ]);
   top.startTop(() => workspace.openPane("alarms"));
   prompt.startPrompt();

@@ -15,23 +15,51 @@ import { modulePane, screenPane, tabPane } from "./adapters.js";
 
 /** @type {Record<string, Pane>} */
 export const PANES = {
-  terminal: { title: "terminal.title", role: "service", most: 4, load: modulePane(() => import("../panes/terminal.js")) },
+  terminal: {
+    title: "terminal.title",
+    role: "service",
+    most: 4,
+    load: modulePane(() => import("../panes/terminal.js")),
+  },
   status: { title: { en: "Status", de: "Zustand" }, most: 8, load: modulePane(() => import("./panes/status.js")) },
   programs: { title: { en: "Programs", de: "Programme" }, load: screenPane(() => import("../screens/programs.js")) },
   editor: { title: { en: "Editor", de: "Editor" }, most: 4, load: modulePane(() => import("./panes/editor.js")) },
-  variables: { title: { en: "Variables", de: "Variablen" }, most: 4, load: modulePane(() => import("./panes/variables.js")) },
+  variables: {
+    title: { en: "Variables", de: "Variablen" },
+    most: 4,
+    load: modulePane(() => import("./panes/variables.js")),
+  },
   plc: { title: { en: "PLC", de: "PLC" }, load: tabPane(async () => (await import("../frame/tab_plc.js")).plcTab) },
   servo: { title: "servo.title", load: screenPane(() => import("../screens/servo.js")) },
   jog: { title: "jog.title", role: "operate", load: screenPane(() => import("../screens/jog.js")) },
-  gain: { title: { en: "Gains", de: "Verst\u00e4rkungen" }, role: "service", load: screenPane(() => import("../screens/gain.js")) },
-  tune: { title: { en: "Tuning", de: "Einstellen" }, role: "service", load: modulePane(() => import("./panes/tune.js")) },
+  gain: {
+    title: { en: "Gains", de: "Verst\u00e4rkungen" },
+    role: "service",
+    load: screenPane(() => import("../screens/gain.js")),
+  },
+  tune: {
+    title: { en: "Tuning", de: "Einstellen" },
+    role: "service",
+    load: modulePane(() => import("./panes/tune.js")),
+  },
   scope: { title: "scope.title", role: "service", load: modulePane(() => import("./panes/scope.js")) },
   tree: { title: "pane.tree", load: modulePane(() => import("./panes/tree.js")) },
   watch: { title: { en: "Watch list", de: "Beobachten" }, load: modulePane(() => import("./panes/watch.js")) },
   io: { title: { en: "I/O", de: "E/A" }, load: tabPane(async () => (await import("../frame/tab_io.js")).ioTab) },
   board: { title: "board.title", role: "service", load: screenPane(() => import("../screens/board.js")) },
   world: { title: { en: "World", de: "Welt" }, load: modulePane(() => import("./panes/world.js")) },
-  wizard: { title: { en: "Configuration", de: "Konfiguration" }, role: "service", load: modulePane(() => import("./panes/wizard.js")) },
-  timeline: { title: { en: "Timeline", de: "Zeitachse" }, role: "service", load: modulePane(() => import("./panes/timeline.js")) },
-  alarms: { title: { en: "ALARMS", de: "ALARME" }, load: tabPane(async () => (await import("../frame/tab_alarms.js")).alarmsTab) },
+  wizard: {
+    title: { en: "Configuration", de: "Konfiguration" },
+    role: "service",
+    load: modulePane(() => import("./panes/wizard.js")),
+  },
+  timeline: {
+    title: { en: "Timeline", de: "Zeitachse" },
+    role: "service",
+    load: modulePane(() => import("./panes/timeline.js")),
+  },
+  alarms: {
+    title: { en: "ALARMS", de: "ALARME" },
+    load: tabPane(async () => (await import("../frame/tab_alarms.js")).alarmsTab),
+  },
 };

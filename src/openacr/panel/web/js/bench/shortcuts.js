@@ -11,14 +11,27 @@ const DOES = {
 };
 
 export function startShortcuts() {
-  window.addEventListener("keydown", (event) => {
-    const place = /^Digit([1-9])$/.exec(event.code)?.[1];
-    const does = place ? () => showPaneAt(Number(place) - 1) : DOES[event.code];
-    if (!does || !event.altKey || event.ctrlKey || event.metaKey || event.shiftKey || event.repeat || document.querySelector("dialog[open]")) return;
-    event.preventDefault();
-    event.stopPropagation();
-    does();
-  }, { capture: true });
+  window.addEventListener(
+    "keydown",
+    (event) => {
+      const place = /^Digit([1-9])$/.exec(event.code)?.[1];
+      const does = place ? () => showPaneAt(Number(place) - 1) : DOES[event.code];
+      if (
+        !does ||
+        !event.altKey ||
+        event.ctrlKey ||
+        event.metaKey ||
+        event.shiftKey ||
+        event.repeat ||
+        document.querySelector("dialog[open]")
+      )
+        return;
+      event.preventDefault();
+      event.stopPropagation();
+      does();
+    },
+    { capture: true },
+  );
 }
 
 /**

@@ -19,8 +19,13 @@ let form = formOf();
 
 export function startWorkspace() {
   dock = createDockview(byId("work"), {
-    theme: { name: "openacr", className: "dockview-theme-light" }, disableFloatingGroups: true, disableDnd: NARROW.matches, scrollbars: "native",
-    createComponent: ({ id, name }) => contentOf(id, name), createTabComponent: () => tabOf(), defaultTabComponent: "tab",
+    theme: { name: "openacr", className: "dockview-theme-light" },
+    disableFloatingGroups: true,
+    disableDnd: NARROW.matches,
+    scrollbars: "native",
+    createComponent: ({ id, name }) => contentOf(id, name),
+    createTabComponent: () => tabOf(),
+    defaultTabComponent: "tab",
     createWatermarkComponent: () => ({ element: h("p.bench-empty", {}, t("bench.empty")), init: () => {} }),
   });
   load();
@@ -49,7 +54,12 @@ function formOf() {
 export function openPane(pane, { isNew = false } = {}) {
   const open = dock.panels.filter((each) => each.view.contentComponent === pane);
   if (open.length && !(isNew && open.length < (PANES[pane].most ?? 1))) open[0].api.setActive();
-  else addPane(pane, open.map((each) => each.id), dock.activePanel ? { referencePanel: dock.activePanel.id, direction: "within" } : undefined);
+  else
+    addPane(
+      pane,
+      open.map((each) => each.id),
+      dock.activePanel ? { referencePanel: dock.activePanel.id, direction: "within" } : undefined,
+    );
 }
 
 /**
@@ -60,7 +70,13 @@ export function openPane(pane, { isNew = false } = {}) {
 function addPane(pane, taken, position) {
   let n = 1;
   while (taken.includes(`${pane}-${n}`)) n++;
-  dock.addPanel({ id: `${pane}-${n}`, component: pane, title: titleOf(pane, n), position, inactive: isLoading && position?.direction === "within" });
+  dock.addPanel({
+    id: `${pane}-${n}`,
+    component: pane,
+    title: titleOf(pane, n),
+    position,
+    inactive: isLoading && position?.direction === "within",
+  });
 }
 
 /**
@@ -89,7 +105,8 @@ function load() {
 export function arrange(layout) {
   isLoading = true;
   try {
-    if (layout && form === "narrow") inOnePlace(Object.values(layout.panels).map((each) => [each.id, each.params ?? {}]));
+    if (layout && form === "narrow")
+      inOnePlace(Object.values(layout.panels).map((each) => [each.id, each.params ?? {}]));
     else if (layout) dock.fromJSON(known(layout));
     else first();
   } catch {
@@ -105,7 +122,9 @@ export function arrange(layout) {
 function first() {
   dock.clear();
   if (form === "narrow") inOnePlace(FIRST.map(({ pane }) => [`${pane}-1`, {}]));
-  else for (const { pane, beside, direction } of FIRST) addPane(pane, [], beside ? { referencePanel: `${beside}-1`, direction } : undefined);
+  else
+    for (const { pane, beside, direction } of FIRST)
+      addPane(pane, [], beside ? { referencePanel: `${beside}-1`, direction } : undefined);
   dock.getPanel(`${FIRST[0].pane}-1`)?.api.setActive();
 }
 
@@ -114,7 +133,14 @@ function inOnePlace(panes) {
   dock.clear();
   for (const [id, kept] of panes) {
     const [pane] = id.split("-");
-    if (pane in PANES) dock.addPanel({ id, component: pane, title: titleOf(pane, numberOf(id)), params: kept, inactive: dock.totalPanels > 0 });
+    if (pane in PANES)
+      dock.addPanel({
+        id,
+        component: pane,
+        title: titleOf(pane, numberOf(id)),
+        params: kept,
+        inactive: dock.totalPanels > 0,
+      });
   }
 }
 
@@ -167,7 +193,11 @@ function contentOf(id, name) {
     init({ api, params, title }) {
       element.ariaLabel = title;
       begin = () => {
-        const shown = showPane(element, PANES[name], { number: numberOf(id), kept: params, keep: (values) => api.updateParameters({ ...api.getParameters(), ...values }) });
+        const shown = showPane(element, PANES[name], {
+          number: numberOf(id),
+          kept: params,
+          keep: (values) => api.updateParameters({ ...api.getParameters(), ...values }),
+        });
         closing.set(id, shown.mayClose);
         end = shown.end;
         begin = () => {}; // it goes on while another tab covers it
@@ -191,12 +221,22 @@ function tabOf() {
     element,
     init({ api, title }) {
       const close = async () => (await closing.get(api.id)?.()) !== false && api.close();
-      const key = h("span.bench-close", { ariaHidden: "true", onclick: (/** @type {Event} */ event) => {
-        event.preventDefault();
-        close().catch(refuse);
-      }, onpointerdown: (/** @type {Event} */ event) => event.stopPropagation() }, "\u00d7");
+      const key = h(
+        "span.bench-close",
+        {
+          ariaHidden: "true",
+          onclick: (/** @type {Event} */ event) => {
+            event.preventDefault();
+            close().catch(refuse);
+          },
+          onpointerdown: (/** @type {Event} */ event) => event.stopPropagation(),
+        },
+        "\u00d7",
+      );
       text.textContent = title;
-      api.onDidTitleChange((changed) => { text.textContent = changed.title; });
+      api.onDidTitleChange((changed) => {
+        text.textContent = changed.title;
+      });
       element.append(key);
       element.addEventListener("auxclick", (event) => event.button === 1 && close().catch(refuse));
     },

@@ -28,23 +28,35 @@ export function buttonsBlock(panel, endings) {
     endWords = needWords(wordsOf(buttons.map(({ lamp }) => lamp).filter((lamp) => lamp >= 0)));
     light();
   };
-  const light = () => shown.forEach(({ button, key }) => {
-    const isLit = button.lamp >= 0 && stateOf(model.flags.value, button.lamp) === true;
-    key.querySelector(".lamp")?.classList.toggle("is-on", isLit);
-    if (button.isToggle) key.ariaPressed = String(isLit);
-  });
+  const light = () =>
+    shown.forEach(({ button, key }) => {
+      const isLit = button.lamp >= 0 && stateOf(model.flags.value, button.lamp) === true;
+      key.querySelector(".lamp")?.classList.toggle("is-on", isLit);
+      if (button.isToggle) key.ariaPressed = String(isLit);
+    });
   void read();
   const isShown = (/** @type {number} */ cell) => cell >= FIRST && cell < FIRST + 32 * STRIDE;
-  endings.add(() => endWords(), model.flags.watch(light), model.changed.watch(({ what, cells }) => what === "forms" && cells.some(isShown) && void read()));
+  endings.add(
+    () => endWords(),
+    model.flags.watch(light),
+    model.changed.watch(({ what, cells }) => what === "forms" && cells.some(isShown) && void read()),
+  );
 }
 
 /** The buttons that have a caption; cells of each: caption, set bit, show bit, momentary or toggle. */
 async function readButtons() {
   const form = await get("forms/BUTTONS").catch(() => ({ groups: [] }));
   /** @type {Map<number, any>} */
-  const cells = new Map(form.groups.flatMap((/** @type {any} */ group) => group.rows).map((/** @type {any} */ row) => [Number(row.number) - FIRST, row]));
+  const cells = new Map(
+    form.groups
+      .flatMap((/** @type {any} */ group) => group.rows)
+      .map((/** @type {any} */ row) => [Number(row.number) - FIRST, row]),
+  );
   return Array.from({ length: 32 }, (_each, n) => ({
-    number: n, caption: String(cells.get(n * STRIDE)?.value ?? ""), lamp: Number(cells.get(n * STRIDE + 2)?.number_value ?? -1), isToggle: Number(cells.get(n * STRIDE + 3)?.number_value ?? 0) === 1,
+    number: n,
+    caption: String(cells.get(n * STRIDE)?.value ?? ""),
+    lamp: Number(cells.get(n * STRIDE + 2)?.number_value ?? -1),
+    isToggle: Number(cells.get(n * STRIDE + 3)?.number_value ?? 0) === 1,
   })).filter(({ caption }) => caption);
 }
 

@@ -9,11 +9,20 @@ import { t } from "../core/texts.js";
  */
 export function estopBlock(panel, endings) {
   const [sign, text] = [h("strong", { ariaHidden: "true" }), h("span", {})];
-  const box = h("section.block.estop", { ariaLabel: t("block.estop"), title: t("estop.software") }, h("div.row", {}, sign, text));
+  const box = h(
+    "section.block.estop",
+    { ariaLabel: t("block.estop"), title: t("estop.software") },
+    h("div.row", {}, sign, text),
+  );
   panel.append(box);
-  endings.add(model.state.watch(({ estop }) => {
-    setText(sign, estop?.on || estop?.alarm ? "\u26a0" : estop?.wired ? "\u2713" : "?");
-    setText(text, estop?.on ? t("estop.on") : estop?.alarm ? t("estop.left") : estop?.wired ? t("estop.off") : t("estop.none"));
-    box.classList.toggle("is-on", Boolean(estop?.on || estop?.alarm));
-  }));
+  endings.add(
+    model.state.watch(({ estop }) => {
+      setText(sign, estop?.on || estop?.alarm ? "\u26a0" : estop?.wired ? "\u2713" : "?");
+      setText(
+        text,
+        estop?.on ? t("estop.on") : estop?.alarm ? t("estop.left") : estop?.wired ? t("estop.off") : t("estop.none"),
+      );
+      box.classList.toggle("is-on", Boolean(estop?.on || estop?.alarm));
+    }),
+  );
 }

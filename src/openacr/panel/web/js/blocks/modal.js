@@ -10,8 +10,10 @@ import { t } from "../core/texts.js";
 export function modalBlock(panel, endings) {
   const codes = h("div.codes.mono", {});
   panel.append(h("section.block", { ariaLabel: t("block.modal") }, h("h3", {}, t("block.modal")), codes));
-  endings.add(model.modals.watch((modals) => {
-    const words = ["F", "S", "T", "D", "H"].map((letter) => `${letter}${modals[letter] ?? 0}`);
-    fill(codes, ...[...modals.codes, ...words].map((code) => h("span", {}, code)));
-  }));
+  endings.add(
+    model.modals.watch((modals) => {
+      const words = ["F", "S", "T", "D", "H"].map((letter) => `${letter}${modals[letter] ?? 0}`);
+      fill(codes, ...[...modals.codes, ...words].map((code) => h("span", {}, code)));
+    }),
+  );
 }

@@ -15,8 +15,13 @@ const USED = 0.9; // share of the travel from which on a position is marked
 export function positionBlock(panel, endings) {
   const { axes, is_small: isSmall } = model.hello.value.machine;
   const rows = axes.map((axis, n) => rowOf(axis, n));
-  panel.append(h("section.block.positions", { ariaLabel: t("block.position"), data: { axes: String(axes.length), size: isSmall ? "small" : "big" } },
-    ...rows.map((row) => row.element)));
+  panel.append(
+    h(
+      "section.block.positions",
+      { ariaLabel: t("block.position"), data: { axes: String(axes.length), size: isSmall ? "small" : "big" } },
+      ...rows.map((row) => row.element),
+    ),
+  );
   endings.add(model.status.watch((status) => status && rows.forEach((row) => row.draw(status))));
   endings.add(model.state.watch((state) => rows.forEach((row) => row.home(state.homed ?? []))));
 }
@@ -29,11 +34,25 @@ function rowOf(axis, n) {
   const { unit, decimals, factor } = viewOf(axis);
   const name = h("span.axis-name", {}, axis.name, h("small", {}, unit));
   const work = h("span.work-value.live", {}, "\u2013");
-  const [machine, toGo] = [h("span.number.live", { title: t("position.machine") }), h("span.number.live", { title: t("position.togo") })];
+  const [machine, toGo] = [
+    h("span.number.live", { title: t("position.machine") }),
+    h("span.number.live", { title: t("position.togo") }),
+  ];
   const sign = h("span.axis-sign", {});
   const travel = h("span.travel", { ariaHidden: "true" }, h("i", {}));
-  const key = h("button.work-key", { type: "button", title: t("position.set", { axis: axis.name }), onclick: () => setWork(axis) }, name, work);
-  const element = h("div.position-row", { data: { axis: axis.name } }, key, h("div.position-more", {}, machine, toGo, travel), sign);
+  const key = h(
+    "button.work-key",
+    { type: "button", title: t("position.set", { axis: axis.name }), onclick: () => setWork(axis) },
+    name,
+    work,
+  );
+  const element = h(
+    "div.position-row",
+    { data: { axis: axis.name } },
+    key,
+    h("div.position-more", {}, machine, toGo, travel),
+    sign,
+  );
   const hasTravel = axis.low !== null && axis.high !== null && axis.high > axis.low;
   travel.hidden = !hasTravel;
   return {
@@ -73,8 +92,14 @@ async function setWork(axis) {
     return;
   }
   const { unit, factor } = viewOf(axis);
-  const value = await askNumber({ title: t("position.set", { axis: axis.name }), value: 0, unit, hint: t("position.hint") });
-  if (value !== null && (await give("zero.preset", { values: { [axis.name]: value / factor } }))) report(t("position.done", { axis: axis.name }));
+  const value = await askNumber({
+    title: t("position.set", { axis: axis.name }),
+    value: 0,
+    unit,
+    hint: t("position.hint"),
+  });
+  if (value !== null && (await give("zero.preset", { values: { [axis.name]: value / factor } })))
+    report(t("position.done", { axis: axis.name }));
 }
 
 /**
@@ -101,7 +126,33 @@ export function nextBlock(panel, endings) {
  */
 function simpleBlock(panel, endings, title, values) {
   const cells = model.axes.map((axis) => ({ axis, ...viewOf(axis), value: h("span.number.live", {}, "\u2013") }));
-  panel.append(h("section.block", { ariaLabel: title }, h("h3", {}, title), h("div.simple-positions", {},
-    ...cells.map(({ axis, value, unit }) => h("div.simple-row", { data: { axis: axis.name } }, h("strong", {}, axis.name), value, h("span.quiet", {}, unit))))));
-  endings.add(model.status.watch((status) => status && cells.forEach(({ value, decimals, factor }, n) => setText(value, position(values(status)[n] * factor, decimals)))));
+  panel.append(
+    h(
+      "section.block",
+      { ariaLabel: title },
+      h("h3", {}, title),
+      h(
+        "div.simple-positions",
+        {},
+        ...cells.map(({ axis, value, unit }) =>
+          h(
+            "div.simple-row",
+            { data: { axis: axis.name } },
+            h("strong", {}, axis.name),
+            value,
+            h("span.quiet", {}, unit),
+          ),
+        ),
+      ),
+    ),
+  );
+  endings.add(
+    model.status.watch(
+      (status) =>
+        status &&
+        cells.forEach(({ value, decimals, factor }, n) =>
+          setText(value, position(values(status)[n] * factor, decimals)),
+        ),
+    ),
+  );
 }

@@ -53,7 +53,9 @@ export async function get(path, query) {
  */
 export function latest(endings) {
   let count = 0;
-  endings?.add(() => { count += 1; });
+  endings?.add(() => {
+    count += 1;
+  });
   return async (reply) => {
     const mine = ++count;
     try {

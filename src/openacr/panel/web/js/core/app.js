@@ -7,7 +7,9 @@ const scheme = window.location.protocol === "https:" ? "wss" : "ws";
 export const link = new Link(`${scheme}://${window.location.host}/ws`);
 export const model = new Model();
 // Values are old after `stale_ms`; a connection that stays silent twice as long is taken for dead.
-model.hello.watch(({ limits }) => { link.silentMs = 2 * limits.stale_ms; });
+model.hello.watch(({ limits }) => {
+  link.silentMs = 2 * limits.stale_ms;
+});
 
 /** The line under the windows: `kind` is "say", "good", "error" or "ask". */
 export const prompt = new Signal({ kind: "say", text: "" });

@@ -3,7 +3,13 @@ import { ExpressionError, parse } from "./expression.js";
 import { t } from "./texts.js";
 
 /** @type {Record<string, (...args: number[]) => number>} */
-const OPERATORS = { "+": (a, b) => a + b, "-": (a, b) => a - b, "*": (a, b) => a * b, "/": (a, b) => a / b, neg: (a) => -a };
+const OPERATORS = {
+  "+": (a, b) => a + b,
+  "-": (a, b) => a - b,
+  "*": (a, b) => a * b,
+  "/": (a, b) => a / b,
+  neg: (a) => -a,
+};
 
 /**
  * The value of an expression such as "25.4*3/8"; null if it is none.
@@ -11,7 +17,11 @@ const OPERATORS = { "+": (a, b) => a + b, "-": (a, b) => a - b, "*": (a, b) => a
  * @returns {number | null}
  */
 export function evaluate(text) {
-  const plain = text.replace(/,/g, ".").replace(/[\u2212\u2013]/g, "-").replace(/\u00d7/g, "*").replace(/\u00f7/g, "/");
+  const plain = text
+    .replace(/,/g, ".")
+    .replace(/[\u2212\u2013]/g, "-")
+    .replace(/\u00d7/g, "*")
+    .replace(/\u00f7/g, "/");
   try {
     const value = compute(parse(plain));
     return Number.isFinite(value) ? Number(tidy(value)) : null;

@@ -8,9 +8,19 @@ import { link, model } from "./app.js";
 export async function cardAxes() {
   const own = model.axes.map((axis) => ({ ...axis, title: axis.name, isMachines: true }));
   const { axes } = await get("card/axes").catch(() => ({ axes: [] }));
-  const others = axes.filter((/** @type {any} */ each) => !own.some(({ index }) => index === each.index)).map((/** @type {{ index: number, name: string }} */ { index, name }) => ({
-    name: `AXIS${index}`, title: `${name} (AXIS${index})`, index, unit: "", decimals: { mm: 3, inch: 4 }, low: null, high: null, home_required: false, isMachines: false,
-  }));
+  const others = axes
+    .filter((/** @type {any} */ each) => !own.some(({ index }) => index === each.index))
+    .map((/** @type {{ index: number, name: string }} */ { index, name }) => ({
+      name: `AXIS${index}`,
+      title: `${name} (AXIS${index})`,
+      index,
+      unit: "",
+      decimals: { mm: 3, inch: 4 },
+      low: null,
+      high: null,
+      home_required: false,
+      isMachines: false,
+    }));
   return [...own, ...others];
 }
 
@@ -21,9 +31,13 @@ export async function cardAxes() {
  * @returns {Promise<any[]>}
  */
 export async function gainRows(axis) {
-  const form = await get("forms/SERVO", { axis: axis.isMachines ? axis.index : model.axes[0]?.index ?? 0 });
-  const rows = form.groups.flatMap((/** @type {any} */ group) => group.rows).filter((/** @type {any} */ row) => row.kind === "real");
+  const form = await get("forms/SERVO", { axis: axis.isMachines ? axis.index : (model.axes[0]?.index ?? 0) });
+  const rows = form.groups
+    .flatMap((/** @type {any} */ group) => group.rows)
+    .filter((/** @type {any} */ row) => row.kind === "real");
   if (axis.isMachines) return rows;
   const values = await link.command("tune.gains", { axis: axis.name });
-  return rows.filter((/** @type {any} */ row) => row.name in values).map((/** @type {any} */ row) => ({ ...row, value: values[row.name] }));
+  return rows
+    .filter((/** @type {any} */ row) => row.name in values)
+    .map((/** @type {any} */ row) => ({ ...row, value: values[row.name] }));
 }

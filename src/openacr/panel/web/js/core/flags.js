@@ -25,7 +25,9 @@ export function needWords(words) {
 
 function subscribe() {
   end();
-  end = wanted.size ? link.subscribe({ topic: "flags", hz: HZ, words: [...wanted.keys()].sort((a, b) => a - b) }) : () => {};
+  end = wanted.size
+    ? link.subscribe({ topic: "flags", hz: HZ, words: [...wanted.keys()].sort((a, b) => a - b) })
+    : () => {};
 }
 
 /**

@@ -93,7 +93,8 @@ export class Link {
     for (const each of this.waiting.values()) each.fail(lostError());
     this.waiting.clear();
     if (code === 4401) window.location.assign("/login");
-    else if (!this.isEnded && code !== 4403) setTimeout(() => this.open(), AGAIN_MS[Math.min(this.tries++, AGAIN_MS.length - 1)]);
+    else if (!this.isEnded && code !== 4403)
+      setTimeout(() => this.open(), AGAIN_MS[Math.min(this.tries++, AGAIN_MS.length - 1)]);
   }
 
   /**

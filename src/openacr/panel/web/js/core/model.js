@@ -28,26 +28,107 @@ export const ROLES = Object.freeze(["view", "operate", "setup", "service"]);
 export class Model {
   constructor() {
     this.hello = new Signal({
-      version: "", client: 0, role: "view", login: false, local: false,
-      machine: /** @type {Machine} */ ({ kind: "", name: "", card: "", unit: "mm", shown: "mm", is_small: false, is_virtual: true, axes: [], lacks: "", attached: [] }),
+      version: "",
+      client: 0,
+      role: "view",
+      login: false,
+      local: false,
+      machine: /** @type {Machine} */ ({
+        kind: "",
+        name: "",
+        card: "",
+        unit: "mm",
+        shown: "mm",
+        is_small: false,
+        is_virtual: true,
+        axes: [],
+        lacks: "",
+        attached: [],
+      }),
       limits: { tick_ms: 200, keep_ms: 50, dead_man_ms: 200, stale_ms: 500, upload: 268435456 },
     });
-    this.state = new Signal(/** @type {any} */ ({
-      state: "IDLE", running: false, reason: "", options: {}, asking: null, tool_wanted: false, mode: "auto", estop: { wired: false, on: false }, link: "ok", can: {},
-    }));
-    this.stopped = new Signal(/** @type {{ found: string[], holds: boolean, moving: string[], next: string }} */ ({ found: [], holds: false, moving: [], next: "" }));
-    this.lamp = new Signal(/** @type {{ moving: string[], running: string[], drives: string[] }} */ ({ moving: [], running: [], drives: [] }));
-    this.program = new Signal(/** @type {{ loaded: Loaded | null, loading: any, line: number, file: string, text: string, batch: any }} */ (
-      { loaded: null, loading: null, line: 0, file: "", text: "", batch: null }));
-    this.modals = new Signal(/** @type {any} */ ({ codes: [], F: 0, S: 0, T: 0, D: 0, H: 0, spindle: 5, coolant: 0, work: "G54" }));
-    this.alarms = new Signal(/** @type {{ active: any[], history: any[], bars_start: boolean }} */ ({ active: [], history: [], bars_start: false }));
+    this.state = new Signal(
+      /** @type {any} */ ({
+        state: "IDLE",
+        running: false,
+        reason: "",
+        options: {},
+        asking: null,
+        tool_wanted: false,
+        mode: "auto",
+        estop: { wired: false, on: false },
+        link: "ok",
+        can: {},
+      }),
+    );
+    this.stopped = new Signal(
+      /** @type {{ found: string[], holds: boolean, moving: string[], next: string }} */ ({
+        found: [],
+        holds: false,
+        moving: [],
+        next: "",
+      }),
+    );
+    this.lamp = new Signal(
+      /** @type {{ moving: string[], running: string[], drives: string[] }} */ ({
+        moving: [],
+        running: [],
+        drives: [],
+      }),
+    );
+    this.program = new Signal(
+      /** @type {{ loaded: Loaded | null, loading: any, line: number, file: string, text: string, batch: any }} */ ({
+        loaded: null,
+        loading: null,
+        line: 0,
+        file: "",
+        text: "",
+        batch: null,
+      }),
+    );
+    this.modals = new Signal(
+      /** @type {any} */ ({ codes: [], F: 0, S: 0, T: 0, D: 0, H: 0, spindle: 5, coolant: 0, work: "G54" }),
+    );
+    this.alarms = new Signal(
+      /** @type {{ active: any[], history: any[], bars_start: boolean }} */ ({
+        active: [],
+        history: [],
+        bars_start: false,
+      }),
+    );
     this.messages = new Signal(/** @type {{ shown: any[] }} */ ({ shown: [] }));
     this.control = new Signal(/** @type {any} */ ({ holder: null, you: false, asking: [], clients: [] }));
     this.overrides = new Signal(/** @type {any} */ ({}));
     this.home = new Signal(/** @type {{ axes: any[] }} */ ({ axes: [] }));
-    this.mdi = new Signal(/** @type {{ buffer: string[], on: boolean, running: boolean, queue: string[] }} */ ({ buffer: [], on: true, running: false, queue: [] }));
-    this.timeline = new Signal(/** @type {Times} */ ({ why: "", period_s: 0, still: false, away: false, speed: 1, branch: 0, most_bytes: 0, branches: [], bookmarks: [] }));
-    this.moment = new Signal(/** @type {{ tick: number, within: number, last: number, bytes: number }} */ ({ tick: 0, within: 0, last: 0, bytes: 0 }));
+    this.mdi = new Signal(
+      /** @type {{ buffer: string[], on: boolean, running: boolean, queue: string[] }} */ ({
+        buffer: [],
+        on: true,
+        running: false,
+        queue: [],
+      }),
+    );
+    this.timeline = new Signal(
+      /** @type {Times} */ ({
+        why: "",
+        period_s: 0,
+        still: false,
+        away: false,
+        speed: 1,
+        branch: 0,
+        most_bytes: 0,
+        branches: [],
+        bookmarks: [],
+      }),
+    );
+    this.moment = new Signal(
+      /** @type {{ tick: number, within: number, last: number, bytes: number }} */ ({
+        tick: 0,
+        within: 0,
+        last: 0,
+        bytes: 0,
+      }),
+    );
     this.says = new Signal(/** @type {{ text: string, at_s: number, homing: boolean }[]} */ ([]));
     this.changed = new Signal(/** @type {{ what: string, cells: number[] }} */ ({ what: "", cells: [] }));
     this.jogEnded = new Signal(/** @type {{ press: number, ended: string, text: string } | null} */ (null));
@@ -117,5 +198,20 @@ export class Model {
 }
 
 const EVENTS = Object.freeze({
-  state: 1, stopped: 1, lamp: 1, program: 1, modals: 1, alarms: 1, messages: 1, control: 1, overrides: 1, home: 1, mdi: 1, changed: 1, programs: 1, texts: 1, timeline: 1, moment: 1,
+  state: 1,
+  stopped: 1,
+  lamp: 1,
+  program: 1,
+  modals: 1,
+  alarms: 1,
+  messages: 1,
+  control: 1,
+  overrides: 1,
+  home: 1,
+  mdi: 1,
+  changed: 1,
+  programs: 1,
+  texts: 1,
+  timeline: 1,
+  moment: 1,
 });

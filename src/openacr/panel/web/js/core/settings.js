@@ -29,7 +29,8 @@ export function keepSetting(name, value) {
 /** Forget everything of the operator's workspace: RESIZE SCREEN. */
 export function forgetSettings() {
   try {
-    for (const name of Object.keys(window.localStorage)) if (name.startsWith(PREFIX) && !name.startsWith(`${PREFIX}bench.`)) window.localStorage.removeItem(name);
+    for (const name of Object.keys(window.localStorage))
+      if (name.startsWith(PREFIX) && !name.startsWith(`${PREFIX}bench.`)) window.localStorage.removeItem(name);
   } catch {
     // Nothing was kept.
   }

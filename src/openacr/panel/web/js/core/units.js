@@ -33,5 +33,9 @@ export function lengthFactor() {
 export function viewOf(axis) {
   const isLength = axis.unit !== "deg";
   const shown = shownUnit();
-  return { unit: isLength ? shown : axis.unit, decimals: axis.decimals[/** @type {"mm" | "inch"} */ (shown)], factor: isLength ? lengthFactor() : 1 };
+  return {
+    unit: isLength ? shown : axis.unit,
+    decimals: axis.decimals[/** @type {"mm" | "inch"} */ (shown)],
+    factor: isLength ? lengthFactor() : 1,
+  };
 }

@@ -34,7 +34,10 @@ export class Camera {
   /** @param {string} name */
   look(name) {
     const view = VIEWS[name];
-    const turn = (/** @type {Vector} */ [x, y, z]) => /** @type {Vector} */ (this.flip.exchange ? [y * this.flip.x, x * this.flip.y, z] : [x * this.flip.x, y * this.flip.y, z]);
+    const turn = (/** @type {Vector} */ [x, y, z]) =>
+      /** @type {Vector} */ (
+        this.flip.exchange ? [y * this.flip.x, x * this.flip.y, z] : [x * this.flip.x, y * this.flip.y, z]
+      );
     this.right = turn(view.right);
     this.up = turn(view.up);
     this.isFlat = view.isFlat;
@@ -62,8 +65,14 @@ export class Camera {
     const s = this.scale * ratio;
     const [r, u, m] = [this.right, this.up, this.middle];
     return [
-      s * r[0], s * r[1], s * r[2], (this.width * ratio) / 2 - s * dot(r, m),
-      -s * u[0], -s * u[1], -s * u[2], (this.height * ratio) / 2 + s * dot(u, m),
+      s * r[0],
+      s * r[1],
+      s * r[2],
+      (this.width * ratio) / 2 - s * dot(r, m),
+      -s * u[0],
+      -s * u[1],
+      -s * u[2],
+      (this.height * ratio) / 2 + s * dot(u, m),
     ];
   }
 
@@ -73,7 +82,8 @@ export class Camera {
    */
   fit(box) {
     this.middle = /** @type {Vector} */ ([0, 1, 2].map((n) => (box[n] + box[n + 3]) / 2));
-    const extent = (/** @type {Vector} */ way) => [0, 1, 2].reduce((sum, n) => sum + Math.abs(way[n]) * (box[n + 3] - box[n]), 0);
+    const extent = (/** @type {Vector} */ way) =>
+      [0, 1, 2].reduce((sum, n) => sum + Math.abs(way[n]) * (box[n + 3] - box[n]), 0);
     const [wide, high] = [Math.max(extent(this.right), 1e-6), Math.max(extent(this.up), 1e-6)];
     this.scale = FILL * Math.min(Math.max(1, this.width - this.inset) / wide, this.height / high, 1e6);
     this.pan(-this.inset / 2, 0);
@@ -84,11 +94,19 @@ export class Camera {
    * @param {Vector[]} points
    */
   fitPoints(points) {
-    const [[left, right], [low, high]] = [this.right, this.up].map((way) => ends(points.map((point) => dot(point, way))));
+    const [[left, right], [low, high]] = [this.right, this.up].map((way) =>
+      ends(points.map((point) => dot(point, way))),
+    );
     const out = cross(this.right, this.up);
     const [x, y, z] = [(left + right) / 2, (low + high) / 2, dot(this.middle, out)];
     this.middle = /** @type {Vector} */ ([0, 1, 2].map((n) => x * this.right[n] + y * this.up[n] + z * out[n]));
-    this.scale = FILL * Math.min(Math.max(1, this.width - this.inset) / Math.max(right - left, 1e-6), this.height / Math.max(high - low, 1e-6), 1e6);
+    this.scale =
+      FILL *
+      Math.min(
+        Math.max(1, this.width - this.inset) / Math.max(right - left, 1e-6),
+        this.height / Math.max(high - low, 1e-6),
+        1e6,
+      );
     this.pan(-this.inset / 2, 0);
   }
 
@@ -109,7 +127,9 @@ export class Camera {
    * @param {number} dy
    */
   pan(dx, dy) {
-    this.middle = /** @type {Vector} */ (this.middle.map((value, n) => value - (dx * this.right[n] - dy * this.up[n]) / this.scale));
+    this.middle = /** @type {Vector} */ (
+      this.middle.map((value, n) => value - (dx * this.right[n] - dy * this.up[n]) / this.scale)
+    );
   }
 
   /**

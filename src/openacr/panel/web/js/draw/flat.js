@@ -81,7 +81,8 @@ export function flatPainter(canvas) {
         pen.setLineDash(isMoving ? [] : dashes.map((each) => each * ratio));
         pen.beginPath();
         const apart = isMoving ? 2 * Math.max(1, Math.ceil(spans.length / 2 / THIN)) : 2;
-        for (let k = 0; k < spans.length && spans[k] < last; k += apart) trace(drawn.points, spans[k], Math.min(spans[k + 1], last), step);
+        for (let k = 0; k < spans.length && spans[k] < last; k += apart)
+          trace(drawn.points, spans[k], Math.min(spans[k + 1], last), step);
         pen.stroke();
       }
       pen.setLineDash([]);

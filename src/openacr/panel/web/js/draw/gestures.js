@@ -47,12 +47,16 @@ export function listenToGestures(area, { camera, moved, clicked }) {
       clicked(x, y);
     });
   }
-  area.addEventListener("wheel", (event) => {
-    const { x, y } = place(event);
-    camera.zoom(Math.exp(-event.deltaY / 400), x, y);
-    event.preventDefault();
-    isMoving();
-  }, { passive: false });
+  area.addEventListener(
+    "wheel",
+    (event) => {
+      const { x, y } = place(event);
+      camera.zoom(Math.exp(-event.deltaY / 400), x, y);
+      event.preventDefault();
+      isMoving();
+    },
+    { passive: false },
+  );
   area.addEventListener("contextmenu", (event) => event.preventDefault());
 
   /**
@@ -63,7 +67,10 @@ export function listenToGestures(area, { camera, moved, clicked }) {
   function pinch(id, before, now) {
     const other = [...fingers].find(([each]) => each !== id)?.[1];
     if (!other) return;
-    const [was, is] = [Math.hypot(before.x - other.x, before.y - other.y), Math.hypot(now.x - other.x, now.y - other.y)];
+    const [was, is] = [
+      Math.hypot(before.x - other.x, before.y - other.y),
+      Math.hypot(now.x - other.x, now.y - other.y),
+    ];
     camera.pan((now.x - before.x) / 2, (now.y - before.y) / 2);
     if (was > 1) camera.zoom(is / was, (now.x + other.x) / 2, (now.y + other.y) / 2);
   }

@@ -73,10 +73,22 @@ function turn([x, y, z], angle) {
   const [s, c] = [Math.sin(angle), Math.cos(angle)];
   const k = 1 - c;
   return [
-    c + k * x * x, k * x * y + s * z, k * x * z - s * y, 0,
-    k * x * y - s * z, c + k * y * y, k * y * z + s * x, 0,
-    k * x * z + s * y, k * y * z - s * x, c + k * z * z, 0,
-    0, 0, 0, 1,
+    c + k * x * x,
+    k * x * y + s * z,
+    k * x * z - s * y,
+    0,
+    k * x * y - s * z,
+    c + k * y * y,
+    k * y * z + s * x,
+    0,
+    k * x * z + s * y,
+    k * y * z - s * x,
+    c + k * z * z,
+    0,
+    0,
+    0,
+    0,
+    1,
   ];
 }
 

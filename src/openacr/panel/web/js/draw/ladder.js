@@ -59,10 +59,14 @@ export function drawRung(rung, nameOf) {
     wires.push({ net, element });
     return element;
   };
-  const rails = [0, width].map((x, n) => svg("line", { x1: x + (n ? -MARGIN : MARGIN), x2: x + (n ? -MARGIN : MARGIN), y1: 0, y2: height, class: "rail" }));
+  const rails = [0, width].map((x, n) =>
+    svg("line", { x1: x + (n ? -MARGIN : MARGIN), x2: x + (n ? -MARGIN : MARGIN), y1: 0, y2: height, class: "rail" }),
+  );
   const parts = [
     ...rails,
-    ...rung.wires.map((wire) => line(wire.net, [atColumn(wire.column), atRow(wire.row), atColumn(wire.to_column), atRow(wire.to_row)])),
+    ...rung.wires.map((wire) =>
+      line(wire.net, [atColumn(wire.column), atRow(wire.row), atColumn(wire.to_column), atRow(wire.to_row)]),
+    ),
     ...rung.symbols.flatMap((symbol) => {
       const [body, title] = [svg("g", { class: `symbol ${symbol.kind}` }), svg("title", {})];
       body.append(title, ...shapeOf(symbol), ...textsOf(symbol, nameOf));
@@ -72,7 +76,12 @@ export function drawRung(rung, nameOf) {
   ];
   const picture = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img", class: "rung-picture" });
   picture.append(...parts);
-  const element = h("figure.rung", {}, h("figcaption.rung-line.number", {}, String(rung.line)), h("div.rung-host", {}, picture));
+  const element = h(
+    "figure.rung",
+    {},
+    h("figcaption.rung-line.number", {}, String(rung.line)),
+    h("div.rung-host", {}, picture),
+  );
   return {
     element,
     /**
@@ -84,14 +93,18 @@ export function drawRung(rung, nameOf) {
       const power = carried(rung, stateOf, isRunning);
       for (const { net, element: wire } of wires) wire.classList.toggle("is-live", power[net]);
       for (const { symbol, body, title } of symbols) {
-        const isOn = symbol.kind === "contact" ? isClosed(symbol, stateOf) : symbol.flag !== null && stateOf(symbol.flag) === true;
+        const isOn =
+          symbol.kind === "contact" ? isClosed(symbol, stateOf) : symbol.flag !== null && stateOf(symbol.flag) === true;
         body.classList.toggle("is-on", isOn);
         setText(title, describe(symbol, stateOf, nameOf));
         const count = body.querySelector(".count");
         if (count && symbol.number !== null) setText(count, countOf(symbol.kind, symbol.number));
       }
       const ends = symbols.filter(({ symbol }) => !["contact", "not"].includes(symbol.kind));
-      picture.setAttribute("aria-label", [t("plc.rung", { line: rung.line }), ...ends.map(({ symbol }) => describe(symbol, stateOf, nameOf))].join(", "));
+      picture.setAttribute(
+        "aria-label",
+        [t("plc.rung", { line: rung.line }), ...ends.map(({ symbol }) => describe(symbol, stateOf, nameOf))].join(", "),
+      );
     },
   };
 }
@@ -122,19 +135,31 @@ const MARKS = Object.freeze({ set: "S", clear: "R", not: "NOT", coil: "", timer:
 /** @param {Symbol} symbol */
 function shapeOf(symbol) {
   const [x, y] = [atColumn(symbol.column) + WIDE / 2, atRow(symbol.row)];
-  const slash = symbol.is_negated ? [svg("line", { x1: x - 8, y1: y + 11, x2: x + 8, y2: y - 11, class: "slash" })] : [];
+  const slash = symbol.is_negated
+    ? [svg("line", { x1: x - 8, y1: y + 11, x2: x + 8, y2: y - 11, class: "slash" })]
+    : [];
   if (symbol.kind === "contact") {
     const bars = [-9, 9].map((dx) => svg("line", { x1: x + dx, y1: y - 13, x2: x + dx, y2: y + 13, class: "bar" }));
     return [svg("rect", { x: x - 9, y: y - 13, width: 18, height: 26, class: "fill" }), ...bars, ...slash];
   }
   const mark = MARKS[/** @type {keyof typeof MARKS} */ (symbol.kind)];
   if (symbol.number === null) {
-    const round = svg("rect", { x: x - 14, y: y - 13, width: 28, height: 26, rx: symbol.kind === "not" ? 3 : 13, class: "body fill" });
+    const round = svg("rect", {
+      x: x - 14,
+      y: y - 13,
+      width: 28,
+      height: 26,
+      rx: symbol.kind === "not" ? 3 : 13,
+      class: "body fill",
+    });
     return [round, ...slash, textAt(x, y + 4, mark, symbol.kind === "not" ? "mark small" : "mark")];
   }
   const low = symbol.reset_row === null ? y : atRow(symbol.reset_row);
   const box = svg("rect", { x: x - 34, y: y - 20, width: 68, height: low - y + 40, rx: 3, class: "body fill" });
-  const inputs = symbol.reset_row === null ? [] : [textAt(x - 27, y + 4, symbol.kind === "latch" ? "S" : "C", "small"), textAt(x - 27, low + 4, "R", "small")];
+  const inputs =
+    symbol.reset_row === null
+      ? []
+      : [textAt(x - 27, y + 4, symbol.kind === "latch" ? "S" : "C", "small"), textAt(x - 27, low + 4, "R", "small")];
   const counts = symbol.kind === "latch" ? [] : [textAt(x + (inputs.length ? 5 : 0), y + 13, "", "count small")];
   return [box, ...inputs, textAt(x + (inputs.length ? 5 : 0), y - 2, `${mark} ${symbol.number}`, "mark"), ...counts];
 }
@@ -148,7 +173,10 @@ function textsOf(symbol, nameOf) {
   if (symbol.flag === null || symbol.number !== null) return [];
   const [x, y] = [atColumn(symbol.column) + WIDE / 2, atRow(symbol.row)];
   const name = nameOf(symbol.flag);
-  return [textAt(x, y - 18, symbol.text, "flag"), ...linesOf(name).map((line, n) => textAt(x, y + 24 + LINE * n, line, "small"))];
+  return [
+    textAt(x, y - 18, symbol.text, "flag"),
+    ...linesOf(name).map((line, n) => textAt(x, y + 24 + LINE * n, line, "small")),
+  ];
 }
 
 /**
@@ -189,6 +217,9 @@ function textAt(x, y, text, looks) {
 function describe(symbol, stateOf, nameOf) {
   if (symbol.flag === null) return "NOT";
   const state = stateOf(symbol.flag);
-  const what = symbol.number === null ? `BIT ${symbol.flag}` : `${MARKS[/** @type {keyof typeof MARKS} */ (symbol.kind)]} ${symbol.number}`;
+  const what =
+    symbol.number === null
+      ? `BIT ${symbol.flag}`
+      : `${MARKS[/** @type {keyof typeof MARKS} */ (symbol.kind)]} ${symbol.number}`;
   return `${[what, nameOf(symbol.flag)].filter(Boolean).join(" ")}: ${state === undefined ? "\u2013" : t(state ? "io.on" : "io.off")}`;
 }

@@ -1,5 +1,17 @@
 // A machine in three dimensions: rails, bodies and switches of its axes, signs of its devices, the ground.
-import { Box3, BufferAttribute, BufferGeometry, DirectionalLight, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, Scene, Vector3, WebGLRenderer } from "../../vendor/three.js";
+import {
+  Box3,
+  BufferAttribute,
+  BufferGeometry,
+  DirectionalLight,
+  HemisphereLight,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from "../../vendor/three.js";
 import { along, frames } from "./kinematics.js";
 import { OTHER, bodyFrom, box, partsOf, signColour, tint } from "./solids.js";
 import { follow, newView } from "./view.js";
@@ -42,7 +54,9 @@ export function machinePainter(canvas, links, devices) {
     if (link === null) extent.expandByPoint(new Vector3(...at).addScalar(unit));
   });
   const floor = extent.min.z;
-  const posts = parts.flatMap(({ fixed }, n) => (links[n].parent === null && !links[n].is_rotary ? postsOf(links[n], fixed, floor) : []));
+  const posts = parts.flatMap(({ fixed }, n) =>
+    links[n].parent === null && !links[n].is_rotary ? postsOf(links[n], fixed, floor) : [],
+  );
   if (posts.length) scene.add(...posts);
   const grid = groundOf(extent, floor);
   scene.add(grid);
@@ -134,7 +148,10 @@ export function machinePainter(canvas, links, devices) {
 function reach(links, parts) {
   const extent = new Box3();
   for (const end of /** @type {const} */ (["low", "high"])) {
-    const found = frames(links, links.map((link) => link[end] / link.per_unit));
+    const found = frames(
+      links,
+      links.map((link) => link[end] / link.per_unit),
+    );
     parts.forEach(({ fixed, moving }, n) => {
       fixed.matrix.fromArray(found[n].fixed);
       moving.matrix.fromArray(found[n].moving);
@@ -173,7 +190,9 @@ function postsOf(link, fixed, floor) {
 function cornersOf(mesh) {
   if (!mesh.geometry.boundingBox) mesh.geometry.computeBoundingBox();
   const { min, max } = /** @type {Box3} */ (mesh.geometry.boundingBox);
-  return [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => pointOf(mesh.matrixWorld.elements, [x, y, z]))));
+  return [min.x, max.x].flatMap((x) =>
+    [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => pointOf(mesh.matrixWorld.elements, [x, y, z]))),
+  );
 }
 
 /**
@@ -183,18 +202,24 @@ function cornersOf(mesh) {
  */
 function groundOf(extent, floor) {
   const step = roundUp(Math.max(extent.max.x - extent.min.x, extent.max.y - extent.min.y, 1) / CELLS);
-  const ends = (/** @type {"x" | "y"} */ side) => [step * (Math.floor(extent.min[side] / step) - 1), step * (Math.ceil(extent.max[side] / step) + 1)];
+  const ends = (/** @type {"x" | "y"} */ side) => [
+    step * (Math.floor(extent.min[side] / step) - 1),
+    step * (Math.ceil(extent.max[side] / step) + 1),
+  ];
   const [[left, right], [near, far]] = [ends("x"), ends("y")];
   const points = [];
   for (let x = left; x < right + step / 2; x += step) points.push(x, near, floor, x, far, floor);
   for (let y = near; y < far + step / 2; y += step) points.push(left, y, floor, right, y, floor);
-  return new LineSegments(new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3)), new LineBasicMaterial());
+  return new LineSegments(
+    new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3)),
+    new LineBasicMaterial(),
+  );
 }
 
 /** The next of 1, 2, 5, 10 ... @param {number} value */
 function roundUp(value) {
   const power = 10 ** Math.floor(Math.log10(value));
-  return power * (/** @type {number} */ ([1, 2, 5, 10].find((each) => each * power >= value * 0.999)));
+  return power * /** @type {number} */ ([1, 2, 5, 10].find((each) => each * power >= value * 0.999));
 }
 
 /**
@@ -207,7 +232,8 @@ function roundUp(value) {
  * @returns {{ link: number | null, at: Point }}
  */
 function placeOf({ sign }, n, links, extent, unit) {
-  if (!sign) return { link: null, at: [extent.min.x + (4 * n + 1) * unit, extent.min.y - 3 * unit, extent.min.z + unit / 2] };
+  if (!sign)
+    return { link: null, at: [extent.min.x + (4 * n + 1) * unit, extent.min.y - 3 * unit, extent.min.z + unit / 2] };
   const link = links.findIndex((each) => each.name.toUpperCase() === sign.parent.toUpperCase());
   return { link: link < 0 ? null : link, at: sign.at };
 }
@@ -218,5 +244,7 @@ function placeOf({ sign }, n, links, extent, unit) {
  * @returns {Point}
  */
 function pointOf(matrix, [x, y, z]) {
-  return /** @type {Point} */ ([0, 1, 2].map((row) => matrix[row] * x + matrix[row + 4] * y + matrix[row + 8] * z + matrix[row + 12]));
+  return /** @type {Point} */ (
+    [0, 1, 2].map((row) => matrix[row] * x + matrix[row + 4] * y + matrix[row + 8] * z + matrix[row + 12])
+  );
 }

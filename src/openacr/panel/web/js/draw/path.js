@@ -37,9 +37,14 @@ function readPath(data) {
   const after = HEAD + 16 * n;
   const blank = [...new Float32Array(data, 60, 6)];
   return {
-    points: new Float32Array(data, HEAD, 3 * n), lines: new Uint32Array(data, HEAD + 12 * n, n), starts: new Uint32Array(data, after, m),
-    kinds: new Uint8Array(data, after + 4 * m, m), colors: new Uint8Array(data, after + 5 * m, m),
-    box: [...new Float32Array(data, 16, 6)], seconds: view.getFloat64(40, true), zero: [...new Float32Array(data, 48, 3)],
+    points: new Float32Array(data, HEAD, 3 * n),
+    lines: new Uint32Array(data, HEAD + 12 * n, n),
+    starts: new Uint32Array(data, after, m),
+    kinds: new Uint8Array(data, after + 4 * m, m),
+    colors: new Uint8Array(data, after + 5 * m, m),
+    box: [...new Float32Array(data, 16, 6)],
+    seconds: view.getFloat64(40, true),
+    zero: [...new Float32Array(data, 48, 3)],
     blank: blank.some(Number.isNaN) ? null : blank,
   };
 }

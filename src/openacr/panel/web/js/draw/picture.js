@@ -35,7 +35,9 @@ const CROSS = "M0 -14V14M-14 0H14M-6 0A6 6 0 1 0 6 0A6 6 0 1 0 -6 0";
  * @returns {Promise<Picture>}
  */
 export async function createPicture(host, endings, { clicked = () => {}, hasTool = false, more = [] } = {}) {
-  const [ground, material, strokes, over] = ["ground", "material", "strokes", "over"].map((layer) => h("canvas", { ariaHidden: "true", data: { layer } }));
+  const [ground, material, strokes, over] = ["ground", "material", "strokes", "over"].map((layer) =>
+    h("canvas", { ariaHidden: "true", data: { layer } }),
+  );
   const tool = toolCursor();
   tool.style.display = hasTool ? "" : "none";
   const keys = h("div.view-keys", { role: "group", ariaLabel: t("graphics.views") });
@@ -55,12 +57,13 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
   let place = [0, 0, 0];
   let { colors, pens } = readColors(area);
 
-  const contexts = () => [ground, over].map((each) => {
-    const pen = /** @type {CanvasRenderingContext2D} */ (each.getContext("2d"));
-    const ratio = each.width / Math.max(1, camera.width);
-    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    return pen;
-  });
+  const contexts = () =>
+    [ground, over].map((each) => {
+      const pen = /** @type {CanvasRenderingContext2D} */ (each.getContext("2d"));
+      const ratio = each.width / Math.max(1, camera.width);
+      pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+      return pen;
+    });
   /** @type {import("./path.js").Style[]} */
   let styles = [];
   const looks = () => styles.map(({ kind, color }) => lookOf(kind, pens[color], colors.rapid));
@@ -107,12 +110,15 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
   function look(/** @type {string} */ name) {
     view = name;
     camera.look(name);
-    for (const key of keys.querySelectorAll("button[data-view]")) key.setAttribute("aria-pressed", String(/** @type {HTMLElement} */ (key).dataset.view === name));
+    for (const key of keys.querySelectorAll("button[data-view]"))
+      key.setAttribute("aria-pressed", String(/** @type {HTMLElement} */ (key).dataset.view === name));
     fit();
   }
 
   keys.append(
-    ...["top", "front", "side", "iso"].map((name) => keyOf(/** @type {any} */ (`graphics.${name}`), () => look(name), "", { data: { view: name } })),
+    ...["top", "front", "side", "iso"].map((name) =>
+      keyOf(/** @type {any} */ (`graphics.${name}`), () => look(name), "", { data: { view: name } }),
+    ),
     keyOf("graphics.fit", fit),
     h("button.key", { type: "button", ariaLabel: t("graphics.in"), onclick: () => zoom(1.4) }, "+"),
     h("button.key", { type: "button", ariaLabel: t("graphics.out"), onclick: () => zoom(1 / 1.4) }, "\u2212"),
@@ -136,7 +142,11 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
   sizes.observe(area);
   const themed = () => repaint();
   document.documentElement.addEventListener("theme", themed);
-  endings.add(() => sizes.disconnect(), () => painter.close(), () => document.documentElement.removeEventListener("theme", themed));
+  endings.add(
+    () => sizes.disconnect(),
+    () => painter.close(),
+    () => document.documentElement.removeEventListener("theme", themed),
+  );
 
   return {
     setPath(next) {

@@ -1,6 +1,11 @@
 // Strokes by WebGL: the points stay on the graphics card, only the camera changes.
 import {
-  BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Scene, WebGLRenderer,
+  BufferAttribute,
+  BufferGeometry,
+  LineBasicMaterial,
+  LineSegments,
+  Scene,
+  WebGLRenderer,
 } from "../../vendor/three.js";
 import { thinning } from "./flat.js";
 import { follow, newView } from "./view.js";
@@ -50,7 +55,11 @@ export function solidPainter(canvas) {
       const step = thinning(drawing);
       strokes = drawing.strokes.map((spans) => {
         const index = pairs(spans, 1);
-        return { whole: add(places, index), thin: add(places, step > 1 ? pairs(spans, step) : index), ends: index.filter((_each, n) => n % 2 === 1) };
+        return {
+          whole: add(places, index),
+          thin: add(places, step > 1 ? pairs(spans, step) : index),
+          ends: index.filter((_each, n) => n % 2 === 1),
+        };
       });
       cut = add(places, pairs(new Uint32Array([0, Math.max(0, drawing.points.length / 3 - 1)]), 1));
     },

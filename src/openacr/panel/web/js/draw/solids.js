@@ -1,5 +1,17 @@
 // The solids of which the drawing of a machine is made: rails, hubs, bodies, switches.
-import { BoxGeometry, CylinderGeometry, EdgesGeometry, GLTFLoader, Group, LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, STLLoader, Vector3 } from "../../vendor/three.js";
+import {
+  BoxGeometry,
+  CylinderGeometry,
+  EdgesGeometry,
+  GLTFLoader,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshLambertMaterial,
+  STLLoader,
+  Vector3,
+} from "../../vendor/three.js";
 import { along } from "./kinematics.js";
 
 /**
@@ -21,8 +33,15 @@ export function partsOf(link) {
   const [fixed, moving] = [new Group(), new Group()];
   for (const group of [fixed, moving]) group.matrixAutoUpdate = false;
   const { rail, direction, low, high } = link;
-  const rails = [link.is_rotary ? hub(direction, 1.1 * rail, 0.9 * rail) : bar(direction, low - 0.6 * rail, high + 0.6 * rail, 0.8 * rail)];
-  const ends = link.has_ends && !link.is_rotary ? [low - 0.6 * rail, high + 0.4 * rail].map((from) => bar(direction, from, from + 0.2 * rail, 1.5 * rail)) : [];
+  const rails = [
+    link.is_rotary
+      ? hub(direction, 1.1 * rail, 0.9 * rail)
+      : bar(direction, low - 0.6 * rail, high + 0.6 * rail, 0.8 * rail),
+  ];
+  const ends =
+    link.has_ends && !link.is_rotary
+      ? [low - 0.6 * rail, high + 0.4 * rail].map((from) => bar(direction, from, from + 0.2 * rail, 1.5 * rail))
+      : [];
   const switches = link.switches.map((each) => switchOf(link, each.low, each.high));
   const body = box(link.size, colourOf(link));
   body.position.set(...link.at);
@@ -77,7 +96,11 @@ function switchOf(link, low, high) {
   aside.normalize();
   if (link.is_rotary) {
     const sign = box([thick, thick, thick], OTHER);
-    sign.position.copy(aside.multiplyScalar(2.9 * link.rail).applyAxisAngle(new Vector3(...link.direction), ((low + high) / 360) * Math.PI));
+    sign.position.copy(
+      aside
+        .multiplyScalar(2.9 * link.rail)
+        .applyAxisAngle(new Vector3(...link.direction), ((low + high) / 360) * Math.PI),
+    );
     return sign;
   }
   const middle = (low + high) / 2;

@@ -40,9 +40,17 @@ function readStock(data) {
   const [x, y, cell, bottom, top] = [16, 20, 24, 28, 32].map((at) => view.getFloat32(at, true));
   const after = HEAD + 4 * (rapids + belows);
   return {
-    columns, rows, x, y, cell, bottom, top,
-    rapidLines: new Uint32Array(data, HEAD, rapids), belowLines: new Uint32Array(data, HEAD + 4 * rapids, belows),
-    heights: new Uint16Array(data, after, columns * rows), marks: new Uint8Array(data, after + 2 * columns * rows, columns * rows),
+    columns,
+    rows,
+    x,
+    y,
+    cell,
+    bottom,
+    top,
+    rapidLines: new Uint32Array(data, HEAD, rapids),
+    belowLines: new Uint32Array(data, HEAD + 4 * rapids, belows),
+    heights: new Uint16Array(data, after, columns * rows),
+    marks: new Uint8Array(data, after + 2 * columns * rows, columns * rows),
   };
 }
 
@@ -121,7 +129,10 @@ function shadesOf(stock) {
     const [before, after] = [Math.max(0, row - 1) * columns, Math.min(rows - 1, row + 1) * columns];
     for (let column = 0; column < columns; column++) {
       const at = row * columns + column;
-      const dx = (heights[row * columns + Math.min(columns - 1, column + 1)] - heights[row * columns + Math.max(0, column - 1)]) * scale;
+      const dx =
+        (heights[row * columns + Math.min(columns - 1, column + 1)] -
+          heights[row * columns + Math.max(0, column - 1)]) *
+        scale;
       const dy = (heights[after + column] - heights[before + column]) * scale;
       const light = (-dx * lx - dy * ly + lz) / Math.sqrt(dx * dx + dy * dy + 1);
       const depth = heights[at] / FULL; // deeper is darker, so that floors differ in the view from above
@@ -167,11 +178,18 @@ function fill(stock, shades, camera, ratio, palette, isMoving, image, depths) {
   };
   const pixels = new Uint32Array(image.data.buffer);
   const triangle = filler(pixels, depths, image.width, image.height);
-  const quad = (/** @type {Float32Array} */ one, /** @type {Float32Array} */ two, /** @type {number} */ n, /** @type {number} */ m, /** @type {number} */ color) => {
+  const quad = (
+    /** @type {Float32Array} */ one,
+    /** @type {Float32Array} */ two,
+    /** @type {number} */ n,
+    /** @type {number} */ m,
+    /** @type {number} */ color,
+  ) => {
     triangle(one, 3 * n, one, 3 * m, two, 3 * n, color);
     triangle(one, 3 * m, two, 3 * m, two, 3 * n, color);
   };
-  const side = (/** @type {[number, number, number]} */ normal) => tint(palette[0], Math.round(210 * Math.max(0.45, dot(normal, LIGHT))));
+  const side = (/** @type {[number, number, number]} */ normal) =>
+    tint(palette[0], Math.round(210 * Math.max(0.45, dot(normal, LIGHT))));
   let [behind, ahead] = [new Float32Array(3 * wide), new Float32Array(3 * wide)];
   const [footBehind, footAhead] = [new Float32Array(3 * wide), new Float32Array(3 * wide)];
   place(0, behind, false);
@@ -186,7 +204,8 @@ function fill(stock, shades, camera, ratio, palette, isMoving, image, depths) {
       const mark = marks[at] || marks[next * columns + across[n]] || marks[at + across[n + 1] - across[n]];
       quad(behind, ahead, n, n + 1, tint(palette[mark & RAPID ? 1 : mark & BELOW ? 2 : 0], mark ? 255 : shades[at]));
     }
-    for (const n of [0, wide - 1]) wall(triangle, behind, ahead, footBehind, footAhead, 3 * n, side([n ? 1 : -1, 0, 0]));
+    for (const n of [0, wide - 1])
+      wall(triangle, behind, ahead, footBehind, footAhead, 3 * n, side([n ? 1 : -1, 0, 0]));
     [behind, ahead] = [ahead, behind];
     footBehind.set(footAhead);
     row = next;
@@ -227,9 +246,15 @@ function filler(pixels, depths, width, height) {
    * @param {number} color
    */
   return (A, a, B, b, C, c, color) => {
-    const x0 = A[a], y0 = A[a + 1], z0 = A[a + 2];
-    const x1 = B[b], y1 = B[b + 1], z1 = B[b + 2];
-    const x2 = C[c], y2 = C[c + 1], z2 = C[c + 2];
+    const x0 = A[a],
+      y0 = A[a + 1],
+      z0 = A[a + 2];
+    const x1 = B[b],
+      y1 = B[b + 1],
+      z1 = B[b + 2];
+    const x2 = C[c],
+      y2 = C[c + 1],
+      z2 = C[c + 2];
     const area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0);
     if (area === 0) return;
     const left = Math.max(0, Math.floor(Math.min(x0, x1, x2)));
@@ -238,7 +263,8 @@ function filler(pixels, depths, width, height) {
     const foot = Math.min(height - 1, Math.ceil(Math.max(y0, y1, y2)));
     for (let y = top; y <= foot; y++) {
       for (let x = left; x <= right; x++) {
-        const px = x + 0.5 - x0, py = y + 0.5 - y0;
+        const px = x + 0.5 - x0,
+          py = y + 0.5 - y0;
         const v = (px * (y2 - y0) - py * (x2 - x0)) / area;
         const w = (py * (x1 - x0) - px * (y1 - y0)) / area;
         if (v < -1e-4 || w < -1e-4 || v + w > 1.0001) continue;

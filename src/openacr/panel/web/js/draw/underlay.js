@@ -31,8 +31,10 @@ function paintGrid(pen, camera, colors, zero) {
   pen.strokeStyle = colors.grid;
   pen.lineWidth = 1;
   pen.beginPath();
-  for (let x = ((x0 % gap) + gap) % gap; x < camera.width; x += gap) line(pen, Math.round(x) + 0.5, 0, Math.round(x) + 0.5, camera.height);
-  for (let y = ((y0 % gap) + gap) % gap; y < camera.height; y += gap) line(pen, 0, Math.round(y) + 0.5, camera.width, Math.round(y) + 0.5);
+  for (let x = ((x0 % gap) + gap) % gap; x < camera.width; x += gap)
+    line(pen, Math.round(x) + 0.5, 0, Math.round(x) + 0.5, camera.height);
+  for (let y = ((y0 % gap) + gap) % gap; y < camera.height; y += gap)
+    line(pen, 0, Math.round(y) + 0.5, camera.width, Math.round(y) + 0.5);
   pen.stroke();
   pen.fillStyle = colors.text;
   pen.font = "12px system-ui, sans-serif";
@@ -48,7 +50,11 @@ function paintGrid(pen, camera, colors, zero) {
 function paintOrigin(pen, camera, colors, zero) {
   const arm = 34 / camera.scale;
   const from = camera.project(zero[0], zero[1], zero[2]);
-  const arms = /** @type {[string, [number, number, number]][]} */ ([["X", [arm, 0, 0]], ["Y", [0, arm, 0]], ["Z", [0, 0, arm]]]);
+  const arms = /** @type {[string, [number, number, number]][]} */ ([
+    ["X", [arm, 0, 0]],
+    ["Y", [0, arm, 0]],
+    ["Z", [0, 0, arm]],
+  ]);
   pen.strokeStyle = pen.fillStyle = colors.text;
   pen.lineWidth = 1.5;
   pen.font = "600 12px system-ui, sans-serif";
@@ -76,7 +82,8 @@ function paintBox(pen, camera, box, { color, width, dashes }) {
   for (let corner = 0; corner < 8; corner++) {
     for (const bit of [1, 2, 4]) {
       if (corner & bit) continue;
-      const at = (/** @type {number} */ which) => camera.project(box[which & 1 ? 3 : 0], box[which & 2 ? 4 : 1], box[which & 4 ? 5 : 2]);
+      const at = (/** @type {number} */ which) =>
+        camera.project(box[which & 1 ? 3 : 0], box[which & 2 ? 4 : 1], box[which & 4 ? 5 : 2]);
       line(pen, ...at(corner), ...at(corner | bit));
     }
   }
@@ -98,7 +105,8 @@ export function paintChosen(pen, camera, color, path, chosen) {
   pen.lineCap = "round";
   pen.beginPath();
   for (let at = path.lines.indexOf(chosen); at > 0 && at < path.lines.length; at = path.lines.indexOf(chosen, at + 1)) {
-    const place = (/** @type {number} */ n) => camera.project(path.points[3 * n], path.points[3 * n + 1], path.points[3 * n + 2]);
+    const place = (/** @type {number} */ n) =>
+      camera.project(path.points[3 * n], path.points[3 * n + 1], path.points[3 * n + 2]);
     line(pen, ...place(at - 1), ...place(at));
   }
   pen.stroke();
@@ -118,8 +126,14 @@ export function lineAt(camera, path, x, y) {
   for (let part = 0; part < path.starts.length; part++) {
     for (let at = path.starts[part] + 1; at < endOf(path, part); at++) {
       const [j, k] = [3 * at - 3, 3 * at];
-      const [x0, y0] = [a * points[j] + b * points[j + 1] + c * points[j + 2] + d, e * points[j] + f * points[j + 1] + g * points[j + 2] + i];
-      const [dx, dy] = [a * points[k] + b * points[k + 1] + c * points[k + 2] + d - x0, e * points[k] + f * points[k + 1] + g * points[k + 2] + i - y0];
+      const [x0, y0] = [
+        a * points[j] + b * points[j + 1] + c * points[j + 2] + d,
+        e * points[j] + f * points[j + 1] + g * points[j + 2] + i,
+      ];
+      const [dx, dy] = [
+        a * points[k] + b * points[k + 1] + c * points[k + 2] + d - x0,
+        e * points[k] + f * points[k + 1] + g * points[k + 2] + i - y0,
+      ];
       const along = Math.min(1, Math.max(0, ((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1)));
       const away = Math.hypot(x - x0 - along * dx, y - y0 - along * dy);
       if (away < best) [best, found] = [away, lines[at]];

@@ -21,6 +21,23 @@ export function follow(view, camera) {
   view.updateProjectionMatrix();
   const [r, u] = [camera.right, camera.up];
   const out = cross(r, u);
-  view.matrix.set(r[0], u[0], out[0], camera.middle[0], r[1], u[1], out[1], camera.middle[1], r[2], u[2], out[2], camera.middle[2], 0, 0, 0, 1);
+  view.matrix.set(
+    r[0],
+    u[0],
+    out[0],
+    camera.middle[0],
+    r[1],
+    u[1],
+    out[1],
+    camera.middle[1],
+    r[2],
+    u[2],
+    out[2],
+    camera.middle[2],
+    0,
+    0,
+    0,
+    1,
+  );
   view.matrixWorldNeedsUpdate = true;
 }

@@ -2,7 +2,19 @@
 import { h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import {
-  EditorState, EditorView, defaultKeymap, drawSelection, forceLinting, highlightActiveLine, highlightActiveLineGutter, history, historyKeymap, keymap, lineNumbers, search, searchKeymap,
+  EditorState,
+  EditorView,
+  defaultKeymap,
+  drawSelection,
+  forceLinting,
+  highlightActiveLine,
+  highlightActiveLineGutter,
+  history,
+  historyKeymap,
+  keymap,
+  lineNumbers,
+  search,
+  searchKeymap,
   tooltips,
 } from "../../vendor/codemirror.js";
 import { applyEdits, language } from "./language.js";
@@ -32,21 +44,50 @@ export function createControllerEditor(host, { name, setup, text, found, changed
   const place = h("div.editor", {});
   host.replaceChildren(place);
   const root = place.attachShadow({ mode: "open" });
-  const own = Object.entries(keys).map(([key, does]) => ({ key, preventDefault: true, run: () => { does(); return true; } }));
+  const own = Object.entries(keys).map(([key, does]) => ({
+    key,
+    preventDefault: true,
+    run: () => {
+      does();
+      return true;
+    },
+  }));
   const state = EditorState.create({ doc: text });
   const synced = new SyncedText(name, setup, state.doc);
-  const view = new EditorView({ root, parent: root, state: EditorState.create({ doc: state.doc, extensions: [
-    lineNumbers(), history(), drawSelection(), highlightActiveLine(), highlightActiveLineGutter(), search({ top: true }), LOOKS, ABOUT, tooltips({ position: "absolute", tooltipSpace: () => host.getBoundingClientRect() }), findTexts(),
-    EditorView.updateListener.of((update) => {
-      if (update.docChanged) {
-        synced.changed(update.changes, update.state.doc);
-        changed(update.changes);
-      }
-      if (update.docChanged || update.selectionSet) moved();
+  const view = new EditorView({
+    root,
+    parent: root,
+    state: EditorState.create({
+      doc: state.doc,
+      extensions: [
+        lineNumbers(),
+        history(),
+        drawSelection(),
+        highlightActiveLine(),
+        highlightActiveLineGutter(),
+        search({ top: true }),
+        LOOKS,
+        ABOUT,
+        tooltips({ position: "absolute", tooltipSpace: () => host.getBoundingClientRect() }),
+        findTexts(),
+        EditorView.updateListener.of((update) => {
+          if (update.docChanged) {
+            synced.changed(update.changes, update.state.doc);
+            changed(update.changes);
+          }
+          if (update.docChanged || update.selectionSet) moved();
+        }),
+        language(synced, found),
+        lineMarks,
+        keymap.of([...own, ...defaultKeymap, ...historyKeymap, ...searchKeymap]),
+        EditorView.contentAttributes.of({
+          "aria-label": t("texts.text"),
+          spellcheck: "false",
+          autocapitalize: "characters",
+        }),
+      ],
     }),
-    language(synced, found), lineMarks, keymap.of([...own, ...defaultKeymap, ...historyKeymap, ...searchKeymap]),
-    EditorView.contentAttributes.of({ "aria-label": t("texts.text"), spellcheck: "false", autocapitalize: "characters" }),
-  ] }) });
+  });
   forceLinting(view);
 
   /** The place of the cursor, for questions. */

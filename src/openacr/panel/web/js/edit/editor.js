@@ -2,8 +2,25 @@
 import { h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import {
-  Compartment, EditorState, EditorView, HighlightStyle, defaultKeymap, drawSelection, forceLinting, highlightActiveLine, highlightActiveLineGutter, history, historyKeymap,
-  keymap, lineNumbers, lintGutter, linter, search, searchKeymap, syntaxHighlighting, tags,
+  Compartment,
+  EditorState,
+  EditorView,
+  HighlightStyle,
+  defaultKeymap,
+  drawSelection,
+  forceLinting,
+  highlightActiveLine,
+  highlightActiveLineGutter,
+  history,
+  historyKeymap,
+  keymap,
+  lineNumbers,
+  lintGutter,
+  linter,
+  search,
+  searchKeymap,
+  syntaxHighlighting,
+  tags,
 } from "../../vendor/codemirror.js";
 import { gcode } from "./gcode.js";
 import { LOOKS, findTexts } from "./looks.js";
@@ -37,21 +54,48 @@ export function createEditor(host, { check, found, changed }) {
   const root = place.attachShadow({ mode: "open" });
   const readOnly = new Compartment();
   let isReadOnly = false;
-  const findings = linter(async (view) => {
-    const doc = view.state.doc;
-    const list = doc.length > MOST_CHECKED ? [] : await check(doc.toString());
-    if (view.state.doc !== doc) return []; // of an older text: its answer may even come after that of the new one
-    found(list);
-    return list.filter((each) => each.line >= 1 && each.line <= view.state.doc.lines).map((each) => {
-      const line = view.state.doc.line(each.line);
-      const from = Math.min(line.to, line.from + Math.max(0, each.column - 1));
-      return { from, to: Math.min(line.to, from + 1), severity: each.severity, message: `${each.code} ${each.text}` };
-    });
-  }, { delay: CHECK_MS });
+  const findings = linter(
+    async (view) => {
+      const doc = view.state.doc;
+      const list = doc.length > MOST_CHECKED ? [] : await check(doc.toString());
+      if (view.state.doc !== doc) return []; // of an older text: its answer may even come after that of the new one
+      found(list);
+      return list
+        .filter((each) => each.line >= 1 && each.line <= view.state.doc.lines)
+        .map((each) => {
+          const line = view.state.doc.line(each.line);
+          const from = Math.min(line.to, line.from + Math.max(0, each.column - 1));
+          return {
+            from,
+            to: Math.min(line.to, from + 1),
+            severity: each.severity,
+            message: `${each.code} ${each.text}`,
+          };
+        });
+    },
+    { delay: CHECK_MS },
+  );
   const extensions = [
-    lineNumbers(), lintGutter(), history(), drawSelection(), highlightActiveLine(), highlightActiveLineGutter(), search({ top: true }), findTexts(), gcode, syntaxHighlighting(COLORS), LOOKS, findings,
-    keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap]), readOnly.of(EditorState.readOnly.of(false)), EditorView.updateListener.of((update) => update.docChanged && changed()),
-    EditorView.contentAttributes.of({ "aria-label": t("edit.text"), spellcheck: "false", autocapitalize: "characters" }),
+    lineNumbers(),
+    lintGutter(),
+    history(),
+    drawSelection(),
+    highlightActiveLine(),
+    highlightActiveLineGutter(),
+    search({ top: true }),
+    findTexts(),
+    gcode,
+    syntaxHighlighting(COLORS),
+    LOOKS,
+    findings,
+    keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap]),
+    readOnly.of(EditorState.readOnly.of(false)),
+    EditorView.updateListener.of((update) => update.docChanged && changed()),
+    EditorView.contentAttributes.of({
+      "aria-label": t("edit.text"),
+      spellcheck: "false",
+      autocapitalize: "characters",
+    }),
   ];
   const view = new EditorView({ root, parent: root, state: EditorState.create({ extensions }) });
   return {
@@ -76,7 +120,10 @@ export function createEditor(host, { check, found, changed }) {
      */
     goTo(line, column) {
       const at = view.state.doc.line(Math.min(Math.max(1, line), view.state.doc.lines));
-      view.dispatch({ selection: { anchor: Math.min(at.to, at.from + Math.max(0, column - 1)) }, scrollIntoView: true });
+      view.dispatch({
+        selection: { anchor: Math.min(at.to, at.from + Math.max(0, column - 1)) },
+        scrollIntoView: true,
+      });
       view.focus();
     },
   };

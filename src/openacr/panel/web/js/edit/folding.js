@@ -1,6 +1,16 @@
 // Programs, blocks and remarks fold to their first lines, as the server names them.
 import { t } from "../core/texts.js";
-import { EditorState, EditorView, StateEffect, StateField, codeFolding, foldGutter, foldKeymap, foldService, keymap } from "../../vendor/codemirror.js";
+import {
+  EditorState,
+  EditorView,
+  StateEffect,
+  StateField,
+  codeFolding,
+  foldGutter,
+  foldKeymap,
+  foldService,
+  keymap,
+} from "../../vendor/codemirror.js";
 import { asking } from "./seen_lines.js";
 
 /**
@@ -42,14 +52,23 @@ function moved(known, changes, doc) {
  * @param {Text} doc
  * @returns {Folds}
  */
-const foldsOf = (rows, doc) => new Map(rows.map(([first, last]) => {
-  const line = doc.line(first + 1);
-  return [line.from, { from: line.to, to: doc.line(last + 1).to }];
-}));
+const foldsOf = (rows, doc) =>
+  new Map(
+    rows.map(([first, last]) => {
+      const line = doc.line(first + 1);
+      return [line.from, { from: line.to, to: doc.line(last + 1).to }];
+    }),
+  );
 
 const LOOKS = EditorView.theme({
   ".cm-foldGutter .cm-gutterElement": { cursor: "pointer", width: "1.2em", textAlign: "center" },
-  ".cm-foldPlaceholder": { backgroundColor: "var(--raised)", border: "1px solid var(--edge-strong)", color: "var(--text)", padding: "0 0.5em", margin: "0 0.3em" },
+  ".cm-foldPlaceholder": {
+    backgroundColor: "var(--raised)",
+    border: "1px solid var(--edge-strong)",
+    color: "var(--text)",
+    padding: "0 0.5em",
+    margin: "0 0.3em",
+  },
 });
 
 /** @param {import("./synced.js").SyncedText} text */
@@ -62,12 +81,21 @@ export function folding(text) {
   }
 
   return [
-    folds, asking(ask, (update) => update.docChanged), LOOKS, codeFolding(), keymap.of(foldKeymap),
+    folds,
+    asking(ask, (update) => update.docChanged),
+    LOOKS,
+    codeFolding(),
+    keymap.of(foldKeymap),
     foldService.of((state, lineStart) => state.field(folds).get(lineStart) ?? null),
     foldGutter({ foldingChanged: (update) => update.startState.field(folds) !== update.state.field(folds) }),
     EditorState.phrases.of({
-      "Fold line": t("texts.fold"), "Unfold line": t("texts.unfold"), unfold: t("texts.unfold"), "folded code": t("texts.folded"),
-      "Folded lines": t("texts.folded"), "Unfolded lines": t("texts.unfolded"), to: t("texts.foldto"),
+      "Fold line": t("texts.fold"),
+      "Unfold line": t("texts.unfold"),
+      unfold: t("texts.unfold"),
+      "folded code": t("texts.folded"),
+      "Folded lines": t("texts.folded"),
+      "Unfolded lines": t("texts.unfolded"),
+      to: t("texts.foldto"),
     }),
   ];
 }

@@ -1,10 +1,12 @@
 // Colours of part programs: what a word is, by its letter.
 import { StreamLanguage } from "../../vendor/codemirror.js";
 
-const STATEMENT = /^(IF|THEN|GOTO|GOSUB|RET|PRINT|INPUT|AND|OR|XOR|NOT|MOD|WHILE|ENDWHILE|CALL|SUB|ENDSUB|RETURN|REM)\b/i;
+const STATEMENT =
+  /^(IF|THEN|GOTO|GOSUB|RET|PRINT|INPUT|AND|OR|XOR|NOT|MOD|WHILE|ENDWHILE|CALL|SUB|ENDSUB|RETURN|REM)\b/i;
 const FUNCTION = /^(SIN|COS|TAN|ATAN|ASIN|ACOS|SQRT|ABS|INT|ROUND|FIX|FUP|LN|EXP|INP|OUT|BIT)\b/i;
 const NUMBER = /^[-+\u2212\u2013]*(\d+(\.\d*)?|\.\d+)/;
-const EXPRESSION = /[A-Z=+*/,(<>-]\s*$|\b(IF|GOTO|GOSUB|SIN|COS|TAN|ATAN|ASIN|ACOS|SQRT|ABS|INT|ROUND|FIX|FUP|LN|EXP|INP|OUT|BIT)\s*$/i;
+const EXPRESSION =
+  /[A-Z=+*/,(<>-]\s*$|\b(IF|GOTO|GOSUB|SIN|COS|TAN|ATAN|ASIN|ACOS|SQRT|ABS|INT|ROUND|FIX|FUP|LN|EXP|INP|OUT|BIT)\s*$/i;
 
 /** Language of the editor; one token per word. */
 export const gcode = StreamLanguage.define({

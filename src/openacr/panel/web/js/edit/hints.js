@@ -21,10 +21,22 @@ class Hint extends WidgetType {
 }
 
 const LOOKS = EditorView.theme({
-  ".cm-hint": { color: "var(--quiet)", fontSize: "0.85em", padding: "0 0.4em", marginLeft: "0.3em", border: "1px solid var(--edge)", borderRadius: "3px" },
+  ".cm-hint": {
+    color: "var(--quiet)",
+    fontSize: "0.85em",
+    padding: "0 0.4em",
+    marginLeft: "0.3em",
+    border: "1px solid var(--edge)",
+    borderRadius: "3px",
+  },
 });
 
 /** @param {import("./synced.js").SyncedText} text */
 export function hints(text) {
-  return [LOOKS, seenLines(text, "hints", ([, column, shown], from) => Decoration.widget({ widget: new Hint(shown), side: 1 }).range(from + column))];
+  return [
+    LOOKS,
+    seenLines(text, "hints", ([, column, shown], from) =>
+      Decoration.widget({ widget: new Hint(shown), side: 1 }).range(from + column),
+    ),
+  ];
 }

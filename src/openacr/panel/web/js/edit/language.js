@@ -1,6 +1,15 @@
 // What a controller file looks like while it is typed: colours, folds, hints, findings, completion and hover, as the
 // server answers.
-import { Decoration, EditorView, autocompletion, completionKeymap, hoverTooltip, keymap, lintGutter, linter } from "../../vendor/codemirror.js";
+import {
+  Decoration,
+  EditorView,
+  autocompletion,
+  completionKeymap,
+  hoverTooltip,
+  keymap,
+  lintGutter,
+  linter,
+} from "../../vendor/codemirror.js";
 import { folding } from "./folding.js";
 import { hints } from "./hints.js";
 import { markdown } from "./markdown.js";
@@ -47,8 +56,16 @@ export function language(text, found) {
     const answered = await text.ask("complete", { line, column });
     if (!answered?.answer || answered.doc !== doc || !answered.answer.items.length) return null;
     const span = offsetsOf(doc, answered.answer.span);
-    return { ...span, filter: false, options: answered.answer.items.map((/** @type {any} */ each) => (
-      { label: each.label, detail: each.detail, apply: each.text, info: each.doc ? () => markdown(each.doc) : undefined })) };
+    return {
+      ...span,
+      filter: false,
+      options: answered.answer.items.map((/** @type {any} */ each) => ({
+        label: each.label,
+        detail: each.detail,
+        apply: each.text,
+        info: each.doc ? () => markdown(each.doc) : undefined,
+      })),
+    };
   }
 
   /**
@@ -72,14 +89,25 @@ export function language(text, found) {
     const { findings, more } = answered.answer;
     found(findings, more);
     return findings.map(({ span, text: message, is_warning, fix }) => ({
-      ...offsetsOf(doc, span), severity: /** @type {"warning" | "error"} */ (is_warning ? "warning" : "error"), message,
+      ...offsetsOf(doc, span),
+      severity: /** @type {"warning" | "error"} */ (is_warning ? "warning" : "error"),
+      message,
       actions: fix ? [{ name: fix.title, apply: (/** @type {EditorView} */ its) => applyEdits(its, fix.edits) }] : [],
     }));
   }
 
-  const colors = seenLines(text, "colors", ([, start, end, kind], from) => Decoration.mark({ class: `tok-${kind}` }).range(from + start, from + end));
+  const colors = seenLines(text, "colors", ([, start, end, kind], from) =>
+    Decoration.mark({ class: `tok-${kind}` }).range(from + start, from + end),
+  );
   return [
-    colors, COLORS, lintGutter(), folding(text), hints(text), linter(check, { delay: CHECK_MS }), hoverTooltip(hover), autocompletion({ override: [complete], icons: false }),
+    colors,
+    COLORS,
+    lintGutter(),
+    folding(text),
+    hints(text),
+    linter(check, { delay: CHECK_MS }),
+    hoverTooltip(hover),
+    autocompletion({ override: [complete], icons: false }),
     keymap.of(completionKeymap),
   ];
 }

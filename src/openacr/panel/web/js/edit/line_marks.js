@@ -8,8 +8,21 @@ import { Decoration, EditorView, StateEffect, StateField } from "../../vendor/co
 export const setLineMarks = StateEffect.define();
 
 const LOOKS = EditorView.theme({
-  ".cm-line-running": { position: "relative", backgroundColor: "var(--good-ground)", boxShadow: "inset 4px 0 0 var(--good)" },
-  ".cm-line-running::after": { content: '"\\25C0 " attr(data-mark)', position: "absolute", right: "0", top: "0", padding: "0 0.4em", backgroundColor: "var(--good-ground)", color: "var(--good)", fontWeight: "700" }, // beside the text: no line becomes longer
+  ".cm-line-running": {
+    position: "relative",
+    backgroundColor: "var(--good-ground)",
+    boxShadow: "inset 4px 0 0 var(--good)",
+  },
+  ".cm-line-running::after": {
+    content: '"\\25C0 " attr(data-mark)',
+    position: "absolute",
+    right: "0",
+    top: "0",
+    padding: "0 0.4em",
+    backgroundColor: "var(--good-ground)",
+    color: "var(--good)",
+    fontWeight: "700",
+  }, // beside the text: no line becomes longer
   ".cm-line-refused": { backgroundColor: "var(--bad-ground)", boxShadow: "inset 4px 0 0 var(--bad)" },
   ".cm-line-refused::after": { content: '"  \\26A0 " attr(data-mark)', color: "var(--bad)", fontWeight: "700" },
 });
@@ -21,7 +34,14 @@ const field = StateField.define({
     for (const effect of transaction.effects) {
       if (!effect.is(setLineMarks)) continue;
       const { doc } = transaction.state;
-      now = Decoration.set(effect.value.map(({ at, kind, text }) => Decoration.line({ class: `cm-line-${kind}`, attributes: { "data-mark": text } }).range(doc.lineAt(Math.min(at, doc.length)).from)), true);
+      now = Decoration.set(
+        effect.value.map(({ at, kind, text }) =>
+          Decoration.line({ class: `cm-line-${kind}`, attributes: { "data-mark": text } }).range(
+            doc.lineAt(Math.min(at, doc.length)).from,
+          ),
+        ),
+        true,
+      );
     }
     return now;
   },

@@ -5,11 +5,16 @@ const PARTS = /\*\*([^*]+)\*\*|`([^`]+)`/g;
 
 /** @param {string} text */
 export function markdown(text) {
-  return h("div.about", {}, ...text.split("\n\n").map((block) => {
-    const lines = block.split("\n");
-    if (lines.every((line) => line.startsWith("* "))) return h("ul", {}, ...lines.map((line) => h("li", {}, ...inline(line.slice(2)))));
-    return h("p", {}, ...inline(block));
-  }));
+  return h(
+    "div.about",
+    {},
+    ...text.split("\n\n").map((block) => {
+      const lines = block.split("\n");
+      if (lines.every((line) => line.startsWith("* ")))
+        return h("ul", {}, ...lines.map((line) => h("li", {}, ...inline(line.slice(2)))));
+      return h("p", {}, ...inline(block));
+    }),
+  );
 }
 
 /** @param {string} text */

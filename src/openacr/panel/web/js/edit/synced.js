@@ -35,7 +35,9 @@ export class SyncedText {
     this.setup = setup;
     this.doc = doc;
     this.version = 1;
-    this.mark = Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) => byte.toString(16).padStart(2, "0")).join("");
+    this.mark = Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) =>
+      byte.toString(16).padStart(2, "0"),
+    ).join("");
     this.quick = new Channel();
     this.slow = new Channel();
     this.isEnded = false;
@@ -49,7 +51,8 @@ export class SyncedText {
   changed(changes, doc) {
     this.version += 1;
     this.doc = doc;
-    for (const channel of [this.quick, this.slow]) channel.changes = channel.changes ? channel.changes.compose(changes) : changes;
+    for (const channel of [this.quick, this.slow])
+      channel.changes = channel.changes ? channel.changes.compose(changes) : changes;
   }
 
   end() {
@@ -80,7 +83,10 @@ export class SyncedText {
     channel.waiting.delete(next.ask);
     channel.isBusy = true;
     const [doc, version] = [this.doc, this.version];
-    const changed = channel.version && channel.doc ? { base: channel.version, changes: channel.changes ? changesOf(channel.changes, channel.doc) : [] } : null;
+    const changed =
+      channel.version && channel.doc
+        ? { base: channel.version, changes: channel.changes ? changesOf(channel.changes, channel.doc) : [] }
+        : null;
     channel.changes = null;
     channel.doc = doc;
     channel.version = 0;
@@ -103,7 +109,9 @@ export class SyncedText {
    * @param {object} state
    */
   sent({ ask, about }, state) {
-    return ask === "compare" ? send("POST", "text/compare", { ...state, ...about }) : send("POST", "text", { ...state, ask, ...about });
+    return ask === "compare"
+      ? send("POST", "text/compare", { ...state, ...about })
+      : send("POST", "text", { ...state, ask, ...about });
   }
 }
 
@@ -115,7 +123,9 @@ export class SyncedText {
 function changesOf(changes, before) {
   /** @type {(number | string)[][]} */
   const found = [];
-  changes.iterChanges((from, to, _fromNew, _toNew, inserted) => found.unshift([...placeOf(before, from), ...placeOf(before, to), inserted.toString()]));
+  changes.iterChanges((from, to, _fromNew, _toNew, inserted) =>
+    found.unshift([...placeOf(before, from), ...placeOf(before, to), inserted.toString()]),
+  );
   return found;
 }
 

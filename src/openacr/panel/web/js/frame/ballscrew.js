@@ -28,19 +28,41 @@ export function showBallscrew(host, endings) {
   const note = h("span.grow.hint", { role: "status" });
   const saveKey = keyOf("form.save", () => save(), ".main");
   const undoKey = keyOf("form.undo", () => load(kept.axis));
-  const file = h("input", { type: "file", hidden: true, ariaLabel: t("ballscrew.import"), onchange: () => void take() });
+  const file = h("input", {
+    type: "file",
+    hidden: true,
+    ariaLabel: t("ballscrew.import"),
+    onchange: () => void take(),
+  });
   const exported = h("a.key", { role: "button" }, t("ballscrew.export"));
   host.classList.add("form");
   host.append(
-    h("div.row.wrap.form-tools", {}, axes, h("label.check.row", {}, isOn, t("ballscrew.on")), keyOf("ballscrew.import", () => file.click()), file, exported),
-    h("div.form-rows.scroll.grow", { tabIndex: -1 }, h("p.hint", {}, t("ballscrew.text")), h("table.grid.ballscrew", {}, h("thead", {}, h("tr", {}, first, second, h("th", {}))), rows),
-      keyOf("ballscrew.add", () => add("", "").focus())),
+    h(
+      "div.row.wrap.form-tools",
+      {},
+      axes,
+      h("label.check.row", {}, isOn, t("ballscrew.on")),
+      keyOf("ballscrew.import", () => file.click()),
+      file,
+      exported,
+    ),
+    h(
+      "div.form-rows.scroll.grow",
+      { tabIndex: -1 },
+      h("p.hint", {}, t("ballscrew.text")),
+      h("table.grid.ballscrew", {}, h("thead", {}, h("tr", {}, first, second, h("th", {}))), rows),
+      keyOf("ballscrew.add", () => add("", "").focus()),
+    ),
     h("div.row.form-foot", {}, note, undoKey, saveKey),
   );
 
   /** The table as a file; what is typed is checked by the server. */
-  const text = () => [...rows.rows].map((row) => [...row.querySelectorAll("input")].map((input) => input.value.trim().replace(",", ".")))
-    .filter(([position, error]) => position || error).map(([position, error]) => `${kept.name}${position}E${error}`).join("\n");
+  const text = () =>
+    [...rows.rows]
+      .map((row) => [...row.querySelectorAll("input")].map((input) => input.value.trim().replace(",", ".")))
+      .filter(([position, error]) => position || error)
+      .map(([position, error]) => `${kept.name}${position}E${error}`)
+      .join("\n");
   const state = () => `${isOn.checked} ${text()}`;
   const isChanged = () => kept !== undefined && state() !== before;
 
@@ -55,12 +77,37 @@ export function showBallscrew(host, endings) {
    */
   function add(position, error) {
     const field = (/** @type {string} */ value, /** @type {string} */ label) =>
-      h("input.field.number", { value, ariaLabel: `${label} ${rows.rows.length + 1}`, inputMode: "decimal", autocomplete: "off", oninput: edited });
+      h("input.field.number", {
+        value,
+        ariaLabel: `${label} ${rows.rows.length + 1}`,
+        inputMode: "decimal",
+        autocomplete: "off",
+        oninput: edited,
+      });
     const place = field(position, t("ballscrew.position"));
-    const row = h("tr", {}, h("td", {}, place), h("td", {}, field(error, t("ballscrew.error"))), h("td", {}, h("button.key", { type: "button", ariaLabel: t("ballscrew.remove"), title: t("ballscrew.remove"), onclick: () => {
-      row.remove();
-      edited();
-    } }, "\u2715")));
+    const row = h(
+      "tr",
+      {},
+      h("td", {}, place),
+      h("td", {}, field(error, t("ballscrew.error"))),
+      h(
+        "td",
+        {},
+        h(
+          "button.key",
+          {
+            type: "button",
+            ariaLabel: t("ballscrew.remove"),
+            title: t("ballscrew.remove"),
+            onclick: () => {
+              row.remove();
+              edited();
+            },
+          },
+          "\u2715",
+        ),
+      ),
+    );
     rows.append(row);
     edited();
     return place;
@@ -76,9 +123,23 @@ export function showBallscrew(host, endings) {
   /** @param {Kept} now */
   function show(now) {
     kept = now;
-    fill(axes, ...now.axes.map((each) => h("button.key", { type: "button", role: "radio", ariaChecked: String(each.index === now.axis), onclick: async () => {
-      if (await mayLeave()) await load(each.index);
-    } }, each.name)));
+    fill(
+      axes,
+      ...now.axes.map((each) =>
+        h(
+          "button.key",
+          {
+            type: "button",
+            role: "radio",
+            ariaChecked: String(each.index === now.axis),
+            onclick: async () => {
+              if (await mayLeave()) await load(each.index);
+            },
+          },
+          each.name,
+        ),
+      ),
+    );
     isOn.checked = now.is_on;
     setText(first, `${t("ballscrew.position")}, ${now.unit}`);
     setText(second, `${t("ballscrew.error")}, ${now.unit}`);
@@ -114,7 +175,11 @@ export function showBallscrew(host, endings) {
   async function save() {
     const [table, own] = [text(), kept];
     try {
-      const now = await send("PUT", "ballscrew", { axis: own.axis, is_on: isOn.checked, ...(table || own.entries.length ? { text: table } : {}) });
+      const now = await send("PUT", "ballscrew", {
+        axis: own.axis,
+        is_on: isOn.checked,
+        ...(table || own.entries.length ? { text: table } : {}),
+      });
       if (kept === own) show(now); // no other axis is shown by now
       report(t("ballscrew.saved", { axis: own.name }));
       return true;

@@ -63,7 +63,11 @@ export function numberText(value, format) {
   if (format === "fixed") return value.toFixed(3);
   const whole = Math.trunc(value) >>> 0; // the 32 bits of the card
   if (format === "hex") return `0x${whole.toString(16).toUpperCase().padStart(8, "0")}`;
-  if (format === "binary") return whole.toString(2).padStart(32, "0").replace(/(.{8})(?=.)/g, "$1 ");
+  if (format === "binary")
+    return whole
+      .toString(2)
+      .padStart(32, "0")
+      .replace(/(.{8})(?=.)/g, "$1 ");
   return shortest(value);
 }
 
@@ -90,8 +94,16 @@ export async function changeValue(item, shown) {
   if (!model.may("service") && !(await logIn("service"))) return;
   const title = `${item.id} ${fullName(item)}`;
   if (isFlag(item)) {
-    const choices = [{ text: t("key.cancel"), value: null }, { text: t("values.clear"), value: 0 }, { text: t("values.set"), value: 1 }];
-    const chosen = await ask({ title, body: [h("p", {}, item.doc), h("p", {}, t("values.now", { value: shown }))], choices });
+    const choices = [
+      { text: t("key.cancel"), value: null },
+      { text: t("values.clear"), value: 0 },
+      { text: t("values.set"), value: 1 },
+    ];
+    const chosen = await ask({
+      title,
+      body: [h("p", {}, item.doc), h("p", {}, t("values.now", { value: shown }))],
+      choices,
+    });
     if (chosen === null) return;
     const answer = await give("card.flag", { flag: item.number, on: chosen === 1 });
     if (answer) report(t("values.is", { name: title, value: t(answer.on ? "io.on" : "io.off") }));

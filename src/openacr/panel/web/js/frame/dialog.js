@@ -13,19 +13,27 @@ const open = [];
 let lastId = 0;
 
 // Wherever the focus is (on STOP, too), Escape cancels the last opened dialog.
-window.addEventListener("keydown", (event) => {
-  const last = open.at(-1);
-  if (event.key !== "Escape" || !last) return;
-  event.preventDefault();
-  event.stopPropagation();
-  last.dispatchEvent(new Event("cancel"));
-}, { capture: true });
+window.addEventListener(
+  "keydown",
+  (event) => {
+    const last = open.at(-1);
+    if (event.key !== "Escape" || !last) return;
+    event.preventDefault();
+    event.stopPropagation();
+    last.dispatchEvent(new Event("cancel"));
+  },
+  { capture: true },
+);
 
 // A key that is held down chooses once: not what a dialog asks that comes meanwhile.
-window.addEventListener("keydown", (event) => {
-  const isKey = event.target instanceof HTMLButtonElement || event.key === "Enter";
-  if (open.length && event.repeat && isKey && (event.key === "Enter" || event.key === " ")) event.preventDefault();
-}, { capture: true });
+window.addEventListener(
+  "keydown",
+  (event) => {
+    const isKey = event.target instanceof HTMLButtonElement || event.key === "Enter";
+    if (open.length && event.repeat && isKey && (event.key === "Enter" || event.key === " ")) event.preventDefault();
+  },
+  { capture: true },
+);
 
 /** Only the last opened dialog takes input. */
 function part() {
@@ -60,14 +68,34 @@ export function ask({ title, body, choices, first, className = "", comes = false
       if (value !== undefined) close(value);
     };
     const keys = choices.map((choice) =>
-      h("button", { type: choice.isSubmit ? "submit" : "button", className: `key ${choice.kind ?? ""}`,
-        onclick: choice.isSubmit ? undefined : () => choose(choice) }, choice.text));
+      h(
+        "button",
+        {
+          type: choice.isSubmit ? "submit" : "button",
+          className: `key ${choice.kind ?? ""}`,
+          onclick: choice.isSubmit ? undefined : () => choose(choice),
+        },
+        choice.text,
+      ),
+    );
     const submit = choices.find((choice) => choice.isSubmit);
-    const form = h("form.dialog-form", { onsubmit: (/** @type {Event} */ event) => {
-      event.preventDefault();
-      if (submit) void choose(submit);
-    } }, h("div.dialog-body", {}, ...body), h("div.dialog-foot", {}, ...keys));
-    const dialog = h("dialog", { className: `dialog ${className}`, attr: { "aria-labelledby": id }, oncancel: () => close(null) }, h("div.dialog-head", {}, h("h2", { id }, title)), form);
+    const form = h(
+      "form.dialog-form",
+      {
+        onsubmit: (/** @type {Event} */ event) => {
+          event.preventDefault();
+          if (submit) void choose(submit);
+        },
+      },
+      h("div.dialog-body", {}, ...body),
+      h("div.dialog-foot", {}, ...keys),
+    );
+    const dialog = h(
+      "dialog",
+      { className: `dialog ${className}`, attr: { "aria-labelledby": id }, oncancel: () => close(null) },
+      h("div.dialog-head", {}, h("h2", { id }, title)),
+      form,
+    );
     document.body.append(dialog);
     dialog.show();
     open.push(dialog);
@@ -86,7 +114,10 @@ export function ask({ title, body, choices, first, className = "", comes = false
  * @param {"main" | "danger" | "bad"} [kind]
  */
 export async function confirm(title, text, yes, kind = "danger") {
-  const choices = [{ text: t("key.cancel"), value: null }, { text: yes, value: true, kind, isSubmit: true }];
+  const choices = [
+    { text: t("key.cancel"), value: null },
+    { text: yes, value: true, kind, isSubmit: true },
+  ];
   return Boolean(await ask({ title, body: [h("p", {}, text)], choices: /** @type {Choice[]} */ (choices) }));
 }
 
@@ -98,8 +129,13 @@ export async function confirm(title, text, yes, kind = "danger") {
  */
 export function askText(title, label, value = "") {
   const field = h("input.field", { value, ariaLabel: label, autocomplete: "off", spellcheck: false });
-  return ask({ title, body: [h("label.stack", {}, label, field)], first: field, choices: [
-    { text: t("key.cancel"), value: null },
-    { text: t("key.ok"), kind: "main", isSubmit: true, value: () => field.value.trim() || undefined },
-  ] });
+  return ask({
+    title,
+    body: [h("label.stack", {}, label, field)],
+    first: field,
+    choices: [
+      { text: t("key.cancel"), value: null },
+      { text: t("key.ok"), kind: "main", isSubmit: true, value: () => field.value.trim() || undefined },
+    ],
+  });
 }

@@ -16,13 +16,18 @@ let choose = () => {};
 export function startDisplay() {
   const pane = byId("display");
   pane.ariaLabel = t("display.label");
-  choose = tabControl(pane, t("display.label"), [
-    { id: "graphics", label: t("tab.graphics"), show: graphicsTab },
-    { id: "program", label: t("tab.program"), show: programTab },
-    { id: "io", label: t("tab.io"), show: ioTab },
-    { id: "plc", label: t("tab.plc"), show: plcTab },
-    { id: "alarms", label: t("tab.alarms"), show: alarmsTab },
-  ], (id) => keepSetting("tab", id));
+  choose = tabControl(
+    pane,
+    t("display.label"),
+    [
+      { id: "graphics", label: t("tab.graphics"), show: graphicsTab },
+      { id: "program", label: t("tab.program"), show: programTab },
+      { id: "io", label: t("tab.io"), show: ioTab },
+      { id: "plc", label: t("tab.plc"), show: plcTab },
+      { id: "alarms", label: t("tab.alarms"), show: alarmsTab },
+    ],
+    (id) => keepSetting("tab", id),
+  );
   choose(setting("tab", "graphics"));
 }
 

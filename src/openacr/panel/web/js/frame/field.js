@@ -43,7 +43,8 @@ import { askNumber } from "./number_pad.js";
 export function fieldFor(row, changed, isPerAxis = false) {
   const id = `cell-${row.number}`;
   const input = inputFor(row, id);
-  const read = () => (input instanceof HTMLInputElement && input.type === "checkbox" ? (input.checked ? "1" : "0") : input.value);
+  const read = () =>
+    input instanceof HTMLInputElement && input.type === "checkbox" ? (input.checked ? "1" : "0") : input.value;
   const before = read();
   const refusal = h("span.refusal", { id: `${id}-refusal`, attr: { "aria-live": "polite" } });
   const isChanged = () => read() !== before;
@@ -63,15 +64,45 @@ export function fieldFor(row, changed, isPerAxis = false) {
   input.setAttribute("aria-describedby", `${id}-hint ${id}-refusal`);
   refuse("");
   const hint = h("span.hint", { id: `${id}-hint` }, hintOf(row));
-  const pad = (row.kind === "real" || row.kind === "integer") && !row.fixed ? h("button.key.pad-key", { type: "button", title: t("pad.open"), ariaLabel: t("pad.open"), onclick: async () => {
-    const value = await askNumber({ title: row.name, value: Number(input.value.replace(",", ".")) || 0, unit: row.unit, hint: limitsOf(row) });
-    if (value === null) return;
-    input.value = String(value);
-    edited();
-  } }, "\u2328") : "";
+  const pad =
+    (row.kind === "real" || row.kind === "integer") && !row.fixed
+      ? h(
+          "button.key.pad-key",
+          {
+            type: "button",
+            title: t("pad.open"),
+            ariaLabel: t("pad.open"),
+            onclick: async () => {
+              const value = await askNumber({
+                title: row.name,
+                value: Number(input.value.replace(",", ".")) || 0,
+                unit: row.unit,
+                hint: limitsOf(row),
+              });
+              if (value === null) return;
+              input.value = String(value);
+              edited();
+            },
+          },
+          "\u2328",
+        )
+      : "";
   return {
-    element: h("div.form-row", {}, h("label", { htmlFor: id }, row.axis_name && !isPerAxis ? `${row.axis_name}  ${row.name}` : row.name), h("div.row.form-input", {}, input, row.unit ? h("span.unit", {}, row.unit) : "", pad), hint, isColour(row) ? swatches(row, input) : "", row.bits?.length ? bitBoxes(row, input) : "", refusal),
-    isChanged, text: read, refuse, refusal: () => refusal.textContent ?? "", focus: () => input.focus(),
+    element: h(
+      "div.form-row",
+      {},
+      h("label", { htmlFor: id }, row.axis_name && !isPerAxis ? `${row.axis_name}  ${row.name}` : row.name),
+      h("div.row.form-input", {}, input, row.unit ? h("span.unit", {}, row.unit) : "", pad),
+      hint,
+      isColour(row) ? swatches(row, input) : "",
+      row.bits?.length ? bitBoxes(row, input) : "",
+      refusal,
+    ),
+    isChanged,
+    text: read,
+    refuse,
+    refusal: () => refusal.textContent ?? "",
+    focus: () => input.focus(),
     type(text) {
       if (input instanceof HTMLInputElement && input.type === "checkbox") input.checked = text === "1";
       else input.value = text;
@@ -93,10 +124,16 @@ function isColour(row) {
 function swatches(row, input) {
   const keys = PENS.map((pen, n) => {
     const name = `${n}: ${row.words?.[n]}`;
-    const key = h("button.swatch", { type: "button", title: name, ariaLabel: `${row.name} ${name}`, disabled: row.fixed, onclick: () => {
-      input.value = String(n);
-      input.dispatchEvent(new Event("input"));
-    } });
+    const key = h("button.swatch", {
+      type: "button",
+      title: name,
+      ariaLabel: `${row.name} ${name}`,
+      disabled: row.fixed,
+      onclick: () => {
+        input.value = String(n);
+        input.dispatchEvent(new Event("input"));
+      },
+    });
     key.style.background = pen;
     return key;
   });
@@ -104,7 +141,9 @@ function swatches(row, input) {
   const draw = () => {
     const chosen = Number(input.value.trim() || NaN);
     setText(name, row.words?.[chosen] ?? "");
-    keys.forEach((key, n) => { key.ariaPressed = String(n === chosen); });
+    keys.forEach((key, n) => {
+      key.ariaPressed = String(n === chosen);
+    });
   };
   input.addEventListener("input", draw);
   draw();
@@ -118,11 +157,20 @@ function swatches(row, input) {
  */
 function bitBoxes(row, input) {
   const bits = row.bits ?? [];
-  const boxes = bits.map(() => h("input", { type: "checkbox", disabled: row.fixed, onchange: () => {
-    input.value = String(boxes.reduce((sum, box, bit) => sum + (box.checked ? 1 << bit : 0), 0));
-    input.dispatchEvent(new Event("input"));
-  } }));
-  const draw = () => boxes.forEach((box, n) => { box.checked = (Number(input.value) >> n & 1) === 1; });
+  const boxes = bits.map(() =>
+    h("input", {
+      type: "checkbox",
+      disabled: row.fixed,
+      onchange: () => {
+        input.value = String(boxes.reduce((sum, box, bit) => sum + (box.checked ? 1 << bit : 0), 0));
+        input.dispatchEvent(new Event("input"));
+      },
+    }),
+  );
+  const draw = () =>
+    boxes.forEach((box, n) => {
+      box.checked = ((Number(input.value) >> n) & 1) === 1;
+    });
   input.addEventListener("input", draw);
   draw();
   return h("div.bits", {}, ...bits.map((text, n) => h("label.row", {}, boxes[n], `${n}: ${text}`)));
@@ -134,16 +182,26 @@ function bitBoxes(row, input) {
  * @returns {HTMLInputElement | HTMLSelectElement}
  */
 function inputFor(row, id) {
-  if (row.kind === "boolean") return h("input", { id, type: "checkbox", checked: Number(row.number_value) !== 0, disabled: row.fixed });
+  if (row.kind === "boolean")
+    return h("input", { id, type: "checkbox", checked: Number(row.number_value) !== 0, disabled: row.fixed });
   if (row.words && row.kind === "choice") {
     const chosen = String(row.number_value);
-    const options = Object.entries(row.words).map(([value, text]) => h("option", { value, selected: value === chosen }, text));
+    const options = Object.entries(row.words).map(([value, text]) =>
+      h("option", { value, selected: value === chosen }, text),
+    );
     if (!(chosen in row.words)) options.unshift(h("option", { value: row.value, selected: true }, row.value));
     return h("select.field", { id, disabled: row.fixed }, ...options);
   }
   const isNumber = row.kind === "real" || row.kind === "integer";
-  return h("input.field", { id, value: row.value, readOnly: row.fixed, autocomplete: "off", spellcheck: false, className: isNumber ? "field number" : "field",
-    inputMode: isNumber ? "decimal" : "text" });
+  return h("input.field", {
+    id,
+    value: row.value,
+    readOnly: row.fixed,
+    autocomplete: "off",
+    spellcheck: false,
+    className: isNumber ? "field number" : "field",
+    inputMode: isNumber ? "decimal" : "text",
+  });
 }
 
 /** @param {FormRow} row */
@@ -157,7 +215,16 @@ function limitsOf(row) {
 
 /** @param {FormRow} row */
 function hintOf(row) {
-  const facts = [limitsOf(row), ...(row.kind === "integer" && !isColour(row) ? Object.entries(row.words ?? {}).map(([value, word]) => `${value}: ${word}`) : []), row.typical ? t("field.typical", { value: row.typical }) : "", row.default !== "" && !row.is_default ? t("field.default", { value: row.words?.[row.default] ?? row.default }) : "",
-    row.motion ? t("field.motion") : ""].filter(Boolean).join(" \u00b7 ");
+  const facts = [
+    limitsOf(row),
+    ...(row.kind === "integer" && !isColour(row)
+      ? Object.entries(row.words ?? {}).map(([value, word]) => `${value}: ${word}`)
+      : []),
+    row.typical ? t("field.typical", { value: row.typical }) : "",
+    row.default !== "" && !row.is_default ? t("field.default", { value: row.words?.[row.default] ?? row.default }) : "",
+    row.motion ? t("field.motion") : "",
+  ]
+    .filter(Boolean)
+    .join(" \u00b7 ");
   return [row.help, facts].filter(Boolean).join(" \u2014 ");
 }

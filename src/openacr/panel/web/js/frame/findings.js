@@ -15,8 +15,15 @@ import { openScreen } from "./screen_host.js";
  * @param {(finding: Finding) => void} chosen
  */
 export function findingItems(list, chosen) {
-  return list.map((each) => h("button.key.item", { type: "button", className: `key item ${each.severity}`, title: each.hint, onclick: () => chosen(each) },
-    h("span", {}, each.severity === "error" ? "\u26a0" : "\u2139"), h("span.number", {}, `${each.line}:${each.column}`), h("span.name", {}, `${each.code} ${each.text}`)));
+  return list.map((each) =>
+    h(
+      "button.key.item",
+      { type: "button", className: `key item ${each.severity}`, title: each.hint, onclick: () => chosen(each) },
+      h("span", {}, each.severity === "error" ? "\u26a0" : "\u2139"),
+      h("span.number", {}, `${each.line}:${each.column}`),
+      h("span.name", {}, `${each.code} ${each.text}`),
+    ),
+  );
 }
 
 /**
@@ -26,11 +33,15 @@ export function findingItems(list, chosen) {
  */
 export function findingList(found, isErrors = false) {
   const list = found.findings.filter((each) => !isErrors || each.severity === "error");
-  const box = h("div.findings.scroll", {}, ...findingItems(list, (finding) => {
-    if (found.kind !== "file" || finding.file !== found.name) return; // the text of a part, or an included one
-    box.closest("dialog")?.dispatchEvent(new Event("cancel"));
-    void openScreen("edit", { path: found.path, line: finding.line, column: finding.column });
-  }));
+  const box = h(
+    "div.findings.scroll",
+    {},
+    ...findingItems(list, (finding) => {
+      if (found.kind !== "file" || finding.file !== found.name) return; // the text of a part, or an included one
+      box.closest("dialog")?.dispatchEvent(new Event("cancel"));
+      void openScreen("edit", { path: found.path, line: finding.line, column: finding.column });
+    }),
+  );
   return box;
 }
 
@@ -38,7 +49,13 @@ export function findingList(found, isErrors = false) {
 export async function showFindings() {
   /** @type {Found | null} */
   const found = await get("program").catch(refuse);
-  if (found) await ask({ title: summary(found), body: [findingList(found)], choices: [{ text: t("key.close"), value: null }], className: "wide" });
+  if (found)
+    await ask({
+      title: summary(found),
+      body: [findingList(found)],
+      choices: [{ text: t("key.close"), value: null }],
+      className: "wide",
+    });
 }
 
 let said = () => {}; // ends the wait for the reading of the program before
@@ -64,10 +81,20 @@ async function sayFirst(before) {
   const first = found?.findings.find((each) => each.severity === "error") ?? found?.findings[0];
   if (model.state.value.running) return; // the line is for what the program says now
   if (prompt.value.kind === "error" && prompt.value !== before) return; // or for a refusal since then
-  if (found && first) prompt.set({ kind: found.errors ? "error" : "say", text: `${summary(found)}: ${first.line}:${first.column} ${first.code} ${first.text}` });
+  if (found && first)
+    prompt.set({
+      kind: found.errors ? "error" : "say",
+      text: `${summary(found)}: ${first.line}:${first.column} ${first.code} ${first.text}`,
+    });
 }
 
 /** @param {Found} found */
 function summary({ name, errors, warnings }) {
-  return [name, errors ? t("findings.errors", { count: errors }) : "", warnings ? t("findings.warnings", { count: warnings }) : ""].filter(Boolean).join(" \u00b7 ");
+  return [
+    name,
+    errors ? t("findings.errors", { count: errors }) : "",
+    warnings ? t("findings.warnings", { count: warnings }) : "",
+  ]
+    .filter(Boolean)
+    .join(" \u00b7 ");
 }

@@ -76,7 +76,9 @@ export function showForm(host, name, endings, setTitle = () => {}) {
     const shown = fields;
     const now = await stored();
     if (fields !== shown) return; // another axis or page is shown by now
-    const typed = changed().filter(([number, field]) => field.text() !== sent[number]).map(([number, field]) => ({ number, text: field.text(), refusal: field.refusal() }));
+    const typed = changed()
+      .filter(([number, field]) => field.text() !== sent[number])
+      .map(([number, field]) => ({ number, text: field.text(), refusal: field.refusal() }));
     const focused = rows.contains(document.activeElement) ? document.activeElement?.id : "";
     form = now;
     draw(now);
@@ -104,26 +106,59 @@ export function showForm(host, name, endings, setTitle = () => {}) {
     const isBarred = !model.may(shown.role);
     fill(tools, ...axisKeys(shown), ...pageKeys(shown));
     tools.hidden = !tools.childElementCount;
-    fill(rows, ...(isBarred ? [h("div.notice.row", {}, h("span.grow", {}, t("role.needed", { role: t(/** @type {any} */ (`role.${shown.role}`)) })),
-        keyOf("login.go", async () => (await logIn(shown.role)) && load()))] : []),
-      ...shown.groups.map((group) => h("fieldset.form-group", { disabled: isBarred }, group.title ? h("legend", {}, group.title) : "",
-        ...group.rows.map((row) => {
-          const field = fieldFor(row, changedNow, shown.per_axis);
-          fields.set(String(row.number), field);
-          return field.element;
-        }))));
+    fill(
+      rows,
+      ...(isBarred
+        ? [
+            h(
+              "div.notice.row",
+              {},
+              h("span.grow", {}, t("role.needed", { role: t(/** @type {any} */ (`role.${shown.role}`)) })),
+              keyOf("login.go", async () => (await logIn(shown.role)) && load()),
+            ),
+          ]
+        : []),
+      ...shown.groups.map((group) =>
+        h(
+          "fieldset.form-group",
+          { disabled: isBarred },
+          group.title ? h("legend", {}, group.title) : "",
+          ...group.rows.map((row) => {
+            const field = fieldFor(row, changedNow, shown.per_axis);
+            fields.set(String(row.number), field);
+            return field.element;
+          }),
+        ),
+      ),
+    );
     changedNow();
   }
 
   /** @param {Form} shown */
   function axisKeys(shown) {
     if (!shown.per_axis) return [];
-    return [h("div.row.wrap", { role: "radiogroup", ariaLabel: t("form.axis") }, ...shown.axes.map((each) =>
-      h("button.key", { type: "button", role: "radio", ariaChecked: String(each.index === shown.axis), onclick: async () => {
-        if (!(await mayLeave())) return;
-        axis = each.index;
-        await load();
-      } }, each.name)))];
+    return [
+      h(
+        "div.row.wrap",
+        { role: "radiogroup", ariaLabel: t("form.axis") },
+        ...shown.axes.map((each) =>
+          h(
+            "button.key",
+            {
+              type: "button",
+              role: "radio",
+              ariaChecked: String(each.index === shown.axis),
+              onclick: async () => {
+                if (!(await mayLeave())) return;
+                axis = each.index;
+                await load();
+              },
+            },
+            each.name,
+          ),
+        ),
+      ),
+    ];
   }
 
   /** @param {Form} shown */
@@ -136,13 +171,35 @@ export function showForm(host, name, endings, setTitle = () => {}) {
       await load();
     };
     const find = async () => {
-      const wanted = await askNumber({ title: t("form.goto"), value: page.first, hint: t("form.goto.hint", { last: page.total }) });
+      const wanted = await askNumber({
+        title: t("form.goto"),
+        value: page.first,
+        hint: t("form.goto.hint", { last: page.total }),
+      });
       if (wanted !== null) await go(Math.floor((wanted - 1) / PAGE) * PAGE + 1);
     };
     return [
-      h("button.key", { type: "button", disabled: page.first <= 1, onclick: () => go(page.first - PAGE) }, "\u25c0 ", t("form.previous")),
-      h("button.key", { type: "button", onclick: find }, t("form.page", { first: page.first, last: Math.min(page.total, page.first + page.count - 1), total: page.total })),
-      h("button.key", { type: "button", disabled: page.first + page.count > page.total, onclick: () => go(page.first + PAGE) }, t("form.next"), " \u25b6"),
+      h(
+        "button.key",
+        { type: "button", disabled: page.first <= 1, onclick: () => go(page.first - PAGE) },
+        "\u25c0 ",
+        t("form.previous"),
+      ),
+      h(
+        "button.key",
+        { type: "button", onclick: find },
+        t("form.page", {
+          first: page.first,
+          last: Math.min(page.total, page.first + page.count - 1),
+          total: page.total,
+        }),
+      ),
+      h(
+        "button.key",
+        { type: "button", disabled: page.first + page.count > page.total, onclick: () => go(page.first + PAGE) },
+        t("form.next"),
+        " \u25b6",
+      ),
     ];
   }
 
@@ -169,11 +226,13 @@ export function showForm(host, name, endings, setTitle = () => {}) {
 
   const mayLeave = () => mayDrop(changed().length, save);
 
-  endings.add(model.changed.watch((what) => {
-    if (what.what !== "forms" || !form || !what.cells?.some((cell) => fields.has(String(cell)))) return;
-    if (changed().length) setText(note, t("form.elsewhere"));
-    else void renew();
-  }));
+  endings.add(
+    model.changed.watch((what) => {
+      if (what.what !== "forms" || !form || !what.cells?.some((cell) => fields.has(String(cell)))) return;
+      if (changed().length) setText(note, t("form.elsewhere"));
+      else void renew();
+    }),
+  );
   host.addEventListener("keydown", (event) => {
     const isField = event.target instanceof HTMLInputElement && event.target.type !== "checkbox";
     if (event.key === "Enter" && isField) void save();
@@ -181,4 +240,3 @@ export function showForm(host, name, endings, setTitle = () => {}) {
   void load().then(begin).catch(refuse);
   return mayLeave;
 }
-

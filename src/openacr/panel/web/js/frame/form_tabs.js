@@ -19,7 +19,9 @@ import { showForm } from "./form.js";
  */
 export async function showFormTabs({ body, endings, beforeClose }, isMeant, pages = []) {
   const { forms } = await get("forms");
-  const mine = forms.filter(isMeant).flatMap((/** @type {any} */ form) => [...pages.filter((page) => page.before === form.name), form]);
+  const mine = forms
+    .filter(isMeant)
+    .flatMap((/** @type {any} */ form) => [...pages.filter((page) => page.before === form.name), form]);
   const list = h("div.form-tabs.scroll", { role: "tablist", attr: { "aria-orientation": "vertical" } });
   const host = h("div.form-host", { role: "tabpanel", tabIndex: -1 });
   body.classList.add("is-tabbed");
@@ -44,12 +46,21 @@ export async function showFormTabs({ body, endings, beforeClose }, isMeant, page
     const page = pages.find((each) => each.name === name);
     mayLeave = page ? page.show(host, own) : showForm(host, name, own);
   }
-  list.append(...mine.map((/** @type {any} */ form) =>
-    h("button.key.item", { type: "button", role: "tab", data: { form: form.name }, onclick: () => choose(form.name) }, form.title)));
+  list.append(
+    ...mine.map((/** @type {any} */ form) =>
+      h(
+        "button.key.item",
+        { type: "button", role: "tab", data: { form: form.name }, onclick: () => choose(form.name) },
+        form.title,
+      ),
+    ),
+  );
   list.addEventListener("keydown", (event) => {
     const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     const keys = [...list.querySelectorAll("button")];
-    const next = step ? keys[(keys.indexOf(/** @type {any} */ (document.activeElement)) + step + keys.length) % keys.length] : null;
+    const next = step
+      ? keys[(keys.indexOf(/** @type {any} */ (document.activeElement)) + step + keys.length) % keys.length]
+      : null;
     if (!next) return;
     event.preventDefault();
     next.click();

@@ -43,10 +43,19 @@ export function createListing(host, { read, clicked, scrolled, label, numberOf =
     const chunk = Math.floor((line - 1) / CHUNK);
     const text = chunks.get(chunk)?.[(line - 1) % CHUNK];
     if (text === undefined) void fetchChunk(chunk);
-    return h("div.listing-row", {
-      role: "option", className: `listing-row${line === active ? " is-active" : ""}${line === chosen ? " is-chosen" : ""}`, data: { line: String(line) },
-      attr: { "aria-selected": String(line === active) }, onclick: () => clicked(line),
-    }, h("span.listing-mark", { ariaHidden: "true" }, line === active ? "\u25b6" : ""), h("span.listing-number", {}, numberOf(line)), h("span.listing-text", {}, text ?? "\u2026"));
+    return h(
+      "div.listing-row",
+      {
+        role: "option",
+        className: `listing-row${line === active ? " is-active" : ""}${line === chosen ? " is-chosen" : ""}`,
+        data: { line: String(line) },
+        attr: { "aria-selected": String(line === active) },
+        onclick: () => clicked(line),
+      },
+      h("span.listing-mark", { ariaHidden: "true" }, line === active ? "\u25b6" : ""),
+      h("span.listing-number", {}, numberOf(line)),
+      h("span.listing-text", {}, text ?? "\u2026"),
+    );
   }
 
   /** @param {number} chunk */
@@ -100,5 +109,7 @@ export function createListing(host, { read, clicked, scrolled, label, numberOf =
 
 /** @param {HTMLElement} box */
 function rowHeight(box) {
-  return parseFloat(getComputedStyle(box).getPropertyValue("--row-height")) * parseFloat(getComputedStyle(box).fontSize);
+  return (
+    parseFloat(getComputedStyle(box).getPropertyValue("--row-height")) * parseFloat(getComputedStyle(box).fontSize)
+  );
 }

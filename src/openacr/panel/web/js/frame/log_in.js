@@ -12,7 +12,11 @@ import { ask } from "./dialog.js";
  */
 export async function logIn(role) {
   const roles = ROLES.slice(ROLES.indexOf(role));
-  const choice = h("select.field", {}, ...roles.map((each) => h("option", { value: each }, t(/** @type {any} */ (`role.${each}`)))));
+  const choice = h(
+    "select.field",
+    {},
+    ...roles.map((each) => h("option", { value: each }, t(/** @type {any} */ (`role.${each}`)))),
+  );
   const password = h("input.field", { type: "password", autocomplete: "current-password" });
   const refusal = h("div.refusal", { hidden: true, attr: { "aria-live": "polite" } });
   const check = async () => {
@@ -29,22 +33,34 @@ export async function logIn(role) {
     await connectedAgain();
     return true;
   };
-  return Boolean(await ask({
-    title: t("login.title"), first: password,
-    body: [h("label.row", {}, h("span.grow", {}, t("login.role")), choice), h("label.row", {}, h("span.grow", {}, t("login.password")), password), refusal],
-    choices: [{ text: t("key.cancel"), value: null }, { text: t("login.go"), kind: "main", isSubmit: true, value: check }],
-  }));
+  return Boolean(
+    await ask({
+      title: t("login.title"),
+      first: password,
+      body: [
+        h("label.row", {}, h("span.grow", {}, t("login.role")), choice),
+        h("label.row", {}, h("span.grow", {}, t("login.password")), password),
+        refusal,
+      ],
+      choices: [
+        { text: t("key.cancel"), value: null },
+        { text: t("login.go"), kind: "main", isSubmit: true, value: check },
+      ],
+    }),
+  );
 }
 
 /** A connection has the role it was opened with, so another one is opened. */
 function connectedAgain() {
   const before = model.hello.value.client;
-  return /** @type {Promise<void>} */ (new Promise((resolve) => {
-    const end = model.hello.watch(({ client }) => {
-      if (client === before) return;
-      queueMicrotask(() => end());
-      resolve();
-    });
-    link.renew();
-  }));
+  return /** @type {Promise<void>} */ (
+    new Promise((resolve) => {
+      const end = model.hello.watch(({ client }) => {
+        if (client === before) return;
+        queueMicrotask(() => end());
+        resolve();
+      });
+      link.renew();
+    })
+  );
 }

@@ -58,16 +58,27 @@ function build() {
   const hadFocus = bar.contains(document.activeElement);
   bar.dataset.shown = menu.value;
   keys = [];
-  fill(bar, ...Array.from({ length: 10 }, (_each, n) => {
-    const entry = MENUS[menu.value].find((each) => each.key === n + 1);
-    if (!entry) return h("span.menu-key.empty", { ariaHidden: "true" });
-    const key = h("button.menu-key", {
-      type: "button", className: `menu-key ${entry.style ?? ""}`, onclick: () => press(entry), data: { fkey: `F${entry.key}` },
-      attr: { "aria-keyshortcuts": `F${entry.key}` },
-    }, h("small", {}, `F${entry.key}`), h("span", {}, t(entry.label)));
-    keys.push([entry, key]);
-    return key;
-  }));
+  fill(
+    bar,
+    ...Array.from({ length: 10 }, (_each, n) => {
+      const entry = MENUS[menu.value].find((each) => each.key === n + 1);
+      if (!entry) return h("span.menu-key.empty", { ariaHidden: "true" });
+      const key = h(
+        "button.menu-key",
+        {
+          type: "button",
+          className: `menu-key ${entry.style ?? ""}`,
+          onclick: () => press(entry),
+          data: { fkey: `F${entry.key}` },
+          attr: { "aria-keyshortcuts": `F${entry.key}` },
+        },
+        h("small", {}, `F${entry.key}`),
+        h("span", {}, t(entry.label)),
+      );
+      keys.push([entry, key]);
+      return key;
+    }),
+  );
   update();
   if (hadFocus) keys[0]?.[1].focus();
 }
@@ -78,7 +89,8 @@ function update() {
     const role = entry.role && !model.may(entry.role) ? entry.role : null;
     key.title = role ? t("role.needed", { role: t(/** @type {any} */ (`role.${role}`)) }) : reason;
     setAttributes(key, {
-      "aria-disabled": reason ? "true" : null, "data-locked": role,
+      "aria-disabled": reason ? "true" : null,
+      "data-locked": role,
       "aria-pressed": entry.pressed ? String(model.is(/** @type {any} */ (entry.pressed))) : null,
     });
   }

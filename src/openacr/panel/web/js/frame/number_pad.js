@@ -5,7 +5,10 @@ import { t } from "../core/texts.js";
 import { ask } from "./dialog.js";
 
 const ROWS = [
-  ["7", "8", "9", "/", "back"], ["4", "5", "6", "*", "clear"], ["1", "2", "3", "-", "("], ["0", ".", "sign", "+", ")"],
+  ["7", "8", "9", "/", "back"],
+  ["4", "5", "6", "*", "clear"],
+  ["1", "2", "3", "-", "("],
+  ["0", ".", "sign", "+", ")"],
 ];
 /** @type {Record<string, string>} */
 const FACES = { "*": "\u00d7", "/": "\u00f7", "-": "\u2212", back: "\u232b", clear: "C", sign: "\u00b1" };
@@ -13,7 +16,13 @@ const FACES = { "*": "\u00d7", "/": "\u00f7", "-": "\u2212", back: "\u232b", cle
 // A number field that is entered by mouse or finger is selected, as it is by Tab: the first digit replaces the value.
 /** @type {Element | null} */
 let before = null; // where the focus was when the pointer went down
-window.addEventListener("pointerdown", () => { before = document.activeElement; }, { capture: true });
+window.addEventListener(
+  "pointerdown",
+  () => {
+    before = document.activeElement;
+  },
+  { capture: true },
+);
 window.addEventListener("click", ({ target }) => {
   if (!(target instanceof HTMLInputElement) || target === before || !target.matches(".number, .pad-value")) return;
   if (target.selectionStart === target.selectionEnd) target.select(); // what was marked with the mouse stays marked
@@ -28,8 +37,13 @@ window.addEventListener("click", ({ target }) => {
  * @returns {Promise<number | null>}
  */
 export function askNumber({ title, value = null, unit = "", hint = "", check = () => "" }) {
-  const field = h("input.field.pad-value", { value: value === null ? "" : tidy(value), inputMode: "none", autocomplete: "off",
-    spellcheck: false, ariaLabel: unit ? `${title} (${unit})` : title });
+  const field = h("input.field.pad-value", {
+    value: value === null ? "" : tidy(value),
+    inputMode: "none",
+    autocomplete: "off",
+    spellcheck: false,
+    ariaLabel: unit ? `${title} (${unit})` : title,
+  });
   const note = h("div.hint", { attr: { "aria-live": "polite" } }, hint);
   const show = () => {
     const sum = evaluate(field.value);
@@ -41,10 +55,22 @@ export function askNumber({ title, value = null, unit = "", hint = "", check = (
     apply(field, name);
     show();
   };
-  const pad = h("div.pad", {}, ...ROWS.flat().map((name) =>
-    h("button.key", { type: "button", ariaLabel: name === "back" || name === "clear" || name === "sign" ? t(`pad.${name}`) : name,
-      onmousedown: (/** @type {Event} */ event) => event.preventDefault(), // the field keeps the focus: Enter is OK
-      onclick: () => press(name) }, FACES[name] ?? name)));
+  const pad = h(
+    "div.pad",
+    {},
+    ...ROWS.flat().map((name) =>
+      h(
+        "button.key",
+        {
+          type: "button",
+          ariaLabel: name === "back" || name === "clear" || name === "sign" ? t(`pad.${name}`) : name,
+          onmousedown: (/** @type {Event} */ event) => event.preventDefault(), // the field keeps the focus: Enter is OK
+          onclick: () => press(name),
+        },
+        FACES[name] ?? name,
+      ),
+    ),
+  );
   const accept = () => {
     const sum = evaluate(field.value);
     const refusal = sum === null ? t("pad.none") : check(sum);
@@ -54,10 +80,15 @@ export function askNumber({ title, value = null, unit = "", hint = "", check = (
     return undefined;
   };
   const body = [h("div.row", {}, field, unit ? h("span.quiet", {}, unit) : ""), note, pad];
-  return ask({ title, body, first: field, choices: [
-    { text: t("key.cancel"), value: null },
-    { text: t("key.ok"), kind: "main", isSubmit: true, value: accept },
-  ] });
+  return ask({
+    title,
+    body,
+    first: field,
+    choices: [
+      { text: t("key.cancel"), value: null },
+      { text: t("key.ok"), kind: "main", isSubmit: true, value: accept },
+    ],
+  });
 }
 
 /**

@@ -22,9 +22,17 @@ export function startPrompt() {
       const isNew = show("ask", asking.text || t("ask.value"), key);
       if (isNew && !document.activeElement?.closest("dialog, #screen, input")) key.focus(); // Enter answers
     } else if (toolWanted) {
-      show("ask", reason || t("tool.wanted"), keyOf("tool.changed", () => give("run.confirm"), ".main"));
+      show(
+        "ask",
+        reason || t("tool.wanted"),
+        keyOf("tool.changed", () => give("run.confirm"), ".main"),
+      );
     } else if (holds) {
-      show("ask", t("stopped.held", { what: found.join(", ") }), keyOf("menu.resume", () => mayMove() && give("run.resume"), ".main"));
+      show(
+        "ask",
+        t("stopped.held", { what: found.join(", ") }),
+        keyOf("menu.resume", () => mayMove() && give("run.resume"), ".main"),
+      );
     } else if (prompt.value.text) show(prompt.value.kind, prompt.value.text);
     else show("say", said);
   };
@@ -52,7 +60,8 @@ export function startPrompt() {
   model.alarms.watch(({ active }) => {
     const gone = alarms.filter((each) => !active.some((other) => other.code === each.code && other.text === each.text));
     alarms = active;
-    const isOver = (/** @type {any} */ { code, text }) => prompt.value.text.includes(text) || prompt.value.text.includes(`alarm ${code}`);
+    const isOver = (/** @type {any} */ { code, text }) =>
+      prompt.value.text.includes(text) || prompt.value.text.includes(`alarm ${code}`);
     if (prompt.value.kind === "error" && gone.some(isOver)) prompt.set({ kind: "say", text: "" });
   });
   prompt.watch(draw);

@@ -67,11 +67,22 @@ export async function openScreen(name, args = {}) {
   prompt.set({ kind: "say", text: "" });
   shown.set(name);
   try {
-    await screen.show({ body, head: keys, endings, args, setTitle: (text) => fill(title, text), beforeClose: (question) => { if (own === showing) mayLeave = question; } });
+    await screen.show({
+      body,
+      head: keys,
+      endings,
+      args,
+      setTitle: (text) => fill(title, text),
+      beforeClose: (question) => {
+        if (own === showing) mayLeave = question;
+      },
+    });
   } catch (error) {
     refuse(error);
   }
-  const first = body.querySelector("[autofocus]") ?? body.querySelector("button:not(:disabled), input, select, textarea, [tabindex='0']");
+  const first =
+    body.querySelector("[autofocus]") ??
+    body.querySelector("button:not(:disabled), input, select, textarea, [tabindex='0']");
   if (own === showing && !pane.contains(document.activeElement)) /** @type {HTMLElement} */ (first ?? close).focus();
 }
 
@@ -111,6 +122,7 @@ export function startScreens() {
     if (client && mode !== "auto" && model.may("operate")) void link.command("mode", { mode }).catch(() => {});
   });
   window.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && shown.value && !document.querySelector("dialog[open]") && !event.defaultPrevented) void closeScreen();
+    if (event.key === "Escape" && shown.value && !document.querySelector("dialog[open]") && !event.defaultPrevented)
+      void closeScreen();
   });
 }

@@ -8,7 +8,13 @@ const STEP = 0.02; // of the width, per arrow key
 
 export function startSplitter() {
   const work = byId("work");
-  const edge = h("div.splitter", { role: "separator", tabIndex: 0, ariaOrientation: "vertical", ariaLabel: t("splitter.label"), attr: { "aria-valuemin": 0, "aria-valuemax": 100 } });
+  const edge = h("div.splitter", {
+    role: "separator",
+    tabIndex: 0,
+    ariaOrientation: "vertical",
+    ariaLabel: t("splitter.label"),
+    attr: { "aria-valuemin": 0, "aria-valuemax": 100 },
+  });
   work.append(edge);
   let share = Number(setting("split", "0")); // of the width; 0: as it is at first
 
@@ -17,7 +23,8 @@ export function startSplitter() {
     if (share) work.style.setProperty("--status-width", `${Math.round(within(share) * width())}px`);
     edge.setAttribute("aria-valuenow", String(Math.round((100 * byId("status").offsetWidth) / Math.max(1, width()))));
   };
-  const within = (/** @type {number} */ wanted) => Math.min(1 - LEAST.display / width(), Math.max(LEAST.status / width(), wanted));
+  const within = (/** @type {number} */ wanted) =>
+    Math.min(1 - LEAST.display / width(), Math.max(LEAST.status / width(), wanted));
   const move = (/** @type {number} */ wanted) => {
     share = within(wanted);
     keepSetting("split", share.toFixed(4));

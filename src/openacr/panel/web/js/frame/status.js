@@ -32,7 +32,11 @@ export async function startStatus() {
     },
   }));
   const choose = tabControl(pane, t("status.label"), tabs, (id) => keepSetting("view", id));
-  const unitKey = h("button.key.plain.unit-key", { type: "button", title: t("units.switch"), onclick: () => chooseUnit(otherUnit()) });
+  const unitKey = h("button.key.plain.unit-key", {
+    type: "button",
+    title: t("units.switch"),
+    onclick: () => chooseUnit(otherUnit()),
+  });
   pane.append(unitKey, overrideStrip(h("div.override-strip", {})));
   const drawUnit = () => fill(unitKey, h("strong", {}, shownUnit()), h("small", {}, ` \u2192 ${otherUnit()}`));
   let names = "";
@@ -46,7 +50,12 @@ export async function startStatus() {
     drawUnit();
     redraw(choose);
   });
-  model.changed.watch(({ what, cells }) => what === "forms" && cells.some((cell) => cell >= FIRST_VIEW && cell < FIRST_VIEW + 3) && loadViews().then(() => redraw(choose)));
+  model.changed.watch(
+    ({ what, cells }) =>
+      what === "forms" &&
+      cells.some((cell) => cell >= FIRST_VIEW && cell < FIRST_VIEW + 3) &&
+      loadViews().then(() => redraw(choose)),
+  );
   await loadViews();
   redraw(choose);
   pane.ariaBusy = "false";

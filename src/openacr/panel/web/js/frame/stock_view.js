@@ -20,7 +20,10 @@ export function stockView() {
     turn.abort();
     const mine = (turn = new AbortController());
     try {
-      const stock = await fetchStock((share) => setText(note, t("graphics.computing", { percent: Math.floor(100 * share) })), mine.signal);
+      const stock = await fetchStock(
+        (share) => setText(note, t("graphics.computing", { percent: Math.floor(100 * share) })),
+        mine.signal,
+      );
       if (mine.signal.aborted) return;
       picture?.setStock(stock);
       const found = [...named("graphics.dip", stock.rapidLines), ...named("graphics.below", stock.belowLines)];

@@ -13,14 +13,33 @@ export function alarmsTab(panel, endings) {
   const acknowledge = keyOf("alarm.acknowledge", () => give("alarm.acknowledge"), ".main");
   const count = h("strong.grow", {});
   const body = h("tbody", {});
-  panel.append(h("div.row.pane-tools", {}, count, acknowledge),
-    h("table.grid", {}, h("thead", {}, h("tr", {}, ...["alarm.time", "alarm.code", "alarm.text"].map((key) => h("th", {}, t(/** @type {any} */ (key)))))), body));
-  endings.add(model.alarms.watch(({ active, history }) => {
-    fill(count, active.length ? t("alarm.count", { count: active.length }) : t("alarm.none"));
-    acknowledge.disabled = active.length === 0;
-    const over = history.filter((each) => !active.some((one) => one.code === each.code && one.time === each.time)).reverse();
-    fill(body, ...active.map((each) => rowOf(each, true)), ...over.map((each) => rowOf(each, false)));
-  }));
+  panel.append(
+    h("div.row.pane-tools", {}, count, acknowledge),
+    h(
+      "table.grid",
+      {},
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          ...["alarm.time", "alarm.code", "alarm.text"].map((key) => h("th", {}, t(/** @type {any} */ (key)))),
+        ),
+      ),
+      body,
+    ),
+  );
+  endings.add(
+    model.alarms.watch(({ active, history }) => {
+      fill(count, active.length ? t("alarm.count", { count: active.length }) : t("alarm.none"));
+      acknowledge.disabled = active.length === 0;
+      const over = history
+        .filter((each) => !active.some((one) => one.code === each.code && one.time === each.time))
+        .reverse();
+      fill(body, ...active.map((each) => rowOf(each, true)), ...over.map((each) => rowOf(each, false)));
+    }),
+  );
 }
 
 /**
@@ -28,7 +47,14 @@ export function alarmsTab(panel, endings) {
  * @param {boolean} isActive
  */
 function rowOf(alarm, isActive) {
-  const time = String(alarm.time ?? "").replace("T", " ").slice(0, 19); // local time of the machine
-  return h("tr", { className: isActive ? "is-alarm" : "" }, h("td.number", {}, time), h("td.number", {}, `${isActive ? "\u26a0 " : ""}${alarm.code}`),
-    h("td", {}, alarm.text, alarm.effect ? h("div.hint", {}, alarm.effect) : ""));
+  const time = String(alarm.time ?? "")
+    .replace("T", " ")
+    .slice(0, 19); // local time of the machine
+  return h(
+    "tr",
+    { className: isActive ? "is-alarm" : "" },
+    h("td.number", {}, time),
+    h("td.number", {}, `${isActive ? "\u26a0 " : ""}${alarm.code}`),
+    h("td", {}, alarm.text, alarm.effect ? h("div.hint", {}, alarm.effect) : ""),
+  );
 }

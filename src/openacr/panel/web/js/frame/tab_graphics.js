@@ -22,11 +22,20 @@ export async function graphicsTab(panel, endings) {
   panel.classList.add("graphics");
   const note = h("div.picture-note", { attr: { "aria-live": "polite" } });
   const stock = stockView();
-  const drawKey = keyOf("graphics.draw", () => {
-    drawKey.hidden = true;
-    void begin(model.program.value.loaded?.id ?? "");
-  }, "", { hidden: true });
-  const picture = await createPicture(panel, endings, { clicked: (line) => chosenLine.set(line), hasTool: true, more: [drawKey, stock.key] });
+  const drawKey = keyOf(
+    "graphics.draw",
+    () => {
+      drawKey.hidden = true;
+      void begin(model.program.value.loaded?.id ?? "");
+    },
+    "",
+    { hidden: true },
+  );
+  const picture = await createPicture(panel, endings, {
+    clicked: (line) => chosenLine.set(line),
+    hasTool: true,
+    more: [drawKey, stock.key],
+  });
   stock.show(picture, endings);
   let isOld = false;
   const turn = async () => {
@@ -121,6 +130,7 @@ async function readFlips() {
   const form = await get("forms/DISPLAY").catch(() => null);
   if (!form) return null;
   const rows = form.groups.flatMap((/** @type {any} */ group) => group.rows);
-  const isOn = (/** @type {string} */ number) => Boolean(rows.find((/** @type {any} */ row) => String(row.number) === number)?.number_value);
+  const isOn = (/** @type {string} */ number) =>
+    Boolean(rows.find((/** @type {any} */ row) => String(row.number) === number)?.number_value);
   return { x: isOn(FLIPS.x) ? -1 : 1, y: isOn(FLIPS.y) ? -1 : 1, exchange: isOn(FLIPS.exchange) };
 }

@@ -23,7 +23,10 @@ export async function ioTab(panel, endings) {
     own.end();
     const [left, right] = [columnOf(t("io.inputs"), inputs), columnOf(t("io.outputs"), outputs)];
     fill(host, left.element, right.element);
-    own.add(needWords(words), model.flags.watch((states) => [left, right].forEach(({ draw }) => draw(states))));
+    own.add(
+      needWords(words),
+      model.flags.watch((states) => [left, right].forEach(({ draw }) => draw(states))),
+    );
   };
   await show().catch(refuse);
   // Names, card model and number of modules are settings.
@@ -37,9 +40,26 @@ export async function ioTab(panel, endings) {
 function columnOf(title, points) {
   const rows = points.map((point) => {
     const [lamp, state] = [h("span.lamp", { ariaHidden: "true" }), h("span.io-state", {})];
-    return { point, lamp, state, element: h("div.io-row", { data: { bit: String(point.number) } }, lamp, h("span.number", {}, String(point.number)), h("span.io-name", { title: point.name }, point.name), state) };
+    return {
+      point,
+      lamp,
+      state,
+      element: h(
+        "div.io-row",
+        { data: { bit: String(point.number) } },
+        lamp,
+        h("span.number", {}, String(point.number)),
+        h("span.io-name", { title: point.name }, point.name),
+        state,
+      ),
+    };
   });
-  const element = h("section.block", { ariaLabel: title }, h("h3", {}, title), h("div.io-list", {}, ...rows.map((row) => row.element)));
+  const element = h(
+    "section.block",
+    { ariaLabel: title },
+    h("h3", {}, title),
+    h("div.io-list", {}, ...rows.map((row) => row.element)),
+  );
   const draw = (/** @type {Map<number, number>} */ words) => {
     for (const { point, lamp, state } of rows) {
       const isOn = stateOf(words, point.number);

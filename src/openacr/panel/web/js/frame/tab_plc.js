@@ -28,12 +28,25 @@ export async function plcTab(panel, endings) {
   let plc = Number(setting("plc", "0"));
   let hasList = setting("plc-list", panel.clientWidth < WIDE ? "off" : "on") === "on";
   const state = h("span.grow", { role: "status" });
-  const choice = h("select.field", { ariaLabel: t("plc.choose"), onchange: () => choose(Number(choice.value)) },
-    ...Array.from({ length: COUNT }, (_each, n) => h("option", { value: String(n) }, `PLC${n}`)));
+  const choice = h(
+    "select.field",
+    { ariaLabel: t("plc.choose"), onchange: () => choose(Number(choice.value)) },
+    ...Array.from({ length: COUNT }, (_each, n) => h("option", { value: String(n) }, `PLC${n}`)),
+  );
   const listKey = keyOf("plc.listing", () => toggleList());
   const ladder = h("div.ladder.scroll", { tabIndex: 0, role: "region", ariaLabel: t("plc.ladder") });
   const list = h("pre.plc-list.mono.scroll", { tabIndex: 0, role: "region", ariaLabel: t("plc.listing") });
-  panel.append(h("div.row.pane-tools", {}, choice, state, listKey, keyOf("plc.read", () => choose(plc))), h("div.plc-view.grow", {}, ladder, list));
+  panel.append(
+    h(
+      "div.row.pane-tools",
+      {},
+      choice,
+      state,
+      listKey,
+      keyOf("plc.read", () => choose(plc)),
+    ),
+    h("div.plc-view.grow", {}, ladder, list),
+  );
   const names = namesOf();
   const newest = latest(endings);
 
@@ -68,11 +81,18 @@ export async function plcTab(panel, endings) {
   function show({ lines, rungs, why }, named) {
     setText(list, lines.map((line) => `${String(line.number).padStart(5)} ${line.text}`).join("\n"));
     const drawn = rungs.map((rung) => drawRung(rung, (flag) => named.get(flag) ?? ""));
-    fill(ladder, ...(drawn.length ? drawn.map((each) => each.element) : [h("p.notice", {}, lines.length ? t("plc.notdrawn", { why: why || t("plc.norung") }) : t("plc.empty"))]));
+    fill(
+      ladder,
+      ...(drawn.length
+        ? drawn.map((each) => each.element)
+        : [h("p.notice", {}, lines.length ? t("plc.notdrawn", { why: why || t("plc.norung") }) : t("plc.empty"))]),
+    );
     showList(lines.length > 0 && (hasList || !drawn.length));
     const symbols = rungs.flatMap((rung) => rung.symbols);
     const flags = symbols.flatMap((symbol) => symbol.flag ?? []);
-    const boxes = symbols.filter((symbol) => symbol.kind in COUNTS).map((symbol) => countAt(symbol.kind, symbol.number ?? 0));
+    const boxes = symbols
+      .filter((symbol) => symbol.kind in COUNTS)
+      .map((symbol) => countAt(symbol.kind, symbol.number ?? 0));
     /** @type {Map<number, number>} */
     let values = new Map();
     let wasRunning = /** @type {boolean | undefined} */ (undefined);
@@ -80,15 +100,26 @@ export async function plcTab(panel, endings) {
       const isRunning = stateOf(model.flags.value, RUNNING + EACH * plc);
       setText(state, isRunning === undefined ? "" : t(isRunning ? "plc.running" : "plc.halted"));
       state.classList.toggle("is-running", isRunning === true);
-      for (const each of drawn) each.update((flag) => stateOf(model.flags.value, flag), isRunning === true, (kind, number) => countOf(values, kind, number));
+      for (const each of drawn)
+        each.update(
+          (flag) => stateOf(model.flags.value, flag),
+          isRunning === true,
+          (kind, number) => countOf(values, kind, number),
+        );
       if (wasRunning === false && isRunning) void choose(plc); // another text may have been started
       wasRunning = isRunning;
     };
     own.add(needWords(wordsOf([RUNNING + EACH * plc, ...flags])), model.flags.watch(update));
-    if (boxes.length) own.add(needValues(boxes.flatMap((at) => [at - 1, at]), (known) => {
-      values = known;
-      update();
-    }));
+    if (boxes.length)
+      own.add(
+        needValues(
+          boxes.flatMap((at) => [at - 1, at]),
+          (known) => {
+            values = known;
+            update();
+          },
+        ),
+      );
   }
   await choose(Math.min(COUNT - 1, Math.max(0, plc || 0)));
 }
@@ -102,10 +133,29 @@ export async function plcTab(panel, endings) {
  */
 async function meant(reading, names) {
   const [ladder, named] = await Promise.all([reading, names]);
-  const flags = new Set(ladder.rungs.flatMap((rung) => rung.symbols).filter((symbol) => symbol.number === null).flatMap((symbol) => symbol.flag ?? []).filter((flag) => !named.has(flag)));
+  const flags = new Set(
+    ladder.rungs
+      .flatMap((rung) => rung.symbols)
+      .filter((symbol) => symbol.number === null)
+      .flatMap((symbol) => symbol.flag ?? [])
+      .filter((flag) => !named.has(flag)),
+  );
   if (!flags.size) return [ladder, named];
-  const { items } = await get("card/named", { names: [...flags].map((flag) => `BIT${flag}`).join(";") }).catch(() => ({ items: [] }));
-  return [ladder, new Map([...named, ...items.filter((/** @type {any} */ each) => each.name !== NOTHING).map((/** @type {import("./card_value.js").Item} */ each) => /** @type {[number, string]} */ ([each.number, fullName(each)]))])];
+  const { items } = await get("card/named", { names: [...flags].map((flag) => `BIT${flag}`).join(";") }).catch(() => ({
+    items: [],
+  }));
+  return [
+    ladder,
+    new Map([
+      ...named,
+      ...items
+        .filter((/** @type {any} */ each) => each.name !== NOTHING)
+        .map(
+          (/** @type {import("./card_value.js").Item} */ each) =>
+            /** @type {[number, string]} */ ([each.number, fullName(each)]),
+        ),
+    ]),
+  ];
 }
 
 /**
@@ -130,5 +180,7 @@ function countOf(values, kind, number) {
 /** Names of inputs and outputs by their flags. */
 async function namesOf() {
   const { inputs, outputs } = await get("io").catch(() => ({ inputs: [], outputs: [] }));
-  return new Map([...inputs, ...outputs].map((/** @type {{ bit: number, name: string }} */ each) => [each.bit, each.name]));
+  return new Map(
+    [...inputs, ...outputs].map((/** @type {{ bit: number, name: string }} */ each) => [each.bit, each.name]),
+  );
 }

@@ -17,7 +17,11 @@ export function programTab(panel, endings) {
   const [name, phase] = [h("strong.name", {}, ""), h("span.grow.quiet", { role: "status" }, "")];
   const elsewhere = h("div.active-block.mono", { role: "status", hidden: true }); // a block of an included text
   const followKey = keyOf("program.follow", () => setFollowing(!isFollowing), "", { ariaPressed: "true" });
-  const fromKey = h("button.key", { type: "button", hidden: true, onclick: () => beginRun({ dry: false, line: chosenLine.value }) }, "");
+  const fromKey = h(
+    "button.key",
+    { type: "button", hidden: true, onclick: () => beginRun({ dry: false, line: chosenLine.value }) },
+    "",
+  );
   panel.append(h("div.row.pane-tools", {}, name, phase, fromKey, followKey), elsewhere);
   const listing = createListing(panel, {
     read: async (first, lines) => (await get("program/listing", { first, lines })).lines,

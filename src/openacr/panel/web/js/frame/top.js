@@ -8,7 +8,15 @@ import { PLAIN } from "../draw/colors.js";
 import { ask, confirm } from "./dialog.js";
 
 /** @type {Record<string, string>} */
-const SIGNS = { IDLE: "\u25cb", RUN: "\u25b6", WAIT: "\u25d4", HOMING: "\u2302", PAUSED: "\u2016", HOLD: "\u25a0", ALARM: "\u26a0" };
+const SIGNS = {
+  IDLE: "\u25cb",
+  RUN: "\u25b6",
+  WAIT: "\u25d4",
+  HOMING: "\u2302",
+  PAUSED: "\u2016",
+  HOLD: "\u25a0",
+  ALARM: "\u26a0",
+};
 
 const MOST_MESSAGES = 3; // at once in the line; a key shows all of them
 const MOST_BESIDE_ALARM = 1;
@@ -39,12 +47,22 @@ function drawState() {
   const ofCard = state === "IDLE" && !jogging && (moving.length > 0 || running.length > 0);
   const shown = ofCard ? "RUN" : state;
   chip.dataset.state = shown;
-  const name = state === "PAUSED" ? "----PAUSE----" : jogging && state === "IDLE" ? t("state.JOG")
-    : ofCard ? t(moving.length ? "lamp.moves" : "lamp.runs") : textOr(`state.${state}`, state);
+  const name =
+    state === "PAUSED"
+      ? "----PAUSE----"
+      : jogging && state === "IDLE"
+        ? t("state.JOG")
+        : ofCard
+          ? t(moving.length ? "lamp.moves" : "lamp.runs")
+          : textOr(`state.${state}`, state);
   chip.title = drives.length ? t("lamp.drives", { axes: drives.join(" ") }) : "";
   const detail = ofCard ? [...moving, ...running].join(" ") : reason;
-  fill(chip, h("span.sign", { ariaHidden: "true" }, SIGNS[shown] ?? ""), h("span", {}, name),
-    detail ? h("span.reason", { title: detail }, detail) : "");
+  fill(
+    chip,
+    h("span.sign", { ariaHidden: "true" }, SIGNS[shown] ?? ""),
+    h("span", {}, name),
+    detail ? h("span.reason", { title: detail }, detail) : "",
+  );
 }
 
 /** The first alarm with its keys, then user messages; without any the mode, or the name of the loaded program. */
@@ -63,11 +81,31 @@ function drawAlarms() {
   area.dataset.mode = looks;
   const none = h("span.none", { title: loaded?.path ?? "" }, loaded ? loaded.name : t("alarm.noprogram"));
   const count = loaded ? loaded.errors || loaded.warnings : 0;
-  const found = count ? h("button.key", { type: "button", className: loaded?.errors ? "key bad" : "key", title: t("findings.title"),
-    onclick: async () => (await import("./findings.js")).showFindings() }, t(loaded?.errors ? "findings.errors" : "findings.warnings", { count })) : "";
-  fill(area, ...(active.length ? alarmParts(active) : mode), ...few,
-    more > 0 ? h("button.key", { type: "button", title: t("message.all"), onclick: showMessages }, t("message.more", { count: more })) : "",
-    ...(active.length || messages.length || mode.length ? [] : [none, found]));
+  const found = count
+    ? h(
+        "button.key",
+        {
+          type: "button",
+          className: loaded?.errors ? "key bad" : "key",
+          title: t("findings.title"),
+          onclick: async () => (await import("./findings.js")).showFindings(),
+        },
+        t(loaded?.errors ? "findings.errors" : "findings.warnings", { count }),
+      )
+    : "";
+  fill(
+    area,
+    ...(active.length ? alarmParts(active) : mode),
+    ...few,
+    more > 0
+      ? h(
+          "button.key",
+          { type: "button", title: t("message.all"), onclick: showMessages },
+          t("message.more", { count: more }),
+        )
+      : "",
+    ...(active.length || messages.length || mode.length ? [] : [none, found]),
+  );
 }
 
 /** What is unlike a machine that is operated: the card is at a moment of its past, or AcroMill has not set it up. */
@@ -87,15 +125,18 @@ function modeParts() {
 /** @param {string} lacks */
 async function setUp(lacks) {
   if (!(await confirm(t("mode.setup"), `${lacks}. ${t("mode.setup.text")}`, t("mode.setup")))) return;
-  if (await give("card.setup") !== null) report(t("mode.setup.done"));
+  if ((await give("card.setup")) !== null) report(t("mode.setup.done"));
 }
 
 /** @param {any[]} active */
 function alarmParts([first, ...others]) {
-  return [h("span", { ariaHidden: "true" }, "\u26a0"), h("span.text", { title: first.text }, `${first.code} ${first.text}`),
+  return [
+    h("span", { ariaHidden: "true" }, "\u26a0"),
+    h("span.text", { title: first.text }, `${first.code} ${first.text}`),
     others.length ? h("span", {}, t("alarm.more", { count: others.length })) : "",
     keyOf("alarm.acknowledge", acknowledge, ".bad"),
-    keyOf("alarm.show", () => show("alarms"))];
+    keyOf("alarm.show", () => show("alarms")),
+  ];
 }
 
 /** Acknowledge the alarms; of those that stay, what has to be done is in the prompt line. */
@@ -119,37 +160,99 @@ function showMessages() {
 
 function drawTools() {
   const { holder, you, asking } = model.control.value;
-  const label = you ? t("control.you") : holder ? t("control.other", { name: holder.name || holder.client }) : t(model.may("operate") ? "control.first" : "control.free");
-  fill(byId("tools"),
-    h("button.key", { type: "button", onclick: askControl, className: asking?.length ? "key danger" : "key", title: holder ? t("control.title") : t("control.text") },
-      h("span", { ariaHidden: "true" }, you ? "\u25cf" : "\u25cb"), label),
-    h("button.key", { type: "button", onclick: askSettings, ariaLabel: t("settings.title"), title: t("settings.title") }, "\u2699"));
+  const label = you
+    ? t("control.you")
+    : holder
+      ? t("control.other", { name: holder.name || holder.client })
+      : t(model.may("operate") ? "control.first" : "control.free");
+  fill(
+    byId("tools"),
+    h(
+      "button.key",
+      {
+        type: "button",
+        onclick: askControl,
+        className: asking?.length ? "key danger" : "key",
+        title: holder ? t("control.title") : t("control.text"),
+      },
+      h("span", { ariaHidden: "true" }, you ? "\u25cf" : "\u25cb"),
+      label,
+    ),
+    h(
+      "button.key",
+      { type: "button", onclick: askSettings, ariaLabel: t("settings.title"), title: t("settings.title") },
+      "\u2699",
+    ),
+  );
 }
 
 /** Take control, hand it over or give it up. */
 async function askControl() {
   const { holder, you, asking, clients } = model.control.value;
-  const list = (clients ?? []).map((/** @type {any} */ each) => h("div.row", {}, h("span.grow", {}, `${each.name || each.client} \u00b7 ${each.role}`),
-    holder?.client === each.client ? h("strong", {}, t("control.has")) : ""));
+  const list = (clients ?? []).map((/** @type {any} */ each) =>
+    h(
+      "div.row",
+      {},
+      h("span.grow", {}, `${each.name || each.client} \u00b7 ${each.role}`),
+      holder?.client === each.client ? h("strong", {}, t("control.has")) : "",
+    ),
+  );
   const cancel = { text: t("key.close"), value: null };
   const choices = you
-    ? [cancel, ...(asking ?? []).map((/** @type {any} */ each) => ({ text: t("control.give", { name: each.name || each.client }), value: ["control.give", { client: each.client }] })),
-      { text: t("control.release"), value: ["control.release", {}] }]
-    : [cancel, ...(holder ? [{ text: t("control.force"), kind: "danger", value: ["control.take", { force: true }] }] : []),
-      { text: holder ? t("control.ask") : t("control.take"), kind: "main", value: ["control.take", { force: false }] }];
-  const chosen = await ask({ title: t("control.title"), body: [h("p", {}, t("control.text")), ...list], choices: /** @type {any} */ (choices) });
+    ? [
+        cancel,
+        ...(asking ?? []).map((/** @type {any} */ each) => ({
+          text: t("control.give", { name: each.name || each.client }),
+          value: ["control.give", { client: each.client }],
+        })),
+        { text: t("control.release"), value: ["control.release", {}] },
+      ]
+    : [
+        cancel,
+        ...(holder ? [{ text: t("control.force"), kind: "danger", value: ["control.take", { force: true }] }] : []),
+        {
+          text: holder ? t("control.ask") : t("control.take"),
+          kind: "main",
+          value: ["control.take", { force: false }],
+        },
+      ];
+  const chosen = await ask({
+    title: t("control.title"),
+    body: [h("p", {}, t("control.text")), ...list],
+    choices: /** @type {any} */ (choices),
+  });
   if (chosen) await give(chosen[0], chosen[1]);
 }
 
 /** Appearance and language of this browser. */
 async function askSettings() {
-  const theme = choiceOf(t("settings.theme"), { auto: t("theme.auto"), light: t("theme.light"), dark: t("theme.dark") }, setting("theme", "auto"));
+  const theme = choiceOf(
+    t("settings.theme"),
+    { auto: t("theme.auto"), light: t("theme.light"), dark: t("theme.dark") },
+    setting("theme", "auto"),
+  );
   const language = choiceOf(t("settings.language"), LANGUAGES, setting("language", "en"));
   const { version, role, machine } = model.hello.value;
-  const facts = h("p.hint", {}, `${machine.name || machine.kind} \u00b7 ${machine.card} \u00b7 openacr ${version} \u00b7 ${t(/** @type {any} */ (`role.${role}`))}`);
-  const other = document.getElementById("status") ? h("a", { href: "/bench" }, t("settings.bench")) : h("a", { href: "/" }, t("settings.operator"));
-  const choices = [{ text: t("key.cancel"), value: null }, { text: t("key.ok"), value: true, kind: "main", isSubmit: true }];
-  if (!(await ask({ title: t("settings.title"), body: [theme, language, other, facts], choices: /** @type {any} */ (choices) }))) return;
+  const facts = h(
+    "p.hint",
+    {},
+    `${machine.name || machine.kind} \u00b7 ${machine.card} \u00b7 openacr ${version} \u00b7 ${t(/** @type {any} */ (`role.${role}`))}`,
+  );
+  const other = document.getElementById("status")
+    ? h("a", { href: "/bench" }, t("settings.bench"))
+    : h("a", { href: "/" }, t("settings.operator"));
+  const choices = [
+    { text: t("key.cancel"), value: null },
+    { text: t("key.ok"), value: true, kind: "main", isSubmit: true },
+  ];
+  if (
+    !(await ask({
+      title: t("settings.title"),
+      body: [theme, language, other, facts],
+      choices: /** @type {any} */ (choices),
+    }))
+  )
+    return;
   const [newTheme, newLanguage] = [theme, language].map((each) => each.querySelector("select")?.value ?? "");
   keepSetting("theme", newTheme);
   applyTheme();

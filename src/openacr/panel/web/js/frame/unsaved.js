@@ -10,8 +10,14 @@ import { ask } from "./dialog.js";
  */
 export async function mayDrop(count, save) {
   if (!count) return true;
-  const chosen = await ask({ title: t("form.leave"), body: [h("p", {}, t("form.leave.text", { count }))], choices: [
-    { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" }, { text: t("form.save"), value: "save", kind: "main" },
-  ] });
+  const chosen = await ask({
+    title: t("form.leave"),
+    body: [h("p", {}, t("form.leave.text", { count }))],
+    choices: [
+      { text: t("key.cancel"), value: "stay" },
+      { text: t("form.drop"), value: "drop", kind: "danger" },
+      { text: t("form.save"), value: "save", kind: "main" },
+    ],
+  });
   return chosen === "drop" || (chosen === "save" && (await save()));
 }

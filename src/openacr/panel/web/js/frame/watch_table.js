@@ -20,13 +20,38 @@ export function watchTable(host, endings, isMeant = () => true) {
     const shown = parameters.filter(isMeant).slice(0, MOST);
     const values = shown.map(() => h("strong.live", {}, "\u2013"));
     const sections = [...new Set(shown.map((/** @type {any} */ each) => each.section))];
-    fill(host, ...sections.map((section) => h("section.fact-group", {}, h("h3", {}, String(section)), h("table.grid", {}, h("tbody", {},
-      ...shown.map((/** @type {any} */ each, /** @type {number} */ n) => (each.section === section ? rowOf(each, values[n]) : "")))))));
+    fill(
+      host,
+      ...sections.map((section) =>
+        h(
+          "section.fact-group",
+          {},
+          h("h3", {}, String(section)),
+          h(
+            "table.grid",
+            {},
+            h(
+              "tbody",
+              {},
+              ...shown.map((/** @type {any} */ each, /** @type {number} */ n) =>
+                each.section === section ? rowOf(each, values[n]) : "",
+              ),
+            ),
+          ),
+        ),
+      ),
+    );
     own.end();
-    own.add(needValues(shown.map((/** @type {any} */ each) => each.number), (known) => shown.forEach((/** @type {any} */ each, /** @type {number} */ n) => {
-      const value = known.get(each.number);
-      if (value !== undefined) setText(values[n], String(Number(value.toPrecision(9))));
-    })));
+    own.add(
+      needValues(
+        shown.map((/** @type {any} */ each) => each.number),
+        (known) =>
+          shown.forEach((/** @type {any} */ each, /** @type {number} */ n) => {
+            const value = known.get(each.number);
+            if (value !== undefined) setText(values[n], String(Number(value.toPrecision(9))));
+          }),
+      ),
+    );
   };
 }
 
@@ -35,5 +60,11 @@ export function watchTable(host, endings, isMeant = () => true) {
  * @param {HTMLElement} value
  */
 function rowOf(parameter, value) {
-  return h("tr", {}, h("td", { title: parameter.doc }, parameter.name), h("td.quiet.number", {}, `P${parameter.number}`), h("td.number", {}, value, parameter.unit ? ` ${parameter.unit}` : ""));
+  return h(
+    "tr",
+    {},
+    h("td", { title: parameter.doc }, parameter.name),
+    h("td.quiet.number", {}, `P${parameter.number}`),
+    h("td.number", {}, value, parameter.unit ? ` ${parameter.unit}` : ""),
+  );
 }

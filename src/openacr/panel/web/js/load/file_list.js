@@ -14,8 +14,25 @@ import { t } from "../core/texts.js";
 export function fileList({ kinds, chosen, opened = () => {} }) {
   const rows = h("div.list.grow.scroll", { role: "listbox", ariaLabel: t("load.files") });
   const place = h("span.grow.mono", {});
-  const input = h("input", { type: "file", hidden: true, multiple: true, onchange: () => void upload([...(input.files ?? [])]) });
-  const element = h("section.file-list", {}, h("div.row", {}, place, keyOf("load.upload", () => input.click()), input), rows, h("p.hint", {}, t("load.drop")));
+  const input = h("input", {
+    type: "file",
+    hidden: true,
+    multiple: true,
+    onchange: () => void upload([...(input.files ?? [])]),
+  });
+  const element = h(
+    "section.file-list",
+    {},
+    h(
+      "div.row",
+      {},
+      place,
+      keyOf("load.upload", () => input.click()),
+      input,
+    ),
+    rows,
+    h("p.hint", {}, t("load.drop")),
+  );
   let folder = "";
   const newest = latest();
   element.addEventListener("dragover", (event) => {
@@ -34,7 +51,8 @@ export function fileList({ kinds, chosen, opened = () => {} }) {
     for (const file of files) {
       const path = folder ? `${folder}/${file.name}` : file.name;
       try {
-        if (file.size > model.hello.value.limits.upload) throw new Error(t("load.toobig", { name: file.name, most: size(model.hello.value.limits.upload) }));
+        if (file.size > model.hello.value.limits.upload)
+          throw new Error(t("load.toobig", { name: file.name, most: size(model.hello.value.limits.upload) }));
         await call(address("programs/upload", { path }), { method: "POST", body: file });
         report(t("load.uploaded", { name: file.name }));
       } catch (error) {
@@ -51,22 +69,51 @@ export function fileList({ kinds, chosen, opened = () => {} }) {
     if (!listed) return;
     folder = listed.folder ?? where;
     place.textContent = `/${folder}`;
-    const up = folder ? [{ name: "..", path: folder.split("/").slice(0, -1).join("/"), kind: "folder", bytes: 0, changed: "", locked: false }] : [];
-    fill(rows, ...[...up, ...listed.entries].filter((/** @type {Entry} */ each) => each.kind === "folder" || kinds.includes(each.kind)).map(rowOf));
+    const up = folder
+      ? [
+          {
+            name: "..",
+            path: folder.split("/").slice(0, -1).join("/"),
+            kind: "folder",
+            bytes: 0,
+            changed: "",
+            locked: false,
+          },
+        ]
+      : [];
+    fill(
+      rows,
+      ...[...up, ...listed.entries]
+        .filter((/** @type {Entry} */ each) => each.kind === "folder" || kinds.includes(each.kind))
+        .map(rowOf),
+    );
   }
 
   /** @param {Entry} entry */
   function rowOf(entry) {
-    const row = h("button.key.item", { type: "button", role: "option", ariaSelected: "false", data: { path: entry.path }, onclick: () => {
-      if (entry.kind === "folder") {
-        void read(entry.path).catch(refuse);
-        return;
-      }
-      for (const each of rows.children) each.setAttribute("aria-selected", String(each === row));
-      chosen(entry);
-    }, ondblclick: () => entry.kind === "folder" || opened(entry) },
-    h("span", { ariaHidden: "true" }, entry.kind === "folder" ? "\u25b8" : "\u2002"), h("span.name", { title: entry.name }, entry.name), entry.locked ? h("span.quiet", {}, t("load.locked")) : "",
-    entry.kind === "folder" ? "" : h("span.quiet.number", {}, size(entry.bytes)), h("span.quiet.number.file-date", {}, entry.changed.slice(0, 16).replace("T", " ")));
+    const row = h(
+      "button.key.item",
+      {
+        type: "button",
+        role: "option",
+        ariaSelected: "false",
+        data: { path: entry.path },
+        onclick: () => {
+          if (entry.kind === "folder") {
+            void read(entry.path).catch(refuse);
+            return;
+          }
+          for (const each of rows.children) each.setAttribute("aria-selected", String(each === row));
+          chosen(entry);
+        },
+        ondblclick: () => entry.kind === "folder" || opened(entry),
+      },
+      h("span", { ariaHidden: "true" }, entry.kind === "folder" ? "\u25b8" : "\u2002"),
+      h("span.name", { title: entry.name }, entry.name),
+      entry.locked ? h("span.quiet", {}, t("load.locked")) : "",
+      entry.kind === "folder" ? "" : h("span.quiet.number", {}, size(entry.bytes)),
+      h("span.quiet.number.file-date", {}, entry.changed.slice(0, 16).replace("T", " ")),
+    );
     return row;
   }
   void read("").catch(refuse);

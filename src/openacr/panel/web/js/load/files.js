@@ -35,8 +35,15 @@ export function batchSource(host, endings, load) {
  */
 export function dripSource(host, _endings, load) {
   const port = h("input.field", { ariaLabel: t("load.port"), placeholder: "COM1, /dev/ttyS0", autocomplete: "off" });
-  host.append(h("div.stack", {}, h("p", {}, t("load.drip.text")), h("label.row", {}, h("span.grow", {}, t("load.port")), port),
-    keyOf("load.drip.start", () => load("program.drip", { port: port.value.trim() }), ".main.big")));
+  host.append(
+    h(
+      "div.stack",
+      {},
+      h("p", {}, t("load.drip.text")),
+      h("label.row", {}, h("span.grow", {}, t("load.port")), port),
+      keyOf("load.drip.start", () => load("program.drip", { port: port.value.trim() }), ".main.big"),
+    ),
+  );
 }
 
 /**
@@ -52,17 +59,24 @@ function source(host, endings, kinds, load) {
   const text = h("pre.listing-plain.mono.grow.scroll", { tabIndex: 0, role: "region", ariaLabel: t("load.text") });
   const name = h("span.grow.quiet", {}, t("load.choose"));
   const key = keyOf("load.go", () => load(path), ".main.big", { disabled: true });
-  const list = fileList({ kinds, chosen: async (entry) => {
-    path = entry.path;
-    key.disabled = false;
-    fill(name, entry.name);
-    fill(text);
-    try {
-      const page = await newest(get("programs/text", { path, first: 1, lines: PREVIEW }));
-      if (page) text.textContent = page.lines.join("\n") + (page.total > PREVIEW ? `\n\u2026 ${t("load.more", { count: page.total - PREVIEW })}` : "");
-    } catch (error) {
-      refuse(error);
-    }
-  }, opened: (entry) => void load(entry.path) });
+  const list = fileList({
+    kinds,
+    chosen: async (entry) => {
+      path = entry.path;
+      key.disabled = false;
+      fill(name, entry.name);
+      fill(text);
+      try {
+        const page = await newest(get("programs/text", { path, first: 1, lines: PREVIEW }));
+        if (page)
+          text.textContent =
+            page.lines.join("\n") +
+            (page.total > PREVIEW ? `\n\u2026 ${t("load.more", { count: page.total - PREVIEW })}` : "");
+      } catch (error) {
+        refuse(error);
+      }
+    },
+    opened: (entry) => void load(entry.path),
+  });
   host.append(h("div.load-two", {}, list.element, h("div.stack.load-side", {}, text, h("div.row", {}, name, key))));
 }

@@ -21,14 +21,31 @@ export function linkSource(host, endings, load) {
   let kept = "";
   let isShown = true;
   const port = h("input.field", { ariaLabel: t("load.port"), placeholder: "COM1, /dev/ttyS0", autocomplete: "off" });
-  const file = h("input.field.mono", { ariaLabel: t("load.link.file"), autocomplete: "off", spellcheck: false, oninput: () => { begin.disabled = file.value.trim() === ""; } });
+  const file = h("input.field.mono", {
+    ariaLabel: t("load.link.file"),
+    autocomplete: "off",
+    spellcheck: false,
+    oninput: () => {
+      begin.disabled = file.value.trim() === "";
+    },
+  });
   const begin = keyOf("load.link.start", () => receive(false), ".main.big", { disabled: true });
-  const cancel = keyOf("key.cancel", () => call("/api/link", { method: "DELETE" }).then(follow, refuse), ".big", { hidden: true });
+  const cancel = keyOf("key.cancel", () => call("/api/link", { method: "DELETE" }).then(follow, refuse), ".big", {
+    hidden: true,
+  });
   const go = keyOf("load.go", () => load("program.load", { path: kept }), ".big", { disabled: true });
   const note = h("p.notice", { role: "status", hidden: true });
-  host.append(h("div.stack", {}, h("p", {}, t("load.link.text")),
-    h("label.row", {}, h("span.grow", {}, t("load.port")), port), h("label.row", {}, h("span.grow", {}, t("load.link.file")), file),
-    h("div.row", {}, begin, cancel, go), note));
+  host.append(
+    h(
+      "div.stack",
+      {},
+      h("p", {}, t("load.link.text")),
+      h("label.row", {}, h("span.grow", {}, t("load.port")), port),
+      h("label.row", {}, h("span.grow", {}, t("load.link.file")), file),
+      h("div.row", {}, begin, cancel, go),
+      note,
+    ),
+  );
   let timer = setTimeout(() => {}, 0);
   endings.add(() => {
     isShown = false;

@@ -24,7 +24,9 @@ export async function partSource(host, endings, load) {
   const drawing = h("div.preview.grow", {});
   const go = h("button.key.main.big", { type: "button", disabled: true }, t("load.go"));
   const conditions = h("div.hint.grow", {});
-  host.append(h("div.load-parts", {}, list, form, h("div.stack.load-side", {}, drawing, h("div.row", {}, conditions, go))));
+  host.append(
+    h("div.load-parts", {}, list, form, h("div.stack.load-side", {}, drawing, h("div.row", {}, conditions, go))),
+  );
   const picture = await createPicture(drawing, endings);
   const { parts, metric } = await get("parts").catch((error) => {
     refuse(error);
@@ -33,31 +35,66 @@ export async function partSource(host, endings, load) {
   let turn = new AbortController();
   endings.add(() => turn.abort());
   const choose = (/** @type {any} */ part) => {
-    for (const key of list.children) key.setAttribute("aria-selected", String(/** @type {HTMLElement} */ (key).dataset.part === part.name));
+    for (const key of list.children)
+      key.setAttribute("aria-selected", String(/** @type {HTMLElement} */ (key).dataset.part === part.name));
     const sizes = part.sizes.map((/** @type {any} */ size) => shownIn(size, metric));
-    const fields = sizes.map((/** @type {any} */ each) => ({ each, input: h("input.field.number", { id: `part-P${each.cell}`, value: String(each.default ?? ""), inputMode: "decimal", autocomplete: "off" }) }));
-    const values = () => Object.fromEntries(fields.flatMap((/** @type {any} */ { each, input }) => {
-      const value = numberIn(input, each.text);
-      return value === null ? [] : [[`P${each.cell}`, value / each.scale]];
+    const fields = sizes.map((/** @type {any} */ each) => ({
+      each,
+      input: h("input.field.number", {
+        id: `part-P${each.cell}`,
+        value: String(each.default ?? ""),
+        inputMode: "decimal",
+        autocomplete: "off",
+      }),
     }));
-    fill(form, h("h3", {}, part.title || part.name), ...fields.map((/** @type {any} */ { each, input }) =>
-      h("div.form-row", {}, h("label", { htmlFor: input.id }, each.text), h("div.row.form-input", {}, input, each.unit ? h("span.unit", {}, each.unit) : ""), h("span.hint", {}, `P${each.cell} \u00b7 ${rangeOf(each)}`))));
-    fill(conditions, [part.start, ...part.checks.map((/** @type {string} */ rule) => inWords(rule, part.sizes))].filter(Boolean).join(" \u00b7 "));
+    const values = () =>
+      Object.fromEntries(
+        fields.flatMap((/** @type {any} */ { each, input }) => {
+          const value = numberIn(input, each.text);
+          return value === null ? [] : [[`P${each.cell}`, value / each.scale]];
+        }),
+      );
+    fill(
+      form,
+      h("h3", {}, part.title || part.name),
+      ...fields.map((/** @type {any} */ { each, input }) =>
+        h(
+          "div.form-row",
+          {},
+          h("label", { htmlFor: input.id }, each.text),
+          h("div.row.form-input", {}, input, each.unit ? h("span.unit", {}, each.unit) : ""),
+          h("span.hint", {}, `P${each.cell} \u00b7 ${rangeOf(each)}`),
+        ),
+      ),
+    );
+    fill(
+      conditions,
+      [part.start, ...part.checks.map((/** @type {string} */ rule) => inWords(rule, part.sizes))]
+        .filter(Boolean)
+        .join(" \u00b7 "),
+    );
     let timer = setTimeout(() => {}, 0);
     const draw = async () => {
       turn.abort();
       const mine = (turn = new AbortController());
       try {
         const body = JSON.stringify({ values: values(), tool: 0 });
-        picture.setPath(await fetchPath(`parts/${part.name}/path`, {}, { method: "POST", headers: { "Content-Type": "application/json" }, body, signal: mine.signal }));
+        picture.setPath(
+          await fetchPath(
+            `parts/${part.name}/path`,
+            {},
+            { method: "POST", headers: { "Content-Type": "application/json" }, body, signal: mine.signal },
+          ),
+        );
       } catch (error) {
         if (!mine.signal.aborted) refuse(error);
       }
     };
-    for (const { input } of fields) input.addEventListener("input", () => {
-      clearTimeout(timer);
-      timer = setTimeout(draw, WAIT_MS);
-    });
+    for (const { input } of fields)
+      input.addEventListener("input", () => {
+        clearTimeout(timer);
+        timer = setTimeout(draw, WAIT_MS);
+      });
     go.disabled = false;
     go.onclick = () => {
       try {
@@ -68,8 +105,23 @@ export async function partSource(host, endings, load) {
     };
     void draw();
   };
-  fill(list, ...parts.map((/** @type {any} */ part) => h("button.key.item", { type: "button", role: "option", ariaSelected: "false", data: { part: part.name }, onclick: () => choose(part) },
-    h("strong", {}, part.name), h("span.name", {}, part.title))));
+  fill(
+    list,
+    ...parts.map((/** @type {any} */ part) =>
+      h(
+        "button.key.item",
+        {
+          type: "button",
+          role: "option",
+          ariaSelected: "false",
+          data: { part: part.name },
+          onclick: () => choose(part),
+        },
+        h("strong", {}, part.name),
+        h("span.name", {}, part.title),
+      ),
+    ),
+  );
   if (parts.length) choose(parts[0]);
 }
 
@@ -79,9 +131,21 @@ export async function partSource(host, endings, load) {
  * @param {boolean} isMetric
  */
 function shownIn(size, isMetric) {
-  const [scale, unit] = size.unit === "in" && isMetric ? [MM_PER_INCH, "mm"] : size.unit === "mm" && !isMetric ? [1 / MM_PER_INCH, "in"] : [1, size.unit];
+  const [scale, unit] =
+    size.unit === "in" && isMetric
+      ? [MM_PER_INCH, "mm"]
+      : size.unit === "mm" && !isMetric
+        ? [1 / MM_PER_INCH, "in"]
+        : [1, size.unit];
   const shown = (/** @type {number} */ value) => Number((value * scale).toPrecision(6));
-  return { ...size, unit: unit === "n" ? "" : unit, scale, default: shown(size.default), low: shown(size.low), high: shown(size.high) };
+  return {
+    ...size,
+    unit: unit === "n" ? "" : unit,
+    scale,
+    default: shown(size.default),
+    low: shown(size.low),
+    high: shown(size.high),
+  };
 }
 
 /**
@@ -90,12 +154,14 @@ function shownIn(size, isMetric) {
  * @param {{ cell: number, text: string }[]} sizes
  */
 function inWords(rule, sizes) {
-  return rule.replaceAll("/57.29578", ` ${t("load.radians")}`).replace(/P(\d+)|<=|>=|[*/+-]|\bOR\b|\bAND\b/g, (found, cell) => {
-    if (!cell) return SIGNS[found] ?? t(found === "OR" ? "load.or" : "load.and");
-    if (Number(cell) === TOOL_RADIUS) return t("load.radius");
-    const size = sizes.find((each) => each.cell === Number(cell));
-    return size ? `\u201c${size.text}\u201d` : found;
-  });
+  return rule
+    .replaceAll("/57.29578", ` ${t("load.radians")}`)
+    .replace(/P(\d+)|<=|>=|[*/+-]|\bOR\b|\bAND\b/g, (found, cell) => {
+      if (!cell) return SIGNS[found] ?? t(found === "OR" ? "load.or" : "load.and");
+      if (Number(cell) === TOOL_RADIUS) return t("load.radius");
+      const size = sizes.find((each) => each.cell === Number(cell));
+      return size ? `\u201c${size.text}\u201d` : found;
+    });
 }
 
 /** @param {{ low: number, high: number }} size */

@@ -29,7 +29,8 @@ export const ACTIONS = {
     if (!mayMove()) return;
     const { state, reason, tool_wanted: toolWanted } = model.state.value;
     if (state === "IDLE") return beginRun({ dry: false });
-    const isSure = isReadOutVisible() || (await confirm(t("start.title"), t("start.covered", { state, reason }), t("menu.start")));
+    const isSure =
+      isReadOutVisible() || (await confirm(t("start.title"), t("start.covered", { state, reason }), t("menu.start")));
     if (isSure) await give(toolWanted && state === "WAIT" ? "run.confirm" : "run.start");
   },
   runLine: () => mayMove() && beginRun({ dry: false }),
@@ -49,10 +50,15 @@ export const ACTIONS = {
   async gotoZero() {
     if (!mayMove()) return;
     const status = model.status.value;
-    const places = model.axes.map((axis, n) => `${axis.name} ${position((status?.work[n] ?? Number.NaN) * viewOf(axis).factor, viewOf(axis).decimals).trim()}`);
+    const places = model.axes.map(
+      (axis, n) =>
+        `${axis.name} ${position((status?.work[n] ?? Number.NaN) * viewOf(axis).factor, viewOf(axis).decimals).trim()}`,
+    );
     const planned = await give("zero.blocks", { axes: "" });
     if (!planned) return;
-    const steps = planned.blocks.map((/** @type {string} */ block) => block.replace("G90 G0 ", "")).join(t("gotozero.then"));
+    const steps = planned.blocks
+      .map((/** @type {string} */ block) => block.replace("G90 G0 ", ""))
+      .join(t("gotozero.then"));
     const text = t("gotozero.text", { places: places.join("   "), steps, work: model.modals.value.work });
     if (await confirm(t("gotozero.title"), text, t("menu.gotozero"))) await give("zero.goto", { axes: "" });
   },

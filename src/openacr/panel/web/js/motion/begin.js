@@ -23,11 +23,21 @@ export async function beginRun({ dry, line = 1 }) {
     return;
   }
   const wrong = loaded.errors ? await errorsOf() : []; // found by reading it, with the machine as it was then
-  const field = h("input.field.number", { value: String(line), inputMode: "numeric", ariaLabel: t("run.line"), autocomplete: "off" });
-  const [skip, optional] = [checkBox(t("run.skip"), model.is("skip")), checkBox(t("run.optional"), model.is("optional"))];
+  const field = h("input.field.number", {
+    value: String(line),
+    inputMode: "numeric",
+    ariaLabel: t("run.line"),
+    autocomplete: "off",
+  });
+  const [skip, optional] = [
+    checkBox(t("run.skip"), model.is("skip")),
+    checkBox(t("run.optional"), model.is("optional")),
+  ];
   const safe = h("input.field.number", { inputMode: "decimal", ariaLabel: t("run.safez"), autocomplete: "off" });
   const safeRow = h("label.row", { title: t("run.safez.hint") }, h("span.grow", {}, t("run.safez")), safe);
-  const offer = () => { safeRow.hidden = Number(field.value) === 1; };
+  const offer = () => {
+    safeRow.hidden = Number(field.value) === 1;
+  };
   field.addEventListener("input", offer);
   offer();
   const note = h("div.refusal", { hidden: true });
@@ -38,7 +48,7 @@ export async function beginRun({ dry, line = 1 }) {
     note.textContent = t("run.range", { last: loaded.lines });
     if (!isLine) return undefined;
     try {
-      return { line: number, safe_z: number === 1 ? undefined : numberIn(safe, t("run.safez")) ?? undefined };
+      return { line: number, safe_z: number === 1 ? undefined : (numberIn(safe, t("run.safez")) ?? undefined) };
     } catch (error) {
       note.hidden = false;
       note.textContent = error instanceof Error ? error.message : String(error);
@@ -46,18 +56,41 @@ export async function beginRun({ dry, line = 1 }) {
     }
   };
   const rows = [
-    h("div.row.wrap", {}, h("strong.mono", {}, loaded.name), h("span.quiet", {}, t("run.lines", { count: loaded.lines })),
-      loaded.seconds === null ? "" : h("span.quiet", {}, t("run.seconds", { time: duration(loaded.seconds) }))),
-    dry ? h("div.notice", {}, t("run.dry")) : "", ...wrong,
-    h("label.row", {}, h("span.grow", {}, t("run.line")), field), note, safeRow, h("div.row.wrap", {}, skip, optional),
+    h(
+      "div.row.wrap",
+      {},
+      h("strong.mono", {}, loaded.name),
+      h("span.quiet", {}, t("run.lines", { count: loaded.lines })),
+      loaded.seconds === null ? "" : h("span.quiet", {}, t("run.seconds", { time: duration(loaded.seconds) })),
+    ),
+    dry ? h("div.notice", {}, t("run.dry")) : "",
+    ...wrong,
+    h("label.row", {}, h("span.grow", {}, t("run.line")), field),
+    note,
+    safeRow,
+    h("div.row.wrap", {}, skip, optional),
   ];
-  const chosen = await ask({ title: dry ? t("menu.dryrun") : t("menu.runline"), body: rows, first: field, choices: [
-    { text: t("key.cancel"), value: null }, wrong.length ? { text: t("run.anyway"), kind: "bad", value: first } : { text: t("run.begin"), kind: "main", isSubmit: true, value: first },
-  ] });
+  const chosen = await ask({
+    title: dry ? t("menu.dryrun") : t("menu.runline"),
+    body: rows,
+    first: field,
+    choices: [
+      { text: t("key.cancel"), value: null },
+      wrong.length
+        ? { text: t("run.anyway"), kind: "bad", value: first }
+        : { text: t("run.begin"), kind: "main", isSubmit: true, value: first },
+    ],
+  });
   if (chosen === null) return;
-  const args = { ...chosen, dry, skip: skip.querySelector("input")?.checked, optional: optional.querySelector("input")?.checked };
+  const args = {
+    ...chosen,
+    dry,
+    skip: skip.querySelector("input")?.checked,
+    optional: optional.querySelector("input")?.checked,
+  };
   const answer = await give("run.begin", args);
-  if (answer?.rehearsal && (await accepts(chosen.line, answer.rehearsal))) await give("run.begin", { ...args, confirm: answer.rehearsal.token });
+  if (answer?.rehearsal && (await accepts(chosen.line, answer.rehearsal)))
+    await give("run.begin", { ...args, confirm: answer.rehearsal.token });
 }
 
 /** The errors of the loaded program, as parts of a dialog. */
@@ -73,14 +106,39 @@ async function errorsOf() {
  */
 function accepts(line, rehearsal) {
   const rows = (rehearsal.differences ?? []).map((/** @type {any} */ each) =>
-    h("tr", {}, h("td", {}, each.name), h("td.number", {}, each.present), h("td.number", {}, each.wanted)));
-  return ask({ comes: true, title: t("begin.title", { line }), body: [
-    h("p", {}, rehearsal.text || t("begin.text")),
-    ...(rehearsal.warnings ?? []).map((/** @type {string} */ text) => h("div.notice", {}, text)),
-    rehearsal.needs_tool ? h("div.notice.bad", {}, t("begin.tool")) : "",
-    rows.length ? h("table.grid", {}, h("thead", {}, h("tr", {}, h("th", {}, ""), h("th.number", {}, t("begin.present")), h("th.number", {}, t("begin.wanted")))),
-      h("tbody", {}, ...rows)) : "",
-  ], choices: [{ text: t("key.cancel"), value: null }, { text: t("begin.go"), kind: "danger", value: true }] });
+    h("tr", {}, h("td", {}, each.name), h("td.number", {}, each.present), h("td.number", {}, each.wanted)),
+  );
+  return ask({
+    comes: true,
+    title: t("begin.title", { line }),
+    body: [
+      h("p", {}, rehearsal.text || t("begin.text")),
+      ...(rehearsal.warnings ?? []).map((/** @type {string} */ text) => h("div.notice", {}, text)),
+      rehearsal.needs_tool ? h("div.notice.bad", {}, t("begin.tool")) : "",
+      rows.length
+        ? h(
+            "table.grid",
+            {},
+            h(
+              "thead",
+              {},
+              h(
+                "tr",
+                {},
+                h("th", {}, ""),
+                h("th.number", {}, t("begin.present")),
+                h("th.number", {}, t("begin.wanted")),
+              ),
+            ),
+            h("tbody", {}, ...rows),
+          )
+        : "",
+    ],
+    choices: [
+      { text: t("key.cancel"), value: null },
+      { text: t("begin.go"), kind: "danger", value: true },
+    ],
+  });
 }
 
 /**

@@ -146,7 +146,8 @@ function end(press) {
 function forget(press) {
   presses.delete(press.id);
   if (!heldBy(press.element).length) press.element.classList.remove("is-held");
-  if (press.pointer !== null && press.element.hasPointerCapture(press.pointer)) press.element.releasePointerCapture(press.pointer);
+  if (press.pointer !== null && press.element.hasPointerCapture(press.pointer))
+    press.element.releasePointerCapture(press.pointer);
   if (presses.size) return;
   clearInterval(keeper);
   keeper = undefined;

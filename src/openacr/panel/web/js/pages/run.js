@@ -2,7 +2,14 @@
 import { uPlot } from "../../vendor/uplot.js";
 import { h } from "../core/dom.js";
 
-const COLOR = Object.freeze({ commanded: "#F3BE56", actual: "#0072B2", velocity: "#009E73", error: "#D55E00", strip: "#56B4E9", event: "#9A4A7C" });
+const COLOR = Object.freeze({
+  commanded: "#F3BE56",
+  actual: "#0072B2",
+  velocity: "#009E73",
+  error: "#D55E00",
+  strip: "#56B4E9",
+  event: "#9A4A7C",
+});
 const WIDE = 520;
 const PATH = 560;
 const STRIP = 30; // height of the strip of an output
@@ -87,26 +94,48 @@ function drawEvents(chart) {
  * @param {any} data
  */
 function timeChart(parent, { scales = {}, draws = [], ...options }, data) {
-  const chart = new uPlot(/** @type {any} */ ({
-    width: WIDE,
-    height: 200,
-    cursor: { y: false, sync: { key: "run", setSeries: false, scales: ["x", null] }, drag: { x: true, y: false }, points: { size: 6 }, bind: { dblclick: () => () => { zoom([...run.span]); return null; } } },
-    axes: [{ size: 28 }, { size: 68, values: (/** @type {uPlot} */ _chart, /** @type {number[]} */ values) => values.map(short) }],
-    ...options,
-    scales: { x: { time: false, min: view[0], max: view[1] }, ...scales },
-    hooks: {
-      draw: [drawEvents, ...draws],
-      setSelect: [(/** @type {uPlot} */ one) => {
-        if (one.select.width < 4) return;
-        zoom([one.posToVal(one.select.left, "x"), one.posToVal(one.select.left + one.select.width, "x")]);
-      }],
-      setCursor: [(/** @type {uPlot} */ one) => {
-        const left = one.cursor.left ?? -1;
-        const time = left < 0 ? null : one.posToVal(left, "x");
-        for (const follow of followers) follow(time);
-      }],
-    },
-  }), data, parent);
+  const chart = new uPlot(
+    /** @type {any} */ ({
+      width: WIDE,
+      height: 200,
+      cursor: {
+        y: false,
+        sync: { key: "run", setSeries: false, scales: ["x", null] },
+        drag: { x: true, y: false },
+        points: { size: 6 },
+        bind: {
+          dblclick: () => () => {
+            zoom([...run.span]);
+            return null;
+          },
+        },
+      },
+      axes: [
+        { size: 28 },
+        { size: 68, values: (/** @type {uPlot} */ _chart, /** @type {number[]} */ values) => values.map(short) },
+      ],
+      ...options,
+      scales: { x: { time: false, min: view[0], max: view[1] }, ...scales },
+      hooks: {
+        draw: [drawEvents, ...draws],
+        setSelect: [
+          (/** @type {uPlot} */ one) => {
+            if (one.select.width < 4) return;
+            zoom([one.posToVal(one.select.left, "x"), one.posToVal(one.select.left + one.select.width, "x")]);
+          },
+        ],
+        setCursor: [
+          (/** @type {uPlot} */ one) => {
+            const left = one.cursor.left ?? -1;
+            const time = left < 0 ? null : one.posToVal(left, "x");
+            for (const follow of followers) follow(time);
+          },
+        ],
+      },
+    }),
+    data,
+    parent,
+  );
   timed.push(chart);
   return chart;
 }
@@ -122,15 +151,33 @@ function timeChart(parent, { scales = {}, draws = [], ...options }, data) {
  */
 function curves(parent, title, unit, data, names, height) {
   const series = names.map((name) => ({
-    label: names.length > 1 ? name : title, stroke: COLOR[name], width: name === "commanded" ? 4 : 1.3, points: { show: false },
-    value: (/** @type {uPlot} */ _chart, /** @type {number | null} */ value) => (value === null ? "\u2013" : `${short(value)} ${unit}`),
+    label: names.length > 1 ? name : title,
+    stroke: COLOR[name],
+    width: name === "commanded" ? 4 : 1.3,
+    points: { show: false },
+    value: (/** @type {uPlot} */ _chart, /** @type {number | null} */ value) =>
+      value === null ? "\u2013" : `${short(value)} ${unit}`,
   }));
-  const time = { label: "time", value: (/** @type {uPlot} */ _chart, /** @type {number | null} */ value) => (value === null ? "\u2013" : `${short(value)} s`) };
-  timeChart(parent, {
-    title: unit ? `${title} [${unit}]` : title, height,
-    series: [time, ...series],
-    scales: { y: { range: (/** @type {uPlot} */ _chart, /** @type {number} */ low, /** @type {number} */ high) => widened(low ?? 0, high ?? 0) } },
-  }, [data.t, ...names.map((name) => data[name])]);
+  const time = {
+    label: "time",
+    value: (/** @type {uPlot} */ _chart, /** @type {number | null} */ value) =>
+      value === null ? "\u2013" : `${short(value)} s`,
+  };
+  timeChart(
+    parent,
+    {
+      title: unit ? `${title} [${unit}]` : title,
+      height,
+      series: [time, ...series],
+      scales: {
+        y: {
+          range: (/** @type {uPlot} */ _chart, /** @type {number} */ low, /** @type {number} */ high) =>
+            widened(low ?? 0, high ?? 0),
+        },
+      },
+    },
+    [data.t, ...names.map((name) => data[name])],
+  );
 }
 
 /** The outputs as strips. @param {HTMLElement} parent @param {{ title: string, on: [number, number][] }[]} bits */
@@ -157,43 +204,75 @@ function strips(parent, bits) {
     });
     pen.restore();
   };
-  timeChart(parent, {
-    height: STRIP * bits.length + 60, legend: { show: false }, draws: [draw],
-    scales: { y: { range: [0, 1] } },
-    axes: [{ size: 28 }, { size: 68, values: () => [], grid: { show: false }, ticks: { show: false } }],
-    series: [{}, { points: { show: false } }],
-  }, [run.span, [null, null]]);
+  timeChart(
+    parent,
+    {
+      height: STRIP * bits.length + 60,
+      legend: { show: false },
+      draws: [draw],
+      scales: { y: { range: [0, 1] } },
+      axes: [{ size: 28 }, { size: 68, values: () => [], grid: { show: false }, ticks: { show: false } }],
+      series: [{}, { points: { show: false } }],
+    },
+    [run.span, [null, null]],
+  );
 }
 
 /** The path in the plane of a master, with equal scales. @param {HTMLElement} parent @param {any} path */
 function plane(parent, path) {
   const reading = h("p.reading", {});
   const dot = h("div.dot", {});
-  const ends = (/** @type {number[][]} */ lists) => lists.flat().reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
+  const ends = (/** @type {number[][]} */ lists) =>
+    lists.flat().reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
   const [x, y] = [ends([path.cx, path.ax]), ends([path.cy, path.ay])];
   const half = (0.5 + 2 * MARGIN) * Math.max(x[1] - x[0], y[1] - y[0], 1e-9);
-  const around = (/** @type {number[]} */ [low, high], share = 1) => /** @type {[number, number]} */ ([(low + high) / 2 - half * share, (low + high) / 2 + half * share]);
-  const line = (/** @type {uPlot} */ chart, /** @type {number[]} */ xs, /** @type {number[]} */ ys, /** @type {string} */ color, /** @type {number} */ wide) => {
+  const around = (/** @type {number[]} */ [low, high], share = 1) =>
+    /** @type {[number, number]} */ ([(low + high) / 2 - half * share, (low + high) / 2 + half * share]);
+  const line = (
+    /** @type {uPlot} */ chart,
+    /** @type {number[]} */ xs,
+    /** @type {number[]} */ ys,
+    /** @type {string} */ color,
+    /** @type {number} */ wide,
+  ) => {
     const pen = chart.ctx;
     pen.strokeStyle = color;
     pen.lineWidth = wide * devicePixelRatio;
     pen.lineJoin = "round";
     pen.beginPath();
     const last = indexAt(path.t, view[1]);
-    for (let n = Math.max(0, indexAt(path.t, view[0]) - 1); n <= last; n++) pen.lineTo(chart.valToPos(xs[n], "x", true), chart.valToPos(ys[n], "y", true));
+    for (let n = Math.max(0, indexAt(path.t, view[0]) - 1); n <= last; n++)
+      pen.lineTo(chart.valToPos(xs[n], "x", true), chart.valToPos(ys[n], "y", true));
     pen.stroke();
   };
   const values = (/** @type {uPlot} */ _chart, /** @type {number[]} */ list) => list.map(short);
-  const chart = new uPlot({
-    width: PATH, height: PATH, legend: { show: false }, cursor: { show: false },
-    axes: [{ label: path.labels[0], size: 40, labelSize: 18, values }, { label: path.labels[1], size: 60, labelSize: 18, values }],
-    scales: { x: { time: false, range: () => around(x) }, y: { range: (/** @type {uPlot} */ one) => around(y, (one.bbox.height || 1) / (one.bbox.width || 1)) } },
-    series: [{}, { points: { show: false } }],
-    hooks: { draw: [(one) => {
-      line(one, path.cx, path.cy, COLOR.commanded, 4);
-      line(one, path.ax, path.ay, COLOR.actual, 1.3);
-    }] },
-  }, [around(x), [null, null]], parent);
+  const chart = new uPlot(
+    {
+      width: PATH,
+      height: PATH,
+      legend: { show: false },
+      cursor: { show: false },
+      axes: [
+        { label: path.labels[0], size: 40, labelSize: 18, values },
+        { label: path.labels[1], size: 60, labelSize: 18, values },
+      ],
+      scales: {
+        x: { time: false, range: () => around(x) },
+        y: { range: (/** @type {uPlot} */ one) => around(y, (one.bbox.height || 1) / (one.bbox.width || 1)) },
+      },
+      series: [{}, { points: { show: false } }],
+      hooks: {
+        draw: [
+          (one) => {
+            line(one, path.cx, path.cy, COLOR.commanded, 4);
+            line(one, path.ax, path.ay, COLOR.actual, 1.3);
+          },
+        ],
+      },
+    },
+    [around(x), [null, null]],
+    parent,
+  );
   chart.over.append(dot);
   parent.append(reading);
   followers.push((time) => {
@@ -216,7 +295,9 @@ function section(name, title) {
   return place;
 }
 
-document.querySelector("h1")?.append(`${run.title}: ${short(Number((run.span[1] - run.span[0]).toPrecision(4)))} s simulated`);
+document
+  .querySelector("h1")
+  ?.append(`${run.title}: ${short(Number((run.span[1] - run.span[0]).toPrecision(4)))} s simulated`);
 for (const axis of run.axes) {
   const place = section("column", axis.title);
   curves(place, "position", axis.unit, axis, ["commanded", "actual"], 260);
@@ -229,5 +310,14 @@ if (run.numbers.length) {
   for (const one of run.numbers) curves(place, one.title, one.unit, one, ["actual"], 170);
 }
 if (run.bits.length) strips(section("column", "outputs and flags"), run.bits);
-if (run.events.length) section("column", "events").append(h("ol", {}, ...run.events.map((/** @type {any} */ event) => h("li", {}, `${short(Number(event.t.toFixed(4)))} s: ${event.text}`))));
+if (run.events.length)
+  section("column", "events").append(
+    h(
+      "ol",
+      {},
+      ...run.events.map((/** @type {any} */ event) =>
+        h("li", {}, `${short(Number(event.t.toFixed(4)))} s: ${event.text}`),
+      ),
+    ),
+  );
 if (!run.axes.length && !run.numbers.length) section("column", "no axis moved");

@@ -72,11 +72,19 @@ function shade(color, band) {
   return `rgb(${part(1)}, ${part(3)}, ${part(5)})`;
 }
 
-const looks = () => path.looks.flatMap((/** @type {any} */ look, /** @type {number} */ n) => Array.from({ length: path.bands }, (_each, band) => ({
-  color: shade(look.color, band), width: look.width * (path.bands > 1 ? DENSE : WIDER), dashes: look.dashes.map((/** @type {number} */ dash) => dash * look.width), isHidden: !shown[n],
-})));
+const looks = () =>
+  path.looks.flatMap((/** @type {any} */ look, /** @type {number} */ n) =>
+    Array.from({ length: path.bands }, (_each, band) => ({
+      color: shade(look.color, band),
+      width: look.width * (path.bands > 1 ? DENSE : WIDER),
+      dashes: look.dashes.map((/** @type {number} */ dash) => dash * look.width),
+      isHidden: !shown[n],
+    })),
+  );
 const place = (/** @type {number} */ n) => camera.project(points[3 * n], points[3 * n + 1], points[3 * n + 2]);
-const pens = [layers[0], layers[2]].map((each) => /** @type {CanvasRenderingContext2D} */ (/** @type {HTMLCanvasElement} */ (each).getContext("2d")));
+const pens = [layers[0], layers[2]].map(
+  (each) => /** @type {CanvasRenderingContext2D} */ (/** @type {HTMLCanvasElement} */ (each).getContext("2d")),
+);
 const painter = await painterFor(/** @type {HTMLCanvasElement} */ (layers[1]));
 painter.setDrawing({ points, strokes: strokesOf() });
 
@@ -84,7 +92,10 @@ painter.setDrawing({ points, strokes: strokesOf() });
 function paintExtents(pen) {
   const corner = (/** @type {number} */ bits) => {
     const at = [0, 0, 0];
-    along.forEach((axis, direction) => (at[axis] = (((bits >> direction) & 1) === 1) !== flipped[axis] ? path.high[axis] : path.low[axis]));
+    along.forEach(
+      (axis, direction) =>
+        (at[axis] = (((bits >> direction) & 1) === 1) !== flipped[axis] ? path.high[axis] : path.low[axis]),
+    );
     return camera.project(at[0], at[1], at[2]);
   };
   pen.strokeStyle = "#bbb";
@@ -100,14 +111,22 @@ function paintExtents(pen) {
   pen.stroke();
   pen.fillStyle = "#666";
   pen.font = "12px system-ui, sans-serif";
-  for (const [from, direction] of [[0, 0], [1, 1], [0, 2]]) {
+  for (const [from, direction] of [
+    [0, 0],
+    [1, 1],
+    [0, 2],
+  ]) {
     const axis = along[direction];
     const [[x0, y0], [x1, y1]] = [corner(from), corner(from | (1 << direction))];
     if (path.high[axis] - path.low[axis] < 1e-9 || Math.hypot(x1 - x0, y1 - y0) < 40) continue;
     pen.textAlign = direction === 1 ? "left" : "right";
     pen.textBaseline = direction === 2 ? "middle" : "top";
     const short = (/** @type {number} */ value) => String(Number(value.toPrecision(5)));
-    pen.fillText(`${path.names[axis]}  ${short(path.low[axis])} \u2026 ${short(path.high[axis])} ${path.unit}`, (x0 + x1) / 2 + (direction === 1 ? 8 : -8), (y0 + y1) / 2 + 6);
+    pen.fillText(
+      `${path.names[axis]}  ${short(path.low[axis])} \u2026 ${short(path.high[axis])} ${path.unit}`,
+      (x0 + x1) / 2 + (direction === 1 ? 8 : -8),
+      (y0 + y1) / 2 + 6,
+    );
   }
 }
 
@@ -148,8 +167,13 @@ function paintOver() {
   pens[1].clearRect(0, 0, camera.width, camera.height);
   paintMarks(pens[1]);
   const n = hovered >= 0 ? hovered : Number(upto.value);
-  const at = path.names.map((/** @type {string} */ name, /** @type {number} */ axis) => (name.trim() ? `${name}${points[3 * n + axis].toFixed(path.digits[axis])}` : "")).join(" ");
-  byId("where").textContent = n > 0 ? `line ${lines[n - 1]}: ${at} (${path.looks[styles[n - 1]].label})` : `start: ${at}`;
+  const at = path.names
+    .map((/** @type {string} */ name, /** @type {number} */ axis) =>
+      name.trim() ? `${name}${points[3 * n + axis].toFixed(path.digits[axis])}` : "",
+    )
+    .join(" ");
+  byId("where").textContent =
+    n > 0 ? `line ${lines[n - 1]}: ${at} (${path.looks[styles[n - 1]].label})` : `start: ${at}`;
 }
 
 let isAsked = false;
@@ -209,11 +233,15 @@ function key({ label, color, dashes }, change) {
 }
 
 path.looks.forEach((/** @type {any} */ each, /** @type {number} */ n) => key(each, (isOn) => (shown[n] = isOn)));
-if (contours.length) key({ label: "programmed contour", color: path.contourColor, dashes: [] }, (isOn) => (contourShown = isOn));
-for (const button of document.querySelectorAll("button[data-view]")) button.addEventListener("click", () => face(/** @type {HTMLElement} */ (button).dataset.view ?? "iso"));
+if (contours.length)
+  key({ label: "programmed contour", color: path.contourColor, dashes: [] }, (isOn) => (contourShown = isOn));
+for (const button of document.querySelectorAll("button[data-view]"))
+  button.addEventListener("click", () => face(/** @type {HTMLElement} */ (button).dataset.view ?? "iso"));
 byId("title").textContent = path.title;
 const note = byId("note");
-note.textContent = path.hasErrors ? "the program has errors" : "drag to turn, shift-drag to move, wheel to zoom, double-click for all";
+note.textContent = path.hasErrors
+  ? "the program has errors"
+  : "drag to turn, shift-drag to move, wheel to zoom, double-click for all";
 if (path.hasErrors) note.className = "error";
 upto.max = count;
 upto.value = count;

@@ -5,10 +5,7 @@ import { Endings } from "../core/signal.js";
 import { t } from "../core/texts.js";
 import { FitAddon, Terminal } from "../../vendor/xterm.js";
 
-const TEXTS = {
-  line: { en: "Line for the card", de: "Zeile an die Karte" },
-  send: { en: "SEND", de: "SENDEN" },
-};
+const TEXTS = { line: { en: "Line for the card", de: "Zeile an die Karte" }, send: { en: "SEND", de: "SENDEN" } };
 
 const KEYS = ["esc", "ctrl-c", "ctrl-x", "ctrl-y", "ctrl-z"];
 
@@ -21,9 +18,29 @@ export async function mount(host, { head, number }) {
   const endings = new Endings();
   const terminal = number - 1;
   const screen = h("div.terminal.grow", {});
-  head.append(...KEYS.map((key) => h("button.key", { type: "button", onclick: () => give("term.key", { terminal, key }) }, key.replace("ctrl-", "Ctrl-").replace("esc", "Esc"))));
-  host.append(h("div.notice", {}, t("diag.warning")), screen, lineOf((text) => void give("term.line", { terminal, text })));
-  const term = new Terminal({ convertEol: true, disableStdin: true, scrollback: 5000, fontFamily: getComputedStyle(host).getPropertyValue("--mono"), fontSize: 14, screenReaderMode: true, cursorStyle: "underline" });
+  head.append(
+    ...KEYS.map((key) =>
+      h(
+        "button.key",
+        { type: "button", onclick: () => give("term.key", { terminal, key }) },
+        key.replace("ctrl-", "Ctrl-").replace("esc", "Esc"),
+      ),
+    ),
+  );
+  host.append(
+    h("div.notice", {}, t("diag.warning")),
+    screen,
+    lineOf((text) => void give("term.line", { terminal, text })),
+  );
+  const term = new Terminal({
+    convertEol: true,
+    disableStdin: true,
+    scrollback: 5000,
+    fontFamily: getComputedStyle(host).getPropertyValue("--mono"),
+    fontSize: 14,
+    screenReaderMode: true,
+    cursorStyle: "underline",
+  });
   const fit = new FitAddon();
   term.loadAddon(fit);
   term.open(screen);
@@ -42,8 +59,13 @@ export async function mount(host, { head, number }) {
     model.term.watch((printed) => {
       if (printed !== before && printed?.terminal === terminal) term.write(printed.text);
     }),
-    () => sizes.disconnect(), ends, () => document.documentElement.removeEventListener("theme", theme),
-    () => { if (link.isOpen.value) void link.command("term.close", { terminal }).catch(() => {}); }, () => term.dispose(),
+    () => sizes.disconnect(),
+    ends,
+    () => document.documentElement.removeEventListener("theme", theme),
+    () => {
+      if (link.isOpen.value) void link.command("term.close", { terminal }).catch(() => {});
+    },
+    () => term.dispose(),
     model.hello.watch((hello) => {
       if (!hello.client || hello.client === client) return;
       client = hello.client; // of another connection: what the one before had open is closed
@@ -68,13 +90,20 @@ function lineOf(send) {
     place = Math.min(history.length, Math.max(0, place + (event.key === "ArrowUp" ? 1 : -1)));
     line.value = place ? history[history.length - place] : "";
   });
-  return h("form.row", { onsubmit: (/** @type {Event} */ event) => {
-    event.preventDefault();
-    history.push(line.value);
-    place = 0;
-    send(line.value);
-    line.value = "";
-  } }, line, h("button.key.main", { type: "submit" }, t(TEXTS.send)));
+  return h(
+    "form.row",
+    {
+      onsubmit: (/** @type {Event} */ event) => {
+        event.preventDefault();
+        history.push(line.value);
+        place = 0;
+        send(line.value);
+        line.value = "";
+      },
+    },
+    line,
+    h("button.key.main", { type: "submit" }, t(TEXTS.send)),
+  );
 }
 
 /**
@@ -83,7 +112,8 @@ function lineOf(send) {
  */
 function adoptStyles(host) {
   const sheet = new CSSStyleSheet();
-  const copy = () => sheet.replaceSync([...host.querySelectorAll("template")].map((each) => each.textContent).join("\n"));
+  const copy = () =>
+    sheet.replaceSync([...host.querySelectorAll("template")].map((each) => each.textContent).join("\n"));
   const observer = new MutationObserver(copy);
   observer.observe(host, { childList: true, subtree: true, characterData: true });
   document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet];

@@ -15,7 +15,8 @@ export async function arm(command, args) {
     return await link.command(command, args);
   } catch (error) {
     if (!(error instanceof CommandError)) throw error;
-    if (error.code === "taken" && (await confirm(t("scope.take"), error.message, t("scope.take")))) return give(command, { ...args, take: true });
+    if (error.code === "taken" && (await confirm(t("scope.take"), error.message, t("scope.take"))))
+      return give(command, { ...args, take: true });
     refuse(error.message);
     return null;
   }

@@ -19,7 +19,13 @@ export async function samplesOf(branch, recording, tickTime) {
   const first = begin + skipped * every;
   const count = Math.min(length - skipped, Math.floor((branch.last - first) / every) + 1);
   if (count < 2) throw new Error(t("time.apart"));
-  const found = await get("timeline/samples", { branch: branch.number, parameters: recording.names.join(";"), first, last: first + (count - 1) * every, count });
+  const found = await get("timeline/samples", {
+    branch: branch.number,
+    parameters: recording.names.join(";"),
+    first,
+    last: first + (count - 1) * every,
+    count,
+  });
   return found.channels.map((/** @type {number[]} */ values) => {
     const all = new Float64Array(length).fill(Number.NaN);
     all.set(values, skipped);

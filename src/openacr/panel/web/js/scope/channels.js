@@ -30,7 +30,9 @@ export class Channels {
    */
   constructor(kept, changed) {
     /** @type {Fields[]} */
-    this.rows = Array.from({ length: CHANNELS + 1 }, (_each, n) => fieldsOf(n, kept[n] ?? { source: FIRST[n] ?? "" }, changed));
+    this.rows = Array.from({ length: CHANNELS + 1 }, (_each, n) =>
+      fieldsOf(n, kept[n] ?? { source: FIRST[n] ?? "" }, changed),
+    );
     /** Places of the channels of the present capture. @type {number[]} */
     this.asked = [];
     /** What they are, by place. @type {import("../frame/card_value.js").Item[]} */
@@ -40,13 +42,32 @@ export class Channels {
 
   /** @returns {Kept[]} */
   kept() {
-    return this.rows.map((row) => /** @type {Kept} */ (Object.fromEntries(Object.entries(row).map(([name, field]) => [name, field.value]))));
+    return this.rows.map(
+      (row) =>
+        /** @type {Kept} */ (Object.fromEntries(Object.entries(row).map(([name, field]) => [name, field.value]))),
+    );
   }
 
   /** The element of all rows. */
   element() {
-    const heads = ["source", "color", "scale", "offset", "unit", "format"].map((each) => h("span.hint", {}, t(/** @type {any} */ (`scope.head.${each}`))));
-    return h("div.scope-rows", {}, h("span.hint", {}, ""), ...heads, ...this.rows.flatMap((row, n) => [h("strong", {}, nameOf(n)), row.source, row.color, row.scale, row.offset, row.unit, row.format]));
+    const heads = ["source", "color", "scale", "offset", "unit", "format"].map((each) =>
+      h("span.hint", {}, t(/** @type {any} */ (`scope.head.${each}`))),
+    );
+    return h(
+      "div.scope-rows",
+      {},
+      h("span.hint", {}, ""),
+      ...heads,
+      ...this.rows.flatMap((row, n) => [
+        h("strong", {}, nameOf(n)),
+        row.source,
+        row.color,
+        row.scale,
+        row.offset,
+        row.unit,
+        row.format,
+      ]),
+    );
   }
 
   /** Sources to be sampled; the place of each is noted. */
@@ -100,7 +121,18 @@ export class Channels {
     const unit = row.unit.value.trim() || row.unit.placeholder;
     const item = this.items[place];
     const [id, name] = item ? [item.id, fullName(item)] : [row.source.value.trim(), ""];
-    return { label: nameOf(place), id, name, isFlag: Boolean(item && isFlag(item)), color: row.color.value, values, scale: numberOf(row.scale) || 1, offset: numberOf(row.offset) || 0, unit, format: row.format.value };
+    return {
+      label: nameOf(place),
+      id,
+      name,
+      isFlag: Boolean(item && isFlag(item)),
+      color: row.color.value,
+      values,
+      scale: numberOf(row.scale) || 1,
+      offset: numberOf(row.offset) || 0,
+      unit,
+      format: row.format.value,
+    };
   }
 
   /**
@@ -126,7 +158,9 @@ export class Channels {
 
   /** Every field says its whole value when the pointer rests on it. */
   title() {
-    for (const row of this.rows) for (const field of Object.values(row)) if (field.type === "text") field.title = [field.ariaLabel, field.value].filter(Boolean).join(": ");
+    for (const row of this.rows)
+      for (const field of Object.values(row))
+        if (field.type === "text") field.title = [field.ariaLabel, field.value].filter(Boolean).join(": ");
   }
 }
 
@@ -154,10 +188,21 @@ function fieldsOf(place, kept, changed) {
   const label = (/** @type {string} */ what) => `${name} ${t(/** @type {any} */ (`scope.head.${what}`))}`;
   const source = textField(label("source"), kept.source ?? "", changed);
   source.placeholder = place === MATHS ? "d(CH1) - CH2" : "P12290, BIT516";
-  const formats = FORMATS.map((each) => /** @type {[string, string]} */ ([each, t(/** @type {any} */ (`watch.format.${each}`))]));
+  const formats = FORMATS.map(
+    (each) => /** @type {[string, string]} */ ([each, t(/** @type {any} */ (`watch.format.${each}`))]),
+  );
   return {
-    source, scale: numberField(label("scale"), kept.scale ?? "1", changed), offset: numberField(label("offset"), kept.offset ?? "0", changed),
-    color: h("input.field.scope-color", { type: "color", ariaLabel: label("color"), title: label("color"), value: kept.color ?? COLORS[place] ?? MATHS_COLOR, oninput: changed }),
-    unit: textField(label("unit"), kept.unit ?? "", changed), format: selectField(label("format"), formats, kept.format ?? FORMATS[0], changed),
+    source,
+    scale: numberField(label("scale"), kept.scale ?? "1", changed),
+    offset: numberField(label("offset"), kept.offset ?? "0", changed),
+    color: h("input.field.scope-color", {
+      type: "color",
+      ariaLabel: label("color"),
+      title: label("color"),
+      value: kept.color ?? COLORS[place] ?? MATHS_COLOR,
+      oninput: changed,
+    }),
+    unit: textField(label("unit"), kept.unit ?? "", changed),
+    format: selectField(label("format"), formats, kept.format ?? FORMATS[0], changed),
   };
 }

@@ -14,7 +14,8 @@ export function cursorPlugin(cursors) {
       /** @param {any} plot */
       init(plot) {
         let held = -1;
-        const time = (/** @type {PointerEvent} */ event) => plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x");
+        const time = (/** @type {PointerEvent} */ event) =>
+          plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x");
         const move = (/** @type {PointerEvent} */ event) => {
           const both = cursors.value;
           if (both && held >= 0) cursors.set(held ? [both[0], time(event)] : [time(event), both[1]]);
@@ -27,7 +28,10 @@ export function cursorPlugin(cursors) {
           move(event);
         });
         plot.over.addEventListener("pointermove", move);
-        for (const name of ["pointerup", "pointercancel"]) plot.over.addEventListener(name, () => { held = -1; });
+        for (const name of ["pointerup", "pointercancel"])
+          plot.over.addEventListener(name, () => {
+            held = -1;
+          });
       },
       /** @param {any} plot */
       draw(plot) {

@@ -20,7 +20,12 @@ function csvOf(traces, period, begin) {
   const quoted = (/** @type {string} */ text) => (/[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
   const lines = [["time_s", ...traces.map(fullLabel)].map(quoted).join(",")];
   for (let n = 0; n < (traces[0]?.values.length ?? 0); n++) {
-    lines.push([Number((begin + n * period).toPrecision(12)), ...traces.map(({ values }) => (Number.isNaN(values[n]) ? "" : values[n]))].join(","));
+    lines.push(
+      [
+        Number((begin + n * period).toPrecision(12)),
+        ...traces.map(({ values }) => (Number.isNaN(values[n]) ? "" : values[n])),
+      ].join(","),
+    );
   }
   return `${lines.join("\n")}\n`;
 }
@@ -36,7 +41,13 @@ async function parquetOf(traces, period, begin) {
   const body = new Float64Array(samples * traces.length);
   traces.forEach(({ values }, n) => body.set(values, n * samples));
   const query = { names: JSON.stringify(traces.map(fullLabel)), period_s: period, begin_s: begin };
-  return (await call(address("scope/parquet", query), { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body })).blob();
+  return (
+    await call(address("scope/parquet", query), {
+      method: "POST",
+      headers: { "Content-Type": "application/octet-stream" },
+      body,
+    })
+  ).blob();
 }
 
 /**
@@ -68,7 +79,9 @@ function pngOf(canvas, lines) {
     ctx.fillStyle = style.color;
     ctx.fillText(text, 2 * size, y);
   });
-  return new Promise((resolve, reject) => copy.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/png"));
+  return new Promise((resolve, reject) =>
+    copy.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/png"),
+  );
 }
 
 /**
@@ -99,7 +112,11 @@ function keepFile(name, blob) {
  *   trigger: any }} shown s
  */
 export async function exportAs({ traces, period, begin, canvas, trigger }) {
-  const kind = await ask({ title: t("scope.export"), body: [h("p", {}, t("scope.export.text"))], choices: ["csv", "parquet", "png"].map((each) => ({ text: each.toUpperCase(), value: each })) });
+  const kind = await ask({
+    title: t("scope.export"),
+    body: [h("p", {}, t("scope.export.text"))],
+    choices: ["csv", "parquet", "png"].map((each) => ({ text: each.toUpperCase(), value: each })),
+  });
   const now = new Date();
   try {
     if (kind && kind !== "png" && !traces.length) throw new Error(t("scope.export.none"));
@@ -119,6 +136,17 @@ export async function exportAs({ traces, period, begin, canvas, trigger }) {
  * @param {Date} now
  */
 function legendOf(traces, period, trigger, now) {
-  const title = [`${model.hello.value.machine.name} ${model.hello.value.machine.card}`.trim(), now.toLocaleString(), `${t("scope.period")} ${1000 * period}`, ...(trigger ? [`T: ${trigger.channel} ${trigger.level} ${t(/** @type {any} */ (`scope.${trigger.slope}`))}`] : [])];
-  return [{ text: title.join(", ") }, ...traces.map((each) => ({ text: t("scope.legend", { name: fullLabel(each), scale: each.scale, offset: each.offset }), color: each.color }))];
+  const title = [
+    `${model.hello.value.machine.name} ${model.hello.value.machine.card}`.trim(),
+    now.toLocaleString(),
+    `${t("scope.period")} ${1000 * period}`,
+    ...(trigger ? [`T: ${trigger.channel} ${trigger.level} ${t(/** @type {any} */ (`scope.${trigger.slope}`))}`] : []),
+  ];
+  return [
+    { text: title.join(", ") },
+    ...traces.map((each) => ({
+      text: t("scope.legend", { name: fullLabel(each), scale: each.scale, offset: each.offset }),
+      color: each.color,
+    })),
+  ];
 }

@@ -29,7 +29,11 @@ export function numberField(label, value, onchange) {
  * @param {() => void} onchange
  */
 export function selectField(label, options, value, onchange) {
-  return h("select.field", { ariaLabel: label, title: label, onchange }, ...options.map(([each, text]) => h("option", { value: each, selected: each === value }, text)));
+  return h(
+    "select.field",
+    { ariaLabel: label, title: label, onchange },
+    ...options.map(([each, text]) => h("option", { value: each, selected: each === value }, text)),
+  );
 }
 
 /** @param {HTMLInputElement} field */

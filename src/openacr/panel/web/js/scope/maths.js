@@ -3,16 +3,43 @@ import { parse } from "../core/expression.js";
 
 /** @type {Record<string, (...values: number[]) => number>} */
 const OF_SAMPLES = {
-  "+": (a, b) => a + b, "-": (a, b) => a - b, "*": (a, b) => a * b, "/": (a, b) => a / b, neg: (a) => -a,
-  abs: Math.abs, sqrt: Math.sqrt, sin: Math.sin, cos: Math.cos, tan: Math.tan, atan: Math.atan, exp: Math.exp, log: Math.log, log10: Math.log10,
-  min: Math.min, max: Math.max,
+  "+": (a, b) => a + b,
+  "-": (a, b) => a - b,
+  "*": (a, b) => a * b,
+  "/": (a, b) => a / b,
+  neg: (a) => -a,
+  abs: Math.abs,
+  sqrt: Math.sqrt,
+  sin: Math.sin,
+  cos: Math.cos,
+  tan: Math.tan,
+  atan: Math.atan,
+  exp: Math.exp,
+  log: Math.log,
+  log10: Math.log10,
+  min: Math.min,
+  max: Math.max,
 };
 
 /** @type {Record<string, (values: Float64Array, period: number) => Float64Array>} */
 const OF_RECORDS = { d: derivative, i: integral };
 
 /** Functions with the count of their arguments. */
-const FUNCTIONS = Object.freeze({ d: 1, i: 1, abs: 1, sqrt: 1, sin: 1, cos: 1, tan: 1, atan: 1, exp: 1, log: 1, log10: 1, min: 2, max: 2 });
+const FUNCTIONS = Object.freeze({
+  d: 1,
+  i: 1,
+  abs: 1,
+  sqrt: 1,
+  sin: 1,
+  cos: 1,
+  tan: 1,
+  atan: 1,
+  exp: 1,
+  log: 1,
+  log10: 1,
+  min: 2,
+  max: 2,
+});
 
 /**
  * The samples of an expression such as "d(CH1) - CH2 / 2"; ExpressionError for any other text.
@@ -31,7 +58,10 @@ export function computed(text, channels, period) {
    */
   function valuesOf(node) {
     if (node.kind === "number") return new Float64Array(length).fill(node.value);
-    if (node.kind === "name") return node.name === "pi" ? new Float64Array(length).fill(Math.PI) : Float64Array.from(channels[Number(node.name.slice(2)) - 1]);
+    if (node.kind === "name")
+      return node.name === "pi"
+        ? new Float64Array(length).fill(Math.PI)
+        : Float64Array.from(channels[Number(node.name.slice(2)) - 1]);
     const args = node.args.map(valuesOf);
     if (node.name in OF_RECORDS) return OF_RECORDS[node.name](args[0], period);
     return args[0].map((_value, n) => OF_SAMPLES[node.name](...args.map((each) => each[n])));

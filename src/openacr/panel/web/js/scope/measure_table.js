@@ -26,7 +26,12 @@ export function samplesAt(times, period, begin) {
 export function distanceText([t1, t2]) {
   const distance = t2 - t1;
   const digits = (/** @type {number} */ value) => String(Number(value.toPrecision(6)));
-  return t("scope.between", { t1: digits(t1), t2: digits(t2), dt: digits(distance), f: distance ? digits(1000 / Math.abs(distance)) : "\u221e" });
+  return t("scope.between", {
+    t1: digits(t1),
+    t2: digits(t2),
+    dt: digits(distance),
+    f: distance ? digits(1000 / Math.abs(distance)) : "\u221e",
+  });
 }
 
 /**
@@ -40,13 +45,43 @@ export function distanceText([t1, t2]) {
 export function showMeasures(table, traces, { period, begin }, times, reference) {
   const [from, to] = times && period ? samplesAt(times, period, begin) : [0, Infinity];
   const at = times && period ? times.map((time) => Math.round((time / 1000 - begin) / period)) : [];
-  const heads = ["", ...at.map((_each, n) => `t${n + 1}`), ...COLUMNS.map((each) => t(/** @type {any} */ (`scope.measure.${each}`)))];
-  fill(table, h("thead", {}, h("tr", {}, ...heads.map((each) => (each ? h("th.number", {}, each) : h("td", {}))))), h("tbody", {}, ...traces.map((trace) => {
-    const text = (/** @type {number | null | undefined} */ value, format = trace.format) => (value === null || value === undefined || !Number.isFinite(value) ? "\u2013" : numberText(value, format));
-    const found = measured(trace.values, from, to);
-    const other = reference.get(trace.label);
-    const values = [found?.min, found?.max, found?.mean, found?.rms, found?.span, other && deviation(trace.values, other)];
-    return h("tr", { data: { trace: trace.label } }, h("th", { attr: { scope: "row" }, title: fullLabel(trace) }, h("span.scope-key", { style: `--channel: ${trace.color}` }), h("span.scope-name", {}, fullLabel(trace))),
-      ...at.map((n) => h("td.number", {}, text(trace.values[n]))), ...values.map((value) => h("td.number", {}, text(value, trace.format === "fixed" ? "fixed" : "plain"))));
-  })));
+  const heads = [
+    "",
+    ...at.map((_each, n) => `t${n + 1}`),
+    ...COLUMNS.map((each) => t(/** @type {any} */ (`scope.measure.${each}`))),
+  ];
+  fill(
+    table,
+    h("thead", {}, h("tr", {}, ...heads.map((each) => (each ? h("th.number", {}, each) : h("td", {}))))),
+    h(
+      "tbody",
+      {},
+      ...traces.map((trace) => {
+        const text = (/** @type {number | null | undefined} */ value, format = trace.format) =>
+          value === null || value === undefined || !Number.isFinite(value) ? "\u2013" : numberText(value, format);
+        const found = measured(trace.values, from, to);
+        const other = reference.get(trace.label);
+        const values = [
+          found?.min,
+          found?.max,
+          found?.mean,
+          found?.rms,
+          found?.span,
+          other && deviation(trace.values, other),
+        ];
+        return h(
+          "tr",
+          { data: { trace: trace.label } },
+          h(
+            "th",
+            { attr: { scope: "row" }, title: fullLabel(trace) },
+            h("span.scope-key", { style: `--channel: ${trace.color}` }),
+            h("span.scope-name", {}, fullLabel(trace)),
+          ),
+          ...at.map((n) => h("td.number", {}, text(trace.values[n]))),
+          ...values.map((value) => h("td.number", {}, text(value, trace.format === "fixed" ? "fixed" : "plain"))),
+        );
+      }),
+    ),
+  );
 }

@@ -11,11 +11,16 @@ export function panningPlugin({ isAsked, zoom, pan, reset }) {
       /** @param {any} plot */
       init(plot) {
         let held = Number.NaN;
-        const time = (/** @type {MouseEvent} */ event) => plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x");
-        plot.over.addEventListener("wheel", (/** @type {WheelEvent} */ event) => {
-          event.preventDefault();
-          zoom(event.deltaY < 0, time(event));
-        }, { passive: false });
+        const time = (/** @type {MouseEvent} */ event) =>
+          plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x");
+        plot.over.addEventListener(
+          "wheel",
+          (/** @type {WheelEvent} */ event) => {
+            event.preventDefault();
+            zoom(event.deltaY < 0, time(event));
+          },
+          { passive: false },
+        );
         plot.over.addEventListener("dblclick", reset);
         plot.over.addEventListener("pointerdown", (/** @type {PointerEvent} */ event) => {
           if (!isAsked()) return;
@@ -25,7 +30,10 @@ export function panningPlugin({ isAsked, zoom, pan, reset }) {
         plot.over.addEventListener("pointermove", (/** @type {PointerEvent} */ event) => {
           if (!Number.isNaN(held)) pan(held - time(event));
         });
-        for (const name of ["pointerup", "pointercancel"]) plot.over.addEventListener(name, () => { held = Number.NaN; });
+        for (const name of ["pointerup", "pointercancel"])
+          plot.over.addEventListener(name, () => {
+            held = Number.NaN;
+          });
       },
     },
   };

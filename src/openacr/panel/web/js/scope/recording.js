@@ -85,8 +85,13 @@ export class Recording {
   add(piece) {
     const isOthers = piece.first < this.begun || piece.channels.length !== this.data.length;
     if (this.isTaken || isOthers) return;
-    for (const ring of this.data) for (let n = this.next; n < Math.min(piece.first, this.next + this.size); n++) ring[n % this.size] = Number.NaN;
-    piece.channels.forEach((values, channel) => values.forEach((value, n) => { this.data[channel][(piece.first + n) % this.size] = value; }));
+    for (const ring of this.data)
+      for (let n = this.next; n < Math.min(piece.first, this.next + this.size); n++) ring[n % this.size] = Number.NaN;
+    piece.channels.forEach((values, channel) =>
+      values.forEach((value, n) => {
+        this.data[channel][(piece.first + n) % this.size] = value;
+      }),
+    );
     this.next = Math.max(this.next, piece.first + piece.channels[0].length);
     this.settle();
   }
@@ -117,7 +122,8 @@ export class Recording {
     while (this.swept.length > 1 && this.end(this.swept[1]) <= this.next) this.swept.shift();
     const [trigger = null] = this.swept;
     const end = trigger === null || this.end(trigger) > this.next ? null : this.end(trigger);
-    const isFree = !this.trigger || (this.trigger.mode === "auto" && !(end !== null && this.next <= end + PATIENCE * this.samples));
+    const isFree =
+      !this.trigger || (this.trigger.mode === "auto" && !(end !== null && this.next <= end + PATIENCE * this.samples));
     if (isFree) {
       const begin = end ?? this.begun;
       const first = begin + (Math.floor((this.next - begin) / this.samples) - 1) * this.samples;
@@ -131,7 +137,12 @@ export class Recording {
    */
   keep(first, zero) {
     if (this.whole?.first === first) return;
-    this.whole = { first, zero, period: this.period, channels: this.data.map((_each, channel) => this.part(channel, first, first + this.samples)) };
+    this.whole = {
+      first,
+      zero,
+      period: this.period,
+      channels: this.data.map((_each, channel) => this.part(channel, first, first + this.samples)),
+    };
   }
 
   /**
@@ -162,15 +173,24 @@ export class Recording {
    */
   window() {
     if (this.run === "sweep" && this.whole) return this.whole;
-    const { first, zero } = this.run === "sweep" ? this.beginning() : { first: this.run === "roll" ? Math.max(this.begun, this.next - this.samples) : this.begun, zero: null };
+    const { first, zero } =
+      this.run === "sweep"
+        ? this.beginning()
+        : { first: this.run === "roll" ? Math.max(this.begun, this.next - this.samples) : this.begun, zero: null };
     const end = Math.min(first + this.samples, this.next);
-    return { first, zero: zero ?? first, period: this.period, channels: this.data.map((_each, channel) => this.part(channel, first, end)) };
+    return {
+      first,
+      zero: zero ?? first,
+      period: this.period,
+      channels: this.data.map((_each, channel) => this.part(channel, first, end)),
+    };
   }
 
   /** Where the sweep begins that is under way, and its time 0; nothing has come of one whose trigger has not. */
   beginning() {
     const { latest } = this;
-    if (this.trigger && latest !== null && (latest !== this.swept.at(-1) || this.end(latest) > this.next)) return { first: latest - this.before, zero: latest };
+    if (this.trigger && latest !== null && (latest !== this.swept.at(-1) || this.end(latest) > this.next))
+      return { first: latest - this.before, zero: latest };
     if (this.trigger && this.trigger.mode !== "auto") return { first: this.next, zero: this.next + this.before };
     const first = this.whole ? this.whole.first + this.samples : this.begun;
     return { first, zero: first };
@@ -184,6 +204,11 @@ export class Recording {
     if (this.run !== "sweep" || !this.whole) return null;
     const { first, zero } = this.beginning();
     const end = Math.min(first + this.samples, this.next);
-    return { first, zero, period: this.period, channels: this.data.map((_each, channel) => this.part(channel, first, end)) };
+    return {
+      first,
+      zero,
+      period: this.period,
+      channels: this.data.map((_each, channel) => this.part(channel, first, end)),
+    };
   }
 }

@@ -50,14 +50,18 @@ export function fitting(values, height = DIVISIONS, middle = 0) {
  */
 export function laidOut(traces) {
   const flags = traces.filter(({ isFlag }) => isFlag).length;
-  const lane = flags === traces.length ? Math.min(2 * LANE, DIVISIONS / flags) : Math.min(LANE, LANES / Math.max(1, flags));
+  const lane =
+    flags === traces.length ? Math.min(2 * LANE, DIVISIONS / flags) : Math.min(LANE, LANES / Math.max(1, flags));
   const free = DIVISIONS - flags * lane;
   let place = flags;
   return traces.map(({ values, isFlag }) => {
     if (!isFlag) return fitting(values, free, HALF - free / 2);
     place--;
     const scale = 1 / (HIGH * lane);
-    return { scale: Number(scale.toPrecision(4)), offset: Number(((HALF - (place + (1 - HIGH) / 2) * lane) * scale).toPrecision(6)) };
+    return {
+      scale: Number(scale.toPrecision(4)),
+      offset: Number(((HALF - (place + (1 - HIGH) / 2) * lane) * scale).toPrecision(6)),
+    };
   });
 }
 

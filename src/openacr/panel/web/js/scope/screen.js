@@ -5,7 +5,16 @@ import { t } from "../core/texts.js";
 import { uPlot } from "../../vendor/uplot.js";
 import { DIVISIONS, gridOf, HALF, labelsOf } from "./scales.js";
 
-export const COLORS = Object.freeze(["#1f77b4", "#e07b00", "#2ca02c", "#d62758", "#9467bd", "#8c564b", "#c71fb0", "#108a9c"]);
+export const COLORS = Object.freeze([
+  "#1f77b4",
+  "#e07b00",
+  "#2ca02c",
+  "#d62758",
+  "#9467bd",
+  "#8c564b",
+  "#c71fb0",
+  "#108a9c",
+]);
 const LEGEND_PX = 34;
 const DASH = [6, 4];
 const FAINT = "70"; // opacity of what comes of the next sweep
@@ -18,7 +27,12 @@ const FAINT = "70"; // opacity of what comes of the next sweep
  */
 
 /** What is drawn: ends of both scales, times in ms, traces in divisions. */
-export const shown = new Signal({ x: [0, DIVISIONS], y: [-HALF, HALF], times: /** @type {number[]} */ ([]), channels: /** @type {(number | null)[][]} */ ([]) });
+export const shown = new Signal({
+  x: [0, DIVISIONS],
+  y: [-HALF, HALF],
+  times: /** @type {number[]} */ ([]),
+  channels: /** @type {(number | null)[][]} */ ([]),
+});
 
 /**
  * @param {HTMLElement} chart
@@ -31,20 +45,62 @@ export function createScreen(chart, endings, plugins = []) {
   let [from, step] = [0, 1];
   const style = getComputedStyle(chart);
   const stepped = uPlot.paths.stepped?.({ align: 1 });
-  const axis = { stroke: () => style.color, grid: { stroke: () => style.borderColor, width: 1 }, ticks: { stroke: () => style.borderColor } };
-  const times = (/** @type {any} */ self, /** @type {number[]} */ splits) => labelsOf(splits, step, self.bbox.width / devicePixelRatio / DIVISIONS);
-  const plot = new uPlot({
-    width: Math.max(200, chart.clientWidth), height: 240, cursor: { drag: { x: false, y: false } }, plugins: [...plugins, { hooks: { draw: noteDrawn } }],
-    scales: { x: { time: false, range: () => [from, from + DIVISIONS * step] }, y: { range: () => [-HALF, HALF] } },
-    axes: [
-      { ...axis, label: "ms", labelSize: 20, size: 34, splits: () => gridOf(from, step), values: /** @type {any} */ (times) },
-      { ...axis, label: t("scope.divisions"), labelSize: 20, splits: () => gridOf(-HALF, 1), values: (/** @type {any} */ self, /** @type {number[]} */ splits) => labelsOf(splits, 1, self.bbox.height / devicePixelRatio / DIVISIONS, 6), size: 34 },
-    ],
-    series: [{ label: "ms", value: (/** @type {any} */ _plot, /** @type {any} */ value) => (value === null ? "\u2013" : plain(value, 1)) }],
-  }, /** @type {any} */ ([[]]), chart);
-  const sizes = new ResizeObserver(() => chart.clientWidth && plot.setSize({ width: chart.clientWidth, height: Math.max(120, chart.clientHeight - (chart.querySelector(".u-legend")?.clientHeight ? LEGEND_PX : 0)) }));
+  const axis = {
+    stroke: () => style.color,
+    grid: { stroke: () => style.borderColor, width: 1 },
+    ticks: { stroke: () => style.borderColor },
+  };
+  const times = (/** @type {any} */ self, /** @type {number[]} */ splits) =>
+    labelsOf(splits, step, self.bbox.width / devicePixelRatio / DIVISIONS);
+  const plot = new uPlot(
+    {
+      width: Math.max(200, chart.clientWidth),
+      height: 240,
+      cursor: { drag: { x: false, y: false } },
+      plugins: [...plugins, { hooks: { draw: noteDrawn } }],
+      scales: { x: { time: false, range: () => [from, from + DIVISIONS * step] }, y: { range: () => [-HALF, HALF] } },
+      axes: [
+        {
+          ...axis,
+          label: "ms",
+          labelSize: 20,
+          size: 34,
+          splits: () => gridOf(from, step),
+          values: /** @type {any} */ (times),
+        },
+        {
+          ...axis,
+          label: t("scope.divisions"),
+          labelSize: 20,
+          splits: () => gridOf(-HALF, 1),
+          values: (/** @type {any} */ self, /** @type {number[]} */ splits) =>
+            labelsOf(splits, 1, self.bbox.height / devicePixelRatio / DIVISIONS, 6),
+          size: 34,
+        },
+      ],
+      series: [
+        {
+          label: "ms",
+          value: (/** @type {any} */ _plot, /** @type {any} */ value) => (value === null ? "\u2013" : plain(value, 1)),
+        },
+      ],
+    },
+    /** @type {any} */ ([[]]),
+    chart,
+  );
+  const sizes = new ResizeObserver(
+    () =>
+      chart.clientWidth &&
+      plot.setSize({
+        width: chart.clientWidth,
+        height: Math.max(120, chart.clientHeight - (chart.querySelector(".u-legend")?.clientHeight ? LEGEND_PX : 0)),
+      }),
+  );
   sizes.observe(chart);
-  endings.add(() => sizes.disconnect(), () => plot.destroy());
+  endings.add(
+    () => sizes.disconnect(),
+    () => plot.destroy(),
+  );
 
   /** @param {any} self */
   function noteDrawn({ scales: { x, y }, data: [drawnTimes, ...channels] }) {
@@ -53,13 +109,31 @@ export function createScreen(chart, endings, plugins = []) {
 
   /** Have one series for each trace; those there are stay as they are. */
   function setSeries() {
-    const kinds = drawn.map(({ label, color, isFlag, isReference, isFaint }) => [label, color, isFlag, isReference, isFaint].join());
-    if (kinds.join() === plot.series.slice(1).map((each) => Reflect.get(each, "kind")).join()) return;
+    const kinds = drawn.map(({ label, color, isFlag, isReference, isFaint }) =>
+      [label, color, isFlag, isReference, isFaint].join(),
+    );
+    if (
+      kinds.join() ===
+      plot.series
+        .slice(1)
+        .map((each) => Reflect.get(each, "kind"))
+        .join()
+    )
+      return;
     while (plot.series.length > 1) plot.delSeries(1);
     drawn.forEach(({ label, color, isFlag, isReference, isFaint }, n) => {
-      const value = (/** @type {any} */ _plot, /** @type {any} */ divisions) => (divisions === null || !drawn[n] ? "\u2013" : plain(divisions * drawn[n].scale + drawn[n].offset, 4));
+      const value = (/** @type {any} */ _plot, /** @type {any} */ divisions) =>
+        divisions === null || !drawn[n] ? "\u2013" : plain(divisions * drawn[n].scale + drawn[n].offset, 4);
       const line = isFaint ? { stroke: color + FAINT, width: 1, label: "" } : { stroke: color, width: 1.6, label };
-      plot.addSeries(/** @type {any} */ ({ ...line, ...(isFlag && stepped ? { paths: stepped } : {}), dash: isReference ? DASH : undefined, value, kind: kinds[n] }));
+      plot.addSeries(
+        /** @type {any} */ ({
+          ...line,
+          ...(isFlag && stepped ? { paths: stepped } : {}),
+          dash: isReference ? DASH : undefined,
+          value,
+          kind: kinds[n],
+        }),
+      );
     });
   }
 
@@ -75,7 +149,9 @@ export function createScreen(chart, endings, plugins = []) {
       setSeries();
       const length = Math.max(0, ...traces.map(({ values }) => values.length));
       const samples = Array.from({ length }, (_each, n) => frame.start + n * frame.period * 1000);
-      const divisions = traces.map(({ values, scale, offset }) => Array.from({ length }, (_each, n) => (Number.isFinite(values[n]) ? (values[n] - offset) / scale : null)));
+      const divisions = traces.map(({ values, scale, offset }) =>
+        Array.from({ length }, (_each, n) => (Number.isFinite(values[n]) ? (values[n] - offset) / scale : null)),
+      );
       plot.setData(/** @type {any} */ ([samples, ...divisions]));
     },
   };

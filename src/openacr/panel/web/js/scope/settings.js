@@ -17,14 +17,35 @@ export class Settings {
    */
   constructor(kept, changed) {
     const values = kept.settings ?? {};
-    const number = (/** @type {string} */ name, /** @type {string} */ value) => numberField(t(/** @type {any} */ (`scope.${name}`)), values[name] ?? value, changed);
-    const choice = (/** @type {string} */ name, /** @type {readonly string[]} */ options, /** @type {string} */ value, prefix = "scope.") => selectField(t(/** @type {any} */ (`scope.${name}`)), options.map((each) => [each, prefix ? t(/** @type {any} */ (`${prefix}${each}`)) : each]), values[name] ?? value, changed);
+    const number = (/** @type {string} */ name, /** @type {string} */ value) =>
+      numberField(t(/** @type {any} */ (`scope.${name}`)), values[name] ?? value, changed);
+    const choice = (
+      /** @type {string} */ name,
+      /** @type {readonly string[]} */ options,
+      /** @type {string} */ value,
+      prefix = "scope.",
+    ) =>
+      selectField(
+        t(/** @type {any} */ (`scope.${name}`)),
+        options.map((each) => [each, prefix ? t(/** @type {any} */ (`${prefix}${each}`)) : each]),
+        values[name] ?? value,
+        changed,
+      );
     const channels = Array.from({ length: CHANNELS }, (_each, n) => `CH${n + 1}`);
     /** @type {Record<string, HTMLInputElement | HTMLSelectElement>} */
     this.fields = {
-      sweep: number("sweep", "100"), period: number("period", "0"), mode: choice("mode", MODES, "free"), slope: choice("slope", Object.keys(SLOPES), "rising"),
-      trigger: choice("trigger", channels, "CH1", ""), level: number("level", "0"), before: number("before", "10"), x: choice("x", [...channels, "M"], "CH1", ""), y: choice("y", [...channels, "M"], "CH2", ""),
-      program: number("program", ""), window: choice("window", WINDOWS, "hann", "scope.window."), amplitude: choice("amplitude", ["unit", "decibel"], "unit", "scope.amplitude."),
+      sweep: number("sweep", "100"),
+      period: number("period", "0"),
+      mode: choice("mode", MODES, "free"),
+      slope: choice("slope", Object.keys(SLOPES), "rising"),
+      trigger: choice("trigger", channels, "CH1", ""),
+      level: number("level", "0"),
+      before: number("before", "10"),
+      x: choice("x", [...channels, "M"], "CH1", ""),
+      y: choice("y", [...channels, "M"], "CH2", ""),
+      program: number("program", ""),
+      window: choice("window", WINDOWS, "hann", "scope.window."),
+      amplitude: choice("amplitude", ["unit", "decibel"], "unit", "scope.amplitude."),
     };
   }
 
@@ -35,7 +56,13 @@ export class Settings {
   element() {
     // The engine of a virtual card records: there are no arrays to name.
     const isHidden = (/** @type {string} */ name) => name === "program" && model.hello.value.machine.is_virtual;
-    return h("div.scope-settings", {}, ...Object.entries(this.fields).map(([name, field]) => h("label.row", { hidden: isHidden(name) }, h("span.grow", {}, t(/** @type {any} */ (`scope.${name}`))), field)));
+    return h(
+      "div.scope-settings",
+      {},
+      ...Object.entries(this.fields).map(([name, field]) =>
+        h("label.row", { hidden: isHidden(name) }, h("span.grow", {}, t(/** @type {any} */ (`scope.${name}`))), field),
+      ),
+    );
   }
 
   /** @param {string} name */
@@ -60,7 +87,15 @@ export class Settings {
   /** The channel that triggers and its level; null where none does. */
   get trigger() {
     const mode = this.fields.mode.value;
-    return mode === "free" || mode === "roll" ? null : { channel: this.fields.trigger.value, level: this.number("level"), slope: this.fields.slope.value, mode, before: this.number("before") };
+    return mode === "free" || mode === "roll"
+      ? null
+      : {
+          channel: this.fields.trigger.value,
+          level: this.number("level"),
+          slope: this.fields.slope.value,
+          mode,
+          before: this.number("before"),
+        };
   }
 
   /** @param {number} level in the unit of the channel that triggers */

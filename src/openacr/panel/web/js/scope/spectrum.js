@@ -2,7 +2,10 @@
 
 /** Cosine terms of the windows, periodic: a0 - a1 cos(x) + a2 cos(2x) - ... */
 const TERMS = Object.freeze({
-  rectangle: [1], hann: [0.5, 0.5], hamming: [0.54, 0.46], blackman: [0.42, 0.5, 0.08],
+  rectangle: [1],
+  hann: [0.5, 0.5],
+  hamming: [0.54, 0.46],
+  blackman: [0.42, 0.5, 0.08],
   flattop: [0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368],
 });
 export const WINDOWS = Object.freeze(Object.keys(TERMS));
@@ -13,7 +16,9 @@ export const WINDOWS = Object.freeze(Object.keys(TERMS));
  */
 export function windowOf(name, length) {
   const terms = TERMS[/** @type {keyof typeof TERMS} */ (name)];
-  return Float64Array.from({ length }, (_each, n) => terms.reduce((sum, term, k) => sum + (k % 2 ? -term : term) * Math.cos((2 * Math.PI * k * n) / length), 0));
+  return Float64Array.from({ length }, (_each, n) =>
+    terms.reduce((sum, term, k) => sum + (k % 2 ? -term : term) * Math.cos((2 * Math.PI * k * n) / length), 0),
+  );
 }
 
 /**
@@ -29,7 +34,10 @@ export function spectrum(values, period, name) {
   if (size < 2 || Array.prototype.some.call(values, Number.isNaN)) return null;
   const weights = windowOf(name, size);
   const gain = weights.reduce((sum, weight) => sum + weight, 0);
-  const [real, imaginary] = transformed(weights.map((weight, n) => weight * values[n]), new Float64Array(size));
+  const [real, imaginary] = transformed(
+    weights.map((weight, n) => weight * values[n]),
+    new Float64Array(size),
+  );
   const amplitudes = Float64Array.from({ length: Math.floor(size / 2) + 1 }, (_each, n) => {
     const isSingle = n === 0 || 2 * n === size;
     return ((isSingle ? 1 : 2) * Math.hypot(real[n], imaginary[n])) / gain;
@@ -49,7 +57,8 @@ export function decibels(amplitude) {
  */
 export function peaks(amplitudes, most) {
   const found = [];
-  for (let n = 1; n < amplitudes.length - 1; n++) if (amplitudes[n] > amplitudes[n - 1] && amplitudes[n] > amplitudes[n + 1]) found.push(n);
+  for (let n = 1; n < amplitudes.length - 1; n++)
+    if (amplitudes[n] > amplitudes[n - 1] && amplitudes[n] > amplitudes[n + 1]) found.push(n);
   return found.sort((a, b) => amplitudes[b] - amplitudes[a]).slice(0, most);
 }
 
@@ -78,7 +87,10 @@ export function transformed(real, imaginary) {
   const [p, q] = ofPowerOfTwo(a, b);
   const [r, s] = ofPowerOfTwo(c, d);
   // The inverse transform is the transform with both parts exchanged.
-  const [y, x] = ofPowerOfTwo(p.map((_each, n) => p[n] * s[n] + q[n] * r[n]), p.map((_each, n) => p[n] * r[n] - q[n] * s[n]));
+  const [y, x] = ofPowerOfTwo(
+    p.map((_each, n) => p[n] * s[n] + q[n] * r[n]),
+    p.map((_each, n) => p[n] * r[n] - q[n] * s[n]),
+  );
   return [
     cosine.map((_each, n) => (x[n] * cosine[n] + y[n] * sine[n]) / length),
     cosine.map((_each, n) => (y[n] * cosine[n] - x[n] * sine[n]) / length),

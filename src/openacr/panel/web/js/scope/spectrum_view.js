@@ -19,7 +19,10 @@ export function createSpectrum(host, endings) {
   const size = () => ({ width: Math.max(200, host.clientWidth), height: Math.max(120, host.clientHeight - LEGEND_PX) });
   const sizes = new ResizeObserver(() => host.clientWidth && plot?.setSize(size()));
   sizes.observe(host);
-  endings.add(() => sizes.disconnect(), () => plot?.destroy());
+  endings.add(
+    () => sizes.disconnect(),
+    () => plot?.destroy(),
+  );
 
   /**
    * @param {import("./screen.js").Trace[]} traces
@@ -31,11 +34,33 @@ export function createSpectrum(host, endings) {
     kind = wanted;
     plot?.destroy();
     const style = getComputedStyle(host);
-    const axis = { stroke: () => style.color, grid: { stroke: () => style.borderColor, width: 1 }, ticks: { stroke: () => style.borderColor } };
-    plot = new uPlot({
-      ...size(), scales: { x: { time: false } }, axes: [{ ...axis, label: "Hz" }, { ...axis, label: isDecibel ? "dB" : t("scope.amplitude"), size: 64 }],
-      series: [{ label: "Hz" }, ...traces.map(({ label, color }) => ({ label, stroke: color, width: 1.4, value: (/** @type {any} */ _plot, /** @type {any} */ value) => (value === null ? "\u2013" : plain(value, 4)) }))],
-    }, /** @type {any} */ ([[], ...traces.map(() => [])]), host);
+    const axis = {
+      stroke: () => style.color,
+      grid: { stroke: () => style.borderColor, width: 1 },
+      ticks: { stroke: () => style.borderColor },
+    };
+    plot = new uPlot(
+      {
+        ...size(),
+        scales: { x: { time: false } },
+        axes: [
+          { ...axis, label: "Hz" },
+          { ...axis, label: isDecibel ? "dB" : t("scope.amplitude"), size: 64 },
+        ],
+        series: [
+          { label: "Hz" },
+          ...traces.map(({ label, color }) => ({
+            label,
+            stroke: color,
+            width: 1.4,
+            value: (/** @type {any} */ _plot, /** @type {any} */ value) =>
+              value === null ? "\u2013" : plain(value, 4),
+          })),
+        ],
+      },
+      /** @type {any} */ ([[], ...traces.map(() => [])]),
+      host,
+    );
   }
 
   return {
@@ -51,7 +76,9 @@ export function createSpectrum(host, endings) {
       const found = traces.map(({ values }) => spectrum(values, period, window));
       const whole = found.find((each) => each !== null);
       const bins = Array.from({ length: whole?.amplitudes.length ?? 0 }, (_each, n) => n * (whole?.step ?? 0));
-      const rows = found.map((each) => (each ? Array.from(each.amplitudes, isDecibel ? decibels : (value) => value) : bins.map(() => null)));
+      const rows = found.map((each) =>
+        each ? Array.from(each.amplitudes, isDecibel ? decibels : (value) => value) : bins.map(() => null),
+      );
       plot.setData([bins, ...rows]);
       return found;
     },
@@ -66,5 +93,7 @@ export function createSpectrum(host, endings) {
 export function peaksOf(found, unit) {
   if (!found) return [h("td", {}, t("scope.spectrum.gap"))];
   const digits = (/** @type {number} */ value) => String(Number(value.toPrecision(5)));
-  return peaks(found.amplitudes, PEAKS).map((n) => h("td.number", {}, `${digits(n * found.step)} Hz: ${digits(found.amplitudes[n])} ${unit}`.trim()));
+  return peaks(found.amplitudes, PEAKS).map((n) =>
+    h("td.number", {}, `${digits(n * found.step)} Hz: ${digits(found.amplitudes[n])} ${unit}`.trim()),
+  );
 }

@@ -27,6 +27,8 @@ export function within({ from, step }, [first, last]) {
  */
 export function zoomed(view, isFiner, at, ends, period) {
   const coarsest = Math.max(view.step, stepAbove(Math.max(period, ends[1] - ends[0]) / DIVISIONS));
-  const step = isFiner ? Math.max(Math.min(period, view.step), stepBelow(view.step)) : Math.min(coarsest, stepAbove(view.step * 1.001));
+  const step = isFiner
+    ? Math.max(Math.min(period, view.step), stepBelow(view.step))
+    : Math.min(coarsest, stepAbove(view.step * 1.001));
   return within({ from: at - ((at - view.from) * step) / view.step, step }, ends);
 }

@@ -32,7 +32,9 @@ export function createXy(host, endings, nameOf) {
 
   function paint() {
     const style = getComputedStyle(host);
-    const size = Math.floor(Math.min(host.clientWidth - MARGIN.left - MARGIN.right, host.clientHeight - MARGIN.top - MARGIN.bottom));
+    const size = Math.floor(
+      Math.min(host.clientWidth - MARGIN.left - MARGIN.right, host.clientHeight - MARGIN.top - MARGIN.bottom),
+    );
     if (size <= 0) return;
     const [width, height] = [size + MARGIN.left + MARGIN.right, size + MARGIN.top + MARGIN.bottom];
     [canvas.width, canvas.height] = [width * devicePixelRatio, height * devicePixelRatio];
@@ -65,7 +67,8 @@ export function createXy(host, endings, nameOf) {
     ctx.rotate(-Math.PI / 2);
     ctx.fillText(nameOf(y), -size / 2, LETTERS - MARGIN.left, size);
     ctx.restore();
-    const place = (/** @type {Channel} */ trace, /** @type {number} */ n) => (trace.values[n] - trace.offset) / trace.scale;
+    const place = (/** @type {Channel} */ trace, /** @type {number} */ n) =>
+      (trace.values[n] - trace.offset) / trace.scale;
     ctx.beginPath();
     ctx.rect(0, 0, size, size);
     ctx.clip();

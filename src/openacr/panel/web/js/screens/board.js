@@ -7,10 +7,7 @@ import { needValues } from "../core/values.js";
 import { changeValue, shownValue } from "../frame/card_value.js";
 import { askNumber } from "../frame/number_pad.js";
 
-const TEXTS = {
-  search: { en: "Name or number", de: "Name oder Nummer" },
-  doc: { en: "Meaning", de: "Bedeutung" },
-};
+const TEXTS = { search: { en: "Name or number", de: "Name oder Nummer" }, doc: { en: "Meaning", de: "Bedeutung" } };
 
 /** @type {import("../core/texts.js").Said[]} */
 const HEADS = ["board.number", "board.name", "board.value", TEXTS.doc];
@@ -26,22 +23,36 @@ export const screen = {
     const pages = h("div.row", {});
     head.append(pages, field);
     const rows = h("tbody", {});
-    body.append(h("div.notice", {}, t("diag.warning")), h("div.grow.scroll", {}, h("table.grid", {}, h("thead", {}, h("tr", {},
-      ...HEADS.map((each) => h("th", {}, t(each))))), rows)));
+    body.append(
+      h("div.notice", {}, t("diag.warning")),
+      h(
+        "div.grow.scroll",
+        {},
+        h("table.grid", {}, h("thead", {}, h("tr", {}, ...HEADS.map((each) => h("th", {}, t(each))))), rows),
+      ),
+    );
     /** @type {HTMLElement[]} */
     let values = [];
     let unsubscribe = () => {};
     const newest = latest(endings);
     const search = async () => {
       try {
-        const found = await newest(get("card/parameters", { text: field.value.trim() || undefined, first, count: PAGE }));
+        const found = await newest(
+          get("card/parameters", { text: field.value.trim() || undefined, first, count: PAGE }),
+        );
         if (!found) return;
         const { parameters: shown, total } = found;
         drawPages(total);
         values = shown.map(() => h("strong.live", {}, "\u2013"));
         fill(rows, ...shown.map((/** @type {any} */ each, /** @type {number} */ n) => rowOf(each, values[n])));
         unsubscribe();
-        unsubscribe = needValues(shown.map((/** @type {any} */ each) => each.number), (known) => shown.forEach((/** @type {any} */ each, /** @type {number} */ n) => setText(values[n], shownValue(each, known))));
+        unsubscribe = needValues(
+          shown.map((/** @type {any} */ each) => each.number),
+          (known) =>
+            shown.forEach((/** @type {any} */ each, /** @type {number} */ n) =>
+              setText(values[n], shownValue(each, known)),
+            ),
+        );
       } catch (error) {
         refuse(error);
       }
@@ -53,12 +64,36 @@ export const screen = {
         void search();
       };
       const find = async () => {
-        const wanted = await askNumber({ title: t("form.goto"), value: first + 1, hint: t("form.goto.hint", { last: total }) });
+        const wanted = await askNumber({
+          title: t("form.goto"),
+          value: first + 1,
+          hint: t("form.goto.hint", { last: total }),
+        });
         if (wanted !== null) go(Math.floor((wanted - 1) / PAGE) * PAGE);
       };
-      fill(pages, h("button.key", { type: "button", disabled: first === 0, ariaLabel: t("form.previous"), onclick: () => go(first - PAGE) }, "\u25c0"),
-        h("button.key", { type: "button", onclick: find }, t("form.page", { first: total ? first + 1 : 0, last: Math.min(total, first + PAGE), total })),
-        h("button.key", { type: "button", disabled: first + PAGE >= total, ariaLabel: t("form.next"), onclick: () => go(first + PAGE) }, "\u25b6"));
+      fill(
+        pages,
+        h(
+          "button.key",
+          { type: "button", disabled: first === 0, ariaLabel: t("form.previous"), onclick: () => go(first - PAGE) },
+          "\u25c0",
+        ),
+        h(
+          "button.key",
+          { type: "button", onclick: find },
+          t("form.page", { first: total ? first + 1 : 0, last: Math.min(total, first + PAGE), total }),
+        ),
+        h(
+          "button.key",
+          {
+            type: "button",
+            disabled: first + PAGE >= total,
+            ariaLabel: t("form.next"),
+            onclick: () => go(first + PAGE),
+          },
+          "\u25b6",
+        ),
+      );
     }
 
     /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -68,7 +103,10 @@ export const screen = {
       first = 0;
       timer = setTimeout(search, 250);
     });
-    endings.add(() => unsubscribe(), () => clearTimeout(timer));
+    endings.add(
+      () => unsubscribe(),
+      () => clearTimeout(timer),
+    );
     await search();
   },
 };
@@ -78,6 +116,16 @@ export const screen = {
  * @param {HTMLElement} value
  */
 function rowOf(item, value) {
-  const cell = item.writable && model.may("service") ? h("button.key", { type: "button", onclick: () => changeValue(item, value.textContent ?? "") }, value) : value;
-  return h("tr", {}, h("td.number", {}, item.id), h("td", {}, item.name), h("td.number", {}, cell, item.unit ? ` ${item.unit}` : ""), h("td.quiet", {}, item.doc));
+  const cell =
+    item.writable && model.may("service")
+      ? h("button.key", { type: "button", onclick: () => changeValue(item, value.textContent ?? "") }, value)
+      : value;
+  return h(
+    "tr",
+    {},
+    h("td.number", {}, item.id),
+    h("td", {}, item.name),
+    h("td.number", {}, cell, item.unit ? ` ${item.unit}` : ""),
+    h("td.quiet", {}, item.doc),
+  );
 }

@@ -42,5 +42,11 @@ function rowOf(line) {
   const found = SHARE.exec(line);
   if (!found) return h("p", {}, line);
   const label = t(found[1] === "Foreground" ? TEXTS.foreground : TEXTS.background);
-  return h("label.cpu-row", {}, h("span", {}, label), h("meter", { min: 0, max: 100, value: Number(found[2]) }), h("strong.number", {}, `${found[2]} %`));
+  return h(
+    "label.cpu-row",
+    {},
+    h("span", {}, label),
+    h("meter", { min: 0, max: 100, value: Number(found[2]) }),
+    h("strong.number", {}, `${found[2]} %`),
+  );
 }

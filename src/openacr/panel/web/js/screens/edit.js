@@ -38,13 +38,20 @@ export const screen = {
     const findings = h("div.findings.scroll", { hidden: true });
     const state = h("span.hint.grow", { role: "status" });
     const saveKey = keyOf(TEXTS.save, () => save(), ".main");
-    head.append(keyOf(TEXTS.open, async () => { if (await mayDrop()) await open(path); }), keyOf(TEXTS.new, () => begin()),
+    head.append(
+      keyOf(TEXTS.open, async () => {
+        if (await mayDrop()) await open(path);
+      }),
+      keyOf(TEXTS.new, () => begin()),
       keyOf(TEXTS.dxf, () => openScreen("load", { source: "dxf" })),
-      keyOf(TEXTS.saveas, () => saveAs()), saveKey);
+      keyOf(TEXTS.saveas, () => saveAs()),
+      saveKey,
+    );
     body.classList.add("is-editor");
     body.append(host, findings, h("div.row", {}, state));
     const editor = createEditor(host, {
-      check: async (text) => (await send("POST", "check", { text, dialect: "", path }).catch(() => ({ findings: [] }))).findings,
+      check: async (text) =>
+        (await send("POST", "check", { text, dialect: "", path }).catch(() => ({ findings: [] }))).findings,
       found: (list) => {
         findings.hidden = list.length === 0;
         findings.replaceChildren(...findingItems(list, (each) => editor.goTo(each.line, each.column)));
@@ -65,9 +72,15 @@ export const screen = {
 
     async function mayDrop() {
       if (!isChanged()) return true;
-      const chosen = await ask({ title: t("edit.leave"), body: [h("p", {}, t("edit.leave.text", { name: path || t(TEXTS.unnamed) }))], choices: [
-        { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" }, { text: t(TEXTS.save), value: "save", kind: "main" },
-      ] });
+      const chosen = await ask({
+        title: t("edit.leave"),
+        body: [h("p", {}, t("edit.leave.text", { name: path || t(TEXTS.unnamed) }))],
+        choices: [
+          { text: t("key.cancel"), value: "stay" },
+          { text: t("form.drop"), value: "drop", kind: "danger" },
+          { text: t(TEXTS.save), value: "save", kind: "main" },
+        ],
+      });
       return chosen === "drop" || (chosen === "save" && (await save()));
     }
     beforeClose(mayDrop);
@@ -98,11 +111,33 @@ export const screen = {
      * @param {string} preset
      */
     async function open(preset) {
-      const name = h("input.field.grow", { value: preset, ariaLabel: t("edit.name"), autocomplete: "off", spellcheck: false });
-      const list = fileList({ kinds: ["program", "other", "batch"], chosen: (entry) => { name.value = entry.path; } });
-      const chosen = await ask({ title: t(TEXTS.open), body: [list.element, h("label.row", {}, t("edit.name"), name)], first: name, className: "wide", choices: [
-        { text: t("key.cancel"), value: null }, { text: t(TEXTS.open), kind: "main", isSubmit: true, value: () => withEnding(name.value.trim()) || undefined },
-      ] });
+      const name = h("input.field.grow", {
+        value: preset,
+        ariaLabel: t("edit.name"),
+        autocomplete: "off",
+        spellcheck: false,
+      });
+      const list = fileList({
+        kinds: ["program", "other", "batch"],
+        chosen: (entry) => {
+          name.value = entry.path;
+        },
+      });
+      const chosen = await ask({
+        title: t(TEXTS.open),
+        body: [list.element, h("label.row", {}, t("edit.name"), name)],
+        first: name,
+        className: "wide",
+        choices: [
+          { text: t("key.cancel"), value: null },
+          {
+            text: t(TEXTS.open),
+            kind: "main",
+            isSubmit: true,
+            value: () => withEnding(name.value.trim()) || undefined,
+          },
+        ],
+      });
       if (chosen) await read(chosen);
     }
 
@@ -140,7 +175,14 @@ export const screen = {
           refuse(error);
           return false;
         }
-        const isSure = await ask({ title: t("edit.conflict"), body: [h("p", {}, error.message)], choices: [{ text: t("key.cancel"), value: false }, { text: t("edit.overwrite"), kind: "danger", value: true }] });
+        const isSure = await ask({
+          title: t("edit.conflict"),
+          body: [h("p", {}, error.message)],
+          choices: [
+            { text: t("key.cancel"), value: false },
+            { text: t("edit.overwrite"), kind: "danger", value: true },
+          ],
+        });
         if (!isSure) return false;
         version = "*";
         return save();

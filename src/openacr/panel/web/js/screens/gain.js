@@ -26,7 +26,16 @@ export const screen = {
     const newest = latest(endings);
     const show = async (/** @type {import("../core/card_axes.js").CardAxis} */ axis) => {
       fill(rows); // until they are read, nothing can be typed
-      fill(axes, ...all.map((each) => h("button.key", { type: "button", role: "radio", ariaChecked: String(each === axis), onclick: () => show(each) }, each.title)));
+      fill(
+        axes,
+        ...all.map((each) =>
+          h(
+            "button.key",
+            { type: "button", role: "radio", ariaChecked: String(each === axis), onclick: () => show(each) },
+            each.title,
+          ),
+        ),
+      );
       try {
         const found = await newest(gainRows(axis));
         if (found) fill(rows, ...found.map((row) => rowOf(axis, row, store)));
@@ -45,7 +54,12 @@ export const screen = {
  * @param {HTMLInputElement} store
  */
 function rowOf(axis, row, store) {
-  const field = h("input.field.number", { id: `gain-${row.number}`, value: row.value, inputMode: "decimal", autocomplete: "off" });
+  const field = h("input.field.number", {
+    id: `gain-${row.number}`,
+    value: row.value,
+    inputMode: "decimal",
+    autocomplete: "off",
+  });
   const enter = async (/** @type {Event} */ event) => {
     event.preventDefault();
     const value = evaluate(field.value);
@@ -53,10 +67,22 @@ function rowOf(axis, row, store) {
       refuse(`${row.name}: ${t("pad.none")}`);
       return;
     }
-    const answer = await give("gain.set", { axis: axis.name, gain: row.name, value, store: store.checked && axis.isMachines });
+    const answer = await give("gain.set", {
+      axis: axis.name,
+      gain: row.name,
+      value,
+      store: store.checked && axis.isMachines,
+    });
     if (!answer) return;
     field.value = String(answer.value);
     report(t(store.checked && !answer.is_stored ? TEXTS.later : TEXTS.done, { gain: row.name, value: answer.value }));
   };
-  return h("form.gain-row", { onsubmit: enter }, h("label", { htmlFor: field.id, title: row.help }, row.name), field, h("span.unit", {}, row.unit), h("button.key", { type: "submit" }, t(TEXTS.enter)));
+  return h(
+    "form.gain-row",
+    { onsubmit: enter },
+    h("label", { htmlFor: field.id, title: row.help }, row.name),
+    field,
+    h("span.unit", {}, row.unit),
+    h("button.key", { type: "submit" }, t(TEXTS.enter)),
+  );
 }

@@ -30,9 +30,17 @@ export const screen = {
         setText(state, t(TEXTS.on, { axes: axes.split("").join(" ") }));
       }
     };
-    body.append(h("p", {}, t(TEXTS.text)), choice.element, h("div.row", {},
-      keyOf(TEXTS.start, () => mayMove() && turn(choice.names()), ".big.main"),
-      keyOf(TEXTS.end, () => turn(""), ".big")), state);
+    body.append(
+      h("p", {}, t(TEXTS.text)),
+      choice.element,
+      h(
+        "div.row",
+        {},
+        keyOf(TEXTS.start, () => mayMove() && turn(choice.names()), ".big.main"),
+        keyOf(TEXTS.end, () => turn(""), ".big"),
+      ),
+      state,
+    );
     endings.add(() => {
       if (!state.hidden) void give("handwheel", { axes: "" });
     });

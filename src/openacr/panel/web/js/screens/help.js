@@ -6,15 +6,30 @@ import { t } from "../core/texts.js";
 import { MENUS } from "../frame/menus.js";
 import { closeScreen } from "../frame/screen_host.js";
 
-const TEXTS = {
-  none: { en: "There is no page on this key.", de: "Zu dieser Taste gibt es keine Seite." },
-};
+const TEXTS = { none: { en: "There is no page on this key.", de: "Zu dieser Taste gibt es keine Seite." } };
 
 /** Keys that are explained on a page of the server with others. @type {Record<string, string>} */
 const PAGES = {
-  main: "", diag: "setdiag", parameters: "setdiag", clearZero: "clrzero", zero: "setzero", gotoZero: "gotozero",
-  start: "run", runLine: "run", dryRun: "run", block: "run", abort: "stop", resume: "stop", traceBack: "stop", traceStop: "stop", traceForward: "stop",
-  buttons: "display", ionames: "display", resize: "display", messages: "display", views: "display",
+  main: "",
+  diag: "setdiag",
+  parameters: "setdiag",
+  clearZero: "clrzero",
+  zero: "setzero",
+  gotoZero: "gotozero",
+  start: "run",
+  runLine: "run",
+  dryRun: "run",
+  block: "run",
+  abort: "stop",
+  resume: "stop",
+  traceBack: "stop",
+  traceStop: "stop",
+  traceForward: "stop",
+  buttons: "display",
+  ionames: "display",
+  resize: "display",
+  messages: "display",
+  views: "display",
 };
 
 /** @type {import("../frame/screen_host.js").Screen} */
@@ -27,21 +42,33 @@ export const screen = {
     const list = h("div.form-tabs.scroll", {});
     body.classList.add("is-tabbed");
     body.append(list, text);
-    head.append(keyOf("tour.title", async () => {
-      await closeScreen();
-      (await import("../tour/tour.js")).startTour();
-    }));
+    head.append(
+      keyOf("tour.title", async () => {
+        await closeScreen();
+        (await import("../tour/tour.js")).startTour();
+      }),
+    );
     const show = async (/** @type {HTMLElement} */ item, /** @type {import("../frame/menus.js").MenuKey} */ entry) => {
       for (const each of list.children) each.setAttribute("aria-current", String(each === item));
       const page = await newest(pageOf(entry)).catch(() => ({ title: t(entry.label), text: t(TEXTS.none) }));
-      if (page) fill(text, h("h2", {}, page.title), ...page.text.split(/\n\s*\n/).map((/** @type {string} */ part) => h("p", {}, part)));
+      if (page)
+        fill(
+          text,
+          h("h2", {}, page.title),
+          ...page.text.split(/\n\s*\n/).map((/** @type {string} */ part) => h("p", {}, part)),
+        );
     };
     const seen = new Set();
     for (const [menu, keys] of Object.entries(MENUS)) {
       for (const entry of keys) {
         if (!nameOf(entry) || seen.has(entry.label)) continue;
         seen.add(entry.label);
-        const item = h("button.key.item", { type: "button", onclick: () => show(item, entry) }, h("span.name", {}, t(entry.label)), h("span.quiet", { title: menu }, `F${entry.key}`));
+        const item = h(
+          "button.key.item",
+          { type: "button", onclick: () => show(item, entry) },
+          h("span.name", {}, t(entry.label)),
+          h("span.quiet", { title: menu }, `F${entry.key}`),
+        );
         list.append(item);
       }
     }
@@ -56,7 +83,9 @@ export const screen = {
  */
 async function pageOf(entry) {
   const help = entry.screen && (await import(`./${entry.screen}.js`)).screen.help;
-  return help ? { title: t(entry.label), text: t(help) } : get(`help/${nameOf(entry)}`, { language: document.documentElement.lang });
+  return help
+    ? { title: t(entry.label), text: t(help) }
+    : get(`help/${nameOf(entry)}`, { language: document.documentElement.lang });
 }
 
 /** @param {import("../frame/menus.js").MenuKey} entry */

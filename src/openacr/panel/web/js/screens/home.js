@@ -24,27 +24,41 @@ export const screen = {
   show({ body, endings }) {
     /** @type {Map<string, HTMLElement>} */
     const states = new Map();
-    const choice = axisChoice({ label: t(TEXTS.axes), isOn: () => true, extra: (axis) => {
-      const state = h("span.home-state", {}, "");
-      states.set(axis.name, state);
-      return state;
-    } });
-    const start = keyOf("home.start", async () => {
-      const axes = choice.names();
-      if (!axes) refuse(t("axes.none"));
-      else if (mayMove()) await give("home.start", { axes });
-    }, ".big.danger");
+    const choice = axisChoice({
+      label: t(TEXTS.axes),
+      isOn: () => true,
+      extra: (axis) => {
+        const state = h("span.home-state", {}, "");
+        states.set(axis.name, state);
+        return state;
+      },
+    });
+    const start = keyOf(
+      "home.start",
+      async () => {
+        const axes = choice.names();
+        if (!axes) refuse(t("axes.none"));
+        else if (mayMove()) await give("home.start", { axes });
+      },
+      ".big.danger",
+    );
     const stop = keyOf("menu.stop", () => give("stop.hold"), ".big.bad");
     const progress = h("div.notice", { role: "status" });
     body.append(h("p", {}, t(TEXTS.text)), choice.element, h("div.row", {}, h("div.grow", {}, start), stop), progress);
     endings.add(
-      model.home.watch(({ axes }) => axes.forEach((each) => {
-        const element = states.get(each.name);
-        if (!element) return;
-        const text = each.homed ? `\u2302 ${t(TEXTS.homed)}` : each.state ? textOr(`home.state.${each.state}`, each.state) : t(TEXTS.nothomed);
-        setText(element, text);
-        element.classList.toggle("is-homed", each.homed);
-      })),
+      model.home.watch(({ axes }) =>
+        axes.forEach((each) => {
+          const element = states.get(each.name);
+          if (!element) return;
+          const text = each.homed
+            ? `\u2302 ${t(TEXTS.homed)}`
+            : each.state
+              ? textOr(`home.state.${each.state}`, each.state)
+              : t(TEXTS.nothomed);
+          setText(element, text);
+          element.classList.toggle("is-homed", each.homed);
+        }),
+      ),
       model.state.watch((state) => {
         const isHoming = state.state === "HOMING";
         stop.hidden = !isHoming;

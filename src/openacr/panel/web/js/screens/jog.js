@@ -23,7 +23,14 @@ const PRESETS = [1, 2, 3, 4, 5];
 const CROSS = ["X", "Y"];
 const CROSS_WIDE = 3; // columns
 /** @type {Record<string, [string, 1 | -1]>} */
-const ARROWS = { ArrowRight: ["X", 1], ArrowLeft: ["X", -1], ArrowUp: ["Y", 1], ArrowDown: ["Y", -1], PageUp: ["Z", 1], PageDown: ["Z", -1] };
+const ARROWS = {
+  ArrowRight: ["X", 1],
+  ArrowLeft: ["X", -1],
+  ArrowUp: ["Y", 1],
+  ArrowDown: ["Y", -1],
+  PageUp: ["Z", 1],
+  PageDown: ["Z", -1],
+};
 const fast = new Signal(false);
 const preset = new Signal(0); // 0: continuous
 
@@ -43,7 +50,11 @@ export const screen = {
     model.axes.forEach((axis) => {
       for (const direction of /** @type {const} */ ([-1, 1])) {
         const sign = direction > 0 ? "+" : "\u2212";
-        const key = h("button.key.jog-key", { type: "button", ariaLabel: `${axis.name} ${direction > 0 ? "plus" : "minus"}` }, `${axis.name}${sign}`);
+        const key = h(
+          "button.key.jog-key",
+          { type: "button", ariaLabel: `${axis.name} ${direction > 0 ? "plus" : "minus"}` },
+          `${axis.name}${sign}`,
+        );
         [key.style.gridColumn, key.style.gridRow] = placeOf(axis.name, after + beside.indexOf(axis), direction);
         held.set(`${axis.name}${direction}`, key);
         jogKey(key, axis.name, direction);
@@ -52,16 +63,28 @@ export const screen = {
     });
     const draw = (/** @type {(number | string)[]} */ steps) => {
       const focused = [speeds, increments].find((each) => each.contains(document.activeElement));
-      fill(speeds, radio(t(TEXTS.slow), !fast.value, () => choose(fast, false)), radio(t(TEXTS.fast), fast.value, () => choose(fast, true)));
-      fill(increments, radio(t(TEXTS.continuous), preset.value === 0, () => choose(preset, 0)),
-        ...PRESETS.map((n) => radio(String(steps[n - 1] ?? n), preset.value === n, () => choose(preset, n))));
+      fill(
+        speeds,
+        radio(t(TEXTS.slow), !fast.value, () => choose(fast, false)),
+        radio(t(TEXTS.fast), fast.value, () => choose(fast, true)),
+      );
+      fill(
+        increments,
+        radio(t(TEXTS.continuous), preset.value === 0, () => choose(preset, 0)),
+        ...PRESETS.map((n) => radio(String(steps[n - 1] ?? n), preset.value === n, () => choose(preset, n))),
+      );
       /** @type {HTMLElement | null | undefined} */ (focused?.querySelector("[aria-checked=true]"))?.focus();
     };
     /** @type {(number | string)[]} */
     let steps = PRESETS.map((n) => `#${n}`);
     draw(steps);
-    void readSteps().then((found) => draw(steps = found ?? steps));
-    endings.add(fast.watch(() => draw(steps)), preset.watch(() => draw(steps)), releaseAll, listenToArrows(held, body));
+    void readSteps().then((found) => draw((steps = found ?? steps)));
+    endings.add(
+      fast.watch(() => draw(steps)),
+      preset.watch(() => draw(steps)),
+      releaseAll,
+      listenToArrows(held, body),
+    );
   },
 };
 
@@ -93,7 +116,11 @@ function choose(signal, value) {
  * @param {1 | -1} direction
  */
 function jogKey(key, axis, direction) {
-  makeHeld(key, () => ({ axis, direction, fast: fast.value }), () => preset.value === 0);
+  makeHeld(
+    key,
+    () => ({ axis, direction, fast: fast.value }),
+    () => preset.value === 0,
+  );
   key.addEventListener("click", () => {
     if (preset.value > 0) step(axis, direction);
   });
@@ -104,7 +131,8 @@ function jogKey(key, axis, direction) {
  * @param {1 | -1} direction
  */
 function step(axis, direction) {
-  if (mayMove()) void give("jog.increment", { axis, direction, preset: preset.value, fast: fast.value, tick: model.drawnTick });
+  if (mayMove())
+    void give("jog.increment", { axis, direction, preset: preset.value, fast: fast.value, tick: model.drawnTick });
 }
 
 /**
@@ -116,10 +144,22 @@ function step(axis, direction) {
 function listenToArrows(keys, body) {
   const pressed = (/** @type {KeyboardEvent} */ event) => {
     const jog = ARROWS[event.key];
-    const isFree = !(event.target instanceof Element && event.target.closest("input, select, textarea, [role=tablist], [role=radiogroup]"));
+    const isFree = !(
+      event.target instanceof Element &&
+      event.target.closest("input, select, textarea, [role=tablist], [role=radiogroup]")
+    );
     const isHere = !body.closest(".bench-pane") || (event.target instanceof Node && body.contains(event.target));
     const key = jog && keys.get(jog.join(""));
-    if (!key || !isFree || !isHere || event.ctrlKey || event.altKey || event.metaKey || document.querySelector("dialog[open]")) return;
+    if (
+      !key ||
+      !isFree ||
+      !isHere ||
+      event.ctrlKey ||
+      event.altKey ||
+      event.metaKey ||
+      document.querySelector("dialog[open]")
+    )
+      return;
     event.preventDefault();
     if (event.repeat) return;
     if (preset.value > 0) step(jog[0], jog[1]);
@@ -147,6 +187,6 @@ function radio(text, isOn, chosen) {
 async function readSteps() {
   const form = await get("forms/JOG", { axis: model.axes[0]?.index ?? 0 }).catch(() => null);
   const rows = form?.groups.flatMap((/** @type {any} */ group) => group.rows) ?? [];
-  const found = PRESETS.map((n) => rows.find((/** @type {any} */ row) => (Number(row.number) % 1000) === 5 + n)?.value);
+  const found = PRESETS.map((n) => rows.find((/** @type {any} */ row) => Number(row.number) % 1000 === 5 + n)?.value);
   return found.every((value) => value !== undefined) ? found : null;
 }

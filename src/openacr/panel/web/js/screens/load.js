@@ -12,11 +12,16 @@ import { dxfSource } from "../load/dxf.js";
 import { linkSource } from "../load/link.js";
 import { partSource } from "../load/parts.js";
 
-const TEXTS = {
-  source: { en: "Source", de: "Quelle" },
-};
+const TEXTS = { source: { en: "Source", de: "Quelle" } };
 
-const SOURCES = { file: fileSource, part: partSource, dxf: dxfSource, batch: batchSource, drip: dripSource, link: linkSource };
+const SOURCES = {
+  file: fileSource,
+  part: partSource,
+  dxf: dxfSource,
+  batch: batchSource,
+  drip: dripSource,
+  link: linkSource,
+};
 
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
@@ -34,7 +39,14 @@ export const screen = {
       for (const key of list.querySelectorAll("button")) key.ariaChecked = String(key.dataset.source === name);
       void SOURCES[name](host, own, load);
     };
-    list.append(...Object.keys(SOURCES).map((name) => keyOf(/** @type {any} */ (`load.${name}`), () => choose(/** @type {any} */ (name)), "", { role: "radio", data: { source: name } })));
+    list.append(
+      ...Object.keys(SOURCES).map((name) =>
+        keyOf(/** @type {any} */ (`load.${name}`), () => choose(/** @type {any} */ (name)), "", {
+          role: "radio",
+          data: { source: name },
+        }),
+      ),
+    );
     choose(args.source ?? "file");
   },
 };

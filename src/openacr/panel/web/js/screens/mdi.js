@@ -25,7 +25,14 @@ export const screen = {
   mode: "mdi",
   show({ body, endings }) {
     const buffer = h("textarea.field.mono.grow", { ariaLabel: t(TEXTS.buffer), spellcheck: false, wrap: "off" });
-    const line = h("input.field.mono.grow", { ariaLabel: t(TEXTS.line), placeholder: "G0 X10 Y5", autocomplete: "off", spellcheck: false, autocapitalize: "characters", autofocus: true });
+    const line = h("input.field.mono.grow", {
+      ariaLabel: t(TEXTS.line),
+      placeholder: "G0 X10 Y5",
+      autocomplete: "off",
+      spellcheck: false,
+      autocapitalize: "characters",
+      autofocus: true,
+    });
     const state = h("span.hint", { role: "status" });
     const isOn = h("input", { type: "checkbox", onchange: () => give("mdi.buffer", { on: isOn.checked }) });
     /** @type {string[]} */
@@ -72,19 +79,41 @@ export const screen = {
     const clear = keyOf(TEXTS.clear, async () => {
       if (await give("mdi.buffer", { lines: [] })) buffer.value = "";
     });
-    body.append(buffer, h("div.row.wrap", {}, h("label.check.row", {}, isOn, t(TEXTS.on)), state, h("span.grow", {}), keep, runAll, save, clear),
-      h("form.row", { onsubmit: (/** @type {Event} */ event) => {
-        event.preventDefault();
-        void execute();
-      } }, line, h("button.key.main.big", { type: "submit" }, t("mdi.execute"))));
-    endings.add(model.mdi.watch((mdi) => {
-      isOn.checked = mdi.on;
-      if (mdi.on) unkept = [];
-      history = [...mdi.buffer, ...unkept];
-      if (!isEdited) buffer.value = mdi.buffer.join("\n");
-      buffer.scrollTop = buffer.scrollHeight;
-      setText(state, mdi.running ? t(TEXTS.running) : t(TEXTS.count, { count: mdi.buffer.length }));
-    }));
+    body.append(
+      buffer,
+      h(
+        "div.row.wrap",
+        {},
+        h("label.check.row", {}, isOn, t(TEXTS.on)),
+        state,
+        h("span.grow", {}),
+        keep,
+        runAll,
+        save,
+        clear,
+      ),
+      h(
+        "form.row",
+        {
+          onsubmit: (/** @type {Event} */ event) => {
+            event.preventDefault();
+            void execute();
+          },
+        },
+        line,
+        h("button.key.main.big", { type: "submit" }, t("mdi.execute")),
+      ),
+    );
+    endings.add(
+      model.mdi.watch((mdi) => {
+        isOn.checked = mdi.on;
+        if (mdi.on) unkept = [];
+        history = [...mdi.buffer, ...unkept];
+        if (!isEdited) buffer.value = mdi.buffer.join("\n");
+        buffer.scrollTop = buffer.scrollHeight;
+        setText(state, mdi.running ? t(TEXTS.running) : t(TEXTS.count, { count: mdi.buffer.length }));
+      }),
+    );
   },
 };
 

@@ -40,8 +40,23 @@ export const screen = {
 
     /** @param {{ sizes: Record<string, number>, free: number }} division */
     function draw(division) {
-      fields = Object.entries(division.sizes).map(([name, size]) => ({ name, before: String(size), input: h("input.field.number", { id: `memory-${name}`, value: String(size), inputMode: "numeric", autocomplete: "off", oninput: follow }) }));
-      fill(rows, ...fields.map(({ name, input }) => h("div.memory-row", {}, h("label", { htmlFor: input.id }, name), input, h("span.unit", {}, t(TEXTS.bytes)))));
+      fields = Object.entries(division.sizes).map(([name, size]) => ({
+        name,
+        before: String(size),
+        input: h("input.field.number", {
+          id: `memory-${name}`,
+          value: String(size),
+          inputMode: "numeric",
+          autocomplete: "off",
+          oninput: follow,
+        }),
+      }));
+      fill(
+        rows,
+        ...fields.map(({ name, input }) =>
+          h("div.memory-row", {}, h("label", { htmlFor: input.id }, name), input, h("span.unit", {}, t(TEXTS.bytes))),
+        ),
+      );
       setText(free, t(TEXTS.free, { free: division.free }));
       follow();
     }
@@ -71,7 +86,11 @@ export const screen = {
       draw(division);
       report(t(TEXTS.done));
     }
-    beforeClose(async () => !changed().length || confirm(t("form.leave"), t("form.leave.text", { count: changed().length }), t("form.drop")));
+    beforeClose(
+      async () =>
+        !changed().length ||
+        confirm(t("form.leave"), t("form.leave.text", { count: changed().length }), t("form.drop")),
+    );
     await read();
     const timer = setInterval(() => fields.length || void read(), AGAIN_MS); // it is shown at rest only
     endings.add(() => clearInterval(timer));

@@ -15,7 +15,12 @@ export const screen = {
   area: "full",
   async show(place) {
     const found = h("div.search-results.list", { hidden: true });
-    const field = h("input.field", { type: "search", placeholder: t(TEXTS.search), ariaLabel: t(TEXTS.search), oninput: () => void search() });
+    const field = h("input.field", {
+      type: "search",
+      placeholder: t(TEXTS.search),
+      ariaLabel: t(TEXTS.search),
+      oninput: () => void search(),
+    });
     place.head.append(h("div.search", {}, field, found));
     const newest = latest(place.endings);
     const search = async () => {
@@ -27,10 +32,19 @@ export const screen = {
       const { cells } = answer;
       fill(found, ...(cells.length ? cells.slice(0, 30).map(rowOf) : [h("p.hint", {}, t(TEXTS.nothing))]));
     };
-    const rowOf = (/** @type {any} */ cell) => h("button.key.item", { type: "button", onclick: () => {
-      found.hidden = true;
-      /** @type {HTMLElement | null} */ (place.body.querySelector(`[data-form="${cell.form}"]`))?.click();
-    } }, h("span.name", {}, cell.name), h("span.quiet", {}, `${cell.form}  P${cell.number}`));
+    const rowOf = (/** @type {any} */ cell) =>
+      h(
+        "button.key.item",
+        {
+          type: "button",
+          onclick: () => {
+            found.hidden = true;
+            /** @type {HTMLElement | null} */ (place.body.querySelector(`[data-form="${cell.form}"]`))?.click();
+          },
+        },
+        h("span.name", {}, cell.name),
+        h("span.quiet", {}, `${cell.form}  P${cell.number}`),
+      );
     await showFormTabs(place, (form) => form.section === "SYS PARAM");
   },
 };

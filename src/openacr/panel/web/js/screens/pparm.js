@@ -5,9 +5,7 @@ import { h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { askNumber } from "../frame/number_pad.js";
 
-const TEXTS = {
-  done: { en: "P{n} is {value}", de: "P{n} ist {value}" },
-};
+const TEXTS = { done: { en: "P{n} is {value}", de: "P{n} ist {value}" } };
 
 const COUNT = 200;
 const EVERY_MS = 1000;
@@ -21,7 +19,10 @@ export const screen = {
     let values = [];
     const cells = Array.from({ length: COUNT }, (_each, n) => {
       const value = h("strong.number.grow", {}, "\u2013");
-      return { value, key: h("button.key.variable", { type: "button", onclick: () => enter(n) }, h("span.quiet", {}, `P${n}`), value) };
+      return {
+        value,
+        key: h("button.key.variable", { type: "button", onclick: () => enter(n) }, h("span.quiet", {}, `P${n}`), value),
+      };
     });
     body.append(h("div.variables", {}, ...cells.map(({ key }) => key)));
     const read = async () => {

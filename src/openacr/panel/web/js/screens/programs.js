@@ -73,14 +73,27 @@ export const screen = {
     const items = h("div.list.scroll.program-list", { role: "listbox", ariaLabel: t(TEXTS.list) });
     const title = h("strong", { role: "status" });
     const keys = h("div.program-keys", {});
-    const text = h("textarea.field.mono.grow", { ariaLabel: t(TEXTS.text), spellcheck: false, wrap: "off", hidden: true });
+    const text = h("textarea.field.mono.grow", {
+      ariaLabel: t(TEXTS.text),
+      spellcheck: false,
+      wrap: "off",
+      hidden: true,
+    });
     const place = h("div.program-text.grow", {});
-    const printed = h("pre.listing-plain.mono.printed", { role: "log", ariaLabel: t(TEXTS.printed), tabIndex: 0, hidden: true });
+    const printed = h("pre.listing-plain.mono.printed", {
+      role: "log",
+      ariaLabel: t(TEXTS.printed),
+      tabIndex: 0,
+      hidden: true,
+    });
     body.classList.add("is-tabbed");
     body.append(items, h("div.program-side", {}, title, keys, place, text, printed));
     const listing = createListing(place, {
       read: async (first, count) => lines.slice(first - 1, first - 1 + count).map((each) => each.text),
-      numberOf: (row) => String(lines[row - 1]?.number ?? ""), clicked: () => {}, scrolled: () => {}, label: t(TEXTS.text),
+      numberOf: (row) => String(lines[row - 1]?.number ?? ""),
+      clicked: () => {},
+      scrolled: () => {},
+      label: t(TEXTS.text),
     });
     head.append(keyOf("programs.read", () => readList()));
 
@@ -92,8 +105,15 @@ export const screen = {
 
     async function mayDrop() {
       if (!isEdited()) return true;
-      const chosen = await ask({ title: t("edit.leave"), body: [h("p", {}, t("edit.leave.text", { name }))], choices: [
-        { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" }, { text: t(TEXTS.send), value: "send" }] });
+      const chosen = await ask({
+        title: t("edit.leave"),
+        body: [h("p", {}, t("edit.leave.text", { name }))],
+        choices: [
+          { text: t("key.cancel"), value: "stay" },
+          { text: t("form.drop"), value: "drop", kind: "danger" },
+          { text: t(TEXTS.send), value: "send" },
+        ],
+      });
       return chosen === "drop" || (chosen === "send" && (await send()));
     }
 
@@ -102,16 +122,40 @@ export const screen = {
       if (!found) return;
       listed = found.programs;
       drawList();
-      void newestProject(get("project")).then((project) => {
-        if (!project) return;
-        differing = project.differs;
-        drawList();
-      }, () => {}); // without it nothing is marked
+      void newestProject(get("project")).then(
+        (project) => {
+          if (!project) return;
+          differing = project.differs;
+          drawList();
+        },
+        () => {},
+      ); // without it nothing is marked
     }
 
     function drawList() {
-      fill(items, ...listed.map((each) => h("button.key.item", { type: "button", role: "option", data: { name: each.name }, attr: { "aria-selected": String(each.name === name) }, onclick: () => choose(each.name) },
-        h("span.name", {}, each.name), h("span.program-state", {}), h("span.program-differs", { title: t(TEXTS.differsText) }, differing.includes(each.name) ? t(TEXTS.differs) : ""), h("span.quiet.number", {}, each.bytes ? t(TEXTS.bytes, { used: each.used }) : t(TEXTS.nomemory)))));
+      fill(
+        items,
+        ...listed.map((each) =>
+          h(
+            "button.key.item",
+            {
+              type: "button",
+              role: "option",
+              data: { name: each.name },
+              attr: { "aria-selected": String(each.name === name) },
+              onclick: () => choose(each.name),
+            },
+            h("span.name", {}, each.name),
+            h("span.program-state", {}),
+            h(
+              "span.program-differs",
+              { title: t(TEXTS.differsText) },
+              differing.includes(each.name) ? t(TEXTS.differs) : "",
+            ),
+            h("span.quiet.number", {}, each.bytes ? t(TEXTS.bytes, { used: each.used }) : t(TEXTS.nomemory)),
+          ),
+        ),
+      );
       drawStates();
     }
 
@@ -123,7 +167,14 @@ export const screen = {
         item.classList.toggle("is-running", state !== undefined && state.state !== HALTED);
       }
       const state = states.get(name);
-      setText(title, name ? [name, state ? stateText(state) : "", state?.line ? t("programs.line", { line: state.line }) : ""].filter(Boolean).join(" \u00b7 ") : t(TEXTS.choose));
+      setText(
+        title,
+        name
+          ? [name, state ? stateText(state) : "", state?.line ? t("programs.line", { line: state.line }) : ""]
+              .filter(Boolean)
+              .join(" \u00b7 ")
+          : t(TEXTS.choose),
+      );
       listing.mark(state?.line ? lines.findIndex((each) => each.number === state.line) + 1 : 0, true);
       drawKeys(state);
     }
@@ -136,7 +187,8 @@ export const screen = {
       name = chosen;
       chosenProgram.set(name);
       edit(false);
-      for (const item of items.children) item.setAttribute("aria-selected", String(/** @type {HTMLElement} */ (item).dataset.name === name));
+      for (const item of items.children)
+        item.setAttribute("aria-selected", String(/** @type {HTMLElement} */ (item).dataset.name === name));
       await readText();
     }
 
@@ -160,23 +212,65 @@ export const screen = {
     function drawKeys(state) {
       const owner = listed.find((each) => each.name === name)?.owner ?? "";
       const isPlc = name.startsWith("PLC");
-      const looks = JSON.stringify([name, isRead, lines.length > 0, state?.state === HALTED, state?.state === "paused", state?.block, text.hidden, listened, owner, model.may("service")]);
+      const looks = JSON.stringify([
+        name,
+        isRead,
+        lines.length > 0,
+        state?.state === HALTED,
+        state?.state === "paused",
+        state?.block,
+        text.hidden,
+        listened,
+        owner,
+        model.may("service"),
+      ]);
       if (looks === drawn || !name) return;
       drawn = looks;
       const bar = owner || (model.may("service") ? "" : t("role.needed", { role: t("role.service") }));
       const [isRunning, isPaused] = [state !== undefined && state.state !== HALTED, state?.state === "paused"];
-      const key = (/** @type {any} */ label, /** @type {() => void} */ does, more = {}) => h("button.key", { type: "button", disabled: Boolean(bar), title: bar, onclick: does, ...more }, t(label));
-      const order = (/** @type {string} */ cmd, values = {}) => () => void give(cmd, { ...which(), ...values });
+      const key = (/** @type {any} */ label, /** @type {() => void} */ does, more = {}) =>
+        h("button.key", { type: "button", disabled: Boolean(bar), title: bar, onclick: does, ...more }, t(label));
+      const order =
+        (/** @type {string} */ cmd, values = {}) =>
+        () =>
+          void give(cmd, { ...which(), ...values });
       const focused = keys.contains(document.activeElement) ? document.activeElement?.textContent : "";
-      if (!text.hidden) fill(keys, key(TEXTS.send, () => send(), { className: "key main", disabled: false }), keyOf("form.drop", () => drop()));
-      else fill(keys,
-        key(TEXTS.run, () => run(), { className: bar || isRunning ? "key" : "key danger", disabled: Boolean(bar) || isRunning, ...shortcut("run", "Alt+R", bar) }), key(TEXTS.halt, order("card.halt")),
-        ...(isPlc ? [] : [
-          key(TEXTS.pause, order("card.pause"), { disabled: Boolean(bar) || !isRunning || isPaused }), key(TEXTS.resume, order("card.resume"), { disabled: Boolean(bar) || !isPaused }),
-          key(TEXTS.block, order("card.block", { on: !state?.block }), { ariaPressed: String(Boolean(state?.block)) }), key(TEXTS.step, order("card.step"), { disabled: Boolean(bar) || !state?.block, ...shortcut("step", "Alt+S", bar) }),
-          key(TEXTS.listen, () => listen(), { ariaPressed: String(listened === name), disabled: false, title: "" }),
-        ]),
-        key(TEXTS.edit, () => edit(true), { disabled: Boolean(bar) || isRunning || !isRead }), key(TEXTS.clear, () => clear(), { disabled: Boolean(bar) || isRunning || !lines.length }));
+      if (!text.hidden)
+        fill(
+          keys,
+          key(TEXTS.send, () => send(), { className: "key main", disabled: false }),
+          keyOf("form.drop", () => drop()),
+        );
+      else
+        fill(
+          keys,
+          key(TEXTS.run, () => run(), {
+            className: bar || isRunning ? "key" : "key danger",
+            disabled: Boolean(bar) || isRunning,
+            ...shortcut("run", "Alt+R", bar),
+          }),
+          key(TEXTS.halt, order("card.halt")),
+          ...(isPlc
+            ? []
+            : [
+                key(TEXTS.pause, order("card.pause"), { disabled: Boolean(bar) || !isRunning || isPaused }),
+                key(TEXTS.resume, order("card.resume"), { disabled: Boolean(bar) || !isPaused }),
+                key(TEXTS.block, order("card.block", { on: !state?.block }), {
+                  ariaPressed: String(Boolean(state?.block)),
+                }),
+                key(TEXTS.step, order("card.step"), {
+                  disabled: Boolean(bar) || !state?.block,
+                  ...shortcut("step", "Alt+S", bar),
+                }),
+                key(TEXTS.listen, () => listen(), {
+                  ariaPressed: String(listened === name),
+                  disabled: false,
+                  title: "",
+                }),
+              ]),
+          key(TEXTS.edit, () => edit(true), { disabled: Boolean(bar) || isRunning || !isRead }),
+          key(TEXTS.clear, () => clear(), { disabled: Boolean(bar) || isRunning || !lines.length }),
+        );
       if (bar) keys.append(h("p.hint", {}, bar));
       const again = [...keys.querySelectorAll("button")].find((each) => each.textContent === focused && !each.disabled);
       again?.focus();
@@ -249,10 +343,17 @@ export const screen = {
         while (printed.childNodes.length > 400) printed.firstChild?.remove();
         printed.scrollTop = printed.scrollHeight;
       }),
-      () => { if (listened && link.isOpen.value) void link.command("card.unlisten", { program: Number(listened.slice(4)) }).catch(() => {}); },
+      () => {
+        if (listened && link.isOpen.value)
+          void link.command("card.unlisten", { program: Number(listened.slice(4)) }).catch(() => {});
+      },
     );
     await readList();
-    const first = args.name ?? listed.find((each) => each.used && !each.owner)?.name ?? listed.find((each) => each.bytes && !each.owner)?.name ?? "PROG0";
+    const first =
+      args.name ??
+      listed.find((each) => each.used && !each.owner)?.name ??
+      listed.find((each) => each.bytes && !each.owner)?.name ??
+      "PROG0";
     await choose(first);
     /** @type {HTMLElement | null} */ (items.querySelector("[aria-selected=true]"))?.focus();
   },

@@ -42,27 +42,88 @@ export const screen = {
     const level = numberField(t("scope.level"), "scope.level", "0");
     const mode = selectField(t("scope.mode"), ["free", "auto", "normal", "single"]);
     const slope = selectField(t("scope.slope"), ["rising", "falling"]);
-    const profile = h("textarea.field.mono", { ariaLabel: t(TEXTS.profile), value: setting("scope.profile", PROFILE), spellcheck: false, rows: 7 });
+    const profile = h("textarea.field.mono", {
+      ariaLabel: t(TEXTS.profile),
+      value: setting("scope.profile", PROFILE),
+      spellcheck: false,
+      rows: 7,
+    });
     const state = h("span.hint.grow", { role: "status" });
     const chart = h("div.scope-chart.grow", {});
     const recording = new Recording();
     const run = new Endings();
-    endings.add(() => run.end(), () => void (link.isOpen.value && link.command("scope.stop").catch(() => {})));
-    head.append(keyOf("scope.start", () => arm(null), ".main"), keyOf("scope.index", index, ".danger"), keyOf("scope.stop", stop), keyOf("scope.autoscale", autoscale));
-    body.append(h("div.scope-side.scroll", {},
-      h("div.scope-channel", {}, h("span", {}), ...["scope.head.source", "scope.head.scale", "scope.head.offset"].map((each) => h("span.hint", {}, t(/** @type {any} */ (each))))),
-      ...channels.map((each, n) => h("div.scope-channel", { data: { channel: String(n + 1) } }, h("strong", {}, String(n + 1)), each.source, each.scale, each.offset)),
-      h("div.scope-settings", {}, row(t("scope.sweep"), sweep), row(t("scope.period"), period), row(t("scope.mode"), mode), row(t("scope.slope"), slope), row(t("scope.level"), level)),
-      h("label.stack", {}, t(TEXTS.profile), profile)), h("div.stack.grow", {}, chart, state));
+    endings.add(
+      () => run.end(),
+      () => void (link.isOpen.value && link.command("scope.stop").catch(() => {})),
+    );
+    head.append(
+      keyOf("scope.start", () => arm(null), ".main"),
+      keyOf("scope.index", index, ".danger"),
+      keyOf("scope.stop", stop),
+      keyOf("scope.autoscale", autoscale),
+    );
+    body.append(
+      h(
+        "div.scope-side.scroll",
+        {},
+        h(
+          "div.scope-channel",
+          {},
+          h("span", {}),
+          ...["scope.head.source", "scope.head.scale", "scope.head.offset"].map((each) =>
+            h("span.hint", {}, t(/** @type {any} */ (each))),
+          ),
+        ),
+        ...channels.map((each, n) =>
+          h(
+            "div.scope-channel",
+            { data: { channel: String(n + 1) } },
+            h("strong", {}, String(n + 1)),
+            each.source,
+            each.scale,
+            each.offset,
+          ),
+        ),
+        h(
+          "div.scope-settings",
+          {},
+          row(t("scope.sweep"), sweep),
+          row(t("scope.period"), period),
+          row(t("scope.mode"), mode),
+          row(t("scope.slope"), slope),
+          row(t("scope.level"), level),
+        ),
+        h("label.stack", {}, t(TEXTS.profile), profile),
+      ),
+      h("div.stack.grow", {}, chart, state),
+    );
     body.classList.add("is-scope");
     const screenOf = createScreen(chart, endings);
     const draw = () => {
       const { channels: records, period: every, first, zero } = recording.window();
       const start = (first - zero) * every * 1000;
-      screenOf.draw(records.map((values, n) => ({ label: String(n + 1), color: COLORS[n], values, scale: numberOf(channels[n].scale) || 1, offset: numberOf(channels[n].offset) })), { start, period: every, from: start, step: numberOf(sweep) });
+      screenOf.draw(
+        records.map((values, n) => ({
+          label: String(n + 1),
+          color: COLORS[n],
+          values,
+          scale: numberOf(channels[n].scale) || 1,
+          offset: numberOf(channels[n].offset),
+        })),
+        { start, period: every, from: start, step: numberOf(sweep) },
+      );
     };
-    const tell = () => setText(state, stateText(stateOf(model.capture.value, run.list.length ? recording : null), model.capture.value, recording.count));
-    for (const { scale, offset } of channels) for (const field of [scale, offset]) field.addEventListener("input", draw);
+    const tell = () =>
+      setText(
+        state,
+        stateText(
+          stateOf(model.capture.value, run.list.length ? recording : null),
+          model.capture.value,
+          recording.count,
+        ),
+      );
+    for (const { scale, offset } of channels)
+      for (const field of [scale, offset]) field.addEventListener("input", draw);
     endings.add(
       model.scope.watch((piece) => {
         if (!piece || !run.list.length) return;
@@ -81,13 +142,18 @@ export const screen = {
 
     /** Values of the fields, or null where one is wrong. */
     function settings() {
-      for (const field of body.querySelectorAll("input[data-setting]")) keepSetting(/** @type {any} */ (field).dataset.setting, /** @type {any} */ (field).value);
+      for (const field of body.querySelectorAll("input[data-setting]"))
+        keepSetting(/** @type {any} */ (field).dataset.setting, /** @type {any} */ (field).value);
       const [sweepMs, periodMs] = [numberOf(sweep), numberOf(period)];
       if (!(sweepMs > 0) || !(periodMs > 0)) {
         refuse(t(TEXTS.range));
         return null;
       }
-      return { channels: channels.map(({ source }) => source.value.trim()).filter(Boolean), period_ms: periodMs, sweep_ms: DIVISIONS * sweepMs };
+      return {
+        channels: channels.map(({ source }) => source.value.trim()).filter(Boolean),
+        period_ms: periodMs,
+        sweep_ms: DIVISIONS * sweepMs,
+      };
     }
 
     /** @param {string | null} text a profile that is run and recorded, or null */
@@ -96,9 +162,20 @@ export const screen = {
       if (!chosen) return;
       run.end();
       const free = text !== null || mode.value === "free";
-      const trigger = free ? null : { channel: 0, level: numberOf(level), slope: slope.value === "rising" ? 1 : -1, mode: mode.value, before: 0.1 };
+      const trigger = free
+        ? null
+        : {
+            channel: 0,
+            level: numberOf(level),
+            slope: slope.value === "rising" ? 1 : -1,
+            mode: mode.value,
+            before: 0.1,
+          };
       run.add(link.subscribe({ topic: "scope", hz: 10 }));
-      const begun = text === null ? await armed("scope.arm", { ...chosen, trigger }) : await armed("scope.index", { ...chosen, profile: text });
+      const begun =
+        text === null
+          ? await armed("scope.arm", { ...chosen, trigger })
+          : await armed("scope.index", { ...chosen, profile: text });
       if (begun) recording.begin(begun.channels.length, begun, trigger, text === null ? "sweep" : "once");
       tell();
       draw();
@@ -106,7 +183,15 @@ export const screen = {
 
     async function index() {
       keepSetting("scope.profile", profile.value);
-      if (!mayMove() || !(await confirm(t("scope.index"), t(TEXTS.indexText, { move: profile.value.trim().split("\n").at(-1) ?? "" }), t("scope.index")))) return;
+      if (
+        !mayMove() ||
+        !(await confirm(
+          t("scope.index"),
+          t(TEXTS.indexText, { move: profile.value.trim().split("\n").at(-1) ?? "" }),
+          t("scope.index"),
+        ))
+      )
+        return;
       await arm(profile.value);
     }
 
@@ -148,7 +233,15 @@ function row(label, field) {
  * @param {string} value
  */
 function textField(label, name, value) {
-  return h("input.field", { ariaLabel: label, title: label, placeholder: t("scope.source"), value: setting(name, value), autocomplete: "off", spellcheck: false, data: { setting: name } });
+  return h("input.field", {
+    ariaLabel: label,
+    title: label,
+    placeholder: t("scope.source"),
+    value: setting(name, value),
+    autocomplete: "off",
+    spellcheck: false,
+    data: { setting: name },
+  });
 }
 
 /**
@@ -169,5 +262,9 @@ function numberField(label, name, value) {
  * @param {string[]} values
  */
 function selectField(label, values) {
-  return h("select.field", { ariaLabel: label }, ...values.map((value) => h("option", { value }, t(/** @type {any} */ (`scope.${value}`)))));
+  return h(
+    "select.field",
+    { ariaLabel: label },
+    ...values.map((value) => h("option", { value }, t(/** @type {any} */ (`scope.${value}`)))),
+  );
 }

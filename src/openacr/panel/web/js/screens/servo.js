@@ -33,16 +33,42 @@ export const screen = {
     const choose = (/** @type {number} */ index) => {
       own.end();
       const name = all.find((axis) => axis.index === index)?.title ?? "";
-      fill(axes, ...all.map((axis) => h("button.key", { type: "button", role: "radio", ariaChecked: String(axis.index === index), onclick: () => choose(axis.index) }, axis.title)));
+      fill(
+        axes,
+        ...all.map((axis) =>
+          h(
+            "button.key",
+            {
+              type: "button",
+              role: "radio",
+              ariaChecked: String(axis.index === index),
+              onclick: () => choose(axis.index),
+            },
+            axis.title,
+          ),
+        ),
+      );
       const picture = drawLoop(t(TEXTS.label, { axis: name }));
       fill(host, picture.element);
       const first = FIRST + EACH * index;
       const flags = [OPEN + FLAGS * index, FILTER + FLAGS * index];
       own.add(
-        needValues(PLACES.map((place) => first + place), (values) => picture.update((place) => values.get(first + place))), needWords(wordsOf(flags)),
+        needValues(
+          PLACES.map((place) => first + place),
+          (values) => picture.update((place) => values.get(first + place)),
+        ),
+        needWords(wordsOf(flags)),
         model.flags.watch((words) => {
           const [isOpen, isFiltering] = flags.map((flag) => stateOf(words, flag));
-          setText(state, [isOpen === undefined ? "" : t(isOpen ? TEXTS.open : TEXTS.closed), isFiltering === undefined ? "" : t(isFiltering ? TEXTS.filtering : TEXTS.bypassed)].filter(Boolean).join(" \u00b7 "));
+          setText(
+            state,
+            [
+              isOpen === undefined ? "" : t(isOpen ? TEXTS.open : TEXTS.closed),
+              isFiltering === undefined ? "" : t(isFiltering ? TEXTS.filtering : TEXTS.bypassed),
+            ]
+              .filter(Boolean)
+              .join(" \u00b7 "),
+          );
           picture.element.classList.toggle("is-bypassed", isFiltering === false);
         }),
       );

@@ -28,23 +28,47 @@ export const screen = {
   show({ body, endings }) {
     /** @type {HTMLElement[]} */
     const places = [];
-    const system = h("select.field", { ariaLabel: t(TEXTS.system) }, ...SYSTEMS.map((name) => h("option", { value: name, selected: name === model.modals.value.work }, name)));
-    const choice = axisChoice({ label: t(TEXTS.axes), extra: () => {
-      const place = h("span.number.live", {});
-      places.push(place);
-      return place;
-    } });
+    const system = h(
+      "select.field",
+      { ariaLabel: t(TEXTS.system) },
+      ...SYSTEMS.map((name) => h("option", { value: name, selected: name === model.modals.value.work }, name)),
+    );
+    const choice = axisChoice({
+      label: t(TEXTS.axes),
+      extra: () => {
+        const place = h("span.number.live", {});
+        places.push(place);
+        return place;
+      },
+    });
     const teach = async () => {
       const axes = choice.names();
       if (!axes) refuse(t("axes.none"));
-      else if (await give("teach.work", { system: system.value, axes })) report(t(TEXTS.done, { system: system.value, axes: axes.split("").join(" ") }));
+      else if (await give("teach.work", { system: system.value, axes }))
+        report(t(TEXTS.done, { system: system.value, axes: axes.split("").join(" ") }));
     };
     const length = async () => {
-      const number = await askNumber({ title: t("teach.length"), value: model.modals.value.H || 1, check: (n) => (Number.isInteger(n) && n >= 1 && n <= 999 ? "" : t("field.range", { low: 1, high: 999 })) });
+      const number = await askNumber({
+        title: t("teach.length"),
+        value: model.modals.value.H || 1,
+        check: (n) => (Number.isInteger(n) && n >= 1 && n <= 999 ? "" : t("field.range", { low: 1, high: 999 })),
+      });
       if (number !== null && (await give("teach.length", { h: number }))) report(t(TEXTS.lengthDone, { h: number }));
     };
-    body.append(h("p", {}, t(TEXTS.text)), h("label.row", {}, h("span.grow", {}, t(TEXTS.system)), system), choice.element, h("div.row.wrap", {},
-      keyOf("menu.teach", teach, ".big.main"), keyOf("teach.length", length, ".big")));
-    endings.add(model.status.watch((status) => status && model.axes.forEach((axis, n) => setText(places[n], position(status.machine[n] * viewOf(axis).factor, viewOf(axis).decimals)))));
+    body.append(
+      h("p", {}, t(TEXTS.text)),
+      h("label.row", {}, h("span.grow", {}, t(TEXTS.system)), system),
+      choice.element,
+      h("div.row.wrap", {}, keyOf("menu.teach", teach, ".big.main"), keyOf("teach.length", length, ".big")),
+    );
+    endings.add(
+      model.status.watch(
+        (status) =>
+          status &&
+          model.axes.forEach((axis, n) =>
+            setText(places[n], position(status.machine[n] * viewOf(axis).factor, viewOf(axis).decimals)),
+          ),
+      ),
+    );
   },
 };

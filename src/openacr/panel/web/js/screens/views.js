@@ -21,9 +21,24 @@ export const screen = {
     const form = await get("forms/VIEWS");
     const rows = form.groups.flatMap((/** @type {any} */ group) => group.rows);
     const shown = VIEWS.map((n) => String(rows[n].value).split(/\s+/));
-    const boxes = BLOCK_NAMES.map((name) => ({ name, cells: VIEWS.map((n) => h("input", { type: "checkbox", checked: shown[n].includes(name), ariaLabel: `${t(/** @type {any} */ (`block.${name}`))}, ${t("status.view", { n: n + 1 })}` })) }));
+    const boxes = BLOCK_NAMES.map((name) => ({
+      name,
+      cells: VIEWS.map((n) =>
+        h("input", {
+          type: "checkbox",
+          checked: shown[n].includes(name),
+          ariaLabel: `${t(/** @type {any} */ (`block.${name}`))}, ${t("status.view", { n: n + 1 })}`,
+        }),
+      ),
+    }));
     const save = async () => {
-      const chosen = VIEWS.map((n) => [String(rows[n].number), boxes.filter(({ cells }) => cells[n].checked).map(({ name }) => name).join(" ")]);
+      const chosen = VIEWS.map((n) => [
+        String(rows[n].number),
+        boxes
+          .filter(({ cells }) => cells[n].checked)
+          .map(({ name }) => name)
+          .join(" "),
+      ]);
       try {
         await send("PUT", "forms/VIEWS", { values: Object.fromEntries(chosen) });
         report(t(TEXTS.saved));
@@ -32,8 +47,29 @@ export const screen = {
         refuse(error);
       }
     };
-    body.append(h("table.grid", {}, h("thead", {}, h("tr", {}, h("th", {}, t(TEXTS.block)), ...VIEWS.map((n) => h("th", {}, t("status.view", { n: n + 1 }))))),
-      h("tbody", {}, ...boxes.map(({ name, cells }) => h("tr", {}, h("td", {}, t(/** @type {any} */ (`block.${name}`))), ...cells.map((cell) => h("td", {}, h("label.check", {}, cell))))))),
-    h("div.row", {}, h("span.grow", {}), keyOf(TEXTS.save, save, ".main")));
+    body.append(
+      h(
+        "table.grid",
+        {},
+        h(
+          "thead",
+          {},
+          h("tr", {}, h("th", {}, t(TEXTS.block)), ...VIEWS.map((n) => h("th", {}, t("status.view", { n: n + 1 })))),
+        ),
+        h(
+          "tbody",
+          {},
+          ...boxes.map(({ name, cells }) =>
+            h(
+              "tr",
+              {},
+              h("td", {}, t(/** @type {any} */ (`block.${name}`))),
+              ...cells.map((cell) => h("td", {}, h("label.check", {}, cell))),
+            ),
+          ),
+        ),
+      ),
+      h("div.row", {}, h("span.grow", {}), keyOf(TEXTS.save, save, ".main")),
+    );
   },
 };

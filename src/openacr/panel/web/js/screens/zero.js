@@ -17,12 +17,23 @@ export const screen = {
   title: { en: "Set zero", de: "Null setzen" },
   show({ body }) {
     const choice = axisChoice({ label: t(TEXTS.axes) });
-    body.append(h("p", {}, t(TEXTS.text)), choice.element, h("div.row.wrap", {},
-      keyOf("menu.setzero", async () => {
-        const axes = choice.names();
-        if (!axes) refuse(t("axes.none"));
-        else if (await give("zero.set", { axes })) report(t("zero.done", { axes: axes.split("").join(" ") }));
-      }, ".big.main"),
-      keyOf("menu.clrzero", () => ACTIONS.clearZero({ openMenu }), ".big")));
+    body.append(
+      h("p", {}, t(TEXTS.text)),
+      choice.element,
+      h(
+        "div.row.wrap",
+        {},
+        keyOf(
+          "menu.setzero",
+          async () => {
+            const axes = choice.names();
+            if (!axes) refuse(t("axes.none"));
+            else if (await give("zero.set", { axes })) report(t("zero.done", { axes: axes.split("").join(" ") }));
+          },
+          ".big.main",
+        ),
+        keyOf("menu.clrzero", () => ACTIONS.clearZero({ openMenu }), ".big"),
+      ),
+    );
   },
 };

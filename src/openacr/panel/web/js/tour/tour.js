@@ -14,13 +14,29 @@ export function startTour() {
   const text = h("p", { role: "status" });
   const back = keyOf("tour.back", () => show(at - 1));
   const next = keyOf("tour.next", () => show(at + 1), ".main");
-  const box = h("section.tour", { ariaLabel: t("tour.title"), onkeydown: (/** @type {KeyboardEvent} */ event) => {
-    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-    if (!by) return;
-    event.preventDefault();
-    event.stopPropagation(); // the arrows jog elsewhere
-    if (at + by >= 0 && at + by < STEPS.length) show(at + by);
-  } }, text, h("div.row", {}, place, h("span.grow", {}), back, next, keyOf("tour.end", () => end())));
+  const box = h(
+    "section.tour",
+    {
+      ariaLabel: t("tour.title"),
+      onkeydown: (/** @type {KeyboardEvent} */ event) => {
+        const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+        if (!by) return;
+        event.preventDefault();
+        event.stopPropagation(); // the arrows jog elsewhere
+        if (at + by >= 0 && at + by < STEPS.length) show(at + by);
+      },
+    },
+    text,
+    h(
+      "div.row",
+      {},
+      place,
+      h("span.grow", {}),
+      back,
+      next,
+      keyOf("tour.end", () => end()),
+    ),
+  );
   /** @type {Element | null} */
   let framed = null;
   let at = 0;

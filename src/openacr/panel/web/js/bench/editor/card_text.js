@@ -25,9 +25,21 @@ export function which(level) {
  * @returns {Promise<Opened>}
  */
 export async function fromCard(level) {
-  const [listed, around, project] = await Promise.all([get("card/listing", which(level)), get("card/surroundings", which(level)), inProject(level).catch((error) => void refuse(error))]);
+  const [listed, around, project] = await Promise.all([
+    get("card/listing", which(level)),
+    get("card/surroundings", which(level)),
+    inProject(level).catch((error) => void refuse(error)),
+  ]);
   const text = project?.is_same && project.text ? project.text : textOf(listed.lines);
-  return { name: `${level.toLowerCase()}.8k`, level, text, version: listed.version, setup: around.setup, isCards: true, project };
+  return {
+    name: `${level.toLowerCase()}.8k`,
+    level,
+    text,
+    version: listed.version,
+    setup: around.setup,
+    isCards: true,
+    project,
+  };
 }
 
 /** Whether the card belongs to a project, whose folder has its programs. */
@@ -73,5 +85,7 @@ export async function fromFile(file) {
  */
 export async function toCard({ level, version }, text) {
   const { parked } = await send("POST", "text/parked", { text });
-  return level ? link.command("card.send", { ...which(level), parked, version }) : link.command("card.download", { parked });
+  return level
+    ? link.command("card.send", { ...which(level), parked, version })
+    : link.command("card.download", { parked });
 }

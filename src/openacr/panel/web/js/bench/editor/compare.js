@@ -27,11 +27,23 @@ export function comparison({ name, rows, is_equal }, chosen) {
       return;
     }
     skip();
-    body.push(h("tr", { className: isSame ? "" : "is-different", onclick: () => line && chosen(line) },
-      h("td.number.quiet", {}, line || ""), h("td.mono", {}, text), h("td.number.quiet", {}, number || ""), h("td.mono", {}, listed)));
+    body.push(
+      h(
+        "tr",
+        { className: isSame ? "" : "is-different", onclick: () => line && chosen(line) },
+        h("td.number.quiet", {}, line || ""),
+        h("td.mono", {}, text),
+        h("td.number.quiet", {}, number || ""),
+        h("td.mono", {}, listed),
+      ),
+    );
   });
   skip();
-  return h("table.grid.compared", { ariaLabel: t("texts.compared", { name }) },
+  return h(
+    "table.grid.compared",
+    { ariaLabel: t("texts.compared", { name }) },
     h("caption", {}, name, " \u00b7 ", t(is_equal ? "texts.same" : "texts.different")),
-    h("thead", {}, h("tr", {}, h("th", { colSpan: 2 }, t("texts.here")), h("th", { colSpan: 2 }, t("texts.oncard")))), h("tbody", {}, ...body));
+    h("thead", {}, h("tr", {}, h("th", { colSpan: 2 }, t("texts.here")), h("th", { colSpan: 2 }, t("texts.oncard")))),
+    h("tbody", {}, ...body),
+  );
 }

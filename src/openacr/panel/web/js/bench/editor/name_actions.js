@@ -50,15 +50,25 @@ export function nameActions({ asked, editor, list, showBeside }) {
   }
 
   /** @type {(entries: any[], depth?: number) => HTMLElement[]} */
-  const entries = (found, depth = 0) => found.flatMap((each) => [
-    h("button.key.item", { type: "button", onclick: () => editor().goTo([each.line, 0, each.line, 0]), data: { depth: String(depth) } }, h("span.name", {}, each.name), h("span.quiet", {}, each.detail)),
-    ...entries(each.parts, depth + 1)]);
+  const entries = (found, depth = 0) =>
+    found.flatMap((each) => [
+      h(
+        "button.key.item",
+        { type: "button", onclick: () => editor().goTo([each.line, 0, each.line, 0]), data: { depth: String(depth) } },
+        h("span.name", {}, each.name),
+        h("span.quiet", {}, each.detail),
+      ),
+      ...entries(each.parts, depth + 1),
+    ]);
 
   async function outline() {
     const answer = await asked("outline");
-    if (answer) showBeside(h("div.list.text-outline", {}, ...(answer.length ? entries(answer) : [h("p.hint", {}, t("texts.nooutline"))])));
+    if (answer)
+      showBeside(
+        h("div.list.text-outline", {}, ...(answer.length ? entries(answer) : [h("p.hint", {}, t("texts.nooutline"))])),
+      );
   }
 
-  const keys = { "F12": definition, "Shift-F12": uses, "F2": rename, "Shift-Alt-f": format };
+  const keys = { F12: definition, "Shift-F12": uses, F2: rename, "Shift-Alt-f": format };
   return { uses, rename, format, outline, keys };
 }

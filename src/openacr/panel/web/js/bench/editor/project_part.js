@@ -44,7 +44,9 @@ export function projectPart({ opened, text, show, mayDrop, draw }) {
   }
 
   return {
-    keys: [saveKey, openKey], save, maySave,
+    keys: [saveKey, openKey],
+    save,
+    maySave,
     draw() {
       const { level, project } = opened();
       saveKey.hidden = !hasProject() || !level;
@@ -58,8 +60,9 @@ export function projectPart({ opened, text, show, mayDrop, draw }) {
       return project && !project.is_same ? t("texts.project.differs", { file: project.file }) : "";
     },
     /** Follow texts that are stored; returns the function that ends it. */
-    watch: () => model.texts.watch((stored) => {
-      if (stored && opened().level && ["", opened().level].includes(stored.name)) void know();
-    }),
+    watch: () =>
+      model.texts.watch((stored) => {
+        if (stored && opened().level && ["", opened().level].includes(stored.name)) void know();
+      }),
   };
 }

@@ -81,13 +81,42 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
 
   const actions = nameActions({ asked, editor: () => editor, list, showBeside });
   const choice = h("select.field", { ariaLabel: t(TEXTS.which), onchange: () => void chooseLevel() });
-  const input = h("input", { type: "file", hidden: true, ariaLabel: t(TEXTS.open), accept: ".8k,.8K,.txt,.prg", onchange: () => void chooseFile() });
+  const input = h("input", {
+    type: "file",
+    hidden: true,
+    ariaLabel: t(TEXTS.open),
+    accept: ".8k,.8K,.txt,.prg",
+    onchange: () => void chooseFile(),
+  });
   const sendKey = keyOf(TEXTS.send, () => sendNow(), ".main");
-  const project = projectPart({ opened: () => opened, text: () => editor.text(), show: (now) => show(now), mayDrop: () => mayDrop(), draw: () => draw() });
-  head.append(choice, keyOf(TEXTS.read, () => chooseLevel()), sendKey, keyOf(TEXTS.compare, () => compare()), keyOf(TEXTS.open, () => input.click()), input, keyOf(TEXTS.save, () => save()), ...project.keys,
-    keyOf("texts.rename", actions.rename), keyOf(TEXTS.uses, actions.uses), keyOf(TEXTS.format, actions.format), keyOf(TEXTS.outline, actions.outline));
+  const project = projectPart({
+    opened: () => opened,
+    text: () => editor.text(),
+    show: (now) => show(now),
+    mayDrop: () => mayDrop(),
+    draw: () => draw(),
+  });
+  head.append(
+    choice,
+    keyOf(TEXTS.read, () => chooseLevel()),
+    sendKey,
+    keyOf(TEXTS.compare, () => compare()),
+    keyOf(TEXTS.open, () => input.click()),
+    input,
+    keyOf(TEXTS.save, () => save()),
+    ...project.keys,
+    keyOf("texts.rename", actions.rename),
+    keyOf(TEXTS.uses, actions.uses),
+    keyOf(TEXTS.format, actions.format),
+    keyOf(TEXTS.outline, actions.outline),
+  );
   const code = h("div.editor-host.grow", {});
-  const beside = h("div.stack.scroll.text-beside", { hidden: true, tabIndex: 0, role: "region", ariaLabel: t(TEXTS.beside) });
+  const beside = h("div.stack.scroll.text-beside", {
+    hidden: true,
+    tabIndex: 0,
+    role: "region",
+    ariaLabel: t(TEXTS.beside),
+  });
   const problems = h("div.findings.scroll", { hidden: true, role: "region", ariaLabel: t(TEXTS.findings) });
   const signature = h("div.mono.text-signature", { ariaLive: "off" });
   const status = h("span.hint.grow", { role: "status" });
@@ -121,10 +150,19 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     const state = stateOf(opened.level);
     const isRunning = state !== undefined && state.state !== HALTED;
     sendKey.disabled = !model.may("service") || isRunning;
-    sendKey.title = isRunning ? t(TEXTS.runs, { name: opened.level }) : model.may("service") ? "" : t("role.needed", { role: t("role.service") });
+    sendKey.title = isRunning
+      ? t(TEXTS.runs, { name: opened.level })
+      : model.may("service")
+        ? ""
+        : t("role.needed", { role: t("role.service") });
     project.draw();
-    const about = [opened.level || opened.name, state ? stateText(state) : "", t("edit.lines", { count: editor.doc().lines }), isChanged() ? t(TEXTS.changed) : "",
-      project.differs()];
+    const about = [
+      opened.level || opened.name,
+      state ? stateText(state) : "",
+      t("edit.lines", { count: editor.doc().lines }),
+      isChanged() ? t(TEXTS.changed) : "",
+      project.differs(),
+    ];
     setText(status, about.filter(Boolean).join(" \u00b7 "));
     drawMarks();
   }
@@ -150,7 +188,10 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     const mine = editor;
     const answered = await mine.synced.ask("stored");
     if (!answered?.answer || mine !== editor || answered.doc !== mine.doc()) return;
-    stored = new StoredLines(Object.fromEntries(levels.filter((each) => each in answered.answer).map((each) => [each, answered.answer[each]])), answered.doc);
+    stored = new StoredLines(
+      Object.fromEntries(levels.filter((each) => each in answered.answer).map((each) => [each, answered.answer[each]])),
+      answered.doc,
+    );
     drawMarks();
   }
 
@@ -168,7 +209,12 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
       const answered = await editor.synced.ask("signature", editor.about());
       if (!answered || answered.doc !== editor.doc()) return;
       const found = answered.answer;
-      fill(signature, ...(found ? [found.label, ...(found.active >= 0 ? [" \u00b7 ", h("strong", {}, found.parts[found.active])] : [])] : []));
+      fill(
+        signature,
+        ...(found
+          ? [found.label, ...(found.active >= 0 ? [" \u00b7 ", h("strong", {}, found.parts[found.active])] : [])]
+          : []),
+      );
     }, SIGNATURE_MS);
   }
 
@@ -177,16 +223,39 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
    * @param {number} more
    */
   function showFindings(findings, more) {
-    list(findings.map(({ span, text, is_warning, fix }) => ({ span, text, kind: is_warning ? "warning" : "error", fix })));
+    list(
+      findings.map(({ span, text, is_warning, fix }) => ({ span, text, kind: is_warning ? "warning" : "error", fix })),
+    );
     if (more) problems.append(h("p.hint", {}, t(TEXTS.more, { count: more })));
   }
 
   /** @param {import("../editor/name_actions.js").Item[]} items */
   function list(items) {
     problems.hidden = items.length === 0;
-    fill(problems, ...items.map(({ span, text, kind, fix }) => h("div.row", {}, h("button", { type: "button", className: `key item grow ${kind}`, onclick: () => { closeBeside(); editor.goTo(span); } },
-      h("span", {}, kind === "error" ? "\u26a0" : "\u2139"), h("span.number", {}, `${span[0] + 1}:${span[1] + 1}`), h("span.name", {}, text)),
-    ...(fix ? [h("button.key", { type: "button", onclick: () => editor.apply(fix.edits) }, fix.title)] : []))));
+    fill(
+      problems,
+      ...items.map(({ span, text, kind, fix }) =>
+        h(
+          "div.row",
+          {},
+          h(
+            "button",
+            {
+              type: "button",
+              className: `key item grow ${kind}`,
+              onclick: () => {
+                closeBeside();
+                editor.goTo(span);
+              },
+            },
+            h("span", {}, kind === "error" ? "\u26a0" : "\u2139"),
+            h("span.number", {}, `${span[0] + 1}:${span[1] + 1}`),
+            h("span.name", {}, text),
+          ),
+          ...(fix ? [h("button.key", { type: "button", onclick: () => editor.apply(fix.edits) }, fix.title)] : []),
+        ),
+      ),
+    );
   }
 
   /** @param {...Node} content */
@@ -215,10 +284,20 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
 
   async function mayDrop() {
     if (!isChanged()) return true;
-    const chosen = await ask({ title: t("edit.leave"), body: [h("p", {}, t("edit.leave.text", { name: opened.level || opened.name }))], choices: [
-      { text: t("key.cancel"), value: "stay" }, { text: t("form.drop"), value: "drop", kind: "danger" },
-      ...(project.maySave() ? [{ text: t("texts.project.save"), value: "project" }] : []),
-      ...(!opened.level ? [{ text: t(TEXTS.save), value: "file" }] : sendKey.disabled ? [] : [{ text: t(TEXTS.send), value: "send" }])] });
+    const chosen = await ask({
+      title: t("edit.leave"),
+      body: [h("p", {}, t("edit.leave.text", { name: opened.level || opened.name }))],
+      choices: [
+        { text: t("key.cancel"), value: "stay" },
+        { text: t("form.drop"), value: "drop", kind: "danger" },
+        ...(project.maySave() ? [{ text: t("texts.project.save"), value: "project" }] : []),
+        ...(!opened.level
+          ? [{ text: t(TEXTS.save), value: "file" }]
+          : sendKey.disabled
+            ? []
+            : [{ text: t(TEXTS.send), value: "send" }]),
+      ],
+    });
     if (chosen === "project") return project.save();
     if (chosen === "file") save();
     else if (chosen === "send") await sendNow();
@@ -232,7 +311,10 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   async function chooseLevel() {
     const level = choice.value;
     if (!(await mayDrop())) choice.value = opened.level;
-    else await open(level ? fromCard(level) : { name: "setup.8k", level: "", text: "", version: "", setup: "", isCards: false });
+    else
+      await open(
+        level ? fromCard(level) : { name: "setup.8k", level: "", text: "", version: "", setup: "", isCards: false },
+      );
   }
 
   async function chooseFile() {
@@ -242,7 +324,10 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   }
 
   function save() {
-    const link = h("a", { href: URL.createObjectURL(new Blob([editor.text()], { type: "text/plain" })), download: opened.name });
+    const link = h("a", {
+      href: URL.createObjectURL(new Blob([editor.text()], { type: "text/plain" })),
+      download: opened.name,
+    });
     link.click();
     URL.revokeObjectURL(link.href);
     if (!opened.level) {
@@ -255,13 +340,23 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     const text = editor.text();
     const sent = opened;
     const isLeft = () => opened !== sent; // another text was opened while an answer was waited for
-    if (!opened.level && !(await confirm(t(TEXTS.downloadTitle, { name: opened.name }), t(TEXTS.downloadText), t(TEXTS.send)))) return;
+    if (
+      !opened.level &&
+      !(await confirm(t(TEXTS.downloadTitle, { name: opened.name }), t(TEXTS.downloadText), t(TEXTS.send)))
+    )
+      return;
     try {
       const done = await toCard(sent, text);
       report(t(TEXTS.sent, { name: sent.level || sent.name, count: done.sent }));
       const version = sent.level ? (await fromCard(sent.level)).version : sent.version;
       if (isLeft()) return;
-      list((done.remarks ?? []).map(([line, remark]) => ({ span: [line - 1, 0, line - 1, 0], text: remark, kind: "remark" })));
+      list(
+        (done.remarks ?? []).map(([line, remark]) => ({
+          span: [line - 1, 0, line - 1, 0],
+          text: remark,
+          kind: "remark",
+        })),
+      );
       refused = null;
       saved = text;
       opened = { ...sent, version };
@@ -276,8 +371,15 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   /** @param {CommandError} error */
   async function notTaken(error) {
     if (error.code === "conflict") {
-      const isSure = await ask({ title: t("edit.conflict"), body: [h("p", {}, error.message)], choices: [
-        { text: t("key.cancel"), value: false }, { text: t(TEXTS.compare), value: "compare" }, { text: t("edit.overwrite"), kind: "danger", value: true }] });
+      const isSure = await ask({
+        title: t("edit.conflict"),
+        body: [h("p", {}, error.message)],
+        choices: [
+          { text: t("key.cancel"), value: false },
+          { text: t(TEXTS.compare), value: "compare" },
+          { text: t("edit.overwrite"), kind: "danger", value: true },
+        ],
+      });
       if (isSure === "compare") await compare();
       else if (isSure) {
         opened = { ...opened, version: "" };
@@ -301,19 +403,28 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
       refuse(t(TEXTS.notcompared));
       return;
     }
-    showBeside(...found.map((/** @type {any} */ each) => comparison(each, (line) => editor.goTo([line - 1, 0, line - 1, 0]))),
-      ...(found.length ? [] : [h("p.hint", {}, t(TEXTS.noprogram))]));
-    await knowStored(found.filter((/** @type {any} */ each) => each.is_equal).map((/** @type {any} */ each) => each.name));
+    showBeside(
+      ...found.map((/** @type {any} */ each) => comparison(each, (line) => editor.goTo([line - 1, 0, line - 1, 0]))),
+      ...(found.length ? [] : [h("p.hint", {}, t(TEXTS.noprogram))]),
+    );
+    await knowStored(
+      found.filter((/** @type {any} */ each) => each.is_equal).map((/** @type {any} */ each) => each.name),
+    );
   }
 
   // --- begin and end ------------------------------------------------------------------
 
-  const leaving = (/** @type {BeforeUnloadEvent} */ event) => { if (isChanged()) event.preventDefault(); };
+  const leaving = (/** @type {BeforeUnloadEvent} */ event) => {
+    if (isChanged()) event.preventDefault();
+  };
   window.addEventListener("beforeunload", leaving);
   beforeClose(mayDrop);
   show(opened);
   endings.add(
-    () => window.removeEventListener("beforeunload", leaving), () => clearTimeout(timer), () => editor.close(), needPrograms(),
+    () => window.removeEventListener("beforeunload", leaving),
+    () => clearTimeout(timer),
+    () => editor.close(),
+    needPrograms(),
     model.programs.watch(({ programs }) => {
       states = programs;
       draw();
@@ -321,8 +432,13 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     project.watch(),
   );
   const { programs } = await get("card/programs");
-  fill(choice, h("option", { value: "" }, t(TEXTS.file)),
-    ...programs.filter((/** @type {any} */ each) => each.bytes).map((/** @type {any} */ each) => h("option", { value: each.name }, each.name)));
+  fill(
+    choice,
+    h("option", { value: "" }, t(TEXTS.file)),
+    ...programs
+      .filter((/** @type {any} */ each) => each.bytes)
+      .map((/** @type {any} */ each) => h("option", { value: each.name }, each.name)),
+  );
   choice.value = [...choice.options].some((each) => each.value === kept.level) ? kept.level : "";
   if (choice.value) await chooseLevel();
   return () => endings.end();

@@ -80,7 +80,12 @@ export async function mount(host, { head, kept, keep }) {
   const distance = h("span.hint", { data: { cursors: "" } });
   const table = h("table.grid.scope-measures", {});
   const keys = VIEWS.map((each) => keyOf(/** @type {any} */ (`scope.view.${each}`), () => show(each)));
-  const side = h("div.scope-side.scroll", { tabIndex: 0, hidden: Boolean(kept.isFull) }, channels.element(), settings.element());
+  const side = h(
+    "div.scope-side.scroll",
+    { tabIndex: 0, hidden: Boolean(kept.isFull) },
+    channels.element(),
+    settings.element(),
+  );
   const sideKey = keyOf(TEXTS.settings, () => {
     side.hidden = !side.hidden;
     sideKey.ariaPressed = String(!side.hidden);
@@ -90,14 +95,38 @@ export async function mount(host, { head, kept, keep }) {
   sideKey.ariaPressed = String(!side.hidden);
   const cursorKey = keyOf(TEXTS.cursors, toggleCursors);
   const referenceKey = keyOf(TEXTS.reference, toggleReference);
-  head.append(keyOf("scope.start", () => void sample().catch(refuse), ".main"), keyOf("scope.stop", () => void give("scope.stop")), keyOf("scope.autoscale", () => {
-    channels.fit(shownNow().traces);
-    changed();
-  }), ...keys, cursorKey, referenceKey, keyOf(TEXTS.branch, () => void referToBranch().catch(refuse)), sideKey, keyOf("scope.export", choose));
+  head.append(
+    keyOf("scope.start", () => void sample().catch(refuse), ".main"),
+    keyOf("scope.stop", () => void give("scope.stop")),
+    keyOf("scope.autoscale", () => {
+      channels.fit(shownNow().traces);
+      changed();
+    }),
+    ...keys,
+    cursorKey,
+    referenceKey,
+    keyOf(TEXTS.branch, () => void referToBranch().catch(refuse)),
+    sideKey,
+    keyOf("scope.export", choose),
+  );
   head.classList.add("is-full");
   host.classList.add("is-scope", "is-wide");
-  host.append(side, h("div.stack.grow.scope-right", {}, ...hosts, h("div.row.wrap.scope-line", {}, state, zooming, distance), h("div.scroll.scope-table", { tabIndex: 0 }, table)));
-  const panning = panningPlugin({ isAsked: () => isAtRest() && !cursors.value, zoom, pan, reset: () => showPart(null) });
+  host.append(
+    side,
+    h(
+      "div.stack.grow.scope-right",
+      {},
+      ...hosts,
+      h("div.row.wrap.scope-line", {}, state, zooming, distance),
+      h("div.scroll.scope-table", { tabIndex: 0 }, table),
+    ),
+  );
+  const panning = panningPlugin({
+    isAsked: () => isAtRest() && !cursors.value,
+    zoom,
+    pan,
+    reset: () => showPart(null),
+  });
   const screen = createScreen(hosts[0], endings, [triggerPlugin(mark, moveLevel), cursorPlugin(cursors), panning]);
   const xy = createXy(hosts[1], endings, fullLabel);
   const spectra = createSpectrum(hosts[2], endings);
@@ -122,18 +151,35 @@ export async function mount(host, { head, kept, keep }) {
     const ms = 1000 * period;
     let shown = recording.window();
     if (part && ms) {
-      const [from, to] = [part.from, part.from + DIVISIONS * part.step].map((each) => Math.round(each / ms) + shown.zero);
+      const [from, to] = [part.from, part.from + DIVISIONS * part.step].map(
+        (each) => Math.round(each / ms) + shown.zero,
+      );
       const first = Math.max(recording.kept[0], from - 1);
-      shown = { ...shown, first, channels: shown.channels.map((_each, channel) => recording.part(channel, first, Math.min(recording.kept[1], to + 2))) };
+      shown = {
+        ...shown,
+        first,
+        channels: shown.channels.map((_each, channel) =>
+          recording.part(channel, first, Math.min(recording.kept[1], to + 2)),
+        ),
+      };
     }
     const start = (shown.first - shown.zero) * ms;
-    return { traces: channels.traces(shown.channels, period), start, period, from: part?.from ?? start, step: part?.step ?? settings.sweepMs };
+    return {
+      traces: channels.traces(shown.channels, period),
+      start,
+      period,
+      from: part?.from ?? start,
+      step: part?.step ?? settings.sweepMs,
+    };
   }
 
   /** What has come of the next sweep, where it takes its time. */
   function coming() {
     const next = recording.samples * recording.period >= SLOW_S && !isAtRest() ? recording.underWay() : null;
-    return { traces: next ? channels.traces(next.channels, recording.period) : [], start: next ? (next.first - next.zero) * 1000 * recording.period : 0 };
+    return {
+      traces: next ? channels.traces(next.channels, recording.period) : [],
+      start: next ? (next.first - next.zero) * 1000 * recording.period : 0,
+    };
   }
 
   function draw() {
@@ -141,15 +187,33 @@ export async function mount(host, { head, kept, keep }) {
     const { traces: present, ...frame } = shownNow();
     const { start, period } = frame;
     const length = present[0]?.values.length ?? 0;
-    const at = (/** @type {Channel[]} */ traces, /** @type {number} */ begin) => traces.map((each) => ({ ...each, values: moved(each.values, Math.round((begin - start) / (1000 * period)), length) }));
+    const at = (/** @type {Channel[]} */ traces, /** @type {number} */ begin) =>
+      traces.map((each) => ({
+        ...each,
+        values: moved(each.values, Math.round((begin - start) / (1000 * period)), length),
+      }));
     const other = reference ? at(reference.traces, reference.start) : [];
     if (view === "time") {
       const next = coming();
-      const named = other.map((each) => ({ ...each, label: `${each.label} ${t(TEXTS.referenceShort)}`, isReference: true }));
-      screen.draw([...present, ...named, ...at(next.traces, next.start).map((each) => ({ ...each, isFaint: true }))], frame);
+      const named = other.map((each) => ({
+        ...each,
+        label: `${each.label} ${t(TEXTS.referenceShort)}`,
+        isReference: true,
+      }));
+      screen.draw(
+        [...present, ...named, ...at(next.traces, next.start).map((each) => ({ ...each, isFaint: true }))],
+        frame,
+      );
     } else if (view === "xy") xy.draw(settings.traceOf(present, "x"), settings.traceOf(present, "y"));
     else drawSpectrum(present, period, start / 1000);
-    if (view !== "spectrum") showMeasures(table, present, { period, begin: start / 1000 }, cursors.value, new Map(other.map(({ label, values }) => [label, values])));
+    if (view !== "spectrum")
+      showMeasures(
+        table,
+        present,
+        { period, begin: start / 1000 },
+        cursors.value,
+        new Map(other.map(({ label, values }) => [label, values])),
+      );
     setText(distance, cursors.value ? distanceText(cursors.value) : "");
   }
 
@@ -163,7 +227,9 @@ export async function mount(host, { head, kept, keep }) {
   /** Times of the first and last sample that are kept, ms. */
   function ends() {
     const { zero } = recording.window();
-    return /** @type {import("../../scope/view.js").Ends} */ (recording.kept.map((each) => (each - zero) * 1000 * recording.period));
+    return /** @type {import("../../scope/view.js").Ends} */ (
+      recording.kept.map((each) => (each - zero) * 1000 * recording.period)
+    );
   }
 
   /**
@@ -219,9 +285,26 @@ export async function mount(host, { head, kept, keep }) {
    */
   function drawSpectrum(present, period, begin) {
     const [from, to] = cursors.value && period ? samplesAt(cursors.value, period, begin) : [0, Infinity];
-    const parts = present.map((each) => ({ ...each, values: Float64Array.from(each.values).subarray(Math.max(0, from), to + 1) }));
+    const parts = present.map((each) => ({
+      ...each,
+      values: Float64Array.from(each.values).subarray(Math.max(0, from), to + 1),
+    }));
     const found = spectra.draw(parts, period, settings.spectrum);
-    fill(table, h("tbody", {}, ...present.map((each, n) => h("tr", { data: { trace: each.label } }, h("th", { attr: { scope: "row" } }, fullLabel(each)), ...peaksOf(found[n], each.unit)))));
+    fill(
+      table,
+      h(
+        "tbody",
+        {},
+        ...present.map((each, n) =>
+          h(
+            "tr",
+            { data: { trace: each.label } },
+            h("th", { attr: { scope: "row" } }, fullLabel(each)),
+            ...peaksOf(found[n], each.unit),
+          ),
+        ),
+      ),
+    );
   }
 
   /** @param {typeof VIEWS[number]} chosen */
@@ -248,11 +331,18 @@ export async function mount(host, { head, kept, keep }) {
   /** What another branch did at the ticks that are shown is the reference. */
   async function referToBranch() {
     const { why, branch: present, branches, period_s: tickTime } = model.timeline.value;
-    const others = branches.flatMap((each) => (each.number === present || each.last === null ? [] : { ...each, last: each.last }));
+    const others = branches.flatMap((each) =>
+      each.number === present || each.last === null ? [] : { ...each, last: each.last },
+    );
     if (why || !others.length) throw new Error(why || t("time.noother"));
-    const chosen = await ask({ title: t(TEXTS.branch), body: [h("p", {}, t(TEXTS.branchText))], choices: others.map((each) => ({ text: each.name, value: each })) });
+    const chosen = await ask({
+      title: t(TEXTS.branch),
+      body: [h("p", {}, t(TEXTS.branchText))],
+      choices: others.map((each) => ({ text: each.name, value: each })),
+    });
     const { first, zero, period } = recording.window();
-    if (chosen) refer(channels.traces(await samplesOf(chosen, recording, tickTime), period), (first - zero) * 1000 * period);
+    if (chosen)
+      refer(channels.traces(await samplesOf(chosen, recording, tickTime), period), (first - zero) * 1000 * period);
   }
 
   /**
@@ -291,7 +381,9 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   endings.add(
-    () => live.end(), () => void (link.isOpen.value && live.list.length && !recording.isTaken && link.command("scope.stop").catch(() => {})),
+    () => live.end(),
+    () =>
+      void (link.isOpen.value && live.list.length && !recording.isTaken && link.command("scope.stop").catch(() => {})),
     cursors.watch((both) => {
       cursorKey.ariaPressed = String(both !== null);
       screen.redraw();

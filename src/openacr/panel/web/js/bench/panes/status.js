@@ -56,16 +56,52 @@ export async function mount(host, { head, kept, keep }) {
   function draw(panel) {
     const shown = (chosen[name] ?? atFirst(panel.objects)).filter((each) => panel.objects.includes(each));
     keep({ panel: name, objects: chosen });
-    fill(objects, ...(panel.objects.length > 1 ? panel.objects : []).map((object) => h("button.key", { type: "button", ariaPressed: String(shown.includes(object)), onclick: () => {
-      chosen = { ...chosen, [name]: panel.objects.filter((each) => (each === object) !== shown.includes(each)) };
-      draw(panel);
-    } }, object.replace(/^[A-Z]+(?=\d+$)/, "") || object)));
+    fill(
+      objects,
+      ...(panel.objects.length > 1 ? panel.objects : []).map((object) =>
+        h(
+          "button.key",
+          {
+            type: "button",
+            ariaPressed: String(shown.includes(object)),
+            onclick: () => {
+              chosen = {
+                ...chosen,
+                [name]: panel.objects.filter((each) => (each === object) !== shown.includes(each)),
+              };
+              draw(panel);
+            },
+          },
+          object.replace(/^[A-Z]+(?=\d+$)/, "") || object,
+        ),
+      ),
+    );
     cells = [];
     fill(facts);
     const places = shown.map((object) => panel.objects.indexOf(object));
-    fill(table, h("thead", {}, h("tr", {}, h("th", {}, ""), ...shown.map((object) => h("th.number", {}, titleOf(object))))),
-      ...panel.groups.map((group) => h("tbody", {}, h("tr", {}, h("th", { colSpan: shown.length + 1, scope: "rowgroup" }, textOr(`panels.${group.title}`, group.title))),
-        ...group.rows.map((row) => h("tr", {}, h("td", { title: row.items.find(Boolean)?.doc ?? "" }, row.name, h("span.quiet", {}, unitOf(row.items))), ...places.map((place) => cellOf(row.items[place])))))));
+    fill(
+      table,
+      h("thead", {}, h("tr", {}, h("th", {}, ""), ...shown.map((object) => h("th.number", {}, titleOf(object))))),
+      ...panel.groups.map((group) =>
+        h(
+          "tbody",
+          {},
+          h(
+            "tr",
+            {},
+            h("th", { colSpan: shown.length + 1, scope: "rowgroup" }, textOr(`panels.${group.title}`, group.title)),
+          ),
+          ...group.rows.map((row) =>
+            h(
+              "tr",
+              {},
+              h("td", { title: row.items.find(Boolean)?.doc ?? "" }, row.name, h("span.quiet", {}, unitOf(row.items))),
+              ...places.map((place) => cellOf(row.items[place])),
+            ),
+          ),
+        ),
+      ),
+    );
     needed();
   }
 
@@ -79,10 +115,14 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   function needed() {
-    needItems(cells.map(({ item }) => item), live, (known) => {
-      values = known;
-      update();
-    });
+    needItems(
+      cells.map(({ item }) => item),
+      live,
+      (known) => {
+        values = known;
+        update();
+      },
+    );
     update();
   }
 
@@ -96,7 +136,12 @@ export async function mount(host, { head, kept, keep }) {
 
   endings.add(() => live.end(), model.flags.watch(update));
   const { panels } = await get("card/panels");
-  fill(choice, ...panels.map((/** @type {{ name: string, title: string }} */ each) => h("option", { value: each.name }, textOr(`panels.${each.name}`, each.title))));
+  fill(
+    choice,
+    ...panels.map((/** @type {{ name: string, title: string }} */ each) =>
+      h("option", { value: each.name }, textOr(`panels.${each.name}`, each.title)),
+    ),
+  );
   await choose(panels.some((/** @type {{ name: string }} */ each) => each.name === name) ? name : panels[0].name);
   return () => endings.end();
 }

@@ -58,22 +58,50 @@ const MEGA = 1e6;
  */
 export async function mount(host, { head, kept, keep }) {
   const endings = new Endings();
-  const speed = h("select.field", { ariaLabel: t(TEXTS.speed), onchange: () => void run() }, ...SPEEDS.map((each) => h("option", { value: String(each) }, each ? `${each}\u00d7` : t(TEXTS.most))));
+  const speed = h(
+    "select.field",
+    { ariaLabel: t(TEXTS.speed), onchange: () => void run() },
+    ...SPEEDS.map((each) => h("option", { value: String(each) }, each ? `${each}\u00d7` : t(TEXTS.most))),
+  );
   speed.value = "1";
   const run = () => give("timeline.run", { speed: Number(speed.value) || null });
   const pause = keyOf(TEXTS.pause, () => void (model.timeline.value.still ? run() : give("timeline.pause")), ".main");
-  const what = h("select.field", { ariaLabel: t(TEXTS.stepWhat), onchange: showNumber }, ...STEPS.map((each) => h("option", { value: each }, t(/** @type {any} */ (`time.step.${each}`)))));
-  const number = h("input.field.time-number", { type: "number", min: "0", max: "15", value: "0", ariaLabel: t(TEXTS.stepNumber) });
+  const what = h(
+    "select.field",
+    { ariaLabel: t(TEXTS.stepWhat), onchange: showNumber },
+    ...STEPS.map((each) => h("option", { value: each }, t(/** @type {any} */ (`time.step.${each}`)))),
+  );
+  const number = h("input.field.time-number", {
+    type: "number",
+    min: "0",
+    max: "15",
+    value: "0",
+    ariaLabel: t(TEXTS.stepNumber),
+  });
   const step = () => give("timeline.step", { what: what.value, number: Number(number.value) || 0 });
   const operate = keyOf(TEXTS.operate, () => void give("timeline.operate"));
   const branch = keyOf(TEXTS.branch, () => void give("timeline.branch"));
-  head.append(pause, speed, keyOf(TEXTS.step, () => void step()), what, number, branch, operate);
+  head.append(
+    pause,
+    speed,
+    keyOf(TEXTS.step, () => void step()),
+    what,
+    number,
+    branch,
+    operate,
+  );
   function showNumber() {
     number.hidden = what.value === "tick" || what.value === "back";
   }
   showNumber();
 
-  const slider = h("input.grow.time-slider", { type: "range", step: "1", ariaLabel: t(TEXTS.moment), oninput: () => void drag(), onchange: () => void drag() });
+  const slider = h("input.grow.time-slider", {
+    type: "range",
+    step: "1",
+    ariaLabel: t(TEXTS.moment),
+    oninput: () => void drag(),
+    onchange: () => void drag(),
+  });
   const shown = h("strong.live.time-now", {});
   const used = h("span.hint", {});
   const marks = h("div.time-marks.scroll", { role: "group", tabIndex: 0, ariaLabel: t(TEXTS.marks) });
@@ -81,28 +109,78 @@ export async function mount(host, { head, kept, keep }) {
   const notHere = h("div.notice", { hidden: true });
   const parts = h("div.grow.scroll", { tabIndex: 0 });
   const text = h("input.field.grow", { ariaLabel: t(TEXTS.markText), placeholder: t(TEXTS.markText), maxLength: 80 });
-  const marking = h("form.row", { onsubmit: (/** @type {Event} */ event) => {
-    event.preventDefault();
-    void give("timeline.mark", { text: text.value.trim() }).then((done) => { if (done) text.value = ""; });
-  } }, text, h("button.key", { type: "submit" }, t(TEXTS.mark)));
+  const marking = h(
+    "form.row",
+    {
+      onsubmit: (/** @type {Event} */ event) => {
+        event.preventDefault();
+        void give("timeline.mark", { text: text.value.trim() }).then((done) => {
+          if (done) text.value = "";
+        });
+      },
+    },
+    text,
+    h("button.key", { type: "submit" }, t(TEXTS.mark)),
+  );
   const comparing = compare({ kept, keep, seconds });
-  const at = h("input.field.time-at", { ariaLabel: t(TEXTS.at), placeholder: t(TEXTS.at), inputMode: "decimal", autocomplete: "off" });
-  const going = h("form.row.wrap", { onsubmit: (/** @type {Event} */ event) => {
-    event.preventDefault();
-    const typed = secondsOf(at.value);
-    if (typed === null) refuse(t(TEXTS.atWrong, { text: at.value }));
-    else void seek(Math.round(typed / model.timeline.value.period_s));
-  } }, ...JUMPS.map((each) => h("button.key", { type: "button", onclick: () => void jump(each) }, `${each < 0 ? "\u2212" : "+"}${Math.abs(each)} s`)), at, h("button.key", { type: "submit" }, t(TEXTS.go)), keyOf(TEXTS.whole, () => look(null)), shown);
+  const at = h("input.field.time-at", {
+    ariaLabel: t(TEXTS.at),
+    placeholder: t(TEXTS.at),
+    inputMode: "decimal",
+    autocomplete: "off",
+  });
+  const going = h(
+    "form.row.wrap",
+    {
+      onsubmit: (/** @type {Event} */ event) => {
+        event.preventDefault();
+        const typed = secondsOf(at.value);
+        if (typed === null) refuse(t(TEXTS.atWrong, { text: at.value }));
+        else void seek(Math.round(typed / model.timeline.value.period_s));
+      },
+    },
+    ...JUMPS.map((each) =>
+      h(
+        "button.key",
+        { type: "button", onclick: () => void jump(each) },
+        `${each < 0 ? "\u2212" : "+"}${Math.abs(each)} s`,
+      ),
+    ),
+    at,
+    h("button.key", { type: "submit" }, t(TEXTS.go)),
+    keyOf(TEXTS.whole, () => look(null)),
+    shown,
+  );
   /** The part that is shown; null: all of the branch. @type {import("../time_view.js").Part | null} */
   let part = null;
   /** @type {import("../lanes.js").Lane[]} */
   let lanes = [];
   const newest = latest();
   const picture = createLanes({
-    seconds, seek: (tick) => void seek(tick), zoom: (isFiner, tick) => look(zoomed(partNow(), isFiner, tick, whole())),
+    seconds,
+    seek: (tick) => void seek(tick),
+    zoom: (isFiner, tick) => look(zoomed(partNow(), isFiner, tick, whole())),
     pan: (by) => look(within([partNow()[0] + by, partNow()[1] + by], whole())),
   });
-  parts.append(h("div.row", {}, slider), picture.element, going, used, marking, marks, h("table.grid", {}, h("thead", {}, h("tr", {}, ...[TEXTS.branches, TEXTS.from, TEXTS.to, TEXTS.do].map((each) => h("th", {}, t(each))))), rows), comparing.element);
+  parts.append(
+    h("div.row", {}, slider),
+    picture.element,
+    going,
+    used,
+    marking,
+    marks,
+    h(
+      "table.grid",
+      {},
+      h(
+        "thead",
+        {},
+        h("tr", {}, ...[TEXTS.branches, TEXTS.from, TEXTS.to, TEXTS.do].map((each) => h("th", {}, t(each)))),
+      ),
+      rows,
+    ),
+    comparing.element,
+  );
   host.append(notHere, parts);
 
   let isAsking = false; // a moment is on its way
@@ -157,14 +235,17 @@ export async function mount(host, { head, kept, keep }) {
   /** @param {number} tick */
   async function seek(tick) {
     const [first, last] = whole();
-    if (tick < first || tick > last) refuse(t(TEXTS.unknown, { time: seconds(tick), first: seconds(first), last: seconds(last) }));
+    if (tick < first || tick > last)
+      refuse(t(TEXTS.unknown, { time: seconds(tick), first: seconds(first), last: seconds(last) }));
     else await give("timeline.seek", { tick });
   }
 
   /** @param {number} by s; it ends at the end of the branch */
   async function jump(by) {
     const [first, last] = whole();
-    await seek(Math.max(first, Math.min(last, model.moment.value.tick + Math.round(by / model.timeline.value.period_s))));
+    await seek(
+      Math.max(first, Math.min(last, model.moment.value.tick + Math.round(by / model.timeline.value.period_s))),
+    );
   }
 
   /** @param {number} tick */
@@ -199,10 +280,39 @@ export async function mount(host, { head, kept, keep }) {
     parts.hidden = head.inert = Boolean(why);
     setText(notHere, why);
     if (why) return;
-    fill(marks, ...bookmarks.map((each) => h("button.key", { type: "button", data: { kind: each.kind }, onclick: () => void give("timeline.seek", { tick: each.tick }) }, `${seconds(each.tick)} s ${t(/** @type {any} */ (`time.kind.${each.kind}`))}: ${each.text}`)));
-    fill(rows, ...branches.map((each) => h("tr", { data: { branch: String(each.number) }, className: each.number === present ? "is-present" : "" },
-      h("td", {}, each.number === present ? h("strong", {}, each.name, " \u25c0") : each.name), h("td.number", {}, seconds(each.fork ?? each.first)), h("td.number", {}, each.last === null ? "\u2026" : seconds(each.last)),
-      h("td.row.wrap", {}, keyOf(TEXTS.name, () => void rename(each)), ...(each.number === present ? [] : [keyOf(TEXTS.switch, () => void give("timeline.switch", { number: each.number })), keyOf(TEXTS.forget, () => void give("timeline.forget", { number: each.number }))])))));
+    fill(
+      marks,
+      ...bookmarks.map((each) =>
+        h(
+          "button.key",
+          { type: "button", data: { kind: each.kind }, onclick: () => void give("timeline.seek", { tick: each.tick }) },
+          `${seconds(each.tick)} s ${t(/** @type {any} */ (`time.kind.${each.kind}`))}: ${each.text}`,
+        ),
+      ),
+    );
+    fill(
+      rows,
+      ...branches.map((each) =>
+        h(
+          "tr",
+          { data: { branch: String(each.number) }, className: each.number === present ? "is-present" : "" },
+          h("td", {}, each.number === present ? h("strong", {}, each.name, " \u25c0") : each.name),
+          h("td.number", {}, seconds(each.fork ?? each.first)),
+          h("td.number", {}, each.last === null ? "\u2026" : seconds(each.last)),
+          h(
+            "td.row.wrap",
+            {},
+            keyOf(TEXTS.name, () => void rename(each)),
+            ...(each.number === present
+              ? []
+              : [
+                  keyOf(TEXTS.switch, () => void give("timeline.switch", { number: each.number })),
+                  keyOf(TEXTS.forget, () => void give("timeline.forget", { number: each.number })),
+                ]),
+          ),
+        ),
+      ),
+    );
     comparing.offer(branches.filter((each) => each.number !== present));
     draw();
   }
@@ -210,11 +320,25 @@ export async function mount(host, { head, kept, keep }) {
   /** @param {import("../../core/model.js").TimeBranch} branchOf */
   async function rename(branchOf) {
     const field = h("input.field", { value: branchOf.name, maxLength: 80, ariaLabel: t(TEXTS.name) });
-    const name = await ask({ title: t(TEXTS.name), body: [field], first: field, choices: [{ text: t(TEXTS.name), kind: "main", isSubmit: true, value: () => field.value.trim() || undefined }, { text: t("key.cancel"), value: null }] });
+    const name = await ask({
+      title: t(TEXTS.name),
+      body: [field],
+      first: field,
+      choices: [
+        { text: t(TEXTS.name), kind: "main", isSubmit: true, value: () => field.value.trim() || undefined },
+        { text: t("key.cancel"), value: null },
+      ],
+    });
     if (name) await give("timeline.name", { number: branchOf.number, name });
   }
 
   const timer = setInterval(() => void readLanes().catch(() => {}), LOOK_MS); // a link that is lost says so elsewhere
-  endings.add(model.timeline.watch(list), model.timeline.watch(() => void readLanes().catch(() => {})), model.moment.watch(draw), () => comparing.end(), () => clearInterval(timer));
+  endings.add(
+    model.timeline.watch(list),
+    model.timeline.watch(() => void readLanes().catch(() => {})),
+    model.moment.watch(draw),
+    () => comparing.end(),
+    () => clearInterval(timer),
+  );
   return () => endings.end();
 }

@@ -52,7 +52,9 @@ export async function mount(host, { head }) {
   const newest = latest(endings);
 
   async function search() {
-    const found = await newest(get("card/groups", { text: field.value.trim() || undefined })).catch((error) => void refuse(error));
+    const found = await newest(get("card/groups", { text: field.value.trim() || undefined })).catch(
+      (error) => void refuse(error),
+    );
     if (!found) return;
     groups = found.groups;
     items = new Map();
@@ -79,11 +81,22 @@ export async function mount(host, { head }) {
       const single = own.length === 1 && own[0].index === null ? own[0] : undefined;
       const node = { key: object, level: 1, text: name, count, group: single };
       if (!open.has(object)) return [node];
-      return [node, ...(single ? leaves(single, 2) : own.flatMap((group) => {
-        const key = keyOf(group);
-        const branch = { key, level: 2, text: `${name}${group.index ?? ""}`, count: group.parameters + group.flags, group };
-        return open.has(key) ? [branch, ...leaves(group, 3)] : [branch];
-      }))];
+      return [
+        node,
+        ...(single
+          ? leaves(single, 2)
+          : own.flatMap((group) => {
+              const key = keyOf(group);
+              const branch = {
+                key,
+                level: 2,
+                text: `${name}${group.index ?? ""}`,
+                count: group.parameters + group.flags,
+                group,
+              };
+              return open.has(key) ? [branch, ...leaves(group, 3)] : [branch];
+            })),
+      ];
     });
     space.style.height = `${rows.length * ROW_PX}px`;
     current = Math.min(current, Math.max(0, rows.length - 1));
@@ -133,11 +146,26 @@ export async function mount(host, { head }) {
   function elementOf(row, place) {
     row.value = row.item ? h("strong.live.tree-value", {}) : undefined;
     const isOpen = open.has(row.key);
-    const element = h("div.tree-row", {
-      id: `${host.id || "tree"}-${place}`, role: "treeitem", data: { key: row.key }, onclick: () => choose(place, true), ondblclick: () => act(),
-      attr: { "aria-level": row.level, "aria-expanded": row.item ? null : String(isOpen), "aria-selected": String(place === current) },
-    }, h("span.tree-sign", { ariaHidden: "true" }, row.item ? "" : isOpen ? "\u25be" : "\u25b8"), row.item ? h("span.quiet.tree-id", {}, row.item.id) : "",
-      h("span.tree-name", {}, row.text), row.value ?? h("span.quiet", {}, String(row.count)), row.item?.unit ? h("span.quiet", {}, row.item.unit) : "");
+    const element = h(
+      "div.tree-row",
+      {
+        id: `${host.id || "tree"}-${place}`,
+        role: "treeitem",
+        data: { key: row.key },
+        onclick: () => choose(place, true),
+        ondblclick: () => act(),
+        attr: {
+          "aria-level": row.level,
+          "aria-expanded": row.item ? null : String(isOpen),
+          "aria-selected": String(place === current),
+        },
+      },
+      h("span.tree-sign", { ariaHidden: "true" }, row.item ? "" : isOpen ? "\u25be" : "\u25b8"),
+      row.item ? h("span.quiet.tree-id", {}, row.item.id) : "",
+      h("span.tree-name", {}, row.text),
+      row.value ?? h("span.quiet", {}, String(row.count)),
+      row.item?.unit ? h("span.quiet", {}, row.item.unit) : "",
+    );
     element.style.top = `${place * ROW_PX}px`;
     element.style.paddingLeft = `${row.level * 14 - 6}px`;
     return element;
@@ -174,7 +202,10 @@ export async function mount(host, { head }) {
     const searched = groups;
     const query = { object: group.object, index: group.index ?? undefined, text: field.value.trim() || undefined };
     if (!items.has(keyOf(group))) {
-      const found = await Promise.all([all("parameters", group.parameters, query), all("flags", group.flags, query)]).catch((error) => void refuse(error));
+      const found = await Promise.all([
+        all("parameters", group.parameters, query),
+        all("flags", group.flags, query),
+      ]).catch((error) => void refuse(error));
       if (!found || searched !== groups) return; // found by another search
       items.set(keyOf(group), found.flat());
     }
@@ -189,12 +220,23 @@ export async function mount(host, { head }) {
 
   /** @type {Record<string, () => void>} */
   const keys = {
-    ArrowDown: () => choose(current + 1), ArrowUp: () => choose(current - 1), Home: () => choose(0), End: () => choose(rows.length - 1),
-    PageDown: () => choose(current + 10), PageUp: () => choose(current - 10),
-    ArrowRight: () => rows[current] && !rows[current].item && !open.has(rows[current].key) && void toggle(rows[current]),
+    ArrowDown: () => choose(current + 1),
+    ArrowUp: () => choose(current - 1),
+    Home: () => choose(0),
+    End: () => choose(rows.length - 1),
+    PageDown: () => choose(current + 10),
+    PageUp: () => choose(current - 10),
+    ArrowRight: () =>
+      rows[current] && !rows[current].item && !open.has(rows[current].key) && void toggle(rows[current]),
     ArrowLeft: () => {
       if (open.has(rows[current]?.key)) void toggle(rows[current]);
-      else choose(rows.slice(0, current).map((row) => row.level < rows[current].level).lastIndexOf(true));
+      else
+        choose(
+          rows
+            .slice(0, current)
+            .map((row) => row.level < rows[current].level)
+            .lastIndexOf(true),
+        );
     },
     Enter: () => (rows[current]?.item ? act() : rows[current] && void toggle(rows[current])),
     Insert: () => rows[current]?.item && addToWatchList(rows[current].key),
@@ -213,7 +255,13 @@ export async function mount(host, { head }) {
     clearTimeout(typing);
     typing = setTimeout(search, 250);
   });
-  endings.add(model.flags.watch(update), () => sizes.disconnect(), () => clearTimeout(timer), () => clearTimeout(typing), () => seen.end());
+  endings.add(
+    model.flags.watch(update),
+    () => sizes.disconnect(),
+    () => clearTimeout(timer),
+    () => clearTimeout(typing),
+    () => seen.end(),
+  );
   await search();
   return () => endings.end();
 }
@@ -231,6 +279,8 @@ function keyOf(group) {
  * @returns {Promise<Item[]>}
  */
 async function all(what, count, query) {
-  const pages = Array.from({ length: Math.ceil(count / PAGE) }, (_each, n) => get(`card/${what}`, { ...query, first: n * PAGE, count: PAGE }));
+  const pages = Array.from({ length: Math.ceil(count / PAGE) }, (_each, n) =>
+    get(`card/${what}`, { ...query, first: n * PAGE, count: PAGE }),
+  );
   return (await Promise.all(pages)).flatMap((page) => page[what]);
 }

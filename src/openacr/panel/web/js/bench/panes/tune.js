@@ -76,8 +76,12 @@ const TEXTS = {
 };
 
 const FIELDS = /** @type {const} */ ([
-  ["amplitude", TEXTS.amplitude, "100"], ["low_hz", TEXTS.lowest, "2"], ["high_hz", TEXTS.highest, "60"], ["time_s", TEXTS.time, ""],
-  ["phase_deg", TEXTS.margin, "55"], ["bandwidth_hz", TEXTS.wanted, ""],
+  ["amplitude", TEXTS.amplitude, "100"],
+  ["low_hz", TEXTS.lowest, "2"],
+  ["high_hz", TEXTS.highest, "60"],
+  ["time_s", TEXTS.time, ""],
+  ["phase_deg", TEXTS.margin, "55"],
+  ["bandwidth_hz", TEXTS.wanted, ""],
 ]);
 const LONGEST_S = 1.5; // of a sweep without a given time
 const GAINS = ["PGAIN", "IGAIN", "ILIMIT", "DGAIN", "FFVEL", "FFACC"];
@@ -92,7 +96,15 @@ export async function mount(host, { head, kept, keep }) {
   const tried = new Endings();
   const all = await cardAxes(); // before there is a key that moves one
   const axes = h("div.row.wrap", { role: "radiogroup", ariaLabel: t("form.axis") });
-  const fields = FIELDS.map(([name, text, value]) => h("input.field.number", { ariaLabel: t(text), value: kept[name] ?? value, inputMode: "decimal", autocomplete: "off", data: { field: name } }));
+  const fields = FIELDS.map(([name, text, value]) =>
+    h("input.field.number", {
+      ariaLabel: t(text),
+      value: kept[name] ?? value,
+      inputMode: "decimal",
+      autocomplete: "off",
+      data: { field: name },
+    }),
+  );
   const integral = h("input", { type: "checkbox", checked: true });
   const store = h("input", { type: "checkbox" });
   const measure = keyOf("tune.measure", () => void onMeasure(), ".danger");
@@ -103,11 +115,23 @@ export async function mount(host, { head, kept, keep }) {
   const charts = h("div.tune-charts", {});
   const sliders = h("div.stack.tune-sliders", {});
   head.append(axes, measure, step, apply);
-  host.append(h("div.tune.grow", {},
-    h("div.stack.scroll.tune-side", { tabIndex: 0 },
-      ...FIELDS.map(([, text], n) => h("label.row", {}, h("span.grow", {}, t(text)), fields[n])),
-      h("label.check", {}, integral, t(TEXTS.integral)), h("label.check", {}, store, t("gain.store")), state, facts, sliders),
-    h("div.scroll.tune-view", { tabIndex: 0 }, charts)));
+  host.append(
+    h(
+      "div.tune.grow",
+      {},
+      h(
+        "div.stack.scroll.tune-side",
+        { tabIndex: 0 },
+        ...FIELDS.map(([, text], n) => h("label.row", {}, h("span.grow", {}, t(text)), fields[n])),
+        h("label.check", {}, integral, t(TEXTS.integral)),
+        h("label.check", {}, store, t("gain.store")),
+        state,
+        facts,
+        sliders,
+      ),
+      h("div.scroll.tune-view", { tabIndex: 0 }, charts),
+    ),
+  );
   let axis = all[0];
   /** @type {any} */
   let found = null;
@@ -121,7 +145,16 @@ export async function mount(host, { head, kept, keep }) {
   async function choose(chosen) {
     if (isMoving) return;
     axis = chosen;
-    fill(axes, ...all.map((each) => h("button.key", { type: "button", role: "radio", ariaChecked: String(each === axis), onclick: () => void choose(each) }, each.title)));
+    fill(
+      axes,
+      ...all.map((each) =>
+        h(
+          "button.key",
+          { type: "button", role: "radio", ariaChecked: String(each === axis), onclick: () => void choose(each) },
+          each.title,
+        ),
+      ),
+    );
     show(null);
     former = null;
     gains = await gainSliders(sliders, chosen, () => store.checked && chosen.isMachines);
@@ -169,7 +202,11 @@ export async function mount(host, { head, kept, keep }) {
 
   async function onMeasure() {
     const given = args();
-    const text = t(TEXTS.measureText, { axis: axis.name, amplitude: given.amplitude ?? 100, time: given.time_s ?? LONGEST_S });
+    const text = t(TEXTS.measureText, {
+      axis: axis.name,
+      amplitude: given.amplitude ?? 100,
+      time: given.time_s ?? LONGEST_S,
+    });
     if (!mayMove() || !(await confirm(t("tune.measure"), text, t("tune.measure")))) return;
     const advice = await moved("tune.measure", given);
     if (!advice) return;
@@ -185,7 +222,9 @@ export async function mount(host, { head, kept, keep }) {
     if (!answer) return;
     drawStep(answer);
     const { overshoot_percent: overshoot, rise_s: rise, settling_s: settling } = answer.figures;
-    report(t(TEXTS.stepped, { axis: axis.name, overshoot: shown(overshoot), rise: inMs(rise), settling: inMs(settling) }));
+    report(
+      t(TEXTS.stepped, { axis: axis.name, overshoot: shown(overshoot), rise: inMs(rise), settling: inMs(settling) }),
+    );
   }
 
   /**
@@ -197,7 +236,13 @@ export async function mount(host, { head, kept, keep }) {
     const curves = [
       { label: t("tune.setpoint"), ink: "setpoint", x: measured.time_s, y: measured.setpoint_cnt },
       { label: t("tune.measured"), ink: "measured", x: measured.time_s, y: measured.actual_cnt },
-      predicted && { label: t(TEXTS.predicted), ink: "modelled", x: predicted.time_s, y: predicted.actual_cnt, dash: [4, 3] },
+      predicted && {
+        label: t(TEXTS.predicted),
+        ink: "modelled",
+        x: predicted.time_s,
+        y: predicted.actual_cnt,
+        dash: [4, 3],
+      },
       former && { label: t(TEXTS.former), ink: "present", x: former.time_s, y: former.actual_cnt, dash: [6, 3] },
     ];
     tried.add(chart(charts, t(TEXTS.trial), "s", curves.filter(Boolean)));
@@ -206,7 +251,12 @@ export async function mount(host, { head, kept, keep }) {
 
   async function onApply() {
     const { overshoot_percent: overshoot } = found.proposed.figures;
-    const text = t(TEXTS.applyText, { axis: axis.name, overshoot: shown(overshoot), gains: GAINS.map((word) => `${word} ${shown(found.proposed.gains[word])}`).join(", ") + filterText(found.proposed) });
+    const text = t(TEXTS.applyText, {
+      axis: axis.name,
+      overshoot: shown(overshoot),
+      gains:
+        GAINS.map((word) => `${word} ${shown(found.proposed.gains[word])}`).join(", ") + filterText(found.proposed),
+    });
     if (!mayMove() || !(await confirm(t("tune.apply"), text, t("tune.apply")))) return;
     const answer = await moved("tune.apply", { axis: axis.name, store: store.checked && axis.isMachines });
     await gains?.reload();
@@ -215,12 +265,18 @@ export async function mount(host, { head, kept, keep }) {
     report(t(TEXTS.applied, { axis: axis.name }));
   }
 
-  endings.add(() => drawn.end(), () => tried.end(), () => {
-    // The pane that watches the motion has gone.
-    if (isMoving && link.isOpen.value) void link.command("stop.hold").catch(() => {});
-  }, model.tuned.watch((progress) => {
-    if (progress && isMoving && progress.done > 0) setText(state, t(TEXTS.reading, { done: progress.done, count: progress.count }));
-  }));
+  endings.add(
+    () => drawn.end(),
+    () => tried.end(),
+    () => {
+      // The pane that watches the motion has gone.
+      if (isMoving && link.isOpen.value) void link.command("stop.hold").catch(() => {});
+    },
+    model.tuned.watch((progress) => {
+      if (progress && isMoving && progress.done > 0)
+        setText(state, t(TEXTS.reading, { done: progress.done, count: progress.count }));
+    }),
+  );
   await choose(axis);
   return () => endings.end();
 }
@@ -240,27 +296,97 @@ function table(advice) {
     [t(TEXTS.gainMargin), (/** @type {any} */ loop) => shown(loop.margins.gain_db)],
     [t(TEXTS.bandwidth), (/** @type {any} */ loop) => shown(loop.margins.bandwidth_hz)],
     [t(TEXTS.overshoot), (/** @type {any} */ loop) => shown(loop.figures.overshoot_percent)],
-    ...(advice.resonance.resonance_hz === null ? [] : [[t(TEXTS.swing), (/** @type {any} */ loop) => shown(loop.figures.vibration_cnt)]]),
+    ...(advice.resonance.resonance_hz === null
+      ? []
+      : [[t(TEXTS.swing), (/** @type {any} */ loop) => shown(loop.figures.vibration_cnt)]]),
   ];
-  return h("div.stack", {},
-    h("p.tune-motor", {}, t(TEXTS.facts, { accel: shown(motor.accel_per_volt), rate: shown(motor.rate_per_s), friction: shown(motor.coulomb_accel / motor.accel_per_volt), offset: shown(motor.offset_v), delay: shown(motor.delay_tk) })),
+  return h(
+    "div.stack",
+    {},
+    h(
+      "p.tune-motor",
+      {},
+      t(TEXTS.facts, {
+        accel: shown(motor.accel_per_volt),
+        rate: shown(motor.rate_per_s),
+        friction: shown(motor.coulomb_accel / motor.accel_per_volt),
+        offset: shown(motor.offset_v),
+        delay: shown(motor.delay_tk),
+      }),
+    ),
     h("p.tune-resonance", {}, resonance(advice.resonance)),
-    h("p", { className: advice.is_sure ? "hint" : "notice" }, t(advice.is_sure ? TEXTS.sure : TEXTS.unsure, { error: shown(advice.error_percent), coherence: shown(advice.coherence) })),
-    ...Object.entries(advice.worse).map(([name, [before, after]]) => h("p.notice", { data: { worse: name } }, t(TEXTS.worse, { name: t(/** @type {any} */ (`tune.worse.${name}`)), before: name.endsWith("_s") ? inMs(before) : shown(before), after: name.endsWith("_s") ? inMs(after) : shown(after) }))),
+    h(
+      "p",
+      { className: advice.is_sure ? "hint" : "notice" },
+      t(advice.is_sure ? TEXTS.sure : TEXTS.unsure, {
+        error: shown(advice.error_percent),
+        coherence: shown(advice.coherence),
+      }),
+    ),
+    ...Object.entries(advice.worse).map(([name, [before, after]]) =>
+      h(
+        "p.notice",
+        { data: { worse: name } },
+        t(TEXTS.worse, {
+          name: t(/** @type {any} */ (`tune.worse.${name}`)),
+          before: name.endsWith("_s") ? inMs(before) : shown(before),
+          after: name.endsWith("_s") ? inMs(after) : shown(after),
+        }),
+      ),
+    ),
     advice.time_s < LONGEST_S ? h("p.hint", {}, t(TEXTS.swept, { time: advice.time_s })) : null,
-    advice.refusal || advice.limited_by ? h("p.hint", {}, advice.refusal || t(TEXTS.limited, { why: advice.limited_by })) : null,
-    h("table.grid.tune-table", {},
-      h("thead", {}, h("tr", {}, h("th", {}), ...loops.map((_loop, n) => h("th.number", {}, t(n ? "tune.proposed" : "tune.present"))))),
-      h("tbody", {}, ...rows.map(([name, cell]) => h("tr", {}, h("th", { scope: "row" }, /** @type {string} */ (name)), ...loops.map((loop) => h("td.number", {}, /** @type {(loop: any) => string} */ (cell)(loop))))))));
+    advice.refusal || advice.limited_by
+      ? h("p.hint", {}, advice.refusal || t(TEXTS.limited, { why: advice.limited_by }))
+      : null,
+    h(
+      "table.grid.tune-table",
+      {},
+      h(
+        "thead",
+        {},
+        h(
+          "tr",
+          {},
+          h("th", {}),
+          ...loops.map((_loop, n) => h("th.number", {}, t(n ? "tune.proposed" : "tune.present"))),
+        ),
+      ),
+      h(
+        "tbody",
+        {},
+        ...rows.map(([name, cell]) =>
+          h(
+            "tr",
+            {},
+            h("th", { scope: "row" }, /** @type {string} */ (name)),
+            ...loops.map((loop) => h("td.number", {}, /** @type {(loop: any) => string} */ (cell)(loop))),
+          ),
+        ),
+      ),
+    ),
+  );
 }
 
 /**
  * The resonance that was found, or up to where there is none.
  * @param {any} found
  */
-function resonance({ resonance_hz: hz, antiresonance_hz: anti, damping_ratio: damping, inertia_ratio: ratio, deviations, reason }) {
+function resonance({
+  resonance_hz: hz,
+  antiresonance_hz: anti,
+  damping_ratio: damping,
+  inertia_ratio: ratio,
+  deviations,
+  reason,
+}) {
   if (hz === null) return t(TEXTS.rigid, { why: reason });
-  return t(TEXTS.resonance, { hz: shown(hz), spread: Number(deviations.resonance_hz.toPrecision(1)), anti: shown(anti), damping: Number(damping.toPrecision(2)), ratio: Number(ratio.toPrecision(2)) });
+  return t(TEXTS.resonance, {
+    hz: shown(hz),
+    spread: Number(deviations.resonance_hz.toPrecision(1)),
+    anti: shown(anti),
+    damping: Number(damping.toPrecision(2)),
+    ratio: Number(ratio.toPrecision(2)),
+  });
 }
 
 /**
@@ -269,8 +395,14 @@ function resonance({ resonance_hz: hz, antiresonance_hz: anti, damping_ratio: da
  * @returns {any[]}
  */
 function filterRows(loops) {
-  const words = /** @type {const} */ ([[TEXTS.lopass, "lopass_hz"], [TEXTS.notch, "notch_hz"], [TEXTS.width, "notch_width_hz"]]);
-  return words.filter(([, key]) => loops.some((loop) => loop.filters?.[key])).map(([text, key]) => [t(text), (/** @type {any} */ loop) => shown(loop.filters?.[key] ?? null)]);
+  const words = /** @type {const} */ ([
+    [TEXTS.lopass, "lopass_hz"],
+    [TEXTS.notch, "notch_hz"],
+    [TEXTS.width, "notch_width_hz"],
+  ]);
+  return words
+    .filter(([, key]) => loops.some((loop) => loop.filters?.[key]))
+    .map(([text, key]) => [t(text), (/** @type {any} */ loop) => shown(loop.filters?.[key] ?? null)]);
 }
 
 /** The filters of a loop as they are written in a question. @param {any} loop */

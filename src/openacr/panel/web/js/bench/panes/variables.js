@@ -45,10 +45,17 @@ export async function mount(host, { head, kept, keep }) {
   let used = [];
   /** @type {Map<number, number>} */
   let values = new Map();
-  const choice = h("select.field", { ariaLabel: t(TEXTS.program), onchange: () => void choose(Number(choice.value)) },
-    ...Array.from({ length: COUNT }, (_each, n) => h("option", { value: String(n) }, `PROG${n}`)));
+  const choice = h(
+    "select.field",
+    { ariaLabel: t(TEXTS.program), onchange: () => void choose(Number(choice.value)) },
+    ...Array.from({ length: COUNT }, (_each, n) => h("option", { value: String(n) }, `PROG${n}`)),
+  );
   const state = h("strong.grow", { role: "status" });
-  head.append(choice, state, keyOf("programs.read", () => void choose(program)));
+  head.append(
+    choice,
+    state,
+    keyOf("programs.read", () => void choose(program)),
+  );
   const levels = h("div.program-levels", { role: "region", ariaLabel: t(TEXTS.levels) });
   const own = h("tbody", { data: { part: "own" } });
   const shared = h("tbody", { data: { part: "used" } });
@@ -82,9 +89,26 @@ export async function mount(host, { head, kept, keep }) {
     const text = JSON.stringify(found);
     if (text === drawn) return;
     drawn = text;
-    fill(levels, ...(found.levels.length ? found.levels.map(({ word, line }) => h("span.level", {}, `${word} ${line}`)) : [h("span.hint", {}, found.why || t(TEXTS.nolevels))]));
-    const focused = own.contains(document.activeElement) ? /** @type {HTMLElement} */ (document.activeElement).ariaLabel : "";
-    fill(own, headOf(TEXTS.own), ...(found.variables.length ? found.variables.flatMap((each) => (each.elements.length ? [rowOf(each, true), ...each.elements.map((element) => rowOf(element))] : [rowOf(each)])) : [h("tr", {}, h("td.quiet", { colSpan: 2 }, t(TEXTS.none)))]));
+    fill(
+      levels,
+      ...(found.levels.length
+        ? found.levels.map(({ word, line }) => h("span.level", {}, `${word} ${line}`))
+        : [h("span.hint", {}, found.why || t(TEXTS.nolevels))]),
+    );
+    const focused = own.contains(document.activeElement)
+      ? /** @type {HTMLElement} */ (document.activeElement).ariaLabel
+      : "";
+    fill(
+      own,
+      headOf(TEXTS.own),
+      ...(found.variables.length
+        ? found.variables.flatMap((each) =>
+            each.elements.length
+              ? [rowOf(each, true), ...each.elements.map((element) => rowOf(element))]
+              : [rowOf(each)],
+          )
+        : [h("tr", {}, h("td.quiet", { colSpan: 2 }, t(TEXTS.none)))]),
+    );
     if (focused) [...own.querySelectorAll("button")].find((each) => each.ariaLabel === focused)?.focus();
   }
 
@@ -93,7 +117,22 @@ export async function mount(host, { head, kept, keep }) {
    * @param {boolean} [isArray]
    */
   function rowOf({ name, text }, isArray = false) {
-    return h("tr", { data: { variable: name } }, h("td", {}, name), h("td.number", {}, isArray ? text : h("button.key", { type: "button", ariaLabel: t("watch.change", { name }), onclick: () => change(name, text) }, h("strong.live", {}, text))));
+    return h(
+      "tr",
+      { data: { variable: name } },
+      h("td", {}, name),
+      h(
+        "td.number",
+        {},
+        isArray
+          ? text
+          : h(
+              "button.key",
+              { type: "button", ariaLabel: t("watch.change", { name }), onclick: () => change(name, text) },
+              h("strong.live", {}, text),
+            ),
+      ),
+    );
   }
 
   /** @param {import("../../core/texts.js").Said} title */
@@ -106,7 +145,11 @@ export async function mount(host, { head, kept, keep }) {
    * @param {string} text
    */
   async function change(name, text) {
-    const value = await askText(t("watch.change", { name }), t(TEXTS.value), name.startsWith("$") ? `"${text.slice(1, -1)}"` : text);
+    const value = await askText(
+      t("watch.change", { name }),
+      t(TEXTS.value),
+      name.startsWith("$") ? `"${text.slice(1, -1)}"` : text,
+    );
     if (value === null) return;
     const answer = await give("card.assign", { program, name, value });
     if (answer) report(t("values.is", { name, value: answer.value }));
@@ -117,14 +160,37 @@ export async function mount(host, { head, kept, keep }) {
     const found = await newestUsed(get("card/used", { program })).catch(() => null);
     if (found === undefined) return;
     used = (found?.items ?? []).map((/** @type {Item} */ item) => ({ item, value: h("strong.live", {}) }));
-    fill(shared, headOf(TEXTS.used), ...used.map(({ item, value }) => {
-      const cell = item.writable ? h("button.key", { type: "button", ariaLabel: t("watch.change", { name: item.id }), onclick: () => changeValue(item, shownValue(item, values)) }, value) : value;
-      return h("tr", { data: { item: item.id } }, h("td", { title: item.doc }, `${item.id} ${fullName(item)}`), h("td.number", {}, cell));
-    }));
-    needItems(used.map(({ item }) => item), live, (known) => {
-      values = known;
-      update();
-    });
+    fill(
+      shared,
+      headOf(TEXTS.used),
+      ...used.map(({ item, value }) => {
+        const cell = item.writable
+          ? h(
+              "button.key",
+              {
+                type: "button",
+                ariaLabel: t("watch.change", { name: item.id }),
+                onclick: () => changeValue(item, shownValue(item, values)),
+              },
+              value,
+            )
+          : value;
+        return h(
+          "tr",
+          { data: { item: item.id } },
+          h("td", { title: item.doc }, `${item.id} ${fullName(item)}`),
+          h("td.number", {}, cell),
+        );
+      }),
+    );
+    needItems(
+      used.map(({ item }) => item),
+      live,
+      (known) => {
+        values = known;
+        update();
+      },
+    );
     update();
   }
 
@@ -132,10 +198,24 @@ export async function mount(host, { head, kept, keep }) {
     for (const { item, value } of used) setText(value, shownValue(item, values));
   }
 
-  endings.add(() => { isEnded = true; clearTimeout(timer); live.end(); }, needPrograms(), model.flags.watch(update), model.programs.watch(({ programs }) => {
-    const now = programs.find((each) => each.name === `PROG${program}`);
-    setText(state, now ? [stateText(now), now.line ? t("programs.line", { line: now.line }) : ""].filter(Boolean).join(" \u00b7 ") : "");
-  }));
+  endings.add(
+    () => {
+      isEnded = true;
+      clearTimeout(timer);
+      live.end();
+    },
+    needPrograms(),
+    model.flags.watch(update),
+    model.programs.watch(({ programs }) => {
+      const now = programs.find((each) => each.name === `PROG${program}`);
+      setText(
+        state,
+        now
+          ? [stateText(now), now.line ? t("programs.line", { line: now.line }) : ""].filter(Boolean).join(" \u00b7 ")
+          : "",
+      );
+    }),
+  );
   await choose(program);
   return () => endings.end();
 }

@@ -34,14 +34,35 @@ export async function mount(host, { head, kept, keep }) {
   let rows = [];
   /** @type {Map<number, number>} */
   let values = new Map();
-  const field = h("input.field.grow", { ariaLabel: t(TEXTS.name), placeholder: t(TEXTS.name), autocomplete: "off", spellcheck: false });
+  const field = h("input.field.grow", {
+    ariaLabel: t(TEXTS.name),
+    placeholder: t(TEXTS.name),
+    autocomplete: "off",
+    spellcheck: false,
+  });
   const body = h("tbody", {});
-  head.append(h("form.row.grow", { onsubmit: (/** @type {Event} */ event) => {
-    event.preventDefault();
-    void add(field.value.split(";").filter((name) => name.trim())).then((isDone) => { if (isDone) field.value = ""; });
-  } }, field, h("button.key.main", { type: "submit" }, t(TEXTS.add))));
-  host.append(h("div.grow.scroll", { tabIndex: 0 }, h("table.grid.watch-table", {}, h("thead", {}, h("tr", {},
-    ...HEADS.map((each) => h("th", {}, t(each))))), body)));
+  head.append(
+    h(
+      "form.row.grow",
+      {
+        onsubmit: (/** @type {Event} */ event) => {
+          event.preventDefault();
+          void add(field.value.split(";").filter((name) => name.trim())).then((isDone) => {
+            if (isDone) field.value = "";
+          });
+        },
+      },
+      field,
+      h("button.key.main", { type: "submit" }, t(TEXTS.add)),
+    ),
+  );
+  host.append(
+    h(
+      "div.grow.scroll",
+      { tabIndex: 0 },
+      h("table.grid.watch-table", {}, h("thead", {}, h("tr", {}, ...HEADS.map((each) => h("th", {}, t(each))))), body),
+    ),
+  );
 
   /**
    * @param {string[]} names
@@ -52,7 +73,8 @@ export async function mount(host, { head, kept, keep }) {
     const found = await get("card/named", { names: names.join(";") }).catch((error) => void refuse(error));
     if (!found) return false;
     for (const [n, item] of /** @type {[number, Item][]} */ (found.items.entries())) {
-      if (!rows.some((row) => row.item.id === item.id)) rows.push({ item, format: formats[n] ?? FORMATS[0], value: h("strong.live", {}) });
+      if (!rows.some((row) => row.item.id === item.id))
+        rows.push({ item, format: formats[n] ?? FORMATS[0], value: h("strong.live", {}) });
     }
     draw();
     return true;
@@ -61,10 +83,14 @@ export async function mount(host, { head, kept, keep }) {
   function draw() {
     keep({ rows: rows.map(({ item, format }) => ({ id: item.id, format })) });
     fill(body, ...rows.map(rowOf));
-    needItems(rows.map(({ item }) => item), live, (known) => {
-      values = known;
-      update();
-    });
+    needItems(
+      rows.map(({ item }) => item),
+      live,
+      (known) => {
+        values = known;
+        update();
+      },
+    );
     update();
   }
 
@@ -75,26 +101,67 @@ export async function mount(host, { head, kept, keep }) {
   /** @param {Row} row */
   function rowOf(row) {
     const { item, value } = row;
-    const cell = item.writable ? h("button.key", { type: "button", ariaLabel: t("watch.change", { name: item.id }), onclick: () => changeValue(item, shownValue(item, values)) }, value) : value;
-    const format = h("select.field", { ariaLabel: t(TEXTS.formatOf, { name: item.id }), onchange: () => {
-      row.format = format.value;
-      draw();
-    } }, ...FORMATS.map((each) => h("option", { value: each, selected: each === row.format }, t(/** @type {any} */ (`watch.format.${each}`)))));
-    const remove = h("button.key", { type: "button", ariaLabel: t("bench.delete", { name: item.id }), onclick: () => {
-      rows = rows.filter((each) => each !== row);
-      draw();
-    } }, "\u00d7");
-    return h("tr", { data: { item: item.id } }, h("td.number", {}, item.id), h("td", { title: item.doc }, fullName(item)), h("td.number", {}, cell, item.unit ? ` ${item.unit}` : ""),
-      h("td", {}, isFlag(item) ? "" : format), h("td", {}, remove));
+    const cell = item.writable
+      ? h(
+          "button.key",
+          {
+            type: "button",
+            ariaLabel: t("watch.change", { name: item.id }),
+            onclick: () => changeValue(item, shownValue(item, values)),
+          },
+          value,
+        )
+      : value;
+    const format = h(
+      "select.field",
+      {
+        ariaLabel: t(TEXTS.formatOf, { name: item.id }),
+        onchange: () => {
+          row.format = format.value;
+          draw();
+        },
+      },
+      ...FORMATS.map((each) =>
+        h("option", { value: each, selected: each === row.format }, t(/** @type {any} */ (`watch.format.${each}`))),
+      ),
+    );
+    const remove = h(
+      "button.key",
+      {
+        type: "button",
+        ariaLabel: t("bench.delete", { name: item.id }),
+        onclick: () => {
+          rows = rows.filter((each) => each !== row);
+          draw();
+        },
+      },
+      "\u00d7",
+    );
+    return h(
+      "tr",
+      { data: { item: item.id } },
+      h("td.number", {}, item.id),
+      h("td", { title: item.doc }, fullName(item)),
+      h("td.number", {}, cell, item.unit ? ` ${item.unit}` : ""),
+      h("td", {}, isFlag(item) ? "" : format),
+      h("td", {}, remove),
+    );
   }
 
   /** @type {Kept[]} */
   const before = kept.rows ?? [];
-  await add(before.map(({ id }) => id), before.map(({ format }) => format));
-  endings.add(() => live.end(), model.flags.watch(update), wanted.watch((ids) => {
-    if (!ids.length) return;
-    wanted.value = [];
-    void add(ids);
-  }));
+  await add(
+    before.map(({ id }) => id),
+    before.map(({ format }) => format),
+  );
+  endings.add(
+    () => live.end(),
+    model.flags.watch(update),
+    wanted.watch((ids) => {
+      if (!ids.length) return;
+      wanted.value = [];
+      void add(ids);
+    }),
+  );
   return () => endings.end();
 }

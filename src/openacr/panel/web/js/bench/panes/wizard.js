@@ -51,8 +51,20 @@ export async function mount(host, { head, kept, keep }) {
   const nav = h("nav.list.scroll.wizard-nav", { ariaLabel: t(TEXTS.dialogs) });
   const form = h("div.scroll.wizard-dialog", {});
   const output = h("div.stack.wizard-code", {});
-  const input = h("input", { type: "file", hidden: true, ariaLabel: t(TEXTS.open), accept: ".8k,.toml,.txt", onchange: () => void open() });
-  head.append(keyOf(TEXTS.axis, () => more("axis")), keyOf(TEXTS.master, () => more("master")), keyOf(TEXTS.open, () => input.click()), input, keyOf(TEXTS.new, () => take(first)));
+  const input = h("input", {
+    type: "file",
+    hidden: true,
+    ariaLabel: t(TEXTS.open),
+    accept: ".8k,.toml,.txt",
+    onchange: () => void open(),
+  });
+  head.append(
+    keyOf(TEXTS.axis, () => more("axis")),
+    keyOf(TEXTS.master, () => more("master")),
+    keyOf(TEXTS.open, () => input.click()),
+    input,
+    keyOf(TEXTS.new, () => take(first)),
+  );
   host.append(h("div.wizard", {}, nav, form, output));
 
   /**
@@ -102,26 +114,51 @@ export async function mount(host, { head, kept, keep }) {
   function draw() {
     const count = chosen.dialog.of === "card" ? 1 : (answers[chosen.dialog.of] ?? []).length;
     if (chosen.place >= count) chosen = { dialog: dialogs[0], place: 0 };
-    const focused = document.activeElement instanceof HTMLElement && host.contains(document.activeElement) ? document.activeElement.id : "";
+    const focused =
+      document.activeElement instanceof HTMLElement && host.contains(document.activeElement)
+        ? document.activeElement.id
+        : "";
     fill(nav, ...groups());
     const where = whereOf(chosen.dialog, chosen.place);
-    const refusals = Object.fromEntries(code.errors.filter((each) => isWithin(each.where, where)).map((each) => [each.where[where.length], each.text]));
-    fill(form, formOf(chosen.dialog, valueAt(answers, where) ?? {}, refusals, (key, value) => void take(changed(answers, [...where, key], value), notes)),
-      ...(chosen.dialog.of === "card" ? [] : [h("button.key.bad", { type: "button", onclick: () => remove() }, t(TEXTS.remove, { name: titleOf(chosen.dialog.of, chosen.place) }))]));
+    const refusals = Object.fromEntries(
+      code.errors.filter((each) => isWithin(each.where, where)).map((each) => [each.where[where.length], each.text]),
+    );
+    fill(
+      form,
+      formOf(
+        chosen.dialog,
+        valueAt(answers, where) ?? {},
+        refusals,
+        (key, value) => void take(changed(answers, [...where, key], value), notes),
+      ),
+      ...(chosen.dialog.of === "card"
+        ? []
+        : [
+            h(
+              "button.key.bad",
+              { type: "button", onclick: () => remove() },
+              t(TEXTS.remove, { name: titleOf(chosen.dialog.of, chosen.place) }),
+            ),
+          ]),
+    );
     drawCode();
     if (focused) document.getElementById(focused)?.focus();
   }
 
   function remove() {
     const what = chosen.dialog.of;
-    if (what !== "card") void take({ ...answers, [what]: (answers[what] ?? []).filter((_each, n) => n !== chosen.place) });
+    if (what !== "card")
+      void take({ ...answers, [what]: (answers[what] ?? []).filter((_each, n) => n !== chosen.place) });
   }
 
   /** The dialogs: those of the card, of each axis and of each master. */
   function groups() {
     return /** @type {const} */ (["card", "axis", "master"]).flatMap((of) => {
       const places = of === "card" ? [0] : (answers[of] ?? []).map((_each, n) => n);
-      return places.flatMap((place) => [h("h3.wizard-title", {}, titleOf(of, place)), ...dialogs.filter((each) => each.of === of).map((dialog) => itemOf(dialog, place))]);
+      return places.flatMap((place) => [
+        h("h3.wizard-title", {}, titleOf(of, place)),
+        ...dialogs.filter((each) => each.of === of).map((dialog) => itemOf(dialog, place)),
+      ]);
     });
   }
 
@@ -132,11 +169,23 @@ export async function mount(host, { head, kept, keep }) {
   function itemOf(dialog, place) {
     const isChosen = chosen.dialog === dialog && chosen.place === place;
     const where = whereOf(dialog, place);
-    const isWrong = code.errors.some((each) => isWithin(each.where, where) && dialog.rows.some((row) => row.key === each.where[where.length]));
-    return h("button.item", { id: `wizard-${where.join("-")}`, type: "button", attr: { "aria-current": String(isChosen) }, onclick: () => {
-      chosen = { dialog, place };
-      draw();
-    } }, h("span.name", {}, dialog.title), isWrong ? h("span.bad-text", { ariaLabel: t(TEXTS.wrong) }, "\u26a0") : "");
+    const isWrong = code.errors.some(
+      (each) => isWithin(each.where, where) && dialog.rows.some((row) => row.key === each.where[where.length]),
+    );
+    return h(
+      "button.item",
+      {
+        id: `wizard-${where.join("-")}`,
+        type: "button",
+        attr: { "aria-current": String(isChosen) },
+        onclick: () => {
+          chosen = { dialog, place };
+          draw();
+        },
+      },
+      h("span.name", {}, dialog.title),
+      isWrong ? h("span.bad-text", { ariaLabel: t(TEXTS.wrong) }, "\u26a0") : "",
+    );
   }
 
   /**
@@ -146,24 +195,64 @@ export async function mount(host, { head, kept, keep }) {
   function titleOf(of, place) {
     if (of === "card") return t(TEXTS.card);
     const table = (answers[of] ?? [])[place] ?? {};
-    return of === "axis" ? t(TEXTS.ofAxis, { name: table.name ?? "?", number: table.number ?? "?" }) : t(TEXTS.ofMaster, { number: table.number ?? "?" });
+    return of === "axis"
+      ? t(TEXTS.ofAxis, { name: table.name ?? "?", number: table.number ?? "?" })
+      : t(TEXTS.ofMaster, { number: table.number ?? "?" });
   }
 
   function drawCode() {
     const files = code.files ?? {};
     if (!(file in files)) file = "setup.8k";
     const lines = (files[file] ?? "").split("\n");
-    const link = h("a.key", { role: "button", href: `data:text/plain;charset=utf-8,${encodeURIComponent(files[file] ?? "")}`, download: file }, t(TEXTS.download, { name: file }));
-    fill(output,
-      ...code.errors.map(({ where: [of, place], text }) => h("p.notice.bad", {}, `${titleOf(/** @type {any} */ (of), Number(place))}, ${text}`)),
+    const link = h(
+      "a.key",
+      {
+        role: "button",
+        href: `data:text/plain;charset=utf-8,${encodeURIComponent(files[file] ?? "")}`,
+        download: file,
+      },
+      t(TEXTS.download, { name: file }),
+    );
+    fill(
+      output,
+      ...code.errors.map(({ where: [of, place], text }) =>
+        h("p.notice.bad", {}, `${titleOf(/** @type {any} */ (of), Number(place))}, ${text}`),
+      ),
       ...[...(code.warnings ?? []), ...notes].map((text) => h("p.notice", {}, text)),
-      ...(code.files ? [
-        h("div.row.wrap", {}, h("div.row.wrap.grow", { role: "tablist" }, ...Object.keys(files).map((name) => h("button.key", { type: "button", role: "tab", attr: { "aria-selected": String(name === file) }, onclick: () => {
-          file = name;
-          drawCode();
-        } }, name))), link),
-        h("pre.listing-plain.mono.grow.scroll", { tabIndex: 0, role: "region", ariaLabel: file }, ...lines.map(lineOf)),
-      ] : []));
+      ...(code.files
+        ? [
+            h(
+              "div.row.wrap",
+              {},
+              h(
+                "div.row.wrap.grow",
+                { role: "tablist" },
+                ...Object.keys(files).map((name) =>
+                  h(
+                    "button.key",
+                    {
+                      type: "button",
+                      role: "tab",
+                      attr: { "aria-selected": String(name === file) },
+                      onclick: () => {
+                        file = name;
+                        drawCode();
+                      },
+                    },
+                    name,
+                  ),
+                ),
+              ),
+              link,
+            ),
+            h(
+              "pre.listing-plain.mono.grow.scroll",
+              { tabIndex: 0, role: "region", ariaLabel: file },
+              ...lines.map(lineOf),
+            ),
+          ]
+        : []),
+    );
   }
 
   await take(answers);
@@ -176,7 +265,13 @@ export async function mount(host, { head, kept, keep }) {
  */
 function lineOf(line) {
   const remark = REMARK.exec(line);
-  return h("span.wizard-line", {}, remark ? line.slice(0, remark.index) : line, remark ? h("span.quiet", {}, `   ${remark[1]}`) : "", "\n");
+  return h(
+    "span.wizard-line",
+    {},
+    remark ? line.slice(0, remark.index) : line,
+    remark ? h("span.quiet", {}, `   ${remark[1]}`) : "",
+    "\n",
+  );
 }
 
 /**

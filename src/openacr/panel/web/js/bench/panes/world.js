@@ -33,22 +33,33 @@ export async function mount(host) {
   const about = await get("world");
   const view = h("div.world-view", {});
   const [inputs, faults, devices] = [inputTable(about.inputs), faultForm(about), deviceList(about.devices)];
-  const side = about.why_not ? h("p.notice.world-note", {}, about.why_not) : h("div.world-side.scroll", { tabIndex: 0, role: "region", ariaLabel: t(TEXTS.controls) },
-    h("h3", {}, t(TEXTS.faults)), ...faults.elements,
-    ...(devices.elements.length ? [h("h3", {}, t(TEXTS.devices)), ...devices.elements] : []),
-    h("h3", {}, t(TEXTS.inputs)), ...inputs.elements);
+  const side = about.why_not
+    ? h("p.notice.world-note", {}, about.why_not)
+    : h(
+        "div.world-side.scroll",
+        { tabIndex: 0, role: "region", ariaLabel: t(TEXTS.controls) },
+        h("h3", {}, t(TEXTS.faults)),
+        ...faults.elements,
+        ...(devices.elements.length ? [h("h3", {}, t(TEXTS.devices)), ...devices.elements] : []),
+        h("h3", {}, t(TEXTS.inputs)),
+        ...inputs.elements,
+      );
   host.append(h("div.world", {}, view, side));
   const drawing = createDrawing(view, endings, about);
 
   /** @param {import("../../core/frames.js").World} world */
   function show(world) {
     const busy = world.devices.map((device) => Object.values(device.commands).includes(true));
-    drawing.show({
-      positions: world.positions,
-      isActive: (input, contact) => world.on.includes(input) !== (contact === "closed"),
-      isForced: (input) => world.forced.includes(input),
-      isBusy: (n) => busy[n],
-    }, about.links.map((each, n) => nameOf(each, world.positions[n] ?? 0)), about.devices.map(({ name }, n) => `${name} ${signalsOn(world.devices[n])}`.trim()));
+    drawing.show(
+      {
+        positions: world.positions,
+        isActive: (input, contact) => world.on.includes(input) !== (contact === "closed"),
+        isForced: (input) => world.forced.includes(input),
+        isBusy: (n) => busy[n],
+      },
+      about.links.map((each, n) => nameOf(each, world.positions[n] ?? 0)),
+      about.devices.map(({ name }, n) => `${name} ${signalsOn(world.devices[n])}`.trim()),
+    );
     if (about.why_not) return;
     inputs.show(world);
     faults.show(world);
@@ -56,8 +67,18 @@ export async function mount(host) {
   }
 
   show({ ...NOTHING, devices: about.devices.map(() => ({ commands: {}, signals: {} })) });
-  if (about.why_not) endings.add(model.status.watch((status) => status && show({ ...NOTHING, positions: positionsOf(about, status.actual) })));
-  else endings.add(link.subscribe({ topic: "world", hz: HZ }), model.world.watch((world) => world && show(world)), () => { model.world.value = null; });
+  if (about.why_not)
+    endings.add(
+      model.status.watch((status) => status && show({ ...NOTHING, positions: positionsOf(about, status.actual) })),
+    );
+  else
+    endings.add(
+      link.subscribe({ topic: "world", hz: HZ }),
+      model.world.watch((world) => world && show(world)),
+      () => {
+        model.world.value = null;
+      },
+    );
   return () => endings.end();
 }
 
@@ -82,5 +103,8 @@ function nameOf({ name, units }, position) {
 
 /** @param {import("../../core/frames.js").DeviceState} device */
 function signalsOn(device) {
-  return Object.entries(device.signals).filter(([, value]) => value === true).map(([name]) => name).join(", ");
+  return Object.entries(device.signals)
+    .filter(([, value]) => value === true)
+    .map(([name]) => name)
+    .join(", ");
 }

@@ -30,7 +30,12 @@ const SPACE = 22; // pixels from one line of the grid to the next, at least
  */
 export function drawTuning(host, found) {
   const { measured, modelled, present, proposed, bode } = found;
-  const loops = /** @type {["present" | "proposed", any][]} */ ([["present", present], ["proposed", proposed]].filter(([, loop]) => loop));
+  const loops = /** @type {["present" | "proposed", any][]} */ (
+    [
+      ["present", present],
+      ["proposed", proposed],
+    ].filter(([, loop]) => loop)
+  );
   const record = [
     { label: t("tune.setpoint"), ink: "setpoint", x: measured.time_s, y: measured.setpoint_cnt },
     { label: t("tune.measured"), ink: "measured", x: measured.time_s, y: measured.actual_cnt },
@@ -38,17 +43,43 @@ export function drawTuning(host, found) {
   ];
   const steps = [
     { label: t("tune.setpoint"), ink: "setpoint", x: present.step.time_s, y: present.step.setpoint_cnt },
-    ...loops.map(([name, loop]) => ({ label: t(`tune.${name}`), ink: name, x: loop.step.time_s, y: loop.step.actual_cnt, dash: name === "present" ? [6, 3] : undefined })),
+    ...loops.map(([name, loop]) => ({
+      label: t(`tune.${name}`),
+      ink: name,
+      x: loop.step.time_s,
+      y: loop.step.actual_cnt,
+      dash: name === "present" ? [6, 3] : undefined,
+    })),
   ];
   const curves = (/** @type {"magnitude_db" | "phase_deg"} */ what) => [
     { label: t("tune.motor"), ink: "measured", x: bode.measured.frequency_hz, y: bode.measured[what], isDots: true },
     { label: t("tune.model"), ink: "modelled", x: bode.frequency_hz, y: bode.motor[what], dash: [4, 3] },
-    ...loops.map(([name]) => ({ label: t(`tune.${name}`), ink: name, x: bode.frequency_hz, y: bode[name][what], dash: name === "present" ? [6, 3] : undefined })),
+    ...loops.map(([name]) => ({
+      label: t(`tune.${name}`),
+      ink: name,
+      x: bode.frequency_hz,
+      y: bode[name][what],
+      dash: name === "present" ? [6, 3] : undefined,
+    })),
   ];
-  const gains = loops.filter(([, { margins }]) => margins.gain_db !== null).map(([ink, { margins }]) => ({ at: margins.gain_at_hz, from: -margins.gain_db, to: 0, ink }));
-  const phases = loops.filter(([, { margins }]) => margins.phase_deg !== null).map(([ink, { margins }]) => ({ at: margins.crossover_hz, from: -FULL_DEG, to: margins.phase_deg - FULL_DEG, ink }));
-  const coherence = [{ label: t("tune.coherence"), ink: "measured", x: bode.measured.frequency_hz, y: bode.measured.coherence }];
-  const log = /** @type {[number, number]} */ ([bode.frequency_hz[0], Math.max(bode.frequency_hz.at(-1), ...gains.map(({ at }) => at))]); // the same for all three
+  const gains = loops
+    .filter(([, { margins }]) => margins.gain_db !== null)
+    .map(([ink, { margins }]) => ({ at: margins.gain_at_hz, from: -margins.gain_db, to: 0, ink }));
+  const phases = loops
+    .filter(([, { margins }]) => margins.phase_deg !== null)
+    .map(([ink, { margins }]) => ({
+      at: margins.crossover_hz,
+      from: -FULL_DEG,
+      to: margins.phase_deg - FULL_DEG,
+      ink,
+    }));
+  const coherence = [
+    { label: t("tune.coherence"), ink: "measured", x: bode.measured.frequency_hz, y: bode.measured.coherence },
+  ];
+  const log = /** @type {[number, number]} */ ([
+    bode.frequency_hz[0],
+    Math.max(bode.frequency_hz.at(-1), ...gains.map(({ at }) => at)),
+  ]); // the same for all three
   const ends = /** @type {[string, string, any[], Looks][]} */ ([
     [t("tune.record"), "s", record, {}],
     [t("tune.steps"), "s", steps, {}],
@@ -70,26 +101,53 @@ export function drawTuning(host, found) {
 export function chart(host, title, unit, curves, { log, range, incrs, level, marks = [] } = {}) {
   const place = h("figure.tune-chart", { role: "img", ariaLabel: title }, h("figcaption", {}, title));
   host.append(place);
-  const size = () => ({ width: Math.max(200, place.clientWidth), height: Math.max(LOWEST, Math.min(HIGHEST, (host.parentElement?.clientHeight ?? 0) / 2 - BESIDE)) });
+  const size = () => ({
+    width: Math.max(200, place.clientWidth),
+    height: Math.max(LOWEST, Math.min(HIGHEST, (host.parentElement?.clientHeight ?? 0) / 2 - BESIDE)),
+  });
   const style = getComputedStyle(place);
-  const axis = { stroke: style.color, grid: { stroke: style.borderColor, width: 1 }, ticks: { stroke: style.borderColor } };
-  const value = (/** @type {any} */ _plot, /** @type {any} */ number) => (number === null || number === undefined ? "\u2013" : plain(number, 3));
+  const axis = {
+    stroke: style.color,
+    grid: { stroke: style.borderColor, width: 1 },
+    ticks: { stroke: style.borderColor },
+  };
+  const value = (/** @type {any} */ _plot, /** @type {any} */ number) =>
+    number === null || number === undefined ? "\u2013" : plain(number, 3);
   const series = curves.map(({ label, ink, isDots, dash }) => ({
-    label, stroke: INK[ink], width: isDots ? 0 : 1.6, dash, spanGaps: true, value, points: { show: Boolean(isDots), size: 4, fill: INK[ink] },
+    label,
+    stroke: INK[ink],
+    width: isDots ? 0 : 1.6,
+    dash,
+    spanGaps: true,
+    value,
+    points: { show: Boolean(isDots), size: 4, fill: INK[ink] },
   }));
   const data = /** @type {any} */ (uPlot).join(curves.map(({ x, y }) => [x, y]));
   const ends = [data[0][0], data[0].at(-1)];
-  const whole = (/** @type {any} */ _plot, /** @type {number} */ min, /** @type {number} */ max) => (min === ends[0] && max === ends[1] ? log : [min, max]); // else dragged over
-  const plot = new uPlot(/** @type {any} */ ({
-    ...size(), cursor: { drag: { x: true, y: false } },
-    scales: { x: { time: false, distr: log ? 3 : 1, range: log && whole }, y: { range } },
-    axes: [{ ...axis, label: unit, labelSize: 18, size: 32 }, { ...axis, size: 54, space: SPACE, incrs }],
-    series: [{ label: unit, value }, ...series],
-    hooks: {
-      drawAxes: [(/** @type {any} */ one) => { if (level !== undefined) drawLevel(one, level, style.color); }],
-      draw: [(/** @type {any} */ one) => marks.forEach((mark) => drawMark(one, mark))],
-    },
-  }), data, place);
+  const whole = (/** @type {any} */ _plot, /** @type {number} */ min, /** @type {number} */ max) =>
+    min === ends[0] && max === ends[1] ? log : [min, max]; // else dragged over
+  const plot = new uPlot(
+    /** @type {any} */ ({
+      ...size(),
+      cursor: { drag: { x: true, y: false } },
+      scales: { x: { time: false, distr: log ? 3 : 1, range: log && whole }, y: { range } },
+      axes: [
+        { ...axis, label: unit, labelSize: 18, size: 32 },
+        { ...axis, size: 54, space: SPACE, incrs },
+      ],
+      series: [{ label: unit, value }, ...series],
+      hooks: {
+        drawAxes: [
+          (/** @type {any} */ one) => {
+            if (level !== undefined) drawLevel(one, level, style.color);
+          },
+        ],
+        draw: [(/** @type {any} */ one) => marks.forEach((mark) => drawMark(one, mark))],
+      },
+    }),
+    data,
+    place,
+  );
   const sizes = new ResizeObserver(() => plot.setSize(size()));
   sizes.observe(place);
   return () => {

@@ -28,7 +28,11 @@ export async function gainSliders(host, axis, isStored) {
   /** @type {Map<string, Gain>} */
   const gains = new Map();
   const list = h("ol.tune-changes.scroll", { ariaLabel: t("tune.changes") });
-  const [undo, redo, start] = [keyOf("tune.undo", () => back(history.undo(), "before"), "", { disabled: true }), keyOf("tune.redo", () => back(history.redo(), "after"), "", { disabled: true }), keyOf("tune.start", toStart, "", { disabled: true })];
+  const [undo, redo, start] = [
+    keyOf("tune.undo", () => back(history.undo(), "before"), "", { disabled: true }),
+    keyOf("tune.redo", () => back(history.redo(), "after"), "", { disabled: true }),
+    keyOf("tune.start", toStart, "", { disabled: true }),
+  ];
   const rows = h("div.stack", {});
   fill(host, h("div.notice", {}, t("gain.warning")), rows, h("div.row.wrap", {}, undo, redo, start), list);
 
@@ -46,7 +50,15 @@ export async function gainSliders(host, axis, isStored) {
     const known = gains.get(row.name);
     const base = known?.base || value;
     const field = h("input.field.number", { id: `tune-${row.number}`, inputMode: "decimal", autocomplete: "off" });
-    const slider = base === 0 ? null : h("input.grow", { type: "range", min: String(-DECADES * STEPS), max: String(DECADES * STEPS), ariaLabel: t("tune.slider", { gain: row.name }) });
+    const slider =
+      base === 0
+        ? null
+        : h("input.grow", {
+            type: "range",
+            min: String(-DECADES * STEPS),
+            max: String(DECADES * STEPS),
+            ariaLabel: t("tune.slider", { gain: row.name }),
+          });
     /** @type {Gain} */
     const gain = { name: row.name, value, listed: known?.listed ?? value, base, field, slider };
     gains.set(row.name, gain);
@@ -67,7 +79,14 @@ export async function gainSliders(host, axis, isStored) {
       await send(gain, wanted);
       listed(gain);
     };
-    return h("form.tune-gain", { onsubmit: enter, data: { gain: row.name } }, h("label", { htmlFor: field.id, title: row.help }, row.name), slider ?? h("span.grow.quiet", {}, t("tune.zero")), field, h("span.unit", {}, row.unit));
+    return h(
+      "form.tune-gain",
+      { onsubmit: enter, data: { gain: row.name } },
+      h("label", { htmlFor: field.id, title: row.help }, row.name),
+      slider ?? h("span.grow.quiet", {}, t("tune.zero")),
+      field,
+      h("span.unit", {}, row.unit),
+    );
   }
 
   /**

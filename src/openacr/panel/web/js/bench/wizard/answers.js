@@ -38,7 +38,9 @@ export function valueAt(answers, where) {
 export function changed(table, [key, ...rest], value) {
   const copy = Array.isArray(table) ? [...table] : { ...table };
   const next = rest.length ? changed(copy[key] ?? {}, rest, value) : value;
-  const isEmpty = next === undefined || (!Array.isArray(copy) && typeof next === "object" && !Array.isArray(next) && !Object.keys(next).length);
+  const isEmpty =
+    next === undefined ||
+    (!Array.isArray(copy) && typeof next === "object" && !Array.isArray(next) && !Object.keys(next).length);
   if (isEmpty && !Array.isArray(copy)) delete copy[key];
   else copy[key] = next ?? {};
   return copy;
@@ -52,11 +54,20 @@ export function changed(table, [key, ...rest], value) {
  */
 export function withOneMore(answers, what) {
   const there = answers[what] ?? [];
-  const number = firstFree(there.map((each) => each.number), (n) => n);
+  const number = firstFree(
+    there.map((each) => each.number),
+    (n) => n,
+  );
   if (what === "master") return { ...answers, master: [...there, { number, axes: [] }] };
-  const name = firstFree(there.map((each) => each.name), (n) => "XYZABCUVW"[n] ?? `A${String.fromCharCode(65 + n - 9)}`);
+  const name = firstFree(
+    there.map((each) => each.name),
+    (n) => "XYZABCUVW"[n] ?? `A${String.fromCharCode(65 + n - 9)}`,
+  );
   const last = there.at(-1) ?? { units_per_rev: 5, counts_per_rev: 8000 };
-  return { ...answers, axis: [...there, { number, name, units_per_rev: last.units_per_rev, counts_per_rev: last.counts_per_rev }] };
+  return {
+    ...answers,
+    axis: [...there, { number, name, units_per_rev: last.units_per_rev, counts_per_rev: last.counts_per_rev }],
+  };
 }
 
 /**
@@ -81,8 +92,19 @@ export function valueOf(row, text) {
   const typed = text.trim();
   if (row.kind === "names") return typed ? typed.split(/[\s,]+/) : [];
   if (row.kind === "pair") return typed ? typed.split(/[\s;]+|,\s+/).map(numberOf) : undefined;
-  const value = row.kind === "switch" ? (typed ? typed === "1" : null) : row.kind === "text" || row.kind === "choice" ? typed : typed ? numberOf(typed) : null;
-  return value === row.default || (value === null && row.default !== undefined && row.is_optional) ? undefined : value ?? undefined;
+  const value =
+    row.kind === "switch"
+      ? typed
+        ? typed === "1"
+        : null
+      : row.kind === "text" || row.kind === "choice"
+        ? typed
+        : typed
+          ? numberOf(typed)
+          : null;
+  return value === row.default || (value === null && row.default !== undefined && row.is_optional)
+    ? undefined
+    : (value ?? undefined);
 }
 
 /** @param {string} text */

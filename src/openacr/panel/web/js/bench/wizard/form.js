@@ -10,7 +10,11 @@ import { textOf, valueOf } from "./answers.js";
  * @param {(key: string, value: any) => void} answer
  */
 export function formOf(dialog, table, refusals, answer) {
-  return h("div.wizard-form", { role: "group", ariaLabel: dialog.title }, ...dialog.rows.map((row) => rowOf(row, table[row.key], refusals[row.key], answer)));
+  return h(
+    "div.wizard-form",
+    { role: "group", ariaLabel: dialog.title },
+    ...dialog.rows.map((row) => rowOf(row, table[row.key], refusals[row.key], answer)),
+  );
 }
 
 /**
@@ -25,9 +29,14 @@ function rowOf(row, value, refusal, answer) {
   Object.assign(input, { id, ariaInvalid: refusal ? "true" : null });
   input.setAttribute("aria-describedby", `${id}-help`);
   input.addEventListener("change", () => answer(row.key, valueOf(row, textIn(input))));
-  return h("div.form-row", {}, h("label", { htmlFor: id }, row.title),
+  return h(
+    "div.form-row",
+    {},
+    h("label", { htmlFor: id }, row.title),
     h("div.row.form-input", {}, input, h("span.unit", {}, row.unit)),
-    h("span.hint", { id: `${id}-help` }, row.help), refusal ? h("span.refusal", { role: "alert" }, refusal) : "");
+    h("span.hint", { id: `${id}-help` }, row.help),
+    refusal ? h("span.refusal", { role: "alert" }, refusal) : "",
+  );
 }
 
 /**
@@ -36,14 +45,32 @@ function rowOf(row, value, refusal, answer) {
  * @returns {HTMLInputElement | HTMLSelectElement}
  */
 function inputOf(row, text) {
-  if (row.kind === "choice") return h("select.field", {}, ...(row.choices ?? []).map((each) => h("option", { value: each, selected: each === text }, each)));
+  if (row.kind === "choice")
+    return h(
+      "select.field",
+      {},
+      ...(row.choices ?? []).map((each) => h("option", { value: each, selected: each === text }, each)),
+    );
   if (row.kind === "switch" && row.is_optional) {
-    const states = [["", t("wizard.unset")], ["1", t("wizard.on")], ["0", t("wizard.off")]];
-    return h("select.field", {}, ...states.map(([state, word]) => h("option", { value: state, selected: state === text }, word)));
+    const states = [
+      ["", t("wizard.unset")],
+      ["1", t("wizard.on")],
+      ["0", t("wizard.off")],
+    ];
+    return h(
+      "select.field",
+      {},
+      ...states.map(([state, word]) => h("option", { value: state, selected: state === text }, word)),
+    );
   }
   if (row.kind === "switch") return h("input", { type: "checkbox", checked: text === "1" });
   const isNumber = row.kind === "number" || row.kind === "count";
-  return h(isNumber ? "input.field.number" : "input.field", { value: text, inputMode: isNumber ? "decimal" : "text", autocomplete: "off", spellcheck: false });
+  return h(isNumber ? "input.field.number" : "input.field", {
+    value: text,
+    inputMode: isNumber ? "decimal" : "text",
+    autocomplete: "off",
+    spellcheck: false,
+  });
 }
 
 /** @param {HTMLInputElement | HTMLSelectElement} input */

@@ -26,15 +26,37 @@ async function change(command, args) {
 export function inputTable(inputs) {
   const rows = inputs.map(({ input, what, is_driven: isDriven }) => {
     const [lamp, state] = [h("span.lamp", { ariaHidden: "true" }), h("span.io-state", {})];
-    const key = (/** @type {"on" | "off" | "released"} */ wish) => keyOf(`world.input.${wish}`, () => void change("world.input", { input, state: wish }), "", { ariaLabel: t(`world.input.${wish}.of`, { input }) });
+    const key = (/** @type {"on" | "off" | "released"} */ wish) =>
+      keyOf(`world.input.${wish}`, () => void change("world.input", { input, state: wish }), "", {
+        ariaLabel: t(`world.input.${wish}.of`, { input }),
+      });
     const keys = { on: key("on"), off: key("off"), released: key("released") };
-    const element = h("div.world-input", { data: { input: String(input) } }, lamp, h("span.number", {}, String(input)), h("span.world-source", { title: what }, what || t("world.by.hand")), state,
-      h("span.row", {}, keys.on, keys.off, isDriven ? keys.released : ""));
+    const element = h(
+      "div.world-input",
+      { data: { input: String(input) } },
+      lamp,
+      h("span.number", {}, String(input)),
+      h("span.world-source", { title: what }, what || t("world.by.hand")),
+      state,
+      h("span.row", {}, keys.on, keys.off, isDriven ? keys.released : ""),
+    );
     return { input, isDriven, lamp, state, keys, element };
   });
   const [driven, others] = [rows.filter(({ isDriven }) => isDriven), rows.filter(({ isDriven }) => !isDriven)];
   return {
-    elements: [...driven.map(({ element }) => element), ...(others.length ? [h("details.world-others", { open: !driven.length }, h("summary.key", {}, t("world.others", { count: others.length })), ...others.map(({ element }) => element))] : [])],
+    elements: [
+      ...driven.map(({ element }) => element),
+      ...(others.length
+        ? [
+            h(
+              "details.world-others",
+              { open: !driven.length },
+              h("summary.key", {}, t("world.others", { count: others.length })),
+              ...others.map(({ element }) => element),
+            ),
+          ]
+        : []),
+    ],
     /** @param {World} world */
     show({ on, forced }) {
       for (const { input, lamp, state, keys, element } of rows) {
@@ -55,7 +77,13 @@ export function inputTable(inputs) {
  * @param {About} about
  */
 export function faultForm({ links, faults }) {
-  const [axis, kind, value, range, list] = [h("select.field", { ariaLabel: t("world.fault.axis") }), h("select.field", { ariaLabel: t("world.fault.kind") }), h("input.field.number", { type: "text", inputMode: "decimal", autocomplete: "off" }), h("span.hint", {}), h("div.stack", {})];
+  const [axis, kind, value, range, list] = [
+    h("select.field", { ariaLabel: t("world.fault.axis") }),
+    h("select.field", { ariaLabel: t("world.fault.kind") }),
+    h("input.field.number", { type: "text", inputMode: "decimal", autocomplete: "off" }),
+    h("span.hint", {}),
+    h("div.stack", {}),
+  ];
   const cause = h("button.key.danger", { type: "submit" }, t("world.fault.cause"));
   const nameOf = (/** @type {number} */ number) => links.find((link) => link.axis === number)?.name ?? String(number);
   const wordOf = (/** @type {string} */ word) => textOr(`world.fault.${word}`, word);
@@ -64,8 +92,16 @@ export function faultForm({ links, faults }) {
 
   function showKinds() {
     const before = kind.value;
-    fill(kind, ...faults.filter((each) => each.axis === Number(axis.value)).map((each) => h("option", { value: each.kind, disabled: Boolean(each.why_not), title: each.why_not }, wordOf(each.kind))));
-    if (faults.some((each) => each.kind === before && each.axis === Number(axis.value) && !each.why_not)) kind.value = before;
+    fill(
+      kind,
+      ...faults
+        .filter((each) => each.axis === Number(axis.value))
+        .map((each) =>
+          h("option", { value: each.kind, disabled: Boolean(each.why_not), title: each.why_not }, wordOf(each.kind)),
+        ),
+    );
+    if (faults.some((each) => each.kind === before && each.axis === Number(axis.value) && !each.why_not))
+      kind.value = before;
     showQuantity();
   }
 
@@ -73,19 +109,32 @@ export function faultForm({ links, faults }) {
     const found = chosen();
     value.hidden = !found?.key;
     value.ariaLabel = found?.key ? textOr(`world.fault.${found.key}`, found.key) : "";
-    setText(range, found?.key ? [value.ariaLabel, found.unit, found.range && `(${found.range})`].filter(Boolean).join(" ") : "");
+    setText(
+      range,
+      found?.key ? [value.ariaLabel, found.unit, found.range && `(${found.range})`].filter(Boolean).join(" ") : "",
+    );
   }
 
   axis.addEventListener("change", showKinds);
   kind.addEventListener("change", showQuantity);
   showKinds();
-  const form = h("form.row.wrap", { onsubmit: (/** @type {Event} */ event) => {
-    event.preventDefault();
-    const found = chosen();
-    if (!found) return;
-    const number = Number(value.value.replace(",", "."));
-    void change("world.fault", { axis: found.axis, kind: found.kind, ...(found.key ? { value: number } : {}) });
-  } }, axis, kind, value, range, cause);
+  const form = h(
+    "form.row.wrap",
+    {
+      onsubmit: (/** @type {Event} */ event) => {
+        event.preventDefault();
+        const found = chosen();
+        if (!found) return;
+        const number = Number(value.value.replace(",", "."));
+        void change("world.fault", { axis: found.axis, kind: found.kind, ...(found.key ? { value: number } : {}) });
+      },
+    },
+    axis,
+    kind,
+    value,
+    range,
+    cause,
+  );
   let shown = "";
   return {
     elements: [form, list],
@@ -94,12 +143,21 @@ export function faultForm({ links, faults }) {
       const text = JSON.stringify(world.faults);
       if (text === shown) return;
       shown = text;
-      fill(list, ...world.faults.map((fault) => {
-        const about = faults.find((each) => each.axis === fault.axis && each.kind === fault.kind);
-        const name = `${nameOf(fault.axis)}: ${wordOf(fault.kind)}${about?.key ? ` ${fault.value} ${about.unit}` : ""}`;
-        return h("div.notice.bad.row", { data: { fault: `${fault.axis}.${fault.kind}` } }, h("span.grow", {}, name),
-          keyOf("world.mend", () => void change("world.mend", { axis: fault.axis, kind: fault.kind }), "", { ariaLabel: t("world.mend.of", { name }) }));
-      }));
+      fill(
+        list,
+        ...world.faults.map((fault) => {
+          const about = faults.find((each) => each.axis === fault.axis && each.kind === fault.kind);
+          const name = `${nameOf(fault.axis)}: ${wordOf(fault.kind)}${about?.key ? ` ${fault.value} ${about.unit}` : ""}`;
+          return h(
+            "div.notice.bad.row",
+            { data: { fault: `${fault.axis}.${fault.kind}` } },
+            h("span.grow", {}, name),
+            keyOf("world.mend", () => void change("world.mend", { axis: fault.axis, kind: fault.kind }), "", {
+              ariaLabel: t("world.mend.of", { name }),
+            }),
+          );
+        }),
+      );
     },
   };
 }
@@ -115,13 +173,32 @@ export function deviceList(devices) {
     const contacts = {};
     const commands = Object.entries(byHand).map(([command, type]) => {
       if (type !== "bool") return numberCommand(name, command);
-      contacts[command] = h("button.key", { type: "button", ariaLabel: `${name}: ${command}`, onclick: () => {
-        const isOn = contacts[command].getAttribute("aria-pressed") === "true";
-        void change("world.command", { device: name, name: command, value: isOn ? 0 : 1 });
-      } }, command);
+      contacts[command] = h(
+        "button.key",
+        {
+          type: "button",
+          ariaLabel: `${name}: ${command}`,
+          onclick: () => {
+            const isOn = contacts[command].getAttribute("aria-pressed") === "true";
+            void change("world.command", { device: name, name: command, value: isOn ? 0 : 1 });
+          },
+        },
+        command,
+      );
       return contacts[command];
     });
-    return { contacts, signals, element: h("div.world-device", { data: { device: name } }, h("strong", {}, name), name === kind ? "" : h("span.quiet", {}, ` ${kind}`), signals, h("div.row.wrap", {}, ...commands)) };
+    return {
+      contacts,
+      signals,
+      element: h(
+        "div.world-device",
+        { data: { device: name } },
+        h("strong", {}, name),
+        name === kind ? "" : h("span.quiet", {}, ` ${kind}`),
+        signals,
+        h("div.row.wrap", {}, ...commands),
+      ),
+    };
   });
   return {
     elements: rows.map(({ element }) => element),
@@ -129,8 +206,18 @@ export function deviceList(devices) {
     show(world) {
       rows.forEach(({ contacts, signals }, n) => {
         const state = world.devices[n];
-        setText(signals, [state.commands, state.signals].map((values) => Object.entries(values).map(([name, value]) => `${name} ${textOf(value)}`).join(", ")).join(" \u2192 "));
-        for (const [name, key] of Object.entries(contacts)) key.setAttribute("aria-pressed", String(state.commands[name] === true));
+        setText(
+          signals,
+          [state.commands, state.signals]
+            .map((values) =>
+              Object.entries(values)
+                .map(([name, value]) => `${name} ${textOf(value)}`)
+                .join(", "),
+            )
+            .join(" \u2192 "),
+        );
+        for (const [name, key] of Object.entries(contacts))
+          key.setAttribute("aria-pressed", String(state.commands[name] === true));
       });
     },
   };
@@ -141,11 +228,24 @@ export function deviceList(devices) {
  * @param {string} name
  */
 function numberCommand(device, name) {
-  const field = h("input.field.number", { type: "text", inputMode: "decimal", ariaLabel: `${device}: ${name}`, placeholder: name, autocomplete: "off" });
-  return h("form.row", { onsubmit: (/** @type {Event} */ event) => {
-    event.preventDefault();
-    void change("world.command", { device, name, value: Number(field.value.replace(",", ".")) });
-  } }, field, h("button.key", { type: "submit" }, t("values.set")));
+  const field = h("input.field.number", {
+    type: "text",
+    inputMode: "decimal",
+    ariaLabel: `${device}: ${name}`,
+    placeholder: name,
+    autocomplete: "off",
+  });
+  return h(
+    "form.row",
+    {
+      onsubmit: (/** @type {Event} */ event) => {
+        event.preventDefault();
+        void change("world.command", { device, name, value: Number(field.value.replace(",", ".")) });
+      },
+    },
+    field,
+    h("button.key", { type: "submit" }, t("values.set")),
+  );
 }
 
 /** @param {boolean | number} value */

@@ -8,7 +8,15 @@ import { Camera } from "../../draw/camera.js";
 import { listenToGestures } from "../../draw/gestures.js";
 import { machinePainter } from "../../draw/machine.js";
 
-const COLOURS = Object.freeze({ rail: "--draw-stock", end: "--draw-limit", grid: "--edge", on: "--good", off: "--quiet", forced: "--bad", edge: "--pane" });
+const COLOURS = Object.freeze({
+  rail: "--draw-stock",
+  end: "--draw-limit",
+  grid: "--edge",
+  on: "--good",
+  off: "--quiet",
+  forced: "--bad",
+  edge: "--pane",
+});
 
 /**
  * @param {HTMLElement} host
@@ -30,7 +38,10 @@ export function createDrawing(host, endings, { links, devices }) {
   function paint() {
     asked = false;
     painter.paint(camera, colours);
-    put([...names.map((name, n) => ({ name, point: painter.anchor(n) })), ...signs.map((name, n) => ({ name, point: painter.signAnchor(n) }))]);
+    put([
+      ...names.map((name, n) => ({ name, point: painter.anchor(n) })),
+      ...signs.map((name, n) => ({ name, point: painter.signAnchor(n) })),
+    ]);
   }
 
   /**
@@ -44,7 +55,13 @@ export function createDrawing(host, endings, { links, devices }) {
       const [x, y] = camera.project(...point);
       const [wide, high] = [name.offsetWidth, name.offsetHeight];
       const place = { left: x - wide / 2, top: y - 1.2 * high, wide };
-      const covers = () => taken.find((other) => Math.abs(other.top - place.top) < high && place.left < other.left + other.wide && other.left < place.left + wide);
+      const covers = () =>
+        taken.find(
+          (other) =>
+            Math.abs(other.top - place.top) < high &&
+            place.left < other.left + other.wide &&
+            other.left < place.left + wide,
+        );
       for (let other = covers(); other; other = covers()) place.top = other.top - high - 1;
       taken.push(place);
       name.style.transform = `translate(${place.left.toFixed(1)}px, ${place.top.toFixed(1)}px)`;
@@ -67,7 +84,8 @@ export function createDrawing(host, endings, { links, devices }) {
   function look(name) {
     view = name;
     camera.look(name);
-    for (const key of keys.querySelectorAll("button[data-view]")) key.setAttribute("aria-pressed", String(/** @type {HTMLElement} */ (key).dataset.view === name));
+    for (const key of keys.querySelectorAll("button[data-view]"))
+      key.setAttribute("aria-pressed", String(/** @type {HTMLElement} */ (key).dataset.view === name));
     fit();
   }
 
@@ -80,7 +98,9 @@ export function createDrawing(host, endings, { links, devices }) {
     moved();
   };
   keys.append(
-    ...["iso", "top", "front", "side"].map((name) => keyOf(/** @type {any} */ (`graphics.${name}`), () => look(name), "", { data: { view: name } })),
+    ...["iso", "top", "front", "side"].map((name) =>
+      keyOf(/** @type {any} */ (`graphics.${name}`), () => look(name), "", { data: { view: name } }),
+    ),
     keyOf("graphics.fit", fit),
     h("button.key", { type: "button", ariaLabel: t("graphics.in"), onclick: () => zoom(1.4) }, "+"),
     h("button.key", { type: "button", ariaLabel: t("graphics.out"), onclick: () => zoom(1 / 1.4) }, "\u2212"),
@@ -101,9 +121,18 @@ export function createDrawing(host, endings, { links, devices }) {
     repaint();
   };
   document.documentElement.addEventListener("theme", themed);
-  endings.add(() => sizes.disconnect(), () => painter.close(), () => document.documentElement.removeEventListener("theme", themed));
+  endings.add(
+    () => sizes.disconnect(),
+    () => painter.close(),
+    () => document.documentElement.removeEventListener("theme", themed),
+  );
   links.forEach((link, n) => {
-    if (link.file) void call(address("world/body", { axis: link.axis })).then((answer) => answer.arrayBuffer()).then((data) => painter.setBody(n, data)).then(repaint).catch(refuse);
+    if (link.file)
+      void call(address("world/body", { axis: link.axis }))
+        .then((answer) => answer.arrayBuffer())
+        .then((data) => painter.setBody(n, data))
+        .then(repaint)
+        .catch(refuse);
   });
 
   return {
