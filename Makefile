@@ -10,7 +10,7 @@
 #   make mutate  break changed lines and list what no test notices (WHAT=package or all, BASE=revision, MOST=n, EACH=n)
 #   make docs    write the reference pages, the names of the map and the grammars of editors anew
 #   make editor-test  the extension in Visual Studio Code in a browser (CODE_SERVER=folder, needs Node)
-#   make web-lint   type-check and lint the screens' JavaScript (needs Node)
+#   make web-lint   type-check and lint the screens' JavaScript, check its format (needs Node)
 #   make web-format  format the screens' JavaScript with Prettier (needs Node)
 #   make web-bundle bundle the libraries of the screens anew (needs Node and a registry)
 #   make site    the documentation as web pages with a search, in build/site
