@@ -12,6 +12,7 @@ TICKS = 20_000
 
 
 def _ns(card: Controller) -> float:
+    card.leave_out_rest(False)
     return best_s(lambda: card.advance(TICKS)) / TICKS * 1e9
 
 

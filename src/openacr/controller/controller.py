@@ -187,6 +187,14 @@ class Controller:
         """The watches that have fired since the last call, by their places in `watch`."""
         return self._engine.take_fired()
 
+    def leave_out_rest(self, on: bool) -> None:
+        """Whether ticks at rest, which change nothing but the clocks, are left out.
+
+        They are, as far as the core is compiled; the state is the same. Who measures what a tick
+        takes wants each of them in full.
+        """
+        self._engine.leave_out_rest(on)
+
     def announce_lines(self, programs: int = 0, ask: AskLine | None = None) -> None:
         """Call `ask(program, line)` before each line of these programs (a mask of 0-15).
 

@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 from openacr.basic.channels.channel_words import take_escapes
-from openacr.compiled import pick
+from openacr.compiled import is_compiled, pick
 from openacr.controller.parts import CardParts
 from openacr.controller.recording import Recording
-from openacr.engine import loop_cy
+from openacr.engine import loop_cy, quiet_cy
 from openacr.engine.watches import (
     Watch,
     give_orders,
@@ -21,6 +21,7 @@ from openacr.engine.watches import (
 )
 from openacr.errors import UserError
 from openacr.map.memory import flag_place
+from openacr.map.numbers import HEAP_BYTE_BASE
 from openacr.map.rows import engine
 
 LONGEST_RUN_TK = 2**31 - 1  # ticks of one run of the engine, which counts down in 32 bits
@@ -43,6 +44,12 @@ class EngineRun:
         self.within = 0
         self.was_ended = False  # the latest `advance`, by an event
         self.recording = Recording(parts.card)
+        self._seen = memoryview(bytearray(HEAP_BYTE_BASE)).cast("i")
+        self.leave_out_rest(is_compiled)  # as plain Python a trial lasts thousands of ticks
+
+    def leave_out_rest(self, on: bool) -> None:
+        """Whether ticks that change nothing but the clocks are left out; the state is the same."""
+        self._seen[quiet_cy.PAUSE] = quiet_cy.FIRST_PAUSE if on else 0
 
     def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
         """Advance the card by `ticks` ticks plus `seconds`, or until an event ends it.
@@ -164,7 +171,13 @@ class EngineRun:
         memory, space = self._memory, self._parts.executor.threads.space
         while True:
             reason = _engine_run(
-                memory.F, memory.I, memory.S, space.code, space.nums, self.recording.view
+                memory.F,
+                memory.I,
+                memory.S,
+                space.code,
+                space.nums,
+                self.recording.view,
+                self._seen,
             )
             if reason in _TICK_ENDS and self._parts.streams.is_overdue:
                 self._take_turns()

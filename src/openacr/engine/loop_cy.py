@@ -6,11 +6,10 @@ The caller handles the reason for the return and calls again; the work continues
 the same point of the same tick.
 """
 
-from openacr.basic.vm.scheduler_cy import scheduler_step
+from openacr.basic.vm.scheduler_cy import EXECUTED, scheduler_step
+from openacr.engine.quiet_cy import plcs_step, quiet_step, quiet_stir
 from openacr.engine.trace_cy import trace_tick
 from openacr.engine.watch_cy import watch_fired
-from openacr.kernel.axis.modules_cy import missing_outputs_step
-from openacr.kernel.tick_cy import tick
 from openacr.map.numbers import (
     ENGI_BASE,
     ENGI_IN_TICK,
@@ -27,7 +26,6 @@ from openacr.map.numbers import (
     ENGI_WATCH_COUNT,
     KRI_AXES,
     KRI_BASE,
-    KRI_MISSING_DACS,
     KRI_MOVES_WAITING,
     MDVF_BASE,
     MDVF_DUE_TK,
@@ -50,8 +48,6 @@ from openacr.map.numbers import (
     PLF_WORD,
     STRM_ESCAPE_REQUEST,
     STRM_OPEN_REQUEST,
-    SYSF_BASE,
-    SYSF_PERIOD_S,
     SYSI_BASE,
     SYSI_SLOW_PHASE,
     SYSI_TICK_HIGH,
@@ -62,8 +58,6 @@ from openacr.map.numbers import (
     W_FIFO,
 )
 from openacr.network.wake_cy import networks_due
-from openacr.plant.step_cy import plant_step
-from openacr.plc.scan_cy import plc_step
 from openacr.views import F32, F64, I32
 
 __all__ = ["engine_run"]
@@ -84,7 +78,7 @@ THREAD = 16
 SERVO_DONE = 1
 DEVICES_DONE = 2
 NETWORKS_DONE = 3
-REQUESTS_DONE = 4
+REQUESTS_DONE = 4  # `EXECUTED` of the scheduler follows
 
 PROGRAMS = 16
 CONTROLS = (
@@ -145,9 +139,10 @@ def room_made(I: I32) -> bool:
     return False
 
 
-def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64) -> int:
+def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64, seen: I32) -> int:
     """Run until the requested ticks are done or Python is needed; return the reason."""
     e: int = ENGI_BASE
+    quiet_stir(seen)  # the caller may have changed anything
     axes: int = I[KRI_BASE + KRI_AXES]
     while True:
         number: int = I[SYSI_BASE + SYSI_TICK_HIGH] * 2147483648 + I[SYSI_BASE + SYSI_TICK_LOW]
@@ -170,6 +165,8 @@ def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64) -> int:
             thread: int = scheduler_step(F, I, S, code, nums, number)
             if thread:
                 return THREAD + thread - 1
+            if I[e + ENGI_IN_TICK] == EXECUTED:
+                quiet_stir(seen)
             I[e + ENGI_IN_TICK] = 0
             if until_met(I):
                 I[e + ENGI_UNTIL_WORD] = 0
@@ -190,11 +187,8 @@ def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64) -> int:
             return TRACE_FULL
         I[e + ENGI_TICKS_LEFT] -= 1
         I[e + ENGI_STATEMENTS] = 0
-        if I[KRI_BASE + KRI_MISSING_DACS]:
-            missing_outputs_step(I, S)  # programs may have written some
-        plant_step(F, I, S, axes, F[SYSF_BASE + SYSF_PERIOD_S])
-        tick(F, I, S)
-        plc_step(F, I)
+        quiet_step(F, I, S, seen, axes)
+        plcs_step(F, I, seen)
         if I[e + ENGI_TRACE_EVERY] > 0:
             trace_tick(F, I, S, trace)
         I[e + ENGI_IN_TICK] = SERVO_DONE

@@ -98,6 +98,11 @@ INPUTS = (
 )
 EPS_MS = 1e-9
 
+# What a step has done.
+PLC_IDLE = 0
+PLC_WAITED = 1
+PLC_ACTED = 2
+
 
 def plc_put_inputs(I: I32, n: int, inputs: int, on: int) -> None:
     """Set exactly those flags of object n out of `inputs` that are in `on`."""
@@ -239,9 +244,14 @@ def plc_latch(I: I32, n: int) -> None:
         I[PLF_WORD + n] = flags | PLF_LATCH_OUTPUT
 
 
-def plc_step(F: F64, I: I32) -> None:
-    """Update timers, counters and latches, then run the scans due; idle, only a few reads."""
+def plc_step(F: F64, I: I32) -> int:
+    """Update timers, counters and latches, then run the scans due; idle, only a few reads.
+
+    PLC_IDLE while there is nothing to update or run, PLC_WAITED if scans have come nearer,
+    PLC_ACTED if flags may have changed.
+    """
     running: int = 0
+    done: int = PLC_IDLE
     for n in range(PLC_COUNT):
         flags: int = I[PLF_WORD + n]
         running |= flags & PLF_PLC_RUNNING
@@ -252,17 +262,20 @@ def plc_step(F: F64, I: I32) -> None:
             or I[PCI_BASE + n * PCI_STRIDE + PCI_CLOCK_OLD]
             or F[PCF_BASE + n * PCF_STRIDE + PCF_TIMER_MS]
         ):
+            done = PLC_ACTED
             plc_timer(F, I, n, F[SYSF_BASE + SYSF_PERIOD_S] * 1000.0)
             plc_counter(I, n)
             plc_latch(I, n)
     if not running:
-        return
+        return done
     for n in range(PLC_COUNT):
         if I[PLF_WORD + n] & PLF_PLC_RUNNING:
             count: int = PLC_BASE + n * PLC_STRIDE + PLC_TICK_COUNT
             if I[count] > 0:
                 I[count] -= 1
             if I[count] <= 0:
+                done = PLC_ACTED
                 plc_scan(I, n)
                 I[PLF_WORD + n] &= ~PLF_FIRST_SCAN
                 I[count] = max(I[PLC_BASE + n * PLC_STRIDE + PLC_TICK_PRELOAD], 1)
+    return PLC_WAITED if done == PLC_IDLE else done

@@ -28,6 +28,7 @@ from openacr.basic.vm.waits_cy import (
 from openacr.cmath import rint
 from openacr.map.numbers import (
     ENGI_BASE,
+    ENGI_IN_TICK,
     ENGI_LINE_ANNOUNCED,
     KRI_BASE,
     KRI_KINEMATICS,
@@ -86,6 +87,8 @@ PHASE_PROGRAM = 2
 SLOT_CHANNELS = 8
 SLOT_LOW = 9
 SLOTS = 10
+
+EXECUTED = 5  # progress within the tick (see engine/loop_cy.py): statements were executed
 
 WAIT_FLAGS = PF_PROGRAM_DWELLING | PF_PROGRAM_INHIBITED | PF_MOVE_PENDING
 
@@ -203,6 +206,8 @@ def advance(F: F64, I: I32, S: F32, code: I32, nums: F64, t: int, tick: int) -> 
         release(I, t)
     if I[rows + THI_STATE] != THREAD_READY:
         return 0
+    if I[ENGI_BASE + ENGI_IN_TICK]:  # else the line of a host is executed between ticks
+        I[ENGI_BASE + ENGI_IN_TICK] = EXECUTED
     event = vm_run(F, I, S, code, nums, t, I[rows + THI_BUDGET], tick)
     if event == VM_SLICE:
         return 0

@@ -88,12 +88,25 @@ def dead_band(F: F64, I: I32, S: F32, n: int, error_cnt: float) -> bool:
     return I[word] & af3.IN_DEAD_BAND != 0
 
 
+def idle_step(F: F64, n: int, period_s: float) -> None:
+    """How long axis n has had no commanded motion."""
+    if F[axes.ssp_velocity_cps[n]] != 0.0:
+        F[axes.idle_s[n]] = 0.0
+    else:
+        F[axes.idle_s[n]] += period_s
+
+
+def idle_enough(F: F64, S: F32, n: int) -> bool:
+    """Whether IDELAY has passed since the latest commanded motion."""
+    delay_s: float = S[axes.integral_delay[n]]
+    return delay_s <= 0.0 or F[axes.idle_s[n]] >= delay_s
+
+
 def integrate(F: F64, S: F32, n: int, value: float, rate: float, period_s: float) -> float:
     """Integral of `rate * value`, held for IDELAY after motion, clamped to ILIMIT [V]."""
-    delay_s: float = S[axes.integral_delay[n]]
     limit_v: float = S[axes.integral_limit[n]]
     total_v: float = F[axes.integral_v[n]]
-    if delay_s <= 0.0 or F[axes.idle_s[n]] >= delay_s:
+    if idle_enough(F, S, n):
         total_v += rate * value * period_s
     return integral_keep(F, n, max(-limit_v, min(limit_v, total_v)))
 
@@ -202,6 +215,11 @@ def servo_closed(I: I32, n: int) -> bool:
     return drive_driven(I, n)
 
 
+def servo_counts(I: I32, n: int) -> bool:
+    """Whether axis n has a servo loop, whose times run on at rest, too."""
+    return I[axes.on[n]] != 0 and I[axes.signal_source[n]] != TO_STEPPER
+
+
 def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) -> None:
     """One pass of the servo loop of axis n."""
     if I[axes.signal_source[n]] == TO_STEPPER:
@@ -210,10 +228,7 @@ def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) 
     error_cnt: float = F[axes.ssp_cnt[n]] - I[axes.actual_position[n]]
     I[axes.following_error[n]] = round32(error_cnt)
     F[axes.peak_error_cnt[n]] = max(F[axes.peak_error_cnt[n]], fabs(error_cnt))
-    if F[axes.ssp_velocity_cps[n]] != 0.0:
-        F[axes.idle_s[n]] = 0.0
-    else:
-        F[axes.idle_s[n]] += period_s
+    idle_step(F, n, period_s)
     output_v: float = 0.0
     I[axes.clipped[n]] = 0
     if servo_closed(I, n):

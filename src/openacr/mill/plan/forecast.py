@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Protocol
 
 from openacr.cnc import canonical as c
 from openacr.cnc.reading.line_shapes import MOST_ROWS, doubles, integers
-from openacr.cnc.rows.moves import POINT
 from openacr.compiled import pick
 from openacr.mill.config.settings import S_PER_MIN
 from openacr.mill.plan import forecast_cy as core

@@ -1,0 +1,227 @@
+"""Ticks that change nothing but the clocks: tried once, then left out.
+
+What the machine and the servo interrupt do in a tick is a function f of the state X alone, and
+at rest it gives X again. Of the clocks it looks at one thing only: whether the slow scan is due.
+So once
+
+    f(X) = X        but for the clocks
+
+has been seen of a tick without the scan and of one with it, it holds for every later tick in
+which X is the same. Of those the clocks alone have to advance, and the result is equal to the
+bit. Programs, channels, PLCs, networks and devices are attended in each tick as ever; what they
+change ends the rest, and it has to be seen again.
+
+A trial costs a copy of the state and a comparison: as much as some hundred ticks of a card at
+rest. It is made after `PAUSE` ticks without a disturbance, and a rest too short to be worth it
+doubles the pause, so that what never rests loses nothing that could be measured.
+
+The rows of `seen` from FIRST on are the copy; below FIRST, where the state has the kinds of the
+parameters, it keeps what is known of the rest.
+"""
+
+from openacr.kernel.axis.modules_cy import missing_outputs_step
+from openacr.kernel.axis.servo_cy import idle_enough, idle_step, servo_counts
+from openacr.kernel.path.master_cy import master_busy
+from openacr.kernel.sources.clock_cy import clock_step
+from openacr.kernel.sources.source_cy import DISARMED, FROM_PARAMETER
+from openacr.kernel.tick_cy import tick
+from openacr.map.numbers import (
+    FLAG_LAST,
+    FLAG_WORD_BASE,
+    HEAP_BYTE_BASE,
+    MSF_BASE,
+    P_GLOBAL_SYSTEM_CLOCK,
+    PRF_BASE,
+    THF_BASE,
+    W_FSTAT,
+    W_MISC_INPUTS,
+    W_MISC_OUTPUTS,
+    WATF_BASE,
+)
+from openacr.map.rows import axes, kernel, sampler, sources, system, triggers
+from openacr.map.words import mo
+from openacr.plant.step_cy import plant_step
+from openacr.plc.scan_cy import PLC_ACTED, PLC_IDLE, plc_step
+from openacr.views import F32, F64, I32
+
+__all__ = ["quiet_stir"]
+
+# What is known of the rest, in rows of `seen`.
+KNOWN = 0  # the kinds of ticks that were seen to change nothing: PLAIN, SCAN
+LEFT_OUT = 1  # ticks since the rest began
+WAIT = 2  # ticks until the next trial
+PAUSE = 3  # ticks without a disturbance before a trial; 0: no tick is ever left out
+
+PLAIN = 1
+SCAN = 2  # the slow scan is due
+PLCS_IDLE = 4  # no PLC has anything to count: as nothing changes, none will have
+FIRST_PAUSE = 250
+LONGEST_PAUSE = 16000
+WORTH = 2000  # ticks left out that are worth their trials
+
+# The copy. Profiles, which change with the master or jog that runs them alone, stacks of programs
+# and their heap are not part of it.
+FIRST = 4096
+FIRST_END = 2 * PRF_BASE
+SECOND = 2 * MSF_BASE
+SECOND_END = 2 * THF_BASE
+THIRD = 2 * WATF_BASE
+END = HEAP_BYTE_BASE // 4
+BLOCK = 1024
+FLAGS_END = FLAG_WORD_BASE + FLAG_LAST // 32 + 1
+
+
+def machine_step(F: F64, I: I32, S: F32, axis_count: int) -> None:
+    """One servo period of the machine, then the servo interrupt."""
+    if I[kernel.missing_dacs]:
+        missing_outputs_step(I, S)  # programs may have written some
+    plant_step(F, I, S, axis_count, F[system.period_s])
+    tick(F, I, S)
+
+
+def quiet_step(F: F64, I: I32, S: F32, seen: I32, axis_count: int) -> None:
+    """The same, or of a tick that is known to change nothing the clocks alone."""
+    if seen[PAUSE] == 0:
+        machine_step(F, I, S, axis_count)
+        return
+    if seen[WAIT] > 0:
+        seen[WAIT] -= 1
+        machine_step(F, I, S, axis_count)
+        return
+    phase: int = I[system.slow_phase] + 1
+    kind: int = PLAIN if phase < I[kernel.slow_ticks] else SCAN
+    if seen[KNOWN] & kind:
+        clocks_step(F, I, axis_count)
+        I[system.slow_phase] = phase if kind == PLAIN else 0
+        seen[LEFT_OUT] += 1
+    else:
+        quiet_try(F, I, S, seen, axis_count, kind)
+
+
+def clocks_step(F: F64, I: I32, axis_count: int) -> None:
+    """What a tick changes of a card at rest."""
+    period_s: float = F[system.period_s]
+    clock_step(F, I, period_s)
+    for n in range(axis_count):
+        if servo_counts(I, n):
+            idle_step(F, n, period_s)
+
+
+def quiet_try(F: F64, I: I32, S: F32, seen: I32, axis_count: int, kind: int) -> None:
+    """Execute a tick in full and see whether it changes nothing."""
+    if not quiet_may_be(F, I, S):
+        machine_step(F, I, S, axis_count)
+        seen[KNOWN] = 0
+        seen[WAIT] = FIRST_PAUSE
+        return
+    quiet_copy(I, seen, FIRST, FIRST_END)
+    quiet_copy(I, seen, SECOND, SECOND_END)
+    quiet_copy(I, seen, THIRD, END)
+    machine_step(F, I, S, axis_count)
+    clocks_copy(I, seen, axis_count)
+    if (
+        quiet_same(I, seen, THIRD, END)
+        and quiet_same(I, seen, SECOND, SECOND_END)
+        and quiet_same(I, seen, FIRST, FIRST_END)
+    ):
+        seen[KNOWN] |= kind
+    else:
+        quiet_stir(seen)
+
+
+def quiet_stir(seen: I32) -> None:
+    """Something has changed, or may have: a rest has to be seen again."""
+    pause: int = seen[PAUSE]
+    if seen[LEFT_OUT] >= WORTH:
+        pause = FIRST_PAUSE
+    elif seen[WAIT] == 0:  # trials were made
+        pause = min(2 * pause, LONGEST_PAUSE)
+    seen[KNOWN] = 0
+    seen[LEFT_OUT] = 0
+    seen[PAUSE] = pause
+    seen[WAIT] = pause
+
+
+def quiet_may_be(F: F64, I: I32, S: F32) -> bool:
+    """Whether the interrupt has nothing to follow but the state: no samples, clocks, triggers."""
+    if I[W_FSTAT] | I[sampler.armed_old] | I[kernel.kinematics]:
+        return False
+    if I[W_MISC_OUTPUTS] & mo.SAMPLE_TRIGGER_ARMED:
+        return False
+    for m in range(I[kernel.masters]):
+        if master_busy(I, m):
+            return False
+    for n in range(I[kernel.axes]):
+        if I[axes.hlbit[n]] >> 5 == W_MISC_INPUTS - FLAG_WORD_BASE:
+            return False  # its limits follow the pulses of the clock
+        if servo_counts(I, n) and not idle_enough(F, S, n):
+            return False  # its integral is still held
+    for t in range(sources.COUNT):  # it may be a clock or the count of a PLC
+        if I[sources.kind[t]] == FROM_PARAMETER:
+            return False
+    for t in range(triggers.COUNT):
+        if I[triggers.kind[t]] != DISARMED:
+            return False
+    return True
+
+
+def quiet_copy(I: I32, seen: I32, first: int, end: int) -> None:
+    """Copy rows of the state."""
+    for k in range(first, end):
+        seen[k] = I[k]
+
+
+def clocks_copy(I: I32, seen: I32, axis_count: int) -> None:
+    """Copy the clocks alone: they may differ."""
+    row_copy(I, seen, system.tick_low)
+    row_copy(I, seen, system.tick_high)
+    row_copy(I, seen, system.slow_phase)
+    row_copy(I, seen, P_GLOBAL_SYSTEM_CLOCK)
+    row_copy(I, seen, W_MISC_INPUTS)  # nothing but the pulses of the clock changes there
+    real_copy(I, seen, system.time_s)
+    real_copy(I, seen, kernel.millisecond_phase)
+    for n in range(axis_count):
+        real_copy(I, seen, axes.idle_s[n])
+
+
+def row_copy(I: I32, seen: I32, row: int) -> None:
+    """Copy one integer."""
+    seen[row] = I[row]
+
+
+def real_copy(I: I32, seen: I32, row: int) -> None:
+    """Copy one number of 64 bits, which two integers share."""
+    seen[2 * row] = I[2 * row]
+    seen[2 * row + 1] = I[2 * row + 1]
+
+
+def quiet_same(I: I32, seen: I32, first: int, end: int) -> bool:
+    """Whether these rows of the state are those of the copy."""
+    start: int = first
+    while start < end:
+        differs: int = 0
+        for k in range(start, min(start + BLOCK, end)):
+            differs |= I[k] ^ seen[k]
+        if differs:
+            return False
+        start += BLOCK
+    return True
+
+
+def plcs_step(F: F64, I: I32, seen: I32) -> None:
+    """The PLCs; what they change ends the rest."""
+    if seen[KNOWN] & PLCS_IDLE:
+        return
+    done: int = plc_step(F, I)
+    if seen[KNOWN] == 0:
+        return
+    if done == PLC_IDLE:
+        seen[KNOWN] |= PLCS_IDLE
+    elif done == PLC_ACTED and flags_stirred(I, seen):
+        quiet_stir(seen)
+
+
+def flags_stirred(I: I32, seen: I32) -> bool:
+    """Whether a PLC has changed a flag since the rest began."""
+    row_copy(I, seen, W_MISC_INPUTS)
+    return not quiet_same(I, seen, FLAG_WORD_BASE, FLAGS_END)
