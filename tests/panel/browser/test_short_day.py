@@ -50,6 +50,7 @@ class Finger(Pointer):
         self._glass.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
 
 
+@pytest.mark.req("MILL-RUN-STOP")
 @pytest.mark.parametrize("kind", [Pointer, Finger])
 def test_a_short_day_needs_no_keyboard(
     panel: Served, context: BrowserContext, kind: Callable[[Page], Pointer]
@@ -86,6 +87,7 @@ def test_a_short_day_needs_no_keyboard(
     hand.press(page.locator("#stop").get_by_role("button"))
     expect(menu).to_have_attribute("data-shown", "stop")
     until_model(page, "model.state.value.state === 'PAUSED'")
+    expect(page.locator("#state")).to_contain_text("----PAUSE----")
     key("RESUME")
     until_model(page, "model.state.value.running")
     hand.press(page.locator("#stop").get_by_role("button"))
