@@ -67,6 +67,7 @@ SCRIPTS: dict[str, tuple[bytes, list[Event]]] = {
         [*map(ReceivedLine, ["A", "B", "C", "D", "", "E", ""])],
     ),
     "backspace": (b"\x08PX\x08\x7f\x7fQ\r", [ReceivedLine("Q")]),
+    "delete": (b"PX\x7fQ\r", [ReceivedLine("PQ")]),
     "control keys": (
         b"AB\x18C\x19\x1a\r",
         [*map(Control, ControlKey), ReceivedLine("ABC")],
@@ -334,3 +335,15 @@ def test_xoff_holds_back_what_is_left_of_a_long_text() -> None:
 def everything(stream: Terminal) -> bytes:
     """All writes together."""
     return b"".join(iter(stream.data_to_send, b""))
+
+
+@pytest.mark.parametrize("text", [b"?P5\r", b"PROG1\r\0\0", b"?P1228\r\0", b"?P12288\r"])
+@pytest.mark.parametrize("chunk", CHUNKS)
+def test_a_text_on_the_port_for_packets_takes_as_many_zeros_as_fill_its_unit(
+    text: bytes, chunk: int
+) -> None:
+    """The next zero begins a packet."""
+    stream = terminal(StreamKind.PACKETS, takes_text=True)
+    seen, _ = answers(stream, text + GET, chunk)
+    line = ReceivedLine(text.rstrip(b"\0\r").decode())
+    assert seen == [line, Received(DataRequest(0x30, 2, 0x2C))]

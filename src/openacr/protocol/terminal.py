@@ -24,6 +24,7 @@ to a multiple of TEXT_UNIT bytes: after the end of a line these begin no packet.
 """
 
 import logging
+import re
 from collections import deque
 from collections.abc import Callable
 from typing import Annotated, TypeAlias
@@ -64,6 +65,7 @@ CRLF = b"\r\n"
 TEXT_UNIT = 4  # bytes of which texts on the port for packets are multiples
 ECHO_CHARACTERS = EchoMode.CHARACTERS.value  # an enum would cost more than the echo itself
 ERASE = b"\b \b"
+_CHARACTERS = re.compile(rb"[^\x00-\x08\x0a-\x1f\x7f]+")  # no key, no packet
 _HEADERS = {b"", *(bytes((byte,)) for byte in HEADER_IDS)}
 LineBytes: TypeAlias = Annotated[bytes, Meta(max_length=LINE_LIMIT)]
 
@@ -236,7 +238,7 @@ class Terminal:
                 return None
         if _is_control(byte):
             return Control(ControlKey(byte))
-        return self._character(byte)
+        return self._character(byte, segment)
 
     # --- packets ----------------------------------------------------------------------
 
@@ -306,7 +308,7 @@ class Terminal:
 
     # --- text -------------------------------------------------------------------------
 
-    def _character(self, byte: int) -> Event | None:
+    def _character(self, byte: int, segment: Segment) -> Event | None:
         if self.attention is Attention.PASS_THROUGH:
             return self.escape() if byte == ESC else Typed(byte)
         key = self._keys.get(byte)
@@ -316,9 +318,19 @@ class Terminal:
             return key()
         if byte < 0x20 and byte != TAB:
             return None
-        self._typing.add(byte)
-        self._echo(bytes((byte,)))
+        is_alone = self.attention is Attention.LISTENING or self.kind is StreamKind.PACKETS
+        typed = bytes((byte,)) if is_alone else self._run(segment)
+        self._typing.add(typed)
+        self._echo(typed)
         return self._typed(byte)
+
+    def _run(self, segment: Segment) -> bytes:
+        """The character just scanned and those after it: nothing happens between them."""
+        first = segment.at - 1
+        found = _CHARACTERS.match(segment.data, first)
+        typed = found[0] if found else segment.data[first : first + 1]
+        self._skip(segment, len(typed) - 1)
+        return typed
 
     def _typed(self, byte: int) -> Typed | None:
         return Typed(byte) if self.attention is Attention.LISTENING else None
@@ -361,8 +373,7 @@ class Terminal:
     def begin_line(self, text: str) -> None:
         """Go on with a line of which this much is typed (and has been echoed) already."""
         self._typing.clear()
-        for byte in text.encode("latin-1"):
-            self._typing.add(byte)
+        self._typing.add(text.encode("latin-1"))
 
     # --- output -----------------------------------------------------------------------
 

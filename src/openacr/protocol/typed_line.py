@@ -13,12 +13,11 @@ class TypedLine:
     kept: bytearray = field(default_factory=bytearray)
     excess: int = 0
 
-    def add(self, byte: int) -> None:
-        """Append a character."""
-        if len(self.kept) < LINE_LIMIT and not self.excess:
-            self.kept.append(byte)
-        else:
-            self.excess += 1
+    def add(self, data: bytes) -> None:
+        """Append characters."""
+        room = LINE_LIMIT - len(self.kept)  # 0 where there is excess
+        self.kept += data[:room]
+        self.excess += max(0, len(data) - room)
 
     def erase(self) -> bool:
         """Take the last character back; False when there is none."""
