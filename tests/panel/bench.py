@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import math
 import os
 import struct
 import threading
@@ -276,6 +277,13 @@ class Served:
         if isinstance(self.panel.control, HandControl):
             self.panel.control.step(STEP_S)
         return future.result(LIMIT_S)
+
+    @contextmanager
+    def swift(self) -> Iterator[None]:
+        """Time of the card passes as fast as it goes meanwhile, where the time proves nothing."""
+        self.call(lambda station: station.times.run(math.inf, station.now_s))
+        yield
+        self.call(lambda station: station.times.run(1.0, station.now_s))
 
     def step(self, seconds: float) -> None:
         """Let time pass, where it is driven by hand."""

@@ -66,9 +66,10 @@ def test_a_short_day_needs_no_keyboard(
             expect(menu).to_have_attribute("data-shown", shown)
 
     key("HOME")
-    hand.press(screen.get_by_role("button", name="START HOME"))
-    until_model(page, "['X', 'Y', 'Z'].every((each) => model.state.value.homed.includes(each))")
-    until_model(page, "!model.state.value.busy")
+    with panel.swift():
+        hand.press(screen.get_by_role("button", name="START HOME"))
+        until_model(page, "['X', 'Y', 'Z'].every((each) => model.state.value.homed.includes(each))")
+        until_model(page, "!model.state.value.busy")
     key("SET ZERO")
     expect(page.locator("#screen-title")).to_have_text("Set zero")  # HOME has these boxes, too
     hand.press(screen.get_by_role("checkbox", name="All axes"))
