@@ -61,7 +61,18 @@ class FakeMachine:
     overhear: Callable[[str], None] = lambda text: None
 
     @property
-    def time_s(self) -> float:
+    def clock(self) -> "FakeMachine":
+        return self
+
+    @property
+    def lived_tk(self) -> int:
+        return self.tick
+
+    def ticks(self, time_s: float) -> int:
+        return max(1, round(time_s / self.period_s))
+
+    @property
+    def lived_s(self) -> float:
         return self.tick * self.period_s
 
     def closed_switches(self) -> dict[int, list[int]]:

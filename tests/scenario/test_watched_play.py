@@ -170,7 +170,11 @@ def play(scenario: Scenario, until: Until | None, kind: type[ControlledMachine])
         session._live()
     played = session._play
     return Outcome(
-        played.verdicts, played.checkpoints, played._printed, machine.digest(), machine.tick
+        played.verdicts,
+        played.checkpoints,
+        played._printed,
+        machine.digest(),
+        machine.clock.lived_tk,
     )
 
 

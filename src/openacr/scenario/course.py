@@ -76,16 +76,16 @@ class Course:
         is_paced: bool = False,
     ) -> None:
         """`is_paced`: by the wall clock, so that every step is short."""
-        self._card = card
+        self._card, self._clock = card, card.clock
         self._until = until
         self._is_scanned = until == Until() or is_paced
-        self.play = Play(scenario or Scenario(), card.period_s)
+        self.play = Play(scenario or Scenario(), card.clock.period_s)
         self.world = CardWorld(card)
         # The run counts from here, whatever the loading took.
-        self.begin_tk = card.tick
-        self.end_tk = card.tick + max(1, round(limit_s / card.period_s))
-        self._scan_tk = max(1, round(SCAN_S / card.period_s))
-        self._busy_tk = card.tick
+        self.begin_tk = card.clock.lived_tk
+        self.end_tk = self.begin_tk + self._clock.ticks(limit_s)
+        self._scan_tk = self._clock.ticks(SCAN_S)
+        self._busy_tk = self.begin_tk
         self._was_other = False
         self._watched: tuple[Condition, ...] | None = None
         self._sees_every_tick = False
@@ -93,7 +93,7 @@ class Course:
     @property
     def lived_s(self) -> float:
         """Simulated seconds since the start of the run."""
-        return self.world.tick * self._card.period_s
+        return self.world.tick * self._clock.period_s
 
     def step(self) -> Stop | None:
         """Play what is due and run the card to its next moment; why the run is over, or None."""
@@ -101,7 +101,7 @@ class Course:
         if stop := self._reached():
             return stop
         self._watch()
-        if not self._advance(self._next_tick() - self._card.tick):
+        if not self._advance(self._next_tick() - self._clock.lived_tk):
             return None
         self.play.step(self.world)
         return Stop.BIT
@@ -115,10 +115,10 @@ class Course:
 
     def _next_tick(self) -> int:
         """How far the card may run before the next look."""
-        now = self._card.tick
+        now = self._clock.lived_tk
         if self._sees_every_tick:
             return now + 1
-        look_tk = self._scan_tk if self._is_scanned else max(1, round(LOOK_S / self._card.period_s))
+        look_tk = self._scan_tk if self._is_scanned else self._clock.ticks(LOOK_S)
         known = self.play.next_tick(self.world.tick)
         planned_tk = self.end_tk if known is None else self.begin_tk + known
         return min(self.end_tk, now - now % look_tk + look_tk, planned_tk)
@@ -136,15 +136,15 @@ class Course:
         return card.advance_until(until.bit, until.is_on, ticks)
 
     def _reached(self) -> Stop | None:
-        card = self._card
-        if card.tick >= self.end_tk:
+        now = self._clock.lived_tk
+        if now >= self.end_tk:
             return Stop.TIME
         # Only the ticks of the slow scan count, whatever else the run was stopped for.
-        if self._until != Until() or card.tick % self._scan_tk:
+        if self._until != Until() or now % self._scan_tk:
             return None
         play = self.play
         awaits_more = play.conditions or play.next_tick(self.world.tick) is not None
-        if awaits_more or not card_view.is_idle(card.memory):
-            self._busy_tk = card.tick
-        quiet_s = (card.tick - self._busy_tk) * card.period_s
+        if awaits_more or not card_view.is_idle(self._card.memory):
+            self._busy_tk = now
+        quiet_s = (now - self._busy_tk) * self._clock.period_s
         return Stop.IDLE if quiet_s >= IDLE_S else None

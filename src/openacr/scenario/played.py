@@ -40,14 +40,14 @@ class CardWorld:
 
     def __init__(self, card: "PlayedCard") -> None:
         self._card = card
-        self._begin_tk = card.tick
+        self._clock, self._begin_tk = card.clock, card.clock.lived_tk
         self.surroundings = card.surroundings
         self.type_text = card.type_text
 
     @property
     def tick(self) -> int:
         """Servo periods since the start of the run."""
-        return self._card.tick - self._begin_tk
+        return self._clock.lived_tk - self._begin_tk
 
     def read(self, parameter: int) -> float:
         """Read one parameter; one that does not exist (yet) is not a number."""
@@ -82,27 +82,13 @@ class PlayedCard:
         self._overhear: Callable[[str], None] = lambda text: None
         self._awaits_text = False
         self._was_heard = False
+        self.clock = controller.clock
         self.surroundings: Surroundings = controller
 
     @property
     def memory(self) -> Memory:
         """All parameters and flags."""
         return self._controller.memory
-
-    @property
-    def tick(self) -> int:
-        """Servo periods lived so far."""
-        return self._controller.lived_tk
-
-    @property
-    def time_s(self) -> float:
-        """Simulated seconds lived so far."""
-        return self._controller.lived_tk * self._controller.period_s
-
-    @property
-    def period_s(self) -> float:
-        """Seconds per tick."""
-        return self._controller.period_s
 
     def has_new_events(self) -> bool:
         """Nothing is watched but what the scenario waits for."""

@@ -70,7 +70,7 @@ class ControlledMachine(PlayedCard):
 
     def events(self) -> list[Event]:
         """What happened to the machine since the last call."""
-        return [*self._empty_starts(), *self._events.poll(self.time_s - self._begin_s)]
+        return [*self._empty_starts(), *self._events.poll(self.clock.lived_s - self._begin_s)]
 
     def _empty_starts(self) -> Iterator[Event]:
         """Programs that were started without lines, each once: the card says nothing of it."""
@@ -80,7 +80,7 @@ class ControlledMachine(PlayedCard):
             start = found[owner]
             name = f"PROG{owner}" if owner < PROGRAMS else f"PLC{owner - PROGRAMS}"
             place = f" ({shown(start.origin[0])}:{start.origin[1]})" if start.origin else ""
-            time_s = max(0.0, start.tick * self.period_s - self._begin_s)
+            time_s = max(0.0, start.tick * self.clock.period_s - self._begin_s)
             yield Event(time_s, f"{name} is empty: its RUN starts nothing{place}")
 
     @contextmanager

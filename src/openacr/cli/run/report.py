@@ -50,8 +50,8 @@ class Report:
 
 def report_on(machine: "ControlledMachine", begin_tk: int, wall_s: float) -> Report:
     """Collect the outcome of a run that began at a tick and took `wall_s` of real time."""
-    ticks = machine.tick - begin_tk
-    time_s = ticks * machine.period_s
+    ticks = machine.clock.lived_tk - begin_tk
+    time_s = ticks * machine.clock.period_s
     memory = machine.memory
     attached = card_view.masters_of_axes(memory)
     return Report(

@@ -166,7 +166,7 @@ class Session:
         report = report_on(self._machine, self._course.begin_tk, wall_s)
         report = replace(report, events=tuple(self._events))
         if self._has_scenario:
-            period_s = self._machine.period_s
+            period_s = self._machine.clock.period_s
             times = {name: tick * period_s for name, tick in self._play.checkpoints.items()}
             verdicts = tuple(self._play.verdicts)
             unjudged = tuple(self._play.unjudged)
