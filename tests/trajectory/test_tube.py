@@ -6,28 +6,23 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from openacr.compiled import pick
-from openacr.trajectory import tube, tube_cy
-from openacr.trajectory.arrays import flat, numbers
+from openacr.trajectory import tube
 from openacr.trajectory.setpoints import Reals
 
 pytestmark = pytest.mark.evidence("oracle", "bounded least squares of scipy")
 RADIUS = 0.008
 STEP = 0.04
 COUNT = 120
-_smooth = pick(tube_cy.tube_smooth)
 
 
 def smoothed(programmed: Reals) -> Reals:
     """The smoothed samples of one axis; the first and last ones are given."""
-    count = len(programmed)
-    q = np.zeros(count + 3)
-    q[:count] = programmed
-    room = [np.zeros(count + 3) for _ in range(3)] + [np.zeros(4 * count) for _ in range(2)]
-    _smooth(count, 1, tube.GIVEN, 3, flat(programmed), flat(np.full(count, RADIUS)),
-            flat(np.zeros(count)), len(tube.STAGES), numbers(tube.STAGES), tube.ROUNDS,
-            flat(q), *(flat(each) for each in room))  # fmt: skip
-    return q[:count]
+    samples = tube.Samples(len(programmed), 1, tube.ROUNDS)
+    samples.programmed[:, 0] = samples.smoothed[:, 0] = programmed
+    samples.radius[:] = RADIUS
+    samples.smooth(tube.GIVEN, 3)
+    found: Reals = samples.smoothed[:, 0]
+    return found
 
 
 def smoothest(programmed: Reals) -> Reals:

@@ -303,12 +303,11 @@ class TrajectoryPlanner:
                                a.end_s - self._stream.taken_s))  # fmt: skip
         speed = max(end.feed_ups, start.feed_ups)
         tool = max(end.tool_ups, start.tool_ups)
-        rules = numbers([self.period_s, a.begin_s, 0.999 * tolerance, speed, tool, longest,
-                                       *self.limits.checked()])  # fmt: skip
-        near = near_corner(before, after, corner.near_u)
-        axes = self.limits.axes
-        count = int(longest / self.period_s) + 3 * overlap_cy.AROUND
-        return _overlap_time(
-            a.H, a.C, a.Z, b.H, b.C, b.Z, numbers(near), len(near) // axes - 1,
-            rules, room(count * axes), room(4 * axes),
-        )  # fmt: skip
+        near, axes = near_corner(before, after, corner.near_u), self.limits.axes
+        rules = (self.period_s, a.begin_s, 0.999 * tolerance, speed, tool, longest,
+                 len(near) // axes - 1, *self.limits.checked())  # fmt: skip
+        points = overlap_cy.ROOM + int(longest / self.period_s) + 3 * overlap_cy.AROUND
+        P = room(len(rules) + len(near) + points * axes)
+        begin = overlap_cy.overlap_near(axes)
+        P[: len(rules)], P[begin : begin + len(near)] = numbers(rules), numbers(near)
+        return _overlap_time(a.H, a.C, a.Z, b.H, b.C, b.Z, P)

@@ -12,12 +12,12 @@ import numpy as np
 
 from openacr.compiled import pick
 from openacr.trajectory import piece_cy, spline_cy, tube_cy
-from openacr.trajectory.arrays import flat, numbers
+from openacr.trajectory.arrays import flat, whole
 from openacr.trajectory.segments import Piece
 from openacr.trajectory.setpoints import Reals
 from openacr.views import F64
 
-_sample = pick(piece_cy.pieces_sample)
+_sample = pick(tube_cy.tube_sample)
 _smooth = pick(tube_cy.tube_smooth)
 _point = pick(spline_cy.spline_point)
 
@@ -45,6 +45,49 @@ def tube_share(acceleration: float, period_s: float, tolerance: float) -> float:
     it; where the path leaves too little, the acceleration across it is limited (knot_rules.py).
     """
     return TUBE_SHARE - min(MOST_TIME, acceleration * period_s**2 / 6.0 / tolerance)
+
+
+class Samples:
+    """Samples of a chain, as compiled functions take them: the arrays are parts of one table."""
+
+    __slots__ = ("_J", "_table", "programmed", "radius", "smoothed")
+
+    def __init__(self, count: int, axes: int, rounds: int) -> None:
+        block = (count + 3) * max(axes, tube_cy.BANDS)
+        self._J, self._table = whole(tube_cy.J_SIZE), np.zeros((tube_cy.BLOCKS, block))
+        self._J[tube_cy.J_AXES], self._J[tube_cy.J_COUNT] = axes, count
+        self._J[tube_cy.J_BLOCK], self._J[tube_cy.J_ROUNDS] = block, rounds
+        self._J[tube_cy.J_STAGES] = len(STAGES)
+        lengths = slice(tube_cy.N_LENGTHS, tube_cy.N_LENGTHS + len(STAGES))
+        self._table[tube_cy.NUMBERS, lengths] = STAGES
+        self.programmed, self.smoothed = (
+            self._table[k, : count * axes].reshape(count, axes)
+            for k in (tube_cy.PROGRAMMED, tube_cy.SMOOTHED)
+        )
+        self.radius = self._table[tube_cy.RADIUS, :count]
+
+    def take(
+        self, pieces: F64, count: int, origin_u: float, begin: int, step_u: float,
+        share: float,
+    ) -> None:  # fmt: skip
+        """Sample `count` pieces, the first at `origin_u`, from the step `begin` on.
+
+        `share`: of the tolerance, which is the radius.
+        """
+        self._J[tube_cy.J_PIECES], self._J[tube_cy.J_BEGIN] = count, begin
+        self._table[tube_cy.NUMBERS, : tube_cy.N_LENGTHS] = origin_u, step_u, share
+        _sample(self._J, flat(self._table), pieces)
+
+    def smooth(self, head: int, tail: int) -> None:
+        """Smooth what comes after the first `head` and before the last `tail` samples."""
+        self._J[tube_cy.J_HEAD], self._J[tube_cy.J_TAIL] = head, tail
+        _smooth(self._J, flat(self._table))
+
+    def off_u(self) -> Reals:
+        """The distances of the smoothed samples from the programmed ones."""
+        apart = self.smoothed - self.programmed
+        found: Reals = np.sqrt((apart * apart).sum(axis=1))
+        return found
 
 
 class Tube:
@@ -96,51 +139,39 @@ class Tube:
         count = end - begin
         if count <= GIVEN:
             return
-        programmed = np.empty((count, self._axes))
-        radius, arcs = np.empty(count), np.empty(count)
-        _sample(cast("F64", memoryview(self._rows)), self._pieces, self._axes, self._origin,
-        begin, count,
-                self.step, self.share, flat(programmed), flat(radius), flat(arcs))  # fmt: skip
+        samples = Samples(count, self._axes, self._rounds)
+        samples.take(
+            cast("F64", memoryview(self._rows)), self._pieces, self._origin, begin, self.step,
+            self.share,
+        )  # fmt: skip
         old = begin - self._first
-        q, left = self._smoothed(begin, programmed, radius, arcs)
+        q, left = self._smoothed(begin, samples)
         self.final = end if is_whole else max(end - AHEAD, begin + GIVEN)
         self._q = np.concatenate([self._q[:old], q[: self.final - begin]])
         self._left = np.concatenate([self._left[:old], left[: self.final - begin]])
 
-    def _smoothed(
-        self, begin: int, programmed: Reals, radius: Reals, arcs: Reals
-    ) -> tuple[Reals, Reals]:
+    def _smoothed(self, begin: int, samples: Samples) -> tuple[Reals, Reals]:
         """The smoothed samples from the index `begin` on, and what they leave of the radius."""
-        count, is_whole, old = len(programmed), math.isfinite(self.length_u), begin - self._first
+        count, radius = len(samples.radius), samples.radius.copy()
+        is_whole, old = math.isfinite(self.length_u), begin - self._first
         s = (begin + np.arange(count)) * self.step
         to_end = np.minimum(s, self.length_u - s) if is_whole else s
         taper = TAPER * np.maximum(to_end, 1e-9)
         tail = int(np.count_nonzero(s > self.length_u - PINNED * self.step)) if is_whole else 0
-        q = np.zeros((count + 3, self._axes))
-        room = [np.empty_like(q) for _ in range(3)] + [np.empty((count, 4)) for _ in range(2)]
         for narrower in NARROWER:
-            q[:count] = programmed
+            samples.smoothed[:] = samples.programmed
             if self.final > -BEFORE:
-                q[:GIVEN] = self._q[old : old + GIVEN]
+                samples.smoothed[:GIVEN] = self._q[old : old + GIVEN]
             if count <= GIVEN + tail:
                 break
-            _smooth(count, self._axes, GIVEN, tail, flat(programmed),
-                    flat(np.minimum(narrower * radius, taper)), flat(arcs),
-                    len(STAGES), numbers(STAGES), self._rounds,
-                    flat(q), *(flat(each) for each in room))  # fmt: skip
-            if (self._off(q[:count], programmed) <= OVER * radius).all():
+            samples.radius[:] = np.minimum(narrower * radius, taper)
+            samples.smooth(GIVEN, tail)
+            if (samples.off_u() <= OVER * radius).all():
                 break
-        left: Reals = radius - self._off(q[:count], programmed)
+        left: Reals = radius - samples.off_u()
         if self.final > -BEFORE:
             left[:GIVEN] = self._left[old : old + GIVEN]
-        return q, left
-
-    @staticmethod
-    def _off(q: Reals, programmed: Reals) -> Reals:
-        """The distances of samples from the programmed ones."""
-        apart = q - programmed
-        found: Reals = np.sqrt((apart * apart).sum(axis=1))
-        return found
+        return samples.smoothed, left
 
     def left_u(self, starts: Reals, stops: Reals) -> Reals:
         """The least that the path leaves of its radius between distances."""
