@@ -34,7 +34,7 @@ from openacr.map.rows import axes
 from openacr.mill.config.communications import Line
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.checking import checked, surveyed
+from openacr.mill.plan.checking import Watchers, checked, surveyed
 from openacr.mill.plan.curve_limits import ACCELERATION_SHARE, JERK_SHARE
 from openacr.mill.plan.path_motion import PathMotion
 from openacr.mill.plan.predicting import Prediction
@@ -188,7 +188,7 @@ def test_pictures_show_the_motion_of_the_tool_with_the_limits_of_the_table(
     shares = (1.0, ACCELERATION_SHARE, JERK_SHARE)
     for quantity, most, share in zip(Quantity, highest, shares, strict=True):
         reader = PathMotion(Settings(store), (0, 1, 2), quantity)
-        surveyed(program, store, "rs274ngc", reader=reader)
+        surveyed(program, store, "rs274ngc", Watchers(reader))
         motion = reader.finished()
         assert motion.highest == pytest.approx(share * most, rel=2e-3)
         assert motion.highest <= share * most * (1 + 1e-9)

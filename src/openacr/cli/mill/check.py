@@ -131,7 +131,7 @@ def time_program(
 ) -> None:
     """Predict the run time of a part program from the plan of its moves."""
     from openacr.cnc.interpreter.interpreter import Options
-    from openacr.mill.plan.checking import surveyed
+    from openacr.mill.plan.checking import Watchers, surveyed
 
     require_trace(trace, every_s)
     with opened_store(store) as cells:
@@ -141,10 +141,10 @@ def time_program(
             _sampled(cells, trace, every_s) as reader,
             _shown(program, cells, name, options) as progress,
         ):
+            watchers = Watchers(reader, progress=progress)
             survey, prediction = surveyed(
-                program, cells, name, options=options, rounds=not is_exact, reader=reader,
-                progress=progress,
-            )  # fmt: skip
+                program, cells, name, watchers, options=options, rounds=not is_exact
+            )
     survey.findings = in_folder(survey.findings, file)
     if survey.errors:
         show_findings(survey.errors)

@@ -171,11 +171,12 @@ def _surveyed(
     if colour is None:
         return survey(program, cells, dialect, options, look=path.add), path, None
     from openacr.mill.config.settings import Settings
-    from openacr.mill.plan.checking import surveyed
+    from openacr.mill.plan.checking import Watchers, surveyed
     from openacr.mill.plan.path_motion import PathMotion
 
     reader = PathMotion(Settings(cells), axes, colour)
-    found, _ = surveyed(program, cells, dialect, options=options, reader=reader, look=path.add)
+    watchers = Watchers(reader, look=path.add)
+    found, _ = surveyed(program, cells, dialect, watchers, options=options)
     return found, path, reader.finished()
 
 

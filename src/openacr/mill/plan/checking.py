@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 from openacr.cnc.canonical import Entry
@@ -65,37 +66,43 @@ def check_text(text: str, path: Path, cells: Store, dialect: str | None = None) 
     return checked(program, cells, name)[0].findings
 
 
+@dataclass(frozen=True, slots=True)
+class Watchers:
+    """Who gets what while a program is read."""
+
+    reader: Reader | None = None  # every move as it is planned
+    desk: Desk | None = None  # the moves that may be refused
+    look: Callable[[Entry], None] | None = None  # every canonical entry
+    progress: Callable[[int], None] | None = None  # the line of every move that is planned
+
+
 def surveyed(
     program: Program,
     cells: Store,
     dialect: str,
+    watchers: Watchers | None = None,
     *,
     options: Options | None = None,
     rounds: bool = True,
-    reader: Reader | None = None,
-    desk: Desk | None = None,
-    look: Callable[[Entry], None] | None = None,
-    progress: Callable[[int], None] | None = None,
     limit_s: float = math.inf,
 ) -> tuple[Survey, Prediction]:
-    """Read a program; `reader` gets every move as it is planned, `desk` those that may be refused.
+    """Read a program; TooLongError as soon as it takes more than `limit_s` of machine time.
 
-    `look` gets every canonical entry, `progress` the line of every move that is planned;
-    `rounds`: as on the virtual machine, which supports path tolerances. TooLongError as soon as it
-    takes more than `limit_s` of machine time.
+    `rounds`: as on the virtual machine, which supports path tolerances.
     """
-    options = options or Options()
+    options, who = options or Options(), watchers or Watchers()
     settings = Settings(cells)
     timing: Forecast | Predictor
-    if reader is not None or can_plan(settings):  # every move is read, or curves are planned
-        either = reader or (desk if isinstance(desk, Preflight) else None)
+    if who.reader is not None or can_plan(settings):  # every move is read, or curves are planned
+        reader = who.reader or (who.desk if isinstance(who.desk, Preflight) else None)
         timing = Predictor(
-            settings, BEGIN, is_dry=options.is_dry, rounds=rounds, reader=either, progress=progress
-        )
+            settings, BEGIN, is_dry=options.is_dry, rounds=rounds, reader=reader,
+            progress=who.progress,
+        )  # fmt: skip
     else:
-        timing = Forecast(settings, BEGIN, is_dry=options.is_dry, rounds=rounds, desk=desk)
+        timing = Forecast(settings, BEGIN, is_dry=options.is_dry, rounds=rounds, desk=who.desk)
     machine = VirtualMachine(is_probed=settings.wiring.probe != NONE)
-    found = survey(program, cells, dialect, options, machine, _both(timing, look, limit_s))
+    found = survey(program, cells, dialect, options, machine, _both(timing, who.look, limit_s))
     timing.close()
     return found, timing.found
 
@@ -131,16 +138,9 @@ def checked(
 ) -> tuple[Survey, Prediction]:
     """Read a program, with findings about moves that the machine refuses or makes slower."""
     preflight = Preflight(Settings(cells))
+    watchers = Watchers(desk=preflight, look=look, progress=progress)
     found, prediction = surveyed(
-        program,
-        cells,
-        dialect,
-        options=options,
-        rounds=rounds,
-        desk=preflight,
-        look=look,
-        progress=progress,
-        limit_s=limit_s,
+        program, cells, dialect, watchers, options=options, rounds=rounds, limit_s=limit_s
     )
     found.add(preflight.findings(program.text_of))
     return found, prediction
