@@ -90,13 +90,10 @@ def _refused(dialect: Dialect) -> Iterator[tuple[str, ...]]:
     for row in refusals.rows:
         yield row.shown, row.error, row.reason
     for other in DIALECTS.values():
-        pairs = ((dialect.table.gcodes, other.table.gcodes),
-                 (dialect.table.mcodes, other.table.mcodes))  # fmt: skip
-        left = [
-            [code for number, code in sorted(theirs.items())
-             if number not in own and not refusals.of_code(code.name)]
-            for own, theirs in pairs
-        ]  # fmt: skip
+        own, theirs = dialect.table, other.table
+        pairs = (own.gcodes, theirs.gcodes), (own.mcodes, theirs.mcodes)
+        unknown = [[rows[n] for n in sorted(set(rows) - set(known))] for known, rows in pairs]
+        left = [[code for code in codes if not refusals.of_code(code.name)] for codes in unknown]
         if any(left):
             yield " ".join(map(_names, filter(None, left))), "E203, E205", other_dialect(other.name)
 

@@ -61,16 +61,14 @@ class Moves:
         """One move by itself."""
         kind, _, pace, plane, _, _, _, flags = self.rows[ROW * k : ROW * (k + 1)]
         source, end = self.source_of(k), self.end_of(k)
-        is_inserted, is_compensated = flags & INSERTED != 0, flags & COMPENSATED != 0
+        marks = flags & INSERTED != 0, flags & COMPENSATED != 0
         if kind == RAPID:
-            return Rapid(source, end, is_inserted)
+            return Rapid(source, end, marks[0])
         if kind == LINE:
-            return Line(source, end, self.paces[pace], is_inserted, is_compensated)
+            return Line(source, end, self.paces[pace], *marks)
         x, y, sweep, r0, r1 = self.arcs[CURVE * k : CURVE * (k + 1)]
-        return Arc(
-            source, end, PLANES[plane], (x, y), sweep, r0, r1, self.paces[pace], is_inserted,
-            is_compensated,
-        )  # fmt: skip
+        paced = self.paces[pace]
+        return Arc(source, end, PLANES[plane], (x, y), sweep, r0, r1, paced, *marks)
 
     def entries(self) -> Iterator[Rapid | Line | Arc]:
         """The moves one by one."""

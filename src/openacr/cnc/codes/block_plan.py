@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from openacr.cnc.canonical import AXIS_LETTERS
 from openacr.cnc.codes.table import DIALECTS, Axes, Code, Dialect, Group, Limit, check_limit
@@ -177,10 +177,8 @@ class BlockPlanner:
         if code is not None:
             return code
         if word.letter == "M" and self._custom and tenths // 10 in self.customs:
-            return Code(
-                "M", tenths / 10, self._custom.step, self._custom.act,
-                axes=Axes.DATA, takes_all=True,
-            )  # fmt: skip
+            own = replace(self._custom, letter="M", number=tenths / 10, words="")
+            return replace(own, axes=Axes.DATA, takes_all=True)
         name = f"{word.letter}{tenths / 10:g}"
         known = self._refusals.of_code(name) or self._known_to(word, tenths)
         raise CodeError(_UNKNOWN[word.letter], word.column, name, known)

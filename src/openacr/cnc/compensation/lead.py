@@ -17,7 +17,7 @@ from openacr.cnc.compensation.curve_cy import (
     X1,
     Y0,
     Y1,
-)  # fmt: skip
+)
 from openacr.cnc.compensation.rows import Piece, distance, place
 from openacr.cnc.compensation.rules import Report
 from openacr.views import F64

@@ -20,10 +20,10 @@ def take_drilling(run: Inside) -> None:
     drilling = run.drilling or Drilling()
     I[modes.is_drilling], I[holes.rises] = run.drilling is not None, run.dialect.rises_first
     F[holes.initial_u] = drilling.initial
-    levels = (drilling.level, holes.level_u, modes.level_form), (
-        drilling.bottom, holes.bottom_u, modes.bottom_form,
-    )  # fmt: skip
-    for level, number, how in levels:
+    for level, number, how in (
+        (drilling.level, holes.level_u, modes.level_form),
+        (drilling.bottom, holes.bottom_u, modes.bottom_form),
+    ):
         F[number] = level[0] if level else 0.0
         I[how] = (modes.INCREMENTS if level[1] else modes.WRITTEN) if level else 0
     I[modes.cycle_words] = 0

@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from openacr.cnc.codes.block_plan import Plan
     from openacr.cnc.codes.table import Code, Limit
 
-FIELDS = ("motion", "plane", "distance", "centres", "unit", "return_level", "path", "cycle",
-          "compensation")  # fmt: skip
+FIELDS = "motion plane distance centres unit return_level path cycle compensation".split()
 MOTION_WORDS = "IJKRQPL"  # of arcs and cycles
 STRAIGHT = 1
 _SET_STEPS = {"unit": plans.STEP_UNIT, "compensation": plans.STEP_KEEP}

@@ -236,8 +236,8 @@ def _together(many: list[Assignment], run: Inside) -> tuple[Assign, ...]:
     if not many:
         return ()
     pairs = [(one, Formula(one.value, run.parameters)) for one in many]
-    indices = [None if isinstance(one.index, str) else Formula(one.index, run.parameters)
-               for one in many]  # fmt: skip
+    named = [one.index for one in many]
+    indices = [None if isinstance(at, str) else Formula(at, run.parameters) for at in named]
 
     def act(node: Node) -> None:
         values = [value.now() for _, value in pairs]

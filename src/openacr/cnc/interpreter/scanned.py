@@ -46,10 +46,8 @@ class Scanned:
         notes = [k for k, kind in enumerate(kinds) if kind == moves.NOTE]
         for k in (*notes, count):
             if k > first:
-                found = Moves(
-                    origins, rows[first * ROW : k * ROW], ends[first * POINT : k * POINT],
-                    arcs[first * CURVE : k * CURVE], known,
-                )  # fmt: skip
+                which = rows[first * ROW : k * ROW], ends[first * POINT : k * POINT]
+                found = Moves(origins, *which, arcs[first * CURVE : k * CURVE], known)
                 if run.path.elements is None:
                     run.out.append(found)
                     run.is_rested = False

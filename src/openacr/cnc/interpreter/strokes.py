@@ -111,8 +111,8 @@ class Strokes:
         plan = planner.plan(block)
         jump = self._jump_of(node, places)
         writer = _CycleWriter(run.parameters, self._numbers_of(node))
-        body = rich_plan(plan, acting(plan, run), writer, self._notes, jump,
-                         assigns_last=False)  # fmt: skip
+        acts, notes = acting(plan, run), self._notes
+        body = rich_plan(plan, acts, writer, notes, jump, assigns_last=False)
         if body is None or not _is_of_a_cycle(body):
             raise NoCodeError
         if plan.is_motion:

@@ -118,7 +118,11 @@ def _arithmetic(operator: str) -> Function:
     return Function(eval(f"lambda x, y: {template.format('x', 'y')}"), template)
 
 
+NAMES: dict[str, Any] = {}  # what compiled formulas call by name
+
+
 def _called(work: Callable[..., float], count: int = 1) -> Function:
+    NAMES[work.__name__] = work
     holes = ", ".join(f"{{{k}}}" for k in range(count))
     return Function(work, f"{work.__name__}({holes})")
 
@@ -137,11 +141,3 @@ SIN, COS, TAN, ATAN = _called(sine), _called(cosine), _called(tangent), _called(
 ASIN, ACOS, ATAN2 = _called(arc_sine), _called(arc_cosine), _called(arc_tangent2, 2)
 SQRT, ABS, INT, ROUND = _called(math.sqrt), _called(math.fabs), _called(whole), _called(rounded)
 FIX, FUP, LN, EXP = _called(down), _called(up), _called(math.log), _called(math.exp)
-
-NAMES: dict[str, Any] = {
-    work.__name__: work
-    for work in (
-        sine, cosine, tangent, arc_tangent, arc_tangent2, arc_sine, arc_cosine, whole, rounded,
-        down, up, remainder, remainder_up, power, math.sqrt, math.fabs, math.log, math.exp,
-    )
-}  # fmt: skip

@@ -48,9 +48,7 @@ FREE_CELLS = (
     (1901, 1997),
     (4002, 4095),
 )
-OPERANDS = (
-    "read_p", "read_hash", "read_named", "has_named", "read_input", "read_output", "read_bit",
-)  # fmt: skip
+OPERANDS = "read_p read_hash read_named has_named read_input read_output read_bit".split()
 
 SHOWN: dict[int, Callable[[Modal], float]] = {
     CELLS.tool_selected: lambda m: float(m.tool),

@@ -40,11 +40,14 @@ def no_cycle(run: Run, b: BlockContext) -> None:
 
 
 @gcode(
-    73, 74, 76, 81, 82, 83, 84, 85, 86, 87, 88, 89,
-    step=Step.MOTION, group=Group.CYCLE, words="RQPL", takes="RQPL", axes=Axes.MOVE,
+    *(73, 74, 76, *range(81, 90)),
+    step=Step.MOTION,
+    group=Group.CYCLE,
+    takes="RQPL",
+    axes=Axes.MOVE,
     limits=(Limit("L", 0, 9999, "E250", is_whole=True), Limit("P", 0, 999.9, "E250")),
     fast=Does.DRILLS,
-)  # fmt: skip
+)
 def cycle(run: Run, b: BlockContext) -> Iterator[Entry]:
     """Drill, tap or bore at X Y from level R to Z; the cycle stays active until G80."""
     run.offset_path.refuse(b, "E312")

@@ -50,7 +50,7 @@ FORMS = {
 }
 
 
-@gcode(10, step=Step.DATA, words="LPR", takes="LPR", axes=Axes.DATA)
+@gcode(10, step=Step.DATA, takes="LPR", axes=Axes.DATA)
 def offsets(run: Run, b: BlockContext) -> Iterator[Entry]:
     """Write work offsets (L2 with R, L20), lengths (L10, L11), radii (L12, L13), fixtures (L14)."""
     form = FORMS.get(b.whole("L", code="E241"))

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from openacr.cnc.program.block_context import BlockContext
 
 gcode = ACROMILL.gcode
+_POINT = Limit("P", 2, 4, "E242", is_whole=True)
 REFERENCES = (
     CELLS.reference_point_1,
     CELLS.reference_point_2,
@@ -43,8 +44,7 @@ def to_reference(run: Run, b: BlockContext) -> Iterator[Entry]:
     return _through(run, b, 1)
 
 
-@gcode(30, step=Step.MOTION, words="P", takes="P", axes=Axes.MOVE,
-       limits=(Limit("P", 2, 4, "E242", is_whole=True),))  # fmt: skip
+@gcode(30, step=Step.MOTION, takes="P", axes=Axes.MOVE, limits=(_POINT,))
 def to_other_reference(run: Run, b: BlockContext) -> Iterator[Entry]:
     """As G28 with reference point P 2, 3 or 4; only homed axes."""
     for axis, letter in b.plan.axes:

@@ -26,7 +26,7 @@ def no_scale(run: Run, b: BlockContext) -> None:
     run.path.refresh()
 
 
-@gcode(51, step=Step.SCALE, group=Group.SCALE, words="PIJK", takes="PIJK", axes=Axes.DATA)
+@gcode(51, step=Step.SCALE, group=Group.SCALE, takes="PIJK", axes=Axes.DATA)
 def scale(run: Run, b: BlockContext) -> None:
     """Scale about a centre: P for all axes, or I, J, K for X, Y, Z; negative mirrors."""
     run.offset_path.refuse(b, "E311")
@@ -53,7 +53,7 @@ def centre_of(run: Run, b: BlockContext) -> tuple[float, ...]:
     return tuple(centre)
 
 
-@gcode(68, step=Step.ROTATION, group=Group.ROTATION, words="R", takes="R", axes=Axes.DATA)
+@gcode(68, step=Step.ROTATION, group=Group.ROTATION, takes="R", axes=Axes.DATA)
 def rotate(run: Run, b: BlockContext) -> None:
     """Rotate the plane by R degrees about a centre, + counter-clockwise."""
     run.offset_path.refuse(b, "E311")

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 
 mcode = RS274NGC.mcode
 FIELDS = (
-    "plane", "distance", "unit", "length", "return_level", "path", "tolerance", "centres", "feed",
-    "feed_mode", "has_feed", "speed", "spin", "mist", "flood", "is_feed_locked",
-)  # fmt: skip
+    "plane distance unit length return_level path tolerance centres feed feed_mode has_feed speed"
+    " spin mist flood is_feed_locked"
+).split()
 _SPINDLE, _COOLANT = ("spin", "speed"), ("mist", "flood")
 
 

@@ -46,6 +46,9 @@ INCREMENTAL = 91
 TABLE, FIXTURE = 1, 11  # L of G10: as given; read in G59.3 without G92
 LAST_OF_ALL = 9  # work systems
 FEED_UNITS = {INCH: "inches/min", METRIC: "mm/min"}
+_SECONDS = Limit("P", 0, 1e6, "E222", is_needed=True)
+_LENGTH_NUMBER = Limit("H", 0, 999, "E222", is_whole=True)
+_ENDS_CYCLE = (Does.ENDS_CYCLE, Sets("motion", motion.NO_MOTION))
 REFERENCE_CELLS = {28: CELLS.reference_point_1, 30: CELLS.reference_point_2}
 RS274NGC.include(
     ACROMILL,
@@ -54,15 +57,13 @@ RS274NGC.include(
 )
 
 
-@gcode(4, step=Step.DWELL, takes="P",
-       limits=(Limit("P", 0, 1e6, "E222", is_needed=True),), fast=Does.RESTS)  # fmt: skip
+@gcode(4, step=Step.DWELL, takes="P", limits=(_SECONDS,), fast=Does.RESTS)
 def dwell(run: Run, b: BlockContext) -> None:
     """Rest for P seconds, then move if there are axis words."""
     run.tell(Dwell(b.source, b.words["P"]))
 
 
-@gcode(80, step=Step.CYCLE_OFF, group=Group.CYCLE,
-       fast=(Does.ENDS_CYCLE, Sets("motion", motion.NO_MOTION)))  # fmt: skip
+@gcode(80, step=Step.CYCLE_OFF, group=Group.CYCLE, fast=_ENDS_CYCLE)
 def no_motion(run: Run, b: BlockContext) -> None:
     """No motion is active: axis words have no meaning until one is chosen, here or later."""
     run.modal.cycle = cycles.NONE
@@ -70,9 +71,16 @@ def no_motion(run: Run, b: BlockContext) -> None:
     run.drilling = None
 
 
-@gcode(73, 74, 81, 82, 83, 84, 85, 86, 89, step=Step.MOTION, group=Group.MOTION,
-       words="RQPL", takes="RQPL", axes=Axes.MOVE, is_polar=True,
-       limits=(Limit("L", 1, 9999, "E250", is_whole=True),), fast=Does.DRILLS)  # fmt: skip
+@gcode(
+    *(73, 74, *range(81, 87), 89),
+    step=Step.MOTION,
+    group=Group.MOTION,
+    takes="RQPL",
+    axes=Axes.MOVE,
+    is_polar=True,
+    limits=(Limit("L", 1, 9999, "E250", is_whole=True),),
+    fast=Does.DRILLS,
+)
 def cycle(run: Run, b: BlockContext) -> Iterator[Entry]:
     """A canned cycle; it ends at the higher of R and where it began (G98) or at R (G99)."""
     no_open_curve(run, b)
@@ -161,8 +169,13 @@ def compensation(run: Run, b: BlockContext) -> None:
     run.offset_path.switch(b, int(b.number))
 
 
-@gcode(41.1, 42.1, step=Step.COMPENSATION, group=Group.COMPENSATION, takes="D",
-       limits=(Limit("D", 0, 1e6, "E222", is_needed=True),))  # fmt: skip
+@gcode(
+    *(41.1, 42.1),
+    step=Step.COMPENSATION,
+    group=Group.COMPENSATION,
+    takes="D",
+    limits=(Limit("D", 0, 1e6, "E222", is_needed=True),),
+)
 def compensation_by_diameter(run: Run, b: BlockContext) -> None:
     """Cutter radius compensation left or right; D is the diameter itself."""
     run.modal.radius_number = 0
@@ -171,8 +184,7 @@ def compensation_by_diameter(run: Run, b: BlockContext) -> None:
     run.offset_path.switch(b, int(b.number))
 
 
-@gcode(43, step=Step.LENGTH, group=Group.LENGTH, words="H", takes="H",
-       limits=(Limit("H", 0, 999, "E222", is_whole=True),))  # fmt: skip
+@gcode(43, step=Step.LENGTH, group=Group.LENGTH, takes="H", limits=(_LENGTH_NUMBER,))
 def length(run: Run, b: BlockContext) -> None:
     """The length of H, or of the tool, is added to Z."""
     run.path.coordinates.added = ORIGIN
@@ -194,8 +206,14 @@ def length_of_words(run: Run, b: BlockContext) -> None:
     run.path.refresh()
 
 
-@gcode(43.2, step=Step.LENGTH, group=Group.LENGTH, words="H", takes="H", axes=Axes.DATA,
-       limits=(Limit("H", 0, 999, "E222", is_whole=True),))  # fmt: skip
+@gcode(
+    43.2,
+    step=Step.LENGTH,
+    group=Group.LENGTH,
+    takes="H",
+    axes=Axes.DATA,
+    limits=(_LENGTH_NUMBER,),
+)
 def more_length(run: Run, b: BlockContext) -> None:
     """The length of H, or the axis words, are added to the offset there is."""
     if ("H" in b.words) == bool(b.plan.axes):
@@ -229,8 +247,7 @@ def exact_stop(run: Run, b: BlockContext) -> None:
     _path(run, 61)
 
 
-@gcode(64, step=Step.PATH, group=Group.PATH, words="PQ", takes="PQ",
-       limits=(Limit("P", 0, 1e6, "E222"),))  # fmt: skip
+@gcode(64, step=Step.PATH, group=Group.PATH, takes="PQ", limits=(Limit("P", 0, 1e6, "E222"),))
 def blended(run: Run, b: BlockContext) -> None:
     """No slowing at corners; with P they are rounded within it, where the machine can."""
     _path(run, 64, run.path.length(b.get("P")))
@@ -313,7 +330,7 @@ def zero_offset(run: Run, b: BlockContext) -> None:
             clear_zero(run)
 
 
-@gcode(10, step=Step.DATA, words="LPR", takes="LPR", axes=Axes.DATA)
+@gcode(10, step=Step.DATA, takes="LPR", axes=Axes.DATA)
 def offsets(run: Run, b: BlockContext) -> Iterator[Entry]:
     """L2 (R turns it about Z) and L20 write work systems, L1, L10 and L11 the tool table."""
     table = b.whole("L", code="E241")

@@ -24,6 +24,7 @@ FIRST_OUTPUT = 32
 WAITS = {1: (True, True), 2: (False, True), 3: (True, False), 4: (False, False)}
 RS274NGC.include(ACROMILL, mcodes=(0, 1, 2, 3, 4, 5, 6, 7, 8, 9))
 _NUMBER = Limit("P", 0, 31, "E222", is_needed=True, is_whole=True)
+_TOOL = Limit("Q", 0, 999, "E222", is_needed=True, is_whole=True)
 _WAIT = (_NUMBER, Limit("L", 0, 4, "E222", is_whole=True), Limit("Q", 0, 1e6, "E222"))
 
 mcode(30, step=Step.STOP)(stops.end)
@@ -42,7 +43,7 @@ def overrides(run: Run, b: BlockContext) -> None:
     _lock(run, b.number == 49)
 
 
-@mcode(50, step=Step.SWITCHES, words="P", takes="P")
+@mcode(50, step=Step.SWITCHES, takes="P")
 def feed_override(run: Run, b: BlockContext) -> None:
     """Feed override acts (P1) or not (P0)."""
     _lock(run, b.get("P", 1.0) == 0.0)
@@ -53,7 +54,7 @@ def _lock(run: Run, is_locked: bool) -> None:
     run.path.change_pace()
 
 
-@mcode(51, 52, 53, step=Step.SWITCHES, words="P", takes="P")
+@mcode(51, 52, 53, step=Step.SWITCHES, takes="P")
 def other_overrides(run: Run, b: BlockContext) -> None:
     """Spindle override, adaptive feed and feed stop are the operator's: accepted."""
 
@@ -64,8 +65,7 @@ def output(run: Run, b: BlockContext) -> None:
     run.tell(Output(b.source, FIRST_OUTPUT + b.whole("P"), b.number in (62, 64)))
 
 
-@mcode(61, step=Step.TOOL_CHANGE, takes="Q",
-       limits=(Limit("Q", 0, 999, "E222", is_needed=True, is_whole=True),))  # fmt: skip
+@mcode(61, step=Step.TOOL_CHANGE, takes="Q", limits=(_TOOL,))
 def set_tool(run: Run, b: BlockContext) -> None:
     """Tool Q is in the spindle; nothing is changed."""
     run.modal.tool_in_spindle = b.whole("Q")
@@ -73,7 +73,7 @@ def set_tool(run: Run, b: BlockContext) -> None:
         run.tell(SetCell(b.source, TOOL_IN_SPINDLE, run.modal.tool_in_spindle))
 
 
-@mcode(66, step=Step.SWITCHES, takes="PLQ", words="PLQ", limits=_WAIT, acts_dry=False)
+@mcode(66, step=Step.SWITCHES, takes="PLQ", limits=_WAIT, acts_dry=False)
 def wait_input(run: Run, b: BlockContext) -> Iterator[Entry]:
     """Input P into #5399; first wait until it goes on (L1) or off (L2), is on (L3) or off (L4).
 
@@ -94,7 +94,7 @@ def wait_input(run: Run, b: BlockContext) -> Iterator[Entry]:
     run.parameters.set_waited(-1.0 if is_late else found)
 
 
-@mcode(98, step=Step.STOP, takes="PL", words="PL")
+@mcode(98, step=Step.STOP, takes="PL")
 def call(run: Run, b: BlockContext) -> Iterator[Entry]:
     """Call O-subroutine P, L times."""
     for _ in range(b.whole("L", 1)):

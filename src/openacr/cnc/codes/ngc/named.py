@@ -55,6 +55,11 @@ def _place(letter: str, point: str) -> Callable[[Run], float]:
     return read
 
 
+def _line(run: Run) -> float:
+    node = run.execution.node
+    return float(node.line) if node else 0.0
+
+
 for _letter in AXIS_LETTERS:
     _add(f"_{_letter}", _place(_letter, "program"), f"{_letter} of the program, active units")
 for _letter in AXIS_LETTERS:
@@ -90,8 +95,7 @@ _add("_FEED_HOLD", lambda run: 1.0, "1: feed hold always acts")
 _add("_ADAPTIVE_FEED", lambda run: 0.0, "0: there is none")
 _add("_LATHE_DIAMETER_MODE", lambda run: 0.0, "0: there is no G7")
 _add("_LATHE_RADIUS_MODE", lambda run: 0.0, "0: there is no G8")
-_add("_LINE", lambda run: float(run.execution.node.line if run.execution.node else 0),
-     "the line of this block")  # fmt: skip
+_add("_LINE", _line, "the line of this block")
 _add("_CALL_LEVEL", lambda run: float(len(run.flow.frames)), "how many calls deep")
 _add("_VALUE", lambda run: 0.0, "what the last subroutine returned")
 _add("_VALUE_RETURNED", lambda run: 0.0, "1 where it returned something")

@@ -28,11 +28,9 @@ if TYPE_CHECKING:
 
 Act = Callable[[Node], "Iterator[Entry] | None"]
 KINDS = frozenset(
-    {
-        "SUB", "ENDSUB", "CALL", "RETURN", "WHILE", "ENDWHILE", "DO", "IF", "ELSEIF", "ELSE",
-        "ENDIF", "REPEAT", "ENDREPEAT", "BREAK", "CONTINUE",
-    }
-)  # fmt: skip
+    "SUB ENDSUB CALL RETURN WHILE ENDWHILE DO IF ELSEIF ELSE ENDIF REPEAT ENDREPEAT BREAK"
+    " CONTINUE".split()
+)
 NEEDS_VALUE = frozenset({"WHILE", "IF", "ELSEIF", "REPEAT"})
 ENDS = {"WHILE": ("ENDWHILE",), "REPEAT": ("ENDREPEAT",), "SUB": ("ENDSUB",), "DO": ("WHILE",)}
 BRANCHES = ("ELSEIF", "ELSE", "ENDIF")
@@ -102,8 +100,8 @@ class OWords:
 
         That are WHILE and IF with ELSE, each once, with nothing else of that name.
         """
-        kinds = [one.kind for one in self._run.program.o_words.get(word.name, [])
-                 if one.place.part is part]  # fmt: skip
+        named = self._run.program.o_words.get(word.name, [])
+        kinds = [one.kind for one in named if one.place.part is part]
         return word.number is None and kinds in PLAIN
 
     # --- places -----------------------------------------------------------------------

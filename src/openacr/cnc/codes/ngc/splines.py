@@ -34,7 +34,7 @@ _WEIGHT = Limit("P", 1e-6, 1e6, "E235")
 Vector = tuple[float, float]
 
 
-@gcode(5, step=Step.MOTION, group=Group.MOTION, words="IJPQ", takes="IJPQ", axes=Axes.MOVE)
+@gcode(5, step=Step.MOTION, group=Group.MOTION, takes="IJPQ", axes=Axes.MOVE)
 def cubic(run: Run, b: BlockContext) -> None:
     """A cubic spline; I J from the start, P Q from the end to its control points."""
     _check(run, b)
@@ -58,7 +58,7 @@ def _out(run: Run, b: BlockContext) -> Vector:
     return run.curve.onward
 
 
-@gcode(5.1, step=Step.MOTION, group=Group.MOTION, words="IJ", takes="IJ", axes=Axes.MOVE)
+@gcode(5.1, step=Step.MOTION, group=Group.MOTION, takes="IJ", axes=Axes.MOVE)
 def quadratic(run: Run, b: BlockContext) -> None:
     """A quadratic spline; I J lead from the start to its control point."""
     _check(run, b)
@@ -69,7 +69,7 @@ def quadratic(run: Run, b: BlockContext) -> None:
     _cut(run, b, Spline((_pair(start), middle, _pair(end)), (1.0,) * 3, 3), end)
 
 
-@gcode(POINTS, step=Step.MOTION, group=Group.MOTION, words="PL", takes="PL", axes=Axes.MOVE)
+@gcode(POINTS, step=Step.MOTION, group=Group.MOTION, takes="PL", axes=Axes.MOVE)
 def begin_curve(run: Run, b: BlockContext) -> None:
     """Control points X Y of weight P of a NURBS of order L, up to G5.3."""
     _check(run, b, may_be_open=True)
