@@ -89,7 +89,7 @@ class Link:
             self.session = self.installation.open(say, self.is_awaited)
         except StopWaitsError:
             self.installation.is_agreed = self.installation.is_virtual
-            self.retry_s = now_s + RETRY_S
+            self.wait(now_s)
             if not self.is_ending:
                 self._note(BROKEN_OFF)
             return
@@ -110,6 +110,10 @@ class Link:
     def lose(self, why: str, now_s: float) -> None:
         """Note why there is no session, and when another one is tried."""
         self._note(why)
+        self.wait(now_s)
+
+    def wait(self, now_s: float) -> None:
+        """Try again in RETRY_S, not before."""
         self.retry_s = now_s + RETRY_S
 
     def note_poll(self) -> None:

@@ -24,7 +24,7 @@ from openacr.panel.control.installation import Installation
 from openacr.panel.control.interlocks import Interlocks
 from openacr.panel.control.jobs import Jobs
 from openacr.panel.control.lamp import Lamp
-from openacr.panel.control.link import RETRY_S, Link, reason
+from openacr.panel.control.link import Link, reason
 from openacr.panel.control.on_card import OnCard
 from openacr.panel.control.orders import LATER, Order, failure
 from openacr.panel.control.part import Part
@@ -233,7 +233,7 @@ class Station:
         except LINK_ERRORS as lost:
             log.info("%s", lost)
         if self.installation.waits_for_rest and now_s >= self.link.retry_s:
-            self.link.retry_s = now_s + RETRY_S
+            self.link.wait(now_s)
             self.screens.guarded(self._set_up_at_rest)
         if self.interlocks.rests:
             self.settings.store_kept()
