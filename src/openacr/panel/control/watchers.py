@@ -1,4 +1,4 @@
-"""Clients that watch a state as a whole: each is told at its own rate, when it has changed."""
+"""Clients that watch a state as a whole: each gets it at its own rate, when it has changed."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
