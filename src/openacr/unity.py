@@ -44,8 +44,9 @@ from openacr.unity_c import (
 
 PACKAGE = Path(__file__).parent
 CONSTANT_MODULES = ("openacr.map.numbers",)
-OWN_ROWS = "openacr.cnc.rows"  # written by hand; the others are generated, as the numbers are
-ROW_PACKAGES = ("openacr.map.rows", "openacr.map.words", OWN_ROWS)
+OWN_ROWS = "openacr.cnc.rows"  # written by hand; the others are generated: places, masks, and
+# the numbers that both are made of
+ROW_PACKAGES = ("openacr.map", "openacr.map.rows", "openacr.map.words", OWN_ROWS)
 
 
 def source_files() -> list[Path]:

@@ -10,53 +10,9 @@ from openacr.basic.vm.scheduler_cy import EXECUTED, scheduler_step
 from openacr.engine.quiet_cy import plcs_step, quiet_step, quiet_stir
 from openacr.engine.trace_cy import trace_tick
 from openacr.engine.watch_cy import watch_fired
-from openacr.map.numbers import (
-    ENGI_BASE,
-    ENGI_IN_TICK,
-    ENGI_STATEMENTS,
-    ENGI_STOP,
-    ENGI_TICKS_LEFT,
-    ENGI_TRACE_EVERY,
-    ENGI_TRACE_ROW,
-    ENGI_TRACE_ROWS,
-    ENGI_TRACE_WAIT,
-    ENGI_UNTIL_MASK,
-    ENGI_UNTIL_STATE,
-    ENGI_UNTIL_WORD,
-    ENGI_WATCH_COUNT,
-    KRI_AXES,
-    KRI_BASE,
-    KRI_MOVES_WAITING,
-    MDVF_BASE,
-    MDVF_DUE_TK,
-    MSI_BASE,
-    MSI_QUEUED,
-    MSI_ROOM_BELOW,
-    MSI_STRIDE,
-    PF_BLOCK_CONTROL,
-    PF_BLOCK_MODE,
-    PF_HALT_REQUEST_FLAG,
-    PF_PAUSE_CONTROL,
-    PF_PAUSE_MODE,
-    PF_RUN_REQUEST_FLAG,
-    PF_STEP_CONTROL,
-    PF_STEP_EDGE_DETECT,
-    PF_WORD,
-    PLC_COUNT,
-    PLF_HALT_REQUEST,
-    PLF_RUN_REQUEST,
-    PLF_WORD,
-    STRM_ESCAPE_REQUEST,
-    STRM_OPEN_REQUEST,
-    SYSI_BASE,
-    SYSI_SLOW_PHASE,
-    SYSI_TICK_HIGH,
-    SYSI_TICK_LOW,
-    W_COM1,
-    W_COM2,
-    W_DPCB,
-    W_FIFO,
-)
+from openacr.map import numbers as at
+from openacr.map.rows import engine, kernel, machine_devices, plcs, system
+from openacr.map.words import pf, plf, strm
 from openacr.network.wake_cy import networks_due
 from openacr.views import F32, F64, I32
 
@@ -82,44 +38,43 @@ REQUESTS_DONE = 4  # `EXECUTED` of the scheduler follows
 
 PROGRAMS = 16
 CONTROLS = (
-    PF_RUN_REQUEST_FLAG
-    | PF_HALT_REQUEST_FLAG
-    | PF_BLOCK_CONTROL
-    | PF_BLOCK_MODE
-    | PF_PAUSE_CONTROL
-    | PF_PAUSE_MODE
-    | PF_STEP_CONTROL
-    | PF_STEP_EDGE_DETECT
+    pf.RUN_REQUEST_FLAG
+    | pf.HALT_REQUEST_FLAG
+    | pf.BLOCK_CONTROL
+    | pf.BLOCK_MODE
+    | pf.PAUSE_CONTROL
+    | pf.PAUSE_MODE
+    | pf.STEP_CONTROL
+    | pf.STEP_EDGE_DETECT
 )
-CHANNEL_REQUESTS = STRM_OPEN_REQUEST | STRM_ESCAPE_REQUEST
+CHANNEL_REQUESTS = strm.OPEN_REQUEST | strm.ESCAPE_REQUEST
 
 
 def until_met(I: I32) -> bool:
     """Whether the flag the caller waits for has its state."""
-    e: int = ENGI_BASE
-    word: int = I[e + ENGI_UNTIL_WORD]
+    word: int = I[engine.until_word]
     if word <= 0:
         return False
-    on: int = 1 if I[word] & I[e + ENGI_UNTIL_MASK] else 0
-    return on == I[e + ENGI_UNTIL_STATE]
+    on: int = 1 if I[word] & I[engine.until_mask] else 0
+    return on == I[engine.until_state]
 
 
 def requests_pending(I: I32) -> bool:
     """Whether, in this slow scan, flags of a program, PLC or channel request something."""
-    if I[SYSI_BASE + SYSI_SLOW_PHASE]:
+    if I[system.slow_phase]:
         return False
-    if (I[W_FIFO] | I[W_COM1] | I[W_COM2] | I[W_DPCB]) & CHANNEL_REQUESTS:
+    if (I[at.W_FIFO] | I[at.W_COM1] | I[at.W_COM2] | I[at.W_DPCB]) & CHANNEL_REQUESTS:
         return True
-    for n in range(PLC_COUNT):
-        if I[PLF_WORD + n] & (PLF_RUN_REQUEST | PLF_HALT_REQUEST):
+    for n in range(plcs.COUNT):
+        if I[at.PLF_WORD + n] & (plf.RUN_REQUEST | plf.HALT_REQUEST):
             return True
     for p in range(PROGRAMS):
-        flags: int = I[PF_WORD + p]
+        flags: int = I[at.PF_WORD + p]
         if flags & CONTROLS and (
-            flags & (PF_RUN_REQUEST_FLAG | PF_HALT_REQUEST_FLAG)
-            or (flags & PF_BLOCK_CONTROL != 0) != (flags & PF_BLOCK_MODE != 0)
-            or (flags & PF_PAUSE_CONTROL != 0) != (flags & PF_PAUSE_MODE != 0)
-            or (flags & PF_STEP_CONTROL != 0) != (flags & PF_STEP_EDGE_DETECT != 0)
+            flags & (pf.RUN_REQUEST_FLAG | pf.HALT_REQUEST_FLAG)
+            or (flags & pf.BLOCK_CONTROL != 0) != (flags & pf.BLOCK_MODE != 0)
+            or (flags & pf.PAUSE_CONTROL != 0) != (flags & pf.PAUSE_MODE != 0)
+            or (flags & pf.STEP_CONTROL != 0) != (flags & pf.STEP_EDGE_DETECT != 0)
         ):
             return True
     return False
@@ -127,12 +82,12 @@ def requests_pending(I: I32) -> bool:
 
 def room_made(I: I32) -> bool:
     """Whether a master for which binary moves wait has room in its buffer."""
-    waiting: int = I[KRI_BASE + KRI_MOVES_WAITING]
+    waiting: int = I[kernel.moves_waiting]
     m: int = 0
     while waiting:
         if waiting & 1:
-            i: int = MSI_BASE + m * MSI_STRIDE
-            if I[i + MSI_QUEUED] < I[i + MSI_ROOM_BELOW]:
+            i: int = at.MSI_BASE + m * at.MSI_STRIDE
+            if I[i + at.MSI_QUEUED] < I[i + at.MSI_ROOM_BELOW]:
                 return True
         waiting = waiting >> 1
         m += 1
@@ -141,54 +96,53 @@ def room_made(I: I32) -> bool:
 
 def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64, seen: I32) -> int:
     """Run until the requested ticks are done or Python is needed; return the reason."""
-    e: int = ENGI_BASE
     quiet_stir(seen)  # the caller may have changed anything
-    axes: int = I[KRI_BASE + KRI_AXES]
+    axes: int = I[kernel.axes]
     while True:
-        number: int = I[SYSI_BASE + SYSI_TICK_HIGH] * 2147483648 + I[SYSI_BASE + SYSI_TICK_LOW]
-        if I[e + ENGI_IN_TICK] == SERVO_DONE:
-            I[e + ENGI_IN_TICK] = DEVICES_DONE
-            due: float = F[MDVF_BASE + MDVF_DUE_TK]
+        number: int = I[system.tick_high] * 2147483648 + I[system.tick_low]
+        if I[engine.in_tick] == SERVO_DONE:
+            I[engine.in_tick] = DEVICES_DONE
+            due: float = F[machine_devices.due_tk]
             if due > 0.0 and float(number) >= due:
                 return DEVICES
-        if I[e + ENGI_IN_TICK] == DEVICES_DONE:
-            I[e + ENGI_IN_TICK] = NETWORKS_DONE
+        if I[engine.in_tick] == DEVICES_DONE:
+            I[engine.in_tick] = NETWORKS_DONE
             if networks_due(F, I, number):
                 return NETWORKS
-        if I[e + ENGI_IN_TICK] == NETWORKS_DONE:
-            I[e + ENGI_IN_TICK] = REQUESTS_DONE
+        if I[engine.in_tick] == NETWORKS_DONE:
+            I[engine.in_tick] = REQUESTS_DONE
             if requests_pending(I):
                 return REQUESTS
-        if I[e + ENGI_IN_TICK] and I[KRI_BASE + KRI_MOVES_WAITING] and room_made(I):
+        if I[engine.in_tick] and I[kernel.moves_waiting] and room_made(I):
             return ROOM
-        if I[e + ENGI_IN_TICK]:
+        if I[engine.in_tick]:
             thread: int = scheduler_step(F, I, S, code, nums, number)
             if thread:
                 return THREAD + thread - 1
-            if I[e + ENGI_IN_TICK] == EXECUTED:
+            if I[engine.in_tick] == EXECUTED:
                 quiet_stir(seen)
-            I[e + ENGI_IN_TICK] = 0
+            I[engine.in_tick] = 0
             if until_met(I):
-                I[e + ENGI_UNTIL_WORD] = 0
+                I[engine.until_word] = 0
                 return UNTIL_MET
-            if I[e + ENGI_WATCH_COUNT] and watch_fired(F, I, S):
-                I[e + ENGI_STOP] = 0
+            if I[engine.watch_count] and watch_fired(F, I, S):
+                I[engine.stop] = 0
                 return WATCH
-            if I[e + ENGI_STOP]:
-                I[e + ENGI_STOP] = 0
+            if I[engine.stop]:
+                I[engine.stop] = 0
                 return STOPPED
-        if I[e + ENGI_TICKS_LEFT] <= 0:
+        if I[engine.ticks_left] <= 0:
             return DONE
         if (
-            I[e + ENGI_TRACE_EVERY] > 0
-            and I[e + ENGI_TRACE_WAIT] <= 1
-            and I[e + ENGI_TRACE_ROW] >= I[e + ENGI_TRACE_ROWS]
+            I[engine.trace_every] > 0
+            and I[engine.trace_wait] <= 1
+            and I[engine.trace_row] >= I[engine.trace_rows]
         ):
             return TRACE_FULL
-        I[e + ENGI_TICKS_LEFT] -= 1
-        I[e + ENGI_STATEMENTS] = 0
+        I[engine.ticks_left] -= 1
+        I[engine.statements] = 0
         quiet_step(F, I, S, seen, axes)
         plcs_step(F, I, seen)
-        if I[e + ENGI_TRACE_EVERY] > 0:
+        if I[engine.trace_every] > 0:
             trace_tick(F, I, S, trace)
-        I[e + ENGI_IN_TICK] = SERVO_DONE
+        I[engine.in_tick] = SERVO_DONE

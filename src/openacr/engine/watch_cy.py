@@ -1,23 +1,7 @@
 """Watched values, so that a caller waiting for them need not poll in every tick."""
 
-from openacr.map.numbers import (
-    AX_ACTUAL_POSITION,
-    AX_PPU,
-    ENGI_BASE,
-    ENGI_WATCH_COUNT,
-    WAT_COUNT,
-    WATF_BASE,
-    WATF_BOUND,
-    WATF_STRIDE,
-    WATI_BASE,
-    WATI_FIRED,
-    WATI_IS_ABOVE,
-    WATI_KIND,
-    WATI_MASK,
-    WATI_ROW,
-    WATI_STATE,
-    WATI_STRIDE,
-)
+from openacr.map import numbers as at
+from openacr.map.rows import engine, watches
 from openacr.views import F32, F64, I32
 
 __all__ = ["watch_fired"]
@@ -40,8 +24,8 @@ def watch_value(F: F64, I: I32, S: F32, kind: int, row: int) -> float:
     elif kind == WATCH_FP64:
         value = F[row]
     elif kind == WATCH_AXIS:
-        value = I[row + AX_ACTUAL_POSITION]
-        ppu: float = S[row + AX_PPU]
+        value = I[row + at.AX_ACTUAL_POSITION]
+        ppu: float = S[row + at.AX_PPU]
         if ppu != 0.0:
             value /= ppu
     return value
@@ -49,13 +33,13 @@ def watch_value(F: F64, I: I32, S: F32, kind: int, row: int) -> float:
 
 def watch_state(F: F64, I: I32, S: F32, n: int) -> int:
     """The masked bits of a word, or whether a number is beyond its bound."""
-    w: int = WATI_BASE + n * WATI_STRIDE
-    row: int = I[w + WATI_ROW]
-    if I[w + WATI_KIND] == WATCH_WORD:
-        return I[row] & I[w + WATI_MASK]
-    value: float = watch_value(F, I, S, I[w + WATI_KIND], row)
-    bound: float = F[WATF_BASE + n * WATF_STRIDE + WATF_BOUND]
-    if I[w + WATI_IS_ABOVE]:
+    w: int = at.WATI_BASE + n * at.WATI_STRIDE
+    row: int = I[w + at.WATI_ROW]
+    if I[w + at.WATI_KIND] == WATCH_WORD:
+        return I[row] & I[w + at.WATI_MASK]
+    value: float = watch_value(F, I, S, I[w + at.WATI_KIND], row)
+    bound: float = F[at.WATF_BASE + n * at.WATF_STRIDE + at.WATF_BOUND]
+    if I[w + at.WATI_IS_ABOVE]:
         return 1 if value > bound else 0
     return 1 if value < bound else 0
 
@@ -63,12 +47,12 @@ def watch_state(F: F64, I: I32, S: F32, n: int) -> int:
 def watch_fired(F: F64, I: I32, S: F32) -> bool:
     """Whether a watched value has changed since the last call."""
     fired: bool = False
-    count: int = min(I[ENGI_BASE + ENGI_WATCH_COUNT], WAT_COUNT)
+    count: int = min(I[engine.watch_count], watches.COUNT)
     for n in range(count):
         state: int = watch_state(F, I, S, n)
-        w: int = WATI_BASE + n * WATI_STRIDE
-        if state != I[w + WATI_STATE]:
-            I[w + WATI_STATE] = state
-            I[w + WATI_FIRED] = 1
+        w: int = at.WATI_BASE + n * at.WATI_STRIDE
+        if state != I[w + at.WATI_STATE]:
+            I[w + at.WATI_STATE] = state
+            I[w + at.WATI_FIRED] = 1
             fired = True
     return fired

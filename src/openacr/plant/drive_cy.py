@@ -21,39 +21,7 @@ is exactly 0 and the position does not creep) or leaves in the other direction.
 """
 
 from openacr.cmath import exp, fabs, log, rint
-from openacr.map.numbers import (
-    DAC_BASE,
-    DAC_DAC_OUTPUT,
-    DAC_STRIDE,
-    PLF_ACCEL_PER_VOLT,
-    PLF_BACK_EMF_PER_S,
-    PLF_CACHED_DT_S,
-    PLF_COULOMB_ACCEL,
-    PLF_DAC_STEP,
-    PLF_DECAY,
-    PLF_GLIDE_S,
-    PLF_LAG_DECAY,
-    PLF_LAG_S,
-    PLF_OFFSET_V,
-    PLF_PEAK_ACCEL,
-    PLF_POSITION_CNT,
-    PLF_PUSH_S2,
-    PLF_SPEED_PER_VOLT_CPS,
-    PLF_STATIC_ACCEL,
-    PLF_SUPPLY_ACCEL,
-    PLF_VELOCITY_CPS,
-    PLF_VISCOUS_PER_S,
-    PLF_VOLTS,
-    PLI_CABLE_CUT,
-    PLI_DAC,
-    PLI_DRIVE_ENABLED,
-    PLI_DRIVE_FAULT,
-    PLI_DRIVE_READY,
-    PLI_FAULT_CLOSED,
-    PLI_FAULT_MASK,
-    PLI_FAULT_REPORT,
-    PLI_FAULT_WORD,
-)
+from openacr.map import numbers as at
 from openacr.views import F32, F64, I32
 
 FULL_SCALE_DAC = 32767.0
@@ -67,23 +35,25 @@ FAULT_REPORTED = 2
 
 def drive_ready(I: I32, i: int) -> int:
     """1 while the drive is enabled and has no fault, and its motor is connected."""
-    if I[i + PLI_FAULT_MASK] != 0:
+    if I[i + at.PLI_FAULT_MASK] != 0:
         level: int = 0
-        if (I[I[i + PLI_FAULT_WORD]] & I[i + PLI_FAULT_MASK]) != 0:
+        if (I[I[i + at.PLI_FAULT_WORD]] & I[i + at.PLI_FAULT_MASK]) != 0:
             level = 1
-        I[i + PLI_DRIVE_FAULT] = level ^ I[i + PLI_FAULT_CLOSED]
-    elif I[i + PLI_FAULT_REPORT] != 0:
-        I[i + PLI_DRIVE_FAULT] = 1 if I[i + PLI_FAULT_REPORT] == FAULT_REPORTED else 0
+        I[i + at.PLI_DRIVE_FAULT] = level ^ I[i + at.PLI_FAULT_CLOSED]
+    elif I[i + at.PLI_FAULT_REPORT] != 0:
+        I[i + at.PLI_DRIVE_FAULT] = 1 if I[i + at.PLI_FAULT_REPORT] == FAULT_REPORTED else 0
     ready: int = 0
-    if I[i + PLI_DRIVE_ENABLED] != 0 and I[i + PLI_DRIVE_FAULT] == 0:
-        ready = 1 if I[i + PLI_CABLE_CUT] == 0 else 0
-    I[i + PLI_DRIVE_READY] = ready
+    if I[i + at.PLI_DRIVE_ENABLED] != 0 and I[i + at.PLI_DRIVE_FAULT] == 0:
+        ready = 1 if I[i + at.PLI_CABLE_CUT] == 0 else 0
+    I[i + at.PLI_DRIVE_READY] = ready
     return ready
 
 
 def drive_volts(F: F64, I: I32, S: F32, f: int, i: int) -> None:
     """Put the output of the card on the drive, with the offset of the drive's own input."""
-    F[f + PLF_VOLTS] = converter_volts(S, I[i + PLI_DAC], F[f + PLF_DAC_STEP]) + F[f + PLF_OFFSET_V]
+    F[f + at.PLF_VOLTS] = (
+        converter_volts(S, I[i + at.PLI_DAC], F[f + at.PLF_DAC_STEP]) + F[f + at.PLF_OFFSET_V]
+    )
 
 
 def converter_volts(S: F32, dac: int, step: float) -> float:
@@ -92,7 +62,7 @@ def converter_volts(S: F32, dac: int, step: float) -> float:
     DAC OUTPUT is what the card wants at its terminals, DAC GAIN and OFFSET included. A value
     that is no number gives 0 V.
     """
-    output: float = S[DAC_BASE + dac * DAC_STRIDE + DAC_DAC_OUTPUT]
+    output: float = S[at.DAC_BASE + dac * at.DAC_STRIDE + at.DAC_DAC_OUTPUT]
     wanted: float = output * DAC_COUNTS_PER_VOLT
     counts: float = 0.0
     if wanted > FULL_SCALE_DAC:
@@ -125,31 +95,33 @@ def torque_drive(F: F64, f: int, ready: int, dt: float) -> None:
     """
     push: float = 0.0
     if ready != 0:
-        push = clamp_accel(F[f + PLF_VOLTS] * F[f + PLF_ACCEL_PER_VOLT], F[f + PLF_PEAK_ACCEL])
-        supply: float = F[f + PLF_SUPPLY_ACCEL]
+        push = clamp_accel(
+            F[f + at.PLF_VOLTS] * F[f + at.PLF_ACCEL_PER_VOLT], F[f + at.PLF_PEAK_ACCEL]
+        )
+        supply: float = F[f + at.PLF_SUPPLY_ACCEL]
         if supply > 0.0:
-            back_emf: float = F[f + PLF_BACK_EMF_PER_S] * F[f + PLF_VELOCITY_CPS]
+            back_emf: float = F[f + at.PLF_BACK_EMF_PER_S] * F[f + at.PLF_VELOCITY_CPS]
             if push > supply - back_emf and push > 0.0:
                 _friction_glide(
-                    F, f, supply, F[f + PLF_VISCOUS_PER_S] + F[f + PLF_BACK_EMF_PER_S], dt
+                    F, f, supply, F[f + at.PLF_VISCOUS_PER_S] + F[f + at.PLF_BACK_EMF_PER_S], dt
                 )
                 return
             if push < -supply - back_emf and push < 0.0:
                 _friction_glide(
-                    F, f, -supply, F[f + PLF_VISCOUS_PER_S] + F[f + PLF_BACK_EMF_PER_S], dt
+                    F, f, -supply, F[f + at.PLF_VISCOUS_PER_S] + F[f + at.PLF_BACK_EMF_PER_S], dt
                 )
                 return
-    if F[f + PLF_VELOCITY_CPS] == 0.0 and fabs(push) <= F[f + PLF_STATIC_ACCEL]:
+    if F[f + at.PLF_VELOCITY_CPS] == 0.0 and fabs(push) <= F[f + at.PLF_STATIC_ACCEL]:
         return
     _friction_move(
         F,
         f,
         push,
-        F[f + PLF_VISCOUS_PER_S],
+        F[f + at.PLF_VISCOUS_PER_S],
         dt,
-        F[f + PLF_DECAY],
-        F[f + PLF_GLIDE_S],
-        F[f + PLF_PUSH_S2],
+        F[f + at.PLF_DECAY],
+        F[f + at.PLF_GLIDE_S],
+        F[f + at.PLF_PUSH_S2],
     )
 
 
@@ -164,7 +136,7 @@ def clamp_accel(value: float, limit: float) -> float:
 
 def _friction_glide(F: F64, f: int, push: float, rate: float, dt: float) -> None:
     """Move for `dt` under constant drive with a viscous rate other than the axis' own."""
-    if F[f + PLF_VELOCITY_CPS] == 0.0 and fabs(push) <= F[f + PLF_STATIC_ACCEL]:
+    if F[f + at.PLF_VELOCITY_CPS] == 0.0 and fabs(push) <= F[f + at.PLF_STATIC_ACCEL]:
         return
     z: float = rate * dt
     p2: float = _phi2(z)
@@ -183,8 +155,8 @@ def _friction_move(
     push_s2: float,
 ) -> None:
     """Solve one tick; `decay`, `glide_s`, `push_s2` are exp(-z), t phi1 and t^2 phi2."""
-    v0: float = F[f + PLF_VELOCITY_CPS]
-    friction: float = F[f + PLF_COULOMB_ACCEL]
+    v0: float = F[f + at.PLF_VELOCITY_CPS]
+    friction: float = F[f + at.PLF_COULOMB_ACCEL]
     net: float = push - friction
     if v0 < 0.0 or (v0 == 0.0 and push < 0.0):
         net = push + friction
@@ -192,15 +164,15 @@ def _friction_move(
     if (v0 > 0.0 and v1 <= 0.0) or (v0 < 0.0 and v1 >= 0.0):
         _through_standstill(F, f, push, net, rate, dt)
         return
-    if fabs(v1) < STANDSTILL_CPS and fabs(push) <= F[f + PLF_STATIC_ACCEL]:
+    if fabs(v1) < STANDSTILL_CPS and fabs(push) <= F[f + at.PLF_STATIC_ACCEL]:
         v1 = 0.0
-    F[f + PLF_POSITION_CNT] += v0 * glide_s + net * push_s2
-    F[f + PLF_VELOCITY_CPS] = v1
+    F[f + at.PLF_POSITION_CNT] += v0 * glide_s + net * push_s2
+    F[f + at.PLF_VELOCITY_CPS] = v1
 
 
 def _through_standstill(F: F64, f: int, push: float, net: float, rate: float, dt: float) -> None:
     """Come to rest within the tick, then stick or leave in the other direction."""
-    v0: float = F[f + PLF_VELOCITY_CPS]
+    v0: float = F[f + at.PLF_VELOCITY_CPS]
     t: float = dt
     if net != 0.0:
         ratio: float = -v0 / net
@@ -209,19 +181,19 @@ def _through_standstill(F: F64, f: int, push: float, net: float, rate: float, dt
             t = dt
     z: float = rate * t
     p2: float = _phi2(z)
-    F[f + PLF_POSITION_CNT] += v0 * t * (1.0 - z * p2) + net * t * t * p2
-    F[f + PLF_VELOCITY_CPS] = 0.0
-    if fabs(push) <= F[f + PLF_STATIC_ACCEL]:
+    F[f + at.PLF_POSITION_CNT] += v0 * t * (1.0 - z * p2) + net * t * t * p2
+    F[f + at.PLF_VELOCITY_CPS] = 0.0
+    if fabs(push) <= F[f + at.PLF_STATIC_ACCEL]:
         return
-    friction: float = F[f + PLF_COULOMB_ACCEL]
+    friction: float = F[f + at.PLF_COULOMB_ACCEL]
     net = push - friction
     if push < 0.0:
         net = push + friction
     t = dt - t
     z = rate * t
     p2 = _phi2(z)
-    F[f + PLF_POSITION_CNT] += net * t * t * p2
-    F[f + PLF_VELOCITY_CPS] = net * t * (1.0 - z * p2)
+    F[f + at.PLF_POSITION_CNT] += net * t * t * p2
+    F[f + at.PLF_VELOCITY_CPS] = net * t * (1.0 - z * p2)
 
 
 def _phi2(z: float) -> float:
@@ -257,13 +229,13 @@ def velocity_drive(F: F64, f: int, volts: float, limit: float, dt: float) -> Non
     v' = (target - v) / lag, but never more than the peak torque allows: far from the target
     the speed is a ramp, and the lag takes over where it asks for less than that.
     """
-    target: float = volts * F[f + PLF_SPEED_PER_VOLT_CPS]
-    v0: float = F[f + PLF_VELOCITY_CPS]
-    lag: float = F[f + PLF_LAG_S]
+    target: float = volts * F[f + at.PLF_SPEED_PER_VOLT_CPS]
+    v0: float = F[f + at.PLF_VELOCITY_CPS]
+    lag: float = F[f + at.PLF_LAG_S]
     gap: float = target - v0
     excess: float = fabs(gap) - limit * lag
     if excess <= 0.0:
-        _lag_approach(F, f, target, dt, F[f + PLF_LAG_DECAY])
+        _lag_approach(F, f, target, dt, F[f + at.PLF_LAG_DECAY])
         return
     ramp_s: float = excess / limit
     rate: float = limit
@@ -271,19 +243,19 @@ def velocity_drive(F: F64, f: int, volts: float, limit: float, dt: float) -> Non
         rate = -limit
     if ramp_s > dt:
         ramp_s = dt
-    F[f + PLF_POSITION_CNT] += v0 * ramp_s + 0.5 * rate * ramp_s * ramp_s
-    F[f + PLF_VELOCITY_CPS] = v0 + rate * ramp_s
+    F[f + at.PLF_POSITION_CNT] += v0 * ramp_s + 0.5 * rate * ramp_s * ramp_s
+    F[f + at.PLF_VELOCITY_CPS] = v0 + rate * ramp_s
     if ramp_s < dt:
         _lag_approach(F, f, target, dt - ramp_s, _lag_decay(dt - ramp_s, lag))
 
 
 def _lag_approach(F: F64, f: int, target: float, t: float, decay: float) -> None:
-    gap: float = target - F[f + PLF_VELOCITY_CPS]
-    F[f + PLF_POSITION_CNT] += target * t - gap * F[f + PLF_LAG_S] * (1.0 - decay)
+    gap: float = target - F[f + at.PLF_VELOCITY_CPS]
+    F[f + at.PLF_POSITION_CNT] += target * t - gap * F[f + at.PLF_LAG_S] * (1.0 - decay)
     gap = gap * decay
     if fabs(gap) < STANDSTILL_CPS:
         gap = 0.0
-    F[f + PLF_VELOCITY_CPS] = target - gap
+    F[f + at.PLF_VELOCITY_CPS] = target - gap
 
 
 def _lag_decay(t: float, lag: float) -> float:
@@ -294,11 +266,11 @@ def _lag_decay(t: float, lag: float) -> float:
 
 def cache_motion_factors(F: F64, f: int, dt: float) -> None:
     """Factors of one step; they change only with the length of the tick."""
-    z: float = F[f + PLF_VISCOUS_PER_S] * dt
+    z: float = F[f + at.PLF_VISCOUS_PER_S] * dt
     p2: float = _phi2(z)
     p1: float = 1.0 - z * p2
-    F[f + PLF_DECAY] = 1.0 - z * p1
-    F[f + PLF_GLIDE_S] = dt * p1
-    F[f + PLF_PUSH_S2] = dt * dt * p2
-    F[f + PLF_LAG_DECAY] = _lag_decay(dt, F[f + PLF_LAG_S])
-    F[f + PLF_CACHED_DT_S] = dt
+    F[f + at.PLF_DECAY] = 1.0 - z * p1
+    F[f + at.PLF_GLIDE_S] = dt * p1
+    F[f + at.PLF_PUSH_S2] = dt * dt * p2
+    F[f + at.PLF_LAG_DECAY] = _lag_decay(dt, F[f + at.PLF_LAG_S])
+    F[f + at.PLF_CACHED_DT_S] = dt

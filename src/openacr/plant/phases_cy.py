@@ -17,26 +17,7 @@ where the torque is zero. The drive limits the amplitude of the currents, not ea
 """
 
 from openacr.cmath import cos, sin, sqrt
-from openacr.map.numbers import (
-    PLBF_BASE,
-    PLBF_PEAK_V,
-    PLBF_RADIANS_PER_CNT,
-    PLBF_STRIDE,
-    PLBF_ZERO_RAD,
-    PLBI_BASE,
-    PLBI_PHASES,
-    PLBI_SECOND_DAC,
-    PLBI_STRIDE,
-    PLF_BASE,
-    PLF_DAC_STEP,
-    PLF_OFFSET_V,
-    PLF_POSITION_CNT,
-    PLF_STRIDE,
-    PLF_VOLTS,
-    PLI_BASE,
-    PLI_DAC,
-    PLI_STRIDE,
-)
+from openacr.map import numbers as at
 from openacr.plant.drive_cy import converter_volts
 from openacr.views import F32, F64, I32
 
@@ -50,19 +31,21 @@ def phase_volts(F: F64, I: I32, S: F32, n: int) -> None:
     The two currents are one vector: across the rotor and along it. With b at 120 degrees,
     b = -a/2 + sqrt(3)/2 q, so q = (a + 2 b) / sqrt(3) is the part at 90 degrees to a.
     """
-    f: int = PLF_BASE + n * PLF_STRIDE
-    b: int = PLBF_BASE + n * PLBF_STRIDE
-    i: int = PLBI_BASE + n * PLBI_STRIDE
-    step: float = F[f + PLF_DAC_STEP]
-    first: float = converter_volts(S, I[PLI_BASE + n * PLI_STRIDE + PLI_DAC], step)
-    second: float = converter_volts(S, I[i + PLBI_SECOND_DAC], step)
-    first += F[f + PLF_OFFSET_V]
-    second += F[f + PLF_OFFSET_V]
-    if I[i + PLBI_PHASES] == THREE:
+    f: int = at.PLF_BASE + n * at.PLF_STRIDE
+    b: int = at.PLBF_BASE + n * at.PLBF_STRIDE
+    i: int = at.PLBI_BASE + n * at.PLBI_STRIDE
+    step: float = F[f + at.PLF_DAC_STEP]
+    first: float = converter_volts(S, I[at.PLI_BASE + n * at.PLI_STRIDE + at.PLI_DAC], step)
+    second: float = converter_volts(S, I[i + at.PLBI_SECOND_DAC], step)
+    first += F[f + at.PLF_OFFSET_V]
+    second += F[f + at.PLF_OFFSET_V]
+    if I[i + at.PLBI_PHASES] == THREE:
         second = (first + 2.0 * second) * THIRD
     amplitude: float = sqrt(first * first + second * second)
-    if amplitude > F[b + PLBF_PEAK_V]:
-        first *= F[b + PLBF_PEAK_V] / amplitude
-        second *= F[b + PLBF_PEAK_V] / amplitude
-    theta: float = F[b + PLBF_ZERO_RAD] + F[b + PLBF_RADIANS_PER_CNT] * F[f + PLF_POSITION_CNT]
-    F[f + PLF_VOLTS] = first * sin(theta) + second * cos(theta)
+    if amplitude > F[b + at.PLBF_PEAK_V]:
+        first *= F[b + at.PLBF_PEAK_V] / amplitude
+        second *= F[b + at.PLBF_PEAK_V] / amplitude
+    theta: float = (
+        F[b + at.PLBF_ZERO_RAD] + F[b + at.PLBF_RADIANS_PER_CNT] * F[f + at.PLF_POSITION_CNT]
+    )
+    F[f + at.PLF_VOLTS] = first * sin(theta) + second * cos(theta)

@@ -11,31 +11,8 @@ axis runs away, as on the real machine.
 """
 
 from openacr.cmath import fabs
-from openacr.map.numbers import (
-    PLF_BASE,
-    PLF_CACHED_DT_S,
-    PLF_HIGH_STOP_CNT,
-    PLF_LOW_STOP_CNT,
-    PLF_PEAK_ACCEL,
-    PLF_POSITION_CNT,
-    PLF_PREVIOUS_CNT,
-    PLF_QUIET_HIGH_CNT,
-    PLF_QUIET_LOW_CNT,
-    PLF_RAW_COUNT,
-    PLF_STRIDE,
-    PLF_VELOCITY_CPS,
-    PLF_VOLTS,
-    PLGI_ANALOGS,
-    PLGI_BASE,
-    PLGI_FALLS,
-    PLGI_FOLLOWS,
-    PLGI_RISES,
-    PLI_BASE,
-    PLI_ENCODER_FAULT,
-    PLI_KIND,
-    PLI_MARKER_EDGES,
-    PLI_STRIDE,
-)
+from openacr.map import numbers as at
+from openacr.map.rows import plant
 from openacr.plant.analog_cy import analogs_follow
 from openacr.plant.compliance_cy import flex, flexion, is_compliant
 from openacr.plant.drive_cy import (
@@ -82,16 +59,16 @@ def plant_step(F: F64, I: I32, S: F32, axis_count: int, dt: float) -> None:
     """Advance all motors by `dt` seconds and set the inputs they act on."""
     n: int = 0
     crossed: int = 0
-    I[PLGI_BASE + PLGI_RISES] = 0
-    I[PLGI_BASE + PLGI_FALLS] = 0
+    I[plant.rises] = 0
+    I[plant.falls] = 0
     for n in range(axis_count):
-        if I[PLI_BASE + n * PLI_STRIDE + PLI_KIND] != NO_MOTOR:
+        if I[at.PLI_BASE + n * at.PLI_STRIDE + at.PLI_KIND] != NO_MOTOR:
             crossed |= _motor_tick(F, I, S, n, dt)
     if crossed != 0:
         read_boxes(F, I)
-    if I[PLGI_BASE + PLGI_FOLLOWS] != 0:
+    if I[plant.follows] != 0:
         follow_outputs(F, I, dt)
-    if I[PLGI_BASE + PLGI_ANALOGS] != 0:
+    if I[plant.analogs] != 0:
         analogs_follow(F, I, S)
     write_wired_inputs(I)
 
@@ -100,26 +77,26 @@ def plant_refresh(F: F64, I: I32, axis_count: int) -> None:
     """Set inputs and markers from the present positions, without motion and without edges."""
     n: int = 0
     for n in range(axis_count):
-        F[PLF_BASE + n * PLF_STRIDE + PLF_PREVIOUS_CNT] = F[
-            PLF_BASE + n * PLF_STRIDE + PLF_POSITION_CNT
+        F[at.PLF_BASE + n * at.PLF_STRIDE + at.PLF_PREVIOUS_CNT] = F[
+            at.PLF_BASE + n * at.PLF_STRIDE + at.PLF_POSITION_CNT
         ]
         motor_borders(F, I, n)
     read_boxes(F, I)
-    I[PLGI_BASE + PLGI_RISES] = 0
-    I[PLGI_BASE + PLGI_FALLS] = 0
+    I[plant.rises] = 0
+    I[plant.falls] = 0
     write_wired_inputs(I)
 
 
 def _motor_tick(F: F64, I: I32, S: F32, n: int, dt: float) -> int:
     """Advance motor n; 1 if it passed the border of a switch, region or marker."""
-    f: int = PLF_BASE + n * PLF_STRIDE
-    i: int = PLI_BASE + n * PLI_STRIDE
+    f: int = at.PLF_BASE + n * at.PLF_STRIDE
+    i: int = at.PLI_BASE + n * at.PLI_STRIDE
     ready: int = drive_ready(I, i)
-    position: float = F[f + PLF_POSITION_CNT]
-    if F[f + PLF_CACHED_DT_S] != dt:
+    position: float = F[f + at.PLF_POSITION_CNT]
+    if F[f + at.PLF_CACHED_DT_S] != dt:
         cache_motion_factors(F, f, dt)
-    F[f + PLF_PREVIOUS_CNT] = position
-    kind: int = I[i + PLI_KIND]
+    F[f + at.PLF_PREVIOUS_CNT] = position
+    kind: int = I[i + at.PLI_KIND]
     if kind == STEPPER_DRIVE:
         stepper_motor(F, I, n, ready, dt)
     elif is_compliant(F, n):
@@ -127,16 +104,16 @@ def _motor_tick(F: F64, I: I32, S: F32, n: int, dt: float) -> int:
     else:
         _analog_motor(F, I, S, n, ready, dt)
     _hard_stops(F, f)
-    position = F[f + PLF_POSITION_CNT]
+    position = F[f + at.PLF_POSITION_CNT]
     # floor() without a call; no position is beyond the range of an integer
     whole: float = float(int(position))
     if whole > position:
         whole -= 1.0
-    F[f + PLF_RAW_COUNT] = whole
-    I[i + PLI_MARKER_EDGES] = 0
-    if F[f + PLF_QUIET_LOW_CNT] <= position and position < F[f + PLF_QUIET_HIGH_CNT]:
+    F[f + at.PLF_RAW_COUNT] = whole
+    I[i + at.PLI_MARKER_EDGES] = 0
+    if F[f + at.PLF_QUIET_LOW_CNT] <= position and position < F[f + at.PLF_QUIET_HIGH_CNT]:
         return 0
-    if (I[i + PLI_ENCODER_FAULT] & NO_SIGNALS) == 0:
+    if (I[i + at.PLI_ENCODER_FAULT] & NO_SIGNALS) == 0:
         marker_edges(F, I, f, i)
     motor_borders(F, I, n)
     return 1
@@ -144,9 +121,9 @@ def _motor_tick(F: F64, I: I32, S: F32, n: int, dt: float) -> int:
 
 def _analog_motor(F: F64, I: I32, S: F32, n: int, ready: int, dt: float) -> None:
     """Advance a motor whose drive takes voltages."""
-    f: int = PLF_BASE + n * PLF_STRIDE
-    i: int = PLI_BASE + n * PLI_STRIDE
-    kind: int = I[i + PLI_KIND]
+    f: int = at.PLF_BASE + n * at.PLF_STRIDE
+    i: int = at.PLI_BASE + n * at.PLI_STRIDE
+    kind: int = I[i + at.PLI_KIND]
     if kind == PHASE_DRIVE:
         phase_volts(F, I, S, n)
     else:
@@ -156,33 +133,33 @@ def _analog_motor(F: F64, I: I32, S: F32, n: int, ready: int, dt: float) -> None
     elif kind == TORQUE_DRIVE or kind == PHASE_DRIVE:
         torque_drive(F, f, ready, dt)
     elif kind == IDEAL_DRIVE:
-        velocity_drive(F, f, ready * F[f + PLF_VOLTS], NO_ACCEL_LIMIT, dt)
+        velocity_drive(F, f, ready * F[f + at.PLF_VOLTS], NO_ACCEL_LIMIT, dt)
     elif ready != 0:
-        velocity_drive(F, f, F[f + PLF_VOLTS], F[f + PLF_PEAK_ACCEL], dt)
+        velocity_drive(F, f, F[f + at.PLF_VOLTS], F[f + at.PLF_PEAK_ACCEL], dt)
     else:
         torque_drive(F, f, 0, dt)
 
 
 def _compliant_motor(F: F64, I: I32, S: F32, n: int, ready: int, dt: float) -> None:
     """Advance the centre of motor and load, and the motor about it."""
-    f: int = PLF_BASE + n * PLF_STRIDE
-    velocity: float = F[f + PLF_VELOCITY_CPS]
-    F[f + PLF_POSITION_CNT] -= flexion(F, n)
+    f: int = at.PLF_BASE + n * at.PLF_STRIDE
+    velocity: float = F[f + at.PLF_VELOCITY_CPS]
+    F[f + at.PLF_POSITION_CNT] -= flexion(F, n)
     _analog_motor(F, I, S, n, ready, dt)
     flex(F, n, ready, velocity, dt)
-    F[f + PLF_POSITION_CNT] += flexion(F, n)
+    F[f + at.PLF_POSITION_CNT] += flexion(F, n)
 
 
 def _hard_stops(F: F64, f: int) -> None:
     """Hard stops take all the speed of an axis that runs into them."""
-    v: float = F[f + PLF_VELOCITY_CPS]
-    if F[f + PLF_POSITION_CNT] > F[f + PLF_HIGH_STOP_CNT]:
-        F[f + PLF_POSITION_CNT] = F[f + PLF_HIGH_STOP_CNT]
+    v: float = F[f + at.PLF_VELOCITY_CPS]
+    if F[f + at.PLF_POSITION_CNT] > F[f + at.PLF_HIGH_STOP_CNT]:
+        F[f + at.PLF_POSITION_CNT] = F[f + at.PLF_HIGH_STOP_CNT]
         if v > 0.0:
-            F[f + PLF_VELOCITY_CPS] = 0.0
-    elif F[f + PLF_POSITION_CNT] < F[f + PLF_LOW_STOP_CNT]:
-        F[f + PLF_POSITION_CNT] = F[f + PLF_LOW_STOP_CNT]
+            F[f + at.PLF_VELOCITY_CPS] = 0.0
+    elif F[f + at.PLF_POSITION_CNT] < F[f + at.PLF_LOW_STOP_CNT]:
+        F[f + at.PLF_POSITION_CNT] = F[f + at.PLF_LOW_STOP_CNT]
         if v < 0.0:
-            F[f + PLF_VELOCITY_CPS] = 0.0
+            F[f + at.PLF_VELOCITY_CPS] = 0.0
     elif fabs(v) > SPEED_BOUND_CPS:
-        F[f + PLF_VELOCITY_CPS] = clamp_accel(v, SPEED_BOUND_CPS)
+        F[f + at.PLF_VELOCITY_CPS] = clamp_accel(v, SPEED_BOUND_CPS)

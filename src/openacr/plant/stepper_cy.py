@@ -15,34 +15,7 @@ The motion is integrated in steps that are short against the oscillation of the 
 """
 
 from openacr.cmath import cos, fabs, sin
-from openacr.map.numbers import (
-    PLF_BASE,
-    PLF_COULOMB_ACCEL,
-    PLF_POSITION_CNT,
-    PLF_STATIC_ACCEL,
-    PLF_STRIDE,
-    PLF_VELOCITY_CPS,
-    PLF_VISCOUS_PER_S,
-    PLI_BASE,
-    PLI_DAC,
-    PLI_STRIDE,
-    PLTF_ACCEL,
-    PLTF_BASE,
-    PLTF_COUNTS_PER_PULSE,
-    PLTF_DAMPING_PER_S,
-    PLTF_FIELD_CNT,
-    PLTF_PULSES_SEEN,
-    PLTF_RADIANS_PER_CNT,
-    PLTF_SPEED_CPS,
-    PLTF_STIFFNESS_PER_S,
-    PLTF_STRIDE,
-    PLTI_BASE,
-    PLTI_POINTS,
-    PLTI_STRIDE,
-    STOF_BASE,
-    STOF_PULSES,
-    STOF_STRIDE,
-)
+from openacr.map import numbers as at
 from openacr.views import F64, I32
 
 STEPS_OF_OSCILLATION = 8.0  # in a radian of it
@@ -52,15 +25,15 @@ MOST_STEPS = 400
 
 def stepper_motor(F: F64, I: I32, n: int, ready: int, dt: float) -> None:
     """Advance stepper motor n by `dt` seconds; without a ready drive it coasts."""
-    f: int = PLF_BASE + n * PLF_STRIDE
-    t: int = PLTF_BASE + n * PLTF_STRIDE
-    output: int = I[PLI_BASE + n * PLI_STRIDE + PLI_DAC]
-    pulses: float = F[STOF_BASE + output * STOF_STRIDE + STOF_PULSES]
-    turned: float = (pulses - F[t + PLTF_PULSES_SEEN]) * F[t + PLTF_COUNTS_PER_PULSE]
-    field: float = F[t + PLTF_FIELD_CNT]
-    F[t + PLTF_PULSES_SEEN] = pulses
-    F[t + PLTF_FIELD_CNT] = field + turned
-    count: int = int(F[t + PLTF_STIFFNESS_PER_S] * dt * STEPS_OF_OSCILLATION) + LEAST_STEPS
+    f: int = at.PLF_BASE + n * at.PLF_STRIDE
+    t: int = at.PLTF_BASE + n * at.PLTF_STRIDE
+    output: int = I[at.PLI_BASE + n * at.PLI_STRIDE + at.PLI_DAC]
+    pulses: float = F[at.STOF_BASE + output * at.STOF_STRIDE + at.STOF_PULSES]
+    turned: float = (pulses - F[t + at.PLTF_PULSES_SEEN]) * F[t + at.PLTF_COUNTS_PER_PULSE]
+    field: float = F[t + at.PLTF_FIELD_CNT]
+    F[t + at.PLTF_PULSES_SEEN] = pulses
+    F[t + at.PLTF_FIELD_CNT] = field + turned
+    count: int = int(F[t + at.PLTF_STIFFNESS_PER_S] * dt * STEPS_OF_OSCILLATION) + LEAST_STEPS
     if count > MOST_STEPS:
         count = MOST_STEPS
     k: int = 0
@@ -74,12 +47,12 @@ def stepper_motor(F: F64, I: I32, n: int, ready: int, dt: float) -> None:
 
 def _pull(F: F64, I: I32, n: int, field: float, field_cps: float) -> float:
     """Acceleration that the field gives to rotor n."""
-    f: int = PLF_BASE + n * PLF_STRIDE
-    t: int = PLTF_BASE + n * PLTF_STRIDE
-    v: float = F[f + PLF_VELOCITY_CPS]
-    theta: float = (field - F[f + PLF_POSITION_CNT]) * F[t + PLTF_RADIANS_PER_CNT]
+    f: int = at.PLF_BASE + n * at.PLF_STRIDE
+    t: int = at.PLTF_BASE + n * at.PLTF_STRIDE
+    v: float = F[f + at.PLF_VELOCITY_CPS]
+    theta: float = (field - F[f + at.PLF_POSITION_CNT]) * F[t + at.PLTF_RADIANS_PER_CNT]
     limit: float = pull_out_accel(F, I, n, fabs(v))
-    push: float = limit * sin(theta) - F[t + PLTF_DAMPING_PER_S] * (v - field_cps) * cos(theta)
+    push: float = limit * sin(theta) - F[t + at.PLTF_DAMPING_PER_S] * (v - field_cps) * cos(theta)
     if push > limit:
         return limit
     if push < -limit:
@@ -89,28 +62,28 @@ def _pull(F: F64, I: I32, n: int, field: float, field_cps: float) -> float:
 
 def pull_out_accel(F: F64, I: I32, n: int, speed_cps: float) -> float:
     """Highest acceleration of motor n at a speed, on lines between the points of its curve."""
-    t: int = PLTF_BASE + n * PLTF_STRIDE
-    last: int = I[PLTI_BASE + n * PLTI_STRIDE + PLTI_POINTS] - 1
+    t: int = at.PLTF_BASE + n * at.PLTF_STRIDE
+    last: int = I[at.PLTI_BASE + n * at.PLTI_STRIDE + at.PLTI_POINTS] - 1
     k: int = 0
     for k in range(last):
-        slow: float = F[t + PLTF_SPEED_CPS + k]
-        fast: float = F[t + PLTF_SPEED_CPS + k + 1]
+        slow: float = F[t + at.PLTF_SPEED_CPS + k]
+        fast: float = F[t + at.PLTF_SPEED_CPS + k + 1]
         if speed_cps < fast:
             share: float = max(0.0, speed_cps - slow) / (fast - slow)
-            return F[t + PLTF_ACCEL + k] * (1.0 - share) + F[t + PLTF_ACCEL + k + 1] * share
-    return F[t + PLTF_ACCEL + last]
+            return F[t + at.PLTF_ACCEL + k] * (1.0 - share) + F[t + at.PLTF_ACCEL + k + 1] * share
+    return F[t + at.PLTF_ACCEL + last]
 
 
 def _rotor_step(F: F64, f: int, push: float, h: float) -> None:
     """One short step of the rotor with its friction: the new speed moves it."""
-    v: float = F[f + PLF_VELOCITY_CPS]
-    if v == 0.0 and fabs(push) <= F[f + PLF_STATIC_ACCEL]:
+    v: float = F[f + at.PLF_VELOCITY_CPS]
+    if v == 0.0 and fabs(push) <= F[f + at.PLF_STATIC_ACCEL]:
         return
-    friction: float = F[f + PLF_COULOMB_ACCEL]
+    friction: float = F[f + at.PLF_COULOMB_ACCEL]
     if v < 0.0 or (v == 0.0 and push < 0.0):
         friction = -friction
-    new: float = (v + (push - friction) * h) / (1.0 + F[f + PLF_VISCOUS_PER_S] * h)
-    if v * new < 0.0 and fabs(push) <= F[f + PLF_STATIC_ACCEL]:
+    new: float = (v + (push - friction) * h) / (1.0 + F[f + at.PLF_VISCOUS_PER_S] * h)
+    if v * new < 0.0 and fabs(push) <= F[f + at.PLF_STATIC_ACCEL]:
         new = 0.0
-    F[f + PLF_VELOCITY_CPS] = new
-    F[f + PLF_POSITION_CNT] += new * h
+    F[f + at.PLF_VELOCITY_CPS] = new
+    F[f + at.PLF_POSITION_CNT] += new * h

@@ -21,44 +21,10 @@ For coverage a scan notes in the words of its instructions what they have seen: 
 were on and off, outputs that had power and had none.
 """
 
+from openacr.map import numbers as at
 from openacr.map.flags_cy import flag_bit, put_flag
-from openacr.map.numbers import (
-    CNT_BASE,
-    CNT_COUNTER_COUNT,
-    CNT_COUNTER_PRELOAD,
-    CNT_STRIDE,
-    PCF_BASE,
-    PCF_STRIDE,
-    PCF_TIMER_MS,
-    PCI_BASE,
-    PCI_CLOCK_OLD,
-    PCI_CODE,
-    PCI_LENGTH,
-    PCI_NOTED,
-    PCI_STRIDE,
-    PLC_BASE,
-    PLC_COUNT,
-    PLC_STRIDE,
-    PLC_TICK_COUNT,
-    PLC_TICK_PRELOAD,
-    PLF_COUNTER_CLOCK,
-    PLF_COUNTER_OUTPUT,
-    PLF_COUNTER_RESET,
-    PLF_FIRST_SCAN,
-    PLF_LATCH_OUTPUT,
-    PLF_LATCH_RESET,
-    PLF_LATCH_SET,
-    PLF_PLC_RUNNING,
-    PLF_TIMER_INPUT,
-    PLF_TIMER_OUTPUT,
-    PLF_WORD,
-    SYSF_BASE,
-    SYSF_PERIOD_S,
-    TIM_BASE,
-    TIM_STRIDE,
-    TIM_TIMER_COUNT,
-    TIM_TIMER_PRELOAD,
-)
+from openacr.map.rows import plcs, system
+from openacr.map.words import plf
 from openacr.views import F64, I32
 
 __all__ = ["plc_scan", "plc_step"]
@@ -89,12 +55,12 @@ SEEN = SEEN_OFF | SEEN_ON | FIRST_SEEN_OFF | FIRST_SEEN_ON
 OPERAND_SHIFT = 9
 
 INPUTS = (
-    PLF_TIMER_INPUT
-    | PLF_TIMER_OUTPUT
-    | PLF_COUNTER_CLOCK
-    | PLF_COUNTER_RESET
-    | PLF_LATCH_SET
-    | PLF_LATCH_RESET
+    plf.TIMER_INPUT
+    | plf.TIMER_OUTPUT
+    | plf.COUNTER_CLOCK
+    | plf.COUNTER_RESET
+    | plf.LATCH_SET
+    | plf.LATCH_RESET
 )
 EPS_MS = 1e-9
 
@@ -106,15 +72,15 @@ PLC_ACTED = 2
 
 def plc_put_inputs(I: I32, n: int, inputs: int, on: int) -> None:
     """Set exactly those flags of object n out of `inputs` that are in `on`."""
-    I[PLF_WORD + n] = (I[PLF_WORD + n] & ~inputs) | on
+    I[at.PLF_WORD + n] = (I[at.PLF_WORD + n] & ~inputs) | on
 
 
 def plc_scan(I: I32, n: int) -> None:
     """One scan of PLC n, from its first instruction to its last."""
-    rows: int = PCI_BASE + n * PCI_STRIDE
-    first: int = rows + PCI_CODE
-    end: int = first + I[rows + PCI_LENGTH]
-    if not I[rows + PCI_NOTED]:
+    rows: int = at.PCI_BASE + n * at.PCI_STRIDE
+    first: int = rows + at.PCI_CODE
+    end: int = first + I[rows + at.PCI_LENGTH]
+    if not I[rows + at.PCI_NOTED]:
         plc_execute(I, first, end, 0)
         return
     results: int = 0
@@ -176,31 +142,31 @@ def plc_drive(I: I32, op: int, operand: int, first: int, r: int) -> None:
         if r:
             put_flag(I, operand, op == OP_SET)
     elif op == OP_TIMER:
-        plc_put_inputs(I, operand, PLF_TIMER_INPUT, PLF_TIMER_INPUT if r else 0)
+        plc_put_inputs(I, operand, plf.TIMER_INPUT, plf.TIMER_INPUT if r else 0)
     elif op == OP_COUNTER:
         plc_put_inputs(
             I,
             operand,
-            PLF_COUNTER_CLOCK | PLF_COUNTER_RESET,
-            (PLF_COUNTER_CLOCK if first else 0) | (PLF_COUNTER_RESET if r else 0),
+            plf.COUNTER_CLOCK | plf.COUNTER_RESET,
+            (plf.COUNTER_CLOCK if first else 0) | (plf.COUNTER_RESET if r else 0),
         )
     elif op == OP_LATCH:
         plc_put_inputs(
             I,
             operand,
-            PLF_LATCH_SET | PLF_LATCH_RESET,
-            (PLF_LATCH_SET if first else 0) | (PLF_LATCH_RESET if r else 0),
+            plf.LATCH_SET | plf.LATCH_RESET,
+            (plf.LATCH_SET if first else 0) | (plf.LATCH_RESET if r else 0),
         )
 
 
 def plc_timer(F: F64, I: I32, n: int, period_ms: float) -> None:
     """TIM n: its count goes down once per millisecond while the input is set."""
-    count: int = TIM_BASE + n * TIM_STRIDE + TIM_TIMER_COUNT
-    phase: int = PCF_BASE + n * PCF_STRIDE + PCF_TIMER_MS
-    if not I[PLF_WORD + n] & PLF_TIMER_INPUT:
-        I[count] = I[TIM_BASE + n * TIM_STRIDE + TIM_TIMER_PRELOAD]
+    count: int = at.TIM_BASE + n * at.TIM_STRIDE + at.TIM_TIMER_COUNT
+    phase: int = at.PCF_BASE + n * at.PCF_STRIDE + at.PCF_TIMER_MS
+    if not I[at.PLF_WORD + n] & plf.TIMER_INPUT:
+        I[count] = I[at.TIM_BASE + n * at.TIM_STRIDE + at.TIM_TIMER_PRELOAD]
         F[phase] = 0.0
-        I[PLF_WORD + n] &= ~PLF_TIMER_OUTPUT
+        I[at.PLF_WORD + n] &= ~plf.TIMER_OUTPUT
         return
     if I[count] > 0:
         passed: float = F[phase] + period_ms
@@ -209,7 +175,7 @@ def plc_timer(F: F64, I: I32, n: int, period_ms: float) -> None:
             I[count] -= 1
         F[phase] = max(passed, 0.0)
     if I[count] <= 0:
-        I[PLF_WORD + n] |= PLF_TIMER_OUTPUT
+        I[at.PLF_WORD + n] |= plf.TIMER_OUTPUT
 
 
 def plc_counter(I: I32, n: int) -> None:
@@ -217,31 +183,31 @@ def plc_counter(I: I32, n: int) -> None:
 
     A counter that was never reset takes its preload at the first edge.
     """
-    flags: int = I[PLF_WORD + n]
-    preload: int = I[CNT_BASE + n * CNT_STRIDE + CNT_COUNTER_PRELOAD]
-    count: int = CNT_BASE + n * CNT_STRIDE + CNT_COUNTER_COUNT
-    old: int = PCI_BASE + n * PCI_STRIDE + PCI_CLOCK_OLD
-    clock: int = 1 if flags & PLF_COUNTER_CLOCK else 0
-    if flags & PLF_COUNTER_RESET:
+    flags: int = I[at.PLF_WORD + n]
+    preload: int = I[at.CNT_BASE + n * at.CNT_STRIDE + at.CNT_COUNTER_PRELOAD]
+    count: int = at.CNT_BASE + n * at.CNT_STRIDE + at.CNT_COUNTER_COUNT
+    old: int = at.PCI_BASE + n * at.PCI_STRIDE + at.PCI_CLOCK_OLD
+    clock: int = 1 if flags & plf.COUNTER_CLOCK else 0
+    if flags & plf.COUNTER_RESET:
         I[count] = preload
-        I[PLF_WORD + n] = flags & ~PLF_COUNTER_OUTPUT
-    elif clock and not I[old] and not flags & PLF_COUNTER_OUTPUT:
+        I[at.PLF_WORD + n] = flags & ~plf.COUNTER_OUTPUT
+    elif clock and not I[old] and not flags & plf.COUNTER_OUTPUT:
         if I[count] <= 0:
             I[count] = preload
         if I[count] > 0:
             I[count] -= 1
         if I[count] <= 0:
-            I[PLF_WORD + n] = flags | PLF_COUNTER_OUTPUT
+            I[at.PLF_WORD + n] = flags | plf.COUNTER_OUTPUT
     I[old] = clock
 
 
 def plc_latch(I: I32, n: int) -> None:
     """KR n: set by one input, cleared by the other, which is the stronger."""
-    flags: int = I[PLF_WORD + n]
-    if flags & PLF_LATCH_RESET:
-        I[PLF_WORD + n] = flags & ~PLF_LATCH_OUTPUT
-    elif flags & PLF_LATCH_SET:
-        I[PLF_WORD + n] = flags | PLF_LATCH_OUTPUT
+    flags: int = I[at.PLF_WORD + n]
+    if flags & plf.LATCH_RESET:
+        I[at.PLF_WORD + n] = flags & ~plf.LATCH_OUTPUT
+    elif flags & plf.LATCH_SET:
+        I[at.PLF_WORD + n] = flags | plf.LATCH_OUTPUT
 
 
 def plc_step(F: F64, I: I32) -> int:
@@ -252,30 +218,30 @@ def plc_step(F: F64, I: I32) -> int:
     """
     running: int = 0
     done: int = PLC_IDLE
-    for n in range(PLC_COUNT):
-        flags: int = I[PLF_WORD + n]
-        running |= flags & PLF_PLC_RUNNING
-        preload: int = I[TIM_BASE + n * TIM_STRIDE + TIM_TIMER_PRELOAD]
+    for n in range(plcs.COUNT):
+        flags: int = I[at.PLF_WORD + n]
+        running |= flags & plf.PLC_RUNNING
+        preload: int = I[at.TIM_BASE + n * at.TIM_STRIDE + at.TIM_TIMER_PRELOAD]
         if (
             flags & INPUTS
-            or I[TIM_BASE + n * TIM_STRIDE + TIM_TIMER_COUNT] != preload
-            or I[PCI_BASE + n * PCI_STRIDE + PCI_CLOCK_OLD]
-            or F[PCF_BASE + n * PCF_STRIDE + PCF_TIMER_MS]
+            or I[at.TIM_BASE + n * at.TIM_STRIDE + at.TIM_TIMER_COUNT] != preload
+            or I[at.PCI_BASE + n * at.PCI_STRIDE + at.PCI_CLOCK_OLD]
+            or F[at.PCF_BASE + n * at.PCF_STRIDE + at.PCF_TIMER_MS]
         ):
             done = PLC_ACTED
-            plc_timer(F, I, n, F[SYSF_BASE + SYSF_PERIOD_S] * 1000.0)
+            plc_timer(F, I, n, F[system.period_s] * 1000.0)
             plc_counter(I, n)
             plc_latch(I, n)
     if not running:
         return done
-    for n in range(PLC_COUNT):
-        if I[PLF_WORD + n] & PLF_PLC_RUNNING:
-            count: int = PLC_BASE + n * PLC_STRIDE + PLC_TICK_COUNT
+    for n in range(plcs.COUNT):
+        if I[at.PLF_WORD + n] & plf.PLC_RUNNING:
+            count: int = at.PLC_BASE + n * at.PLC_STRIDE + at.PLC_TICK_COUNT
             if I[count] > 0:
                 I[count] -= 1
             if I[count] <= 0:
                 done = PLC_ACTED
                 plc_scan(I, n)
-                I[PLF_WORD + n] &= ~PLF_FIRST_SCAN
-                I[count] = max(I[PLC_BASE + n * PLC_STRIDE + PLC_TICK_PRELOAD], 1)
+                I[at.PLF_WORD + n] &= ~plf.FIRST_SCAN
+                I[count] = max(I[at.PLC_BASE + n * at.PLC_STRIDE + at.PLC_TICK_PRELOAD], 1)
     return PLC_WAITED if done == PLC_IDLE else done

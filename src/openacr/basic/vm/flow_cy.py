@@ -4,16 +4,8 @@ from openacr import messages
 from openacr.basic.vm.values_cy import (
     whole_index,
 )
-from openacr.map.numbers import (
-    THI_DEPTH,
-    THI_FLOW_BACK,
-    THI_FLOW_KIND,
-    THI_FLOW_KIND_SIZE,
-    THI_FLOW_START,
-    THI_FLOW_STOP,
-    THI_LINES_AT,
-    THI_LINES_COUNT,
-)
+from openacr.map import numbers as at
+from openacr.map.rows import threads
 from openacr.views import I32
 
 # Levels of the flow stack.
@@ -25,43 +17,46 @@ FLOW_GOSUB = 4
 
 def open_level(I: I32, rows: int, kind: int, start: int, stop: int) -> int:
     """Push a level whose text is the code from start up to stop; an error number or 0."""
-    depth: int = I[rows + THI_DEPTH]
-    if depth >= THI_FLOW_KIND_SIZE:
+    depth: int = I[rows + at.THI_DEPTH]
+    if depth >= threads.FLOW_KIND_SIZE:
         return messages.STACK_OVERFLOW.number
-    I[rows + THI_FLOW_KIND + depth] = kind
-    I[rows + THI_FLOW_START + depth] = start
-    I[rows + THI_FLOW_STOP + depth] = stop
-    I[rows + THI_DEPTH] = depth + 1
+    I[rows + at.THI_FLOW_KIND + depth] = kind
+    I[rows + at.THI_FLOW_START + depth] = start
+    I[rows + at.THI_FLOW_STOP + depth] = stop
+    I[rows + at.THI_DEPTH] = depth + 1
     return 0
 
 
 def is_open(I: I32, rows: int, kind: int, start: int) -> bool:
     """Whether the innermost level is this one."""
-    depth: int = I[rows + THI_DEPTH] - 1
+    depth: int = I[rows + at.THI_DEPTH] - 1
     return (
         depth >= 0
-        and I[rows + THI_FLOW_KIND + depth] == kind
-        and I[rows + THI_FLOW_START + depth] == start
+        and I[rows + at.THI_FLOW_KIND + depth] == kind
+        and I[rows + at.THI_FLOW_START + depth] == start
     )
 
 
 def close_level(I: I32, rows: int, start: int) -> None:
     """Pop the level that begins at start, if it is the innermost one."""
-    depth: int = I[rows + THI_DEPTH] - 1
+    depth: int = I[rows + at.THI_DEPTH] - 1
     if (
         depth >= 0
-        and I[rows + THI_FLOW_KIND + depth] != FLOW_GOSUB
-        and I[rows + THI_FLOW_START + depth] == start
+        and I[rows + at.THI_FLOW_KIND + depth] != FLOW_GOSUB
+        and I[rows + at.THI_FLOW_START + depth] == start
     ):
-        I[rows + THI_DEPTH] = depth
+        I[rows + at.THI_DEPTH] = depth
 
 
 def break_level(I: I32, rows: int, start: int) -> bool:
     """Pop levels up to and including the loop that begins at start; False if it is not open."""
-    depth: int = I[rows + THI_DEPTH] - 1
-    while depth >= 0 and I[rows + THI_FLOW_KIND + depth] != FLOW_GOSUB:
-        if I[rows + THI_FLOW_START + depth] == start and I[rows + THI_FLOW_KIND + depth] != FLOW_IF:
-            I[rows + THI_DEPTH] = depth
+    depth: int = I[rows + at.THI_DEPTH] - 1
+    while depth >= 0 and I[rows + at.THI_FLOW_KIND + depth] != FLOW_GOSUB:
+        if (
+            I[rows + at.THI_FLOW_START + depth] == start
+            and I[rows + at.THI_FLOW_KIND + depth] != FLOW_IF
+        ):
+            I[rows + at.THI_DEPTH] = depth
             return True
         depth -= 1
     return False
@@ -69,23 +64,23 @@ def break_level(I: I32, rows: int, start: int) -> bool:
 
 def unwind(I: I32, rows: int, target: int) -> None:
     """Pop the levels of the present routine whose text does not contain the target."""
-    depth: int = I[rows + THI_DEPTH] - 1
+    depth: int = I[rows + at.THI_DEPTH] - 1
     while (
         depth >= 0
-        and I[rows + THI_FLOW_KIND + depth] != FLOW_GOSUB
-        and not (I[rows + THI_FLOW_START + depth] <= target < I[rows + THI_FLOW_STOP + depth])
+        and I[rows + at.THI_FLOW_KIND + depth] != FLOW_GOSUB
+        and not (I[rows + at.THI_FLOW_START + depth] <= target < I[rows + at.THI_FLOW_STOP + depth])
     ):
         depth -= 1
-    I[rows + THI_DEPTH] = depth + 1
+    I[rows + at.THI_DEPTH] = depth + 1
 
 
 def return_level(I: I32, rows: int) -> int:
     """Pop up to the latest GOSUB and give the place after it, or -1."""
-    depth: int = I[rows + THI_DEPTH] - 1
+    depth: int = I[rows + at.THI_DEPTH] - 1
     while depth >= 0:
-        if I[rows + THI_FLOW_KIND + depth] == FLOW_GOSUB:
-            I[rows + THI_DEPTH] = depth
-            return I[rows + THI_FLOW_BACK + depth]
+        if I[rows + at.THI_FLOW_KIND + depth] == FLOW_GOSUB:
+            I[rows + at.THI_DEPTH] = depth
+            return I[rows + at.THI_FLOW_BACK + depth]
         depth -= 1
     return -1
 
@@ -96,9 +91,9 @@ def line_place(I: I32, code: I32, rows: int, base: int, line: float) -> int:
     `base` is where the code of the thread begins.
     """
     number: int = whole_index(line)
-    table: int = base + I[rows + THI_LINES_AT]
+    table: int = base + I[rows + at.THI_LINES_AT]
     low: int = 0
-    high: int = I[rows + THI_LINES_COUNT]
+    high: int = I[rows + at.THI_LINES_COUNT]
     middle: int = 0
     while low < high:
         middle = (low + high) >> 1
@@ -106,6 +101,6 @@ def line_place(I: I32, code: I32, rows: int, base: int, line: float) -> int:
             low = middle + 1
         else:
             high = middle
-    if low < I[rows + THI_LINES_COUNT] and code[table + 2 * low] == number:
+    if low < I[rows + at.THI_LINES_COUNT] and code[table + 2 * low] == number:
         return code[table + 2 * low + 1]
     return -1

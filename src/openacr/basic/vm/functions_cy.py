@@ -29,7 +29,7 @@ from openacr.cmath import (
     trunc,
 )
 from openacr.kernel.words_cy import wrap32
-from openacr.map.numbers import SYSI_BASE, SYSI_RANDOM_SEED_HIGH, SYSI_RANDOM_SEED_LOW
+from openacr.map.rows import system
 from openacr.views import F64, I32
 
 __all__ = ["apply_function"]
@@ -199,8 +199,8 @@ def random_below(I: I32, limit: float) -> float:
     in the memory of the card. The high word times the limit, shifted down, is uniform
     enough and needs no division.
     """
-    low: int = I[SYSI_BASE + SYSI_RANDOM_SEED_LOW] & LOW32
-    high: int = I[SYSI_BASE + SYSI_RANDOM_SEED_HIGH] & LOW32
+    low: int = I[system.random_seed_low] & LOW32
+    high: int = I[system.random_seed_high] & LOW32
     shifted: int = 0
     if low == 0 and high == 0:
         low = 2463534242
@@ -214,8 +214,8 @@ def random_below(I: I32, limit: float) -> float:
     shifted = (low << 17) & LOW32
     high = high ^ (((high << 17) | (low >> 15)) & LOW32)
     low = low ^ shifted
-    I[SYSI_BASE + SYSI_RANDOM_SEED_LOW] = wrap32(low)
-    I[SYSI_BASE + SYSI_RANDOM_SEED_HIGH] = wrap32(high)
+    I[system.random_seed_low] = wrap32(low)
+    I[system.random_seed_high] = wrap32(high)
     if not (1.0 <= limit):
         return 0.0
     below: int = LOW32 if limit >= 4294967295.0 else int(limit)

@@ -12,32 +12,8 @@ from openacr.basic.vm.vm_cy import vm_run
 from openacr.basic.vm.waits_cy import wait_is_over
 from openacr.kernel.axis.axis_cy import axis_scale
 from openacr.kernel.path.path_cy import SLAVE_COUNT
-from openacr.map.numbers import (
-    AX_BASE,
-    AX_INVK_INPUT,
-    AX_INVK_INPUT_PREVIOUS,
-    AX_INVK_OUTPUT,
-    AX_STRIDE,
-    AXF_BASE,
-    AXF_KINEMATICS_CNT,
-    AXF_POSITION_CNT,
-    AXF_SEEN_CNT,
-    AXF_STRIDE,
-    KRI_BASE,
-    KRI_KINEMATICS,
-    MF1_IN_MOTION,
-    MSI_BASE,
-    MSI_INVK_MOVING,
-    MSI_SLAVE_AXIS,
-    MSI_STRIDE,
-    THI_BASE,
-    THI_DEPTH,
-    THI_EVENT,
-    THI_PC,
-    THI_SP,
-    THI_STATE,
-    THI_STRIDE,
-)
+from openacr.map import numbers as at
+from openacr.map.rows import kernel
 from openacr.map.words import mf1
 from openacr.views import F32, F64, I32
 
@@ -53,22 +29,22 @@ LARGEST_FP32 = 3.4028235e38
 
 def slave_axis(I: I32, m: int, s: int) -> int:
     """The axis of a slave, -1 without one."""
-    return I[MSI_BASE + m * MSI_STRIDE + MSI_SLAVE_AXIS + s]
+    return I[at.MSI_BASE + m * at.MSI_STRIDE + at.MSI_SLAVE_AXIS + s]
 
 
 def tool_moved(F: F64, I: I32, m: int) -> bool:
     """Whether the joints have to be computed anew; at rest positions may be written freely."""
-    i: int = MSI_BASE + m * MSI_STRIDE
-    moving: int = I[mf1.word[m]] & MF1_IN_MOTION
-    due: bool = moving != 0 or I[i + MSI_INVK_MOVING] != 0
-    I[i + MSI_INVK_MOVING] = moving
+    i: int = at.MSI_BASE + m * at.MSI_STRIDE
+    moving: int = I[mf1.word[m]] & mf1.IN_MOTION
+    due: bool = moving != 0 or I[i + at.MSI_INVK_MOVING] != 0
+    I[i + at.MSI_INVK_MOVING] = moving
     moved: bool = False
     for s in range(SLAVE_COUNT):
         axis: int = slave_axis(I, m, s)
         if axis >= 0:
-            a: int = AXF_BASE + axis * AXF_STRIDE
-            moved = moved or F[a + AXF_SEEN_CNT] != F[a + AXF_POSITION_CNT]
-            F[a + AXF_SEEN_CNT] = F[a + AXF_POSITION_CNT]
+            a: int = at.AXF_BASE + axis * at.AXF_STRIDE
+            moved = moved or F[a + at.AXF_SEEN_CNT] != F[a + at.AXF_POSITION_CNT]
+            F[a + at.AXF_SEEN_CNT] = F[a + at.AXF_POSITION_CNT]
     return due and moved
 
 
@@ -77,11 +53,13 @@ def inputs_show(F: F64, I: I32, S: F32, m: int) -> None:
     for s in range(SLAVE_COUNT):
         axis: int = slave_axis(I, m, s)
         if axis >= 0:
-            p: int = AX_BASE + axis * AX_STRIDE
-            place: float = F[AXF_BASE + axis * AXF_STRIDE + AXF_SEEN_CNT] / axis_scale(S, axis)
-            S[p + AX_INVK_INPUT_PREVIOUS] = S[p + AX_INVK_INPUT]
-            S[p + AX_INVK_INPUT] = place
-            S[p + AX_INVK_OUTPUT] = place
+            p: int = at.AX_BASE + axis * at.AX_STRIDE
+            place: float = F[at.AXF_BASE + axis * at.AXF_STRIDE + at.AXF_SEEN_CNT] / axis_scale(
+                S, axis
+            )
+            S[p + at.AX_INVK_INPUT_PREVIOUS] = S[p + at.AX_INVK_INPUT]
+            S[p + at.AX_INVK_INPUT] = place
+            S[p + at.AX_INVK_OUTPUT] = place
 
 
 def outputs_take(F: F64, I: I32, S: F32, m: int) -> None:
@@ -89,49 +67,49 @@ def outputs_take(F: F64, I: I32, S: F32, m: int) -> None:
     for s in range(SLAVE_COUNT):
         axis: int = slave_axis(I, m, s)
         if axis >= 0:
-            p: int = AX_BASE + axis * AX_STRIDE
-            a: int = AXF_BASE + axis * AXF_STRIDE
-            joint: float = S[p + AX_INVK_OUTPUT]
-            if joint == S[p + AX_INVK_INPUT]:
-                F[a + AXF_KINEMATICS_CNT] = F[a + AXF_SEEN_CNT] - F[a + AXF_POSITION_CNT]
+            p: int = at.AX_BASE + axis * at.AX_STRIDE
+            a: int = at.AXF_BASE + axis * at.AXF_STRIDE
+            joint: float = S[p + at.AX_INVK_OUTPUT]
+            if joint == S[p + at.AX_INVK_INPUT]:
+                F[a + at.AXF_KINEMATICS_CNT] = F[a + at.AXF_SEEN_CNT] - F[a + at.AXF_POSITION_CNT]
             elif -LARGEST_FP32 <= joint and joint <= LARGEST_FP32:
                 joint = joint * axis_scale(S, axis)
-                F[a + AXF_KINEMATICS_CNT] = joint - F[a + AXF_POSITION_CNT]
+                F[a + at.AXF_KINEMATICS_CNT] = joint - F[a + at.AXF_POSITION_CNT]
 
 
 def kinematics_run(F: F64, I: I32, S: F32, code: I32, nums: F64, m: int, tick: int) -> bool:
     """Begin or continue the program of master m; True if Python is needed."""
-    rows: int = THI_BASE + (FIRST_THREAD + m) * THI_STRIDE
-    if I[rows + THI_STATE] == IDLE:
+    rows: int = at.THI_BASE + (FIRST_THREAD + m) * at.THI_STRIDE
+    if I[rows + at.THI_STATE] == IDLE:
         if not tool_moved(F, I, m):
             return False
         inputs_show(F, I, S, m)
-        I[rows + THI_PC] = 0
-        I[rows + THI_SP] = 0
-        I[rows + THI_DEPTH] = 0
-        I[rows + THI_STATE] = READY
-    elif I[rows + THI_STATE] == WAITING:
+        I[rows + at.THI_PC] = 0
+        I[rows + at.THI_SP] = 0
+        I[rows + at.THI_DEPTH] = 0
+        I[rows + at.THI_STATE] = READY
+    elif I[rows + at.THI_STATE] == WAITING:
         if not wait_is_over(F, I, S, FIRST_THREAD + m, tick):
             return False
-        I[rows + THI_STATE] = READY
+        I[rows + at.THI_STATE] = READY
     event: int = vm_run(F, I, S, code, nums, FIRST_THREAD + m, STATEMENTS, tick)
     if event == VM_SLICE:
         return False
     if event == VM_WAIT:
-        I[rows + THI_STATE] = WAITING
+        I[rows + at.THI_STATE] = WAITING
         return False
     if event == VM_END:
-        I[rows + THI_STATE] = IDLE
+        I[rows + at.THI_STATE] = IDLE
         outputs_take(F, I, S, m)
         return False
-    I[rows + THI_EVENT] = event
+    I[rows + at.THI_EVENT] = event
     return True
 
 
 def kinematics_step(F: F64, I: I32, S: F32, code: I32, nums: F64, tick: int) -> int:
     """Compute the joints of all masters with INVK ON; a thread if Python is needed, else 0."""
     for m in range(MASTERS):
-        if I[KRI_BASE + KRI_KINEMATICS] & (1 << m):
+        if I[kernel.kinematics] & (1 << m):
             if kinematics_run(F, I, S, code, nums, m, tick):
                 return FIRST_THREAD + m
     return 0

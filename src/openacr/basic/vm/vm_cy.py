@@ -102,57 +102,14 @@ from openacr.basic.vm.waits_cy import (
     inhibit_position,
     start_wait,
 )
-from openacr.map.numbers import (
-    ENGI_BASE,
-    ENGI_LINE_ANNOUNCED,
-    ENGI_LINE_STOPS,
-    ENGI_STATEMENTS,
-    PF_BLOCK_MODE,
-    PF_PAUSE_MODE,
-    PF_TRACE_MODE_ENABLE,
-    PF_WORD,
-    PROG_BASE,
-    PROG_COUNT,
-    PROG_LINE_NUMBER,
-    PROG_STRIDE,
-    STI_BASE,
-    STI_LV_BASE,
-    STI_LV_COUNT,
-    STI_STRIDE,
-    SYSI_BASE,
-    SYSI_P_COUNT,
-    THCI_BASE,
-    THCI_CODE_BASE,
-    THCI_NUM_BASE,
-    THCI_STRIDE,
-    THF_BASE,
-    THF_ERROR_DETAIL,
-    THF_FLOW_LIMIT,
-    THF_FLOW_STEP,
-    THF_RESULT,
-    THF_STACK,
-    THF_STACK_SIZE,
-    THF_STRIDE,
-    THI_BASE,
-    THI_BUDGET,
-    THI_DEPTH,
-    THI_ERROR,
-    THI_FLOW_BACK,
-    THI_LINE,
-    THI_LOCALS,
-    THI_PASSED,
-    THI_PC,
-    THI_SP,
-    THI_SPARE_FLAGS,
-    THI_STRIDE,
-    THI_TRAP,
-    USER_BASE,
-)
+from openacr.map import numbers as at
+from openacr.map.rows import engine, programs, system, threads
+from openacr.map.words import pf
 from openacr.views import F32, F64, I32
 
 __all__ = ["vm_run"]
 
-STOPS = PF_BLOCK_MODE | PF_PAUSE_MODE | PF_TRACE_MODE_ENABLE
+STOPS = pf.BLOCK_MODE | pf.PAUSE_MODE | pf.TRACE_MODE_ENABLE
 
 
 def vm_run(
@@ -166,45 +123,45 @@ def vm_run(
     tick: int,
 ) -> int:
     """Execute thread t for at most `budget` statements; one of the VM_ numbers above."""
-    rows: int = THI_BASE + t * THI_STRIDE
-    reals: int = THF_BASE + t * THF_STRIDE
-    base: int = I[THCI_BASE + t * THCI_STRIDE + THCI_CODE_BASE]
-    num_base: int = I[THCI_BASE + t * THCI_STRIDE + THCI_NUM_BASE]
-    bottom: int = reals + THF_STACK
-    top: int = bottom + I[rows + THI_SP]  # place of the next number to be pushed
-    pc: int = base + I[rows + THI_PC]
-    flags_at: int = PF_WORD + t if t < PROG_COUNT else rows + THI_SPARE_FLAGS
-    line_at: int = PROG_BASE + t * PROG_STRIDE + PROG_LINE_NUMBER
+    rows: int = at.THI_BASE + t * at.THI_STRIDE
+    reals: int = at.THF_BASE + t * at.THF_STRIDE
+    base: int = I[at.THCI_BASE + t * at.THCI_STRIDE + at.THCI_CODE_BASE]
+    num_base: int = I[at.THCI_BASE + t * at.THCI_STRIDE + at.THCI_NUM_BASE]
+    bottom: int = reals + at.THF_STACK
+    top: int = bottom + I[rows + at.THI_SP]  # place of the next number to be pushed
+    pc: int = base + I[rows + at.THI_PC]
+    flags_at: int = at.PF_WORD + t if t < programs.COUNT else rows + at.THI_SPARE_FLAGS
+    line_at: int = at.PROG_BASE + t * at.PROG_STRIDE + at.PROG_LINE_NUMBER
     error: int = 0
     event: int = 0
     op: int = 0
-    at: int = 0
+    place: int = 0
     word: int = 0
-    locals_of: int = I[rows + THI_LOCALS]
-    storage: int = STI_BASE + locals_of * STI_STRIDE
-    announced: int = (I[ENGI_BASE + ENGI_LINE_STOPS] >> t) & 1 if t < PROG_COUNT else 0
+    locals_of: int = I[rows + at.THI_LOCALS]
+    storage: int = at.STI_BASE + locals_of * at.STI_STRIDE
+    announced: int = (I[engine.line_stops] >> t) & 1 if t < programs.COUNT else 0
     first_budget: int = budget
-    if t >= PROG_COUNT:
-        line_at = rows + THI_LINE
-    if top > bottom + THF_STACK_SIZE - 100:
+    if t >= programs.COUNT:
+        line_at = rows + at.THI_LINE
+    if top > bottom + threads.STACK_SIZE - 100:
         error = messages.STACK_OVERFLOW.number
     while error == 0 and event == 0:
         op = code[pc]
         if op == DO_STATEMENT:
             if budget == 0:
                 event = VM_SLICE
-            elif I[flags_at] & STOPS and code[pc + 2] and not I[rows + THI_PASSED]:
+            elif I[flags_at] & STOPS and code[pc + 2] and not I[rows + at.THI_PASSED]:
                 event = VM_FLAGS
-            elif announced and code[pc + 2] and I[ENGI_BASE + ENGI_LINE_ANNOUNCED] != t + 1:
+            elif announced and code[pc + 2] and I[engine.line_announced] != t + 1:
                 event = VM_LINE
             else:
                 if announced:
-                    I[ENGI_BASE + ENGI_LINE_ANNOUNCED] = 0
+                    I[engine.line_announced] = 0
                 budget -= 1
                 word = code[pc + 1]
-                I[rows + THI_LINE] = word
+                I[rows + at.THI_LINE] = word
                 I[line_at] = word
-                I[rows + THI_PASSED] = 0
+                I[rows + at.THI_PASSED] = 0
                 pc += 3
         elif op == DO_PUSH:
             F[top] = nums[num_base + code[pc + 1]]
@@ -250,50 +207,50 @@ def vm_run(
             error = store_single(S, code[pc + 1], F[top])
             pc += 2
         elif op == DO_LOAD_USER:
-            if code[pc + 1] >= I[SYSI_BASE + SYSI_P_COUNT]:
+            if code[pc + 1] >= I[system.p_count]:
                 error = messages.UNDEFINED_VARIABLE.number
-            F[top] = F[USER_BASE + code[pc + 1]]
+            F[top] = F[at.USER_BASE + code[pc + 1]]
             top += 1
             pc += 2
         elif op == DO_STORE_USER:
             top -= 1
-            if code[pc + 1] < I[SYSI_BASE + SYSI_P_COUNT]:
-                F[USER_BASE + code[pc + 1]] = F[top]
+            if code[pc + 1] < I[system.p_count]:
+                F[at.USER_BASE + code[pc + 1]] = F[top]
             else:
                 error = messages.UNDEFINED_VARIABLE.number
             pc += 2
         elif op == DO_LOAD_LV:
             if locals_of < 0:
                 error = messages.NOT_VALID_AT_THIS_LEVEL.number
-            elif code[pc + 1] >= I[storage + STI_LV_COUNT]:
+            elif code[pc + 1] >= I[storage + at.STI_LV_COUNT]:
                 error = messages.UNDEFINED_VARIABLE.number
             else:
-                F[top] = float(I[I[storage + STI_LV_BASE] + code[pc + 1]])
+                F[top] = float(I[I[storage + at.STI_LV_BASE] + code[pc + 1]])
             top += 1
             pc += 2
         elif op == DO_STORE_LV:
             top -= 1
             if locals_of < 0:
                 error = messages.NOT_VALID_AT_THIS_LEVEL.number
-            elif code[pc + 1] >= I[storage + STI_LV_COUNT]:
+            elif code[pc + 1] >= I[storage + at.STI_LV_COUNT]:
                 error = messages.UNDEFINED_VARIABLE.number
             else:
-                I[I[storage + STI_LV_BASE] + code[pc + 1]] = long_word(F[top])
+                I[I[storage + at.STI_LV_BASE] + code[pc + 1]] = long_word(F[top])
             pc += 2
         elif op == DO_LOAD_LOCAL:
-            at = local_place(I, locals_of, code[pc + 1], F[top - 1])
-            if at < 0:
-                error = 0 - at
+            place = local_place(I, locals_of, code[pc + 1], F[top - 1])
+            if place < 0:
+                error = 0 - place
             else:
-                error = load_kind(F, I, S, code[pc + 1], at, top - 1)
+                error = load_kind(F, I, S, code[pc + 1], place, top - 1)
             pc += 2
         elif op == DO_STORE_LOCAL:
             top -= 2
-            at = local_place(I, locals_of, code[pc + 1], F[top])
-            if at < 0:
-                error = 0 - at
+            place = local_place(I, locals_of, code[pc + 1], F[top])
+            if place < 0:
+                error = 0 - place
             else:
-                error = store_kind(F, I, S, code[pc + 1], at, F[top + 1])
+                error = store_kind(F, I, S, code[pc + 1], place, F[top + 1])
             pc += 2
         elif op == DO_LOAD_BIT:
             F[top] = -1.0 if I[code[pc + 1]] & code[pc + 2] else 0.0
@@ -301,9 +258,9 @@ def vm_run(
             pc += 3
         elif op == DO_STORE_BIT:
             top -= 1
-            at = code[pc + 1]
+            place = code[pc + 1]
             word = code[pc + 2]
-            I[at] = I[at] | word if F[top] != 0.0 else I[at] & ~word
+            I[place] = I[place] | word if F[top] != 0.0 else I[place] & ~word
             pc += 3
         elif op == DO_LOAD_PARAMETER:
             error = read_parameter(F, I, S, whole_index(F[top - 1]), top - 1)
@@ -324,19 +281,19 @@ def vm_run(
             pc += 1
         elif op == DO_LOAD_ELEMENT:
             top -= 1
-            at = element_place(I, locals_of, code[pc + 1], F[top - 1], F[top])
-            if at < 0:
-                error = 0 - at
+            place = element_place(I, locals_of, code[pc + 1], F[top - 1], F[top])
+            if place < 0:
+                error = 0 - place
             else:
-                error = load_kind(F, I, S, code[pc + 1], at, top - 1)
+                error = load_kind(F, I, S, code[pc + 1], place, top - 1)
             pc += 2
         elif op == DO_STORE_ELEMENT:
             top -= 3
-            at = element_place(I, locals_of, code[pc + 1], F[top], F[top + 1])
-            if at < 0:
-                error = 0 - at
+            place = element_place(I, locals_of, code[pc + 1], F[top], F[top + 1])
+            if place < 0:
+                error = 0 - place
             else:
-                error = store_kind(F, I, S, code[pc + 1], at, F[top + 2])
+                error = store_kind(F, I, S, code[pc + 1], place, F[top + 2])
             pc += 2
         elif op == DO_ENTER:
             error = open_level(I, rows, code[pc + 1], code[pc + 2], code[pc + 3])
@@ -351,26 +308,26 @@ def vm_run(
             else:
                 error = open_level(I, rows, FLOW_FOR, code[pc + 1], code[pc + 2])
             if error == 0:
-                at = I[rows + THI_DEPTH] - 1
-                F[reals + THF_FLOW_LIMIT + at] = F[top]
-                F[reals + THF_FLOW_STEP + at] = F[top + 1]
+                place = I[rows + at.THI_DEPTH] - 1
+                F[reals + at.THF_FLOW_LIMIT + place] = F[top]
+                F[reals + at.THF_FLOW_STEP + place] = F[top + 1]
             pc += 3
         elif op == DO_TEST_FOR:
             top -= 1
-            at = reals + I[rows + THI_DEPTH] - 1
-            if F[at + THF_FLOW_STEP] > 0.0:
-                word = 1 if F[top] <= F[at + THF_FLOW_LIMIT] else 0
+            place = reals + I[rows + at.THI_DEPTH] - 1
+            if F[place + at.THF_FLOW_STEP] > 0.0:
+                word = 1 if F[top] <= F[place + at.THF_FLOW_LIMIT] else 0
             else:
-                word = 1 if F[top] >= F[at + THF_FLOW_LIMIT] else 0
+                word = 1 if F[top] >= F[place + at.THF_FLOW_LIMIT] else 0
             if word:
                 pc += 2
             else:
-                I[rows + THI_DEPTH] = I[rows + THI_DEPTH] - 1
+                I[rows + at.THI_DEPTH] = I[rows + at.THI_DEPTH] - 1
                 pc = base + code[pc + 1]
         elif op == DO_NEXT:
             if is_open(I, rows, FLOW_FOR, code[pc + 1]):
-                at = I[rows + THI_DEPTH] - 1
-                F[top - 1] = F[top - 1] + F[reals + THF_FLOW_STEP + at]
+                place = I[rows + at.THI_DEPTH] - 1
+                F[top - 1] = F[top - 1] + F[reals + at.THF_FLOW_STEP + place]
                 error = 0 if finite(F[top - 1]) else messages.MATH_ERROR.number
             else:
                 error = messages.NEXT_WITHOUT_FOR.number
@@ -391,21 +348,21 @@ def vm_run(
         elif op == DO_GOSUB:
             error = open_level(I, rows, FLOW_GOSUB, 0, 0)
             if error == 0:
-                I[rows + THI_FLOW_BACK + I[rows + THI_DEPTH] - 1] = pc + 2 - base
+                I[rows + at.THI_FLOW_BACK + I[rows + at.THI_DEPTH] - 1] = pc + 2 - base
                 pc = base + code[pc + 1]
         elif op == DO_GOTO_LINE or op == DO_GOSUB_LINE:
             top -= 1
             word = line_place(I, code, rows, base, F[top])
             if word < 0:
                 error = messages.LINE_NOT_FOUND.number
-                F[reals + THF_ERROR_DETAIL] = F[top]
+                F[reals + at.THF_ERROR_DETAIL] = F[top]
             elif op == DO_GOTO_LINE:
                 unwind(I, rows, word)
                 pc = base + word
             else:
                 error = open_level(I, rows, FLOW_GOSUB, 0, 0)
                 if error == 0:
-                    I[rows + THI_FLOW_BACK + I[rows + THI_DEPTH] - 1] = pc + 1 - base
+                    I[rows + at.THI_FLOW_BACK + I[rows + at.THI_DEPTH] - 1] = pc + 1 - base
                     pc = base + word
         elif op == DO_RETURN:
             word = return_level(I, rows)
@@ -417,17 +374,17 @@ def vm_run(
             event = VM_END
         elif op == DO_FAIL:
             error = code[pc + 1]
-            F[reals + THF_ERROR_DETAIL] = float(code[pc + 2])
+            F[reals + at.THF_ERROR_DETAIL] = float(code[pc + 2])
         elif op == DO_TRAP:
-            I[rows + THI_TRAP] = code[pc + 1]
+            I[rows + at.THI_TRAP] = code[pc + 1]
             pc += 2
             event = VM_TRAP
         elif op == DO_CALL:
-            I[rows + THI_TRAP] = code[pc + 1]
+            I[rows + at.THI_TRAP] = code[pc + 1]
             event = VM_CALL  # pc stays: Python pushes the value and steps over
         elif op == DO_RESULT:
             top -= 1
-            F[reals + THF_RESULT] = F[top]
+            F[reals + at.THF_RESULT] = F[top]
             event = VM_VALUE
         elif op == DO_DWELL:
             top -= 1
@@ -453,11 +410,11 @@ def vm_run(
             pc += 1
         else:
             error = messages.MATH_ERROR.number
-    I[rows + THI_SP] = top - bottom
-    I[rows + THI_PC] = pc - base
-    I[rows + THI_BUDGET] = budget
-    I[ENGI_BASE + ENGI_STATEMENTS] = I[ENGI_BASE + ENGI_STATEMENTS] + first_budget - budget
+    I[rows + at.THI_SP] = top - bottom
+    I[rows + at.THI_PC] = pc - base
+    I[rows + at.THI_BUDGET] = budget
+    I[engine.statements] = I[engine.statements] + first_budget - budget
     if error != 0:
-        I[rows + THI_ERROR] = error
+        I[rows + at.THI_ERROR] = error
         return VM_ERROR
     return event

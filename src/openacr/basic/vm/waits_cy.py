@@ -9,25 +9,9 @@ from openacr.basic.vm.values_cy import (
 from openacr.cmath import (
     ceil,
 )
-from openacr.map.numbers import (
-    PF_PROGRAM_DWELLING,
-    PF_PROGRAM_INHIBITED,
-    PF_PROGRAM_TIMEOUT,
-    PF_WORD,
-    SYSF_BASE,
-    SYSF_PERIOD_S,
-    THF_BASE,
-    THF_RESULT,
-    THF_STRIDE,
-    THF_WAIT_DEADLINE_TK,
-    THF_WAIT_VALUE,
-    THI_BASE,
-    THI_LOCALS,
-    THI_STRIDE,
-    THI_WAIT_KIND,
-    THI_WAIT_OPERAND,
-    THI_WAIT_SHOW,
-)
+from openacr.map import numbers as at
+from openacr.map.rows import system
+from openacr.map.words import pf
 from openacr.views import F32, F64, I32
 
 __all__ = ["wait_is_over"]
@@ -54,27 +38,27 @@ def start_wait(
     tick: int,
 ) -> None:
     """Note what thread t waits for, with a time limit if seconds is positive."""
-    rows: int = THI_BASE + t * THI_STRIDE
-    reals: int = THF_BASE + t * THF_STRIDE
-    period: float = F[SYSF_BASE + SYSF_PERIOD_S]
-    show: int = PF_PROGRAM_DWELLING if kind == WAIT_TIME else PF_PROGRAM_INHIBITED
-    I[rows + THI_WAIT_KIND] = kind
-    I[rows + THI_WAIT_OPERAND] = operand
-    I[rows + THI_WAIT_SHOW] = show
-    F[reals + THF_WAIT_VALUE] = value
-    F[reals + THF_WAIT_DEADLINE_TK] = 0.0
+    rows: int = at.THI_BASE + t * at.THI_STRIDE
+    reals: int = at.THF_BASE + t * at.THF_STRIDE
+    period: float = F[system.period_s]
+    show: int = pf.PROGRAM_DWELLING if kind == WAIT_TIME else pf.PROGRAM_INHIBITED
+    I[rows + at.THI_WAIT_KIND] = kind
+    I[rows + at.THI_WAIT_OPERAND] = operand
+    I[rows + at.THI_WAIT_SHOW] = show
+    F[reals + at.THF_WAIT_VALUE] = value
+    F[reals + at.THF_WAIT_DEADLINE_TK] = 0.0
     if seconds > 0.0 and period > 0.0:
-        F[reals + THF_WAIT_DEADLINE_TK] = float(tick) + ceil(seconds / period - 1.0e-6)
+        F[reals + at.THF_WAIT_DEADLINE_TK] = float(tick) + ceil(seconds / period - 1.0e-6)
 
 
 def wait_is_over(F: F64, I: I32, S: F32, t: int, tick: int) -> int:
     """1 if what thread t waits for has come, 2 if its time is up, else 0."""
-    rows: int = THI_BASE + t * THI_STRIDE
-    reals: int = THF_BASE + t * THF_STRIDE
-    kind: int = I[rows + THI_WAIT_KIND]
-    operand: int = I[rows + THI_WAIT_OPERAND]
-    value: float = F[reals + THF_WAIT_VALUE]
-    deadline: float = F[reals + THF_WAIT_DEADLINE_TK]
+    rows: int = at.THI_BASE + t * at.THI_STRIDE
+    reals: int = at.THF_BASE + t * at.THF_STRIDE
+    kind: int = I[rows + at.THI_WAIT_KIND]
+    operand: int = I[rows + at.THI_WAIT_OPERAND]
+    value: float = F[reals + at.THF_WAIT_VALUE]
+    deadline: float = F[reals + at.THF_WAIT_DEADLINE_TK]
     present: float = 0.0
     met: bool = False
     if kind == WAIT_BIT_SET:
@@ -86,9 +70,9 @@ def wait_is_over(F: F64, I: I32, S: F32, t: int, tick: int) -> int:
     elif kind == WAIT_ROW_BELOW:
         met = float(I[operand]) < value
     elif kind == WAIT_PARAMETER_ABOVE or kind == WAIT_PARAMETER_BELOW:
-        if read_parameter(F, I, S, operand, reals + THF_RESULT) != 0:
+        if read_parameter(F, I, S, operand, reals + at.THF_RESULT) != 0:
             return 1  # it was freed meanwhile: nothing to wait for
-        present = F[reals + THF_RESULT]
+        present = F[reals + at.THF_RESULT]
         met = present > value if kind == WAIT_PARAMETER_ABOVE else present < value
     if met:
         return 1
@@ -97,12 +81,12 @@ def wait_is_over(F: F64, I: I32, S: F32, t: int, tick: int) -> int:
     return 0
 
 
-def inhibit(F: F64, I: I32, t: int, for_clear: int, at: int, tick: int) -> int:
-    """INH of the flag F[at] for at most F[at + 1] seconds: 1 to wait, 0 to go on, -error.
+def inhibit(F: F64, I: I32, t: int, for_clear: int, place: int, tick: int) -> int:
+    """INH of the flag F[place] for at most F[place + 1] seconds: 1 to wait, 0 to go on, -error.
 
     A number below 0 that was computed means the clear state, too.
     """
-    number: int = whole_index(F[at])
+    number: int = whole_index(F[place])
     wanted: int = 0 if for_clear else 1
     if number < 0:
         number = 0 - number
@@ -112,22 +96,22 @@ def inhibit(F: F64, I: I32, t: int, for_clear: int, at: int, tick: int) -> int:
         return -messages.INVALID_BIT.number
     if state == wanted:
         return 0
-    start_wait(F, I, t, WAIT_BIT_SET if wanted else WAIT_BIT_CLEAR, number, 0.0, F[at + 1], tick)
+    start_wait(F, I, t, WAIT_BIT_SET if wanted else WAIT_BIT_CLEAR, number, 0.0, F[place + 1], tick)
     return 1
 
 
-def inhibit_position(F: F64, I: I32, S: F32, t: int, for_below: int, at: int, tick: int) -> int:
-    """IHPOS of the parameter F[at]: until it has passed F[at + 1], for at most F[at + 2] seconds.
+def inhibit_position(F: F64, I: I32, S: F32, t: int, for_below: int, place: int, tick: int) -> int:
+    """IHPOS of the parameter F[place] and the setpoint F[place + 1].
 
-    1 to wait, 0 to go on, -error.
+    For at most F[place + 2] seconds; 1 to wait, 0 to go on, -error.
     """
-    number: int = whole_index(F[at])
-    program: int = I[THI_BASE + t * THI_STRIDE + THI_LOCALS]
+    number: int = whole_index(F[place])
+    program: int = I[at.THI_BASE + t * at.THI_STRIDE + at.THI_LOCALS]
     kind: int = WAIT_PARAMETER_BELOW if for_below else WAIT_PARAMETER_ABOVE
     if program >= 0:
-        I[PF_WORD + program] = I[PF_WORD + program] & ~PF_PROGRAM_TIMEOUT
-    error: int = read_parameter(F, I, S, number, at + 3)
+        I[at.PF_WORD + program] = I[at.PF_WORD + program] & ~pf.PROGRAM_TIMEOUT
+    error: int = read_parameter(F, I, S, number, place + 3)
     if error:
         return -error
-    start_wait(F, I, t, kind, number, F[at + 1], F[at + 2], tick)
+    start_wait(F, I, t, kind, number, F[place + 1], F[place + 2], tick)
     return 0 if wait_is_over(F, I, S, t, tick) else 1

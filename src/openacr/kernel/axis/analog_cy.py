@@ -8,11 +8,7 @@ to any terminal the inputs keep what is written to them.
 """
 
 from openacr.cmath import rint
-from openacr.map.numbers import (
-    P_ADC_NEGATIVE_CHANNELS,
-    P_ADC_POSITIVE_CHANNELS,
-    P_ADC_STATE_CONTROL,
-)
+from openacr.map import numbers as at
 from openacr.map.rows import adcs, analogs, kernel
 from openacr.views import F32, F64, I32
 
@@ -31,14 +27,14 @@ def terminal_volts(F: F64, channel: int) -> float:
 
 def analog_step(F: F64, I: I32, S: F32) -> None:
     """Measure what is at the terminals."""
-    if not I[P_ADC_STATE_CONTROL] & SCANNING:
+    if not I[at.P_ADC_STATE_CONTROL] & SCANNING:
         return
     full: float = FINE if I[kernel.adc_mode] else COARSE
     for n in range(analogs.COUNT):
         if n >= I[kernel.adc_channels]:
             return
-        plus: int = I[P_ADC_POSITIVE_CHANNELS] >> BITS_EACH * n & CHANNEL
-        minus: int = I[P_ADC_NEGATIVE_CHANNELS] >> BITS_EACH * n & CHANNEL
+        plus: int = I[at.P_ADC_POSITIVE_CHANNELS] >> BITS_EACH * n & CHANNEL
+        minus: int = I[at.P_ADC_NEGATIVE_CHANNELS] >> BITS_EACH * n & CHANNEL
         volts: float = terminal_volts(F, plus) - terminal_volts(F, minus)
         share: float = rint(max(-1.0, min(1.0, volts * PER_VOLT)) * full) / full
         S[adcs.adc_input[n]] = share * S[adcs.adc_gain[n]] + S[adcs.adc_offset[n]]

@@ -37,14 +37,7 @@ from openacr.kernel.axis.feedback_cy import (
 )
 from openacr.kernel.words_cy import round32, wrap32
 from openacr.map.kinds_cy import kind_of, store_long
-from openacr.map.numbers import (
-    KIND_FP32,
-    KIND_FP64,
-    KIND_LONG,
-    USER_BASE,
-    W_INPUTS,
-    W_MISC_OUTPUTS,
-)
+from openacr.map.numbers import KIND_FP32, KIND_FP64, KIND_LONG, USER_BASE, W_INPUTS, W_MISC_OUTPUTS
 from openacr.map.rows import (
     axes,
     encoders,

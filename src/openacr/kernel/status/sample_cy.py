@@ -9,15 +9,7 @@ for it again. When the shortest array is full, or an array no longer exists, it 
 from openacr.kernel.followers.cam_cy import DOUBLES, LONGS, SINGLES, array_header
 from openacr.kernel.sources.source_cy import parameter_value
 from openacr.kernel.words_cy import wrap32
-from openacr.map.numbers import (
-    FLAG_LAST,
-    FLAG_WORD_BASE,
-    P_SAMPLE_ARRAY_INDEX,
-    P_SAMPLE_TIMER_CLOCK,
-    P_SAMPLE_TIMER_PERIOD,
-    P_SAMPLE_TRIGGER_INDEX,
-    W_MISC_OUTPUTS,
-)
+from openacr.map import numbers as at
 from openacr.map.rows import sampler
 from openacr.map.words import mo
 from openacr.views import F32, F64, I32
@@ -78,53 +70,53 @@ def sample_store(F: F64, I: I32, S: F32, index: int) -> None:
 def sample_triggered(I: I32) -> bool:
     """Whether the trigger condition holds; without a trigger it always does."""
     flag: int = I[sampler.trigger] - 1
-    if not 0 <= flag <= FLAG_LAST:
+    if not 0 <= flag <= at.FLAG_LAST:
         return True
-    state: int = (I[FLAG_WORD_BASE + (flag >> 5)] >> (flag & 31)) & 1
+    state: int = (I[at.FLAG_WORD_BASE + (flag >> 5)] >> (flag & 31)) & 1
     return state != I[sampler.trigger_clear]
 
 
 def sample_begin(F: F64, I: I32) -> None:
     """The trigger has come: the next sample is due at once."""
-    I[W_MISC_OUTPUTS] |= mo.SAMPLE_IN_PROGRESS | mo.SAMPLE_TRIGGER_LATCHED
-    I[P_SAMPLE_TRIGGER_INDEX] = I[P_SAMPLE_ARRAY_INDEX]
-    F[sampler.timer_ms] = max(I[P_SAMPLE_TIMER_PERIOD], 0)
+    I[at.W_MISC_OUTPUTS] |= mo.SAMPLE_IN_PROGRESS | mo.SAMPLE_TRIGGER_LATCHED
+    I[at.P_SAMPLE_TRIGGER_INDEX] = I[at.P_SAMPLE_ARRAY_INDEX]
+    F[sampler.timer_ms] = max(I[at.P_SAMPLE_TIMER_PERIOD], 0)
 
 
 def sample_take(F: F64, I: I32, S: F32, period_ms: float) -> None:
     """Store a sample if one is due; end when the arrays are full."""
-    every: int = I[P_SAMPLE_TIMER_PERIOD]
+    every: int = I[at.P_SAMPLE_TIMER_PERIOD]
     room: int = sample_room(I)
-    index: int = I[P_SAMPLE_ARRAY_INDEX]
+    index: int = I[at.P_SAMPLE_ARRAY_INDEX]
     timer: float = F[sampler.timer_ms]
     if timer >= every - EPS_MS and 0 <= index < room:
         sample_store(F, I, S, index)
         index += 1
-        I[P_SAMPLE_ARRAY_INDEX] = index
+        I[at.P_SAMPLE_ARRAY_INDEX] = index
         timer = max(timer - every, 0.0) if every > 0 else 0.0
-    I[P_SAMPLE_TIMER_CLOCK] = int(min(timer + EPS_MS, 2e9))
+    I[at.P_SAMPLE_TIMER_CLOCK] = int(min(timer + EPS_MS, 2e9))
     F[sampler.timer_ms] = timer + period_ms
     if not 0 <= index < room:
-        I[W_MISC_OUTPUTS] &= ~(mo.SAMPLE_IN_PROGRESS | mo.SAMPLE_TRIGGER_ARMED)
+        I[at.W_MISC_OUTPUTS] &= ~(mo.SAMPLE_IN_PROGRESS | mo.SAMPLE_TRIGGER_ARMED)
 
 
 def sample_step(F: F64, I: I32, S: F32, period_s: float) -> None:
     """The sampler in one tick, while it is or was armed."""
-    armed: int = 1 if I[W_MISC_OUTPUTS] & mo.SAMPLE_TRIGGER_ARMED else 0
+    armed: int = 1 if I[at.W_MISC_OUTPUTS] & mo.SAMPLE_TRIGGER_ARMED else 0
     if armed and not I[sampler.armed_old]:
-        I[P_SAMPLE_ARRAY_INDEX] = 0
-        I[W_MISC_OUTPUTS] &= ~(mo.SAMPLE_IN_PROGRESS | mo.SAMPLE_TRIGGER_LATCHED)
+        I[at.P_SAMPLE_ARRAY_INDEX] = 0
+        I[at.W_MISC_OUTPUTS] &= ~(mo.SAMPLE_IN_PROGRESS | mo.SAMPLE_TRIGGER_LATCHED)
     I[sampler.armed_old] = armed
     if not armed:
-        I[W_MISC_OUTPUTS] &= ~mo.SAMPLE_IN_PROGRESS
+        I[at.W_MISC_OUTPUTS] &= ~mo.SAMPLE_IN_PROGRESS
         return
-    running: int = I[W_MISC_OUTPUTS] & mo.SAMPLE_IN_PROGRESS
-    gated: int = I[W_MISC_OUTPUTS] & mo.SAMPLE_MODE_SELECT
+    running: int = I[at.W_MISC_OUTPUTS] & mo.SAMPLE_IN_PROGRESS
+    gated: int = I[at.W_MISC_OUTPUTS] & mo.SAMPLE_MODE_SELECT
     if not running or gated:
         if not sample_triggered(I):
-            I[W_MISC_OUTPUTS] &= ~mo.SAMPLE_IN_PROGRESS
+            I[at.W_MISC_OUTPUTS] &= ~mo.SAMPLE_IN_PROGRESS
             return
         if not running:
             sample_begin(F, I)
     sample_take(F, I, S, period_s * 1000.0)
-    I[sampler.armed_old] = 1 if I[W_MISC_OUTPUTS] & mo.SAMPLE_TRIGGER_ARMED else 0
+    I[sampler.armed_old] = 1 if I[at.W_MISC_OUTPUTS] & mo.SAMPLE_TRIGGER_ARMED else 0

@@ -9,3 +9,5 @@ p_count = 421140
 slow_phase = 421141
 tick_low = 421142
 tick_high = 421143
+random_seed_low = 421144
+random_seed_high = 421145
