@@ -68,12 +68,13 @@ def _within(rule: Rule, language: str) -> Rule:
     if "captures" in rule:
         found["captures"] = {
             number: {
-                key: f"{value}.{language}" if key == "name" else
-                [_within(each, language) for each in value]
+                key: f"{value}.{language}"
+                if key == "name"
+                else [_within(each, language) for each in value]
                 for key, value in capture.items()
             }
             for number, capture in rule["captures"].items()
-        }  # fmt: skip
+        }
     return found
 
 
@@ -110,8 +111,9 @@ def _acrobasic() -> Iterator[Rule]:
         "",
         rf"{_BEFORE}({_any_of(JUMPS)}){_AFTER}"
         rf"(?:{BLANK}([A-Z][A-Z0-9]*|[0-9]+))?",
-        COMMAND, LABEL,
-    )  # fmt: skip
+        COMMAND,
+        LABEL,
+    )
     yield _rule("", rf"^{BLANK}([0-9]+)", LABEL)
     yield _rule(LABEL, rf"_{BLANK}[A-Z0-9]+")
     yield _rule("", r"(#DEFINE)(?![A-Za-z$])(?:[ \t]+([^ \t]+))?", COMMAND, NAME)

@@ -113,8 +113,7 @@ def adc_pos(run: Run, number: int, channel: int | None) -> None:
     _choose(run, POSITIVE, number, channel)
 
 
-@command("ADC NEG", group=GROUP, levels=ANY, grammar=_CHOICE, ref=REF, saved=True,
-         default="-1")  # fmt: skip
+@command("ADC NEG", group=GROUP, levels=ANY, grammar=_CHOICE, ref=REF, saved=True, default="-1")
 def adc_neg(run: Run, number: int, channel: int | None) -> None:
     """Choose the channel an analog input measures against; -1 is ground."""
     _choose(run, NEGATIVE, number, channel)

@@ -79,8 +79,9 @@ def bsc_off(run: Run, axes: tuple[Axis, ...]) -> None:
         cam.ballscrew_off(run.card, axis.number)
 
 
-@command("BSC SHIFT", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF,
-         units="units")  # fmt: skip
+@command(
+    "BSC SHIFT", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF, units="units"
+)
 def bsc_shift(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Set the second term added to a ballscrew table, or report it."""
     set_shifts(run, axes, cam.ballscrew)

@@ -186,8 +186,9 @@ def cam_poff(run: Run, axes: tuple[AxisValue, ...]) -> None:
         cam.disengage_at(run.card, item.axis.number, item.value)
 
 
-@command("CAM SHIFT", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF,
-         units="units")  # fmt: skip
+@command(
+    "CAM SHIFT", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF, units="units"
+)
 def cam_shift(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Preload the shift an incremental cam has built up, or report it."""
     set_shifts(run, axes, _own)

@@ -23,8 +23,9 @@ GROUP = "Servo Control"
 REF = "PG Servo Control"
 
 
-@command("FLT SRC", group=GROUP, levels=BY_OBJECT, grammar=(AxisSources(),), ref=REF,
-         default="NONE")  # fmt: skip
+@command(
+    "FLT SRC", group=GROUP, levels=BY_OBJECT, grammar=(AxisSources(),), ref=REF, default="NONE"
+)
 def flt_src(run: Run, axes: tuple[tuple[Axis, ObjectRef | None], ...]) -> None:
     """Choose what an axis follows through its filter."""
     choose_sources(run, axes, USE_FILTER)

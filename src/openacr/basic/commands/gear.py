@@ -79,8 +79,9 @@ def gear_off(run: Run, axes: tuple[Axis, ...]) -> None:
         gear.off(run.card, axis.number)
 
 
-@command("GEAR ON IHPOS", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(PassingForm()),),
-         ref=REF)  # fmt: skip
+@command(
+    "GEAR ON IHPOS", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(PassingForm()),), ref=REF
+)
 def gear_on_ihpos(run: Run, axes: tuple[tuple[Axis, Passing], ...]) -> None:
     """Switch gears on when a parameter passes a setpoint."""
     for axis, _ in axes:
@@ -90,8 +91,9 @@ def gear_on_ihpos(run: Run, axes: tuple[tuple[Axis, Passing], ...]) -> None:
         _arm_passing(run, axis, gear.on_trigger(axis.number), passing, af2.GEAR_ON_POSITION)
 
 
-@command("GEAR OFF IHPOS", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(PassingForm()),),
-         ref=REF)  # fmt: skip
+@command(
+    "GEAR OFF IHPOS", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(PassingForm()),), ref=REF
+)
 def gear_off_ihpos(run: Run, axes: tuple[tuple[Axis, Passing], ...]) -> None:
     """Switch gears off when a parameter passes a setpoint."""
     for axis, passing in axes:
@@ -122,8 +124,9 @@ def gear_on_trg(run: Run, axes: tuple[tuple[Axis, Captured], ...]) -> None:
         _arm_capture(run, axis, gear.on_trigger(axis.number), captured, af2.GEAR_ON_TRIG_ARMED)
 
 
-@command("GEAR OFF TRG", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(CapturedForm()),),
-         ref=REF)  # fmt: skip
+@command(
+    "GEAR OFF TRG", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(CapturedForm()),), ref=REF
+)
 def gear_off_trg(run: Run, axes: tuple[tuple[Axis, Captured], ...]) -> None:
     """Switch gears off at a captured source position plus Gear Trigger Off Offset."""
     for axis, captured in axes:
@@ -137,8 +140,9 @@ def _arm_capture(run: Run, axis: Axis, trigger: int, captured: Captured, flag: i
     run.card.memory.I[af2.word[axis.number]] |= flag
 
 
-@command("GEAR OFFSET", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF,
-         units="units")  # fmt: skip
+@command(
+    "GEAR OFFSET", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF, units="units"
+)
 def gear_offset(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Set the gear offset of axes, which move by the difference, or report it."""
     for item in axes:

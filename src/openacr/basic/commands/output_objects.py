@@ -123,8 +123,9 @@ def _print_row(run: Run, number: int, row: tuple[int, ...]) -> None:
 # programmable limit switches
 
 
-@command("PLS # SRC", group=GROUP, levels=ANY, grammar=(Source(optional=True),), ref=REF,
-         default="NONE")  # fmt: skip
+@command(
+    "PLS # SRC", group=GROUP, levels=ANY, grammar=(Source(optional=True),), ref=REF, default="NONE"
+)
 def pls_src(run: Run, number: int, source: ObjectRef | None) -> None:
     """Choose the position a limit switch looks at."""
     check_number(number, limit_switches.COUNT)
@@ -220,8 +221,9 @@ def oop_bit(run: Run, number: int, bit: BitState | None) -> None:
         run.card.memory.I[row] = bit.number
 
 
-@command("OOP # POS", group=GROUP, levels=ANY, grammar=(Group("from", "to"),), ref=REF,
-         units="pulses")  # fmt: skip
+@command(
+    "OOP # POS", group=GROUP, levels=ANY, grammar=(Group("from", "to"),), ref=REF, units="pulses"
+)
 def oop_pos(run: Run, number: int, window: tuple[float, float]) -> None:
     """Set the window in which the flag of an output object is set."""
     check_number(number, output_objects.COUNT)

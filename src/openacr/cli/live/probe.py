@@ -54,25 +54,29 @@ def judged(found: "Identity") -> Iterator[Verdict]:
     oldest = (OLDEST_FIRMWARE // 10000, OLDEST_FIRMWARE // 100 % 100, OLDEST_FIRMWARE % 100)
     yield Verdict("term, download, upload, backup, restore", True, "they need the terminal alone")
     yield Verdict(
-        "monitor and the client at full rate", found.has_packets,
+        "monitor and the client at full rate",
+        found.has_packets,
         "packets are answered" if found.has_packets else "packets are not answered; text is used",
-    )  # fmt: skip
+    )
     is_new = found.firmware >= oldest
     yield Verdict(
-        "part programs on the card (mill --host, panel)", is_new and found.has_packets,
+        "part programs on the card (mill --host, panel)",
+        is_new and found.has_packets,
         f"needs packets and firmware {_dotted(oldest)}",
-    )  # fmt: skip
+    )
     yield Verdict(
-        "limits watched by the card (configure)", found.firmware >= CARD_LIMITS_SINCE,
+        "limits watched by the card (configure)",
+        found.firmware >= CARD_LIMITS_SINCE,
         f"needs firmware {_dotted(CARD_LIMITS_SINCE)}; for older ones configure writes limit code",
-    )  # fmt: skip
+    )
     for what, has in _OF_MODELS:
         model = found.hardware
         yield Verdict(what, None if model is None else has(model), "by the model table")
     yield Verdict(
-        "the same card, virtual (run, serve)", found.hardware is not None,
+        "the same card, virtual (run, serve)",
+        found.hardware is not None,
         "models of the table can be simulated",
-    )  # fmt: skip
+    )
 
 
 _OF_MODELS: "tuple[tuple[str, Callable[[Model], bool]], ...]" = (
