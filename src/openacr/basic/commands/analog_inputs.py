@@ -7,10 +7,12 @@ of four bits each (P6918, P6919), the resolution and the number of scanned input
 """
 
 from dataclasses import dataclass
+from functools import partial
 
 from openacr.basic.commands.value_commands import check_number
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Int, Word
-from openacr.basic.language.registry import ANY, command
+from openacr.basic.language.registry import ANY
 from openacr.basic.memory.saving import each, kept
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
@@ -25,6 +27,7 @@ from openacr.motion.card import Card
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
+command = partial(registry.command, group=GROUP, ref=REF)
 SCANNING = 1
 SIXTEEN_BITS = 1
 INPUTS = 8
@@ -36,10 +39,8 @@ WRAP = 1 << 31
 
 @command(
     "ADC MODE",
-    group=GROUP,
     levels=ANY,
     grammar=(Int("mode", 0, 1, optional=True),),
-    ref=REF,
     default="0; 1 on the ACR9000 family",
     saved=True,
 )
@@ -55,13 +56,7 @@ def adc_mode(run: Run, mode: int | None) -> None:
 
 
 @command(
-    "ADC MAX",
-    group=GROUP,
-    levels=ANY,
-    grammar=(Int("channels", 1, 16, optional=True),),
-    ref=REF,
-    default="8",
-    saved=True,
+    "ADC MAX", levels=ANY, grammar=(Int("channels", 1, 16, optional=True),), default="8", saved=True
 )
 def adc_max(run: Run, channels: int | None) -> None:
     """Set how many analog inputs are scanned."""
@@ -106,14 +101,15 @@ kept["ADC POS"] = each("ADC POS", inputs, POSITIVE.read, POSITIVE.write)
 kept["ADC NEG"] = each("ADC NEG", inputs, NEGATIVE.read, NEGATIVE.write)
 
 
-@command("ADC POS", group=GROUP, levels=ANY, grammar=_CHOICE, ref=REF, saved=True,
-         default="the channel of the same number")  # fmt: skip
+@command(
+    "ADC POS", levels=ANY, grammar=_CHOICE, saved=True, default="the channel of the same number"
+)
 def adc_pos(run: Run, number: int, channel: int | None) -> None:
     """Choose the channel at the positive side of an analog input."""
     _choose(run, POSITIVE, number, channel)
 
 
-@command("ADC NEG", group=GROUP, levels=ANY, grammar=_CHOICE, ref=REF, saved=True, default="-1")
+@command("ADC NEG", levels=ANY, grammar=_CHOICE, saved=True, default="-1")
 def adc_neg(run: Run, number: int, channel: int | None) -> None:
     """Choose the channel an analog input measures against; -1 is ground."""
     _choose(run, NEGATIVE, number, channel)
@@ -127,13 +123,13 @@ def _choose(run: Run, channels: Channels, number: int, channel: int | None) -> N
         channels.write(run.card, number, channel)
 
 
-@command("ADC ON", group=GROUP, levels=ANY, ref=REF)
+@command("ADC ON", levels=ANY)
 def adc_on(run: Run) -> None:
     """Scan the analog inputs."""
     run.card.memory.I[P_ADC_STATE_CONTROL] |= SCANNING
 
 
-@command("ADC OFF", group=GROUP, levels=ANY, ref=REF)
+@command("ADC OFF", levels=ANY)
 def adc_off(run: Run) -> None:
     """Stop scanning: the analog inputs keep their last values."""
     run.card.memory.I[P_ADC_STATE_CONTROL] &= ~SCANNING
@@ -141,10 +137,8 @@ def adc_off(run: Run) -> None:
 
 @command(
     "ADCX",
-    group=GROUP,
     levels=ANY,
     grammar=(Word("MODE", "MAX", "ON", "OFF", optional=True), Int("value", optional=True)),
-    ref=REF,
 )
 def adcx(run: Run, what: str | None, value: int | None) -> None:
     """Set up the analog inputs of an expansion board; refused without one."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from openacr.basic.commands.follower_forms import (
     AxisSources,
@@ -15,6 +16,7 @@ from openacr.basic.commands.follower_forms import (
     choose_sources,
 )
 from openacr.basic.commands.value_commands import Value, axis_values
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import (
     Axes,
     Axis,
@@ -25,7 +27,7 @@ from openacr.basic.language.grammar import (
     ObjectRef,
 )
 from openacr.basic.language.number_format import NumberKind, number_text
-from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.language.registry import BY_OBJECT
 from openacr.basic.vm.run import Run, whole
 from openacr.kernel.sources.source_cy import USE_CAM
 from openacr.map.rows import axes as axis_rows
@@ -38,6 +40,7 @@ from openacr.motion.sources import sources
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"
+command = partial(registry.command, group=GROUP, ref=REF)
 
 
 axis_values(
@@ -64,14 +67,14 @@ def _own(axis: int) -> int:
     return axis
 
 
-@command("CAM", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("CAM", levels=BY_OBJECT, grammar=(Axes(),))
 def cam_report(run: Run, axes: tuple[Axis, ...]) -> None:
     """Report whether cams are on."""
     for axis in axes:
         run.print("ON" if cam.is_on(run.card, axis.number) else "OFF")
 
 
-@command("CAM CLEAR", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("CAM CLEAR", levels=BY_OBJECT, grammar=(Axes(),))
 def cam_clear(run: Run, axes: tuple[Axis, ...]) -> None:
     """Switch cams off and forget their segments and settings."""
     for axis in axes:
@@ -80,7 +83,7 @@ def cam_clear(run: Run, axes: tuple[Axis, ...]) -> None:
         choose_sources(run, ((axis, ObjectRef("CLK")),), USE_CAM)
 
 
-@command("CAM DIM", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF)
+@command("CAM DIM", levels=BY_OBJECT, grammar=(AxisValues(),))
 def cam_dim(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Set how many segments the cam of an axis has, or report it."""
     dimension(run, axes, _own)
@@ -96,7 +99,7 @@ def dimension(run: Run, axes: tuple[AxisValue, ...], table: Callable[[int], int]
             cam.dimension(run.card.memory, number, whole(item.value))
 
 
-@command("CAM SEG", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(SegmentForm()),), ref=REF)
+@command("CAM SEG", levels=BY_OBJECT, grammar=(AxisList(SegmentForm()),))
 def cam_seg(run: Run, axes: tuple[tuple[Axis, Segment], ...]) -> None:
     """Give a segment of a cam its length in source pulses and its array of points."""
     set_segments(run, axes, _own)
@@ -114,14 +117,13 @@ def set_segments(
         )
 
 
-@command("CAM SRC", group=GROUP, levels=BY_OBJECT, grammar=(AxisSources(),), ref=REF, default="CLK",
-         saved=True)  # fmt: skip
+@command("CAM SRC", levels=BY_OBJECT, grammar=(AxisSources(),), default="CLK", saved=True)
 def cam_src(run: Run, axes: tuple[tuple[Axis, ObjectRef | None], ...]) -> None:
     """Choose what drives the index of a cam."""
     choose_sources(run, axes, USE_CAM)
 
 
-@command("CAM ON", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("CAM ON", levels=BY_OBJECT, grammar=(Axes(),))
 def cam_on(run: Run, axes: tuple[Axis, ...]) -> None:
     """Start cams at index 0."""
     permit_all(run, axes, _own)
@@ -129,7 +131,7 @@ def cam_on(run: Run, axes: tuple[Axis, ...]) -> None:
         cam.on(run.card, axis.number)
 
 
-@command("CAM ON IHPOS", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(PassingForm()),), ref=REF)
+@command("CAM ON IHPOS", levels=BY_OBJECT, grammar=(AxisList(PassingForm()),))
 def cam_on_ihpos(run: Run, axes: tuple[tuple[Axis, Passing], ...]) -> None:
     """Start cams when a parameter passes a setpoint."""
     permit_all(run, tuple(axis for axis, _ in axes), _own)
@@ -145,7 +147,7 @@ def cam_on_ihpos(run: Run, axes: tuple[tuple[Axis, Passing], ...]) -> None:
         )
 
 
-@command("CAM ON TRG", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(CapturedForm()),), ref=REF)
+@command("CAM ON TRG", levels=BY_OBJECT, grammar=(AxisList(CapturedForm()),))
 def cam_on_trg(run: Run, axes: tuple[tuple[Axis, Captured], ...]) -> None:
     """Start cams at a captured source position."""
     permit_all(run, tuple(axis for axis, _ in axes), _own)
@@ -161,15 +163,14 @@ def _arm(run: Run, axis: Axis) -> None:
     run.card.memory.I[af2.word[axis.number]] |= af2.CAM_TRIGGER_MODE
 
 
-@command("CAM OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("CAM OFF", levels=BY_OBJECT, grammar=(Axes(),))
 def cam_off(run: Run, axes: tuple[Axis, ...]) -> None:
     """Stop cams at once; their offset stays."""
     for axis in axes:
         cam.off(run.card, axis.number)
 
 
-@command("CAM PON", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(Num("position")),), ref=REF,
-         units="source pulses")  # fmt: skip
+@command("CAM PON", levels=BY_OBJECT, grammar=(AxisList(Num("position")),), units="source pulses")
 def cam_pon(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Start cams when their source passes a position within the cycle."""
     permit_all(run, tuple(item.axis for item in axes), _own)
@@ -178,17 +179,14 @@ def cam_pon(run: Run, axes: tuple[AxisValue, ...]) -> None:
         cam.engage_at(run.card, item.axis.number, item.value)
 
 
-@command("CAM POFF", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(Num("position")),), ref=REF,
-         units="source pulses")  # fmt: skip
+@command("CAM POFF", levels=BY_OBJECT, grammar=(AxisList(Num("position")),), units="source pulses")
 def cam_poff(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Stop cams when their index passes a position within the cycle."""
     for item in axes:
         cam.disengage_at(run.card, item.axis.number, item.value)
 
 
-@command(
-    "CAM SHIFT", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF, units="units"
-)
+@command("CAM SHIFT", levels=BY_OBJECT, grammar=(AxisValues(),), units="units")
 def cam_shift(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Preload the shift an incremental cam has built up, or report it."""
     set_shifts(run, axes, _own)
@@ -204,7 +202,7 @@ def set_shifts(run: Run, axes: tuple[AxisValue, ...], table: Callable[[int], int
             cam.set_shift(run.card, axis, table(axis), item.value)
 
 
-@command("CAM RES", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF, units="units")
+@command("CAM RES", levels=BY_OBJECT, grammar=(AxisValues(),), units="units")
 def cam_res(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Make the cam offset of axes a value (0); the coordinated position takes the rest."""
     for item in axes:

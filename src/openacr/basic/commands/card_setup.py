@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Form, Int, Repeat, Str, Word
-from openacr.basic.language.registry import ANY, IMMEDIATE, command
+from openacr.basic.language.registry import ANY, IMMEDIATE
 from openacr.basic.memory.setup import DEFAULT_CONFIG, Setup
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 
 GROUP = "Operating System"
 REF = "PG Operating System"
+command = partial(registry.command, group=GROUP, ref=REF)
 MODULES = 4
 DIAGNOSTICS = 7044
 DIAGNOSED = ("ISO", "EXT", "ENC", "BCF", "BCL", "VEE", "VDD")
@@ -55,10 +58,8 @@ class Modules(Form):
 
 @command(
     "CONFIG",
-    group=GROUP,
     levels=ANY,
     grammar=(Modules("modules", optional=True),),
-    ref=REF,
     default="ENC8 DAC4 DAC4 ADC8",
     saved=True,
 )
@@ -75,10 +76,8 @@ def config(run: Run, modules: tuple[str, ...] | None) -> None:
 
 @command(
     "CONFIG IO",
-    group=GROUP,
     levels=ANY,
     grammar=(Word("INPUT", "OUTPUT", optional=True), Repeat(Int("group"), optional=True)),
-    ref=REF,
 )
 def config_io(run: Run, direction: str | None, groups: tuple[int, ...] | None) -> None:
     """Choose the direction of onboard contacts; refused where it is fixed, as here."""
@@ -87,10 +86,8 @@ def config_io(run: Run, direction: str | None, groups: tuple[int, ...] | None) -
 
 @command(
     "CONFIG XIO",
-    group=GROUP,
     levels=ANY,
     grammar=(Int("boards", 0, EXPANSION_BOARDS, optional=True),),
-    ref=REF,
     default="0",
 )
 def config_xio(run: Run, boards: int | None) -> None:
@@ -106,10 +103,8 @@ def config_xio(run: Run, boards: int | None) -> None:
 
 @command(
     "IP",
-    group=GROUP,
     levels=ANY,
     grammar=(Word("MASK", "GATE", optional=True), Str("address", optional=True)),
-    ref=REF,
     default="192.168.10.40",
     saved=True,
 )
@@ -124,7 +119,7 @@ def ip(run: Run, name: str | None, address: str | None) -> None:
             run.print(f"{shown} {value}")
 
 
-@command("DIAG", group=GROUP, levels=ANY, ref=REF)
+@command("DIAG", levels=ANY)
 def diag(run: Run) -> None:
     """Report supplies and signals, expansion boards and the CANopen state."""
     memory = run.card.memory
@@ -156,7 +151,7 @@ def eplc(run: Run, switch: str | None) -> None:
     memory.set_bit(EPL_OPERATIONAL, False)
 
 
-@command("CPU", group=GROUP, levels=ANY, ref=REF)
+@command("CPU", levels=ANY)
 def cpu(run: Run) -> None:
     """Print the share of the servo interrupt and that of the rest of the processor time."""
     foreground = min(servo_time_s(run.card) / run.card.clock.period_s, 1.0) * 100
@@ -181,7 +176,7 @@ def cip(run: Run) -> None:
     run.print("CIP state IDLE")
 
 
-@command("REBOOT", group=GROUP, levels=ANY, use=IMMEDIATE, ref=REF)
+@command("REBOOT", levels=ANY, use=IMMEDIATE)
 def reboot(run: Run) -> None:
     """Restart the card as at power-up."""
     run.system.reboot()

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 from openacr.basic.commands.global_objects import adcs, dacs, encoder_count
 from openacr.basic.commands.value_commands import ObjectValue, check_number, object_values
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Form, Group, Int
 from openacr.basic.language.nodes import Expr
 from openacr.basic.language.number_format import NumberKind, number_text
-from openacr.basic.language.registry import ANY, command
+from openacr.basic.language.registry import ANY
 from openacr.basic.memory.saving import each, kept
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
+command = partial(registry.command, group=GROUP, ref=REF)
 FAULTS = cmf.CMT_MOTOR_OVERSPEED | cmf.CMT_ENCODER_FAULT | cmf.CMT_FOLLOWING_ERROR
 
 
@@ -116,7 +119,7 @@ def _register(channels: Channels) -> None:
     handler.__doc__ = channels.doc
     words = f"CMT # {channels.word}"
     grammar = (Channel(channels.word), Channel(channels.word))
-    command(words, group=GROUP, levels=ANY, grammar=grammar, ref=REF, saved=True)(handler)
+    command(words, levels=ANY, grammar=grammar, saved=True)(handler)
     kept[words] = each(words, commutators, channels.read, channels.write)
 
 
@@ -144,8 +147,14 @@ def _first_offset(number: int) -> int:
     return rows.phaseaoffset[number]
 
 
-@command("CMT # OFFSET", group=GROUP, levels=ANY, ref=REF, units="V", default="0,0", saved=True,
-         grammar=(Group("a", "b", optional=True),))  # fmt: skip
+@command(
+    "CMT # OFFSET",
+    levels=ANY,
+    units="V",
+    default="0,0",
+    saved=True,
+    grammar=(Group("a", "b", optional=True),),
+)
 def cmt_offset(run: Run, number: int, offsets: tuple[float, float] | None) -> None:
     """Set what is added to the signal of each phase."""
     check_number(number, commutators(run.card))
@@ -169,8 +178,9 @@ def _set_mode(card: Card, number: int, mode: int) -> None:
     card.memory.I[cmf.word[number]] = flags | mode * cmf.CMT_SINUSOIDAL_ON
 
 
-@command("CMT # MODE", group=GROUP, levels=ANY, ref=REF, default="0", saved=True,
-         grammar=(Int("mode", 0, 1, optional=True),))  # fmt: skip
+@command(
+    "CMT # MODE", levels=ANY, default="0", saved=True, grammar=(Int("mode", 0, 1, optional=True),)
+)
 def cmt_mode(run: Run, number: int, mode: int | None) -> None:
     """Choose trapezoidal (0) or sinusoidal (1) commutation."""
     check_number(number, commutators(run.card))
@@ -183,7 +193,7 @@ def cmt_mode(run: Run, number: int, mode: int | None) -> None:
 kept["CMT # MODE"] = each("CMT # MODE", commutators, _mode, _set_mode)
 
 
-@command("CMT # ON", group=GROUP, levels=ANY, ref=REF)
+@command("CMT # ON", levels=ANY)
 def cmt_on(run: Run, number: int) -> None:
     """Turn a commutator on and forget what has turned it off."""
     check_number(number, commutators(run.card))
@@ -191,14 +201,14 @@ def cmt_on(run: Run, number: int) -> None:
     run.card.memory.I[cmf.word[number]] = flags | cmf.CMT_COMMUTATOR_ON
 
 
-@command("CMT # OFF", group=GROUP, levels=ANY, ref=REF)
+@command("CMT # OFF", levels=ANY)
 def cmt_off(run: Run, number: int) -> None:
     """Turn a commutator off: both phases are 0 V."""
     check_number(number, commutators(run.card))
     run.card.memory.I[cmf.word[number]] &= ~cmf.CMT_COMMUTATOR_ON
 
 
-@command("CMT #", group=GROUP, levels=ANY, ref=REF)
+@command("CMT #", levels=ANY)
 def cmt_report(run: Run, number: int) -> None:
     """Report whether a commutator is on."""
     check_number(number, commutators(run.card))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from openacr.basic.commands.interpolation import GROUP, REF, Given
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import AxisTarget, AxisTargets, Group, TargetItem
-from openacr.basic.language.registry import PROG, command
+from openacr.basic.language.registry import PROG
 from openacr.basic.vm.run import Run
 from openacr.map.words import mf2
 from openacr.messages import SYNTAX_ERROR
@@ -14,6 +16,7 @@ from openacr.motion.path.move_request import Circle, Direction, Sine, SpaceArc
 
 if TYPE_CHECKING:
     from openacr.basic.language.parser import Parser
+command = partial(registry.command, group=GROUP, ref=REF)
 
 
 class CurveTargets(AxisTargets):
@@ -50,10 +53,8 @@ def _circle(targets: tuple[AxisTarget, ...], direction: Direction) -> tuple[Give
 
 @command(
     "CIRCW",
-    group=GROUP,
     levels=PROG,
     grammar=(CurveTargets("target", "center", count=2),),
-    ref=REF,
     units="units",
     move=True,
 )
@@ -64,10 +65,8 @@ def circw(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
 
 @command(
     "CIRCCW",
-    group=GROUP,
     levels=PROG,
     grammar=(CurveTargets("target", "center", count=2),),
-    ref=REF,
     units="units",
     move=True,
 )
@@ -77,13 +76,7 @@ def circcw(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
 
 
 @command(
-    "TARC",
-    group=GROUP,
-    levels=PROG,
-    grammar=(CurveTargets("target", "mid", count=3),),
-    ref=REF,
-    units="units",
-    move=True,
+    "TARC", levels=PROG, grammar=(CurveTargets("target", "mid", count=3),), units="units", move=True
 )
 def tarc(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
     """Move three axes on the circular arc through a mid point to a target.
@@ -101,13 +94,13 @@ def tarc(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
     )
 
 
-@command("TARC ON", group=GROUP, levels=PROG, ref=REF)
+@command("TARC ON", levels=PROG)
 def tarc_on(run: Run) -> None:
     """Set TARC Mode."""
     run.card.memory.I[mf2.word[run.master()]] |= mf2.TARC_MODE
 
 
-@command("TARC OFF", group=GROUP, levels=PROG, ref=REF)
+@command("TARC OFF", levels=PROG)
 def tarc_off(run: Run) -> None:
     """Clear TARC Mode."""
     run.card.memory.I[mf2.word[run.master()]] &= ~mf2.TARC_MODE
@@ -115,10 +108,8 @@ def tarc_off(run: Run) -> None:
 
 @command(
     "SINE",
-    group=GROUP,
     levels=PROG,
     grammar=(CurveTargets("target", "phase", "sweep", "amplitude"),),
-    ref=REF,
     units="units, degrees",
     move=True,
 )

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
+
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Axes, Axis
-from openacr.basic.language.registry import BY_OBJECT, SYS, command
+from openacr.basic.language.registry import BY_OBJECT, SYS
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import SYNTAX_ERROR
@@ -12,9 +15,10 @@ from openacr.motion.axis import drive
 
 GROUP = "Drive Control"
 REF = "PG Drive Control"
+command = partial(registry.command, group=GROUP, ref=REF)
 
 
-@command("DRIVE ON", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("DRIVE ON", levels=BY_OBJECT, grammar=(Axes(),))
 def drive_on(run: Run, axes: tuple[Axis, ...]) -> None:
     """Enable drives; kills and latched limits that bar the axis from moving are lifted."""
     _need_rest(run, axes)
@@ -22,7 +26,7 @@ def drive_on(run: Run, axes: tuple[Axis, ...]) -> None:
         drive.on(run.card, axis.number)
 
 
-@command("DRIVE OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("DRIVE OFF", levels=BY_OBJECT, grammar=(Axes(),))
 def drive_off(run: Run, axes: tuple[Axis, ...]) -> None:
     """Disable drives: the axes put out nothing, their motors are free. No kill is set."""
     _need_rest(run, axes)
@@ -35,14 +39,14 @@ def _need_rest(run: Run, axes: tuple[Axis, ...]) -> None:
         interlocks.needs_rest(run.card, axis.number)
 
 
-@command("DRIVE RES", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("DRIVE RES", levels=BY_OBJECT, grammar=(Axes(),))
 def drive_res(run: Run, axes: tuple[Axis, ...]) -> None:
     """Reset drives: their reset outputs pulse for 50 ms, latched drive faults clear."""
     for axis in axes:
         drive.reset(run.card, axis.number)
 
 
-@command("DRIVE", group=GROUP, levels=BY_OBJECT | SYS, grammar=(Axes(optional=True),), ref=REF)
+@command("DRIVE", levels=BY_OBJECT | SYS, grammar=(Axes(optional=True),))
 def drive_report(run: Run, axes: tuple[Axis, ...] | None) -> None:
     """Report which drives are enabled, have a fault, or are DRIVEN without being enabled."""
     if axes is None and run.level is SYS:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.global_objects import encoder_count
 from openacr.basic.commands.value_commands import check_number
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Int, ParameterName, SignedParameter
-from openacr.basic.language.registry import ANY, command
+from openacr.basic.language.registry import ANY
 from openacr.basic.memory.saving import each, kept
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
@@ -16,12 +19,13 @@ from openacr.motion.axis import encoders
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
+command = partial(registry.command, group=GROUP, ref=REF)
 
 _LENGTH = (Int("length", optional=True),)
 _FREQUENCY = (Int("frequency", optional=True),)
 
 
-@command("ENC # LOCK", group=GROUP, levels=ANY, grammar=(Int("encoder", optional=True),), ref=REF)
+@command("ENC # LOCK", levels=ANY, grammar=(Int("encoder", optional=True),))
 def enc_lock(run: Run, number: int, leader: int | None) -> None:
     """Let an encoder count what another one counts, or report which."""
     check_number(number, run.card.model.encoders)
@@ -33,14 +37,14 @@ def enc_lock(run: Run, number: int, leader: int | None) -> None:
         encoders.lock(run.card, number, leader)
 
 
-@command("ENC # UNLOCK", group=GROUP, levels=ANY, ref=REF)
+@command("ENC # UNLOCK", levels=ANY)
 def enc_unlock(run: Run, number: int) -> None:
     """Let an encoder count alone again."""
     check_number(number, run.card.model.encoders)
     encoders.unlock(run.card, number)
 
 
-@command("ENC # DST", group=GROUP, levels=ANY, grammar=(ParameterName(optional=True),), ref=REF)
+@command("ENC # DST", levels=ANY, grammar=(ParameterName(optional=True),))
 def enc_dst(run: Run, number: int, parameter: SignedParameter | None) -> None:
     """Copy the position of an encoder to a LONG parameter in every servo period."""
     check_number(number, run.card.model.encoders)
@@ -53,15 +57,14 @@ def enc_dst(run: Run, number: int, parameter: SignedParameter | None) -> None:
         encoders.copy_to(run.card, number, parameter.number)
 
 
-@command("ENC # DST OFF", group=GROUP, levels=ANY, ref=REF)
+@command("ENC # DST OFF", levels=ANY)
 def enc_dst_off(run: Run, number: int) -> None:
     """Copy the position of an encoder no longer."""
     check_number(number, run.card.model.encoders)
     encoders.copy_to(run.card, number, None)
 
 
-@command("ENC # ROTARY", group=GROUP, levels=ANY, grammar=_LENGTH, ref=REF, units="pulses",
-         default="0", saved=True)  # fmt: skip
+@command("ENC # ROTARY", levels=ANY, grammar=_LENGTH, units="pulses", default="0", saved=True)
 def enc_rotary(run: Run, number: int, length: int | None) -> None:
     """Wrap the position of an encoder into 0 to length - 1, or not (0); followers go on."""
     check_number(number, encoder_count(run.card))
@@ -76,8 +79,7 @@ kept["ENC # ROTARY"] = each(
 )
 
 
-@command("ENC # LIMIT", group=GROUP, levels=ANY, grammar=_FREQUENCY, ref=REF, units="Hz",
-         default="0", saved=True)  # fmt: skip
+@command("ENC # LIMIT", levels=ANY, grammar=_FREQUENCY, units="Hz", default="0", saved=True)
 def enc_limit(run: Run, number: int, frequency: int | None) -> None:
     """Count no edges of an encoder that come quicker than this, or all (0)."""
     check_number(number, encoder_count(run.card))

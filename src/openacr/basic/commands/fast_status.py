@@ -6,10 +6,13 @@ The virtual card has no bus to a PC: the copies are kept as the card would hand 
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.value_commands import check_number
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Group, Int
 from openacr.basic.language.number_format import NumberKind, number_text
-from openacr.basic.language.registry import ANY, command
+from openacr.basic.language.registry import ANY
 from openacr.basic.vm.run import Run, whole
 from openacr.errors import CardError
 from openacr.map import numbers as at
@@ -21,25 +24,31 @@ from openacr.messages import INVALID_ARGUMENT
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
+command = partial(registry.command, group=GROUP, ref=REF)
 FIELDS = 8
 TYPES = (LONG, FP32) = (0, 1)
 LONGEST_MS = 60000
 
 
-@command("FSTAT ON", group=GROUP, levels=ANY, ref=REF)
+@command("FSTAT ON", levels=ANY)
 def fstat_on(run: Run) -> None:
     """Load the entries of the fast status block and copy it cyclically."""
     run.card.memory.I[at.W_FSTAT] |= fsf.FSTAT_ON_REQUEST
 
 
-@command("FSTAT OFF", group=GROUP, levels=ANY, ref=REF)
+@command("FSTAT OFF", levels=ANY)
 def fstat_off(run: Run) -> None:
     """Stop copying: the fast status block stays as it is."""
     run.card.memory.I[at.W_FSTAT] &= ~(fsf.FSTAT_ON | fsf.FSTAT_ON_REQUEST)
 
 
-@command("FSTAT PERIOD", group=GROUP, levels=ANY, ref=REF, units="ms", default="50",
-         grammar=(Int("ms", 1, LONGEST_MS, optional=True),))  # fmt: skip
+@command(
+    "FSTAT PERIOD",
+    levels=ANY,
+    units="ms",
+    default="50",
+    grammar=(Int("ms", 1, LONGEST_MS, optional=True),),
+)
 def fstat_period(run: Run, period_ms: int | None) -> None:
     """Set the time from copy to copy."""
     if period_ms is None:
@@ -48,15 +57,14 @@ def fstat_period(run: Run, period_ms: int | None) -> None:
         run.card.memory.I[at.P_FSTAT_PERIOD] = period_ms
 
 
-@command("FSTAT CLEAR", group=GROUP, levels=ANY, ref=REF)
+@command("FSTAT CLEAR", levels=ANY)
 def fstat_clear(run: Run) -> None:
     """Forget all entries of the fast status block."""
     for number in range(fast_status.COUNT):
         _write(run, number, 0, 0, LONG)
 
 
-@command("FSTAT #", group=GROUP, levels=ANY, ref=REF,
-         grammar=(Group("code", "index", "type", fewest=2, optional=True),))  # fmt: skip
+@command("FSTAT #", levels=ANY, grammar=(Group("code", "index", "type", fewest=2, optional=True),))
 def fstat_entry(run: Run, number: int, chosen: tuple[float, ...] | None) -> None:
     """Choose the packet group an entry copies, or show its copy.
 
@@ -96,7 +104,7 @@ def _copies(run: Run, number: int) -> list[str]:
     return [str(memory.I[word]) for word in words]
 
 
-@command("FSTAT", group=GROUP, levels=ANY, ref=REF)
+@command("FSTAT", levels=ANY)
 def fstat_report(run: Run) -> None:
     """Report state, period and entries of the fast status block."""
     memory = run.card.memory.I

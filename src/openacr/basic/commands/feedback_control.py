@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
 from openacr.basic.commands.follower_forms import LAST_CAPTURE_MODE, needs_long
 from openacr.basic.commands.interpolation import room
 from openacr.basic.commands.value_commands import Value, axis_values, report_all, value_elsewhere
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import (
     Axes,
     Axis,
@@ -22,7 +24,7 @@ from openacr.basic.language.grammar import (
     Word,
 )
 from openacr.basic.language.nodes import Expr
-from openacr.basic.language.registry import BY_OBJECT, PROG, command
+from openacr.basic.language.registry import BY_OBJECT, PROG
 from openacr.basic.vm.run import Run, Wait, whole
 from openacr.errors import CardError
 from openacr.map.rows import axes as axis_rows
@@ -43,6 +45,7 @@ if TYPE_CHECKING:
 
 GROUP = "Feedback Control"
 REF = "PG Feedback Control"
+command = partial(registry.command, group=GROUP, ref=REF)
 
 axis_values(
     (
@@ -66,7 +69,7 @@ value_elsewhere(
 )
 
 
-@command("RES", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(optional=True),), ref=REF)
+@command("RES", levels=BY_OBJECT, grammar=(AxisValues(optional=True),))
 def res(run: Run, axes: tuple[AxisValue, ...] | None) -> None:
     """Make the present position of axes this one (0), commanded and actual; offsets become 0."""
     given = tuple(AxisValue(axis) for axis in run.axes()) if axes is None else axes
@@ -75,7 +78,7 @@ def res(run: Run, axes: tuple[AxisValue, ...] | None) -> None:
         registers.res(run.card, item.axis.number, 0.0 if item.is_query else item.value)
 
 
-@command("REN", group=GROUP, levels=BY_OBJECT, grammar=(Axes(optional=True),), ref=REF)
+@command("REN", levels=BY_OBJECT, grammar=(Axes(optional=True),))
 def ren(run: Run, axes: tuple[Axis, ...] | None) -> None:
     """Take the actual position of axes as setpoint: the following error becomes 0."""
     given = run.axes() if axes is None else axes
@@ -84,7 +87,7 @@ def ren(run: Run, axes: tuple[Axis, ...] | None) -> None:
         registers.ren(run.card, axis.number)
 
 
-@command("NORM", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("NORM", levels=BY_OBJECT, grammar=(Axes(),))
 def norm(run: Run, axes: tuple[Axis, ...]) -> None:
     """Bring the position of rotary axes into their first turn, without motion."""
     _need_rest(run, axes)
@@ -141,12 +144,7 @@ class CaptureForm(Form):
 
 
 @command(
-    "INTCAP",
-    group=GROUP,
-    levels=BY_OBJECT,
-    grammar=(AxisList(CaptureForm(), optional=True),),
-    ref=REF,
-    default="OFF",
+    "INTCAP", levels=BY_OBJECT, grammar=(AxisList(CaptureForm(), optional=True),), default="OFF"
 )
 def intcap(run: Run, axes: tuple[tuple[Axis, CaptureGiven], ...] | None) -> None:
     """Arm the position capture of an axis, switch it off, or report its mode."""
@@ -169,14 +167,7 @@ def _capture_text(run: Run, axis: Axis) -> str:
     return "OFF" if mode is None else str(mode)
 
 
-@command(
-    "MSEEK",
-    group=GROUP,
-    levels=PROG,
-    grammar=(AxisGroups("incmove", "mode"),),
-    ref=REF,
-    units="units",
-)
+@command("MSEEK", levels=PROG, grammar=(AxisGroups("incmove", "mode"),), units="units")
 def mseek(run: Run, axes: tuple[AxisValue, ...]) -> Wait | None:
     """Move by a distance looking for a capture, go back to it and make it position 0."""
     program = run.needed_program()

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.follower_forms import AxisSources, choose_sources, needs_parameter
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import (
     Axes,
     Axis,
@@ -13,7 +16,7 @@ from openacr.basic.language.grammar import (
     ParameterName,
     SignedParameter,
 )
-from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.language.registry import BY_OBJECT
 from openacr.basic.vm.run import Run, whole
 from openacr.kernel.sources.source_cy import USE_FILTER
 from openacr.map.rows import filters
@@ -21,18 +24,21 @@ from openacr.motion.followers import gear, objects
 
 GROUP = "Servo Control"
 REF = "PG Servo Control"
+command = partial(registry.command, group=GROUP, ref=REF)
 
 
-@command(
-    "FLT SRC", group=GROUP, levels=BY_OBJECT, grammar=(AxisSources(),), ref=REF, default="NONE"
-)
+@command("FLT SRC", levels=BY_OBJECT, grammar=(AxisSources(),), default="NONE")
 def flt_src(run: Run, axes: tuple[tuple[Axis, ObjectRef | None], ...]) -> None:
     """Choose what an axis follows through its filter."""
     choose_sources(run, axes, USE_FILTER)
 
 
-@command("FLT OUT", group=GROUP, levels=BY_OBJECT, ref=REF, default="the gear offset",
-         grammar=(AxisList(ParameterName(optional=True)),))  # fmt: skip
+@command(
+    "FLT OUT",
+    levels=BY_OBJECT,
+    default="the gear offset",
+    grammar=(AxisList(ParameterName(optional=True)),),
+)
 def flt_out(run: Run, axes: tuple[tuple[Axis, SignedParameter | None], ...]) -> None:
     """Let the filter of an axis move a parameter; without one, the gear offset."""
     for _, parameter in axes:
@@ -43,9 +49,13 @@ def flt_out(run: Run, axes: tuple[tuple[Axis, SignedParameter | None], ...]) -> 
         objects.set_filter_out(run.card, axis.number, number)
 
 
-@command("FLT COEF", group=GROUP, levels=BY_OBJECT,
-         grammar=(AxisList(Int("ticks", 1, filters.WINDOW_CNT_SIZE, optional=True)),),
-         ref=REF, units="servo periods", default="10")  # fmt: skip
+@command(
+    "FLT COEF",
+    levels=BY_OBJECT,
+    grammar=(AxisList(Int("ticks", 1, filters.WINDOW_CNT_SIZE, optional=True)),),
+    units="servo periods",
+    default="10",
+)
 def flt_coef(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Set over how many servo periods a filter averages, or report it."""
     for item in axes:
@@ -56,7 +66,7 @@ def flt_coef(run: Run, axes: tuple[AxisValue, ...]) -> None:
             objects.set_filter_size(run.card, item.axis.number, whole(item.value))
 
 
-@command("FLT ON", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("FLT ON", levels=BY_OBJECT, grammar=(Axes(),))
 def flt_on(run: Run, axes: tuple[Axis, ...]) -> None:
     """Let axes follow their sources, averaged."""
     for axis in axes:
@@ -65,7 +75,7 @@ def flt_on(run: Run, axes: tuple[Axis, ...]) -> None:
         objects.filter_on(run.card, axis.number)
 
 
-@command("FLT OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("FLT OFF", levels=BY_OBJECT, grammar=(Axes(),))
 def flt_off(run: Run, axes: tuple[Axis, ...]) -> None:
     """Stop filtered following at once."""
     for axis in axes:

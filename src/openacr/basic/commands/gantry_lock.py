@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
+
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Axes, Axis
-from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.language.registry import BY_OBJECT
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import SYNTAX_ERROR
@@ -11,10 +14,11 @@ from openacr.motion.followers import objects
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"
+command = partial(registry.command, group=GROUP, ref=REF)
 PAIR = 2
 
 
-@command("LOCK", group=GROUP, levels=BY_OBJECT, grammar=(Axes(optional=True),), ref=REF)
+@command("LOCK", levels=BY_OBJECT, grammar=(Axes(optional=True),))
 def lock(run: Run, axes: tuple[Axis, ...] | None) -> None:
     """Lock the second axis to the first, which it follows unit for unit; alone, list pairs."""
     if axes is None:
@@ -26,7 +30,7 @@ def lock(run: Run, axes: tuple[Axis, ...] | None) -> None:
     objects.lock(run.card, axes[0].number, axes[1].number)
 
 
-@command("UNLOCK", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("UNLOCK", levels=BY_OBJECT, grammar=(Axes(),))
 def unlock(run: Run, axes: tuple[Axis, ...]) -> None:
     """Let the axes of locked pairs move on their own again."""
     for axis in axes:

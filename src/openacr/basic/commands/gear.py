@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.follower_forms import (
     AxisSources,
     Captured,
@@ -11,9 +13,10 @@ from openacr.basic.commands.follower_forms import (
     choose_sources,
 )
 from openacr.basic.commands.value_commands import Value, axis_values
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, ObjectRef
 from openacr.basic.language.number_format import NumberKind, number_text
-from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.language.registry import BY_OBJECT
 from openacr.basic.vm.run import Run
 from openacr.kernel.sources.source_cy import USE_GEAR
 from openacr.map.rows import axes as axis_rows
@@ -27,6 +30,7 @@ from openacr.motion.sources import sources
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"
+command = partial(registry.command, group=GROUP, ref=REF)
 
 
 axis_values(
@@ -49,21 +53,20 @@ axis_values(
 )  # fmt: skip
 
 
-@command("GEAR SRC", group=GROUP, levels=BY_OBJECT, grammar=(AxisSources(),), ref=REF,
-         default="NONE", saved=True)  # fmt: skip
+@command("GEAR SRC", levels=BY_OBJECT, grammar=(AxisSources(),), default="NONE", saved=True)
 def gear_src(run: Run, axes: tuple[tuple[Axis, ObjectRef | None], ...]) -> None:
     """Choose what a gear follows."""
     choose_sources(run, axes, USE_GEAR)
 
 
-@command("GEAR", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("GEAR", levels=BY_OBJECT, grammar=(Axes(),))
 def gear_report(run: Run, axes: tuple[Axis, ...]) -> None:
     """Report whether gears are on."""
     for axis in axes:
         run.print("ON" if gear.is_on(run.card, axis.number) else "OFF")
 
 
-@command("GEAR ON", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("GEAR ON", levels=BY_OBJECT, grammar=(Axes(),))
 def gear_on(run: Run, axes: tuple[Axis, ...]) -> None:
     """Let axes follow their sources."""
     for axis in axes:
@@ -72,16 +75,14 @@ def gear_on(run: Run, axes: tuple[Axis, ...]) -> None:
         gear.on(run.card, axis.number)
 
 
-@command("GEAR OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("GEAR OFF", levels=BY_OBJECT, grammar=(Axes(),))
 def gear_off(run: Run, axes: tuple[Axis, ...]) -> None:
     """Ramp the ratio of gears down to 0."""
     for axis in axes:
         gear.off(run.card, axis.number)
 
 
-@command(
-    "GEAR ON IHPOS", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(PassingForm()),), ref=REF
-)
+@command("GEAR ON IHPOS", levels=BY_OBJECT, grammar=(AxisList(PassingForm()),))
 def gear_on_ihpos(run: Run, axes: tuple[tuple[Axis, Passing], ...]) -> None:
     """Switch gears on when a parameter passes a setpoint."""
     for axis, _ in axes:
@@ -91,9 +92,7 @@ def gear_on_ihpos(run: Run, axes: tuple[tuple[Axis, Passing], ...]) -> None:
         _arm_passing(run, axis, gear.on_trigger(axis.number), passing, af2.GEAR_ON_POSITION)
 
 
-@command(
-    "GEAR OFF IHPOS", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(PassingForm()),), ref=REF
-)
+@command("GEAR OFF IHPOS", levels=BY_OBJECT, grammar=(AxisList(PassingForm()),))
 def gear_off_ihpos(run: Run, axes: tuple[tuple[Axis, Passing], ...]) -> None:
     """Switch gears off when a parameter passes a setpoint."""
     for axis, passing in axes:
@@ -114,7 +113,7 @@ def _arm_passing(run: Run, axis: Axis, trigger: int, passing: Passing, flag: int
     run.card.memory.I[af2.word[axis.number]] |= flag
 
 
-@command("GEAR ON TRG", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(CapturedForm()),), ref=REF)
+@command("GEAR ON TRG", levels=BY_OBJECT, grammar=(AxisList(CapturedForm()),))
 def gear_on_trg(run: Run, axes: tuple[tuple[Axis, Captured], ...]) -> None:
     """Switch gears on at a captured source position plus Gear Trigger On Offset."""
     for axis, _ in axes:
@@ -124,9 +123,7 @@ def gear_on_trg(run: Run, axes: tuple[tuple[Axis, Captured], ...]) -> None:
         _arm_capture(run, axis, gear.on_trigger(axis.number), captured, af2.GEAR_ON_TRIG_ARMED)
 
 
-@command(
-    "GEAR OFF TRG", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(CapturedForm()),), ref=REF
-)
+@command("GEAR OFF TRG", levels=BY_OBJECT, grammar=(AxisList(CapturedForm()),))
 def gear_off_trg(run: Run, axes: tuple[tuple[Axis, Captured], ...]) -> None:
     """Switch gears off at a captured source position plus Gear Trigger Off Offset."""
     for axis, captured in axes:
@@ -140,9 +137,7 @@ def _arm_capture(run: Run, axis: Axis, trigger: int, captured: Captured, flag: i
     run.card.memory.I[af2.word[axis.number]] |= flag
 
 
-@command(
-    "GEAR OFFSET", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF, units="units"
-)
+@command("GEAR OFFSET", levels=BY_OBJECT, grammar=(AxisValues(),), units="units")
 def gear_offset(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Set the gear offset of axes, which move by the difference, or report it."""
     for item in axes:
@@ -158,7 +153,7 @@ def offset_text(run: Run, axis: int, part: tuple[int, ...]) -> str:
     return number_text(cnt / scale_of(run.card, axis), NumberKind.DOUBLE)
 
 
-@command("GEAR RES", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF, units="units")
+@command("GEAR RES", levels=BY_OBJECT, grammar=(AxisValues(),), units="units")
 def gear_res(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Make the gear offset of axes a value (0); the coordinated position takes the rest."""
     for item in axes:
@@ -167,7 +162,7 @@ def gear_res(run: Run, axes: tuple[AxisValue, ...]) -> None:
         gear.reset(run.card, item.axis.number, 0.0 if item.is_query else item.value)
 
 
-@command("GEAR CLEAR", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("GEAR CLEAR", levels=BY_OBJECT, grammar=(Axes(),))
 def gear_clear(run: Run, axes: tuple[Axis, ...]) -> None:
     """Switch gears off and forget their settings; the offset stays."""
     for axis in axes:

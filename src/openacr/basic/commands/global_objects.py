@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.value_commands import (
     ObjectValue,
     check_number,
     object_values,
     value_text,
 )
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Num
-from openacr.basic.language.registry import ANY, command
+from openacr.basic.language.registry import ANY
 from openacr.basic.vm.run import Run
 from openacr.map.rows import adcs as adc_rows
 from openacr.map.rows import dacs as dac_rows
@@ -21,6 +24,7 @@ from openacr.motion.card import Card
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
+command = partial(registry.command, group=GROUP, ref=REF)
 WORD_BITS = 32
 
 
@@ -83,28 +87,28 @@ object_values(
 )  # fmt: skip
 
 
-@command("AXIS # ON", group=GROUP, levels=ANY, ref=REF, default="ON", saved=True)
+@command("AXIS # ON", levels=ANY, default="ON", saved=True)
 def axis_on(run: Run, number: int) -> None:
     """Compute an axis: feedback, motion, servo."""
     check_number(number, axes(run.card))
     settings.set_axis_on(run.card, number, True)
 
 
-@command("AXIS # OFF", group=GROUP, levels=ANY, ref=REF, default="ON", saved=True)
+@command("AXIS # OFF", levels=ANY, default="ON", saved=True)
 def axis_off(run: Run, number: int) -> None:
     """Leave an axis alone: no feedback, no motion, output 0 V."""
     check_number(number, axes(run.card))
     settings.set_axis_on(run.card, number, False)
 
 
-@command("AXIS #", group=GROUP, levels=ANY, ref=REF)
+@command("AXIS #", levels=ANY)
 def axis_report(run: Run, number: int) -> None:
     """Report whether an axis is on."""
     check_number(number, axes(run.card))
     run.print("ON" if settings.is_axis_on(run.card, number) else "OFF")
 
 
-@command("MASTER #", group=GROUP, levels=ANY, ref=REF)
+@command("MASTER #", levels=ANY)
 def master_report(run: Run, number: int) -> None:
     """Report which program a master is attached to."""
     check_number(number, run.card.model.masters)
@@ -112,54 +116,40 @@ def master_report(run: Run, number: int) -> None:
     run.print(f"MASTER{number}" if program is None else f"MASTER{number} PROG{program}")
 
 
-@command("ENC #", group=GROUP, levels=ANY, ref=REF, units="pulses")
+@command("ENC #", levels=ANY, units="pulses")
 def encoder_report(run: Run, number: int) -> None:
     """Report the position of an encoder."""
     check_number(number, encoder_count(run.card))
     run.print(str(encoders.position(run.card, number)))
 
 
-@command(
-    "ENC # RES",
-    group=GROUP,
-    levels=ANY,
-    grammar=(Num("position", optional=True),),
-    ref=REF,
-    units="pulses",
-)
+@command("ENC # RES", levels=ANY, grammar=(Num("position", optional=True),), units="pulses")
 def encoder_res(run: Run, number: int, position: float | None) -> None:
     """Set the position of an encoder (0) and clear its fault flags."""
     check_number(number, encoder_count(run.card))
     encoders.reset(run.card, number, position or 0.0)
 
 
-@command("STEPPER #", group=GROUP, levels=ANY, ref=REF, units="pulses")
+@command("STEPPER #", levels=ANY, units="pulses")
 def stepper_report(run: Run, number: int) -> None:
     """Report the count of a stepper output."""
     _report(run, STEPPER_COUNT, number, axes(run.card))
 
 
-@command(
-    "STEPPER # RES",
-    group=GROUP,
-    levels=ANY,
-    grammar=(Num("count", optional=True),),
-    ref=REF,
-    units="pulses",
-)
+@command("STEPPER # RES", levels=ANY, grammar=(Num("count", optional=True),), units="pulses")
 def stepper_res(run: Run, number: int, count: float | None) -> None:
     """Set the count of a stepper output (0)."""
     check_number(number, axes(run.card))
     STEPPER_COUNT.write(run.card, number, count or 0.0)
 
 
-@command("DAC #", group=GROUP, levels=ANY, ref=REF, units="V")
+@command("DAC #", levels=ANY, units="V")
 def dac_report(run: Run, number: int) -> None:
     """Report the voltage of an analog output."""
     _report(run, fp32(dac_rows.dac_output), number, dacs(run.card))
 
 
-@command("ADC #", group=GROUP, levels=ANY, ref=REF, units="V")
+@command("ADC #", levels=ANY, units="V")
 def adc_report(run: Run, number: int) -> None:
     """Report the voltage of an analog input."""
     _report(run, fp32(adc_rows.adc_input), number, adcs(run.card))

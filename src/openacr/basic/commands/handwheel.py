@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.follower_forms import AxisSources, choose_sources
 from openacr.basic.commands.value_commands import Value, axis_values
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Axes, Axis, ObjectRef
-from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.language.registry import BY_OBJECT
 from openacr.basic.vm.run import Run
 from openacr.kernel.sources.source_cy import USE_JOG, USE_WHEEL
 from openacr.map import block
@@ -15,6 +18,7 @@ from openacr.motion.followers import gear, objects
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"
+command = partial(registry.command, group=GROUP, ref=REF)
 FP64 = block.Kind.FP64
 
 axis_values(
@@ -33,14 +37,13 @@ axis_values(
 )  # fmt: skip
 
 
-@command("HDW SRC", group=GROUP, levels=BY_OBJECT, grammar=(AxisSources(),), ref=REF,
-         default="NONE", saved=True)  # fmt: skip
+@command("HDW SRC", levels=BY_OBJECT, grammar=(AxisSources(),), default="NONE", saved=True)
 def hdw_src(run: Run, axes: tuple[tuple[Axis, ObjectRef | None], ...]) -> None:
     """Choose the hand wheel of an axis."""
     choose_sources(run, axes, USE_WHEEL)
 
 
-@command("HDW", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("HDW", levels=BY_OBJECT, grammar=(Axes(),))
 def hdw_report(run: Run, axes: tuple[Axis, ...]) -> None:
     """Report whether hand wheels are on."""
     for axis in axes:
@@ -48,7 +51,7 @@ def hdw_report(run: Run, axes: tuple[Axis, ...]) -> None:
         run.print("ON" if on else "OFF")
 
 
-@command("HDW ON", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("HDW ON", levels=BY_OBJECT, grammar=(Axes(),))
 def hdw_on(run: Run, axes: tuple[Axis, ...]) -> None:
     """Let hand wheels jog axes."""
     for axis in axes:
@@ -57,15 +60,14 @@ def hdw_on(run: Run, axes: tuple[Axis, ...]) -> None:
         objects.wheel_on(run.card, axis.number, True)
 
 
-@command("HDW OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("HDW OFF", levels=BY_OBJECT, grammar=(Axes(),))
 def hdw_off(run: Run, axes: tuple[Axis, ...]) -> None:
     """Disconnect hand wheels; the distance already turned is still travelled."""
     for axis in axes:
         objects.wheel_on(run.card, axis.number, False)
 
 
-@command("JOG SRC", group=GROUP, levels=BY_OBJECT, grammar=(AxisSources(),), ref=REF,
-         default="CLK", saved=True)  # fmt: skip
+@command("JOG SRC", levels=BY_OBJECT, grammar=(AxisSources(),), default="CLK", saved=True)
 def jog_src(run: Run, axes: tuple[tuple[Axis, ObjectRef | None], ...]) -> None:
     """Choose the time base of jogs: 1000 source pulses are one second."""
     choose_sources(run, axes, USE_JOG)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TypeAlias
 
 from openacr.basic.language import registry
 from openacr.basic.language.grammar import AxisTarget, AxisTargets, Bit, BitState
-from openacr.basic.language.registry import PROG, command
+from openacr.basic.language.registry import PROG
 from openacr.basic.vm.run import Run, Show, Wait, WaitKind
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT, NOT_VALID_AT_THIS_LEVEL
@@ -16,6 +17,7 @@ from openacr.motion.path.move_request import Circle, FlagState, Part, Sine, Spac
 
 GROUP = "Interpolation"
 REF = "PG Interpolation"
+command = partial(registry.command, group=GROUP, ref=REF)
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,26 +38,19 @@ class MoveOptions:
 Given: TypeAlias = AxisTarget | Circle | Sine | SpaceArc | MoveOptions
 
 
-@command("MOV", group=GROUP, levels=PROG, grammar=(AxisTargets(),), ref=REF, move=True)
+@command("MOV", levels=PROG, grammar=(AxisTargets(),), move=True)
 def mov(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
     """Move axes in a straight line to targets, or with a slash by distances."""
     return targets
 
 
-@command(
-    "INT",
-    group=GROUP,
-    levels=PROG,
-    grammar=(Bit(signed=True), AxisTargets()),
-    ref=REF,
-    move=True,
-)
+@command("INT", levels=PROG, grammar=(Bit(signed=True), AxisTargets()), move=True)
 def int_(run: Run, bit: BitState, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
     """Move in a straight line that ends early when a flag is set (with a minus: clear)."""
     return (MoveOptions(interrupt=flag_state(run, bit)), *targets)
 
 
-@command("TRJ", group=GROUP, levels=PROG, grammar=(AxisTargets(),), ref=REF, move=True)
+@command("TRJ", levels=PROG, grammar=(AxisTargets(),), move=True)
 def trj(run: Run, targets: tuple[AxisTarget, ...]) -> tuple[Given, ...]:
     """Start a new trajectory at once, in place of the moves under way and waiting.
 

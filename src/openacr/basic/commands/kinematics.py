@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.interpolation import GROUP, REF
-from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.language import registry
+from openacr.basic.language.registry import BY_OBJECT
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
 from openacr.motion.path import kinematics
 
+command = partial(registry.command, group=GROUP, ref=REF)
 
-@command("INVK", group=GROUP, levels=BY_OBJECT, ref=REF)
+
+@command("INVK", levels=BY_OBJECT)
 def invk(run: Run) -> None:
     """Report the program of the kinematics, and whether they are on."""
     master = run.master()
@@ -20,7 +25,7 @@ def invk(run: Run) -> None:
     run.print(state if program is None else f"PROG{program} {state}")
 
 
-@command("INVK PROG #", group=GROUP, levels=BY_OBJECT, ref=REF)
+@command("INVK PROG #", levels=BY_OBJECT)
 def invk_prog(run: Run, program: int) -> None:
     """Choose the program that computes the joints (P12361) of the tool's place (P12360)."""
     if not 0 <= program < PROGRAMS:
@@ -32,7 +37,7 @@ def invk_prog(run: Run, program: int) -> None:
         run.system.runner.load_kinematics(master, program)
 
 
-@command("INVK ON", group=GROUP, levels=BY_OBJECT, ref=REF)
+@command("INVK ON", levels=BY_OBJECT)
 def invk_on(run: Run) -> None:
     """Let the path of the master be that of the tool, and its axes the joints."""
     master = run.master()
@@ -44,7 +49,7 @@ def invk_on(run: Run) -> None:
     kinematics.switch_on(run.card, master)
 
 
-@command("INVK OFF", group=GROUP, levels=BY_OBJECT, ref=REF)
+@command("INVK OFF", levels=BY_OBJECT)
 def invk_off(run: Run) -> None:
     """Let the path of the master be that of its axes again."""
     master = run.master()

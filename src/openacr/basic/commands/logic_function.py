@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Bit, BitItem, Bits, Group, Num, ParameterName
 from openacr.basic.language.nodes import Flag, Statement
-from openacr.basic.language.registry import ANY, command
+from openacr.basic.language.registry import ANY
 from openacr.basic.vm import opcodes_cy as vm
 from openacr.basic.vm.run import Run
 
@@ -15,6 +17,7 @@ if TYPE_CHECKING:
 
 GROUP = "Logic Function"
 REF = "PG Logic Function"
+command = partial(registry.command, group=GROUP, ref=REF)
 
 
 def emit_bits(value: float) -> Any:
@@ -76,41 +79,30 @@ def _expression_or_zero(e: Emitter, values: Any, index: int) -> None:
         e.expression(values[index])
 
 
-@command("SET", group=GROUP, levels=ANY, grammar=(Bits(),), ref=REF, emit=emit_bits(1.0))
+@command("SET", levels=ANY, grammar=(Bits(),), emit=emit_bits(1.0))
 def set_(run: Run, *_: object) -> None:
     """Set one or more flags."""
 
 
-@command("CLR", group=GROUP, levels=ANY, grammar=(Bits(),), ref=REF, emit=emit_bits(0.0))
+@command("CLR", levels=ANY, grammar=(Bits(),), emit=emit_bits(0.0))
 def clr(run: Run, *_: object) -> None:
     """Clear one or more flags."""
 
 
-@command(
-    "MASK",
-    group=GROUP,
-    levels=ANY,
-    grammar=(ParameterName(), Group("nandmask", "ormask")),
-    ref=REF,
-    emit=emit_mask,
-)
+@command("MASK", levels=ANY, grammar=(ParameterName(), Group("nandmask", "ormask")), emit=emit_mask)
 def mask(run: Run, *_: object) -> None:
     """Clear the bits of `nandmask` and set those of `ormask` in a LONG parameter, in one step."""
 
 
-@command(
-    "DWL", group=GROUP, levels=ANY, grammar=(Num("seconds"),), ref=REF, units="s", emit=emit_dwell
-)
+@command("DWL", levels=ANY, grammar=(Num("seconds"),), units="s", emit=emit_dwell)
 def dwl(run: Run, *_: object) -> None:
     """Hold this program for some seconds; motion and other programs go on."""
 
 
 @command(
     "INH",
-    group=GROUP,
     levels=ANY,
     grammar=(Bit(signed=True), Group("timeout", optional=True)),
-    ref=REF,
     emit=emit_inhibit,
 )
 def inh(run: Run, *_: object) -> None:
@@ -119,10 +111,8 @@ def inh(run: Run, *_: object) -> None:
 
 @command(
     "IHPOS",
-    group=GROUP,
     levels=ANY,
     grammar=(ParameterName(signed=True), Group("setpoint", "timeout", fewest=1)),
-    ref=REF,
     emit=emit_inhibit_position,
 )
 def ihpos(run: Run, *_: object) -> None:

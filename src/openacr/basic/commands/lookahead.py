@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.value_commands import Value, master_values
 from openacr.basic.commands.velocity_profile import GROUP, REF
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Group, Word
 from openacr.basic.language.number_format import number_text
-from openacr.basic.language.registry import BY_OBJECT, EXTENSION, command
+from openacr.basic.language.registry import BY_OBJECT, EXTENSION
 from openacr.basic.vm.run import Run, Show, Wait, WaitKind
 from openacr.map.rows import masters, storage
 from openacr.models import Feature
 from openacr.motion.axis.settings import fp32, fp64, not_negative
 from openacr.motion.path import buffer, corners
 
+command = partial(registry.command, group=GROUP, ref=REF)
 
-@command(
-    "MBUF", group=GROUP, levels=BY_OBJECT, grammar=(Word("ON", "OFF", optional=True),), ref=REF
-)
+
+@command("MBUF", levels=BY_OBJECT, grammar=(Word("ON", "OFF", optional=True),))
 def mbuf(run: Run, word: str | None) -> Wait | None:
     """Let several moves wait in the buffer, as many as DIM MBUF says or 10; alone, count them."""
     master = run.master()
@@ -40,9 +43,13 @@ def mbuf(run: Run, word: str | None) -> Wait | None:
 
 
 @command(
-    "LOOK", group=GROUP, levels=BY_OBJECT, grammar=(Word("ON", "OFF", optional=True),), ref=REF,
-    default="OFF", saved=True, needs=Feature.LOOK_AHEAD,
-)  # fmt: skip
+    "LOOK",
+    levels=BY_OBJECT,
+    grammar=(Word("ON", "OFF", optional=True),),
+    default="OFF",
+    saved=True,
+    needs=Feature.LOOK_AHEAD,
+)
 def look(run: Run, word: str | None) -> None:
     """Look ahead over the buffered moves: merge them, and slow down before corners."""
     master = run.master()
@@ -54,10 +61,8 @@ def look(run: Run, word: str | None) -> None:
 
 @command(
     "LOOK ANG",
-    group=GROUP,
     levels=BY_OBJECT,
     grammar=(Group("from", "to", optional=True),),
-    ref=REF,
     units="degrees",
     default="0,90",
     saved=True,

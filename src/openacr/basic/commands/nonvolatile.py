@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import msgspec
 
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Int, Word
-from openacr.basic.language.registry import ANY, IMMEDIATE, PROG, SYS, command
+from openacr.basic.language.registry import ANY, IMMEDIATE, PROG, SYS
 from openacr.basic.memory import user_memory
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
@@ -17,13 +19,14 @@ from openacr.motion.interlocks import axis_moving
 
 GROUP = "Non-Volatile"
 REF = "PG Non-Volatile"
+command = partial(registry.command, group=GROUP, ref=REF)
 BANKS = 16
 BANK_BYTES = 1 << 16  # what the 16-bit addresses of Intel-HEX records reach
 RECORD_BYTES = 16
 DATA, END = 0, 1
 
 
-@command("PBOOT", group=GROUP, levels=ANY, ref="PG Startup Programs")
+@command("PBOOT", levels=ANY, ref="PG Startup Programs")
 def pboot(run: Run) -> None:
     """As first statement, start the program at power-up; typed, start all such programs."""
     if not run.stored:
@@ -38,13 +41,13 @@ def _needs_halted(run: Run) -> None:
 # parameters
 
 
-@command("ESAVE", group=GROUP, levels=SYS | PROG, ref=REF)
+@command("ESAVE", levels=SYS | PROG)
 def esave(run: Run) -> None:
     """Save the parameters: attachments, gains, limits, profiles, hardware and network."""
     run.system.nonvolatile.esave()
 
 
-@command("ELOAD", group=GROUP, levels=SYS, use=IMMEDIATE, ref=REF)
+@command("ELOAD", levels=SYS, use=IMMEDIATE)
 def eload(run: Run) -> None:
     """Load the saved parameters now, as every power-up does."""
     _needs_halted(run)
@@ -53,7 +56,7 @@ def eload(run: Run) -> None:
     run.system.nonvolatile.eload()
 
 
-@command("ERASE", group=GROUP, levels=SYS, use=IMMEDIATE, ref=REF)
+@command("ERASE", levels=SYS, use=IMMEDIATE)
 def erase(run: Run) -> None:
     """Forget the saved parameters; those in use stay until the next power-up."""
     run.system.nonvolatile.erase()
@@ -64,11 +67,9 @@ def erase(run: Run) -> None:
 
 @command(
     "FLASH",
-    group=GROUP,
     levels=SYS,
     use=IMMEDIATE,
     grammar=(Word("ERASE", "IMAGE", "LOAD", "RES", "SAVE"),),
-    ref=REF,
     needs=Feature.USER_FLASH,
 )
 def flash(run: Run, what: str) -> None:
@@ -85,7 +86,7 @@ def flash(run: Run, what: str) -> None:
             run.system.start_boot_programs()
 
 
-@command("BRESET", group=GROUP, levels=SYS, use=IMMEDIATE, ref=REF)
+@command("BRESET", levels=SYS, use=IMMEDIATE)
 def breset(run: Run) -> None:
     """Disable the battery backup until power is removed; REBOOT then forgets all programs."""
     run.system.nonvolatile.breset()
@@ -95,12 +96,7 @@ def breset(run: Run) -> None:
 
 
 @command(
-    "FIRMWARE",
-    group=GROUP,
-    levels=SYS,
-    use=IMMEDIATE,
-    grammar=(Word("BACKUP", "CHECKSUM", "LOAD", "UPGRADE"),),
-    ref=REF,
+    "FIRMWARE", levels=SYS, use=IMMEDIATE, grammar=(Word("BACKUP", "CHECKSUM", "LOAD", "UPGRADE"),)
 )
 def firmware(run: Run, what: str) -> None:
     """Back the firmware up, or compute its checksums (P7104 to P7117, BIT5656 to BIT5660)."""
@@ -112,9 +108,7 @@ def firmware(run: Run, what: str) -> None:
         raise CardError(NOT_SUPPORTED)
 
 
-@command(
-    "PROM", group=GROUP, levels=SYS, use=IMMEDIATE, grammar=(Int("bank", 0, BANKS - 1),), ref=REF
-)
+@command("PROM", levels=SYS, use=IMMEDIATE, grammar=(Int("bank", 0, BANKS - 1),))
 def prom(run: Run, bank: int) -> None:
     """Print a bank of 64 KB of the image of user memory as Intel-HEX records."""
     run.system.programs.check_readable()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 from openacr.basic.language import registry
@@ -11,7 +12,7 @@ from openacr.basic.language.grammar import Form, Int, Num, Rest, Str
 from openacr.basic.language.lister import Lister
 from openacr.basic.language.nodes import Expr
 from openacr.basic.language.number_format import double_text
-from openacr.basic.language.registry import ANY, IMMEDIATE, SYS, Level, command
+from openacr.basic.language.registry import ANY, IMMEDIATE, SYS, Level
 from openacr.basic.language.written import call
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
 GROUP = "Operating System"
 REF = "PG Operating System"
+command = partial(registry.command, group=GROUP, ref=REF)
 LEVELS = "PG Communication Levels"
 SHORTEST_PERIOD_S = 0.0001
 LONGEST_PERIOD_S = 0.005
@@ -38,25 +40,25 @@ HELP_COLUMNS = 8
 # levels of the channel
 
 
-@command("SYS", group=GROUP, levels=ANY, use=IMMEDIATE, ref=LEVELS)
+@command("SYS", levels=ANY, use=IMMEDIATE, ref=LEVELS)
 def sys_(run: Run) -> None:
     """Go to the system level."""
     run.channel.go(Level.SYS)
 
 
-@command("PROG", group=GROUP, levels=ANY, use=IMMEDIATE, grammar=(Int("n", 0, 15),), ref=LEVELS)
+@command("PROG", levels=ANY, use=IMMEDIATE, grammar=(Int("n", 0, 15),), ref=LEVELS)
 def prog(run: Run, number: int) -> None:
     """Go to the level of program n."""
     run.channel.go(Level.PROG, number)
 
 
-@command("PLC", group=GROUP, levels=ANY, use=IMMEDIATE, grammar=(Int("n", 0, 7),), ref=LEVELS)
+@command("PLC", levels=ANY, use=IMMEDIATE, grammar=(Int("n", 0, 7),), ref=LEVELS)
 def plc(run: Run, number: int) -> None:
     """Go to the level of PLC n."""
     run.channel.go(Level.PLC, number)
 
 
-@command("ECHO", group=GROUP, levels=ANY, use=IMMEDIATE, grammar=(Int("n", 0, 7, optional=True),))
+@command("ECHO", levels=ANY, use=IMMEDIATE, grammar=(Int("n", 0, 7, optional=True),), ref="")
 def echo(run: Run, mode: int | None) -> None:
     """Set or show what the channel sends: 1 echo, 2 no error reports, 4 no prompt."""
     if mode is None:
@@ -65,7 +67,7 @@ def echo(run: Run, mode: int | None) -> None:
         run.channel.echo = mode
 
 
-@command("MODE", group=GROUP, levels=ANY, use=IMMEDIATE, grammar=(Int("n", 0, 3, optional=True),))
+@command("MODE", levels=ANY, use=IMMEDIATE, grammar=(Int("n", 0, 3, optional=True),), ref="")
 def mode_(run: Run, mode: int | None) -> None:
     """Set or show how binary data is sent on the channel: 1 control prefixing, 2 no high bits."""
     if mode is None:
@@ -74,7 +76,7 @@ def mode_(run: Run, mode: int | None) -> None:
         run.channel.mode = mode
 
 
-@command("STREAM", group=GROUP, levels=ANY, use=IMMEDIATE, ref=REF)
+@command("STREAM", levels=ANY, use=IMMEDIATE)
 def stream(run: Run) -> None:
     """Print the name of the own channel."""
     run.print(run.channel.name)
@@ -136,14 +138,14 @@ def define(run: Run, item: Definition) -> None:
         run.print(line)
 
 
-@command("DEF", group=GROUP, levels=ANY, ref="PG Aliases")
+@command("DEF", levels=ANY, ref="PG Aliases")
 def def_(run: Run) -> None:
     """List all aliases."""
     for line in run.system.aliases.lines():
         run.print(line)
 
 
-@command("DEF CLEAR", group=GROUP, levels=ANY, ref="PG Aliases")
+@command("DEF CLEAR", levels=ANY, ref="PG Aliases")
 def def_clear(run: Run) -> None:
     """Remove all aliases."""
     run.system.aliases.clear()
@@ -152,7 +154,7 @@ def def_clear(run: Run) -> None:
 # the card
 
 
-@command("HELP", group=GROUP, levels=ANY, use=IMMEDIATE, grammar=(Rest(),), ref=REF)
+@command("HELP", levels=ANY, use=IMMEDIATE, grammar=(Rest(),))
 def help_(run: Run, asked: tuple[Token, ...] | None) -> None:
     """List all command words, or say what the commands do that begin with these words."""
     if asked:
@@ -199,7 +201,7 @@ def help_words() -> list[str]:
     return sorted({row.words[0] for row in registry.commands()} - {"LET"} | {"REM"})
 
 
-@command("VER", group=GROUP, levels=ANY, ref=REF)
+@command("VER", levels=ANY)
 def ver(run: Run) -> None:
     """Print model and firmware version."""
     run.print(run.card.model.version)
@@ -207,10 +209,8 @@ def ver(run: Run) -> None:
 
 @command(
     "PERIOD",
-    group=GROUP,
     levels=ANY,
     grammar=(Num("seconds", optional=True),),
-    ref=REF,
     units="s",
     default="0.0005",
     saved=True,
@@ -227,19 +227,19 @@ def period(run: Run, period_s: float | None) -> None:
     filters.change_period(run.card, period_s)
 
 
-@command("PASSWORD", group=GROUP, levels=SYS, use=IMMEDIATE, ref=REF)
+@command("PASSWORD", levels=SYS, use=IMMEDIATE)
 def password(run: Run) -> None:
     """Print whether the text of programs is protected: ON or OFF."""
     run.print("OFF" if run.system.programs.password is None else "ON")
 
 
-@command("PASSWORD ON", group=GROUP, levels=SYS, use=IMMEDIATE, grammar=(Str("text"),), ref=REF)
+@command("PASSWORD ON", levels=SYS, use=IMMEDIATE, grammar=(Str("text"),))
 def password_on(run: Run, text: str) -> None:
     """Protect the text of programs from LIST."""
     run.system.programs.protect(text)
 
 
-@command("PASSWORD OFF", group=GROUP, levels=SYS, use=IMMEDIATE, grammar=(Str("text"),), ref=REF)
+@command("PASSWORD OFF", levels=SYS, use=IMMEDIATE, grammar=(Str("text"),))
 def password_off(run: Run, text: str) -> None:
     """Make the text of programs readable again; the password must be the one set."""
     run.system.programs.unprotect(text)

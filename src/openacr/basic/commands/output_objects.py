@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.follower_forms import ArrayName, choose_object_source
 from openacr.basic.commands.value_commands import ObjectValue, check_number, object_values
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import (
     Bit,
     BitState,
@@ -15,7 +18,7 @@ from openacr.basic.language.grammar import (
     Source,
 )
 from openacr.basic.language.number_format import NumberKind, number_text
-from openacr.basic.language.registry import ANY, command
+from openacr.basic.language.registry import ANY
 from openacr.basic.vm.run import Run, whole
 from openacr.errors import CardError
 from openacr.kernel.followers.cam_cy import LONGS
@@ -32,6 +35,7 @@ from openacr.motion.sources import sources
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
+command = partial(registry.command, group=GROUP, ref=REF)
 HIGHEST_MODE = 15
 FIRST_SWITCH_FLAG = 120
 
@@ -71,45 +75,41 @@ object_values(
 # ratchets and limiters
 
 
-@command("RATCH # SRC", group=GROUP, levels=ANY, grammar=(Source(optional=True),), ref=REF,
-         default="NONE")  # fmt: skip
+@command("RATCH # SRC", levels=ANY, grammar=(Source(optional=True),), default="NONE")
 def ratch_src(run: Run, number: int, source: ObjectRef | None) -> None:
     """Choose the source of a ratchet."""
     check_number(number, ratchets.COUNT)
     choose_object_source(run, RATCHET_TAPS + number, source)
 
 
-@command("RATCH # RES", group=GROUP, levels=ANY, grammar=(Num("value", optional=True),), ref=REF,
-         units="pulses")  # fmt: skip
+@command("RATCH # RES", levels=ANY, grammar=(Num("value", optional=True),), units="pulses")
 def ratch_res(run: Run, number: int, value: float | None) -> None:
     """Set the output of a ratchet (0) and forget what it has buffered."""
     check_number(number, ratchets.COUNT)
     objects.reset_ratchet(run.card, number, value or 0.0)
 
 
-@command("RATCH #", group=GROUP, levels=ANY, ref=REF, units="pulses")
+@command("RATCH #", levels=ANY, units="pulses")
 def ratch_report(run: Run, number: int) -> None:
     """Report the output of a ratchet."""
     _print_row(run, number, ratchets.output_cnt)
 
 
-@command("LIMIT # SRC", group=GROUP, levels=ANY, grammar=(Source(optional=True),), ref=REF,
-         default="NONE")  # fmt: skip
+@command("LIMIT # SRC", levels=ANY, grammar=(Source(optional=True),), default="NONE")
 def limit_src(run: Run, number: int, source: ObjectRef | None) -> None:
     """Choose the source of a limiter."""
     check_number(number, limiters.COUNT)
     choose_object_source(run, LIMITER_TAPS + number, source)
 
 
-@command("LIMIT # RES", group=GROUP, levels=ANY, grammar=(Num("value", optional=True),), ref=REF,
-         units="pulses")  # fmt: skip
+@command("LIMIT # RES", levels=ANY, grammar=(Num("value", optional=True),), units="pulses")
 def limit_res(run: Run, number: int, value: float | None) -> None:
     """Set the output of a limiter (0) and forget what it has held back."""
     check_number(number, limiters.COUNT)
     objects.reset_limiter(run.card, number, value or 0.0)
 
 
-@command("LIMIT #", group=GROUP, levels=ANY, ref=REF, units="pulses")
+@command("LIMIT #", levels=ANY, units="pulses")
 def limit_report(run: Run, number: int) -> None:
     """Report the output of a limiter."""
     _print_row(run, number, limiters.output_cnt)
@@ -123,16 +123,14 @@ def _print_row(run: Run, number: int, row: tuple[int, ...]) -> None:
 # programmable limit switches
 
 
-@command(
-    "PLS # SRC", group=GROUP, levels=ANY, grammar=(Source(optional=True),), ref=REF, default="NONE"
-)
+@command("PLS # SRC", levels=ANY, grammar=(Source(optional=True),), default="NONE")
 def pls_src(run: Run, number: int, source: ObjectRef | None) -> None:
     """Choose the position a limit switch looks at."""
     check_number(number, limit_switches.COUNT)
     choose_object_source(run, SWITCH_TAPS + number, source)
 
 
-@command("PLS # BASE", group=GROUP, levels=ANY, grammar=(ArrayName("LA"),), ref=REF)
+@command("PLS # BASE", levels=ANY, grammar=(ArrayName("LA"),))
 def pls_base(run: Run, number: int, array: ObjectRef) -> None:
     """Choose the array of output patterns of a limit switch."""
     check_number(number, limit_switches.COUNT)
@@ -142,8 +140,7 @@ def pls_base(run: Run, number: int, array: ObjectRef) -> None:
     run.card.memory.I[limit_switches.array[number]] = array.number + 1
 
 
-@command("PLS # DST", group=GROUP, levels=ANY, grammar=(ParameterName(optional=True),), ref=REF,
-         default="P4097")  # fmt: skip
+@command("PLS # DST", levels=ANY, grammar=(ParameterName(optional=True),), default="P4097")
 def pls_dst(run: Run, number: int, parameter: SignedParameter | None) -> None:
     """Choose the LONG parameter a limit switch writes to."""
     check_number(number, limit_switches.COUNT)
@@ -156,7 +153,7 @@ def pls_dst(run: Run, number: int, parameter: SignedParameter | None) -> None:
         run.card.memory.I[row] = parameter.number
 
 
-@command("PLS # RES", group=GROUP, levels=ANY, grammar=(Num("index", optional=True),), ref=REF)
+@command("PLS # RES", levels=ANY, grammar=(Num("index", optional=True),))
 def pls_res(run: Run, number: int, index: float | None) -> None:
     """Make the present position of the source this index (0) of the array."""
     check_number(number, limit_switches.COUNT)
@@ -168,7 +165,7 @@ def pls_res(run: Run, number: int, index: float | None) -> None:
     )
 
 
-@command("PLS # ON", group=GROUP, levels=ANY, ref=REF)
+@command("PLS # ON", levels=ANY)
 def pls_on(run: Run, number: int) -> None:
     """Switch a limit switch on; it writes nothing before BASE has given it an array."""
     check_number(number, limit_switches.COUNT)
@@ -176,14 +173,14 @@ def pls_on(run: Run, number: int) -> None:
     run.card.memory.set_bit(FIRST_SWITCH_FLAG + number, True)
 
 
-@command("PLS # OFF", group=GROUP, levels=ANY, ref=REF)
+@command("PLS # OFF", levels=ANY)
 def pls_off(run: Run, number: int) -> None:
     """Switch a limit switch off; its outputs stay."""
     check_number(number, limit_switches.COUNT)
     run.card.memory.set_bit(FIRST_SWITCH_FLAG + number, False)
 
 
-@command("PLS #", group=GROUP, levels=ANY, ref=REF)
+@command("PLS #", levels=ANY)
 def pls_report(run: Run, number: int) -> None:
     """Report source, array, destination and state of a limit switch."""
     check_number(number, limit_switches.COUNT)
@@ -199,16 +196,16 @@ def pls_report(run: Run, number: int) -> None:
 # output objects
 
 
-@command("OOP # SRC", group=GROUP, levels=ANY, grammar=(Source(optional=True),), ref=REF,
-         default="ENC of the same number")  # fmt: skip
+@command(
+    "OOP # SRC", levels=ANY, grammar=(Source(optional=True),), default="ENC of the same number"
+)
 def oop_src(run: Run, number: int, source: ObjectRef | None) -> None:
     """Choose the position an output object looks at."""
     check_number(number, output_objects.COUNT)
     choose_object_source(run, OUTPUT_TAPS + number, source)
 
 
-@command("OOP # BIT", group=GROUP, levels=ANY, grammar=(Bit(optional=True),), ref=REF,
-         default="32 + number")  # fmt: skip
+@command("OOP # BIT", levels=ANY, grammar=(Bit(optional=True),), default="32 + number")
 def oop_bit(run: Run, number: int, bit: BitState | None) -> None:
     """Choose the flag of an output object."""
     check_number(number, output_objects.COUNT)
@@ -221,17 +218,19 @@ def oop_bit(run: Run, number: int, bit: BitState | None) -> None:
         run.card.memory.I[row] = bit.number
 
 
-@command(
-    "OOP # POS", group=GROUP, levels=ANY, grammar=(Group("from", "to"),), ref=REF, units="pulses"
-)
+@command("OOP # POS", levels=ANY, grammar=(Group("from", "to"),), units="pulses")
 def oop_pos(run: Run, number: int, window: tuple[float, float]) -> None:
     """Set the window in which the flag of an output object is set."""
     check_number(number, output_objects.COUNT)
     objects.set_window(run.card, number, *window)
 
 
-@command("OOP # INC", group=GROUP, levels=ANY, ref=REF, units="pulses",
-         grammar=(Group("start", "pitch", "width", "count", fewest=3),))  # fmt: skip
+@command(
+    "OOP # INC",
+    levels=ANY,
+    units="pulses",
+    grammar=(Group("start", "pitch", "width", "count", fewest=3),),
+)
 def oop_inc(run: Run, number: int, windows: tuple[float, ...]) -> None:
     """Set repeating windows of an output object; without a count they are endless."""
     check_number(number, output_objects.COUNT)
@@ -239,21 +238,21 @@ def oop_inc(run: Run, number: int, windows: tuple[float, ...]) -> None:
     objects.set_windows(run.card, number, start, pitch, width, whole((*windows, 0.0)[3]))
 
 
-@command("OOP # ON", group=GROUP, levels=ANY, ref=REF)
+@command("OOP # ON", levels=ANY)
 def oop_on(run: Run, number: int) -> None:
     """Switch an output object on."""
     check_number(number, output_objects.COUNT)
     objects.output_on(run.card, number, True)
 
 
-@command("OOP # OFF", group=GROUP, levels=ANY, ref=REF)
+@command("OOP # OFF", levels=ANY)
 def oop_off(run: Run, number: int) -> None:
     """Switch an output object off; its flag is cleared."""
     check_number(number, output_objects.COUNT)
     objects.output_on(run.card, number, False)
 
 
-@command("OOP #", group=GROUP, levels=ANY, ref=REF)
+@command("OOP #", levels=ANY)
 def oop_report(run: Run, number: int) -> None:
     """Report source, flag, windows and state of an output object."""
     check_number(number, output_objects.COUNT)

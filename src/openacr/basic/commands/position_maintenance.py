@@ -2,33 +2,36 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.axis_limits import GROUP, REF
 from openacr.basic.commands.value_commands import Value, axis_values
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Axes, Axis
-from openacr.basic.language.registry import BY_OBJECT, PROG, command
+from openacr.basic.language.registry import BY_OBJECT, PROG
 from openacr.basic.vm.run import Run
 from openacr.map.rows import axes as axis_rows
 from openacr.motion.axis import maintenance
 from openacr.motion.axis.settings import fp64, not_negative
 
+command = partial(registry.command, group=GROUP, ref=REF)
 
-@command("PM", group=GROUP, levels=PROG, ref=REF)
+
+@command("PM", levels=PROG)
 def pm(run: Run) -> None:
     """Report for which axes of the program position maintenance is on."""
     for axis in run.axes():
         run.print(f"{axis.name} {'ON' if maintenance.is_on(run.card, axis.number) else 'OFF'}")
 
 
-@command(
-    "PM ON", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF, default="OFF", saved=True
-)
+@command("PM ON", levels=BY_OBJECT, grammar=(Axes(),), default="OFF", saved=True)
 def pm_on(run: Run, axes: tuple[Axis, ...]) -> None:
     """Put out steps that stepper axes have lost, as their encoders say, when they rest."""
     for axis in axes:
         maintenance.switch(run.card, axis.number, on=True)
 
 
-@command("PM OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("PM OFF", levels=BY_OBJECT, grammar=(Axes(),))
 def pm_off(run: Run, axes: tuple[Axis, ...]) -> None:
     """Leave lost steps lost; a correction under way ends at once."""
     for axis in axes:

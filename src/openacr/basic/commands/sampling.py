@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.follower_forms import ArrayName, needs_parameter
 from openacr.basic.commands.value_commands import check_number
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import (
     Bit,
     BitState,
@@ -13,7 +16,7 @@ from openacr.basic.language.grammar import (
     SignedParameter,
 )
 from openacr.basic.language.number_format import NumberKind, number_text
-from openacr.basic.language.registry import ANY, command
+from openacr.basic.language.registry import ANY
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.kernel.followers.cam_cy import DOUBLES, LONGS, SINGLES
@@ -26,6 +29,7 @@ from openacr.motion.followers import cam
 
 GROUP = "Global Objects"
 REF = "PG Global Objects"
+command = partial(registry.command, group=GROUP, ref=REF)
 CHANNELS = sampler.SOURCE_SIZE
 MS_PER_S = 1000.0
 LONGEST_S = 2e6
@@ -39,7 +43,7 @@ _ARRAYS = {
 _WORDS = {row[0]: word for word, row in _ARRAYS.items()}
 
 
-@command("SAMP # SRC", group=GROUP, levels=ANY, grammar=(ParameterName(),), ref=REF)
+@command("SAMP # SRC", levels=ANY, grammar=(ParameterName(),))
 def samp_src(run: Run, channel: int, parameter: SignedParameter) -> None:
     """Choose the parameter a channel records."""
     check_number(channel, CHANNELS)
@@ -47,7 +51,7 @@ def samp_src(run: Run, channel: int, parameter: SignedParameter) -> None:
     run.card.memory.I[sampler.source + channel] = parameter.number + 1
 
 
-@command("SAMP # BASE", group=GROUP, levels=ANY, grammar=(ArrayName("LA", "SA", "DA"),), ref=REF)
+@command("SAMP # BASE", levels=ANY, grammar=(ArrayName("LA", "SA", "DA"),))
 def samp_base(run: Run, channel: int, array: ObjectRef) -> None:
     """Choose the array a channel records into."""
     check_number(channel, CHANNELS)
@@ -60,7 +64,7 @@ def samp_base(run: Run, channel: int, array: ObjectRef) -> None:
     memory.I[sampler.array + channel] = array.number
 
 
-@command("SAMP TRG", group=GROUP, levels=ANY, grammar=(Bit(signed=True),), ref=REF)
+@command("SAMP TRG", levels=ANY, grammar=(Bit(signed=True),))
 def samp_trg(run: Run, bit: BitState) -> None:
     """Choose the flag, and its state, that starts sampling."""
     if not 0 <= bit.number <= at.FLAG_LAST:
@@ -69,8 +73,7 @@ def samp_trg(run: Run, bit: BitState) -> None:
     run.card.memory.I[sampler.trigger_clear] = int(bit.clear)
 
 
-@command("SAMP PERIOD", group=GROUP, levels=ANY, grammar=(Num("period", optional=True),), ref=REF,
-         units="s")  # fmt: skip
+@command("SAMP PERIOD", levels=ANY, grammar=(Num("period", optional=True),), units="s")
 def samp_period(run: Run, period_s: float | None) -> None:
     """Set the time from sample to sample; 0 is every servo period."""
     if period_s is None:
@@ -82,7 +85,7 @@ def samp_period(run: Run, period_s: float | None) -> None:
         run.card.memory.I[at.P_SAMPLE_TIMER_PERIOD] = round(period_s * MS_PER_S)
 
 
-@command("SAMP CLEAR", group=GROUP, levels=ANY, ref=REF)
+@command("SAMP CLEAR", levels=ANY)
 def samp_clear(run: Run) -> None:
     """Stop sampling and forget channels, trigger and period."""
     memory = run.card.memory
@@ -94,7 +97,7 @@ def samp_clear(run: Run) -> None:
         memory.I[row] = 0
 
 
-@command("SAMP", group=GROUP, levels=ANY, ref=REF)
+@command("SAMP", levels=ANY)
 def samp_report(run: Run) -> None:
     """Report trigger, period and channels of the sampler."""
     rows = run.card.memory.I

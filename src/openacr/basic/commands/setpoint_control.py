@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.value_commands import Value, axis_values
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Axes, Axis, AxisList, AxisValue, AxisValues, Int, Num
-from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.language.registry import BY_OBJECT
 from openacr.basic.vm.run import Run, whole
 from openacr.errors import CardError
 from openacr.map.rows import axes as axis_rows
@@ -14,6 +17,7 @@ from openacr.motion.jog import jog
 
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"
+command = partial(registry.command, group=GROUP, ref=REF)
 
 
 def jog_value(words: str, row: tuple[int, ...], doc: str, units: str, default: str = "0") -> Value:
@@ -40,13 +44,13 @@ axis_values(
 )  # fmt: skip
 
 
-@command("JOG FWD", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("JOG FWD", levels=BY_OBJECT, grammar=(Axes(),))
 def jog_fwd(run: Run, axes: tuple[Axis, ...]) -> None:
     """Jog axes in the positive direction until JOG OFF."""
     _continuous(run, axes, 1)
 
 
-@command("JOG REV", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("JOG REV", levels=BY_OBJECT, grammar=(Axes(),))
 def jog_rev(run: Run, axes: tuple[Axis, ...]) -> None:
     """Jog axes in the negative direction until JOG OFF."""
     _continuous(run, axes, -1)
@@ -60,17 +64,14 @@ def _continuous(run: Run, axes: tuple[Axis, ...], direction: int) -> None:
         jog.continuous(run.card, axis.number, direction)
 
 
-@command("JOG OFF", group=GROUP, levels=BY_OBJECT, grammar=(Axes(),), ref=REF)
+@command("JOG OFF", levels=BY_OBJECT, grammar=(Axes(),))
 def jog_off(run: Run, axes: tuple[Axis, ...]) -> None:
     """Ramp jogging axes down to rest."""
     for axis in axes:
         jog.off(run.card, axis.number)
 
 
-@command(
-    "JOG ABS", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(Num("offset")),), ref=REF,
-    units="units",
-)  # fmt: skip
+@command("JOG ABS", levels=BY_OBJECT, grammar=(AxisList(Num("offset")),), units="units")
 def jog_abs(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Jog axes until their jog offset has a value."""
     for item in axes:
@@ -79,10 +80,7 @@ def jog_abs(run: Run, axes: tuple[AxisValue, ...]) -> None:
         jog.absolute(run.card, item.axis.number, item.value)
 
 
-@command(
-    "JOG INC", group=GROUP, levels=BY_OBJECT, grammar=(AxisList(Num("distance")),), ref=REF,
-    units="units",
-)  # fmt: skip
+@command("JOG INC", levels=BY_OBJECT, grammar=(AxisList(Num("distance")),), units="units")
 def jog_inc(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Jog axes by a distance from their jog offset, or from the target of a running jog."""
     for item in axes:
@@ -91,13 +89,7 @@ def jog_inc(run: Run, axes: tuple[AxisValue, ...]) -> None:
         jog.incremental(run.card, item.axis.number, item.value)
 
 
-@command(
-    "JOG HOME",
-    group=GROUP,
-    levels=BY_OBJECT,
-    grammar=(AxisList(Int("direction", -1, 1, optional=True)),),
-    ref=REF,
-)
+@command("JOG HOME", levels=BY_OBJECT, grammar=(AxisList(Int("direction", -1, 1, optional=True)),))
 def jog_home(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Look for the home input of axes, in the direction 1 (as without) or -1."""
     found = [(item.axis.number, 1 if item.is_query else whole(item.value)) for item in axes]
@@ -109,7 +101,7 @@ def jog_home(run: Run, axes: tuple[AxisValue, ...]) -> None:
         jog.home(run.card, axis, direction)
 
 
-@command("JOG REN", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF, units="units")
+@command("JOG REN", levels=BY_OBJECT, grammar=(AxisValues(),), units="units")
 def jog_ren(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Make the coordinated position of axes a value (0); the jog offset takes the rest."""
     for item in axes:
@@ -118,7 +110,7 @@ def jog_ren(run: Run, axes: tuple[AxisValue, ...]) -> None:
         jog.renew(run.card, item.axis.number, 0.0 if item.is_query else item.value)
 
 
-@command("JOG RES", group=GROUP, levels=BY_OBJECT, grammar=(AxisValues(),), ref=REF, units="units")
+@command("JOG RES", levels=BY_OBJECT, grammar=(AxisValues(),), units="units")
 def jog_res(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Make the jog offset of axes a value (0); the coordinated position takes the rest."""
     for item in axes:

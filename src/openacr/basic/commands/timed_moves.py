@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.value_commands import value_text
 from openacr.basic.commands.velocity_profile import GROUP, REF
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import Either, Num, ObjectRef, Source, Word
-from openacr.basic.language.registry import BY_OBJECT, command
+from openacr.basic.language.registry import BY_OBJECT
 from openacr.basic.vm.run import Run
 from openacr.map.rows import masters
 from openacr.motion.axis.settings import fp32, not_negative
 from openacr.motion.sources import time_base
+
+command = partial(registry.command, group=GROUP, ref=REF)
 
 TIME = fp32(masters.move_time, not_negative)
 FACTOR = fp32(masters.time_over_velocity, not_negative)
@@ -17,10 +22,8 @@ FACTOR = fp32(masters.time_over_velocity, not_negative)
 
 @command(
     "TMOV",
-    group=GROUP,
     levels=BY_OBJECT,
     grammar=(Either(Word("ON", "OFF"), Num("seconds"), optional=True),),
-    ref=REF,
     units="s",
     default="0",
     saved=True,
@@ -39,10 +42,8 @@ def tmov(run: Run, given: str | float | None) -> None:
 
 @command(
     "TOV",
-    group=GROUP,
     levels=BY_OBJECT,
     grammar=(Either(Word("ON", "OFF"), Num("factor"), optional=True),),
-    ref=REF,
     default="1",
 )
 def tov(run: Run, given: str | float | None) -> None:
@@ -56,15 +57,7 @@ def tov(run: Run, given: str | float | None) -> None:
         time_base.set_factor(run.card, master, given)
 
 
-@command(
-    "SRC",
-    group=GROUP,
-    levels=BY_OBJECT,
-    grammar=(Source(optional=True),),
-    ref=REF,
-    default="CLK",
-    saved=True,
-)
+@command("SRC", levels=BY_OBJECT, grammar=(Source(optional=True),), default="CLK", saved=True)
 def src(run: Run, source: ObjectRef | None) -> None:
     """Set the time base of moves: 1000 pulses of the source are one second."""
     master = run.master()

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from openacr.basic.commands.value_commands import Value, axis_values, check_all, value_text
+from openacr.basic.language import registry
 from openacr.basic.language.grammar import AxisGroups, AxisList, AxisValue, AxisValues, Num
-from openacr.basic.language.registry import BY_OBJECT, PROG, command
+from openacr.basic.language.registry import BY_OBJECT, PROG
 from openacr.basic.vm.run import Run
 from openacr.errors import CardError
 from openacr.map.rows import axes as axis_rows
@@ -14,6 +17,7 @@ from openacr.motion.path import transform
 
 GROUP = "Transformation"
 REF = "PG Transformation"
+command = partial(registry.command, group=GROUP, ref=REF)
 SHIFT = fp64(axis_rows.flz_u)
 FACTOR = fp64(axis_rows.scale, not_zero)
 CENTER = fp64(axis_rows.scale_center_u)
@@ -30,7 +34,7 @@ axis_values(
 )  # fmt: skip
 
 
-@command("FLZ", group=GROUP, levels=PROG, grammar=(AxisValues(),), ref=REF, units="units")
+@command("FLZ", levels=PROG, grammar=(AxisValues(),), units="units")
 def flz(run: Run, axes: tuple[AxisValue, ...]) -> None:
     """Let the present target positions of axes have programmed values, or show the shifts."""
     check_all(axes, SHIFT)
@@ -42,7 +46,7 @@ def flz(run: Run, axes: tuple[AxisValue, ...]) -> None:
             transform.float_zero(run.card, program, item.axis.number, item.value)
 
 
-@command("FLZ OFF", group=GROUP, levels=PROG, ref=REF)
+@command("FLZ OFF", levels=PROG)
 def flz_off(run: Run) -> None:
     """Clear the shifts that FLZ has made for the axes of the program."""
     for axis in run.axes():
@@ -51,10 +55,8 @@ def flz_off(run: Run) -> None:
 
 @command(
     "ROTATE",
-    group=GROUP,
     levels=PROG,
     grammar=(Num("degrees", optional=True), AxisList(Num("center"), optional=True)),
-    ref=REF,
     units="degrees",
     default="0",
 )
@@ -77,10 +79,8 @@ def rotate(run: Run, degrees: float | None, axes: tuple[AxisValue, ...] | None) 
 
 @command(
     "SCALE",
-    group=GROUP,
     levels=BY_OBJECT,
     grammar=(AxisGroups("factor", "center", fewest=1, single=True, values_optional=True),),
-    ref=REF,
     default="1",
 )
 def scale(run: Run, axes: tuple[AxisValue, ...]) -> None:
