@@ -16,12 +16,12 @@ from openacr.cnc.canonical import Arc, Coolant, Line, Moves, Plane, Rapid, Sourc
 from openacr.cnc.codes.fast import Sets
 from openacr.cnc.codes.table import DIALECTS
 from openacr.cnc.interpreter import fast_plans, lines_cy, scanning
-from openacr.cnc.interpreter.execution import MOST_IDLE
 from openacr.cnc.interpreter.interpreter import Options
 from openacr.cnc.loading.skimming import Skimmer
 from openacr.cnc.reading.findings import BlockError
-from openacr.cnc.rows import modes, runs
+from openacr.cnc.rows import modes
 from openacr.cnc.rows.moves import ARC, LINE, RAPID, ROW
+from openacr.cnc.rows.runs import MOST_IDLE
 from openacr.cnc.state.modal import Modal
 from openacr.compiled import is_compiled
 
@@ -303,7 +303,6 @@ def test_the_fields_of_fast_forms_are_rows_of_the_core() -> None:
         forms = [form for code in rows for form in code.fast or ()]
         used = {form.field for form in forms if isinstance(form, Sets)}
         assert used <= set(fields)
-    assert runs.MOST_IDLE == MOST_IDLE
 
 
 def test_more_shapes_than_there_is_room_for_are_read_one_by_one() -> None:

@@ -18,8 +18,8 @@ from openacr.cnc.interpreter.program_values import access
 from openacr.cnc.reading.expressions import ExpressionReader
 from openacr.cnc.reading.formulas import HOT
 from openacr.cnc.reading.grammar import ACROMILL, RS274NGC
-from openacr.cnc.reading.line_shapes import doubles, integers
 from openacr.cnc.rows import plans, scans, values
+from openacr.cnc.rows.room import doubles, integers
 from openacr.compiled import pick
 
 DIALECTS = ["acromill", "rs274ngc"]

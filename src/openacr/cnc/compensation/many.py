@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Protocol
 from openacr.cnc.canonical import AXES, PLANES, Moves
 from openacr.cnc.canonical.batches import Origin
 from openacr.cnc.geometry.elements import Element
-from openacr.cnc.reading.line_shapes import doubles, integers
 from openacr.cnc.rows.moves import ARC, CURVE, RAPID, ROW
+from openacr.cnc.rows.room import doubles, integers
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence

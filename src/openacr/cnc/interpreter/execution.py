@@ -20,9 +20,9 @@ from openacr.cnc.program.flow import Frame, Level
 from openacr.cnc.program.program import Node
 from openacr.cnc.reading.blocks import Message
 from openacr.cnc.reading.findings import BlockError, CodeError
+from openacr.cnc.rows.runs import MOST_IDLE
 from openacr.cnc.state.parameters import NotAtRestError
 
-MOST_IDLE = 100_000  # blocks without motion, dwell or wait
 MACRO = "MACRO"
 UNKNOWN = "######"  # a name without a value, in a text
 _PARAMETER = re.compile(r"([#Pp])(?:(\d{1,7})|<([^<>]*)>)")

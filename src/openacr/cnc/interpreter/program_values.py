@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import AXES
 from openacr.cnc.program.labels import Place
-from openacr.cnc.reading.line_shapes import doubles, integers
 from openacr.cnc.rows import runs
 from openacr.cnc.rows import values as rows
+from openacr.cnc.rows.room import doubles, integers
 from openacr.cnc.state.parameters import (
     FEED_CELL,
     FIRST_STORED,

@@ -10,10 +10,10 @@ from openacr.cnc.canonical import Moves, Pace, Point, Polyline, Source
 from openacr.cnc.canonical.batches import Origin
 from openacr.cnc.program.block_context import BlockContext
 from openacr.cnc.program.program import Node
-from openacr.cnc.reading.line_shapes import doubles, integers
 from openacr.cnc.reading.text import decoded
 from openacr.cnc.rows import moves, results
 from openacr.cnc.rows.moves import CURVE, POINT, ROW
+from openacr.cnc.rows.room import doubles, integers
 
 if TYPE_CHECKING:
     from openacr.cnc.interpreter.fast_plans import Notes

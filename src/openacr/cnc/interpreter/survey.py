@@ -25,9 +25,9 @@ from openacr.cnc.interpreter import survey_cy as core
 from openacr.cnc.interpreter.interpreter import Interpreter, Options
 from openacr.cnc.program.program import Program
 from openacr.cnc.reading.findings import MOST, BlockError, Finding
-from openacr.cnc.reading.line_shapes import doubles, integers
-from openacr.cnc.rows import moves
+from openacr.cnc.rows import moves, surveys
 from openacr.cnc.rows.moves import CURVE, ROW
+from openacr.cnc.rows.room import Memory, doubles, integers
 from openacr.cnc.state.hosts import Cells, Machine, VirtualMachine
 from openacr.cnc.state.modal import METRIC
 from openacr.cnc.state.shadow import Shadow
@@ -166,15 +166,16 @@ class _Count:
         self._found = found
         self._run = run
         self._has_unit = False
-        self._V, self._N = doubles(core.V_SIZE), integers(core.N_SIZE)
+        self._memory = Memory(surveys.SIZE)
+        F, I = self._F, self._I = self._memory.F, self._memory.I
         self._row, self._end, self._arc = integers(ROW), doubles(AXES), doubles(CURVE)
         for axis in range(AXES):
-            self._V[core.V_LOW + axis], self._V[core.V_HIGH + axis] = math.inf, -math.inf
-            self._V[core.V_AT + axis] = run.path.target[axis]
+            F[surveys.low_u[axis]], F[surveys.high_u[axis]] = math.inf, -math.inf
+            F[surveys.at_u[axis]] = run.path.target[axis]
         for letter, axis in found.letters.items():
-            self._N[core.N_AXES] |= 1 << axis
-            self._N[core.N_LINEAR] |= (letter in LINEAR) << axis
-        self._N[core.N_UNPLACED] = self._N[core.N_AXES]
+            I[surveys.axes] |= 1 << axis
+            I[surveys.linear_axes] |= (letter in LINEAR) << axis
+        I[surveys.unplaced_axes] = I[surveys.axes]
 
     def all(self, look: Callable[[Entry], None] | None) -> None:
         """The whole program."""
@@ -200,23 +201,24 @@ class _Count:
 
     def _hand_over(self) -> None:
         """The results; axes that did not move are where they are, if any other has moved."""
-        found, V, N = self._found, self._V, self._N
-        found.low = list(V[core.V_LOW : core.V_LOW + AXES])
-        found.high = list(V[core.V_HIGH : core.V_HIGH + AXES])
-        found.end = tuple(V[core.V_AT : core.V_AT + AXES])
-        found.lengths = {"rapid": V[core.V_RAPID], "feed": V[core.V_FEED]}
-        counts = {"rapid": N[core.N_RAPID], "feed": N[core.N_FEED], "arc": N[core.N_ARC]}
-        found.move_cnts |= counts
+        found, F, I = self._found, self._F, self._I
+        found.low = list(self._memory.reals(surveys.low_u))
+        found.high = list(self._memory.reals(surveys.high_u))
+        found.end = tuple(self._memory.reals(surveys.at_u))
+        found.lengths = {"rapid": F[surveys.rapid_u], "feed": F[surveys.feed_u]}
+        found.move_cnts["rapid"] = I[surveys.rapid_cnt]
+        found.move_cnts["feed"] = I[surveys.feed_cnt]
+        found.move_cnts["arc"] = I[surveys.arc_cnt]
         if any(found.low[axis] < math.inf for axis in found.letters.values()):
             for axis in found.letters.values():
-                if N[core.N_UNPLACED] & 1 << axis:
+                if I[surveys.unplaced_axes] & 1 << axis:
                     found.low[axis] = found.high[axis] = found.end[axis]
 
     def add(self, entry: Entry) -> None:
         """One entry."""
         match entry:
             case Moves():
-                _add(self._V, self._N, entry.rows, entry.ends, entry.arcs, len(entry))
+                _add(self._F, self._I, entry.rows, entry.ends, entry.arcs, len(entry))
             case Rapid():
                 self._one(moves.RAPID, entry.end)
             case Line() | Probe():
@@ -241,4 +243,4 @@ class _Count:
         self._row[0] = kind
         for axis in range(AXES):
             self._end[axis] = end[axis]
-        _add(self._V, self._N, self._row, self._end, self._arc, 1)
+        _add(self._F, self._I, self._row, self._end, self._arc, 1)

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.codes.table import Step
 from openacr.cnc.reading import skim_cy
-from openacr.cnc.reading.line_shapes import MOST_ROWS, LineShapes, integers
+from openacr.cnc.reading.line_shapes import MOST_ROWS, LineShapes
 from openacr.cnc.rows import scans
+from openacr.cnc.rows.room import integers
 from openacr.compiled import pick
 
 if TYPE_CHECKING:

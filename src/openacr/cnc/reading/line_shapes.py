@@ -12,20 +12,9 @@ from openacr.cnc.rows.room import Memory
 
 if TYPE_CHECKING:
     from openacr.cnc.reading.text import Text
-    from openacr.views import F64, I32
 
 MOST_SHAPES = 700  # with this many slots a free one is found soon
 MOST_ROWS = 8192  # lines, or moves, read together
-
-
-def doubles(count: int) -> F64:
-    """A view of doubles, 0."""
-    return memoryview(bytearray(8 * count)).cast("d")
-
-
-def integers(count: int) -> I32:
-    """A view of integers, 0."""
-    return memoryview(bytearray(4 * count)).cast("i")
 
 
 class LineShapes:

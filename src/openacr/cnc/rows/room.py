@@ -15,6 +15,16 @@ if TYPE_CHECKING:
 DOUBLE_BYTES, INTEGER_BYTES = 8, 4
 
 
+def doubles(count: int) -> F64:
+    """A view of doubles, 0."""
+    return memoryview(bytearray(DOUBLE_BYTES * count)).cast("d")
+
+
+def integers(count: int) -> I32:
+    """A view of integers, 0."""
+    return memoryview(bytearray(INTEGER_BYTES * count)).cast("i")
+
+
 class Room:
     """Gives rows their places in a buffer, one after another from a byte on."""
 

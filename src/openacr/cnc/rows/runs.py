@@ -5,7 +5,7 @@ from openacr.cnc.rows.moves import AXES
 from openacr.cnc.rows.room import Room
 
 MOST_ROWS = 8192  # moves and notes of one run
-MOST_IDLE = 100_000
+MOST_IDLE = 100_000  # blocks without motion, dwell or wait
 
 # What became of a block.
 TAKEN = 0

@@ -1,15 +1,12 @@
 """Cells whose changes are kept apart until committed: for checks, previews and replays."""
 
 from contextlib import AbstractContextManager, nullcontext
-from typing import TYPE_CHECKING
 
+from openacr.cnc.rows.room import doubles, integers
+from openacr.cnc.rows.values import CELLS, IS_KNOWN, IS_WRITTEN
 from openacr.cnc.state.hosts import Cells, Home
 
-if TYPE_CHECKING:
-    from openacr.views import F64, I32
-
-NEAR = 4096  # cells of programs, kept in arrays
-UNKNOWN, KNOWN, WRITTEN = 0, 1, 3  # states of a cell
+KNOWN, WRITTEN = IS_KNOWN, IS_KNOWN | IS_WRITTEN  # states of a cell; 0: not read yet
 
 
 class Shadow:
@@ -19,8 +16,7 @@ class Shadow:
         self._cells = cells
         self._home = cells.home
         # Read before, or written: cells of programs by number, and all others.
-        self.values: F64 = memoryview(bytearray(8 * NEAR)).cast("d")
-        self.states: I32 = memoryview(bytearray(4 * NEAR)).cast("i")
+        self.values, self.states = doubles(CELLS), integers(CELLS)
         self._kept: dict[int, float] = {}
         self._far: dict[int, float] = {}  # the others that were written
         self._is_open = False
@@ -44,7 +40,7 @@ class Shadow:
         """The number written last, or that of the cells."""
         if self._is_open:
             return self._cells.read(n)
-        if 0 <= n < NEAR:
+        if 0 <= n < CELLS:
             if not self.states[n]:
                 self.values[n], self.states[n] = self._cells.read(n), KNOWN
             return self.values[n]
@@ -57,7 +53,7 @@ class Shadow:
         """Keep a number; after `commit` it is written to the cells at once."""
         if self._is_open:
             self._cells.write(n, value)
-        elif 0 <= n < NEAR:
+        elif 0 <= n < CELLS:
             self.values[n], self.states[n] = value, WRITTEN
         else:
             self._kept[n] = self._far[n] = value

@@ -10,7 +10,8 @@ from array import array
 from typing import TYPE_CHECKING, Protocol
 
 from openacr.cnc import canonical as c
-from openacr.cnc.reading.line_shapes import MOST_ROWS, doubles, integers
+from openacr.cnc.reading.line_shapes import MOST_ROWS
+from openacr.cnc.rows.room import doubles, integers
 from openacr.compiled import pick
 from openacr.mill.config.settings import S_PER_MIN
 from openacr.mill.plan import forecast_cy as core

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Generic, NamedTuple, TypeVar
 
 from openacr.cnc.canonical import PathMode
-from openacr.cnc.reading.line_shapes import doubles, integers
+from openacr.cnc.rows.room import doubles, integers
 from openacr.compiled import pick
 from openacr.errors import UserError
 from openacr.mill.config.tabs import Speeds
