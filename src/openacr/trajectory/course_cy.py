@@ -59,13 +59,17 @@ def course_fill(
 
 
 def course_add(
-    H: F64, C: F64, Z: F64, t: float, period_s: float, count: int, X: F64, U: F64, Q: F64
+    H: F64, C: F64, Z: F64, t: float, period_s: float, count: int, X: F64, U: F64
 ) -> None:
-    """Add displacements from the first point, at t, t + period ..., to X, and distances to U."""
+    """Add displacements from the first point, at t, t + period ..., to X, and distances to U.
+
+    X has room for one more row.
+    """
     axes: int = int(H[H_AXES])
+    room: int = count * axes
     for i in range(count):
         now: float = t + float(i) * period_s
         U[i] = U[i] + course_gone_u(H, Z, now)
-        course_point(H, C, Z, now, Q, 0)
+        course_point(H, C, Z, now, X, room)
         for k in range(axes):
-            X[i * axes + k] = X[i * axes + k] + (Q[k] - H[H_START + k])
+            X[i * axes + k] = X[i * axes + k] + (X[room + k] - H[H_START + k])

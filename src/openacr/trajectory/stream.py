@@ -12,7 +12,7 @@ import numpy as np
 
 from openacr.compiled import pick
 from openacr.trajectory import course_cy
-from openacr.trajectory.arrays import flat, room
+from openacr.trajectory.arrays import flat
 from openacr.trajectory.chains import Chain
 from openacr.trajectory.course import Course
 from openacr.trajectory.sections import Sections
@@ -48,7 +48,6 @@ class Stream:
         self._members: deque[Member] = deque()
         self._next = 0
         self._gone_s = -math.inf  # when the last course has ended that is not kept any more
-        self._room = room(2 * self._axes)
         self._line, self._path_u = 0, 0.0
 
     @property
@@ -146,7 +145,7 @@ class Stream:
     def _sums(self, first: int, count: int) -> Sums:
         """Control points, lines, distances and factors of `count` grid times from `first` on."""
         times: Reals = np.arange(first, first + count, dtype=np.float64) * self.period_s
-        points = np.empty((count, self._axes))
+        points = np.empty((count + 1, self._axes))  # the last row is room
         path_u = np.zeros(count)
         lines, factors = np.zeros(count, dtype=np.int64), np.ones(count)
         writing = -1  # rows from here on are those of the course before
@@ -164,15 +163,14 @@ class Stream:
                 lines[row:stop], factors[row:stop] = member.sections.marks(path_u[row:stop])
                 path_u[row:stop] += member.base_u
             writing = stop
-        return points, lines, path_u, factors
+        return points[:-1], lines, path_u, factors
 
     def _call(
         self, function: Any, course: Course, times: Reals, row: int, stop: int,
         points: Reals, path_u: Reals,
     ) -> None:  # fmt: skip
         """Evaluate a course at the grid times of some rows."""
-        room = (self._room,) if function is _add else ()
         function(
             course.H, course.C, course.Z, float(times[row]) - course.begin_s, self.period_s,
-            stop - row, flat(points[row:stop].reshape(-1)), flat(path_u[row:stop]), *room,
+            stop - row, flat(points[row : stop + 1].reshape(-1)), flat(path_u[row:stop]),
         )  # fmt: skip

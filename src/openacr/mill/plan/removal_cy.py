@@ -1,8 +1,8 @@
 """What straight moves of a cutter leave of the material, as heights at the middles of cells.
 
-`H`: the heights, row by row of Y; `M`: marks of the cells; `G`: what holds for all moves; `P`:
-x y z of the begin of the first move and of the end of every move; `K`: kinds of the moves; `R`:
-their marks.
+`H`: the heights, row by row of Y; `M`: marks of the cells; `G`: what holds for all moves, and the
+piece of a move in hand; `P`: x y z of the begin of the first move and of the end of every move;
+`K`: kinds of the moves; `R`: their marks.
 
 With the radius r, the place of a cell u along and q across the line of a move, its slope k,
 w = sqrt(r^2 - q^2) and the axis of the cutter at c, from 0 to the length of the move:
@@ -18,17 +18,19 @@ from openacr.views import F64, U8
 
 __all__ = ["removal_moves"]
 
-G_X = 0  # low corner
-G_Y = 1
-G_CELL = 2
+G_X_U = 0  # low corner
+G_Y_U = 1
+G_CELL_U = 2
 G_COLUMNS = 3
 G_ROWS = 4
-G_BOTTOM = 5  # of the blank
-G_TOP = 6
-G_TOLERANCE = 7  # a rapid less deep in material, or a cut less below the bottom, is not marked
-G_RADIUS = 8  # of the cutter
+G_BOTTOM_U = 5  # of the blank
+G_TOP_U = 6
+G_TOLERANCE_U = 7  # a rapid less deep in material, or a cut less below the bottom, is not marked
+G_RADIUS_U = 8  # of the cutter
 G_IS_BALL = 9
-G_SIZE = 10
+G_BEGIN_U = 10  # x y z of a piece,
+G_TRAVEL_U = 13  # and how far it goes
+G_SIZE = 16
 
 CUTS = 0  # kinds
 CROSSES = 1  # a rapid
@@ -86,20 +88,24 @@ def removal_tip(
     return slope * axis + radius - sqrt(depth2)
 
 
-def removal_piece(
-    H: F64, M: U8, G: F64, x: float, y: float, z: float, dx: float, dy: float, dz: float, kind: int
-) -> int:
-    """Remove what a move sweeps that goes far in one axis only; its marks."""
-    tolerance: float = G[G_TOLERANCE]
-    cell: float = G[G_CELL]
-    radius: float = G[G_RADIUS] - tolerance if kind == CROSSES else G[G_RADIUS]
+def removal_piece(H: F64, M: U8, G: F64, kind: int) -> int:
+    """Remove what a piece of a move sweeps that goes far in one axis only; its marks."""
+    x: float = G[G_BEGIN_U]
+    y: float = G[G_BEGIN_U + 1]
+    z: float = G[G_BEGIN_U + 2]
+    dx: float = G[G_TRAVEL_U]
+    dy: float = G[G_TRAVEL_U + 1]
+    dz: float = G[G_TRAVEL_U + 2]
+    tolerance: float = G[G_TOLERANCE_U]
+    cell: float = G[G_CELL_U]
+    radius: float = G[G_RADIUS_U] - tolerance if kind == CROSSES else G[G_RADIUS_U]
     if radius <= 0.0:
         return 0
     columns: int = int(G[G_COLUMNS])
-    left: int = removal_first((x if dx > 0.0 else x + dx) - radius, G[G_X], cell)
-    right: int = removal_last((x + dx if dx > 0.0 else x) + radius, G[G_X], cell, columns)
-    front: int = removal_first((y if dy > 0.0 else y + dy) - radius, G[G_Y], cell)
-    back: int = removal_last((y + dy if dy > 0.0 else y) + radius, G[G_Y], cell, int(G[G_ROWS]))
+    left: int = removal_first((x if dx > 0.0 else x + dx) - radius, G[G_X_U], cell)
+    right: int = removal_last((x + dx if dx > 0.0 else x) + radius, G[G_X_U], cell, columns)
+    front: int = removal_first((y if dy > 0.0 else y + dy) - radius, G[G_Y_U], cell)
+    back: int = removal_last((y + dy if dy > 0.0 else y) + radius, G[G_Y_U], cell, int(G[G_ROWS]))
     length: float = sqrt(dx * dx + dy * dy)
     ux: float = 1.0
     uy: float = 0.0
@@ -112,24 +118,24 @@ def removal_piece(
         uy = dy / length
         slope = dz / length
     lowest: float = z if slope > 0.0 else z + slope * length
-    if kind == CUTS and lowest < G[G_BOTTOM] - tolerance:
+    if kind == CUTS and lowest < G[G_BOTTOM_U] - tolerance:
         lowest = -NEVER  # cells at the bottom may have to be marked
     marks: int = 0
     for row in range(front, back + 1):
-        py: float = G[G_Y] + cell * (row + 0.5) - y
+        py: float = G[G_Y_U] + cell * (row + 0.5) - y
         for column in range(left, right + 1):
             at: int = row * columns + column
             if H[at] <= lowest:
                 continue
-            px: float = G[G_X] + cell * (column + 0.5) - x
+            px: float = G[G_X_U] + cell * (column + 0.5) - x
             tip: float = z + removal_tip(G, radius, px, py, ux, uy, length, slope)
             mark: int = 0
             if kind == CROSSES and tip < H[at] - tolerance:
                 mark = RAPID
-            if kind == CUTS and tip < G[G_BOTTOM] - tolerance:
+            if kind == CUTS and tip < G[G_BOTTOM_U] - tolerance:
                 mark = BELOW
             if tip < H[at]:
-                H[at] = tip if tip > G[G_BOTTOM] else G[G_BOTTOM]
+                H[at] = tip if tip > G[G_BOTTOM_U] else G[G_BOTTOM_U]
             if mark != 0:
                 M[at] = M[at] | mark
                 marks = marks | mark
@@ -138,24 +144,23 @@ def removal_piece(
 
 def removal_move(H: F64, M: U8, G: F64, P: F64, at: int, kind: int) -> int:
     """Remove what a move sweeps; its marks."""
-    x: float = P[at]
-    y: float = P[at + 1]
     z: float = P[at + 2]
-    dx: float = P[at + 3] - x
-    dy: float = P[at + 4] - y
+    dx: float = fabs(P[at + 3] - P[at])
+    dy: float = fabs(P[at + 4] - P[at + 1])
     dz: float = P[at + 5] - z
-    if kind == PASSES or (z >= G[G_TOP] and z + dz >= G[G_TOP]):
+    if kind == PASSES or (z >= G[G_TOP_U] and z + dz >= G[G_TOP_U]):
         return 0
-    slant: float = fabs(dx) if fabs(dx) < fabs(dy) else fabs(dy)
-    pieces: int = 1 + int(slant / (PIECE * G[G_RADIUS]))
+    slant: float = dx if dx < dy else dy
+    pieces: int = 1 + int(slant / (PIECE * G[G_RADIUS_U]))
     share: float = 1.0 / pieces
     marks: int = 0
-    for k in range(pieces):
-        done: float = share * k
-        marks = marks | removal_piece(
-            H, M, G, x + done * dx, y + done * dy, z + done * dz,
-            share * dx, share * dy, share * dz, kind,
-        )  # fmt: skip
+    for n in range(pieces):
+        done: float = share * n
+        for k in range(3):
+            travel: float = P[at + 3 + k] - P[at + k]
+            G[G_BEGIN_U + k] = P[at + k] + done * travel
+            G[G_TRAVEL_U + k] = share * travel
+        marks = marks | removal_piece(H, M, G, kind)
     return marks
 
 

@@ -80,11 +80,11 @@ class Stock:
         of moves done since the last call. A cutter without a radius removes nothing.
         """
         numbers = np.zeros(core.G_SIZE)
-        numbers[[core.G_X, core.G_Y]] = self.blank.low[:2]
+        numbers[[core.G_X_U, core.G_Y_U]] = self.blank.low[:2]
         numbers[[core.G_ROWS, core.G_COLUMNS]] = self.heights.shape
-        numbers[[core.G_BOTTOM, core.G_TOP]] = self.blank.low[2], self.blank.high[2]
-        numbers[[core.G_CELL, core.G_TOLERANCE]] = self.cell, self.tolerance
-        numbers[[core.G_RADIUS, core.G_IS_BALL]] = cutter.radius, cutter.tip
+        numbers[[core.G_BOTTOM_U, core.G_TOP_U]] = self.blank.low[2], self.blank.high[2]
+        numbers[[core.G_CELL_U, core.G_TOLERANCE_U]] = self.cell, self.tolerance
+        numbers[[core.G_RADIUS_U, core.G_IS_BALL]] = cutter.radius, cutter.tip
         found = np.zeros(len(sweeps), np.uint8)
         flat = np.ascontiguousarray(places, np.float64).reshape(-1)
         arrays = (self.heights, self.marks, numbers, flat, sweeps, found)
