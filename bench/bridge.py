@@ -26,7 +26,7 @@ from openacr.bridge.station_feed import StationFeed
 from openacr.bridge.systems import bridge_of
 from openacr.map import parameters
 from openacr.panel.commands.all import carry_out
-from openacr.panel.control.pace import Paced
+from openacr.panel.control.machine.pace import Paced
 from openacr.panel.control.station import Station
 from openacr.panel.control.thread import ControlThread
 from openacr.panel.machine import embedded

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from openacr.controller import Controller
 from openacr.models import ACR9040
-from openacr.plant import schema
+from openacr.plant.describe import schema
 
 ROOT = Path(__file__).parents[1]
 GANTRY = ROOT / "examples" / "gantry"

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from bench.cards import gantry
 from bench.figures import RUNS, at_most, best_s, value_only
 from openacr.debugger.breakpoints import DataBreakpoint
-from openacr.debugger.session import DebugSession
+from openacr.debugger.card_course import CardCourse
 from openacr.debugger.stops import Reason
 from openacr.timeline import Timeline
 from openacr.wording import counted
@@ -43,7 +43,7 @@ def _armed() -> None:
 
 def _session(count: int, ticks: int) -> Callable[[], object]:
     """Runs the gantry on, with that many data breakpoints armed."""
-    session = DebugSession(gantry())
+    session = CardCourse(gantry())
     session.set_data(list(ARMED[:count]))
 
     def run() -> None:
@@ -61,7 +61,7 @@ def _in_turn(runs: Sequence[Callable[[], object]]) -> Iterator[list[float]]:
 
 def _steps_back() -> None:
     """Steps back from the end of an hour of the gantry, a line each."""
-    session = DebugSession(gantry())
+    session = CardCourse(gantry())
     session.run(round(HOUR_S / session.card.period_s))
     times = []
     for _ in range(STEPS):

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from openacr.trajectory import Segment
-from openacr.trajectory.setpoints import Reals
+from openacr.trajectory.path.setpoints import Reals
 
 SYSTEM_PYTHON = "/usr/bin/python3"  # for which the package is built
 PERIOD_S = 0.001

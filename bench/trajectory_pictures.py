@@ -13,7 +13,7 @@ from tests.trajectory.measures import PERIOD_S, limits, planned, points
 from tests.trajectory.programs import Segments, line, pocket
 
 from openacr.trajectory import evaluate
-from openacr.trajectory.setpoints import Reals
+from openacr.trajectory.path.setpoints import Reals
 
 START = (0.0, 0.0, 0.0)
 PER_KNOT = 8

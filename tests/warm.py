@@ -33,8 +33,9 @@ IMPORTED = (
     "openacr.panel.server.web", "openacr.project", "openacr.bridge.process",
 )  # fmt: skip
 IMPORTED_BY_WORKERS = (
-    "openacr.panel.work.tuning", "openacr.panel.control.tuning", "openacr.panel.server.web",
-    "openacr.sweep.campaign", "openacr.verify.checking", "scipy.optimize",
+    "openacr.panel.work.tuning", "openacr.panel.control.engineer.tuning",
+    "openacr.panel.server.web", "openacr.sweep.campaign", "openacr.verify.checking",
+    "scipy.optimize",
 )  # fmt: skip
 LENGTH = struct.Struct("<I")
 MOST_FDS = 4  # standard streams, and where the number of the process and its end are written

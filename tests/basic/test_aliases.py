@@ -9,7 +9,7 @@ from openacr.basic.language.nodes import Number, Parameter
 from openacr.basic.language.scope import join_names
 from openacr.errors import CardError
 from openacr.lang.lexer import tokens
-from openacr.plant.schema import Card
+from openacr.plant.describe.schema import Card
 
 SUCCESSOR = Card(digits_in_names=True).board
 P0 = Parameter(Number(0))

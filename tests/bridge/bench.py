@@ -15,7 +15,7 @@ from openacr.bridge.systems import bridge_of
 from openacr.errors import UserError
 from openacr.mill.config.tools import Tip, Tool
 from openacr.mill.run.lifecycle import State
-from openacr.panel.control.snapshot import Light, Snapshot
+from openacr.panel.control.machine.snapshot import Light, Snapshot
 
 LIMIT_S = 60.0
 

@@ -11,7 +11,7 @@ from openacr.client import Card, Options
 from openacr.client.identity import Identity, identify
 from openacr.configure import parse_answers
 from openacr.controller import Controller
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 GANTRY = EXAMPLES / "gantry"

@@ -18,7 +18,7 @@ from openacr.cli.plots.toolpath_image import build_figure
 from openacr.cnc.loading.load import load
 from openacr.cnc.parts.library import names, part_named, prepared
 from openacr.mill.config.colors import COLORS
-from openacr.mill.plan import tool_path
+from openacr.mill.plan.pictures import tool_path
 from openacr.sysvar import Store
 
 pytest.importorskip("matplotlib")

@@ -13,9 +13,9 @@ from openacr.cli.main import app
 from openacr.cli.plots.motion_colors import BANDS, COLORS, UNKNOWN, draw_motion
 from openacr.cli.plots.toolpath import Scene
 from openacr.cli.plots.toolpath_image import build_figure
-from openacr.mill.plan import path_motion
-from openacr.mill.plan.path_motion import Motion
-from openacr.mill.plan.quantities import Quantity
+from openacr.mill.plan.pictures import path_motion
+from openacr.mill.plan.pictures.path_motion import Motion
+from openacr.mill.plan.pictures.quantities import Quantity
 
 pytest.importorskip("matplotlib")
 

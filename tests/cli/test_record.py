@@ -15,7 +15,7 @@ from tests.io.sessions import event, written
 from typer.testing import CliRunner, Result
 
 from openacr.cli.main import app
-from openacr.io.recording import read_recording
+from openacr.io.recorded_session import read_recording
 from openacr.journal.entries import Entered
 
 ROOT = Path(__file__).parents[2]

@@ -15,7 +15,7 @@ from openacr.cli.explain.schema import Kind, schema_of
 from openacr.cli.main import app
 from openacr.configure.load import parse_answers
 from openacr.errors import SourceError
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 from openacr.scenario import parse_scenario
 from openacr.sweep.load import parse_sweep
 

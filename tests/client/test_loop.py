@@ -11,7 +11,7 @@ from openacr.cli.main import app
 from openacr.client import Card
 from openacr.client.links import ProcessLink
 from openacr.controller import Controller
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 
 STILL = """
 [[axis]]

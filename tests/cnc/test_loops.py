@@ -7,7 +7,8 @@ from tests.cnc.programs import STORE, made
 from tests.cnc.test_many_blocks import one_by_one
 
 from openacr.cnc.canonical import Line
-from openacr.cnc.interpreter import execution, loops
+from openacr.cnc.interpreter import execution
+from openacr.cnc.interpreter.by_block import loops
 from openacr.cnc.interpreter.survey import Survey, survey
 from openacr.cnc.loading.load import load
 from openacr.cnc.state.shadow import Shadow

@@ -15,7 +15,7 @@ from tests.search import search
 from openacr.cnc.canonical import Arc, Coolant, Line, Moves, Plane, Rapid, Source
 from openacr.cnc.codes.fast import Sets
 from openacr.cnc.codes.table import DIALECTS
-from openacr.cnc.interpreter import fast_plans, lines_cy, scanning
+from openacr.cnc.interpreter.by_line import fast_plans, lines_cy, scanning
 from openacr.cnc.interpreter.interpreter import Options
 from openacr.cnc.loading.skimming import Skimmer
 from openacr.cnc.reading.findings import BlockError

@@ -11,10 +11,12 @@ from tests.cnc.test_many_blocks import require_same
 from tests.search import search
 
 from openacr.cnc.canonical import Moves
-from openacr.cnc.interpreter import execution, formulas_cy, loops
-from openacr.cnc.interpreter.formula_code import OPERATIONS, FormulaWriter, NoCodeError
+from openacr.cnc.interpreter import execution
+from openacr.cnc.interpreter.by_block import loops
+from openacr.cnc.interpreter.by_line import formulas_cy
+from openacr.cnc.interpreter.by_line.formula_code import OPERATIONS, FormulaWriter, NoCodeError
+from openacr.cnc.interpreter.by_line.program_values import access
 from openacr.cnc.interpreter.interpreter import Options
-from openacr.cnc.interpreter.program_values import access
 from openacr.cnc.reading.expressions import ExpressionReader
 from openacr.cnc.reading.formulas import HOT
 from openacr.cnc.reading.grammar import ACROMILL, RS274NGC

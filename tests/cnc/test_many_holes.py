@@ -12,7 +12,7 @@ from tests.cnc.test_many_blocks import done, require_equal_builds, require_same
 from tests.search import search
 
 from openacr.cnc.canonical import Dwell, Entry, Line, Moves, Rapid, Source, Sync
-from openacr.cnc.interpreter import loops
+from openacr.cnc.interpreter.by_block import loops
 from openacr.cnc.interpreter.interpreter import Options
 from openacr.compiled import is_compiled
 

@@ -6,8 +6,8 @@ import pytest
 from tests.cnc.programs import made
 from tests.cnc.test_many_blocks import done, require_same
 
+from openacr.cnc.interpreter.by_line.program_values import access
 from openacr.cnc.interpreter.interpreter import Options
-from openacr.cnc.interpreter.program_values import access
 from openacr.cnc.rows.values import MAY_WRITE
 from openacr.sysvar import Store
 from openacr.sysvar.lookup import one

@@ -10,9 +10,9 @@ from tests.cnc.programs import Bench, Run, made, unrolled
 from tests.search import search
 
 from openacr.cnc.canonical import Entry, Line, Polyline, Rapid
-from openacr.cnc.interpreter import lines_cy, scanning
+from openacr.cnc.interpreter.by_line import lines_cy, scanning
+from openacr.cnc.interpreter.by_line.scanning import Scanner
 from openacr.cnc.interpreter.interpreter import Interpreter, Options
-from openacr.cnc.interpreter.scanning import Scanner
 from openacr.cnc.loading.load import load
 from openacr.cnc.reading import scan_cy as scan
 from openacr.cnc.reading.findings import BlockError

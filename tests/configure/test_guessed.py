@@ -8,8 +8,8 @@ from openacr.client import Card
 from openacr.configure.guessed import first_machine
 from openacr.configure.queries import Virtual
 from openacr.controller import Controller
-from openacr.plant.load import parse_world
-from openacr.plant.schema import Contact, ExactDrive, StepperDrive, World
+from openacr.plant.describe.load import parse_world
+from openacr.plant.describe.schema import Contact, ExactDrive, StepperDrive, World
 from openacr.project import find_project
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

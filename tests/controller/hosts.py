@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from openacr.channels import StreamKind
 from openacr.controller import Controller
-from openacr.plant.schema import World
+from openacr.plant.describe.schema import World
 
 X_AND_Y = (
     "PROG0",

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from openacr.controller import Controller
-from openacr.plant import schema
+from openacr.plant.describe import schema
 
 SQUARE = Path(__file__).parents[2] / "examples" / "square"
 

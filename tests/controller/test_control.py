@@ -5,7 +5,7 @@ from tests.controller.hosts import X_AND_Y, Host, connected
 
 from openacr.controller import Controller
 from openacr.models import MODELS
-from openacr.plant import schema
+from openacr.plant.describe import schema
 
 
 @pytest.mark.req("ACR-KAMR-13", "ACR-KAMR-41", "ACR-KAMR-43")

@@ -13,8 +13,8 @@ from openacr.controller.replay import Replay
 from openacr.errors import SourceError, StoreError, UserError
 from openacr.map import numbers as at
 from openacr.map.rows import analogs, axes
-from openacr.plant.load import parse_world
-from openacr.plant.schema import World
+from openacr.plant.describe.load import parse_world
+from openacr.plant.describe.schema import World
 from openacr.timeline import Timeline
 
 AXIS = """

@@ -34,7 +34,7 @@ from openacr.map.rows import (
     threads,
 )
 from openacr.map.valid import check_rows
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 
 LIMITED = [
     (block, view, name, offset, size, block.ranges.get(name, usual))

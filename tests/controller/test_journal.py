@@ -19,8 +19,8 @@ from openacr.controller.replay import Replay
 from openacr.controller.ring import Ring, journals, own_ring
 from openacr.errors import OpenacrError, StoreError
 from openacr.journal.entries import Entered
-from openacr.plant.network_schema import Canopen, Node
-from openacr.plant.schema import DeviceTable, default_world
+from openacr.plant.describe.network_schema import Canopen, Node
+from openacr.plant.describe.schema import DeviceTable, default_world
 from openacr.protocol.events import ControlKey
 
 CURTAIN = DeviceTable(

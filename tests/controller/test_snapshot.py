@@ -16,7 +16,7 @@ from openacr.controller import Controller
 from openacr.controller import snapshot_file as snapshot
 from openacr.controller.snapshot import Snapshot
 from openacr.errors import StoreError
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 from openacr.protocol.move import Move
 
 

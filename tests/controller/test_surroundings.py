@@ -11,7 +11,7 @@ from openacr.errors import CardError, UserError
 from openacr.journal.entries import JournalEntry, entry_of, record_of
 from openacr.map import numbers as at
 from openacr.map.rows import motors, plant
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 from openacr.protocol.events import ControlKey
 
 MACHINE = """

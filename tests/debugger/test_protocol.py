@@ -17,7 +17,7 @@ from openacr.controller import Controller
 from openacr.controller.recorder import Recorder
 from openacr.debugger.server import serve
 from openacr.debugger.wire import BrokenStreamError, read_message, write_message
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 
 LAMP = """\
 from typing import ClassVar

@@ -9,8 +9,8 @@ from openacr.client.program_variables import Value
 from openacr.controller import Controller
 from openacr.debugger.breakpoints import DataBreakpoint, Fault, LineBreakpoint
 from openacr.debugger.calls import depth_of, frames_of, levels_of, listing, state_of
+from openacr.debugger.card_course import CardCourse
 from openacr.debugger.questions import answer, assign
-from openacr.debugger.session import DebugSession
 from openacr.debugger.stops import Reason, Stop
 from openacr.debugger.variables import locals_of, program_state
 from openacr.errors import UserError
@@ -26,7 +26,7 @@ class Bench:
         self.folder = folder
         self.shown: list[str] = []
         self.card = card_of(folder)
-        self.session = DebugSession(self.card, self.shown.append)
+        self.session = CardCourse(self.card, self.shown.append)
         self.card.send("PROG0\rRUN\r")
 
     def breaks(self, *lines: LineBreakpoint) -> Stop | None:

@@ -6,10 +6,10 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from openacr.plant import schema
-from openacr.plant.body_schema import Body, Sign
+from openacr.plant.describe import schema
+from openacr.plant.describe.body_schema import Body, Sign
+from openacr.plant.describe.load import parse_world
 from openacr.plant.devices.kinds import LIBRARY
-from openacr.plant.load import parse_world
 
 TEXT = (Path(__file__).parents[2] / "docs" / "machine.md").read_text()
 PIECES = re.findall(r"```toml\n(.*?)```", TEXT, re.DOTALL)

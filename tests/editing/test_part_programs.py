@@ -10,7 +10,7 @@ from openacr.editing.engine import Engine
 from openacr.editing.marks import Kind
 from openacr.editing.part_programs.marks import marks_of
 from openacr.errors import UserError
-from openacr.mill.plan.checking import check_text
+from openacr.mill.plan.estimate.checking import check_text
 from openacr.sysvar.location import open_to_read
 
 ACROMILL = """\

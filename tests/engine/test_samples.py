@@ -36,7 +36,7 @@ def _polled(ticks: int) -> Reals:
 def test_every_value_is_that_of_its_tick(
     rows_of_a_part: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("openacr.controller.recording.CHUNK_ROWS", rows_of_a_part)
+    monkeypatch.setattr("openacr.controller.sample_buffers.CHUNK_ROWS", rows_of_a_part)
     card = Controller()
     card.send(MOVE)
     card.record(samples=_samples(card))

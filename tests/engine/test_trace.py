@@ -24,7 +24,7 @@ def recorded(every_tk: int, *, keep_peaks: bool = False) -> Trace:
 def test_peaks_between_two_samples_are_kept(
     rows_of_a_part: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("openacr.controller.recording.CHUNK_ROWS", rows_of_a_part)
+    monkeypatch.setattr("openacr.controller.sample_buffers.CHUNK_ROWS", rows_of_a_part)
     full, sparse = recorded(1), recorded(10, keep_peaks=True)
     assert sparse.time_s.size == 102
     for axis, thin in zip(full.axes[:2], sparse.axes, strict=False):

@@ -6,7 +6,7 @@ from tests.examples.watches import HOMING, MISSING_SWITCH
 
 from openacr.controller import Controller
 from openacr.map.rows import motors
-from openacr.plant.counts import position_of
+from openacr.plant.describe.counts import position_of
 
 FOUND, FAILED, MARKER = 16134, 16135, 777
 X, Y, Z = range(3)

@@ -17,7 +17,7 @@ from openacr.controller.journal import read_journal
 from openacr.errors import StoreError
 from openacr.io import proxy as module
 from openacr.io.proxy import Proxy
-from openacr.io.recording import SessionRecorder, is_recording, read_recording
+from openacr.io.recorded_session import SessionRecorder, is_recording, read_recording
 from openacr.io.server import CardServer, Guests
 from openacr.io.session_replay import SessionReplay
 from openacr.journal.entries import Entered, JournalEntry

@@ -16,7 +16,7 @@ from tests.io.sessions import event, written
 from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.io.recording import SessionRecorder, read_recording
+from openacr.io.recorded_session import SessionRecorder, read_recording
 from openacr.io.serial_port import LineSettings
 from openacr.io.serial_tap import SerialTap
 from openacr.io.session_replay import SessionReplay

@@ -17,9 +17,9 @@ from openacr.motion.axis import attach
 from openacr.motion.card import Card
 from openacr.motion.path import moves
 from openacr.motion.path.move_request import Target
-from openacr.plant.apply import apply_world
-from openacr.plant.load import parse_world
-from openacr.plant.step_cy import plant_step
+from openacr.plant.build.apply import apply_world
+from openacr.plant.describe.load import parse_world
+from openacr.plant.physics.step_cy import plant_step
 
 Reals = NDArray[np.float64]
 TICK: Callable[..., None] = compiled.pick(tick)

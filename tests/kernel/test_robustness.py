@@ -22,7 +22,7 @@ from openacr.map.words import af4
 from openacr.motion.jog import jog
 from openacr.motion.path import moves
 from openacr.motion.path.move_request import Target
-from openacr.plant.step_cy import plant_step
+from openacr.plant.physics.step_cy import plant_step
 
 WORLD = """
 [[axis]]

@@ -20,8 +20,8 @@ from tests.trajectory.measures import off
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.arcs import along
-from openacr.mill.plan.geometry import weights
+from openacr.mill.plan.moves.arcs import along
+from openacr.mill.plan.moves.geometry import weights
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import AXIS, SPEEDS
 

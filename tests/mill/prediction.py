@@ -5,8 +5,8 @@ from dataclasses import replace
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.planning import CornerRules, PlannedMove, Planner
-from openacr.mill.plan.predicting import Prediction, Predictor
+from openacr.mill.plan.estimate.predicting import Prediction, Predictor
+from openacr.mill.plan.moves.planning import CornerRules, PlannedMove, Planner
 
 
 def predicted(

@@ -20,10 +20,10 @@ from tests.search import search, sparse
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan import arc_law_cy
-from openacr.mill.plan.encoding import Encoder
-from openacr.mill.plan.predicting import Predictor
-from openacr.mill.plan.trajectory import Trajectory
+from openacr.mill.plan.estimate.predicting import Predictor
+from openacr.mill.plan.estimate.trajectory import Trajectory
+from openacr.mill.plan.moves import arc_law_cy
+from openacr.mill.plan.moves.encoding import Encoder
 from openacr.sysvar.tabs import AXIS, SPEEDS
 
 pytestmark = pytest.mark.evidence("oracle", "finite differences of samples, a speed on a fine grid")

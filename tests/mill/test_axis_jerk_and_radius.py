@@ -29,10 +29,10 @@ from tests.trajectory.measures import off
 from openacr.cnc import canonical as c
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.curve_limits import JERK_SHARE
-from openacr.mill.plan.curve_reserve import Reserve
-from openacr.mill.plan.encoding import Encoder
-from openacr.mill.plan.plan_metric import PlanMetric
+from openacr.mill.plan.curves.curve_limits import JERK_SHARE
+from openacr.mill.plan.curves.curve_reserve import Reserve
+from openacr.mill.plan.curves.plan_metric import PlanMetric
+from openacr.mill.plan.moves.encoding import Encoder
 from openacr.sysvar.tabs import AXIS, CONTROL
 from openacr.sysvar.values import unit_of
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from openacr.mill.plan.blank import SIZES, blank_of
+from openacr.mill.plan.pictures.blank import SIZES, blank_of
 from openacr.sysvar import Store
 
 CUTS = (0.0, 0.0), (20.0, 10.0)

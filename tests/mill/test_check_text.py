@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from openacr.cli.mill.check import in_folder, loaded
-from openacr.mill.plan.checking import check_text, checked
+from openacr.mill.plan.estimate.checking import check_text, checked
 from openacr.panel.work.paths import check_text as check_on_panel
 from openacr.sysvar import Store
 

@@ -6,7 +6,7 @@ import pytest
 from tests.mill.planned import planned_shop
 
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.curve_packets import CurvePackets, line_rate
+from openacr.mill.plan.curves.curve_packets import CurvePackets, line_rate
 from openacr.protocol.move import Move
 
 HEADER, MASTER_0_NURB, X_Y_Z = 0x04, 0x40, 0x07

@@ -8,8 +8,8 @@ from tests.mill.test_planned_lost_host import cells
 
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.curve_limits import moves_needed
-from openacr.mill.plan.curve_reserve import Reserve
+from openacr.mill.plan.curves.curve_limits import moves_needed
+from openacr.mill.plan.curves.curve_reserve import Reserve
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import AXIS, SPEEDS
 

@@ -9,12 +9,12 @@ from tests.mill.shop import end, src
 from openacr.cnc import canonical as c
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.curve_window import REST, CurveRows, CurveWindow
-from openacr.mill.plan.encoding import Job
-from openacr.mill.plan.phases import Phases
-from openacr.mill.plan.predicting import Predictor
+from openacr.mill.plan.curves.curve_window import REST, CurveRows, CurveWindow
+from openacr.mill.plan.estimate.predicting import Predictor
+from openacr.mill.plan.moves.encoding import Job
+from openacr.mill.plan.moves.phases import Phases
 from openacr.trajectory import Setpoints
-from openacr.trajectory.timescale import Progress
+from openacr.trajectory.override.timescale import Progress
 
 STEPS = np.array([0.001, 0.003, 0.006, 0.009, 0.01, 0.01, 0.009, 0.006, 0.003, 0.001])
 RESTING_U = 9.5  # the path at the end

@@ -11,8 +11,8 @@ from tests.mill.shop import PULSES, at, line, rapid, src
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.encoding import Encoder, Job
-from openacr.mill.plan.planning import CornerRules, Planner
+from openacr.mill.plan.moves.encoding import Encoder, Job
+from openacr.mill.plan.moves.planning import CornerRules, Planner
 from openacr.protocol.move import Move
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import AXIS

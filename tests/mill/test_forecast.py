@@ -16,10 +16,10 @@ from openacr.cnc.interpreter.interpreter import Options
 from openacr.cnc.reading.findings import BlockError, Finding
 from openacr.compiled import is_compiled
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan import forecast, forecast_cy
-from openacr.mill.plan.forecast import Forecast
-from openacr.mill.plan.predicting import Prediction, Predictor
-from openacr.mill.plan.preflight import Preflight
+from openacr.mill.plan.estimate import forecast, forecast_cy
+from openacr.mill.plan.estimate.forecast import Forecast
+from openacr.mill.plan.estimate.predicting import Prediction, Predictor
+from openacr.mill.plan.estimate.preflight import Preflight
 from openacr.sysvar.tabs import AXIS, CONTROL, SPEEDS
 
 BEGIN = (0.0,) * 8

@@ -13,8 +13,8 @@ from tests.search import sparse
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.checking import opened, surveyed
-from openacr.mill.plan.quantities import Quantity
+from openacr.mill.plan.estimate.checking import opened, surveyed
+from openacr.mill.plan.pictures.quantities import Quantity
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import AXIS, CONTROL, SPEEDS

@@ -12,11 +12,11 @@ from tests.mill.shop import Shop, at, end, line, rapid, src
 from openacr.cnc import canonical as c
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan import path_motion
-from openacr.mill.plan.path_motion import Motion, PathMotion
-from openacr.mill.plan.predicting import Predictor
-from openacr.mill.plan.quantities import Quantity
-from openacr.mill.plan.trajectory import Trajectory
+from openacr.mill.plan.estimate.predicting import Predictor
+from openacr.mill.plan.estimate.trajectory import Trajectory
+from openacr.mill.plan.pictures import path_motion
+from openacr.mill.plan.pictures.path_motion import Motion, PathMotion
+from openacr.mill.plan.pictures.quantities import Quantity
 
 Reals = NDArray[np.float64]
 SPEED, ACCELERATION, OF_JERK = Quantity.SPEED, Quantity.ACCELERATION, Quantity.JERK

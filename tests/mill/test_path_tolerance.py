@@ -17,7 +17,7 @@ from openacr.cnc import canonical as c
 from openacr.cnc.loading.load import load
 from openacr.controller import Controller
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.encoding import Encoder
+from openacr.mill.plan.moves.encoding import Encoder
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store

@@ -28,7 +28,7 @@ from openacr.cnc.loading.load import load
 from openacr.map.rows import masters
 from openacr.mill.config.curves import PERIOD_S, can_plan
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.planned_path import PlannedPath
+from openacr.mill.plan.curves.planned_path import PlannedPath
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store

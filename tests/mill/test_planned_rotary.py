@@ -30,11 +30,11 @@ from tests.trajectory.measures import off
 from openacr.cnc import canonical as c
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.encoding import Job
-from openacr.mill.plan.geometry import weights
-from openacr.mill.plan.phases import Phases
-from openacr.mill.plan.plan_metric import PlanMetric
-from openacr.mill.plan.predicting import Predictor
+from openacr.mill.plan.curves.plan_metric import PlanMetric
+from openacr.mill.plan.estimate.predicting import Predictor
+from openacr.mill.plan.moves.encoding import Job
+from openacr.mill.plan.moves.geometry import weights
+from openacr.mill.plan.moves.phases import Phases
 from openacr.mill.run.lifecycle import Options, State
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import AXIS

@@ -34,11 +34,11 @@ from openacr.map.rows import axes
 from openacr.mill.config.communications import Line
 from openacr.mill.config.curves import PERIOD_S
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.checking import Watchers, checked, surveyed
-from openacr.mill.plan.curve_limits import ACCELERATION_SHARE, JERK_SHARE
-from openacr.mill.plan.path_motion import PathMotion
-from openacr.mill.plan.predicting import Prediction
-from openacr.mill.plan.quantities import Quantity
+from openacr.mill.plan.curves.curve_limits import ACCELERATION_SHARE, JERK_SHARE
+from openacr.mill.plan.estimate.checking import Watchers, checked, surveyed
+from openacr.mill.plan.estimate.predicting import Prediction
+from openacr.mill.plan.pictures.path_motion import PathMotion
+from openacr.mill.plan.pictures.quantities import Quantity
 from openacr.mill.run.dripping import Drip
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start

@@ -26,8 +26,8 @@ from tests.search import sparse
 from tests.trajectory.measures import off
 
 from openacr.cnc import canonical as c
-from openacr.mill.plan.encoding import Encoder
-from openacr.mill.plan.geometry import weights
+from openacr.mill.plan.moves.encoding import Encoder
+from openacr.mill.plan.moves.geometry import weights
 from openacr.mill.run.rejoin import apart_u
 from openacr.sysvar.tabs import AXIS, FOV, SPEEDS
 

@@ -13,7 +13,7 @@ from tests.mill.prediction import corner_speed
 
 from openacr.cnc.canonical import PathMode
 from openacr.errors import UserError
-from openacr.mill.plan.planning import (
+from openacr.mill.plan.moves.planning import (
     CornerRules,
     PlannedMove,
     Planner,

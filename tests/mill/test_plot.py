@@ -10,8 +10,8 @@ from openacr.cnc.interpreter.interpreter import Interpreter, Options
 from openacr.cnc.loading.load import load
 from openacr.cnc.state.hosts import VirtualMachine
 from openacr.cnc.state.shadow import Shadow
-from openacr.mill.plan import tool_path
-from openacr.mill.plan.tool_path import Drawing, Kind, ToolPath, chords, thinned
+from openacr.mill.plan.pictures import tool_path
+from openacr.mill.plan.pictures.tool_path import Drawing, Kind, ToolPath, chords, thinned
 from openacr.sysvar import Store
 
 STORE = Store()

@@ -10,8 +10,8 @@ from tests.mill.shop import Shop, at, line, rapid, src
 from openacr.cnc import canonical as c
 from openacr.cnc.reading.findings import Finding
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.predicting import Predictor
-from openacr.mill.plan.preflight import Preflight
+from openacr.mill.plan.estimate.predicting import Predictor
+from openacr.mill.plan.estimate.preflight import Preflight
 from openacr.mill.run.lifecycle import State
 
 LIMITS = {"P200_000": 2.0, "P200_001": -2.0, "P200_002": 0, "P271": 1}

@@ -9,8 +9,8 @@ from openacr.cnc import canonical as c
 from openacr.mill.config.capture import Capture, capture_of
 from openacr.mill.config.overrides import Override
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.predicting import Predictor
-from openacr.mill.plan.preflight import Preflight
+from openacr.mill.plan.estimate.predicting import Predictor
+from openacr.mill.plan.estimate.preflight import Preflight
 from openacr.mill.run.lifecycle import State
 from openacr.protocol.move import Move
 

@@ -7,8 +7,8 @@ import pytest
 
 from openacr.cnc.loading.load import load
 from openacr.errors import UserError
-from openacr.mill.plan.removal import Removal, removal
-from openacr.mill.plan.stock import Mark
+from openacr.mill.plan.pictures.removal import Removal, removal
+from openacr.mill.plan.pictures.stock import Mark
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import CELLS, CONTROL, GENERAL, TOOL
 

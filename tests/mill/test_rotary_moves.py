@@ -26,9 +26,9 @@ from tests.mill.shop import Shop, end, src
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.encoding import Encoder
-from openacr.mill.plan.geometry import weights
-from openacr.mill.plan.planning import CornerRules
+from openacr.mill.plan.moves.encoding import Encoder
+from openacr.mill.plan.moves.geometry import weights
+from openacr.mill.plan.moves.planning import CornerRules
 from openacr.sysvar.tabs import AXIS, SPEEDS
 
 

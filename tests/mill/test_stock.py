@@ -9,8 +9,8 @@ import shapely
 
 from openacr.compiled import is_compiled
 from openacr.mill.config.tools import Tip
-from openacr.mill.plan import removal_cy, stock
-from openacr.mill.plan.stock import Array, Blank, Cutter, Mark, Stock, Sweep
+from openacr.mill.plan.pictures import removal_cy, stock
+from openacr.mill.plan.pictures.stock import Array, Blank, Cutter, Mark, Stock, Sweep
 
 pytestmark = pytest.mark.evidence(
     "oracle", "areas swept by discs of shapely, volumes in closed form, envelopes by brute force"

@@ -13,8 +13,8 @@ from tests.search import sparse
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.predicting import Predictor
-from openacr.mill.plan.trajectory import Trajectory
+from openacr.mill.plan.estimate.predicting import Predictor
+from openacr.mill.plan.estimate.trajectory import Trajectory
 
 Reals = NDArray[np.float64]
 PERIOD_S = 0.0005

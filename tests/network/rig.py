@@ -2,8 +2,8 @@
 
 from openacr.controller import Controller
 from openacr.map.rows import bus_nodes
-from openacr.plant import terminals
-from openacr.plant.load import parse_world
+from openacr.plant.bus import terminals
+from openacr.plant.describe.load import parse_world
 
 START, RESET = 11265, 11266
 FITTED, OPERATIONAL, FAILED, NODE_FAILURE, SW_OVERFLOW, HW_OVERFLOW = range(11268, 11274)

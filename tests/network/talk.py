@@ -2,7 +2,7 @@
 
 from openacr.controller import Controller
 from openacr.map.rows import bus_drives
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 
 LOST, TIMEOUT, ADDRESS_ERROR = 18, 19, 20
 COM2 = 11104

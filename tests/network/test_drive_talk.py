@@ -14,7 +14,7 @@ from tests.network.talk import (
 from openacr.map import flag
 from openacr.map.rows import motors
 from openacr.map.tables.drivetalk import CONFIGURATION, STATUS_ITEMS
-from openacr.plant.aries import SETTINGS
+from openacr.plant.bus.aries import SETTINGS
 
 AUTO, GET, SEND, ERRORL, DATA = range(5)
 TPE, STATUS_1 = 9, 28

@@ -17,7 +17,7 @@ from tests.network.rig import (
 from openacr.controller import Controller
 from openacr.errors import UserError
 from openacr.map.rows import network_master
-from openacr.plant import terminals
+from openacr.plant.bus import terminals
 
 SYNC = network_master.sync_tk
 MESSAGE_S = 0.001  # 125 bits at 125 kbit/s

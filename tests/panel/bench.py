@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from openacr.panel.commands.all import carry_out
-from openacr.panel.control.installation import Installation
-from openacr.panel.control.orders import Order
-from openacr.panel.control.people import Person
+from openacr.panel.control.machine.installation import Installation
+from openacr.panel.control.operator.orders import Order
+from openacr.panel.control.operator.people import Person
 from openacr.panel.control.station import Station
 from openacr.panel.control.thread import ControlThread
 from openacr.panel.machine import embedded

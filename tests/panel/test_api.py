@@ -16,7 +16,7 @@ from tests.panel.bench import LIMIT_S, Served
 from openacr.client.panels import PANELS
 from openacr.cnc.parts.library import part_named
 from openacr.map import flags, parameters
-from openacr.mill.plan.blank import SIZES
+from openacr.mill.plan.pictures.blank import SIZES
 from openacr.sysvar.tabs import CELLS, GENERAL, OFFSETS
 
 HEAD = 88  # of the block of a path

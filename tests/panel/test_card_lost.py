@@ -16,9 +16,9 @@ from tests.proxy import Proxy
 from openacr.client import Card, ConnectionLostError, Level, links
 from openacr.client.links import TcpLink, link_to
 from openacr.client.stored import listing, rooms
-from openacr.panel.control import terminal
-from openacr.panel.control.installation import Installation
-from openacr.panel.control.orders import Order
+from openacr.panel.control.engineer import terminal
+from openacr.panel.control.machine.installation import Installation
+from openacr.panel.control.operator.orders import Order
 from openacr.panel.machine import FOLDER, opened
 
 

@@ -10,8 +10,8 @@ from tests.panel.bench import LIMIT_S, HandStation, Served
 from openacr.client import Card, ConnectionLostError, Level
 from openacr.client.stored import listing, rooms
 from openacr.errors import UserError
-from openacr.panel.control.card_programs import read_states
-from openacr.panel.control.people import Person
+from openacr.panel.control.engineer.card_programs import read_states
+from openacr.panel.control.operator.people import Person
 from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 

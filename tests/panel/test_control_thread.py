@@ -8,8 +8,8 @@ from tests.panel.bench import HandStation
 
 from openacr.errors import UserError
 from openacr.panel.commands.registry import COMMANDS
-from openacr.panel.control.orders import Order
-from openacr.panel.control.people import Person
+from openacr.panel.control.operator.orders import Order
+from openacr.panel.control.operator.people import Person
 from openacr.panel.control.thread import ORDERS_S, URGENT, ControlThread, Waiting
 
 

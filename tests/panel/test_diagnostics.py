@@ -9,8 +9,8 @@ from tests.panel.bench import HandStation, Served
 
 from openacr.map.rows import axes
 from openacr.mill.card.machine_io import line_numbers
-from openacr.panel.control.people import Person
-from openacr.panel.control.scope import Samples
+from openacr.panel.control.engineer.scope import Samples
+from openacr.panel.control.operator.people import Person
 from openacr.panel.roles import Role
 from openacr.sysvar.tabs import CONTROL
 

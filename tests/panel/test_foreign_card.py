@@ -11,7 +11,7 @@ from tests.panel.remote import Remote
 from openacr.client import Card
 from openacr.controller import Controller
 from openacr.map.rows import axes
-from openacr.panel.control.installation import Installation
+from openacr.panel.control.machine.installation import Installation
 from openacr.panel.machine import embedded, opened
 
 GANTRY = Path(__file__).parents[2] / "examples" / "gantry"

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from openacr.mill.run.lifecycle import State
-from openacr.panel.control.snapshot import STATES, Snapshot
+from openacr.panel.control.machine.snapshot import STATES, Snapshot
 from openacr.panel.server import openapi
 from openacr.panel.wire import described, frames
 

@@ -4,7 +4,7 @@ import pytest
 from tests.panel.bench import HandStation
 
 from openacr.map.rows import encoders
-from openacr.panel.control.people import Person
+from openacr.panel.control.operator.people import Person
 from openacr.panel.roles import Role
 
 

@@ -20,7 +20,7 @@ import websockets
 from tests.panel.bench import LIMIT_S, Client, Served
 from tests.proxy import Proxy
 
-from openacr.panel.control.place import read_place
+from openacr.panel.control.machine.place import read_place
 from openacr.panel.control.station import Station
 
 LATE_MS = 400.0  # longer than a key is held without a sign

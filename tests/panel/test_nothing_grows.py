@@ -15,11 +15,11 @@ from openacr.mill.card import alarms, messages
 from openacr.mill.card.alarms import Alarms
 from openacr.mill.card.messages import Message, Messages
 from openacr.panel.commands.all import carry_out
-from openacr.panel.control.installation import Installation
-from openacr.panel.control.pace import OwnTime
-from openacr.panel.control.people import Person
+from openacr.panel.control.engineer.watches import Wish
+from openacr.panel.control.machine.installation import Installation
+from openacr.panel.control.machine.pace import OwnTime
+from openacr.panel.control.operator.people import Person
 from openacr.panel.control.station import Station
-from openacr.panel.control.watches import Wish
 from openacr.panel.machine import opened
 from openacr.panel.roles import Role
 

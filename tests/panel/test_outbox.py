@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from openacr.panel.control.scope import MOST_SAMPLES, Samples, joined
+from openacr.panel.control.engineer.scope import MOST_SAMPLES, Samples, joined
 from openacr.panel.wire.frames import Topic
 from openacr.panel.wire.outbox import CREDITS, Outbox
 

@@ -15,7 +15,7 @@ from openacr.errors import UserError
 from openacr.lang.attachments import Attached
 from openacr.map.rows import axes
 from openacr.panel.commands.all import carry_out
-from openacr.panel.control.installation import Installation
+from openacr.panel.control.machine.installation import Installation
 from openacr.panel.control.station import Station
 from openacr.panel.machine import embedded
 from openacr.panel.machine.project import of_project

@@ -11,7 +11,7 @@ from tests.mill.sender import Sender
 from tests.panel.bench import Served
 
 from openacr.mill.run.receiving import Patience
-from openacr.panel.control.installation import Installation
+from openacr.panel.control.machine.installation import Installation
 from openacr.panel.roles import Role
 from openacr.panel.server import receptions
 from openacr.panel.server.receptions import Receptions

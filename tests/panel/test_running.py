@@ -7,8 +7,8 @@ from tests.panel.bench import HandStation
 
 from openacr.cnc.loading.load import load
 from openacr.mill.session import Start
-from openacr.panel.control.people import Person
-from openacr.panel.control.snapshot import Light
+from openacr.panel.control.machine.snapshot import Light
+from openacr.panel.control.operator.people import Person
 from openacr.panel.roles import Role
 from openacr.panel.work.paths import read_file
 from openacr.sysvar.tabs import CONTROL, FOV, ROV, SPINDLE
@@ -256,7 +256,7 @@ def test_mdi_runs_blocks_in_order_and_keeps_their_text(hand: HandStation) -> Non
 def test_mdi_keeps_the_last_blocks_that_it_has_executed(
     hand: HandStation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("openacr.panel.control.typed.MOST_TEXT", 2)
+    monkeypatch.setattr("openacr.panel.control.operator.typed.MOST_TEXT", 2)
     for block in ("G21", "G90", "G91"):
         hand.do("mdi.execute", line=block)
         hand.until(lambda: not hand.is_busy)

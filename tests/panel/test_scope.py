@@ -16,10 +16,10 @@ from tests.panel.bench import HandStation, Served
 from openacr.client import ConnectionLostError
 from openacr.client.names import named
 from openacr.errors import UserError
-from openacr.panel.control.card_sampler import CardSampler
-from openacr.panel.control.people import Person
-from openacr.panel.control.sampling import Polled
-from openacr.panel.control.scope import Block, Samples, Scope, Trigger
+from openacr.panel.control.engineer.card_sampler import CardSampler
+from openacr.panel.control.engineer.sampling import Polled
+from openacr.panel.control.engineer.scope import Block, Samples, Scope, Trigger
+from openacr.panel.control.operator.people import Person
 from openacr.panel.roles import Role
 
 CHANNELS = ("P12288", "P12290", "P6916", "BIT516", "BIT548", "P4096", "P12295", "P8192")

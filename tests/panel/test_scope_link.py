@@ -12,8 +12,8 @@ from tests.panel.remote import Remote
 from tests.proxy import Proxy
 
 from openacr.client import Card
-from openacr.panel.control import link
-from openacr.panel.control.scope import Samples
+from openacr.panel.control.engineer.scope import Samples
+from openacr.panel.control.machine import link
 from openacr.panel.machine import FOLDER, opened
 from openacr.sysvar.tabs import CONTROL
 

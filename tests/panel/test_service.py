@@ -6,8 +6,8 @@ import tty
 import pytest
 from tests.panel.bench import HandStation
 
-from openacr.panel.control.people import Person
-from openacr.panel.control.scope import Samples
+from openacr.panel.control.engineer.scope import Samples
+from openacr.panel.control.operator.people import Person
 from openacr.panel.roles import Role
 
 

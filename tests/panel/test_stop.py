@@ -7,7 +7,7 @@ from tests.panel.bench import HandStation
 
 from openacr.client import Card, Level
 from openacr.map.rows import axes
-from openacr.panel.control.people import Person
+from openacr.panel.control.operator.people import Person
 from openacr.panel.roles import Role
 from openacr.protocol.bits import SetBit
 

@@ -11,8 +11,8 @@ from tests.panel.test_socket import talk
 
 from openacr.cnc import dxf
 from openacr.cnc.dxf import reading
-from openacr.panel.control import rehearsals
-from openacr.panel.control.orders import Order
+from openacr.panel.control.operator import rehearsals
+from openacr.panel.control.operator.orders import Order
 from openacr.panel.server import api
 from openacr.panel.server.calls import (
     ballscrew,

@@ -16,12 +16,12 @@ from openacr.controller.replay import Replay
 from openacr.debugger.calls import is_running
 from openacr.errors import UserError
 from openacr.map.words import af1, mf1
-from openacr.panel.control.history import AWAY, MOST_BRANCHES, STILL, History
-from openacr.panel.control.lanes import MOST_CHANGES, Lanes, _Course
-from openacr.panel.control.scope import Samples
+from openacr.panel.control.engineer.scope import Samples
+from openacr.panel.control.engineer.watches import Wish
+from openacr.panel.control.machine.history import AWAY, MOST_BRANCHES, STILL, History
+from openacr.panel.control.machine.lanes import MOST_CHANGES, Lanes, _Course
 from openacr.panel.control.station import Station
 from openacr.panel.control.times import Times, step_move
-from openacr.panel.control.watches import Wish
 from openacr.protocol.events import ControlKey
 from openacr.timeline import Kind
 

@@ -13,11 +13,11 @@ from tests.panel.bench import JOBS_S, HandStation, is_alive
 
 from openacr.errors import UserError
 from openacr.map.rows import compliant_loads
-from openacr.panel.control import tuning
+from openacr.panel.control.engineer import tuning
 from openacr.panel.control.interlocks import MEASURED
 from openacr.panel.control.jobs import KILLED
-from openacr.panel.control.orders import Order
-from openacr.panel.control.people import Person
+from openacr.panel.control.operator.orders import Order
+from openacr.panel.control.operator.people import Person
 from openacr.panel.roles import Role
 from openacr.sysvar.tabs import SERVO
 

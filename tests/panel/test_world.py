@@ -15,11 +15,11 @@ from openacr.controller import Controller
 from openacr.controller.journal import read_journal
 from openacr.controller.recorder import Recorder
 from openacr.controller.replay import Replay
-from openacr.panel.control.installation import Installation
-from openacr.panel.control.people import Person
-from openacr.panel.control.world import OUT_OF_REACH, WorldPane
+from openacr.panel.control.engineer.world import OUT_OF_REACH, WorldPane
+from openacr.panel.control.machine.installation import Installation
+from openacr.panel.control.operator.people import Person
 from openacr.panel.roles import Role
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 from openacr.sysvar import Store
 
 DEVICES = """
@@ -169,7 +169,7 @@ def test_only_the_service_that_has_control_changes_the_world(hand: HandStation, 
 def test_every_change_is_in_the_log_with_who_made_it(
     hand: HandStation, caplog: pytest.LogCaptureFixture
 ) -> None:
-    with caplog.at_level(logging.INFO, "openacr.panel.control.world"):
+    with caplog.at_level(logging.INFO, "openacr.panel.control.engineer.world"):
         hand.do("world.input", input=3, state="on")
         hand.do("world.fault", axis=0, kind="friction", value=0.5)
         hand.do("world.mend", axis=0)

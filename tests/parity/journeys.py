@@ -9,7 +9,7 @@ import random
 from collections.abc import Iterator
 
 from openacr.controller import Controller
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 from openacr.protocol.events import ControlKey
 
 WORLD = """

@@ -8,9 +8,9 @@ import pytest
 from openacr import compiled
 from openacr.map.memory import Memory
 from openacr.map.rows import dacs, motors
-from openacr.plant.apply import apply_world
-from openacr.plant.load import parse_world
-from openacr.plant.step_cy import plant_step
+from openacr.plant.build.apply import apply_world
+from openacr.plant.describe.load import parse_world
+from openacr.plant.physics.step_cy import plant_step
 
 Build = Callable[..., "Rig"]
 STEP: Callable[..., None] = compiled.pick(plant_step)

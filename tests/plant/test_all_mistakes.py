@@ -6,7 +6,7 @@ import pytest
 
 from openacr.configure.load import parse_answers
 from openacr.errors import SourceError
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 from openacr.scenario import parse_scenario
 
 

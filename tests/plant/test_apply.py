@@ -7,11 +7,11 @@ import pytest
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.map.rows import dacs, motors, system
-from openacr.plant.apply import apply_world
-from openacr.plant.counts import count_of, position_of
-from openacr.plant.load import parse_world
-from openacr.plant.schema import default_world
-from openacr.plant.step_cy import plant_step
+from openacr.plant.build.apply import apply_world
+from openacr.plant.describe.counts import count_of, position_of
+from openacr.plant.describe.load import parse_world
+from openacr.plant.describe.schema import default_world
+from openacr.plant.physics.step_cy import plant_step
 
 TEXT = """
 [card]

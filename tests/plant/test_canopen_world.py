@@ -5,7 +5,7 @@ from tests.network.rig import DI, DO, card, fault, node, output, start
 
 from openacr.controller import Controller
 from openacr.errors import SourceError, UserError
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 
 
 def signal(**keys: object) -> str:

@@ -10,8 +10,8 @@ from tests.plant.conftest import DRIVE, MOTOR, Build, Rig
 from openacr.controller import Controller
 from openacr.controller import snapshot_file as snapshot
 from openacr.map.rows import axes, compliant_loads
-from openacr.plant.apply import put_state, take_state
-from openacr.plant.load import parse_world
+from openacr.plant.build.apply import put_state, take_state
+from openacr.plant.describe.load import parse_world
 
 pytestmark = pytest.mark.evidence("oracle", "differential equations of two masses solved by scipy")
 

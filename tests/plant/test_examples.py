@@ -9,11 +9,11 @@ from openacr import compiled
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.map.rows import dacs, motors
-from openacr.plant.apply import apply_world
-from openacr.plant.counts import count_of
-from openacr.plant.load import load_world
-from openacr.plant.schema import World, switches
-from openacr.plant.step_cy import plant_step
+from openacr.plant.build.apply import apply_world
+from openacr.plant.describe.counts import count_of
+from openacr.plant.describe.load import load_world
+from openacr.plant.describe.schema import World, switches
+from openacr.plant.physics.step_cy import plant_step
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PGAIN, DGAIN, TLM = 0.002441, 1e-5, 10.0

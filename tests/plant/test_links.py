@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from openacr.errors import SourceError
-from openacr.plant.body_schema import Body
-from openacr.plant.links import Link, Subject, links_of, subject_of
-from openacr.plant.load import load_world, parse_world
+from openacr.plant.describe.body_schema import Body
+from openacr.plant.describe.links import Link, Subject, links_of, subject_of
+from openacr.plant.describe.load import load_world, parse_world
 
 DRIVE = 'drive = { mode = "exact" }\ncounts_per_rev = 4000\n'
 

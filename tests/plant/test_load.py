@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from openacr.errors import SourceError, UserError
-from openacr.plant.load import load_world, parse_world
-from openacr.plant.schema import Contact, IdealDrive, TorqueDrive
+from openacr.plant.describe.load import load_world, parse_world
+from openacr.plant.describe.schema import Contact, IdealDrive, TorqueDrive
 
 IDEAL = 'drive = { mode = "ideal", revs_per_s_per_volt = 5.0 }\n'
 HEAD = "[[axis]]\nnumber = 0\nname = 'X'\nencoder_lines = 1000\n"

@@ -11,8 +11,8 @@ from openacr import compiled
 from openacr.map.memory import Memory
 from openacr.map.rows import axes, encoders, motors, stepper_outputs
 from openacr.map.rows import dacs as dac_rows
-from openacr.plant.apply import apply_world
-from openacr.plant.schema import (
+from openacr.plant.build.apply import apply_world
+from openacr.plant.describe.schema import (
     LOADLESS,
     Analog,
     Axis,
@@ -29,7 +29,7 @@ from openacr.plant.schema import (
     Wire,
     World,
 )
-from openacr.plant.step_cy import plant_step
+from openacr.plant.physics.step_cy import plant_step
 
 positive = st.floats(1e-6, 1e6)
 friction = st.one_of(st.just(0.0), st.floats(1e-9, 1e6))

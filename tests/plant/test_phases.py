@@ -9,7 +9,7 @@ from tests.plant.conftest import Rig
 
 from openacr.errors import SourceError
 from openacr.map.rows import dacs, motors
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 
 COUNTS = 4000
 AXIS = '[[axis]]\nnumber = 0\nname = "X"\ncounts_per_rev = 4000\n'

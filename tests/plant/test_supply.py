@@ -7,7 +7,7 @@ import pytest
 from openacr.controller import Controller
 from openacr.errors import SourceError, UserError
 from openacr.map.rows import motors
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 from openacr.scenario import parse_scenario
 
 SUPPLY_V, TORQUE_NM_PER_A = 80.0, 0.08

@@ -4,7 +4,7 @@ import pytest
 from tests.network.talk import axis, talking
 
 from openacr.errors import SourceError
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 
 
 @pytest.mark.parametrize(

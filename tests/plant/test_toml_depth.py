@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 
 from openacr.errors import SourceError
-from openacr.plant.toml_file import MOST_DEPTH, parse
+from openacr.plant.describe.toml_file import MOST_DEPTH, parse
 
 DEEP: dict[str, Callable[[int], str]] = {
     "key": lambda n: ".".join(["a"] * n) + " = 1",

@@ -6,10 +6,10 @@ import pytest
 
 from openacr.controller import Controller
 from openacr.errors import UserError
-from openacr.plant.fault_kinds import MachineFault
-from openacr.plant.load import parse_world
-from openacr.plant.schema import Contact
-from openacr.plant.world_view import is_active
+from openacr.plant.describe.load import parse_world
+from openacr.plant.describe.schema import Contact
+from openacr.plant.world.fault_kinds import MachineFault
+from openacr.plant.world.world_view import is_active
 
 MACHINE = """
 [[axis]]

@@ -14,7 +14,7 @@ from openacr.configure import code_files, parse_answers
 from openacr.controller import Controller
 from openacr.errors import UserError
 from openacr.mill.card.setup import MOVES
-from openacr.plant.load import load_world
+from openacr.plant.describe.load import load_world
 from openacr.source_check import check
 from openacr.starter.choices import KINDS, Choices, Homing, Kind, Limits, Unit, choices
 from openacr.starter.files import project_files, write_project

@@ -9,7 +9,7 @@ from tests.sweep.projects import axis_project, formula_project, rows_of, sweep_f
 
 from openacr import Controller
 from openacr.engine.samples import sample_of_flag
-from openacr.plant.load import load_world
+from openacr.plant.describe.load import load_world
 from openacr.sweep.load import load_sweep
 from openacr.sweep.run import Task, loaded, perform
 from openacr.sweep.targets import project_of

@@ -9,7 +9,7 @@ from openacr.controller import Controller
 from openacr.errors import SourceError, UserError
 from openacr.map import numbers as at
 from openacr.map.rows import adcs, analogs, kernel, motors, plant
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 
 FIXED = "[[analog]]\ninput = 0\nvolts = 4.0\n[[analog]]\ninput = 1\nvolts = 1.5\n"
 AXIS = """

@@ -6,7 +6,7 @@ import pytest
 
 from openacr.controller import Controller
 from openacr.map.rows import axes, encoders
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MACHINE = (EXAMPLES / "brushless" / "machine.toml").read_text()

@@ -5,8 +5,8 @@ import pytest
 from openacr.cli.serve import _load
 from openacr.controller import Controller
 from openacr.errors import SourceError, UserError
-from openacr.plant.load import parse_world
-from openacr.plant.schema import exact_world
+from openacr.plant.describe.load import parse_world
+from openacr.plant.describe.schema import exact_world
 
 SETUP = (
     *("PROG0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS0 "X"', 'ATTACH SLAVE1 AXIS1 "Y"'),

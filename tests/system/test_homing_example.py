@@ -5,8 +5,8 @@ from tests.system.terminal import Console
 
 from openacr.controller import Controller
 from openacr.map.rows import motors
-from openacr.plant.counts import position_of
-from openacr.plant.load import parse_world
+from openacr.plant.describe.counts import position_of
+from openacr.plant.describe.load import parse_world
 
 AXIS = """
 [[axis]]

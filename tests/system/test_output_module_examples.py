@@ -3,7 +3,7 @@
 import pytest
 
 from openacr import Controller
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 
 STEPPERS = range(6156, 6271, 16)  # P6156 + 16 n: the pulses of stepper output n
 

@@ -3,7 +3,7 @@
 from tests.controller.hosts import Host
 
 from openacr.controller import Controller
-from openacr.plant.schema import exact_world
+from openacr.plant.describe.schema import exact_world
 
 ENCODER, THEORY, FLAGS, LIMITS = 12290, 12294, 4120, 4600
 CTRL_Y = "\x19"

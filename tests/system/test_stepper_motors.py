@@ -7,7 +7,7 @@ import pytest
 from openacr.controller import Controller
 from openacr.errors import SourceError, UserError
 from openacr.map.rows import motors
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 from openacr.protocol.events import ControlKey
 
 MACHINE = """
@@ -240,7 +240,7 @@ def test_an_encoder_that_counts_down_goes_with_the_load() -> None:
 def test_the_torque_lies_on_lines_between_the_points_of_the_curve(
     speed_rps: float, torque_nm: float
 ) -> None:
-    from openacr.plant.stepper_cy import pull_out_accel
+    from openacr.plant.physics.stepper_cy import pull_out_accel
 
     memory = card().memory
     per_nm = 2000 / (2 * math.pi * 5e-5)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from tests.examples.observe import load
 
 from openacr.controller import Controller
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 
 Reals = NDArray[np.float64]
 MOTION = 516

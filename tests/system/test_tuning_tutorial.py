@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from openacr.controller import Controller
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 
 MOTOR_KGM2 = 1.5e-5
 MACHINE = """

@@ -14,7 +14,7 @@ READERS = ("cnc", "mill", "cli", "source_check", "store")
 COUNTS = {
     "cnc/rows/runs.py": {100_000},
     "cnc/interpreter/execution.py": {100_000},
-    "cnc/interpreter/loops.py": {500_000},
+    "cnc/interpreter/by_block/loops.py": {500_000},
     "cnc/loading/targets.py": {1_000_000},
     "mill/card/ballscrew.py": {1_000_000},
     "cli/run/session.py": {400_000},

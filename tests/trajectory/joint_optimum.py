@@ -26,8 +26,8 @@ import scipy.sparse as sp
 from scipy.optimize import linprog
 
 from openacr.trajectory import Segment
-from openacr.trajectory.segments import Piece
-from openacr.trajectory.setpoints import Reals
+from openacr.trajectory.path.segments import Piece
+from openacr.trajectory.path.setpoints import Reals
 
 SIDES = [(math.cos(a), math.sin(a)) for a in np.arange(16) * math.pi / 8]
 AXES = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)]

@@ -7,8 +7,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from openacr.trajectory import Limits, Segment, Setpoints, TrajectoryPlanner, evaluate
-from openacr.trajectory.segments import Piece
-from openacr.trajectory.setpoints import Reals
+from openacr.trajectory.path.segments import Piece
+from openacr.trajectory.path.setpoints import Reals
 
 PERIOD_S = 0.003
 CHORD_U, TURN = 0.02, 0.05  # of arcs, and by their radii: at most 0.0003 of the radius off

@@ -8,11 +8,18 @@ from tests.trajectory.measures import PERIOD_S, limits, planned, points
 from tests.trajectory.programs import Segments, line
 
 from openacr.trajectory import Arc, Limits, Segment, TrajectoryPlanner, evaluate
-from openacr.trajectory.chains import Chain, Corner
-from openacr.trajectory.corners import corner_between
-from openacr.trajectory.end_law import rest_h, rest_shape, rest_time, rest_u, turn_row, turn_s
-from openacr.trajectory.segments import Piece
-from openacr.trajectory.setpoints import Reals
+from openacr.trajectory.course.end_law import (
+    rest_h,
+    rest_shape,
+    rest_time,
+    rest_u,
+    turn_row,
+    turn_s,
+)
+from openacr.trajectory.path.segments import Piece
+from openacr.trajectory.path.setpoints import Reals
+from openacr.trajectory.stream.chains import Chain, Corner
+from openacr.trajectory.stream.corners import corner_between
 
 pytestmark = pytest.mark.evidence("oracle", "closed forms of constant jerk, differences of samples")
 START, TOLERANCE = (0.0, 0.0, 0.0), 0.01

@@ -14,8 +14,8 @@ from tests.trajectory.programs import Segments, corners, line, surface
 from tests.trajectory.random_programs import program
 
 from openacr.trajectory import Segment, Setpoints, TrajectoryError, TrajectoryPlanner
-from openacr.trajectory.setpoints import Reals
-from openacr.trajectory.smooth_course import SmoothCourse
+from openacr.trajectory.path.setpoints import Reals
+from openacr.trajectory.stream.smooth_course import SmoothCourse
 
 ALLOWED = 1.0 + 1e-6
 HALF = 0.5

@@ -10,7 +10,7 @@ from tests.trajectory.programs import Segments, surface
 from tests.trajectory.random_programs import program
 
 from openacr.trajectory import Arc, Limits, Segment, TrajectoryError, TrajectoryPlanner
-from openacr.trajectory.smooth_course import SmoothCourse
+from openacr.trajectory.stream.smooth_course import SmoothCourse
 
 START = (0.0, 0.0, 0.0)
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from openacr.trajectory import Limits
-from openacr.trajectory.arrays import flat
-from openacr.trajectory.setpoints import Reals
-from openacr.trajectory.slow_law import SLOW_ACCELERATION, SLOW_JERK, slow_h
-from openacr.trajectory.window import Curve, Rules
+from openacr.trajectory.path.arrays import flat
+from openacr.trajectory.path.setpoints import Reals
+from openacr.trajectory.speed.slow_law import SLOW_ACCELERATION, SLOW_JERK, slow_h
+from openacr.trajectory.speed.window import Curve, Rules
 
 STEP_U, SPEED, ACCEL, PERIOD_S = 0.05, 1000.0, 2000.0, 0.004
 NEAR = 0.01  # of control points as points of a circle, and of jerk between knots

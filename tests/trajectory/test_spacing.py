@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from openacr.trajectory.setpoints import Reals
-from openacr.trajectory.spacing import continued, widest
+from openacr.trajectory.path.setpoints import Reals
+from openacr.trajectory.speed.spacing import continued, widest
 
 STEP = 0.04
 ACCELERATION, JERK = 1000.0, 20_000.0

@@ -7,7 +7,7 @@ from tests.trajectory.random_programs import program
 from tests.trajectory.test_random_paths import ALLOWED
 
 from openacr.trajectory import Limits
-from openacr.trajectory.setpoints import Reals
+from openacr.trajectory.path.setpoints import Reals
 
 WORST = [50, 394, 589]  # 0.7, 1.3 and 2.4 % too fast where cells are not checked
 AGAIN = 255  # 0.08 % too fast where only cells are, not setpoints

@@ -10,8 +10,8 @@ from tests.trajectory import plans
 from tests.trajectory.plans import ACCEL, JERK, PERIOD_S, Rows, curve, highest
 
 from openacr.compiled import is_compiled
-from openacr.trajectory import timescale, timescale_cy
-from openacr.trajectory.timescale import Progress, TimeScale
+from openacr.trajectory.override import timescale, timescale_cy
+from openacr.trajectory.override.timescale import Progress, TimeScale
 
 pytestmark = pytest.mark.evidence("oracle", "distances to the planned path by scipy")
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from openacr.trajectory import tube
-from openacr.trajectory.setpoints import Reals
+from openacr.trajectory.path import tube
+from openacr.trajectory.path.setpoints import Reals
 
 pytestmark = pytest.mark.evidence("oracle", "bounded least squares of scipy")
 RADIUS = 0.008

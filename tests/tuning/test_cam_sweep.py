@@ -11,7 +11,7 @@ from tests.tuning.worlds import WORLD
 import openacr
 from openacr.client import Card, Level
 from openacr.errors import UserError
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 from openacr.tuning import measure as measuring
 from openacr.tuning.cam_sweep import points
 from openacr.tuning.excitation import Excitation

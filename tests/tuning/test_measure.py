@@ -10,7 +10,7 @@ from tests.tuning.worlds import WORLD, true_motor
 import openacr
 from openacr.client import Card, Level
 from openacr.errors import UserError
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 from openacr.tuning import measure as measuring
 from openacr.tuning.excitation import Excitation
 from openacr.tuning.identify import identify

@@ -14,7 +14,7 @@ import openacr
 from openacr.client import Card
 from openacr.errors import UserError
 from openacr.map.rows import compliant_loads
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 from openacr.tuning import measure as measuring
 from openacr.tuning.advice import Advice, advise, new_filters
 from openacr.tuning.excitation import Excitation

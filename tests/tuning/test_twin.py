@@ -7,7 +7,7 @@ from tests.tuning.worlds import AXIS, true_motor
 
 import openacr
 from openacr.map.rows import axes
-from openacr.plant.load import parse_world
+from openacr.plant.describe.load import parse_world
 from openacr.tuning.motor import Motor
 from openacr.tuning.settings import ROWS, LoopSettings
 from openacr.tuning.twin import Record, run

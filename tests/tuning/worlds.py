@@ -4,8 +4,8 @@ import math
 
 from openacr.map.memory import Memory
 from openacr.map.rows import compliant_loads, motors
-from openacr.plant.apply import apply_world
-from openacr.plant.load import parse_world
+from openacr.plant.build.apply import apply_world
+from openacr.plant.describe.load import parse_world
 from openacr.tuning.motor import Motor
 from openacr.tuning.shaft import Shaft
 

@@ -12,7 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
-from openacr.cnc.interpreter import loops
+from openacr.cnc.interpreter.by_block import loops
 from openacr.cnc.state.cells import LAST_RADIUS, RADII
 from openacr.verify import checking
 from openacr.verify.checking import Status, Task, check, check_all

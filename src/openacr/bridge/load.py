@@ -7,9 +7,9 @@ from openacr.bridge.settings import BridgeFile, Chosen, Listening
 from openacr.errors import OpenacrError, SourceError, UserError
 from openacr.io.server import is_loopback
 from openacr.map import parameters
-from openacr.plant import toml_file
-from openacr.plant.complaint import Complaint
-from openacr.plant.explaining import explain, not_finite
+from openacr.plant.describe import toml_file
+from openacr.plant.describe.complaint import Complaint
+from openacr.plant.describe.explaining import explain, not_finite
 
 MOST_SECRET = 1000
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from openacr.mill.config.tools import Tool
-from openacr.panel.control.snapshot import Snapshot
+from openacr.panel.control.machine.snapshot import Snapshot
 
 MM_PER_INCH = 25.4
 S_PER_MIN = 60.0

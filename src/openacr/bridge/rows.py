@@ -13,7 +13,7 @@ from math import isnan
 from openacr.bridge.moment import S_PER_MIN, Moment
 from openacr.bridge.tools import CuttingTool, cutting_tools
 from openacr.mill.run.lifecycle import State
-from openacr.panel.control.snapshot import Light, Snapshot
+from openacr.panel.control.machine.snapshot import Light, Snapshot
 
 
 class Unit(StrEnum):

@@ -7,10 +7,10 @@ from openacr.bridge.feed import STALE_S
 from openacr.bridge.moment import MM_PER_INCH, S_PER_MIN, AxisName, Moment
 from openacr.mill.config.settings import Settings
 from openacr.mill.config.tools import Tool, ToolTable
-from openacr.panel.control.snapshot import Light
+from openacr.panel.control.engineer.watches import Changed, Wish
+from openacr.panel.control.machine.snapshot import Light
 from openacr.panel.control.station import Station
 from openacr.panel.control.thread import ControlThread
-from openacr.panel.control.watches import Changed, Wish
 from openacr.sysvar.values import ROTARY
 
 TOOLS_S = 1.0  # between two readings of the tool table

@@ -16,7 +16,7 @@ from openacr.errors import OpenacrError, UserError
 
 if TYPE_CHECKING:
     from openacr.bridge.process import BridgeProcess
-    from openacr.panel.control.installation import Installation
+    from openacr.panel.control.machine.installation import Installation
     from openacr.panel.server.panel import Panel
     from openacr.panel.server.web import PanelServer
 
@@ -104,7 +104,7 @@ def _installation(machine: str | None, store: Path | None, programs: Path | None
     import platformdirs
 
     from openacr.client.links import wire_to
-    from openacr.panel.control.installation import Installation
+    from openacr.panel.control.machine.installation import Installation
     from openacr.panel.machine import embedded
     from openacr.panel.machine.project import of_project
     from openacr.starter.folders import ensure

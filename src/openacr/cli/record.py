@@ -17,7 +17,7 @@ from openacr.errors import UserError, unwritable
 if TYPE_CHECKING:
     from openacr.client.links import SerialLink, TcpLink
     from openacr.io.proxy import Proxy
-    from openacr.io.recording import SessionRecorder
+    from openacr.io.recorded_session import SessionRecorder
     from openacr.io.server import Guests
 
 
@@ -78,7 +78,7 @@ def record(
 
 def _record(file: Path, session: Session) -> None:
     """Record a session; a file that is there is kept until the session has its first bytes."""
-    from openacr.io.recording import SessionRecorder
+    from openacr.io.recorded_session import SessionRecorder
     from openacr.store.private import Replacement
 
     try:

@@ -129,7 +129,7 @@ def _load(path: Path | None, data: Path | None) -> "Controller":
     """A card with a project; refused lines are printed and end it with exit code 2."""
     from openacr.controller import Controller
     from openacr.errors import SourceError
-    from openacr.plant.schema import exact_world
+    from openacr.plant.describe.schema import exact_world
     from openacr.project import find_project
 
     if path is None:

@@ -11,7 +11,7 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from openacr.models import DEFAULT_MODEL, MODELS, Model
-from openacr.plant.schema import ModelName
+from openacr.plant.describe.schema import ModelName
 
 EXCESS_ERROR_U = 1.0
 CARD_LIMITS_SINCE = (1, 18, 15)  # first firmware that monitors the limits itself

@@ -5,8 +5,8 @@ from typing import Any, TypeAlias
 
 from openacr.configure.answers import Answers
 from openacr.motion.axis.attach import RESERVED_NAMES
-from openacr.plant import toml_file
-from openacr.plant.locate import Path as Steps
+from openacr.plant.describe import toml_file
+from openacr.plant.describe.locate import Path as Steps
 
 Complaint: TypeAlias = tuple[Steps, str]
 

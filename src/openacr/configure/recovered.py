@@ -44,7 +44,7 @@ from openacr.configure.setup_code import (
 from openacr.configure.watch_code import kept_answers
 from openacr.errors import SourceError, UserError
 from openacr.map.rows import axes as axis_rows
-from openacr.plant.schema import ModelName
+from openacr.plant.describe.schema import ModelName
 
 LENGTHS = (1.0, 2.0, 4.0, 5.0, 10.0, 20.0, 25.0, 0.1, 0.2, 0.25, 0.5, 360.0)  # of a turn
 MOST_COUNTS = 100_000_000  # of a turn

@@ -27,7 +27,7 @@ from openacr.mill import zeroing
 from openacr.mill.card.ballscrew import Table, computed, install, parse
 from openacr.mill.config.overrides import Override
 from openacr.mill.config.pparm import OperatorParameters
-from openacr.mill.plan.checking import check_text
+from openacr.mill.plan.estimate.checking import check_text
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store

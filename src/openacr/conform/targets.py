@@ -17,8 +17,8 @@ from openacr.controller import Controller
 from openacr.controller.snapshot import Snapshot
 from openacr.errors import UserError
 from openacr.models import DEFAULT_MODEL, MODELS
-from openacr.plant.load import parse_world
-from openacr.plant.schema import ModelName, World, default_world
+from openacr.plant.describe.load import parse_world
+from openacr.plant.describe.schema import ModelName, World, default_world
 from openacr.project import find_project
 from openacr.testing import machine as under_test
 

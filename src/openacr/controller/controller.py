@@ -32,8 +32,8 @@ from openacr.map.memory import digest_of
 from openacr.map.rows import fast_status as fast_status_rows
 from openacr.map.rows import programs as program_rows
 from openacr.models import DEFAULT_MODEL, Model
-from openacr.plant import load, schema
-from openacr.plant.world_view import WorldView
+from openacr.plant.describe import load, schema
+from openacr.plant.world.world_view import WorldView
 from openacr.project import Project, find_project
 from openacr.protocol.events import ControlKey
 from openacr.protocol.status import GROUPS, WORDS, FastStatus

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from openacr.basic.channels.channel_words import take_escapes
 from openacr.compiled import is_compiled, pick
 from openacr.controller.parts import CardParts
-from openacr.controller.recording import Recording
+from openacr.controller.sample_buffers import Recording
 from openacr.engine import loop_cy, quiet_cy
 from openacr.engine.watches import (
     Watch,

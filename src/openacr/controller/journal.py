@@ -30,8 +30,8 @@ from openacr.journal.entries import (
 )
 from openacr.map.fingerprint import LAYOUT
 from openacr.models import MODELS
-from openacr.plant import schema
-from openacr.plant.check import contradictions
+from openacr.plant.describe import schema
+from openacr.plant.describe.check import contradictions
 
 _KNOWN = frozenset(Entered) - {Entered.SENT}
 

@@ -10,7 +10,7 @@ from openacr.controller.views import AxisView
 from openacr.map.rows import programs as program_rows
 from openacr.map.words import pf, plf
 from openacr.motion.card import Card
-from openacr.plant.schema import World
+from openacr.plant.describe.schema import World
 from openacr.wording import counted
 
 AXES = ("axis", "name", "units", "commanded", "actual", "following error [pulses]")

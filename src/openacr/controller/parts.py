@@ -35,8 +35,9 @@ from openacr.models import DEFAULT_MODEL, MODELS, Model
 from openacr.motion.axis import drive
 from openacr.motion.card import Card
 from openacr.network.networks import Networks
-from openacr.plant import apply, schema
-from openacr.plant.attached_devices import AttachedDevices
+from openacr.plant.build import apply
+from openacr.plant.describe import schema
+from openacr.plant.world.attached_devices import AttachedDevices
 from openacr.plc.control import Plcs
 from openacr.plc.reader import PlcLine, read_line
 from openacr.protocol.events import ControlKey

@@ -25,7 +25,7 @@ from openacr.map.fingerprint import LAYOUT
 from openacr.map.memory import digest_of
 from openacr.models import Model
 from openacr.motion.clock import Clock
-from openacr.plant.schema import World
+from openacr.plant.describe.schema import World
 from openacr.store import private
 
 log = logging.getLogger(__name__)

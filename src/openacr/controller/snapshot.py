@@ -26,8 +26,8 @@ from openacr.map.fingerprint import LAYOUT
 from openacr.map.memory import Memory
 from openacr.models import Model
 from openacr.motion.clock import Clock
-from openacr.plant import schema
-from openacr.plant.attached_devices import AttachedDevices
+from openacr.plant.describe import schema
+from openacr.plant.world.attached_devices import AttachedDevices
 from openacr.protocol.packets import PacketError
 
 

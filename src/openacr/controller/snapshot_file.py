@@ -26,7 +26,7 @@ from openacr.map.memory import Memory
 from openacr.map.numbers import MEMORY_BYTES
 from openacr.map.valid import check_rows
 from openacr.motion.path.buffer import check_rings
-from openacr.plant.places import check_places
+from openacr.plant.describe.places import check_places
 
 MAGIC = b"openacr snapshot 1\n"
 COMPRESSION = 1  # the memory is mostly zeros: more effort gains nothing

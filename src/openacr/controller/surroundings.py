@@ -12,9 +12,12 @@ from openacr.map.rows import axes, encoders, stepper_motors
 from openacr.motion.axis.attach import Feedback
 from openacr.motion.card import Card
 from openacr.motion.interlocks import scale_of
-from openacr.plant import analogs, apply, faults, inputs, terminals
-from openacr.plant.fault_kinds import MachineFault
-from openacr.plant.schema import World
+from openacr.plant import inputs
+from openacr.plant.build import analogs, apply
+from openacr.plant.bus import terminals
+from openacr.plant.describe.schema import World
+from openacr.plant.world import faults
+from openacr.plant.world.fault_kinds import MachineFault
 
 RAW_COUNTS = 4  # of an encoder per line, at MULT 4
 _INPUTS = "inputs are " + ", ".join(f"{first}-{last}" for first, last in inputs.RANGES)

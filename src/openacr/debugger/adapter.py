@@ -19,8 +19,8 @@ from openacr.debugger.breakpoints import Fault, LineBreakpoint
 from openacr.debugger.stops import Reason, Stop
 from openacr.debugger.target import Target
 from openacr.errors import OpenacrError, UserError
-from openacr.plant.explaining import explain
-from openacr.plant.toml_file import complaint_of
+from openacr.plant.describe.explaining import explain
+from openacr.plant.describe.toml_file import complaint_of
 
 Json = dict[str, Any]
 Handler = Callable[["Adapter", Any], Json | None]

@@ -10,7 +10,7 @@ from openacr.controller.controller import Controller
 from openacr.debugger import questions, rungs
 from openacr.debugger.breakpoints import watches_of
 from openacr.debugger.calls import PROGRAMS, frame_of, frames_of, listing, name_of, owners
-from openacr.debugger.session import DebugSession
+from openacr.debugger.card_course import CardCourse
 from openacr.debugger.target import NO_STATEMENT, Frame, Place
 from openacr.debugger.variables import axis_states, locals_of, program_state, time_state
 from openacr.errors import UserError
@@ -22,7 +22,7 @@ class CardTarget:
     def __init__(self, card: Controller, show: Callable[[str], None] = lambda text: None) -> None:
         """`show` gets the texts of breakpoints that print, and conditions that fail."""
         self.card = card
-        self.course = DebugSession(card, show)
+        self.course = CardCourse(card, show)
 
     @property
     def capabilities(self) -> Mapping[str, object]:

@@ -40,7 +40,7 @@ from openacr.map.numbers import (
 )
 from openacr.map.rows import axes, kernel, sampler, sources, system, triggers
 from openacr.map.words import mo
-from openacr.plant.step_cy import plant_step
+from openacr.plant.physics.step_cy import plant_step
 from openacr.plc.scan_cy import PLC_ACTED, PLC_IDLE, plc_step
 from openacr.views import F32, F64, I32
 

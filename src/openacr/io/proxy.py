@@ -15,7 +15,7 @@ from typing import TypeAlias
 from openacr.errors import reason
 from openacr.io.listening import bound_socket
 from openacr.io.peers import READ_BYTES, UNKNOWN_HOST, set_options
-from openacr.io.recording import SessionRecorder
+from openacr.io.recorded_session import SessionRecorder
 from openacr.io.server import Address, Guests
 from openacr.journal.entries import Entered
 from openacr.protocol.web import Opening

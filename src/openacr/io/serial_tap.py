@@ -12,7 +12,7 @@ import threading
 import serial
 
 from openacr.errors import UserError, reason
-from openacr.io.recording import SessionRecorder
+from openacr.io.recorded_session import SessionRecorder
 from openacr.io.serial_port import LineSettings, open_port
 from openacr.journal.entries import Entered
 

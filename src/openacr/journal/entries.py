@@ -23,7 +23,7 @@
     [tick, "end", fingerprint]              the end of a journal that was closed
 
 The first record is that of a virtual card with its state (`controller/journal.py`) or that of a
-session with any card (`io/recording.py`). The reader ignores a truncated last line.
+session with any card (`io/recorded_session.py`). The reader ignores a truncated last line.
 """
 
 from __future__ import annotations

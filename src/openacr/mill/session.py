@@ -44,7 +44,7 @@ from openacr.mill.config.curves import can_plan
 from openacr.mill.config.folders import folders_of
 from openacr.mill.config.settings import HOMED, NONE, Settings
 from openacr.mill.manual.jogging import Jogging
-from openacr.mill.plan.curve_limits import moves_needed
+from openacr.mill.plan.curves.curve_limits import moves_needed
 from openacr.mill.run.dripping import Drip
 from openacr.mill.run.lifecycle import Options, State
 from openacr.mill.run.run_host import RunHost

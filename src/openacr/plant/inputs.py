@@ -12,7 +12,7 @@ from openacr.map import numbers as at
 from openacr.map.memory import Memory, flag_place
 from openacr.map.rows import bus_nodes, input_words, plant
 from openacr.map.words import candi
-from openacr.plant import terminals
+from openacr.plant.bus import terminals
 
 WORD_BITS = 32
 # The onboard inputs and those of the four expansion boards, which wires may lead to.

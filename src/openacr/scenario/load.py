@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import Any
 
 from openacr.errors import SourceError
-from openacr.plant import toml_file
-from openacr.plant.explaining import explain
-from openacr.plant.fault_kinds import MachineFault
+from openacr.plant.describe import toml_file
+from openacr.plant.describe.explaining import explain
+from openacr.plant.world.fault_kinds import MachineFault
 from openacr.scenario.rules import STRUCT_OF_KEY, allowed_keys, problems
 from openacr.scenario.schema import Key, Scenario, State
 

@@ -10,7 +10,7 @@ from msgspec.structs import fields
 from openacr.errors import MapError
 from openacr.map import flag, parameter
 from openacr.plant import inputs
-from openacr.plant.faults import QUANTITIES
+from openacr.plant.world.faults import QUANTITIES
 from openacr.scenario.schema import (
     Action,
     Analog,

@@ -11,8 +11,8 @@ from typing import Annotated
 
 from msgspec import UNSET, Meta, Struct, UnsetType
 
-from openacr.plant.fault_kinds import TORQUE, VOLTS, MachineFault
-from openacr.plant.faults import QUANTITIES
+from openacr.plant.world.fault_kinds import TORQUE, VOLTS, MachineFault
+from openacr.plant.world.faults import QUANTITIES
 
 Seconds = Annotated[float, Meta(ge=0.0)]
 Bit = Annotated[int, Meta(ge=0, le=32767)]

@@ -6,8 +6,8 @@ from pathlib import Path
 from openacr.basic.memory.storage import Storage
 from openacr.errors import SourceError, UserError
 from openacr.map.memory import Memory
-from openacr.plant.load import load_world
-from openacr.plant.schema import Card
+from openacr.plant.describe.load import load_world
+from openacr.plant.describe.schema import Card
 from openacr.project import (
     PROGRAM_COUNT,
     Place,

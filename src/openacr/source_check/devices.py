@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from openacr.errors import OpenacrError, reason
+from openacr.plant.describe.load import load_world
 from openacr.plant.devices.kinds import is_own
-from openacr.plant.load import load_world
 from openacr.project import Project
 from openacr.source_check.faults import Fault
 

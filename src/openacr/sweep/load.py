@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from openacr.errors import SourceError, UserError, read_bytes
-from openacr.plant import toml_file
-from openacr.plant.complaint import Complaint
-from openacr.plant.explaining import explain, not_finite
+from openacr.plant.describe import toml_file
+from openacr.plant.describe.complaint import Complaint
+from openacr.plant.describe.explaining import explain, not_finite
 from openacr.project import Project, find_project
 from openacr.scenario import Scenario, parse_scenario
 from openacr.scenario.course import LONGEST_S, Until, read_until

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 
 from openacr.errors import UserError
-from openacr.plant.complaint import Complaint
+from openacr.plant.describe.complaint import Complaint
 from openacr.sweep.expressions import FUNCTIONS, Measure, Needs
 from openacr.sweep.results import FIXED
 from openacr.sweep.schema import (

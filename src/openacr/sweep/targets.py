@@ -8,8 +8,8 @@ from dataclasses import replace
 from typing import Any
 
 from openacr.errors import CardError, MapError, SourceError, UserError
-from openacr.plant import schema, toml_file
-from openacr.plant.load import build_world
+from openacr.plant.describe import schema, toml_file
+from openacr.plant.describe.load import build_world
 from openacr.project import Project, SourceFile
 from openacr.sweep.schema import Quantity
 from openacr.sweep.study import Point, Study

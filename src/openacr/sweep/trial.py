@@ -8,7 +8,7 @@ from openacr.controller import Controller
 from openacr.engine.samples import SAMPLES, sample_of_parameter
 from openacr.errors import CardError, SourceError, UserError
 from openacr.map.numbers import FLAG_LAST
-from openacr.plant.complaint import Complaint
+from openacr.plant.describe.complaint import Complaint
 from openacr.sweep import design, run, targets
 from openacr.sweep.schema import Quantity
 from openacr.sweep.study import Point, Study

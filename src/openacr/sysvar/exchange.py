@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from openacr.errors import MapError, UserError, read_bytes
-from openacr.plant.toml_file import require_shallow
+from openacr.plant.describe.toml_file import require_shallow
 from openacr.sysvar import lookup, password, rules, values
 from openacr.sysvar.held import UNITS
 from openacr.sysvar.schema import CellKind, Parameter

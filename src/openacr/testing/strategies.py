@@ -14,8 +14,8 @@ from pathlib import Path
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
-from openacr.plant.load import load_world
-from openacr.plant.schema import Axis, Load, World
+from openacr.plant.describe.load import load_world
+from openacr.plant.describe.schema import Axis, Load, World
 
 
 def loads(usual: Load, factor: float = 3.0) -> st.SearchStrategy[Load]:

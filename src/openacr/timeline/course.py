@@ -14,7 +14,7 @@ from openacr.controller.snapshot import Snapshot
 from openacr.errors import CardError, UserError
 from openacr.journal.entries import JournalEntry
 from openacr.models import Model
-from openacr.plant import schema
+from openacr.plant.describe import schema
 from openacr.timeline.branch import Branch
 from openacr.timeline.moment import Moment, moments
 

@@ -1,9 +1,9 @@
 """Trajectories planned on the host: limited in jerk, within a tolerance of the programmed path."""
 
-from openacr.trajectory.limits import Limits, TrajectoryError
-from openacr.trajectory.planner import TrajectoryPlanner
-from openacr.trajectory.segments import Arc, Segment
-from openacr.trajectory.setpoints import Setpoints, evaluate
+from openacr.trajectory.path.limits import Limits, TrajectoryError
+from openacr.trajectory.path.segments import Arc, Segment
+from openacr.trajectory.path.setpoints import Setpoints, evaluate
+from openacr.trajectory.stream.planner import TrajectoryPlanner
 
 __all__ = [
     "Arc",

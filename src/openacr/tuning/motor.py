@@ -5,7 +5,7 @@
 A drive of torque has a = acceleration of a volt and r = viscous friction per inertia; one of
 velocity with the speed K of a volt and the lag T is the same equation with a = K/T, r = 1/T. The
 voltage is constant during a servo period, so positions at the servo interrupts follow exactly:
-`openacr.plant.drive_cy` has the equations.
+`openacr.plant.physics.drive_cy` has the equations.
 """
 
 import math

@@ -1,7 +1,7 @@
 """An elastic shaft between motor and load, as a part of what a voltage does to an axis.
 
 Beside the movement of the common centre there is the flexion y of the motor about it
-(`openacr.plant.compliance_cy` has the equations), with u the acceleration of the centre:
+(`openacr.plant.physics.compliance_cy` has the equations), with u the acceleration of the centre:
 
     y'' = (J2 / J1) u - 2 s y' - w^2 y
 

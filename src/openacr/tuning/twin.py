@@ -17,9 +17,9 @@ from openacr.map.words import af1
 from openacr.motion.axis import attach
 from openacr.motion.axis.settings import activate_derivative_smoothing
 from openacr.motion.card import Card
-from openacr.plant.apply import apply_world
-from openacr.plant.load import parse_world
-from openacr.plant.step_cy import plant_step
+from openacr.plant.build.apply import apply_world
+from openacr.plant.describe.load import parse_world
+from openacr.plant.physics.step_cy import plant_step
 from openacr.tuning.filters import Row
 from openacr.tuning.motor import Motor, Reals
 from openacr.tuning.settings import LoopSettings

@@ -14,7 +14,7 @@ from openacr.cnc.program.program import Program
 from openacr.cnc.reading.findings import Finding, placed
 from openacr.cnc.state.cells import LAST_RADIUS, RADII
 from openacr.errors import OpenacrError, UserError
-from openacr.mill.plan.checking import TooLongError, checked, opened
+from openacr.mill.plan.estimate.checking import TooLongError, checked, opened
 from openacr.sysvar import Store
 from openacr.sysvar.location import open_to_read
 from openacr.workers import Done, Pool
@@ -167,7 +167,7 @@ def _cut(
     program: Program, cells: Store, dialect: str, file: Path
 ) -> tuple[float | None, list[Note]]:
     """What the program takes from the blank of the store, and lines that should not touch it."""
-    from openacr.mill.plan.removal import removal  # loads numpy
+    from openacr.mill.plan.pictures.removal import removal  # loads numpy
 
     try:
         found = removal(program, cells, dialect)

@@ -7,9 +7,9 @@ from openacr.map.rows import axes, encoders, motors
 from openacr.motion.axis import registers
 from openacr.motion.jog import jog
 from openacr.motion.path import moves
-from openacr.plant.counts import count_of
-from openacr.plant.load import parse_world
-from openacr.plant.schema import World
+from openacr.plant.describe.counts import count_of
+from openacr.plant.describe.load import parse_world
+from openacr.plant.describe.schema import World
 
 ACTIVE, CAPTURED, KAMR = 792, 777, 8467
 FOUND, FAILED, HOMING = 16134, 16135, 16131

@@ -10,7 +10,7 @@ from playwright.sync_api import Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import SETTLED_S, give, load_file, to_main_menu, until_model
 
-from openacr.mill.plan.blank import SIZES
+from openacr.mill.plan.pictures.blank import SIZES
 from openacr.panel.control.station import Station
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import CONTROL, DISPLAY, SPINDLE

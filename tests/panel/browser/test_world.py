@@ -11,10 +11,10 @@ from tests.panel.bench import Served
 from tests.panel.browser.conftest import LONGEST_MS, READY, give, open_page, until_model
 
 from openacr.controller import Controller
-from openacr.panel.control.installation import Installation
+from openacr.panel.control.machine.installation import Installation
 from openacr.panel.control.station import Station
 from openacr.panel.machine import FOLDER, opened
-from openacr.plant.load import load_world
+from openacr.plant.describe.load import load_world
 
 pytestmark = pytest.mark.evidence("oracle", "products of homogeneous matrices by numpy")
 GRIPPER = """

@@ -60,7 +60,7 @@ def schema_of(kind: Kind) -> dict[str, Any]:
 def _type_of(kind: Kind) -> Any:
     from openacr.bridge.settings import BridgeFile
     from openacr.configure.answers import Answers
-    from openacr.plant.schema import World
+    from openacr.plant.describe.schema import World
     from openacr.scenario.schema import Scenario
     from openacr.sweep.schema import kind_for_editors
 

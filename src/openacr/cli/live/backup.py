@@ -55,7 +55,7 @@ def _guess_machine(folder: Path, version: list[str]) -> list[str]:
     from openacr.configure.queries import Virtual
     from openacr.controller import Controller
     from openacr.models import DEFAULT_MODEL, MODELS
-    from openacr.plant.schema import default_world
+    from openacr.plant.describe.schema import default_world
     from openacr.project import find_project
 
     path = folder / "machine.toml"

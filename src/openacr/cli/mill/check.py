@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from openacr.cnc.interpreter.survey import Survey
     from openacr.cnc.program.program import Program
     from openacr.cnc.reading.findings import Finding
-    from openacr.mill.plan.predicting import Prediction, Reader
+    from openacr.mill.plan.estimate.predicting import Prediction, Reader
     from openacr.sysvar import Store
 
 FAILED = 1
@@ -56,7 +56,7 @@ def loaded(file: Path, store: "Store", dialect: str | None) -> tuple["Program", 
 
     An unusual dialect found by the features of the file is reported on standard error.
     """
-    from openacr.mill.plan.checking import opened
+    from openacr.mill.plan.estimate.checking import opened
 
     program, choice = opened(file, store, dialect)
     if choice.is_worth_reporting or (program.errors and choice.is_doubtful):
@@ -98,7 +98,7 @@ def check_program(
     as_json: AsJson = False,
 ) -> None:
     """Find all errors of a part program, and summarize what it does."""
-    from openacr.mill.plan.checking import checked
+    from openacr.mill.plan.estimate.checking import checked
 
     with opened_store(store) as cells:
         program, name = loaded(file, cells, dialect)
@@ -131,7 +131,7 @@ def time_program(
 ) -> None:
     """Predict the run time of a part program from the plan of its moves."""
     from openacr.cnc.interpreter.interpreter import Options
-    from openacr.mill.plan.checking import Watchers, surveyed
+    from openacr.mill.plan.estimate.checking import Watchers, surveyed
 
     require_trace(trace, every_s)
     with opened_store(store) as cells:
@@ -168,7 +168,7 @@ def _shown(
 ) -> "Iterator[Callable[[int], None] | None]":
     """Where paths are planned, a terminal gets an estimate at once and a bar by lines."""
     from openacr.cli.live import online
-    from openacr.mill.plan.checking import estimated
+    from openacr.mill.plan.estimate.checking import estimated
 
     seconds = estimated(program, cells, dialect, options=options) if is_attended() else None
     if seconds is None:
@@ -199,7 +199,7 @@ def _sampled(cells: "Store", path: Path | None, every_s: float | None) -> "Itera
         yield None
         return
     from openacr.mill.config.settings import Settings
-    from openacr.mill.plan.trajectory import PERIOD_S, Trajectory
+    from openacr.mill.plan.estimate.trajectory import PERIOD_S, Trajectory
 
     settings = Settings(cells)
     with trace_file(path, [axis.name for axis in settings.axes]) as write:

@@ -12,7 +12,7 @@ def show_dialect(
 ) -> None:
     """Show the dialect in which a part program would be read, and the reason."""
     from openacr.mill.config.dialects import choose
-    from openacr.mill.plan.checking import require_file
+    from openacr.mill.plan.estimate.checking import require_file
 
     require_file(file)
     with opened_store(store) as cells:

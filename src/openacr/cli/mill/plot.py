@@ -17,7 +17,7 @@ from openacr.cli.mill.check import (
     show_findings,
 )
 from openacr.errors import UserError
-from openacr.mill.plan.quantities import Quantity
+from openacr.mill.plan.pictures.quantities import Quantity
 from openacr.wording import counted
 
 if TYPE_CHECKING:
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from openacr.cli.plots.toolpath import Scene
     from openacr.cnc.interpreter.survey import Survey
     from openacr.cnc.program.program import Program
-    from openacr.mill.plan.path_motion import Motion
-    from openacr.mill.plan.tool_path import ToolPath
+    from openacr.mill.plan.pictures.path_motion import Motion
+    from openacr.mill.plan.pictures.tool_path import ToolPath
     from openacr.sysvar import Store
 
 DRAWN = "XYZ"
@@ -92,7 +92,7 @@ def _plot_stock(file: Path, target: Path, store: Path | None, dialect: str | Non
     """Draw what is left of the blank, and name the lines where something is wrong."""
     from openacr.cli.plots.stock_image import write_stock
     from openacr.cli.run.output import write_whole
-    from openacr.mill.plan.removal import removal
+    from openacr.mill.plan.pictures.removal import removal
 
     with opened_store(store) as cells:
         program, name = loaded(file, cells, dialect)
@@ -163,7 +163,7 @@ def _surveyed(
 ) -> "tuple[Survey, ToolPath, Motion | None]":
     from openacr.cnc.interpreter.interpreter import Options
     from openacr.cnc.interpreter.survey import survey
-    from openacr.mill.plan.tool_path import ToolPath
+    from openacr.mill.plan.pictures.tool_path import ToolPath
     from openacr.sysvar.tabs import SPEEDS
 
     path = ToolPath(axes, cells.read(SPEEDS.chord_tolerance))
@@ -171,8 +171,8 @@ def _surveyed(
     if colour is None:
         return survey(program, cells, dialect, options, look=path.add), path, None
     from openacr.mill.config.settings import Settings
-    from openacr.mill.plan.checking import Watchers, surveyed
-    from openacr.mill.plan.path_motion import PathMotion
+    from openacr.mill.plan.estimate.checking import Watchers, surveyed
+    from openacr.mill.plan.pictures.path_motion import PathMotion
 
     reader = PathMotion(Settings(cells), axes, colour)
     watchers = Watchers(reader, look=path.add)

@@ -9,8 +9,8 @@ from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from openacr.mill.plan.path_motion import Motion
-from openacr.mill.plan.tool_path import Array, strokes_of, thinned
+from openacr.mill.plan.pictures.path_motion import Motion
+from openacr.mill.plan.pictures.tool_path import Array, strokes_of, thinned
 
 BANDS = 64
 DARKEST, BRIGHTEST = 0.0, 0.93  # of viridis: its last yellow is hard to see on white

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from openacr.cli.plots.saved import save
-from openacr.mill.plan.removal import Removal
-from openacr.mill.plan.stock import Mark
+from openacr.mill.plan.pictures.removal import Removal
+from openacr.mill.plan.pictures.stock import Mark
 
 WIDTH_INCHES, HEIGHT_INCHES, DPI = 11.0, 8.0, 120
 LIGHT = LightSource(azdeg=315, altdeg=50)

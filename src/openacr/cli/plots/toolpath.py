@@ -4,10 +4,10 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from openacr.mill.config.view import View
-from openacr.mill.plan.tool_path import Drawing, Kind
+from openacr.mill.plan.pictures.tool_path import Drawing, Kind
 
 if TYPE_CHECKING:
-    from openacr.mill.plan.path_motion import Motion
+    from openacr.mill.plan.pictures.path_motion import Motion
 
 COMPENSATED = (5.0, 2.0)  # dash and gap
 RAPID, INSERTED, CONTOUR = "#999999", "#D5007F", "#444444"

@@ -19,7 +19,7 @@ from matplotlib.lines import Line2D
 from openacr.cli.plots.motion_colors import add_bar, draw_motion, unknown_handle
 from openacr.cli.plots.saved import save
 from openacr.cli.plots.toolpath import CONTOUR, LineStyle, Scene, bands_of, shade, style_of
-from openacr.mill.plan.tool_path import Array, thinned
+from openacr.mill.plan.pictures.tool_path import Array, thinned
 
 WIDTH_INCHES, HEIGHT_INCHES, DPI = 13.0, 7.6, 120
 PIXELS = 1600  # more than any view is wide, so that thinning cannot be seen

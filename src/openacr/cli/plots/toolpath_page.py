@@ -8,7 +8,7 @@ import numpy as np
 
 from openacr.cli.plots.template import filled
 from openacr.cli.plots.toolpath import CONTOUR, LineStyle, Scene, bands_of, style_of
-from openacr.mill.plan.tool_path import Array
+from openacr.mill.plan.pictures.tool_path import Array
 
 
 def write_page(scene: Scene, path: Path) -> None:

@@ -18,7 +18,7 @@ DIFFERS = 1
 
 def replay_recording(path: Path, project: Path | None, *, as_json: bool) -> None:
     """Give a recorded session to a virtual card; exit code 1 if an answer differs."""
-    from openacr.io.recording import read_recording
+    from openacr.io.recorded_session import read_recording
     from openacr.io.session_replay import SessionReplay
 
     recording = read_recording(path)
@@ -46,7 +46,7 @@ def replay_recording(path: Path, project: Path | None, *, as_json: bool) -> None
 
 def _card(project: Path | None) -> "Controller":
     from openacr.controller import Controller
-    from openacr.plant.schema import exact_world
+    from openacr.plant.describe.schema import exact_world
     from openacr.project import find_project
 
     if project is None:

@@ -104,7 +104,7 @@ def replay(
 
 
 def _is_recording(path: Path) -> bool:
-    from openacr.io.recording import is_recording
+    from openacr.io.recorded_session import is_recording
 
     try:
         return is_recording(path)

@@ -11,10 +11,10 @@ from collections.abc import Iterator
 
 from openacr.cnc.canonical import Entry, Say, Source
 from openacr.cnc.codes.table import Code
-from openacr.cnc.interpreter.inside import Inside, Quick, Ready
-from openacr.cnc.interpreter.ready import ready, values_of
-from openacr.cnc.interpreter.scanning import Scanner
-from openacr.cnc.interpreter.statements import shown
+from openacr.cnc.interpreter.by_block.inside import Inside, Quick, Ready
+from openacr.cnc.interpreter.by_block.ready import ready, values_of
+from openacr.cnc.interpreter.by_block.statements import shown
+from openacr.cnc.interpreter.by_line.scanning import Scanner
 from openacr.cnc.program.block_context import BlockContext
 from openacr.cnc.program.flow import Frame, Level
 from openacr.cnc.program.program import Node

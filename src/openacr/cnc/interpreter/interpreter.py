@@ -36,9 +36,9 @@ from openacr.cnc.codes.table import DIALECTS, Dialect
 from openacr.cnc.compensation import Watch
 from openacr.cnc.geometry.coordinates import ORIGIN
 from openacr.cnc.geometry.path import Path
+from openacr.cnc.interpreter.by_block.loops import Loops
+from openacr.cnc.interpreter.by_block.offset_path import OFF, OffsetPath
 from openacr.cnc.interpreter.execution import Execution
-from openacr.cnc.interpreter.loops import Loops
-from openacr.cnc.interpreter.offset_path import OFF, OffsetPath
 from openacr.cnc.loading.load import planner_of
 from openacr.cnc.program.block_context import BlockContext
 from openacr.cnc.program.flow import Flow

@@ -18,8 +18,8 @@ from openacr.cnc.reading.text import decoded
 from openacr.debugger import questions
 from openacr.debugger.breakpoints import Fault
 from openacr.debugger.part_programs.blocks import Block, BlockLog
+from openacr.debugger.part_programs.course import PartCourse, not_watched
 from openacr.debugger.part_programs.run import LiveRun
-from openacr.debugger.part_programs.session import PartSession, not_watched
 from openacr.debugger.part_programs.values import (
     modal_values,
     offset_values,
@@ -31,7 +31,7 @@ from openacr.debugger.target import Frame, Place
 from openacr.debugger.variables import axis_states, time_state
 from openacr.errors import UserError
 from openacr.mill.config.folders import folders_of
-from openacr.mill.plan.checking import opened
+from openacr.mill.plan.estimate.checking import opened
 from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 from openacr.timeline import Timeline
@@ -71,7 +71,7 @@ class PartTarget:
         shop.reader = self.log
         shop.start(program, Start(dialect=choice.name, is_repeated=False))
         live = LiveRun(shop, card, self.log)
-        self.course = PartSession(live, self.log, timeline, self._texts, self.answer_at, show)
+        self.course = PartCourse(live, self.log, timeline, self._texts, self.answer_at, show)
 
     @property
     def capabilities(self) -> Mapping[str, object]:

@@ -14,10 +14,10 @@ from openacr.client.program_variables import Value, answer, assign, variables
 from openacr.client.stored import ListedLine
 from openacr.debugger.breakpoints import Fault
 from openacr.debugger.real_cards import values
+from openacr.debugger.real_cards.course import RealCardCourse, not_watched
 from openacr.debugger.real_cards.ending import end
 from openacr.debugger.real_cards.followers import Followers
 from openacr.debugger.real_cards.link import CardLink
-from openacr.debugger.real_cards.session import RealCardSession, not_watched
 from openacr.debugger.target import Frame, Place
 from openacr.errors import OpenacrError, UserError
 
@@ -51,7 +51,7 @@ class RealCardTarget:
     ) -> None:
         """Read which programs there are. ClientError, UserError."""
         self.link, self.followers = link, followers
-        self.course = RealCardSession(link, followers, run, is_held_at_start=is_held_at_start)
+        self.course = RealCardCourse(link, followers, run, is_held_at_start=is_held_at_start)
         self.course.on_new_text = self._forget_text
         self._listings: dict[int, list[ListedLine]] = {}
         rooms = link.do(lambda card: card.rooms())

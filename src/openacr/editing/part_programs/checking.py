@@ -7,7 +7,7 @@ from openacr.editing.document import Document, Edit, Place, Span
 from openacr.editing.part_programs.store import StoreOfMachine
 from openacr.editing.symbols import Finding, Fix
 from openacr.errors import OpenacrError
-from openacr.mill.plan.checking import check_text
+from openacr.mill.plan.estimate.checking import check_text
 
 CYCLES = "$I CYCLES.TXT"  # as the hint of E251 names it
 

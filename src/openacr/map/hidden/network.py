@@ -141,7 +141,7 @@ DRIVE = HiddenBlock(
     family="bus_drives",
     count=16,
     doubles=(
-        ("settings", 6),  # see plant/aries.py
+        ("settings", 6),  # see plant/bus/aries.py
         "connected_s",
         "powered_s",
         "lost_s",

@@ -82,7 +82,7 @@ MOTOR = HiddenBlock(
     },
 )
 
-# What a motor that the card commutates has on top, see plant/phases_cy.py.
+# What a motor that the card commutates has on top, see plant/physics/phases_cy.py.
 PHASES = HiddenBlock(
     prefix="PLB",
     family="phases",
@@ -95,7 +95,7 @@ PHASES = HiddenBlock(
     },
 )
 
-# What a stepper motor has on top, see plant/stepper_cy.py.
+# What a stepper motor has on top, see plant/physics/stepper_cy.py.
 STEPPER = HiddenBlock(
     prefix="PLT",
     family="stepper_motors",
@@ -113,7 +113,7 @@ STEPPER = HiddenBlock(
     ints=("points",),
 )
 
-# What a load on an elastic shaft has on top, see plant/compliance_cy.py.
+# What a load on an elastic shaft has on top, see plant/physics/compliance_cy.py.
 COMPLIANCE = HiddenBlock(
     prefix="PLR",
     family="compliant_loads",
@@ -189,7 +189,7 @@ INPUT_WORD = HiddenBlock(
         "stuck_level",
     ),
     ranges={
-        "word": (0, ROWS_I),  # see also plant/places.py
+        "word": (0, ROWS_I),  # see also plant/describe/places.py
     },
 )
 

@@ -19,7 +19,7 @@ from openacr.mill.card.driver import CLEAR_S, CardState, flag_of
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.config.capture import SOFTWARE_TRIGGER, Capture, capture_of
 from openacr.mill.config.settings import S_PER_MIN
-from openacr.mill.plan.encoding import Job
+from openacr.mill.plan.moves.encoding import Job
 
 
 class Probing:

@@ -12,7 +12,7 @@ from openacr.map.rows import masters
 from openacr.mill.card.driver import CardState
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.config.settings import NONE
-from openacr.mill.plan.encoding import Job
+from openacr.mill.plan.moves.encoding import Job
 from openacr.mill.run.program_stream import ProgramStream
 
 PERCENT = 0.01

@@ -17,22 +17,22 @@ from numpy.typing import NDArray
 from openacr.mill.card.driver import CardState, MachineDriver
 from openacr.mill.config.curves import PERIOD_S, can_plan
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.curve_limits import (
+from openacr.mill.plan.curves.curve_limits import (
     ON_THE_LINE,
     RAMPS,
     SPARE,
     accelerations,
     moves_needed,
 )
-from openacr.mill.plan.curve_packets import COUNTED, LEAD, CurvePackets
-from openacr.mill.plan.curve_reserve import Reserve
-from openacr.mill.plan.curve_window import CurveWindow
-from openacr.mill.plan.encoding import Job
-from openacr.mill.plan.planned_path import PlannedPath
+from openacr.mill.plan.curves.curve_packets import COUNTED, LEAD, CurvePackets
+from openacr.mill.plan.curves.curve_reserve import Reserve
+from openacr.mill.plan.curves.curve_window import CurveWindow
+from openacr.mill.plan.curves.planned_path import PlannedPath
+from openacr.mill.plan.moves.encoding import Job
 from openacr.mill.run.tracking import Tracker
 from openacr.protocol.packets import Packet
 from openacr.sysvar.tabs import SPEEDS
-from openacr.trajectory.timescale import Progress
+from openacr.trajectory.override.timescale import Progress
 
 AHEAD_S = 0.38  # of the plan known ahead of the points that are sent, at least
 AHEAD_LINK_S = 1.0  # planned ahead over a link, where the host may be late

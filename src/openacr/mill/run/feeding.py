@@ -27,10 +27,10 @@ from openacr.cnc.reading.findings import BlockError
 from openacr.mill.card import alarms
 from openacr.mill.card.alarms import Kind
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.encoding import Encoder, Job
-from openacr.mill.plan.planned_path import PlannedPath
-from openacr.mill.plan.route import Route
-from openacr.mill.plan.travel_limits import first_excess, unhomed
+from openacr.mill.plan.curves.planned_path import PlannedPath
+from openacr.mill.plan.estimate.route import Route
+from openacr.mill.plan.moves.encoding import Encoder, Job
+from openacr.mill.plan.moves.travel_limits import first_excess, unhomed
 from openacr.mill.run.tracking import Tracker
 
 READ_TOGETHER = 32

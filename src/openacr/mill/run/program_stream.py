@@ -13,9 +13,9 @@ from openacr.mill.card.actions import Steps, Until
 from openacr.mill.card.driver import CLEAR_S, CardState
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.manual.probing import Probing
-from openacr.mill.plan.encoding import Encoder, Job, Motion
-from openacr.mill.plan.geometry import weights
-from openacr.mill.plan.travel_limits import first_excess
+from openacr.mill.plan.moves.encoding import Encoder, Job, Motion
+from openacr.mill.plan.moves.geometry import weights
+from openacr.mill.plan.moves.travel_limits import first_excess
 from openacr.mill.run.curve_run import CurveRun
 from openacr.mill.run.entry_actions import EntryActions
 from openacr.mill.run.feeding import Fault, Feed, Halt, Starved

@@ -28,7 +28,7 @@ from openacr.cnc.canonical import (
     Rapid,
     Source,
 )
-from openacr.mill.plan.encoding import Job, Motion
+from openacr.mill.plan.moves.encoding import Job, Motion
 
 RIGHT_ANGLE = 0.5 * math.pi
 Path = TypeVar("Path", bound=Motion)

@@ -19,8 +19,8 @@ from openacr.mill.card.actions import Steps, Until
 from openacr.mill.card.driver import CardState
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.config.settings import S_PER_MIN
-from openacr.mill.plan.encoding import Encoder, Job
-from openacr.mill.plan.planning import CornerRules, Planner
+from openacr.mill.plan.moves.encoding import Encoder, Job
+from openacr.mill.plan.moves.planning import CornerRules, Planner
 from openacr.mill.run.program_stream import ProgramStream
 from openacr.mill.run.rejoin import Place, first_of, place, rest_of
 from openacr.mill.run.sending import send

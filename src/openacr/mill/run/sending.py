@@ -9,7 +9,7 @@ from itertools import groupby
 from operator import itemgetter
 
 from openacr.mill.card.driver import MachineDriver
-from openacr.mill.plan.encoding import Encoder, Job
+from openacr.mill.plan.moves.encoding import Encoder, Job
 from openacr.mill.run.tracking import Tracker
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 
 from openacr.cnc.canonical import Probe, Rapid, Source
 from openacr.mill.card.driver import CardState
-from openacr.mill.plan.encoding import Job
+from openacr.mill.plan.moves.encoding import Job
 
 MOST_TRAILED = 10_000
 MOST_PASSED = 200

@@ -11,7 +11,7 @@ from openacr.map.rows import bus_nodes, canopen_nodes, network_master, network_s
 from openacr.map.words import canf
 from openacr.network.canopen import figures, image
 from openacr.network.canopen.rows import BusState, Master, Phase
-from openacr.plant import bus, terminals
+from openacr.plant.bus import bus, terminals
 
 # The error counter of a bus controller: 8 up for a message that was destroyed, 1 down for
 # one that came through; a warning from 96 on, off the bus from 256 on.

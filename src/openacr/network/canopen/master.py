@@ -7,7 +7,7 @@ from openacr.map.rows import network_master, network_slaves
 from openacr.map.words import canf
 from openacr.network.canopen import exchange, startup
 from openacr.network.canopen.rows import SLAVES, TIMES, Master, Phase
-from openacr.plant import bus
+from openacr.plant.bus import bus
 
 
 def power_up(memory: Memory) -> None:

@@ -15,7 +15,7 @@ from openacr.map.rows import canopen, canopen_nodes, network_master, network_sla
 from openacr.map.words import canf
 from openacr.network.canopen import exchange, figures, image
 from openacr.network.canopen.rows import FAULTS, SLAVES, BusState, Master, Phase
-from openacr.plant import bus
+from openacr.plant.bus import bus
 
 POWER_UP_MS = 100
 RESET_MS = 200

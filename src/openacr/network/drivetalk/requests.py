@@ -16,7 +16,7 @@ from openacr.map.tables.drivetalk import (
     STATUS_ITEMS,
 )
 from openacr.map.words import dtcf, dtef, dts1, dts2
-from openacr.plant.aries_port import WORD_BITS, bits_of, number_text
+from openacr.plant.bus.aries_port import WORD_BITS, bits_of, number_text
 
 ARIES_TYPE = 0
 Take = Callable[[str], bool]

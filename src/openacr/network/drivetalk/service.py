@@ -15,8 +15,8 @@ from openacr.map.words import dtcf, dtsf
 from openacr.network.drivetalk.lines import TalkLine, line_of, lines, pending
 from openacr.network.drivetalk.requests import ARIES_TYPE, Exchange, address, exchanges
 from openacr.network.times import later_tk, tick_of
-from openacr.plant import aries, rs485
-from openacr.plant.aries_port import split_address
+from openacr.plant.bus import aries, rs485
+from openacr.plant.bus.aries_port import split_address
 
 TIMEOUT_MS = 1000.0
 THINKING_MS = 2.0

@@ -10,7 +10,7 @@ from openacr.client import Card, Level
 from openacr.errors import UserError
 from openacr.map.words import pf, plf
 from openacr.panel.commands.registry import command
-from openacr.panel.control.presses import End
+from openacr.panel.control.operator.presses import End
 from openacr.panel.control.station import Station
 from openacr.panel.helps import Page
 from openacr.panel.roles import Role

@@ -11,13 +11,13 @@ from openacr.mill.run.runner import Runner
 from openacr.mill.session import MillSession
 from openacr.mill.zeroing import clear_all, goto_blocks, preset, reader, set_zero
 from openacr.panel.commands.registry import command
-from openacr.panel.control.hand_motion import HandMotion
-from openacr.panel.control.link import Link
-from openacr.panel.control.orders import Order
-from openacr.panel.control.people import People, Person
-from openacr.panel.control.presses import End, Key
+from openacr.panel.control.machine.link import Link
+from openacr.panel.control.operator.hand_motion import HandMotion
+from openacr.panel.control.operator.orders import Order
+from openacr.panel.control.operator.people import People, Person
+from openacr.panel.control.operator.presses import End, Key
+from openacr.panel.control.operator.typed import Typed
 from openacr.panel.control.station import Station
-from openacr.panel.control.typed import Typed
 from openacr.panel.helps import Page
 from openacr.panel.roles import Role
 

@@ -8,11 +8,11 @@ from msgspec import Meta
 from openacr.errors import UserError
 from openacr.io.server import is_loopback
 from openacr.panel.commands.registry import command
-from openacr.panel.control.hand_motion import HandMotion
 from openacr.panel.control.interlocks import Interlocks
-from openacr.panel.control.link import Link
-from openacr.panel.control.people import People, Person
-from openacr.panel.control.presses import End
+from openacr.panel.control.machine.link import Link
+from openacr.panel.control.operator.hand_motion import HandMotion
+from openacr.panel.control.operator.people import People, Person
+from openacr.panel.control.operator.presses import End
 from openacr.panel.helps import Page
 from openacr.panel.roles import Role
 

@@ -16,9 +16,9 @@ from openacr.client.transfer import download
 from openacr.errors import UserError
 from openacr.mill.session import MillSession
 from openacr.panel.commands.registry import command
-from openacr.panel.control.card_programs import read_states
-from openacr.panel.control.on_card import OnCard
-from openacr.panel.control.orders import LATER, Later, Order, answer_with
+from openacr.panel.control.engineer.card_programs import read_states
+from openacr.panel.control.engineer.on_card import OnCard
+from openacr.panel.control.operator.orders import LATER, Later, Order, answer_with
 from openacr.panel.control.station import Station
 from openacr.panel.helps import Page
 from openacr.panel.roles import Role

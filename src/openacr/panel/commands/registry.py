@@ -18,7 +18,7 @@ from typing import Any, TypeVar, cast
 
 import msgspec
 
-from openacr.panel.control.orders import Order, PanelError, RoleError
+from openacr.panel.control.operator.orders import Order, PanelError, RoleError
 from openacr.panel.control.station import Station
 from openacr.panel.helps import Page
 from openacr.panel.roles import Role

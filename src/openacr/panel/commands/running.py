@@ -20,15 +20,15 @@ from openacr.mill.run.dripping import Drip
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession, Start
 from openacr.panel.commands.registry import command
-from openacr.panel.control.hand_motion import HandMotion
-from openacr.panel.control.installation import Installation
-from openacr.panel.control.link import Link
-from openacr.panel.control.orders import LATER, Later, Order
-from openacr.panel.control.part import Part
-from openacr.panel.control.presses import End
+from openacr.panel.control.machine.installation import Installation
+from openacr.panel.control.machine.link import Link
+from openacr.panel.control.operator.hand_motion import HandMotion
+from openacr.panel.control.operator.orders import LATER, Later, Order
+from openacr.panel.control.operator.part import Part
+from openacr.panel.control.operator.presses import End
+from openacr.panel.control.operator.typed import Typed
 from openacr.panel.control.station import Station
 from openacr.panel.control.stopping import Stopping
-from openacr.panel.control.typed import Typed
 from openacr.panel.files import Folder
 from openacr.panel.helps import Page
 from openacr.panel.library import ready

@@ -14,17 +14,23 @@ from openacr.mill.config.settings import GAINS
 from openacr.mill.manual.profile import parse
 from openacr.mill.session import MillSession
 from openacr.panel.commands.registry import Args, command
-from openacr.panel.control.buttons import Buttons
-from openacr.panel.control.captures import Captures
-from openacr.panel.control.hand_motion import HandMotion
-from openacr.panel.control.installation import Installation
+from openacr.panel.control.engineer.captures import Captures
+from openacr.panel.control.engineer.scope import (
+    CHANNELS,
+    LEAST_SAMPLES,
+    MOST_SAMPLES,
+    Capture,
+    Trigger,
+)
+from openacr.panel.control.engineer.terminal import TERMINALS, Terminals
 from openacr.panel.control.interlocks import Interlocks
-from openacr.panel.control.link import Link
-from openacr.panel.control.orders import LATER, Later, Order, answer_with
-from openacr.panel.control.presses import End
-from openacr.panel.control.scope import CHANNELS, LEAST_SAMPLES, MOST_SAMPLES, Capture, Trigger
+from openacr.panel.control.machine.installation import Installation
+from openacr.panel.control.machine.link import Link
+from openacr.panel.control.operator.buttons import Buttons
+from openacr.panel.control.operator.hand_motion import HandMotion
+from openacr.panel.control.operator.orders import LATER, Later, Order, answer_with
+from openacr.panel.control.operator.presses import End
 from openacr.panel.control.settings import StoredSettings
-from openacr.panel.control.terminal import TERMINALS, Terminals
 from openacr.panel.control.times import Times
 from openacr.panel.helps import Page
 from openacr.panel.roles import Role

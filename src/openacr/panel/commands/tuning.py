@@ -9,11 +9,11 @@ from openacr.mill.card.setup import GAIN_WORDS
 from openacr.mill.config.settings import GAINS
 from openacr.mill.session import MillSession
 from openacr.panel.commands.registry import command
-from openacr.panel.control.installation import Installation
-from openacr.panel.control.link import Link
-from openacr.panel.control.orders import LATER, Later, Order, answer_with
+from openacr.panel.control.engineer.tuning import Tuning
+from openacr.panel.control.machine.installation import Installation
+from openacr.panel.control.machine.link import Link
+from openacr.panel.control.operator.orders import LATER, Later, Order, answer_with
 from openacr.panel.control.settings import StoredSettings
-from openacr.panel.control.tuning import Tuning
 from openacr.panel.roles import Role
 from openacr.sysvar import Store
 from openacr.sysvar.lookup import known

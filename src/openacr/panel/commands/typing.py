@@ -10,7 +10,7 @@ from openacr.mill.session import MillSession
 from openacr.panel.commands.motion import indices
 from openacr.panel.commands.registry import command
 from openacr.panel.control.interlocks import Interlocks
-from openacr.panel.control.typed import Typed
+from openacr.panel.control.operator.typed import Typed
 from openacr.panel.helps import Page
 from openacr.panel.roles import Role
 

@@ -6,12 +6,12 @@ from msgspec import Meta
 
 from openacr.map import numbers as n
 from openacr.panel.commands.registry import command
-from openacr.panel.control.hand_motion import HandMotion
-from openacr.panel.control.on_card import OnCard
-from openacr.panel.control.orders import Order, PanelError
-from openacr.panel.control.presses import Key
-from openacr.panel.control.watches import INPUTS, Watches, Wish, watched
-from openacr.panel.control.world import WorldPane
+from openacr.panel.control.engineer.on_card import OnCard
+from openacr.panel.control.engineer.watches import INPUTS, Watches, Wish, watched
+from openacr.panel.control.engineer.world import WorldPane
+from openacr.panel.control.operator.hand_motion import HandMotion
+from openacr.panel.control.operator.orders import Order, PanelError
+from openacr.panel.control.operator.presses import Key
 from openacr.panel.roles import Role
 
 WORDS = range(n.FLAG_WORD_BASE, 8192)

@@ -5,10 +5,10 @@ from typing import Annotated, Literal
 from msgspec import Meta
 
 from openacr.panel.commands.registry import command
-from openacr.panel.control.people import Person
-from openacr.panel.control.world import WorldPane
+from openacr.panel.control.engineer.world import WorldPane
+from openacr.panel.control.operator.people import Person
 from openacr.panel.roles import Role
-from openacr.plant.fault_kinds import MachineFault
+from openacr.plant.world.fault_kinds import MachineFault
 
 Finite = Annotated[float, Meta(ge=-1e12, le=1e12)]
 AxisNumber = Annotated[int, Meta(ge=0, le=15)]

@@ -10,9 +10,9 @@ from openacr.mill.config.overrides import Override
 from openacr.mill.config.settings import NONE
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
-from openacr.panel.control.link import Link
-from openacr.panel.control.part import Part
-from openacr.panel.control.people import People
+from openacr.panel.control.machine.link import Link
+from openacr.panel.control.operator.part import Part
+from openacr.panel.control.operator.people import People
 from openacr.sysvar.tabs import CELLS
 
 Data = dict[str, Any]

@@ -2,8 +2,8 @@
 
 from openacr.errors import UserError
 from openacr.mill.run.lifecycle import State
-from openacr.panel.control.link import Link
-from openacr.panel.control.tuning import Tuning
+from openacr.panel.control.engineer.tuning import Tuning
+from openacr.panel.control.machine.link import Link
 
 MEASURED = "an axis is measured (servo tuning): wait until it rests, or STOP"
 FIRST_REST = "wait until it rests, or STOP, then go back"

@@ -7,7 +7,7 @@ from typing import Any
 from openacr.errors import OpenacrError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.mill.run.lifecycle import State
-from openacr.panel.control.link import Link
+from openacr.panel.control.machine.link import Link
 
 LINES_KEPT = 200  # of the print window
 

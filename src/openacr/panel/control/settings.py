@@ -3,7 +3,7 @@
 from functools import partial
 
 from openacr.panel.control.interlocks import Interlocks
-from openacr.panel.control.link import Link
+from openacr.panel.control.machine.link import Link
 from openacr.panel.control.screens import Screens
 from openacr.sysvar.lookup import known
 from openacr.sysvar.schema import FIRST_SYSTEM

@@ -14,33 +14,33 @@ from openacr.client import ConnectionLostError
 from openacr.errors import OpenacrError
 from openacr.mill.card.alarms import CONTROL_FAILED, AlarmError
 from openacr.mill.card.driver import LINK_ERRORS
-from openacr.panel.control.about import machine_data
-from openacr.panel.control.buttons import Buttons
-from openacr.panel.control.captures import Captures
+from openacr.panel.control.engineer.captures import Captures
+from openacr.panel.control.engineer.on_card import OnCard
+from openacr.panel.control.engineer.scope import Samples, Scope
+from openacr.panel.control.engineer.terminal import Terminals
+from openacr.panel.control.engineer.tuning import Tuning
+from openacr.panel.control.engineer.watches import Watches
+from openacr.panel.control.engineer.world import WorldPane
 from openacr.panel.control.facts import Facts, MachineFacts
-from openacr.panel.control.failures import Failures
-from openacr.panel.control.hand_motion import HandMotion
-from openacr.panel.control.installation import Installation
 from openacr.panel.control.interlocks import Interlocks
 from openacr.panel.control.jobs import Jobs
-from openacr.panel.control.lamp import Lamp
-from openacr.panel.control.link import Link, reason
-from openacr.panel.control.on_card import OnCard
-from openacr.panel.control.orders import LATER, Order, failure
-from openacr.panel.control.part import Part
-from openacr.panel.control.people import People, Person
-from openacr.panel.control.presses import End
-from openacr.panel.control.scope import Samples, Scope
+from openacr.panel.control.machine.about import machine_data
+from openacr.panel.control.machine.failures import Failures
+from openacr.panel.control.machine.installation import Installation
+from openacr.panel.control.machine.lamp import Lamp
+from openacr.panel.control.machine.link import Link, reason
+from openacr.panel.control.machine.snapshot import Snapshot, Ticks
+from openacr.panel.control.operator.buttons import Buttons
+from openacr.panel.control.operator.hand_motion import HandMotion
+from openacr.panel.control.operator.orders import LATER, Order, failure
+from openacr.panel.control.operator.part import Part
+from openacr.panel.control.operator.people import People, Person
+from openacr.panel.control.operator.presses import End
+from openacr.panel.control.operator.typed import Typed
 from openacr.panel.control.screens import Screens
 from openacr.panel.control.settings import StoredSettings
-from openacr.panel.control.snapshot import Snapshot, Ticks
 from openacr.panel.control.stopping import Stopping
-from openacr.panel.control.terminal import Terminals
 from openacr.panel.control.times import Around, Times
-from openacr.panel.control.tuning import Tuning
-from openacr.panel.control.typed import Typed
-from openacr.panel.control.watches import Watches
-from openacr.panel.control.world import WorldPane
 from openacr.panel.roles import Role
 from openacr.timeline import Kind
 

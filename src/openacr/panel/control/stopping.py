@@ -14,9 +14,9 @@ from openacr.errors import OpenacrError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.mill.card.stopping import watching
 from openacr.mill.config.settings import Settings
-from openacr.panel.control.link import Link
-from openacr.panel.control.opening import connected
-from openacr.panel.control.tuning import Tuning
+from openacr.panel.control.engineer.tuning import Tuning
+from openacr.panel.control.machine.link import Link
+from openacr.panel.control.machine.opening import connected
 
 HELD_S = 0.5  # between two looks at what is held
 BARE_S = 1.0  # longest wait for a card without a session

@@ -14,7 +14,7 @@ from typing import Generic, TypeVar
 from openacr.errors import OpenacrError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.mill.session import MillSession
-from openacr.panel.control.orders import Order, PanelError, failure
+from openacr.panel.control.operator.orders import Order, PanelError, failure
 from openacr.panel.control.station import Station
 
 log = logging.getLogger(__name__)

@@ -11,19 +11,19 @@ from dataclasses import dataclass
 from typing import Any
 
 from openacr.debugger.calls import is_running
-from openacr.debugger.session import DebugSession
+from openacr.debugger.card_course import CardCourse
 from openacr.engine.watches import Watch, Watched
 from openacr.errors import UserError
 from openacr.map.rows import masters
 from openacr.map.words import mf1
 from openacr.mill.card.watchdog import FEED_HOLD_REQUEST, FLAGS_PER_MASTER
 from openacr.mill.config.settings import Settings
-from openacr.panel.control.history import AWAY, STILL, History, moment_data, timeline_data
 from openacr.panel.control.interlocks import Interlocks
-from openacr.panel.control.link import Link
-from openacr.panel.control.pace import OwnTime, Paced
-from openacr.panel.control.place import read_place
-from openacr.panel.control.snapshot import Light, Snapshot
+from openacr.panel.control.machine.history import AWAY, STILL, History, moment_data, timeline_data
+from openacr.panel.control.machine.link import Link
+from openacr.panel.control.machine.pace import OwnTime, Paced
+from openacr.panel.control.machine.place import read_place
+from openacr.panel.control.machine.snapshot import Light, Snapshot
 from openacr.timeline import Kind
 
 SLOWEST, FASTEST = 0.01, 100.0
@@ -282,7 +282,7 @@ def step_back(history: History) -> None:
 
 def step_line(history: History, program: int) -> None:
     """Go on to the next line of a program; UserError if it does not run or does not reach one."""
-    debugger = DebugSession(history.card, timeline=history.timeline)
+    debugger = CardCourse(history.card, timeline=history.timeline)
     debugger.begin_step(program, into=True)
     try:
         stop = debugger.run(_limit_tk(history))

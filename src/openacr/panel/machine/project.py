@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from openacr.controller import Controller
-from openacr.panel.control.installation import Installation
+from openacr.panel.control.machine.installation import Installation
 from openacr.starter.folders import ensure
 from openacr.sysvar import Store
 from openacr.sysvar.exchange import begun

@@ -13,7 +13,7 @@ from starlette.routing import BaseRoute, Route
 
 from openacr.client import ConnectionLostError
 from openacr.errors import OpenacrError
-from openacr.panel.control.orders import PanelError, failure
+from openacr.panel.control.operator.orders import PanelError, failure
 from openacr.panel.roles import Role
 from openacr.panel.server.panel import ENDS, Panel
 

@@ -4,11 +4,11 @@ from importlib.metadata import version
 from typing import Any
 
 from openacr.io.server import is_loopback
-from openacr.panel.control.about import machine_data
-from openacr.panel.control.hand_motion import LONGEST_AGE_S
-from openacr.panel.control.installation import Installation
-from openacr.panel.control.people import Person
-from openacr.panel.control.presses import DEAD_MAN_S
+from openacr.panel.control.machine.about import machine_data
+from openacr.panel.control.machine.installation import Installation
+from openacr.panel.control.operator.hand_motion import LONGEST_AGE_S
+from openacr.panel.control.operator.people import Person
+from openacr.panel.control.operator.presses import DEAD_MAN_S
 
 MOST_UPLOAD = 256 << 20
 KEEP_MS, STALE_MS = 50, 500

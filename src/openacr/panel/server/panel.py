@@ -10,8 +10,8 @@ from starlette.concurrency import run_in_threadpool
 
 from openacr.errors import UserError
 from openacr.panel.commands.all import carry_out
-from openacr.panel.control.installation import Installation
-from openacr.panel.control.people import Person
+from openacr.panel.control.machine.installation import Installation
+from openacr.panel.control.operator.people import Person
 from openacr.panel.control.station import Station
 from openacr.panel.control.thread import ControlThread
 from openacr.panel.roles import Role

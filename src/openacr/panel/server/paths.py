@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from openacr.errors import UserError
-from openacr.mill.plan.blank import SIZES
-from openacr.panel.control.installation import Installation
-from openacr.panel.control.loaded import version_of
+from openacr.mill.plan.pictures.blank import SIZES
+from openacr.panel.control.machine.installation import Installation
+from openacr.panel.control.operator.loaded import version_of
 from openacr.panel.control.thread import ControlThread
 from openacr.panel.forms.catalogue import STARTS
 from openacr.panel.work.paths import MARK, Found, read_file

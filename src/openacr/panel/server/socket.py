@@ -8,8 +8,8 @@ from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
-from openacr.panel.control.orders import Order, PanelError, failure
-from openacr.panel.control.people import Person, next_client
+from openacr.panel.control.operator.orders import Order, PanelError, failure
+from openacr.panel.control.operator.people import Person, next_client
 from openacr.panel.server.panel import Panel
 from openacr.panel.wire.described import LEAST_HZ, MOST_HZ
 from openacr.panel.wire.frames import Topic

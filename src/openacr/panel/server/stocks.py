@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from openacr.errors import UserError
-from openacr.panel.control.installation import Installation
-from openacr.panel.control.loaded import version_of
+from openacr.panel.control.machine.installation import Installation
+from openacr.panel.control.operator.loaded import version_of
 from openacr.panel.server.paths import stamp
 from openacr.panel.work.pool import Pool, result_of
 from openacr.panel.work.stock import stock_of

@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from openacr.panel.control.scope import Block
-from openacr.panel.control.snapshot import STATES, Light, Snapshot
+from openacr.panel.control.engineer.scope import Block
+from openacr.panel.control.machine.snapshot import STATES, Light, Snapshot
 
 VERSION = 1
 WRAP = 1 << 32

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from operator import or_
 from typing import Any
 
-from openacr.panel.control.scope import Samples, joined
+from openacr.panel.control.engineer.scope import Samples, joined
+from openacr.panel.control.engineer.watches import Changed, Wish
 from openacr.panel.control.station import Station
-from openacr.panel.control.watches import Changed, Wish
 from openacr.panel.wire import frames
 from openacr.panel.wire.frames import Topic
 from openacr.panel.wire.outbox import Outbox, SlowError

@@ -37,9 +37,9 @@ from openacr.cnc.state.shadow import Shadow
 from openacr.mill.card.alarms import ANSWER_MISSING
 from openacr.mill.config.dialects import choose
 from openacr.mill.config.folders import folders_of
-from openacr.mill.plan.blank import blank_of, has_sizes, heights_of_zero
-from openacr.mill.plan.checking import checked
-from openacr.mill.plan.tool_path import Drawing, Kind, ToolPath
+from openacr.mill.plan.estimate.checking import checked
+from openacr.mill.plan.pictures.blank import blank_of, has_sizes, heights_of_zero
+from openacr.mill.plan.pictures.tool_path import Drawing, Kind, ToolPath
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import CONTROL, DISPLAY, SPEEDS, TOOL
 

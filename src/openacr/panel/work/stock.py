@@ -29,7 +29,7 @@ import numpy as np
 from openacr.cnc.loading.load import load
 from openacr.mill.config.dialects import choose
 from openacr.mill.config.folders import folders_of
-from openacr.mill.plan.removal import Removal, Report, removal
+from openacr.mill.plan.pictures.removal import Removal, Report, removal
 from openacr.panel.work.pool import report
 from openacr.sysvar import Store
 

@@ -9,7 +9,7 @@ from starlette.responses import Response
 from openacr.errors import UserError
 from openacr.mill.card.ballscrew import MOST_BYTES, Table, parse
 from openacr.mill.card.ballscrew_store import keep, kept
-from openacr.panel.control.orders import PanelError
+from openacr.panel.control.operator.orders import PanelError
 from openacr.panel.forms.form import axes_of
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Body, Call, Query, endpoint

@@ -11,7 +11,7 @@ from openacr.client.panels import PANELS, Row, panel_named, record_of
 from openacr.map import Flag, Parameter, flags, parameters
 from openacr.map.block import Access
 from openacr.mill.config.pparm import LAST, OperatorParameters
-from openacr.panel.control.orders import PanelError
+from openacr.panel.control.operator.orders import PanelError
 from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Body, Call, Query, endpoint

@@ -6,8 +6,8 @@ from typing import Any
 
 import msgspec
 
-from openacr.panel.control.orders import Order, PanelError
-from openacr.panel.control.people import Person, next_client
+from openacr.panel.control.operator.orders import Order, PanelError
+from openacr.panel.control.operator.people import Person, next_client
 from openacr.panel.server.api import MOST_JSON, Call, endpoint, limited, refusal
 from openacr.panel.server.openapi import COMMAND
 

@@ -21,7 +21,7 @@ from openacr.errors import SourceError, UserError
 from openacr.models import DEFAULT_MODEL
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Body, Call, endpoint
-from openacr.plant.schema import ModelName
+from openacr.plant.describe.schema import ModelName
 
 MOST_TEXT = 1 << 20
 

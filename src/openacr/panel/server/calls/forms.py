@@ -4,7 +4,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse, Response
 
 from openacr.errors import MapError
-from openacr.panel.control.orders import PanelError, RoleError
+from openacr.panel.control.operator.orders import PanelError, RoleError
 from openacr.panel.forms.catalogue import FORMS
 from openacr.panel.forms.form import Form
 from openacr.panel.forms.values import RefusedError, form_data, row_data, save

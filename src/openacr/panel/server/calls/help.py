@@ -6,7 +6,7 @@ from starlette.concurrency import run_in_threadpool
 
 from openacr.errors import MapError
 from openacr.panel.commands.all import COMMANDS
-from openacr.panel.control.orders import PanelError
+from openacr.panel.control.operator.orders import PanelError
 from openacr.panel.helps import HELPS, Page
 from openacr.panel.server.api import ENDPOINTS, Call, Query, endpoint
 from openacr.panel.server.openapi import document

@@ -10,7 +10,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.responses import FileResponse
 
 from openacr.controller.ring import journals
-from openacr.panel.control.orders import PanelError
+from openacr.panel.control.operator.orders import PanelError
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Call, Query, endpoint
 

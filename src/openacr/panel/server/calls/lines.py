@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from openacr.map import numbers as n
 from openacr.mill.card.machine_io import line_numbers
 from openacr.models import MODELS
-from openacr.panel.control.buttons import COUNT, TOGGLE
+from openacr.panel.control.operator.buttons import COUNT, TOGGLE
 from openacr.panel.control.station import Station
 from openacr.panel.server.api import Call, endpoint
 from openacr.sysvar.tabs import CONTROL, GENERAL, OFFSETS

@@ -7,7 +7,7 @@ from msgspec import Meta
 
 from openacr.errors import UserError
 from openacr.mill.config.communications import Line
-from openacr.panel.control.orders import PanelError
+from openacr.panel.control.operator.orders import PanelError
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Body, Call, endpoint
 from openacr.panel.server.calls.programs import place_for, store

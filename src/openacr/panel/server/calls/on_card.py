@@ -17,8 +17,8 @@ from openacr.client.stored import ListedLine, Room, listing, rooms, version_of
 from openacr.errors import CardError
 from openacr.lang.lexer import tokens
 from openacr.panel.commands.programs import level_of, owner_of
-from openacr.panel.control.aside import Talks
-from openacr.panel.control.card_programs import State, read_states
+from openacr.panel.control.engineer.card_programs import State, read_states
+from openacr.panel.control.engineer.conversations import Talks
 from openacr.panel.control.station import Station
 from openacr.panel.server.api import Call, Query, endpoint
 from openacr.panel.server.panel import Panel

@@ -10,7 +10,7 @@ from starlette.responses import Response
 
 from openacr.cnc.parts.library import FOLDER, begins_metric, names, part_named
 from openacr.errors import UserError
-from openacr.panel.control.orders import PanelError
+from openacr.panel.control.operator.orders import PanelError
 from openacr.panel.library import ready
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Body, Call, Query, endpoint

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from starlette.responses import JSONResponse, Response
 
-from openacr.panel.control.orders import PanelError
+from openacr.panel.control.operator.orders import PanelError
 from openacr.panel.server.api import Call, Query, endpoint
 from openacr.panel.server.calls.programs import Dialect, file_of
 from openacr.panel.server.stocks import Share

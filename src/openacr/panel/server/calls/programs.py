@@ -12,9 +12,9 @@ from starlette.concurrency import run_in_threadpool
 from starlette.responses import Response
 
 from openacr.errors import UserError
-from openacr.panel.control.listing import Listing
-from openacr.panel.control.loaded import version_of
-from openacr.panel.control.orders import PanelError
+from openacr.panel.control.operator.listing import Listing
+from openacr.panel.control.operator.loaded import version_of
+from openacr.panel.control.operator.orders import PanelError
 from openacr.panel.files import Folder, kind_of
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Body, Call, Query, endpoint

@@ -11,8 +11,8 @@ from starlette.concurrency import run_in_threadpool
 from starlette.responses import Response
 
 from openacr.errors import UserError
-from openacr.panel.control.orders import PanelError
-from openacr.panel.control.scope import CHANNELS, MOST_SAMPLES
+from openacr.panel.control.engineer.scope import CHANNELS, MOST_SAMPLES
+from openacr.panel.control.operator.orders import PanelError
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Call, Query, endpoint, limited
 

@@ -10,7 +10,7 @@ from msgspec import Meta
 from starlette.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse, RedirectResponse, Response
 
-from openacr.panel.control.orders import PanelError
+from openacr.panel.control.operator.orders import PanelError
 from openacr.panel.roles import Role
 from openacr.panel.server.accounts import LASTS_S
 from openacr.panel.server.api import Body, Call, endpoint

@@ -11,8 +11,8 @@ from starlette.responses import FileResponse
 from openacr.client.names import named
 from openacr.errors import UserError
 from openacr.map import parameters
-from openacr.panel.control.sampling import row_of, value_in
-from openacr.panel.control.scope import name_of
+from openacr.panel.control.engineer.sampling import row_of, value_in
+from openacr.panel.control.engineer.scope import name_of
 from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Call, Query, endpoint

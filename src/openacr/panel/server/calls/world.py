@@ -7,7 +7,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.responses import Response
 
 from openacr.errors import read_bytes
-from openacr.panel.control.about import axes
+from openacr.panel.control.machine.about import axes
 from openacr.panel.control.station import Station
 from openacr.panel.server.api import Call, Query, endpoint
 

@@ -1,0 +1,1 @@
+"""One block: made ready, its statement, its loops and its compensation."""

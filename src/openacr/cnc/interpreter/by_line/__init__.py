@@ -1,0 +1,1 @@
+"""Blocks executed many at a time from the text, on arrays."""

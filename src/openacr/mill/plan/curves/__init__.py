@@ -1,0 +1,1 @@
+"""Planned paths: moves that become one curve of control points."""

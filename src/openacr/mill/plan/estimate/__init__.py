@@ -1,0 +1,1 @@
+"""Run times, setpoints and checks of a program without a card."""

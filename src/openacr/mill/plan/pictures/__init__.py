@@ -1,0 +1,1 @@
+"""What a program draws: its tool path, its motion, and the material it leaves."""

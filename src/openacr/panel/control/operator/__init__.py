@@ -1,0 +1,1 @@
+"""Operators: who has control, what moves by hand, what is typed, the part program."""

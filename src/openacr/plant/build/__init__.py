@@ -1,0 +1,1 @@
+"""A machine description written into the memory of a card."""

@@ -1,0 +1,1 @@
+"""Devices on networks: CANopen nodes and their terminals, Aries drives on serial lines."""

@@ -1,0 +1,1 @@
+"""`machine.toml`: its schema, how it is read, and what is checked in it."""

@@ -1,0 +1,1 @@
+"""One servo period of the machine: motors, drives, friction, switches and wiring."""

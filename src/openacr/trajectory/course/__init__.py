@@ -1,0 +1,1 @@
+"""Courses: a path with a time law, evaluated at any time."""

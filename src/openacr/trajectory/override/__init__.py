@@ -1,0 +1,1 @@
+"""Override and feed hold: the time scale of a planned trajectory."""

@@ -1,0 +1,1 @@
+"""Paths: segments, the limits along them, and the tube that smooths them."""

@@ -1,0 +1,1 @@
+"""The time law of a smooth chain: the fastest speed within every limit."""

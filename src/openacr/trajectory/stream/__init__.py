@@ -1,0 +1,1 @@
+"""From segments to setpoints: chains, corners, and the planner that joins their courses."""
