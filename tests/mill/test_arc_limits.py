@@ -360,3 +360,21 @@ def test_a_circle_from_rest_takes_a_sixth_longer_than_with_a_ramp_that_follows_t
         predictor.add(entry)
     predictor.close()
     assert predictor.found.feed_s / free_bound_s([circle], LIMIT) == pytest.approx(1.174, abs=0.001)
+
+
+def test_on_a_planned_path_the_turn_of_an_arc_takes_arc_acceleration_alone() -> None:
+    cells = {f"P{SPEEDS.path_jerk}": 800.0, f"P{SPEEDS.path_tolerance}": 0.001}
+    encoder = Encoder(Settings(shop(**cells, **limits(30.0)).store))
+    job = encoder.job(arc(1, at(2.0), (0.0, 0.0), 1.0), at(2.0))
+    assert job.path_tolerance_u == 0.001
+    assert job.feed_ups == pytest.approx(math.sqrt(LIMIT * 2.0), rel=1e-14)
+
+
+def test_the_tangents_of_an_arc_are_a_quarter_turn_ahead_of_its_radii() -> None:
+    end_u = (0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    job = Encoder(Settings(shop().store)).job(
+        c.Arc(src(1), end_u, c.Plane.XY, (0.0, 0.0), 0.5 * math.pi, 2.0, 2.0, c.Pace(60.0)),
+        at(2.0),
+    )
+    assert job.start == pytest.approx((0.0, 1.0, 0.0), abs=1e-15)
+    assert job.end == pytest.approx((-1.0, 0.0, 0.0), abs=1e-15)

@@ -169,6 +169,7 @@ def test_many_lines_together_and_one_by_one_are_planned_alike() -> None:
     single = [encoder.job(c.Line(src(), end, pace), begin) for begin, end in pairwise(begins)]
     for one, other in zip(many, single, strict=True):
         assert one.tolerance_u == other.tolerance_u == 0.01
+        assert one.length_u == pytest.approx(math.dist(one.begin, one.finish), rel=1e-12)
         assert one.ramp_ups2 == pytest.approx(other.ramp_ups2)
         assert one.start == pytest.approx(other.start)
 
