@@ -82,7 +82,7 @@ def observe(watch: Watch) -> Observation:
     assert not refused, [str(error) for error in refused]
     machine = PlayedCard(controller)
     scenario = load_scenario(watch.project / watch.scenario)
-    play, world = Play(scenario, machine.period_s), CardWorld(machine)
+    play, world = Play(scenario, machine.clock.period_s), CardWorld(machine)
     found = Observation(controller)
 
     def hear(text: str) -> None:
@@ -91,7 +91,7 @@ def observe(watch: Watch) -> Observation:
 
     machine.listen(hear, hear)
     before = frozenset[int]()
-    for _ in range(round((scenario.duration_s or 0.0) / machine.period_s)):
+    for _ in range(round((scenario.duration_s or 0.0) / machine.clock.period_s)):
         play.step(world)
         machine.advance(1)
         now = frozenset(flag for flag in watch.flags if controller.bit[flag])
