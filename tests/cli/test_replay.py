@@ -9,6 +9,8 @@ from tests.io.served import serving
 from typer.testing import CliRunner, Result
 
 from openacr.cli.main import app
+from openacr.controller import Controller
+from openacr.controller.recorder import Recorder
 from openacr.controller.ring import journals
 
 BLINK = "DIM P(2)\nPROG0\nPROGRAM\nPBOOT\n_L\nP0 = P0 + 1\nPRINT P0\nDWL 0.3\nGOTO L\nENDP\n"
@@ -39,6 +41,21 @@ def test_a_run_is_replayed_with_what_it_printed(journal: Path, blink: Path) -> N
     assert result.stdout.startswith("1\n2\n3\n4\n")
     assert "PROG0" in result.stdout
     assert "1.5 s replayed, 0 entries: 2 digests equal" in result.stderr
+
+
+def test_the_report_counts_from_the_beginning_of_the_journal_after_a_restart(
+    tmp_path: Path,
+) -> None:
+    card = Controller()
+    card.advance(seconds=0.4)
+    card.send("REBOOT\r")
+    card.advance(seconds=0.2)
+    card.recorder = Recorder(card, tmp_path / "b.journal")
+    card.advance(seconds=0.5)
+    card.close()
+    assert (card.lived_tk, card.tick) == (2200, 1400)
+    result = openacr("replay", tmp_path / "b.journal")
+    assert "0.5000 s simulated in 1000 ticks" in result.stdout
 
 
 def test_check_says_one_line(journal: Path) -> None:

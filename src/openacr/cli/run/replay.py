@@ -129,8 +129,7 @@ def _show_state(again: "Replay", wall_s: float) -> None:
     from openacr.cli.run.report import report_on, show_report
 
     machine = ControlledMachine(again.card)
-    begin_tk = again.card.tick - (again.card.lived_tk - again.journal.header.tick)
-    show_report(report_on(machine, max(0, begin_tk), wall_s), Console())
+    show_report(report_on(machine, again.journal.header.tick, wall_s), Console())
 
 
 def _conclude(again: "Replay", *, is_check: bool) -> None:
