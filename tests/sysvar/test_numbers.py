@@ -13,7 +13,6 @@ READERS = ("cnc", "mill", "cli", "source_check", "store")
 # Counts and sizes that happen to be numbers of cells, too.
 COUNTS = {
     "cnc/rows/runs.py": {100_000},
-    "cnc/interpreter/execution.py": {100_000},
     "cnc/interpreter/by_block/loops.py": {500_000},
     "cnc/loading/targets.py": {1_000_000},
     "mill/card/ballscrew.py": {1_000_000},

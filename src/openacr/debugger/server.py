@@ -44,8 +44,13 @@ def serve(
     except (BrokenPipeError, ConnectionError) as failure:
         log.info("the client is gone: %s", failure)
     finally:
-        with ending():
-            adapter.close()
+        try:
+            with ending():
+                adapter.close()
+        except KeyboardInterrupt:  # it came before it was kept out
+            with ending():
+                adapter.close()
+            raise
 
 
 def _read(incoming: IO[bytes], messages: Queue[Message]) -> None:
