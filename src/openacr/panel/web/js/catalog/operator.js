@@ -29,7 +29,7 @@ const FRAME = {
   },
   "stale.lost": {
     en: "No connection to the controller program. The machine may still be moving. Connecting again \u2026",
-    de: "Keine Verbindung zum Steuerungsprogramm. Die Maschine kann sich noch bewegen. Verbindung wird neu aufgebaut …",
+    de: "Keine Verbindung zum Steuerungsprogramm. Die Maschine kann sich noch bewegen. Neuer Versuch …",
   },
   "stale.card": {
     en: "The card does not answer. The machine may still be moving, the state of the spindle is unknown.",
