@@ -7,13 +7,24 @@ the same point of the same tick.
 """
 
 from openacr.basic.vm.scheduler_cy import EXECUTED, scheduler_step
-from openacr.engine.quiet_cy import plcs_step, quiet_step, quiet_stir
+from openacr.engine.quiet_cy import (
+    IN_FULL,
+    LEFT,
+    WAIT,
+    plcs_step,
+    quiet_begin,
+    quiet_end,
+    quiet_stir,
+)
 from openacr.engine.trace_cy import trace_tick
 from openacr.engine.watch_cy import watch_fired
+from openacr.kernel.axis.modules_cy import missing_outputs_step
+from openacr.kernel.tick_cy import tick
 from openacr.map import numbers as at
 from openacr.map.rows import engine, kernel, machine_devices, plcs, system
 from openacr.map.words import pf, plf, strm
 from openacr.network.wake_cy import networks_due
+from openacr.plant.physics.step_cy import plant_step
 from openacr.views import F32, F64, I32
 
 __all__ = ["engine_run"]
@@ -141,7 +152,18 @@ def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64, seen: I
             return TRACE_FULL
         I[engine.ticks_left] -= 1
         I[engine.statements] = 0
-        quiet_step(F, I, S, seen, axes)
+        trial: int = IN_FULL
+        if seen[WAIT] > 0:
+            seen[WAIT] -= 1
+        else:
+            trial = quiet_begin(F, I, S, seen, axes)
+        if trial != LEFT:
+            if I[kernel.missing_dacs]:
+                missing_outputs_step(I, S)  # programs may have written some
+            plant_step(F, I, S, axes, F[system.period_s])
+            tick(F, I, S)
+            if trial != IN_FULL:
+                quiet_end(I, seen, axes, trial)
         plcs_step(F, I, seen)
         if I[engine.trace_every] > 0:
             trace_tick(F, I, S, trace)

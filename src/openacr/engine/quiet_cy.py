@@ -19,12 +19,10 @@ The rows of `seen` from FIRST on are the copy; below FIRST, where the state has 
 parameters, it keeps what is known of the rest.
 """
 
-from openacr.kernel.axis.modules_cy import missing_outputs_step
 from openacr.kernel.axis.servo_cy import idle_enough, idle_step, servo_counts
 from openacr.kernel.path.master_cy import master_busy
 from openacr.kernel.sources.clock_cy import clock_step
 from openacr.kernel.sources.source_cy import DISARMED, FROM_PARAMETER
-from openacr.kernel.tick_cy import tick
 from openacr.map.numbers import (
     FLAG_LAST,
     FLAG_WORD_BASE,
@@ -40,7 +38,6 @@ from openacr.map.numbers import (
 )
 from openacr.map.rows import axes, kernel, sampler, sources, system, triggers
 from openacr.map.words import mo
-from openacr.plant.physics.step_cy import plant_step
 from openacr.plc.scan_cy import PLC_ACTED, PLC_IDLE, plc_step
 from openacr.views import F32, F64, I32
 
@@ -52,12 +49,16 @@ LEFT_OUT = 1  # ticks since the rest began
 WAIT = 2  # ticks until the next trial
 PAUSE = 3  # ticks without a disturbance before a trial; 0: no tick is ever left out
 
+# What is done with a tick: left out, executed, or executed as a trial of its kind.
+LEFT = -1
+IN_FULL = 0
 PLAIN = 1
 SCAN = 2  # the slow scan is due
 PLCS_IDLE = 4  # no PLC has anything to count: as nothing changes, none will have
 FIRST_PAUSE = 250
 LONGEST_PAUSE = 16000
 WORTH = 2000  # ticks left out that are worth their trials
+NEVER = 2147483647
 
 # The copy. Profiles, which change with the master or jog that runs them alone, stacks of programs
 # and their heap are not part of it.
@@ -71,53 +72,30 @@ BLOCK = 1024
 FLAGS_END = FLAG_WORD_BASE + FLAG_LAST // 32 + 1
 
 
-def machine_step(F: F64, I: I32, S: F32, axis_count: int) -> None:
-    """One servo period of the machine, then the servo interrupt."""
-    if I[kernel.missing_dacs]:
-        missing_outputs_step(I, S)  # programs may have written some
-    plant_step(F, I, S, axis_count, F[system.period_s])
-    tick(F, I, S)
+def quiet_begin(F: F64, I: I32, S: F32, seen: I32, axis_count: int) -> int:
+    """A tick begins: LEFT if nothing but the clocks would change, and they have advanced.
 
-
-def quiet_step(F: F64, I: I32, S: F32, seen: I32, axis_count: int) -> None:
-    """The same, or of a tick that is known to change nothing the clocks alone."""
-    if seen[PAUSE] == 0:
-        machine_step(F, I, S, axis_count)
-        return
-    if seen[WAIT] > 0:
-        seen[WAIT] -= 1
-        machine_step(F, I, S, axis_count)
-        return
+    Else it is to be executed in full; if it is a trial, its kind, for `quiet_end`.
+    """
     phase: int = I[system.slow_phase] + 1
     kind: int = PLAIN if phase < I[kernel.slow_ticks] else SCAN
     if seen[KNOWN] & kind:
         clocks_step(F, I, axis_count)
         I[system.slow_phase] = phase if kind == PLAIN else 0
         seen[LEFT_OUT] += 1
-    else:
-        quiet_try(F, I, S, seen, axis_count, kind)
-
-
-def clocks_step(F: F64, I: I32, axis_count: int) -> None:
-    """What a tick changes of a card at rest."""
-    period_s: float = F[system.period_s]
-    clock_step(F, I, period_s)
-    for n in range(axis_count):
-        if servo_counts(I, n):
-            idle_step(F, n, period_s)
-
-
-def quiet_try(F: F64, I: I32, S: F32, seen: I32, axis_count: int, kind: int) -> None:
-    """Execute a tick in full and see whether it changes nothing."""
+        return LEFT
     if not quiet_may_be(F, I, S):
-        machine_step(F, I, S, axis_count)
         seen[KNOWN] = 0
         seen[WAIT] = FIRST_PAUSE
-        return
+        return IN_FULL
     quiet_copy(I, seen, FIRST, FIRST_END)
     quiet_copy(I, seen, SECOND, SECOND_END)
     quiet_copy(I, seen, THIRD, END)
-    machine_step(F, I, S, axis_count)
+    return kind
+
+
+def quiet_end(I: I32, seen: I32, axis_count: int, kind: int) -> None:
+    """A trial ends: note whether its kind of tick changes nothing."""
     clocks_copy(I, seen, axis_count)
     if (
         quiet_same(I, seen, THIRD, END)
@@ -129,14 +107,26 @@ def quiet_try(F: F64, I: I32, S: F32, seen: I32, axis_count: int, kind: int) -> 
         quiet_stir(seen)
 
 
+def clocks_step(F: F64, I: I32, axis_count: int) -> None:
+    """What a tick changes of a card at rest."""
+    period_s: float = F[system.period_s]
+    clock_step(F, I, period_s)
+    for n in range(axis_count):
+        if servo_counts(I, n):
+            idle_step(F, n, period_s)
+
+
 def quiet_stir(seen: I32) -> None:
     """Something has changed, or may have: a rest has to be seen again."""
     pause: int = seen[PAUSE]
+    seen[KNOWN] = 0
+    if pause == 0:
+        seen[WAIT] = NEVER
+        return
     if seen[LEFT_OUT] >= WORTH:
         pause = FIRST_PAUSE
     elif seen[WAIT] == 0:  # trials were made
         pause = min(2 * pause, LONGEST_PAUSE)
-    seen[KNOWN] = 0
     seen[LEFT_OUT] = 0
     seen[PAUSE] = pause
     seen[WAIT] = pause
