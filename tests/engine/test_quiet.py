@@ -1,5 +1,7 @@
 """Ticks that change nothing but the clocks are left out, and the state is the same to the bit."""
 
+from pathlib import Path
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -57,6 +59,9 @@ def test_of_ten_seconds_at_rest_nearly_all_ticks_are_left_out() -> None:
     assert quick.digest() == full.digest()
 
 
+PROJECTS = sorted(
+    {path.parent for path in (Path(__file__).parents[2] / "examples").glob("*/setup.8k")}
+)
 PROGRAMS = (
     ("10 P0=P0+1", "20 DWL 1.3", "30 GOTO 10"),
     ("10 INH 32", "20 P1=P1+1", "30 INH -32", "40 GOTO 10"),
@@ -142,6 +147,15 @@ def test_while_plcs_scan_the_state_is_that_of_ticks_in_full(lines: tuple[str, ..
         card.send("".join(f"{line}\r" for line in lines) + "RUN\rPROG0\r")
     most = rest_in_pieces(cards)
     assert most > 1000 or "80" in lines[0]
+
+
+@pytest.mark.parametrize("project", PROJECTS, ids=lambda project: project.name)
+def test_of_every_example_the_state_is_that_of_ticks_in_full(project: Path) -> None:
+    cards = (Controller.from_project(project), Controller.from_project(project))
+    cards[1].leave_out_rest(False)
+    for card in cards:
+        card.send("PROG0\rRUN\r")
+    rest_in_pieces(cards)
 
 
 ACTS = st.sampled_from(

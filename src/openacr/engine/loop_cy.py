@@ -11,9 +11,11 @@ from openacr.engine.quiet_cy import (
     IN_FULL,
     LEFT,
     WAIT,
+    is_unattended,
     plcs_step,
     quiet_begin,
     quiet_end,
+    quiet_rest,
     quiet_stir,
 )
 from openacr.engine.trace_cy import trace_tick
@@ -142,6 +144,8 @@ def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64, seen: I
             if I[engine.stop]:
                 I[engine.stop] = 0
                 return STOPPED
+        if is_unattended(I, seen):
+            quiet_rest(F, I, seen, axes, number)
         if I[engine.ticks_left] <= 0:
             return DONE
         if (

@@ -36,8 +36,21 @@ from openacr.map.numbers import (
     W_MISC_OUTPUTS,
     WATF_BASE,
 )
-from openacr.map.rows import axes, kernel, sampler, sources, system, triggers
+from openacr.map.rows import (
+    axes,
+    engine,
+    kernel,
+    machine_devices,
+    network_master,
+    networks,
+    sampler,
+    scheduler,
+    sources,
+    system,
+    triggers,
+)
 from openacr.map.words import mo
+from openacr.network.wake_cy import RUNNING
 from openacr.plc.scan_cy import PLC_ACTED, PLC_IDLE, plc_step
 from openacr.views import F32, F64, I32
 
@@ -80,9 +93,8 @@ def quiet_begin(F: F64, I: I32, S: F32, seen: I32, axis_count: int) -> int:
     phase: int = I[system.slow_phase] + 1
     kind: int = PLAIN if phase < I[kernel.slow_ticks] else SCAN
     if seen[KNOWN] & kind:
-        clocks_step(F, I, axis_count)
-        I[system.slow_phase] = phase if kind == PLAIN else 0
-        seen[LEFT_OUT] += 1
+        clocks_step(F, I, axis_count, phase if kind == PLAIN else 0)
+        seen[LEFT_OUT] = min(seen[LEFT_OUT] + 1, NEVER)
         return LEFT
     if not quiet_may_be(F, I, S):
         seen[KNOWN] = 0
@@ -107,10 +119,52 @@ def quiet_end(I: I32, seen: I32, axis_count: int, kind: int) -> None:
         quiet_stir(seen)
 
 
-def clocks_step(F: F64, I: I32, axis_count: int) -> None:
-    """What a tick changes of a card at rest."""
+def quiet_rest(F: F64, I: I32, seen: I32, axis_count: int, number: int) -> None:
+    """Let ticks pass that nothing attends, up to the last one before something is due.
+
+    Both kinds of ticks are known to change nothing, and no request was set at the latest scan.
+    """
+    left: int = I[engine.ticks_left]
+    devices_tk: float = F[machine_devices.due_tk]
+    networks_tk: float = F[networks.due_tk]
+    next_tk: float = float(number + 1)
+    phase: int = I[system.slow_phase]
+    scan_at: int = I[kernel.slow_ticks]
+    while (
+        left > 0
+        and (devices_tk <= 0.0 or next_tk < devices_tk)
+        and (networks_tk <= 0.0 or next_tk < networks_tk)
+    ):
+        phase += 1
+        if phase >= scan_at:
+            phase = 0
+        clocks_step(F, I, axis_count, phase)
+        left -= 1
+        next_tk += 1.0
+    seen[LEFT_OUT] = min(seen[LEFT_OUT] + I[engine.ticks_left] - left, NEVER)
+    I[engine.ticks_left] = left
+
+
+def is_unattended(I: I32, seen: I32) -> bool:
+    """Whether only clocks would advance in the ticks to come: nothing runs, waits or watches."""
+    return (
+        seen[KNOWN] == PLAIN | SCAN | PLCS_IDLE
+        and I[scheduler.programs] == 0
+        and I[scheduler.channels] == 0
+        and I[engine.until_word] <= 0
+        and I[engine.watch_count] == 0
+        and I[engine.stop] == 0
+        and I[engine.trace_every] <= 0
+        and I[kernel.moves_waiting] == 0
+        and I[network_master.phase] != RUNNING
+    )
+
+
+def clocks_step(F: F64, I: I32, axis_count: int, phase: int) -> None:
+    """What a tick changes of a card at rest; `phase`: ticks since the slow scan."""
     period_s: float = F[system.period_s]
     clock_step(F, I, period_s)
+    I[system.slow_phase] = phase
     for n in range(axis_count):
         if servo_counts(I, n):
             idle_step(F, n, period_s)
