@@ -11,7 +11,11 @@ from openacr import compiled
 from openacr.controller import Controller
 from openacr.controller.engine_run import EngineRun
 from openacr.engine import quiet_cy
+from openacr.engine.watches import Watch, Watched
+from openacr.map.numbers import W_MISC_INPUTS
+from openacr.map.rows import machine_devices
 from openacr.models import ACR9040
+from openacr.plant.describe import schema
 
 pytestmark = pytest.mark.skipif(
     not compiled.is_compiled, reason="as plain Python no tick is left out"
@@ -149,13 +153,60 @@ def test_while_plcs_scan_the_state_is_that_of_ticks_in_full(lines: tuple[str, ..
     assert most > 1000 or "80" in lines[0]
 
 
+@pytest.mark.parametrize("line", ["RUN", "HALT ALL"])
 @pytest.mark.parametrize("project", PROJECTS, ids=lambda project: project.name)
-def test_of_every_example_the_state_is_that_of_ticks_in_full(project: Path) -> None:
+def test_of_every_example_the_state_is_that_of_ticks_in_full(project: Path, line: str) -> None:
     cards = (Controller.from_project(project), Controller.from_project(project))
     cards[1].leave_out_rest(False)
     for card in cards:
-        card.send("PROG0\rRUN\r")
+        card.send(f"PROG0\r{line}\r")
     rest_in_pieces(cards)
+
+
+def test_a_device_that_is_stepped_seldom_is_stepped_at_its_tick_of_a_rest() -> None:
+    described = schema.default_world(ACR9040).card
+    gripper = schema.DeviceTable(
+        kind="gripper", name="jaw", outputs={"close": 33}, inputs={"gripped": 12}, period_s=0.9
+    )
+    cards = (
+        Controller(ACR9040, world=schema.World(card=described, device=(gripper,))),
+        Controller(ACR9040, world=schema.World(card=described, device=(gripper,))),
+    )
+    cards[1].leave_out_rest(False)
+    for _ in range(3):
+        engine_of(cards[0])._seen[quiet_cy.PAUSE] = 20
+        for card in cards:
+            due_tk = int(card.memory.F[machine_devices.due_tk])
+            card.advance(due_tk - card.clock.tick)
+        assert cards[0].digest() == cards[1].digest()
+    cards[0].advance(1000)
+    assert left_out(cards[0]) > 500
+
+
+def test_a_flag_or_value_that_is_waited_for_at_rest_ends_it_at_its_tick() -> None:
+    cards = both()
+    minute = Watch(Watched.WORD, W_MISC_INPUTS, 1 << 19)
+    for card in cards:
+        card.advance(seconds=2.0)
+        assert card.until(82, False, timeout_s=2.0)
+        assert card.until(82, True, timeout_s=2.0)
+        at_ms = card.clock.tick
+        card.watch([minute])
+        card.advance(seconds=90.0)
+        assert (at_ms, card.clock.tick) == (6000, 60_000)
+    assert cards[0].digest() == cards[1].digest()
+
+
+def test_a_trace_of_a_rest_has_every_sample() -> None:
+    cards = both()
+    traces = []
+    for card in cards:
+        card.advance(seconds=1.0)
+        card.record(7)
+        card.advance(seconds=3.0)
+        traces.append(card.take_trace())
+    assert len(traces[0].time_s) == len(traces[1].time_s) > 800
+    assert list(traces[0].time_s) == list(traces[1].time_s)
 
 
 ACTS = st.sampled_from(
