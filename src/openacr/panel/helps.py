@@ -1,4 +1,4 @@
-"""Help texts of the keys: pages of those that open something; commands have theirs beside them."""
+"""Pages of HELP of menus and forms; a command has its page beside it, a screen in its file."""
 
 from typing import NamedTuple
 
@@ -18,20 +18,6 @@ class Page(NamedTuple):
 
 
 HELPS = (
-    Page(
-        "edit",
-        "EDIT",
-        "Choose a file of the list, or type its name: one that does not exist begins a new part"
-        " program. Errors are marked while you type. The program that is running"
-        " cannot be stored; a program that is loaded has to be loaded again to take the change.",
-        de=(
-            "EDITOR",
-            "Eine Datei der Liste wählen oder ihren Namen eingeben: Einer, den es nicht"
-            " gibt, beginnt ein neues Programm. Fehler werden beim Schreiben angezeigt."
-            " Das Programm, das läuft, kann nicht gespeichert werden; ein geladenes"
-            " Programm muss neu geladen werden, damit die Änderung gilt.",
-        ),
-    ),
     Page(
         "setup",
         "RUN SETUP",
@@ -56,17 +42,6 @@ HELPS = (
         "FEEDRATE",
         "The feed of programs before their first F; 0: Cut Speed.",
         de=("VORSCHUB", "Der Vorschub von Programmen vor ihrem ersten F; 0: Cut Speed."),
-    ),
-    Page(
-        "pparm",
-        "P PARM",
-        "P0 to P99 are variables of the card, P100 to P199 of the store. Programs read and write"
-        " them while they run.",
-        de=(
-            "P PARAM",
-            "P0 bis P99 sind Variablen der Karte, P100 bis P199 des Speichers. Programme"
-            " lesen und schreiben sie, während sie laufen.",
-        ),
     ),
     Page(
         "modals",
@@ -107,18 +82,6 @@ HELPS = (
         ),
     ),
     Page(
-        "offsets",
-        "OFFSETS",
-        "Radii (D) and lengths (H) of tools with their wear, ballscrew tables, backlash, reference"
-        " points. SAVE PAGE stores the page; a value that is refused stays in its field.",
-        de=(
-            "KORREKTUREN",
-            "Radien (D) und Längen (H) der Werkzeuge mit ihrem Verschleiß, Tabellen der"
-            " Kugelgewindetriebe, Umkehrspiel, Referenzpunkte. SEITE SPEICHERN speichert"
-            " die Seite; ein Wert, der abgelehnt wird, bleibt in seinem Feld.",
-        ),
-    ),
-    Page(
         "work",
         "WORK COORDINATES",
         "The zeros of G54 to G59.2 in machine positions. TEACH makes the present position the zero"
@@ -142,39 +105,6 @@ HELPS = (
         ),
     ),
     Page(
-        "io",
-        "I/O STATUS",
-        "Every input and output of the card and of its expansion modules, live, with the names of"
-        " I/O NAMES. The numbers are those of the flags of the card.",
-        de=(
-            "E/A STATUS",
-            "Jeder Eingang und Ausgang der Karte und ihrer Erweiterungen, laufend, mit"
-            " den Namen aus E/A NAMEN. Die Nummern sind die der Merker der Karte.",
-        ),
-    ),
-    Page(
-        "servo",
-        "SERVO LOOP",
-        "The whole loop of one axis, live: setpoints, gains, the terms they give, filters, output.",
-        de=(
-            "REGELKREIS",
-            "Der ganze Regelkreis einer Achse, laufend: Sollwerte, Verstärkungen, die"
-            " Anteile daraus, Filter, Ausgang.",
-        ),
-    ),
-    Page(
-        "cpu",
-        "CPU LOAD",
-        "How much of its time the processor of the card is busy, in per cent.",
-        de=("CPU-LAST", "Wie viel ihrer Zeit der Prozessor der Karte beschäftigt ist, in Prozent."),
-    ),
-    Page(
-        "fast",
-        "FAST STATUS",
-        "The copies that the card keeps for fast readers, live.",
-        de=("FAST STATUS", "Die Kopien, welche die Karte für schnelle Leser hält, laufend."),
-    ),
-    Page(
         "display",
         "DISPLAY",
         "BUTTON PANEL: push buttons of the screen. I/O NAMES: names of inputs and outputs. USER"
@@ -187,11 +117,5 @@ HELPS = (
             " ist. ANSICHTEN: was SICHT 1 bis 3 zeigen. FENSTER ZURÜCK: Dieser Browser"
             " sieht wieder aus wie am Anfang.",
         ),
-    ),
-    Page(
-        "help",
-        "HELP",
-        "A page on every key: choose it on the left.",
-        de=("HILFE", "Eine Seite zu jeder Taste: links wählen."),
     ),
 )

@@ -15,6 +15,10 @@ const SHARE = /^(\w+) ([\d.]+)%$/;
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: { en: "CPU load", de: "CPU-Last" },
+  help: {
+    en: "How much of its time the processor of the card is busy, in per cent.",
+    de: "Wie viel seiner Zeit der Prozessor der Karte beschäftigt ist, in Prozent.",
+  },
   area: "full",
   async show({ body, endings }) {
     const host = h("div.stack", { role: "status" });

@@ -26,6 +26,16 @@ const TEXTS = {
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: TEXTS.title,
+  help: {
+    en:
+      "Choose a file of the list, or type its name: one that does not exist begins a new part program. Errors are " +
+      "marked while you type. The program that is running cannot be stored; a program that is loaded has to be " +
+      "loaded again to take the change.",
+    de:
+      "Eine Datei der Liste wählen oder ihren Namen eingeben: ein neuer Name beginnt ein neues Teileprogramm. " +
+      "Fehler werden beim Tippen markiert. Das laufende Programm lässt sich nicht speichern; ein geladenes Programm " +
+      "muss neu geladen werden, damit die Änderung wirkt.",
+  },
   area: "full",
   async show({ body, head, endings, args, setTitle, beforeClose }) {
     const { createEditor } = await import("../edit/editor.js");

@@ -6,6 +6,10 @@ import { watchTable } from "../frame/watch_table.js";
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: { en: "Fast status", de: "Fast Status" },
+  help: {
+    en: "The copies that the card keeps for fast readers, live.",
+    de: "Die Kopien, die die Karte für schnelle Leser bereithält, laufend.",
+  },
   area: "full",
   async show({ body, endings }) {
     const host = h("div.fact-groups", {});

@@ -35,6 +35,7 @@ const PAGES = {
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: { en: "Help", de: "Hilfe" },
+  help: { en: "A page on every key: choose it on the left.", de: "Eine Seite zu jeder Taste: links wählen." },
   area: "full",
   show({ body, head, endings }) {
     const newest = latest(endings);

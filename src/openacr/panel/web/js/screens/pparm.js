@@ -13,6 +13,12 @@ const EVERY_MS = 1000;
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: { en: "P parameters", de: "P-Parameter" },
+  help: {
+    en: "P0 to P99 are variables of the card, P100 to P199 of the store. Programs read and write them while they run.",
+    de:
+      "P0 bis P99 sind Variablen der Karte, P100 bis P199 solche des Speichers der Maschine. Programme lesen und " +
+      "schreiben sie, während sie laufen.",
+  },
   area: "full",
   show({ body, endings }) {
     /** @type {number[]} */

@@ -22,6 +22,10 @@ const [OPEN, FILTER, FLAGS] = [785, 786, 32]; // flags of axis 0: open servo loo
 /** @type {import("../frame/screen_host.js").Screen} */
 export const screen = {
   title: "servo.title",
+  help: {
+    en: "The whole loop of one axis, live: setpoints, gains, the terms they give, filters, output.",
+    de: "Der ganze Regelkreis einer Achse, laufend: Sollwerte, Verstärkungen, ihre Anteile, Filter, Ausgang.",
+  },
   area: "full",
   async show({ body, endings }) {
     const own = new Endings();
