@@ -292,7 +292,7 @@ def set_up(station: Station, session: MillSession) -> None:
     page=Page(
         "stop",
         "STOP",
-        "The program is held. RESUME goes on where the path was left; axes that were jogged away"
+        "The program is held. RESUME continues where the path was left; axes that were jogged away"
         " return first. ABORT ends the program. The path can be traced back and forward.\n\nA stop"
         " by software is no emergency stop.",
         de=(

@@ -103,7 +103,7 @@ def _require_halted(station: Station, level: Level) -> None:
         "programs",
         "PROGRAM/PLC",
         "The programs and PLCs of the card: what each does, and its text with the line that is"
-        " executed. RUN starts one, HALT ends it and its motion, PAUSE holds it, RESUME goes on."
+        " executed. RUN starts one, HALT ends it and its motion, PAUSE holds it until RESUME."
         " With BLOCK a program waits before every line for STEP. LISTEN shows what it prints.\n\n"
         "EDIT changes the text: numbered lines, or the text between PROGRAM and ENDP; SEND stores"
         " it on the card and compares the listing. What the card refuses leaves the former text."

@@ -171,7 +171,7 @@ def close(part: Part) -> None:
         "RUN PROG",
         "RUN starts the loaded program at a line. At a later line than 1 the lines before it are"
         " read without motion: what differs is shown and confirmed; then Z goes up, the axes go"
-        " over the place and down at feed.\n\nSTOP holds the feed. START goes on after a stop of"
+        " over the place and down at feed.\n\nSTOP holds the feed. START continues after a stop of"
         " the program, and where a tool is asked for once it is in the spindle. DRY RUN moves"
         " at Trial Speed, M codes have no effect. BLOCK stops after"
         " every block.",

@@ -72,7 +72,7 @@ class Listening:
             self.end()
 
     def end(self) -> None:
-        """End the connection; the program goes on."""
+        """End the connection; the program continues."""
         self._aside.end()
         self._program = None
 
