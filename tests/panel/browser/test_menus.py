@@ -12,6 +12,7 @@ from tests.panel.browser.conftest import (
     give,
     hold_answers,
     left_over,
+    let_through,
     open_page,
     release_answers,
     until,
@@ -246,6 +247,25 @@ def test_of_two_screens_the_one_that_was_asked_for_last_is_shown(
     expect(page.locator("#screen")).to_be_hidden()
     assert page.locator("#menu").get_attribute("data-shown") == "main"
     page.close()
+
+
+def test_a_list_that_is_drawn_anew_leaves_the_focus_where_it_was(page: Page) -> None:
+    """The list of programs is drawn again when it is known what the project has."""
+    held: list[Route] = []
+    page.route("**/api/project", lambda route: held.append(route))
+    page.evaluate(SHOW, "diag")
+    page.keyboard.press("F6")
+    chosen = page.locator("#screen [role=option][aria-selected=true]")
+    expect(chosen).to_be_focused()
+    until(page, lambda: held)
+    page.keyboard.press("Tab")
+    expect(chosen.locator("xpath=following-sibling::*[1]")).to_be_focused()
+    page.evaluate("document.activeElement.isOld = true")
+    let_through(page, held[0])
+    page.wait_for_function("() => document.activeElement.matches('#screen [role=option]')")
+    page.wait_for_function("() => !document.activeElement.isOld")
+    expect(chosen.locator("xpath=following-sibling::*[1]")).to_be_focused()
+    page.unroute("**/api/project")
 
 
 def test_a_late_answer_to_abort_leaves_the_menu_that_was_chosen_meanwhile(page: Page) -> None:

@@ -50,12 +50,24 @@ export function setText(element, text) {
 }
 
 /**
- * Replace the children of an element.
+ * Replace the children of an element. The one that had the focus has it again, found by its name: what is drawn anew
+ * takes nothing from the keyboard.
  * @param {Element} element
  * @param {...(Child | Child[])} children
  */
 export function fill(element, ...children) {
+  const before = document.activeElement;
+  const name = before !== element && element.contains(before) ? nameOf(before) : "";
   element.replaceChildren(...children.flat().filter(isShown));
+  if (!name) return;
+  for (const each of element.querySelectorAll("button, input, select, textarea, [tabindex]"))
+    if (nameOf(each) === name) return /** @type {HTMLElement} */ (each).focus();
+}
+
+/** @param {Element | null} element */
+function nameOf(element) {
+  if (!(element instanceof HTMLElement)) return "";
+  return element.dataset.name || element.id || element.ariaLabel || element.textContent || "";
 }
 
 /**

@@ -234,7 +234,6 @@ export const screen = {
         (/** @type {string} */ cmd, values = {}) =>
         () =>
           void give(cmd, { ...which(), ...values });
-      const focused = keys.contains(document.activeElement) ? document.activeElement?.textContent : "";
       if (!text.hidden)
         fill(
           keys,
@@ -272,8 +271,6 @@ export const screen = {
           key(TEXTS.clear, () => clear(), { disabled: Boolean(bar) || isRunning || !lines.length }),
         );
       if (bar) keys.append(h("p.hint", {}, bar));
-      const again = [...keys.querySelectorAll("button")].find((each) => each.textContent === focused && !each.disabled);
-      again?.focus();
     }
 
     async function run() {

@@ -95,9 +95,6 @@ export async function mount(host, { head, kept, keep }) {
         ? found.levels.map(({ word, line }) => h("span.level", {}, `${word} ${line}`))
         : [h("span.hint", {}, found.why || t(TEXTS.nolevels))]),
     );
-    const focused = own.contains(document.activeElement)
-      ? /** @type {HTMLElement} */ (document.activeElement).ariaLabel
-      : "";
     fill(
       own,
       headOf(TEXTS.own),
@@ -109,7 +106,6 @@ export async function mount(host, { head, kept, keep }) {
           )
         : [h("tr", {}, h("td.quiet", { colSpan: 2 }, t(TEXTS.none)))]),
     );
-    if (focused) [...own.querySelectorAll("button")].find((each) => each.ariaLabel === focused)?.focus();
   }
 
   /**
