@@ -23,6 +23,9 @@ export function useLanguage(language) {
   document.documentElement.lang = language;
 }
 
+/** The chosen language. */
+export const language = () => chosen;
+
 /**
  * Add the texts of another workspace.
  * @param {Record<string, Text>} texts

@@ -1,5 +1,6 @@
 // One row of a form: its field by its kind, with unit, limits, default, help and refusal.
 import { h, setText } from "../core/dom.js";
+import { refusalText, settingText } from "../core/settings_texts.js";
 import { t } from "../core/texts.js";
 import { PENS } from "../draw/colors.js";
 import { askNumber } from "./number_pad.js";
@@ -55,7 +56,7 @@ export function fieldFor(row, changed, isPerAxis = false) {
   };
   /** @param {string} reason */
   function refuse(reason) {
-    setText(refusal, reason);
+    setText(refusal, refusalText(reason));
     refusal.hidden = !reason;
     if (reason) input.setAttribute("aria-invalid", "true");
     else input.removeAttribute("aria-invalid");
@@ -74,7 +75,7 @@ export function fieldFor(row, changed, isPerAxis = false) {
             ariaLabel: t("pad.open"),
             onclick: async () => {
               const value = await askNumber({
-                title: row.name,
+                title: settingText(row.name),
                 value: Number(input.value.replace(",", ".")) || 0,
                 unit: row.unit,
                 hint: limitsOf(row),
@@ -91,7 +92,11 @@ export function fieldFor(row, changed, isPerAxis = false) {
     element: h(
       "div.form-row",
       {},
-      h("label", { htmlFor: id }, row.axis_name && !isPerAxis ? `${row.axis_name}  ${row.name}` : row.name),
+      h(
+        "label",
+        { htmlFor: id, title: row.name },
+        row.axis_name && !isPerAxis ? `${row.axis_name}  ${settingText(row.name)}` : settingText(row.name),
+      ),
       h("div.row.form-input", {}, input, row.unit ? h("span.unit", {}, row.unit) : "", pad),
       hint,
       isColour(row) ? swatches(row, input) : "",
@@ -123,11 +128,11 @@ function isColour(row) {
  */
 function swatches(row, input) {
   const keys = PENS.map((pen, n) => {
-    const name = `${n}: ${row.words?.[n]}`;
+    const name = `${n}: ${settingText(row.words?.[n] ?? "")}`;
     const key = h("button.swatch", {
       type: "button",
       title: name,
-      ariaLabel: `${row.name} ${name}`,
+      ariaLabel: `${settingText(row.name)} ${name}`,
       disabled: row.fixed,
       onclick: () => {
         input.value = String(n);
@@ -140,7 +145,7 @@ function swatches(row, input) {
   const name = h("span.hint", {});
   const draw = () => {
     const chosen = Number(input.value.trim() || NaN);
-    setText(name, row.words?.[chosen] ?? "");
+    setText(name, settingText(row.words?.[chosen] ?? ""));
     keys.forEach((key, n) => {
       key.ariaPressed = String(n === chosen);
     });
@@ -173,7 +178,7 @@ function bitBoxes(row, input) {
     });
   input.addEventListener("input", draw);
   draw();
-  return h("div.bits", {}, ...bits.map((text, n) => h("label.row", {}, boxes[n], `${n}: ${text}`)));
+  return h("div.bits", {}, ...bits.map((text, n) => h("label.row", {}, boxes[n], `${n}: ${settingText(text)}`)));
 }
 
 /**
@@ -187,7 +192,7 @@ function inputFor(row, id) {
   if (row.words && row.kind === "choice") {
     const chosen = String(row.number_value);
     const options = Object.entries(row.words).map(([value, text]) =>
-      h("option", { value, selected: value === chosen }, text),
+      h("option", { value, selected: value === chosen }, settingText(text)),
     );
     if (!(chosen in row.words)) options.unshift(h("option", { value: row.value, selected: true }, row.value));
     return h("select.field", { id, disabled: row.fixed }, ...options);
@@ -218,13 +223,15 @@ function hintOf(row) {
   const facts = [
     limitsOf(row),
     ...(row.kind === "integer" && !isColour(row)
-      ? Object.entries(row.words ?? {}).map(([value, word]) => `${value}: ${word}`)
+      ? Object.entries(row.words ?? {}).map(([value, word]) => `${value}: ${settingText(word)}`)
       : []),
-    row.typical ? t("field.typical", { value: row.typical }) : "",
-    row.default !== "" && !row.is_default ? t("field.default", { value: row.words?.[row.default] ?? row.default }) : "",
+    row.typical ? t("field.typical", { value: settingText(row.typical) }) : "",
+    row.default !== "" && !row.is_default
+      ? t("field.default", { value: settingText(row.words?.[row.default] ?? row.default) })
+      : "",
     row.motion ? t("field.motion") : "",
   ]
     .filter(Boolean)
     .join(" \u00b7 ");
-  return [row.help, facts].filter(Boolean).join(" \u2014 ");
+  return [settingText(row.help), facts].filter(Boolean).join(" \u2014 ");
 }

@@ -3,6 +3,7 @@ import { ApiError, get, latest, send } from "../core/api.js";
 import { model, refuse, report } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
 import { keyOf } from "../core/keys.js";
+import { loadSettingTexts, settingText } from "../core/settings_texts.js";
 import { t } from "../core/texts.js";
 import { fieldFor } from "./field.js";
 import { logIn } from "./log_in.js";
@@ -53,11 +54,18 @@ export function showForm(host, name, endings, setTitle = () => {}) {
   function changedNow() {
     const count = changed().length;
     saveKey.disabled = undoKey.disabled = count === 0;
-    setText(note, count ? t("form.changed", { count }) : form?.locked ? t("form.locked", { reason: form.locked }) : "");
+    setText(
+      note,
+      count ? t("form.changed", { count }) : form?.locked ? t("form.locked", { reason: settingText(form.locked) }) : "",
+    );
   }
 
   /** @returns {Promise<Form>} */
-  const stored = () => get(`forms/${name}`, { axis: form?.per_axis === false ? undefined : axis, first, count: PAGE });
+  async function stored() {
+    const shown = { axis: form?.per_axis === false ? undefined : axis, first, count: PAGE };
+    const [found] = await Promise.all([get(`forms/${name}`, shown), loadSettingTexts()]);
+    return found;
+  }
 
   /** Draw what is stored. What was typed is dropped. */
   async function load() {
@@ -100,7 +108,7 @@ export function showForm(host, name, endings, setTitle = () => {}) {
 
   /** @param {Form} shown */
   function draw(shown) {
-    setTitle(shown.title);
+    setTitle(settingText(shown.title));
     setText(saveKey, t(shown.section === "OFFSETS" ? "form.savepage" : "form.save"));
     fields = new Map();
     const isBarred = !model.may(shown.role);
@@ -122,7 +130,7 @@ export function showForm(host, name, endings, setTitle = () => {}) {
         h(
           "fieldset.form-group",
           { disabled: isBarred },
-          group.title ? h("legend", {}, group.title) : "",
+          group.title ? h("legend", {}, settingText(group.title)) : "",
           ...group.rows.map((row) => {
             const field = fieldFor(row, changedNow, shown.per_axis);
             fields.set(String(row.number), field);

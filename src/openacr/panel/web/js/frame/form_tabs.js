@@ -1,6 +1,7 @@
 // Several forms as tabs of one screen.
 import { get } from "../core/api.js";
 import { fill, h } from "../core/dom.js";
+import { loadSettingTexts, settingText } from "../core/settings_texts.js";
 import { Endings } from "../core/signal.js";
 import { showForm } from "./form.js";
 
@@ -18,7 +19,7 @@ import { showForm } from "./form.js";
  * @param {Page[]} [pages]
  */
 export async function showFormTabs({ body, endings, beforeClose }, isMeant, pages = []) {
-  const { forms } = await get("forms");
+  const [{ forms }] = await Promise.all([get("forms"), loadSettingTexts()]);
   const mine = forms
     .filter(isMeant)
     .flatMap((/** @type {any} */ form) => [...pages.filter((page) => page.before === form.name), form]);
@@ -51,7 +52,7 @@ export async function showFormTabs({ body, endings, beforeClose }, isMeant, page
       h(
         "button.key.item",
         { type: "button", role: "tab", data: { form: form.name }, onclick: () => choose(form.name) },
-        form.title,
+        settingText(form.title),
       ),
     ),
   );

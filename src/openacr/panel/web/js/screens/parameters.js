@@ -1,6 +1,7 @@
 // SYS PARAM: the tabs of the parameters of the machine, with a search over all of them.
 import { get, latest } from "../core/api.js";
 import { fill, h } from "../core/dom.js";
+import { searchedTexts, settingText } from "../core/settings_texts.js";
 import { t } from "../core/texts.js";
 import { showFormTabs } from "../frame/form_tabs.js";
 
@@ -27,9 +28,11 @@ export const screen = {
       const text = field.value.trim();
       found.hidden = text.length < 2;
       if (found.hidden) return;
-      const answer = await newest(get("settings/search", { text })).catch(() => ({ cells: [] }));
-      if (!answer) return;
-      const { cells } = answer;
+      const asked = searchedTexts(text).map((each) => get("settings/search", { text: each }));
+      const answers = await newest(Promise.all(asked)).catch(() => []);
+      if (!answers) return;
+      const all = answers.flatMap((each) => each.cells);
+      const cells = [...new Map(all.map((/** @type {any} */ each) => [each.number, each])).values()];
       fill(found, ...(cells.length ? cells.slice(0, 30).map(rowOf) : [h("p.hint", {}, t(TEXTS.nothing))]));
     };
     const rowOf = (/** @type {any} */ cell) =>
@@ -42,7 +45,7 @@ export const screen = {
             /** @type {HTMLElement | null} */ (place.body.querySelector(`[data-form="${cell.form}"]`))?.click();
           },
         },
-        h("span.name", {}, cell.name),
+        h("span.name", { title: cell.name }, settingText(cell.name)),
         h("span.quiet", {}, `${cell.form}  P${cell.number}`),
       );
     await showFormTabs(place, (form) => form.section === "SYS PARAM");
