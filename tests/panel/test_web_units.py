@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 from playwright._impl._driver import compute_driver_executable
 
+from openacr.configure.dialogs import DIALOGS, Dialog
 from openacr.panel.commands.all import COMMANDS
 from openacr.panel.forms.catalogue import FORMS
 from openacr.panel.forms.form import Form
@@ -54,6 +55,12 @@ def texts_of(form: Form, store: Store) -> Iterator[str]:
             yield from (each.name, each.row.doc, each.row.typical, *each.row.words.values(), *each.row.bits)
 
 
+def texts_of_rows(dialog: Dialog) -> Iterator[str]:
+    """What a dialog of the wizard asks, in English."""
+    for row in dialog.rows:
+        yield from (row.title, row.help)
+
+
 def refusals(store: Store) -> Iterator[str]:
     """Why values are refused, in English."""
     for form, cell, value in WRONG:
@@ -67,6 +74,7 @@ def test_the_functions_of_the_screens_do_what_their_tests_say() -> None:
     titles = json.dumps([name for name, row in COMMANDS.items() if row.titles])
     with Store() as store:
         texts = {text for form in FORMS.values() for text in texts_of(form, store)}
+        texts |= {text for each in DIALOGS for text in (each.title, *texts_of_rows(each))}
         settings = json.dumps(sorted({re.sub(r"[0-9]+(\.[0-9]+)*", "{}", each) for each in texts}))
         reasons = json.dumps(list(refusals(store)))
     given = {"TITLES": titles, "SETTINGS": settings, "REFUSALS": reasons}

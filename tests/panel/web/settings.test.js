@@ -41,7 +41,7 @@ test("in English the texts are as they came, in German with their numbers", asyn
   await loadSettingTexts();
   assert.equal(settingText(name), "Textfarbe von Meldung 12");
   assert.equal(settingText("Offset of G59.1."), "Verschiebung von G59.1.");
-  assert.deepEqual(searchedTexts("schleppfehlerg"), ["schleppfehlerg", "ExcessErr Band"]);
+  assert.deepEqual(searchedTexts("nullmarkens"), ["nullmarkens", "Marker Speed", "Replaces Marker Speed of HOME,"]);
   assert.equal(
     settingText("Probe Input 3 of somewhere"),
     "Probe Input 3 of somewhere", // a text that is not known stays

@@ -4,6 +4,7 @@ import { refuse, report } from "../../core/app.js";
 import { fill, h } from "../../core/dom.js";
 import { keyOf } from "../../core/keys.js";
 import { Endings } from "../../core/signal.js";
+import { loadSettingTexts, settingText } from "../../core/settings_texts.js";
 import { t } from "../../core/texts.js";
 import { changed, valueAt, whereOf, withOneMore } from "../wizard/answers.js";
 import { formOf } from "../wizard/form.js";
@@ -38,7 +39,7 @@ const REMARK = / : REM (.*)$/;
  */
 export async function mount(host, { head, kept, keep }) {
   /** @type {{ dialogs: Dialog[], answers: Answers }} */
-  const { dialogs, answers: first } = await get("configure");
+  const { dialogs, answers: first } = (await Promise.all([get("configure"), loadSettingTexts()]))[0];
   let answers = /** @type {Answers} */ (kept.answers ?? first);
   let chosen = { dialog: dialogs[0], place: 0 };
   let file = "setup.8k";
@@ -183,7 +184,7 @@ export async function mount(host, { head, kept, keep }) {
           draw();
         },
       },
-      h("span.name", {}, dialog.title),
+      h("span.name", {}, settingText(dialog.title)),
       isWrong ? h("span.bad-text", { ariaLabel: t(TEXTS.wrong) }, "\u26a0") : "",
     );
   }

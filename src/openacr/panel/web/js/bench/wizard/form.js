@@ -1,5 +1,6 @@
 // The rows of one dialog of the wizard.
 import { h } from "../../core/dom.js";
+import { settingText } from "../../core/settings_texts.js";
 import { t } from "../../core/texts.js";
 import { textOf, valueOf } from "./answers.js";
 
@@ -12,7 +13,7 @@ import { textOf, valueOf } from "./answers.js";
 export function formOf(dialog, table, refusals, answer) {
   return h(
     "div.wizard-form",
-    { role: "group", ariaLabel: dialog.title },
+    { role: "group", ariaLabel: settingText(dialog.title) },
     ...dialog.rows.map((row) => rowOf(row, table[row.key], refusals[row.key], answer)),
   );
 }
@@ -32,9 +33,9 @@ function rowOf(row, value, refusal, answer) {
   return h(
     "div.form-row",
     {},
-    h("label", { htmlFor: id }, row.title),
+    h("label", { htmlFor: id, title: row.title }, settingText(row.title)),
     h("div.row.form-input", {}, input, h("span.unit", {}, row.unit)),
-    h("span.hint", { id: `${id}-help` }, row.help),
+    h("span.hint", { id: `${id}-help` }, settingText(row.help)),
     refusal ? h("span.refusal", { role: "alert" }, refusal) : "",
   );
 }
