@@ -5,6 +5,8 @@ are the raw views for those who know the places (`openacr.map.numbers`); `read`,
 `bit` and `set_bit` behave as P and BIT do in a program.
 """
 
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from functools import cache
 from hashlib import blake2b
 from math import isnan, trunc
@@ -34,10 +36,13 @@ CHUNK = 1024  # words that are skipped together if all are 0
 _ZEROS = bytes(4 * CHUNK)
 
 
+NoteCall = Callable[[int, int, int, float], AbstractContextManager[None]]
+
+
 class Memory:
     """All state of one card, as it is right after power-up."""
 
-    __slots__ = ("F", "I", "S", "_buffer", "work")
+    __slots__ = ("F", "I", "S", "_buffer", "noted", "renewals", "work")
 
     F: F64
     I: I32
@@ -48,6 +53,8 @@ class Memory:
         self.F = self._buffer.cast("d")
         self.I = self._buffer.cast("i")
         self.S = self._buffer.cast("f")
+        self.noted: NoteCall | None = None  # where ticks go on while commands run
+        self.renewals = 0  # how often the state was replaced as a whole
         self.work = 0  # beyond what a line or packet counts by itself, since a caller took it
 
     def read(self, number: int) -> int | float:
@@ -90,6 +97,12 @@ class Memory:
         word, mask = flag_place(number)
         self.I[word] = self.I[word] | mask if on else self.I[word] & ~mask
 
+    def calling(
+        self, call: int, number: int, whole: int, value: float
+    ) -> AbstractContextManager[None]:
+        """Around a call of the kernel by a command (`kernel/calls_cy.py`), which may be noted."""
+        return nullcontext() if self.noted is None else self.noted(call, number, whole, value)
+
     def references(self, first: int, count: int) -> list[int]:
         """Places in `I` of the words of a table that are not 0; long empty tables cost nothing."""
         found: list[int] = []
@@ -115,10 +128,12 @@ class Memory:
                 f"the snapshot has {len(snapshot)} bytes, this version needs {len(self._buffer)}"
             )
         self._buffer[:] = snapshot
+        self.renewals += 1
 
     def power_up(self) -> None:
         """Forget everything: the state after switching the card on."""
         self._buffer[:] = _power_up_image()
+        self.renewals += 1
 
     def digest(self) -> str:
         """Fingerprint of the state: equal digests, equal cards."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from openacr.compiled import pick
+from openacr.kernel import calls_cy
 from openacr.kernel.axis import axis_cy
 from openacr.kernel.status import slow_cy
 from openacr.map.hidden.path import MOVES_PER_MASTER
@@ -29,6 +30,7 @@ DEFAULT_PM_TIME_S = 0.1
 
 _axis_show = pick(axis_cy.axis_show)
 _axis_take_written = pick(axis_cy.axis_take_written)
+_kernel_call = pick(calls_cy.kernel_call)
 _slow_scan = pick(slow_cy.slow_scan)
 
 
@@ -98,6 +100,16 @@ class Card:
             self.memory.F[masters.vecdef[master] + slave] = 1.0
             self.memory.I[masters.slave_axis[master] + slave] = -1
         self.memory.I[masters.rotate_slave[master] + 1] = 1
+
+    def call(self, call: int, number: int, whole: int = 0, value: float = 0.0) -> None:
+        """Let the kernel change what the loop changes, too (`kernel/calls_cy.py`).
+
+        Where ticks go on meanwhile the loop makes the same call once more, when it takes over what
+        the command has done.
+        """
+        memory = self.memory
+        with memory.calling(call, number, whole, value):
+            _kernel_call(memory.F, memory.I, memory.S, call, number, whole, value)
 
     def take_written(self, axis: int) -> None:
         """Take over what was written into the shown positions of an axis."""

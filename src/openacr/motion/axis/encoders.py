@@ -2,6 +2,7 @@
 
 from openacr.compiled import pick
 from openacr.errors import CardError
+from openacr.kernel import calls_cy
 from openacr.kernel.axis import feedback_cy
 from openacr.map.rows import encoders, kernel
 from openacr.map.words import ef
@@ -9,7 +10,6 @@ from openacr.messages import INVALID_ARGUMENT
 from openacr.motion.axis.settings import LONG_MAX
 from openacr.motion.card import Card
 
-_encoder_set = pick(feedback_cy.encoder_set)
 _encoder_roll = pick(feedback_cy.encoder_roll)
 _encoder_limit = pick(feedback_cy.encoder_limit)
 _encoder_count = pick(feedback_cy.encoder_count)
@@ -24,7 +24,7 @@ def reset(card: Card, number: int, position_cnt: float) -> None:
     """ENC RES: set the position and clear the signal fault flags; no axis follows."""
     if not abs(position_cnt) <= LONG_MAX:
         raise CardError(INVALID_ARGUMENT)
-    _encoder_set(card.memory.F, card.memory.I, number, int(position_cnt))
+    card.call(calls_cy.ENCODER_SET, number, int(position_cnt))
     card.memory.I[ef.word[number]] &= ~(ef.ENCODER_SIGNAL_FAULT | ef.ENCODER_SIGNAL_LOST)
 
 

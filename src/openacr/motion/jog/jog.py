@@ -2,12 +2,11 @@
 
 from openacr.compiled import pick
 from openacr.errors import CardError
+from openacr.kernel import calls_cy
 from openacr.kernel.axis import axis_cy
 from openacr.kernel.jog import homing_cy
 from openacr.kernel.jog.jog_cy import (
-    JOG_CONTINUOUS,
     JOG_HOMING,
-    JOG_IDLE,
     JOG_KILLED,
     JOG_TO_TARGET,
 )
@@ -29,7 +28,6 @@ from openacr.motion.interlocks import (
 )
 
 _axis_jog_set = pick(axis_cy.axis_jog_set)
-_home_abort = pick(homing_cy.home_abort)
 _home_begin = pick(homing_cy.home_begin)
 
 
@@ -86,37 +84,12 @@ def _to_target(card: Card, axis: int, target_cnt: float) -> None:
         raise CardError(INVALID_ARGUMENT)
     distance = target_cnt - memory.F[axes.jog_cnt[axis]]
     permit(card, axis, distance / scale_of(card, axis))
-    word = af1.word[axis]
-    mode = memory.I[axes.jog_mode[axis]]
-    if mode == JOG_HOMING:
-        _home_abort(memory.I, axis)
-    memory.F[axes.jog_target_cnt[axis]] = target_cnt
-    memory.I[word] &= ~(af1.JOG_FORWARD | af1.JOG_REVERSE)
-    if distance == 0.0 and not memory.I[word] & af1.JOG_ACTIVE:
-        return
-    if memory.I[word] & af1.JOG_LOCKOUT and mode == JOG_IDLE:
-        return
-    if mode != JOG_KILLED:  # else a limit or kill brings the axis to rest first
-        memory.I[axes.jog_mode[axis]] = JOG_TO_TARGET
-    memory.I[axes.jog_replan[axis]] = 1
-    memory.I[word] |= af1.JOG_ACTIVE
+    card.call(calls_cy.JOG_AIM, axis, value=target_cnt)
 
 
 def off(card: Card, axis: int) -> None:
     """JOG OFF: ramp to rest with JOG DEC."""
-    memory = card.memory
-    word = af1.word[axis]
-    memory.I[word] &= ~(af1.JOG_FORWARD | af1.JOG_REVERSE)
-    mode = memory.I[axes.jog_mode[axis]]
-    if mode == JOG_HOMING:
-        _home_abort(memory.I, axis)
-    if mode in (JOG_HOMING, JOG_TO_TARGET):
-        memory.I[axes.jog_want[axis]] = 0
-        memory.I[axes.jog_mode[axis]] = JOG_CONTINUOUS  # without a direction: ramp to rest
-    elif mode == JOG_KILLED:
-        memory.I[axes.jog_replan[axis]] = 0  # a target that waits for the end of the stop
-    elif mode == JOG_IDLE:
-        memory.I[word] &= ~af1.JOG_ACTIVE
+    card.call(calls_cy.JOG_OFF, axis)
 
 
 def permit_home(card: Card, axis: int) -> None:

@@ -2,9 +2,8 @@
 
 from collections.abc import Sequence
 
-from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel.path import hold_cy
+from openacr.kernel import calls_cy
 from openacr.map.rows import axes, masters, moves
 from openacr.map.words import mf1
 from openacr.messages import INVALID_ARGUMENT, NO_MASTER_ATTACHED
@@ -22,10 +21,6 @@ from openacr.motion.path.move_request import FlagState, Part, Target, end_points
 from openacr.motion.path.records import SlaveMove, append
 
 FARTHEST_U = 1e30  # far beyond any machine; NaN and infinities are refused with it
-
-_master_hold = pick(hold_cy.master_hold)
-_master_release = pick(hold_cy.master_release)
-_master_drop = pick(hold_cy.master_drop)
 
 
 def needed_master(card: Card, program: int) -> int:
@@ -192,14 +187,12 @@ def start_cnt(card: Card, master: int, slave: int, axis: int, *, here: bool) -> 
 
 def hold(card: Card, master: int) -> None:
     """Feedhold: slow the path to rest; the move stays loaded."""
-    if card.memory.I[masters.hold[master]] == hold_cy.NOT_HELD:
-        _master_hold(card.memory.F, card.memory.I, card.memory.S, master)
+    card.call(calls_cy.PATH_HOLD, master)
 
 
 def release(card: Card, master: int) -> None:
     """Cycle start: the path goes on."""
-    if card.memory.I[masters.hold[master]] != hold_cy.NOT_HELD:
-        _master_release(card.memory.F, card.memory.I, card.memory.S, master)
+    card.call(calls_cy.PATH_RELEASE, master)
 
 
 def step(card: Card, master: int) -> None:
@@ -217,10 +210,4 @@ def end_steps(card: Card, master: int) -> None:
 
 def halt(card: Card, master: int) -> None:
     """HALT: slow the path to rest, then drop all its moves; no kill flag is left."""
-    if not master_moving(card, master):
-        return
-    if card.memory.I[masters.hold[master]] == hold_cy.IN_FEEDHOLD:
-        _master_drop(card.memory.F, card.memory.I, card.memory.S, master)
-    else:
-        hold(card, master)
-        card.memory.I[masters.drop_at_rest[master]] = 1
+    card.call(calls_cy.PATH_HALT, master)

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 
 from openacr.compiled import pick
 from openacr.errors import CardError
-from openacr.kernel.path import path_cy, round_between_cy
-from openacr.map.rows import axes, masters, moves
-from openacr.map.words import mf1, mf2, mf4
+from openacr.kernel import calls_cy
+from openacr.kernel.path import path_cy
+from openacr.map.rows import masters, moves
+from openacr.map.words import mf2
 from openacr.messages import INVALID_ARC
 from openacr.motion.axis import settings
 from openacr.motion.card import Card
@@ -33,9 +34,6 @@ _CLEARED = (
     moves.ahead,
 )
 _move_shape = pick(path_cy.move_shape)
-_move_directions = pick(path_cy.move_directions)
-_path_turn_deg = pick(path_cy.path_turn_deg)
-_round_between = pick(round_between_cy.round_between)
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +56,15 @@ def append(
     card: Card, program: int, master: int, slave_moves: list[SlaveMove], parts: Sequence[Shape]
 ) -> int:
     """Write the next record of the ring and set the motion flags at once; its index."""
+    record = write(card, program, master, slave_moves, parts)
+    card.call(calls_cy.RECORD_ENTER, master, record)
+    return record
+
+
+def write(
+    card: Card, program: int, master: int, slave_moves: list[SlaveMove], parts: Sequence[Shape]
+) -> int:
+    """Write the next record of the ring, which does not take it yet; its index."""
     settings.refresh_max_velocity(card, master)
     memory = card.memory
     queued = memory.I[masters.queued[master]]
@@ -68,17 +75,6 @@ def append(
     curves.write(card, program, record, parts)
     _lay_out(card, master, record, slave_moves)
     _take_trigger(card, master, record)
-    _look_back(card, master, record, queued)
-    for one in slave_moves:
-        memory.F[masters.target_cnt[master] + one.slave] = one.target_cnt
-        if not queued:
-            memory.F[axes.target_cnt[one.axis]] = one.target_cnt
-        card.show(one.axis)
-    length_u = memory.F[moves.length_u[record]]
-    memory.S[masters.distance_squared[master]] = length_u * length_u
-    memory.I[masters.queued[master]] = queued + 1
-    flags = mf1.IN_MOTION | (mf1.MOVE_BUFFERED if queued else 0)
-    memory.I[mf1.word[master]] |= flags
     return record
 
 
@@ -117,28 +113,6 @@ def _lay_out(card: Card, master: int, record: int, slave_moves: list[SlaveMove])
     if memory.I[moves.curve[record]]:
         if not 0.0 < memory.F[moves.length_u[record]]:
             raise CardError(INVALID_ARC)
-
-
-def _look_back(card: Card, master: int, record: int, queued: int) -> None:
-    """Note where the path heads, and by how much it turns after the move before."""
-    memory = card.memory
-    _move_directions(memory.F, memory.I, memory.S, master, record)
-    memory.F[moves.turn_deg[record]] = 0.0
-    memory.I[masters.look_dirty[master]] = 1
-    if queued:
-        ring = (memory.I[masters.head[master]] + queued - 1) % memory.I[masters.size[master]]
-        before = memory.I[masters.first[master]] + ring
-        turn = _path_turn_deg(memory.F, before, record)
-        memory.F[moves.turn_deg[before]] = turn
-        _round_between(memory.F, memory.I, memory.S, master, before, record)
-    memory.F[moves.corner_u[record]] = 0.0
-    memory.F[moves.corner_turn[record]] = 0.0
-    if memory.F[moves.tolerance_u[record]] > 0.0:
-        memory.I[masters.rounding[master]] = 1
-        looks = memory.I[mf4.word[master]] & (mf4.LOOK_AHEAD_MODE | mf4.LOOK_AHEAD_NEGLECT)
-        if looks == mf4.LOOK_AHEAD_MODE and not memory.I[moves.curved[record]]:
-            # A rounded corner or a stop may come: no room is left for it before a final velocity.
-            memory.F[moves.fvel_ups[record]] = 0.0
 
 
 def _take_trigger(card: Card, master: int, record: int) -> None:

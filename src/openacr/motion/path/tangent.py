@@ -18,7 +18,7 @@ from openacr.motion.card import Card
 from openacr.motion.interlocks import needs_on, scale_of
 from openacr.motion.path.curves import slave_of
 from openacr.motion.path.move_request import Shape, Target
-from openacr.motion.path.records import SlaveMove, append
+from openacr.motion.path.records import SlaveMove, append, write
 
 SAMPLES = 32
 LEAST_CNT = 0.5
@@ -123,7 +123,7 @@ def _course(
     reals = masters.reals[master]
     kept_ints = bytes(memory.I[ints : ints + masters.INTS_SIZE])
     kept_reals = bytes(memory.F[reals : reals + masters.REALS_SIZE])
-    record = append(card, program, master, slave_moves, shapes)
+    record = write(card, program, master, slave_moves, shapes)
     x, y = _units(card, master)
     angles = [
         _tangent_deg(memory.F, memory.I, record, x, y, n / SAMPLES) for n in range(SAMPLES + 1)
