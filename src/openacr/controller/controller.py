@@ -195,6 +195,17 @@ class Controller:
         """
         self._engine.leave_out_rest(on)
 
+    def delay_handlers(self, longest_tk: int | None, *, seed: int = 0) -> None:
+        """Let ticks go on while Python works for the card, 0 to `longest_tk` ticks each time.
+
+        So it is on a computer that controls a machine: commands, packets and networks take time,
+        the servo loop does not wait for them. The ticks are drawn; an equal `seed` gives an equal
+        life. With None everything takes no time again. UserError for a number below 0.
+        """
+        if longest_tk is not None and longest_tk < 0:
+            raise UserError(f"handlers that take {longest_tk} ticks: the minimum is 0")
+        self._engine.delay_handlers(-1 if longest_tk is None else longest_tk, seed)
+
     def announce_lines(self, programs: int = 0, ask: AskLine | None = None) -> None:
         """Call `ask(program, line)` before each line of these programs (a mask of 0-15).
 

@@ -7,7 +7,9 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 from openacr.basic.channels.channel_words import take_escapes
+from openacr.basic.execute.threads import KINEMATICS
 from openacr.compiled import is_compiled, pick
+from openacr.controller.late_handlers import Handler, LateHandlers
 from openacr.controller.parts import CardParts
 from openacr.controller.sample_buffers import Recording
 from openacr.engine import loop_cy, quiet_cy
@@ -28,6 +30,12 @@ LONGEST_RUN_TK = 2**31 - 1  # ticks of one run of the engine, which counts down 
 
 _engine_run = pick(loop_cy.engine_run)
 _TICK_ENDS = (loop_cy.STOPPED, loop_cy.UNTIL_MET, loop_cy.WATCH)
+_HANDLERS = {
+    loop_cy.REQUESTS: Handler.REQUESTS,
+    loop_cy.ROOM: Handler.ROOM,
+    loop_cy.DEVICES: Handler.DEVICES,
+    loop_cy.NETWORKS: Handler.NETWORKS,
+}
 _LINE = -1  # the caller stops before a line, within a tick
 
 AskLine = Callable[[int, int], bool]  # program and line; True: stop before it
@@ -44,12 +52,22 @@ class EngineRun:
         self.within = 0
         self.was_ended = False  # the latest `advance`, by an event
         self.recording = Recording(parts.card)
+        self._late: LateHandlers | None = None
         self._seen = memoryview(bytearray(HEAP_BYTE_BASE)).cast("i")
         self.leave_out_rest(is_compiled)  # as plain Python a trial lasts thousands of ticks
 
     def leave_out_rest(self, on: bool) -> None:
         """Whether ticks that change nothing but the clocks are left out; the state is the same."""
         self._seen[quiet_cy.PAUSE] = quiet_cy.FIRST_PAUSE if on else 0
+
+    def delay_handlers(self, longest_tk: int, seed: int) -> None:
+        """Handlers take 0 to `longest_tk` ticks from now on; with -1 no time."""
+        if self._late is not None:
+            self._late.end()
+            self._late = None
+        if longest_tk >= 0:
+            space = self._parts.executor.threads.space
+            self._late = LateHandlers(self._memory, space, longest_tk, seed)
 
     def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
         """Advance the card by `ticks` ticks plus `seconds`, or until an event ends it.
@@ -84,6 +102,8 @@ class EngineRun:
 
     def _live(self, ticks: int) -> int:
         """Run the engine, stopping where the journal needs a digest; returns why it ended."""
+        if self._late is not None:
+            self._late.commit(Handler.OUTSIDE)
         if self.within:
             self._pass_line()
         while True:
@@ -93,7 +113,11 @@ class EngineRun:
             if self._parts.streams.is_overdue:
                 self._set_engine(engine.stop, 1)
             self.within = 0
+            if self._late is not None:
+                self._late.begin()
             reason = self._run()
+            if self._late is not None:
+                self._late.see()
             ticks -= self._clock.lived_tk - before
             if reason == _LINE:
                 self.within = self.next_statement
@@ -168,33 +192,55 @@ class EngineRun:
 
     def _run(self) -> int:
         """Run the engine to the end of its ticks or the awaited event; returns why it ended."""
-        memory, space = self._memory, self._parts.executor.threads.space
+        space = self._parts.executor.threads.space
+        late = self._late
         while True:
+            memory = self._memory if late is None else late.machine
+            code, nums = (space.code, space.nums) if late is None else late.code
             reason = _engine_run(
-                memory.F,
-                memory.I,
-                memory.S,
-                space.code,
-                space.nums,
-                self.recording.view,
-                self._seen,
+                memory.F, memory.I, memory.S, code, nums, self.recording.view, self._seen
             )
+            if late is not None and reason == loop_cy.DONE and late.take_due():
+                continue
             if reason in _TICK_ENDS and self._parts.streams.is_overdue:
-                self._take_turns()
+                with self._handled(Handler.OUTSIDE):
+                    self._take_turns()
             if reason in (loop_cy.DONE, loop_cy.UNTIL_MET, loop_cy.WATCH):
                 return reason
             if reason == loop_cy.STOPPED:
                 if self._poll is not None and self._poll():
                     return reason
             elif reason == loop_cy.TRACE_FULL:
-                self.recording.go_on()
-            elif self._memory.I[engine.line_announced] < 0:
+                with self._handled(Handler.OUTSIDE):
+                    self.recording.go_on()
+            elif memory.I[engine.line_announced] < 0:
+                if late is not None:
+                    late.see()
                 if self._stops_before_line(reason - loop_cy.THREAD):
                     return _LINE
             else:
-                self._attend(reason)
-                if self._parts.reboot_if_requested() and self._is_watched:
+                thread = reason - loop_cy.THREAD
+                with self._handled(_HANDLERS.get(reason, Handler.STATEMENT), thread):
+                    self._attend(reason)
+                    rebooted = self._parts.reboot_if_requested()
+                if rebooted and self._is_watched:
                     return loop_cy.WATCH
+
+    @contextmanager
+    def _handled(self, kind: Handler, thread: int = -1) -> Iterator[None]:
+        """Around what is done for the engine, where that may take time.
+
+        The joints of a master belong to their tick: the loop waits for what computes them.
+        """
+        if self._late is None:
+            yield
+        elif thread >= KINEMATICS:
+            self._late.see()
+            yield
+            self._late.commit(kind, at_once=True)
+        else:
+            with self._late.handler(kind, thread if thread >= 0 else None):
+                yield
 
     @property
     def _is_watched(self) -> bool:
@@ -241,3 +287,5 @@ class EngineRun:
 
     def _set_engine(self, row: int, value: int) -> None:
         self._memory.I[row] = value
+        if self._late is not None:
+            self._late.machine.I[row] = value

@@ -6,7 +6,7 @@ it is done. It notes a call instead, three numbers and a value, and the loop mak
 
 from openacr.kernel.axis.axis_cy import axis_preload, axis_renew, axis_settled
 from openacr.kernel.axis.capture_cy import capture_arm
-from openacr.kernel.axis.feedback_cy import encoder_set, feedback_set
+from openacr.kernel.axis.feedback_cy import encoder_limit, encoder_roll, encoder_set, feedback_set
 from openacr.kernel.jog.jog_command_cy import jog_aim, jog_off
 from openacr.kernel.path.queue_cy import (
     path_cut,
@@ -34,6 +34,8 @@ AXIS_SETTLED = 11  # axis
 FEEDBACK_SET = 12  # axis, position
 ENCODER_SET = 13  # encoder, position
 CAPTURE_ARM = 14  # axis, mode
+ENCODER_ROLL = 15  # encoder, length of a turn
+ENCODER_LIMIT = 16  # encoder, rate of edges
 
 
 def kernel_call(F: F64, I: I32, S: F32, call: int, n: int, k: int, value: float) -> None:
@@ -66,3 +68,7 @@ def kernel_call(F: F64, I: I32, S: F32, call: int, n: int, k: int, value: float)
         encoder_set(F, I, n, k)
     elif call == CAPTURE_ARM:
         capture_arm(F, I, n, k)
+    elif call == ENCODER_ROLL:
+        encoder_roll(I, n, k)
+    elif call == ENCODER_LIMIT:
+        encoder_limit(F, I, n, k)

@@ -5,6 +5,8 @@ are the raw views for those who know the places (`openacr.map.numbers`); `read`,
 `bit` and `set_bit` behave as P and BIT do in a program.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from functools import cache
@@ -129,6 +131,10 @@ class Memory:
             )
         self._buffer[:] = snapshot
         self.renewals += 1
+
+    def replace(self, other: Memory) -> None:
+        """Become a copy of another memory."""
+        self._buffer[:] = other._buffer
 
     def power_up(self) -> None:
         """Forget everything: the state after switching the card on."""

@@ -41,6 +41,7 @@ THREAD_IDLE = 0
 THREAD_READY = 1
 THREAD_WAITING = 2
 THREAD_HELD = 3  # before a line, in pause or block mode
+THREAD_AWAY = 4  # its statement is being executed while ticks go on
 
 # How far the present tick has got.
 PHASE_TICK = 0

@@ -1,12 +1,30 @@
 """Hidden rows of axes, and of the encoders and stepper outputs that they use."""
 
-from openacr.map.hidden.block import FINITE, HiddenBlock
+from openacr.map.hidden.block import FINITE, HiddenBlock, Merge
 from openacr.map.hidden.path import SLAVES
 
 AXIS = HiddenBlock(
     prefix="AX",
     family="axes",
     count=16,
+    merged={
+        Merge.SHIFT: (
+            "position_cnt",
+            "gear_cnt",
+            "jog_cnt",
+            "cam_cnt",
+            "ballscrew_cnt",
+            "backlash_cnt",
+            "kinematics_cnt",
+            "joint_cnt",
+            "seen_cnt",
+            "psp_cnt",
+            "ssp_cnt",
+            "ssp_old_cnt",
+            "jog_origin_cnt",
+            "folded_cnt",
+        ),
+    },
     doubles=(
         "position_cnt",  # coordinated position
         "gear_cnt",

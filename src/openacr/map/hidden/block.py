@@ -14,12 +14,23 @@ their parts in `openacr.map.numbers`:
     threads.COUNT == TH_COUNT == 32          threads.STACK_SIZE == THF_STACK_SIZE == 16
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
+from enum import Enum, auto
 from math import inf
 
 Field = str | tuple[str, int]
 Range = tuple[float, float]  # lowest and highest value of a row
+
+
+class Merge(Enum):
+    """How a row is merged that a handler has changed while the loop went on."""
+
+    VALUE = auto()  # becomes what the handler has written
+    BITS = auto()  # the bits that the handler has changed; the others are the loop's
+    SHIFT = auto()  # moves by what the handler has added
+    LOOP = auto()  # stays what it is: only the loop, or a call of the kernel, changes it
+    ORDER = auto()  # a request to the engine, taken over at once
 
 
 FINITE: Range = (-1e300, 1e300)
@@ -36,7 +47,8 @@ class HiddenBlock:
     `ranges` belong to every row that the card uses as an index, a size or a divisor without asking:
     a snapshot from a file is refused where a row is outside. `usual` is the range of all other
     doubles; other ints may have any value. Further blocks of a `family` are not `is_whole`: their
-    records are parts of its objects, in a run of their own.
+    records are parts of its objects, in a run of their own. `merged` are rows by what becomes
+    of them where handlers have changed them beside the loop; the others are `merged_usually`.
     """
 
     prefix: str
@@ -47,6 +59,15 @@ class HiddenBlock:
     ranges: Mapping[str, Range] = field(default_factory=dict)
     usual: Range = ANY_NUMBER
     is_whole: bool = True
+    merged: Mapping[Merge, Collection[str]] = field(default_factory=dict)
+    merged_usually: Merge = Merge.VALUE
+
+    def merge(self, row: str) -> Merge:
+        """How a row is merged."""
+        for rule, rows in self.merged.items():
+            if row in rows:
+                return rule
+        return self.merged_usually
 
     @property
     def doubles_stride(self) -> int:

@@ -1,11 +1,12 @@
 """Hidden rows of the engine: what it has still to do in the present call."""
 
-from openacr.map.hidden.block import HiddenBlock
+from openacr.map.hidden.block import HiddenBlock, Merge
 
 ENGINE = HiddenBlock(
     prefix="ENG",
     family="engine",
     count=1,
+    merged_usually=Merge.ORDER,
     ints=(
         "ticks_left",
         "in_tick",  # how far the present tick has got, see engine/loop_cy.py
@@ -34,6 +35,7 @@ WATCH = HiddenBlock(
     prefix="WAT",
     family="watches",
     count=128,
+    merged_usually=Merge.ORDER,
     doubles=("bound",),
     ints=(
         "kind",  # where the value is, see engine/watch_cy.py
@@ -50,5 +52,6 @@ SAMPLE = HiddenBlock(
     prefix="SMV",
     family="trace_values",
     count=64,
+    merged_usually=Merge.ORDER,
     ints=("kind", "row", "mask"),  # as those of WATCH
 )

@@ -5,7 +5,7 @@ speeds and accelerations of a profile are in the unit of its owner: programming
 units for masters, pulses for the jog profiler of an axis.
 """
 
-from openacr.map.hidden.block import HiddenBlock
+from openacr.map.hidden.block import HiddenBlock, Merge
 
 SEGMENTS = 16
 SLAVES = 16
@@ -24,6 +24,7 @@ PROFILE = HiddenBlock(
     prefix="PR",
     family="profiles",
     count=48,
+    merged_usually=Merge.LOOP,
     doubles=(
         ("seg_time_s", SEGMENTS),
         ("seg_jerk", SEGMENTS),

@@ -5,7 +5,7 @@ Threads 0-15 are the programs, 16-31 the command channels, 32-47 the kinematics 
 it was.
 """
 
-from openacr.map.hidden.block import ROWS_I, HiddenBlock
+from openacr.map.hidden.block import ROWS_I, HiddenBlock, Merge
 
 STACK = 192  # numbers on the expression stack of one thread
 DEPTH = 64  # FOR, WHILE, GOSUB and IF levels open at a time
@@ -67,6 +67,8 @@ SCHEDULER = HiddenBlock(
     prefix="SCH",
     family="scheduler",
     count=1,
+    merged={Merge.BITS: ("programs", "channels")},
+    merged_usually=Merge.LOOP,
     ints=(
         "programs",  # mask of the threads 0-15 that are not idle
         "channels",  # mask of the threads 16-31 that are not idle

@@ -10,8 +10,6 @@ from openacr.messages import INVALID_ARGUMENT
 from openacr.motion.axis.settings import LONG_MAX
 from openacr.motion.card import Card
 
-_encoder_roll = pick(feedback_cy.encoder_roll)
-_encoder_limit = pick(feedback_cy.encoder_limit)
 _encoder_count = pick(feedback_cy.encoder_count)
 
 
@@ -70,7 +68,7 @@ def set_turn_length(card: Card, number: int, length_cnt: int) -> None:
     if not 0 <= length_cnt <= LONG_MAX:
         raise CardError(INVALID_ARGUMENT)
     was = turn_length(card, number)
-    _encoder_roll(card.memory.I, number, length_cnt)
+    card.call(calls_cy.ENCODER_ROLL, number, length_cnt)
     _count(card, kernel.linked_encoders, was, length_cnt)
 
 
@@ -84,7 +82,7 @@ def set_edge_limit(card: Card, number: int, hz: int) -> None:
     if not 0 <= hz <= LONG_MAX:
         raise CardError(INVALID_ARGUMENT)
     was = edge_limit(card, number)
-    _encoder_limit(card.memory.F, card.memory.I, number, hz)
+    card.call(calls_cy.ENCODER_LIMIT, number, hz)
     _count(card, kernel.filtered_encoders, was, hz)
 
 

@@ -1,0 +1,195 @@
+"""Handlers that take time while ticks go on: nothing of either side is lost, no axis jumps."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+from random import Random
+
+import pytest
+from tests.controller.hosts import at_axes
+from tests.parity.journeys import JOURNEYS, card, live, take
+
+from openacr.controller import Controller
+from openacr.errors import UserError
+
+IN_MOTION, KILL, INHIBIT = 516, 522, 540
+PATH = [f"X{x} Y{y}" for x, y in ((10, 0), (10, 10), (4, 12), (0, 3), (5, 5), (5, -5), (-3, 0))]
+LATE_TK = 50
+
+
+def machine(*program: str, number: int = 0) -> Controller:
+    """Two axes, 1000 pulses per unit, and a program that is not running yet."""
+    made = at_axes().card
+    enter(made, number, *program)
+    return made
+
+
+def enter(made: Controller, number: int, *program: str) -> None:
+    made.ask(f"PROG{number}\r")
+    for line in ("PROGRAM", *program, "ENDP"):
+        made.ask(line + "\r")
+    made.ask("PROG0\r")
+
+
+def setpoints(made: Controller, ticks: int) -> list[tuple[float, float]]:
+    """Where the two axes are commanded, tick after tick [pulses]."""
+    made.record(1)
+    made.advance(ticks)
+    seen = made.take_trace()
+    x, y = (seen.axes[axis].commanded_u * 1000.0 for axis in (0, 1))
+    return list(zip(x.tolist(), y.tolist(), strict=True))
+
+
+def from_first_motion(places: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Without the rest at the beginning and at the end."""
+    moving = [n for n, (old, new) in enumerate(pairwise(places)) if old != new]
+    return list(places[moving[0] : moving[-1] + 2]) if moving else []
+
+
+def largest_jerk_cnt(places: Sequence[tuple[float, float]]) -> float:
+    """The largest change of velocity between two ticks, in pulses per tick."""
+    found = 0.0
+    for axis in (0, 1):
+        steps = [new[axis] - old[axis] for old, new in pairwise(places)]
+        found = max(found, *(abs(b - a) for a, b in pairwise(steps)))
+    return found
+
+
+@pytest.mark.parametrize("name", JOURNEYS)
+def test_handlers_that_take_no_time_change_nothing(name: str) -> None:
+    made = card()
+    made.delay_handlers(0)
+    found = []
+    for step in JOURNEYS[name]:
+        take(made, step)
+        found.append(made.digest())
+    assert found == list(live(name))
+
+
+@pytest.mark.parametrize("look", ["LOOK OFF", "LOOK ON", "LOOK ON LOOK TOL 0.2"])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_path_in_the_buffer_runs_to_the_count_and_tick(look: str, seed: int) -> None:
+    """The program fills the buffer late; what is in it runs as if it had been there at once."""
+
+    def run(longest_tk: int | None) -> list[tuple[float, float]]:
+        made = machine(look, "MBUF ON", *PATH)
+        made.bit[INHIBIT] = True
+        made.delay_handlers(longest_tk, seed=seed)
+        made.send("RUN\r")
+        places = setpoints(made, 1200)
+        made.bit[INHIBIT] = False
+        return from_first_motion(places + setpoints(made, 3000))
+
+    late = run(LATE_TK)
+    assert len(late) > 800
+    assert late == run(None)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_program_that_refills_the_buffer_late_moves_as_ever(seed: int) -> None:
+    moves = [f"X{n % 5 * 2} Y{n % 3 * 2}" for n in range(30)]
+
+    def run(longest_tk: int | None) -> list[tuple[float, float]]:
+        made = machine("MBUF ON", *moves)
+        made.delay_handlers(longest_tk, seed=seed)
+        made.send("RUN\r")
+        return from_first_motion(setpoints(made, 9000))
+
+    assert run(20) == run(None)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_flag_and_no_count_of_either_side_is_lost(seed: int) -> None:
+    """A program in the loop sets, clears and counts beside what a host changes."""
+    loop = ("10 P1=P1+1", "SET 1921", "CLR 1921", "IF (P1 < 400) THEN GOTO 10", "SET 1922")
+
+    def run(longest_tk: int | None) -> tuple[Controller, list[bool]]:
+        made = machine(*loop)
+        made.ask("SYS\r")
+        made.ask("DIM P(100)\r")
+        made.delay_handlers(longest_tk, seed=seed)
+        made.send("RUN PROG0\r")
+        for n in range(24):
+            made.send(f"SET {1923 + n}\rP{10 + n}={n}\r")
+            made.advance(17)
+            if n % 3 == 0:
+                made.send(f"CLR {1923 + n}\r")
+        made.advance(1500)
+        return made, [made.bit[1920 + n] for n in range(28)]
+
+    made, late = run(LATE_TK)
+    other, expected = run(None)
+    assert late == expected
+    assert expected[2] and expected[4] and not expected[3]
+    assert [made.p[n] for n in range(64)] == [other.p[n] for n in range(64)]
+
+
+@pytest.mark.parametrize(("seed", "after_tk"), [(n, 37 * n % 400) for n in range(12)])
+def test_a_move_that_is_issued_while_a_kill_comes_is_killed(seed: int, after_tk: int) -> None:
+    made = machine("MBUF ON", *PATH)
+    made.delay_handlers(LATE_TK, seed=seed)
+    made.send("RUN\r")
+    made.advance(after_tk)
+    made.until(IN_MOTION, ticks=400)
+    made.send("SET 522\r")
+    made.advance(200)
+    assert made.bit[KILL]
+    assert not made.bit[IN_MOTION]
+    here = setpoints(made, 1)[0]
+    made.send("HALT\rCLR 522\r")
+    assert set(setpoints(made, 800)) == {here}
+
+
+COMMANDS = (
+    *PATH, "JOG FWD X", "JOG OFF X", "JOG INC X1", "JOG ABS Y2", "JOG REV Y", "JOG OFF Y",
+    "SET 520", "SET 521", "HALT", "FOV 0.5", "FOV 1", "VEL 40", "VEL 100", "JOG RES X",
+    "JOG REN Y", "PAUSE", "RESUME",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_no_setpoint_jumps_whatever_is_commanded_while_it_moves(seed: int) -> None:
+    """Each command acts on the path and the jog as they are when it is taken over."""
+    drawn = Random(seed)
+    made = machine()
+    made.ask("MBUF ON\r")
+    made.delay_handlers(LATE_TK, seed=seed)
+    places = setpoints(made, 1)
+    for _ in range(40):
+        made.send(drawn.choice(COMMANDS) + "\r")
+        places += setpoints(made, drawn.randrange(90))
+    # 1000 and 500 units/s2 are 0.25 and 0.125 pulses per tick2; a corner may add as much again.
+    assert largest_jerk_cnt(places) < 1.0
+
+
+def test_an_equal_seed_gives_an_equal_life_and_another_one_another() -> None:
+    def life(seed: int) -> str:
+        made = machine("MBUF ON", *PATH, 'PRINT "done"')
+        made.delay_handlers(LATE_TK, seed=seed)
+        made.send("RUN\r")
+        made.advance(300)
+        return made.digest()
+
+    assert life(1) == life(1)
+    assert life(1) != life(2)
+
+
+def test_pending_work_is_part_of_a_snapshot_and_of_the_card_without_delays() -> None:
+    made = machine("MBUF ON", *PATH)
+    made.delay_handlers(10_000)
+    made.send("RUN\r")
+    made.advance(40)
+    snapshot = made.snapshot()
+    made.delay_handlers(None)
+    made.advance(3000)
+    ended = made.digest()
+    made.restore(snapshot)
+    made.delay_handlers(None)
+    made.advance(3000)
+    assert made.digest() == ended
+    assert not made.bit[IN_MOTION]
+    assert setpoints(made, 1) == [(-3000.0, 0.0)]
+
+
+def test_a_negative_time_is_refused() -> None:
+    with pytest.raises(UserError, match="handlers that take -1 ticks: the minimum is 0"):
+        Controller().delay_handlers(-1)
