@@ -190,6 +190,15 @@ def test_pending_work_is_part_of_a_snapshot_and_of_the_card_without_delays() -> 
     assert setpoints(made, 1) == [(-3000.0, 0.0)]
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_a_caller_waits_for_the_end_of_a_move_that_is_still_to_begin(seed: int) -> None:
+    made = machine()
+    made.delay_handlers(LATE_TK, seed=seed)
+    made.send("X2\r")
+    assert made.until(IN_MOTION, False)
+    assert setpoints(made, 1) == [(2000.0, 0.0)]
+
+
 def test_a_negative_time_is_refused() -> None:
     with pytest.raises(UserError, match="handlers that take -1 ticks: the minimum is 0"):
         Controller().delay_handlers(-1)

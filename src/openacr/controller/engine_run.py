@@ -91,11 +91,17 @@ class EngineRun:
             raise UserError(f"wait {limit_s} for flag {bit}: time only goes forward")
         if self._memory.bit(bit) == is_:
             return True
+        limit = round(timeout_s / self._clock.period_s) if ticks is None else ticks
+        if self._late is not None:  # the flag may be what is still to be taken over
+            self._late.commit(Handler.OUTSIDE)
+            pending = min(self._late.pending_tk, limit)
+            if self._live(pending) != loop_cy.DONE:
+                return False
+            limit -= pending
         word, mask = flag_place(bit)
         self._set_engine(engine.until_word, word)
         self._set_engine(engine.until_mask, mask)
         self._set_engine(engine.until_state, int(is_))
-        limit = round(timeout_s / self._clock.period_s) if ticks is None else ticks
         reason = self._live(limit)
         self._set_engine(engine.until_word, 0)
         return reason == loop_cy.UNTIL_MET

@@ -69,6 +69,11 @@ class LateHandlers:
         rows = self.machine.I
         return rows[system.tick_high] * 2**31 + rows[system.tick_low]
 
+    @property
+    def pending_tk(self) -> int:
+        """Ticks until all that is pending now has been taken over."""
+        return self._pending[-1].due_tk - self.tick if self._pending else 0
+
     def end(self) -> None:
         """From now on the memory of Python, which knows all that is pending, is the machine."""
         self._memory.noted = None
