@@ -10,7 +10,7 @@ from typing import NamedTuple
 class Entry(NamedTuple):
     """An object of the dictionary of a drive."""
 
-    index: int
+    object: int
     name: str
     type: str  # of the module struct, without the byte order
     unit: str = ""
