@@ -19,7 +19,9 @@ SHOWN = {
 
 @pytest.mark.parametrize("state", State)
 @pytest.mark.parametrize("other_bits", [0x0000, 0x0010, 0x0080, 0xFF90])
-def test_the_status_word_shows_the_state_whatever_its_other_bits_are(state, other_bits):
+def test_the_status_word_shows_the_state_whatever_its_other_bits_are(
+    state: State, other_bits: int
+) -> None:
     assert state_of(SHOWN[state] | other_bits) is state
 
 
@@ -27,12 +29,12 @@ def test_the_status_word_shows_the_state_whatever_its_other_bits_are(state, othe
     "state",
     [s for s in State if s in (State.NOT_READY, State.DISABLED, State.FAULT, State.REACTING)],
 )
-def test_the_bit_of_the_quick_stop_plays_no_part_in_states_without_power(state):
+def test_the_bit_of_the_quick_stop_plays_no_part_in_states_without_power(state: State) -> None:
     assert state_of(SHOWN[state] | 0x20) is state
 
 
 @pytest.mark.parametrize("word", [0x0001, 0x0003, 0x0022, 0x0041, 0x004F])
-def test_a_pattern_that_the_profile_does_not_have_is_no_state(word):
+def test_a_pattern_that_the_profile_does_not_have_is_no_state(word: int) -> None:
     assert state_of(word) is None
 
 
@@ -40,11 +42,11 @@ def led(drive: Drive, *states: State) -> list[int]:
     return [drive.next_word(SHOWN[state]) for state in states]
 
 
-def test_a_drive_is_off_until_it_is_asked_for_more():
+def test_a_drive_is_off_until_it_is_asked_for_more() -> None:
     assert led(Drive(), State.DISABLED, State.READY, State.SWITCHED_ON, State.OPERATING) == [0] * 4
 
 
-def test_a_drive_goes_up_step_by_step_as_its_states_follow():
+def test_a_drive_goes_up_step_by_step_as_its_states_follow() -> None:
     drive = Drive()
     drive.ask(Order.ON)
     words = led(drive, State.DISABLED, State.DISABLED, State.READY, State.SWITCHED_ON)
@@ -55,7 +57,7 @@ def test_a_drive_goes_up_step_by_step_as_its_states_follow():
 
 
 @pytest.mark.parametrize("state", [State.NOT_READY, State.QUICK_STOP, State.REACTING, State.FAULT])
-def test_a_drive_that_cannot_be_switched_on_stays_off_for_good(state):
+def test_a_drive_that_cannot_be_switched_on_stays_off_for_good(state: State) -> None:
     drive = Drive()
     drive.ask(Order.ON)
     assert led(drive, state) == [0]
@@ -63,7 +65,7 @@ def test_a_drive_that_cannot_be_switched_on_stays_off_for_good(state):
     assert led(drive, State.DISABLED) == [0]
 
 
-def test_a_status_word_without_a_state_switches_off():
+def test_a_status_word_without_a_state_switches_off() -> None:
     drive = Drive()
     drive.ask(Order.ON)
     assert drive.next_word(0x0041) == 0
@@ -71,7 +73,7 @@ def test_a_status_word_without_a_state_switches_off():
 
 
 @pytest.mark.parametrize("state", [s for s in State if s is not State.OPERATING])
-def test_a_drive_that_has_left_operation_is_not_enabled_by_itself(state):
+def test_a_drive_that_has_left_operation_is_not_enabled_by_itself(state: State) -> None:
     drive = Drive()
     drive.ask(Order.ON)
     led(drive, State.DISABLED, State.READY, State.SWITCHED_ON, State.OPERATING)
@@ -80,7 +82,7 @@ def test_a_drive_that_has_left_operation_is_not_enabled_by_itself(state):
     assert led(drive, State.DISABLED) == [0x06]
 
 
-def test_a_quick_stop_is_asked_of_a_drive_in_operation_until_it_is_off():
+def test_a_quick_stop_is_asked_of_a_drive_in_operation_until_it_is_off() -> None:
     drive = Drive()
     drive.ask(Order.ON)
     led(drive, State.SWITCHED_ON, State.OPERATING)
@@ -89,13 +91,13 @@ def test_a_quick_stop_is_asked_of_a_drive_in_operation_until_it_is_off():
 
 
 @pytest.mark.parametrize("state", [State.DISABLED, State.READY, State.SWITCHED_ON, State.FAULT])
-def test_a_quick_stop_of_a_drive_without_torque_switches_it_off(state):
+def test_a_quick_stop_of_a_drive_without_torque_switches_it_off(state: State) -> None:
     drive = Drive()
     drive.ask(Order.QUICK_STOP)
     assert led(drive, state) == [0]
 
 
-def test_a_reset_is_one_edge_and_leaves_the_drive_off():
+def test_a_reset_is_one_edge_and_leaves_the_drive_off() -> None:
     drive = Drive()
     drive.ask(Order.ON)
     led(drive, State.FAULT)
@@ -104,14 +106,14 @@ def test_a_reset_is_one_edge_and_leaves_the_drive_off():
     assert drive.order is Order.OFF
 
 
-def test_a_reset_without_a_fault_sends_no_edge():
+def test_a_reset_without_a_fault_sends_no_edge() -> None:
     drive = Drive()
     drive.reset()
     assert led(drive, State.DISABLED, State.DISABLED) == [0, 0]
 
 
 @pytest.mark.parametrize("state", State)
-def test_a_fault_is_seen_in_both_of_its_states_only(state):
+def test_a_fault_is_seen_in_both_of_its_states_only(state: State) -> None:
     drive = Drive()
     led(drive, state)
     assert drive.has_fault is (state in (State.FAULT, State.REACTING))

@@ -56,12 +56,3 @@ MODES = {
     "csv": Mode(9, 8, TARGET_VELOCITY),
     "cst": Mode(10, 9, TARGET_TORQUE),
 }
-
-# Bits of the digital inputs, 0x60FD; the maker's own follow from bit 16 on.
-INPUT_BITS = {
-    "negative_limit": 0,
-    "positive_limit": 1,
-    "home": 2,
-    "interlock": 3,
-    **{f"in{number}": 15 + number for number in range(1, 17)},
-}
