@@ -1,1 +1,1 @@
-"""Buses with real devices: drives and terminals in the place of modelled ones."""
+"""Fieldbuses with real drives and terminals, and what can be in their place on a bench."""
