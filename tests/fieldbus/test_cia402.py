@@ -102,14 +102,14 @@ def test_a_reset_is_one_edge_and_leaves_the_drive_off() -> None:
     drive.ask(Order.ON)
     led(drive, State.FAULT)
     drive.reset()
-    assert led(drive, State.FAULT, State.FAULT, State.FAULT, State.DISABLED) == [0, 0x80, 0, 0]
+    assert led(drive, *[State.FAULT] * 21) == [0] * 10 + [0x80] * 10 + [0]
     assert drive.order is Order.OFF
 
 
 def test_a_reset_without_a_fault_sends_no_edge() -> None:
     drive = Drive()
     drive.reset()
-    assert led(drive, State.DISABLED, State.DISABLED) == [0, 0]
+    assert led(drive, *[State.DISABLED] * 20) == [0] * 20
 
 
 @pytest.mark.parametrize("state", State)

@@ -18,6 +18,8 @@ from openacr.fieldbus.cia402.states import (
     state_of,
 )
 
+RESET_CYCLES = 10  # the edge that resets a fault is low and high that long: drives look seldom
+
 
 class Order(Enum):
     """What is asked of a drive."""
@@ -64,7 +66,7 @@ class Drive:
     def reset(self) -> None:
         """Reset a fault; the drive is off afterwards."""
         self.ask(Order.OFF)
-        self._resets = 2
+        self._resets = 2 * RESET_CYCLES
 
     def next_word(self, status_word: int) -> int:
         """The control word that follows on a status word."""
@@ -73,9 +75,8 @@ class Drive:
             self.ask(Order.OFF)
         if self._resets:
             self._resets -= 1
-            return (
-                FAULT_RESET if not self._resets and self.state is State.FAULT else DISABLE_VOLTAGE
-            )
+            is_high = self._resets < RESET_CYCLES and self.state is State.FAULT
+            return FAULT_RESET if is_high else DISABLE_VOLTAGE
         if self.order is Order.ON:
             return _UP.get(self.state, DISABLE_VOLTAGE) if self.state else DISABLE_VOLTAGE
         if self.order is Order.QUICK_STOP and self.state in (State.OPERATING, State.QUICK_STOP):
