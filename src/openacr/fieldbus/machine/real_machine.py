@@ -7,6 +7,7 @@ What goes wrong, and what follows:
 | more than `lost_frames` frames in a row lost, damaged or with a wrong working counter | all stop |
 | no exchange for `late_s` | all stop |
 | a device leaves OP | all stop |
+| the servo period is changed | all stop |
 | a drive reports a fault, leaves operation, jumps, operates in another mode | its axis stops |
 
 *Stop*: all motion of the axis is killed, Drive Fault is set, the drive is asked for a quick stop
@@ -36,7 +37,8 @@ class RealMachine:
         self._bad = 0  # exchanges in a row
         self._alarm = ""
         self.cycles = self.bad_cycles = 0
-        brought = bring_up(link, world, card.clock.period_s)
+        self._period_s = card.clock.period_s
+        brought = bring_up(link, world, self._period_s)
         self._master = brought.master
         self.drives = [
             AxisDrive(card, axis, axis.bus, brought.drives[axis.number])
@@ -62,6 +64,8 @@ class RealMachine:
         passed_s = 0.0 if self._latest_s is None else now_s - self._latest_s
         if passed_s > self._bus.late_s:
             self._stop(f"no exchange for {passed_s:.3g} s (late_s = {self._bus.late_s:g})")
+        if self._card.clock.period_s != self._period_s:
+            self._stop("the servo period was changed: the cycle of the bus is that of its start")
         for drive in self.drives:
             drive.give(self._master.image, now_s, self._bus.enable_s)
         for terminal in self._terminals:
@@ -105,6 +109,7 @@ class RealMachine:
         """Bring the bus up again; what cannot be brought up stays stopped."""
         try:
             brought = bring_up(self._link, self._world, self._card.clock.period_s)
+            self._period_s = self._card.clock.period_s
         except BusError as failure:
             log.error("the bus %s stays stopped: %s", self._link.name, failure)
             self._stop(str(failure))
