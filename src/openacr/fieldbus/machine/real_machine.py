@@ -70,7 +70,7 @@ class RealMachine:
             drive.give(self._master.image, now_s, self._bus.enable_s)
         for terminal in self._terminals:
             terminal.give(self._master.image)
-        self._exchange(now_s, passed_s)
+        self._exchange(now_s)
         if self._alarm and any(drive.is_resetting for drive in self.drives):
             self._reset()
         return tick + self._bus.cycle
@@ -79,9 +79,11 @@ class RealMachine:
         """Bring all devices to INIT: drives are off, outputs rest."""
         self._master.shut_down()
 
-    def _exchange(self, now_s: float, passed_s: float) -> None:
+    def _exchange(self, now_s: float) -> None:
         self.cycles += 1
+        before_s = now_s if self._latest_s is None else self._latest_s
         back = self._master.exchange()
+        passed_s = self._link.now_s() - before_s  # at most: a frame may wait on its way
         if back is None or not back.is_whole:
             self._bad += 1
             self.bad_cycles += 1

@@ -15,7 +15,7 @@ from openacr.fieldbus.ethercat.wire.frames import (
     parse,
 )
 
-TRIES = 3  # of what is not cyclic
+TRIES = 50  # of what is not cyclic: half a second of lost frames
 
 
 class BusError(UserError):

@@ -93,8 +93,9 @@ class Objects:
     def _send(self, payload: bytes) -> None:
         with suppress(StopIteration):
             next(self._mails(0.0))  # what is left of an earlier request
-        self._counter = next_counter(self._counter)
+        # The first mail has no counter: it is never taken for a repeated one of another master.
         mail = Mail(MailType.COE, payload, self._counter).pack()
+        self._counter = next_counter(self._counter)
         port, size = self.device.port, self._boxes.out_size
         if len(mail) > size:
             raise BusError(f"{self.device.label}: a mail of {len(mail)} bytes, room for {size}")
