@@ -246,8 +246,8 @@ def _category(kind: Category, data: bytes) -> bytes:
 
 
 def _general(one: Description, strings: _Strings) -> bytes:
-    group = strings.number(one.group)
-    order, name = strings.number(one.order), strings.number(one.name)
+    name = strings.number(one.name)  # first: masters print text 1
+    order, group = strings.number(one.order), strings.number(one.group)
     ports = 0x0011  # two of MII
     return _GENERAL.pack(
         group, 0, order, name, one.coe_details, 0, 0, 0, 0, 0, 0, 0, group, ports, 0
