@@ -34,7 +34,7 @@ FAULTS = {
     "[[axis]]\nnumber = 0\n":
         "machine.toml:1:3: [axis] lacks the key 'drive' (known keys: number, drive, name, units, "
         "encoder_lines, counts_per_rev, encoder_direction, units_per_rev, initial, marker, travel, "
-        "dac, motor, load, positive_limit, negative_limit, home, body)",
+        "dac, motor, load, positive_limit, negative_limit, home, bus, body)",
     X.replace("number = 0", "number = 16"):
         "machine.toml:2:1: axis[0].number is 16; it must be a whole number from 0 to 15",
     X.replace("number = 0", "number = true"):

@@ -36,6 +36,20 @@ COMMANDS: dict[str, Entry | Family] = {
     ),
     "run": Entry("run.command", "run"),
     "serve": Entry("serve", "serve"),
+    "bus": Family(
+        "Drives and terminals on an EtherCAT bus.",
+        {
+            "scan": Entry("bus", "scan_bus"),
+            "state": Entry("bus", "show_states"),
+            "sdo": Family(
+                "Objects of a device.",
+                {
+                    "read": Entry("bus", "read_object"),
+                    "write": Entry("bus", "write_object", takes_dashes=True),
+                },
+            ),
+        },
+    ),
     "panel": Entry("panel", "panel"),
     "bridge": Entry("bridge", "bridge"),
     "replay": Entry("run.replay", "replay"),

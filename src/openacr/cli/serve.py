@@ -3,6 +3,8 @@
 import asyncio
 import gc
 import logging
+from collections.abc import Callable
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -11,6 +13,7 @@ import typer
 
 from openacr.channels import ASCII_PORT, BINARY_PORT
 from openacr.cli.guests import Allow, Insecure, admitted
+from openacr.cli.serve_on_bus import ServedBus, agreed, world_on_bus
 from openacr.cli.signals import stop_on_signals
 from openacr.errors import StoreError, UserError
 from openacr.protocol.status import STATUS_PORT
@@ -20,6 +23,7 @@ if TYPE_CHECKING:
     from openacr.io.host import CardHost
     from openacr.io.serial_port import LineSettings
     from openacr.io.server import Address, CardServer, Guests
+    from openacr.plant.describe.schema import World
 
 log = logging.getLogger(__name__)
 BAD_INPUT = 2
@@ -63,16 +67,30 @@ def serve(
     no_journal: Annotated[
         bool, typer.Option("--no-journal", help="Keep no journal of the last minutes.")
     ] = False,
+    bus: Annotated[
+        str | None,
+        typer.Option(
+            metavar="IFACE",
+            help="Interface of the bus in place of that of machine.toml; none: all is modelled.",
+        ),
+    ] = None,
+    is_real: Annotated[
+        bool, typer.Option("--real", help="Let drives on the bus be enabled; asks first.")
+    ] = False,
+    is_sure: Annotated[bool, typer.Option("--yes", help="Do not ask.")] = False,
 ) -> None:
     """Run a card in real time and serve hosts over TCP and serial lines.
 
     With --data saved parameters, user flash and battery-backed memory survive the process.
-    The journal of the last minutes can be replayed with `openacr replay`.
+    The journal of the last minutes can be replayed with `openacr replay`. Drives of a bus in
+    machine.toml are read; only with --real can they be enabled. A card with a bus keeps no journal.
     """
     guests = admitted(host, allow, is_open=insecure)
-    card = _load(project, data)
+    world = world_on_bus(project, bus)
+    interface = agreed(world, bus, speed, is_real=is_real, is_sure=is_sure)
+    card = _load(project, data, world)
     try:
-        if not no_journal:
+        if not no_journal and world is None:
             _keep_journal(card, journal or (data / "journal" if data else None))
         ports = Ports(
             host,
@@ -83,7 +101,12 @@ def serve(
             STATUS_PORT if status_port is None and ascii_port == ASCII_PORT else status_port,
             is_status_wanted=status_port is not None,
         )
-        asyncio.run(serve_card(card, ports, speed, guests))
+        if world is None:
+            asyncio.run(serve_card(card, ports, speed, guests))
+        else:
+            served = ServedBus(card, world, interface, is_real=is_real)
+            with closing(served):
+                asyncio.run(serve_card(card, ports, speed, guests, served.begin))
     finally:
         card.close()
 
@@ -125,7 +148,7 @@ def _keep_journal(card: "Controller", folder: Path | None) -> None:
         log.warning("no journal is kept: %s", failure)
 
 
-def _load(path: Path | None, data: Path | None) -> "Controller":
+def _load(path: Path | None, data: Path | None, world: "World | None") -> "Controller":
     """A card with a project; refused lines are printed and end it with exit code 2."""
     from openacr.controller import Controller
     from openacr.errors import SourceError
@@ -135,7 +158,7 @@ def _load(path: Path | None, data: Path | None) -> "Controller":
     if path is None:
         card, refused = Controller(world=exact_world(), data=data), list[SourceError]()
     else:
-        card, refused = Controller.load(find_project(path), data=data)
+        card, refused = Controller.load(find_project(path), data=data, world=world)
     for notice in card.nonvolatile.notices:
         typer.echo(f"warning: {notice}", err=True)
     for error in refused:
@@ -148,9 +171,16 @@ def _load(path: Path | None, data: Path | None) -> "Controller":
 
 
 async def serve_card(
-    card: "CardHost", ports: Ports, speed: float = 1.0, guests: "Guests | None" = None
+    card: "CardHost",
+    ports: Ports,
+    speed: float = 1.0,
+    guests: "Guests | None" = None,
+    begin: Callable[[], None] | None = None,
 ) -> None:
-    """Serve until SIGTERM, SIGHUP or Ctrl-C; prints one line when everything listens."""
+    """Serve until SIGTERM, SIGHUP or Ctrl-C; prints one line when everything listens.
+
+    `begin` is called last of all before the first tick.
+    """
     from openacr.channels import StreamKind
     from openacr.io.serial_port import LineSettings
     from openacr.io.server import CardServer
@@ -164,12 +194,14 @@ async def serve_card(
         status = await _listen_status(server, ports)
         if ports.serial is not None:
             server.open_serial(ports.serial, ports.line or LineSettings())
+        gc.collect()
+        gc.freeze()  # what is loaded now stays: later collections are short
+        if begin is not None:
+            begin()
     except BaseException:
         await server.close()
         raise
     _announce(terminal, packets, server.allowed, status=status, serial=ports.serial)
-    gc.collect()
-    gc.freeze()  # what is loaded now stays: later collections are short
     await server.run(stop)
     log.info("%s", server.report())
 

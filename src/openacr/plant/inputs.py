@@ -17,6 +17,7 @@ from openacr.plant.bus import terminals
 WORD_BITS = 32
 # The onboard inputs and those of the four expansion boards, which wires may lead to.
 WIRED_RANGES = ((0, 31), (256, 287), (320, 351), (384, 415), (448, 479))
+OUTPUT_RANGES = ((32, 63), (288, 319), (352, 383), (416, 447), (480, 511))
 MISCELLANEOUS = (64, 95)
 NODE_RANGES = tuple(
     (first, first + bus_nodes.LEVELS_SIZE * WORD_BITS - 1)

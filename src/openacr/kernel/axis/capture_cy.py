@@ -16,7 +16,7 @@ from openacr.kernel.axis.feedback_cy import ENCODER_COUNT, FROM_ENCODER, MODELLE
 from openacr.kernel.words_cy import wrap32
 from openacr.map.kinds_cy import store_long
 from openacr.map.numbers import FLAG_WORD_BASE, W_INPUTS, W_MISC_OUTPUTS
-from openacr.map.rows import axes, encoders, kernel, motors, plant
+from openacr.map.rows import axes, bus_motors, encoders, kernel, motors, plant
 from openacr.map.words import af1, af2
 from openacr.views import F32, F64, I32
 
@@ -156,6 +156,21 @@ def encoder_shift(F: F64, I: I32, S: F32, n: int, origin_cnt: int) -> None:
     feedback_set(F, I, S, n, I[axes.actual_position[n]])
 
 
+def has_probe(I: I32, encoder: int, order: int) -> bool:
+    """Whether external capture input `order` (0-3) is latched by the drive of a motor."""
+    return order == 0 and 0 <= encoder < MODELLED and I[bus_motors.has_probe[encoder]] != 0
+
+
+def capture_probe(F: F64, I: I32, n: int, e: int, falling: bool) -> None:
+    """Take the position of axis n that the drive of its motor e has latched, if it has."""
+    if I[bus_motors.probe_edges[e]] & (FALLING_EDGE if falling else RISING_EDGE):
+        latched_cnt: float = (
+            F[bus_motors.probe_fall_cnt[e]] if falling else F[bus_motors.probe_rise_cnt[e]]
+        )
+        since_cnt: float = F[motors.raw_count[e]] - floor(latched_cnt)
+        capture_found(F, I, n, position_before(F, I, n, e, since_cnt))
+
+
 def capture_axis(F: F64, I: I32, n: int, mode: int) -> None:
     """Look for the edge axis n is armed for."""
     signal: int = capture_signal(mode)
@@ -171,6 +186,8 @@ def capture_axis(F: F64, I: I32, n: int, mode: int) -> None:
     elif signal == SOFTWARE:
         if I[W_MISC_OUTPUTS] & SOFTWARE_TRIGGER:
             capture_found(F, I, n, position_at_fraction(F, I, n, 1.0))
+    elif has_probe(I, own, signal - FIRST_EXTERNAL):
+        capture_probe(F, I, n, own, falling)
     else:
         number: int = external_input(n, signal - FIRST_EXTERNAL)
         if input_edge(I, number, falling):

@@ -54,7 +54,8 @@ MOTOR = HiddenBlock(
         "lag_decay",
     ),
     ints=(
-        # 0 none; drives: 1 torque, 2 velocity, 3 ideal, 4 torque by phases, 5 stepper, 6 exact
+        # 0 none; drives: 1 torque, 2 velocity, 3 ideal, 4 torque by phases, 5 stepper, 6 exact,
+        # 7 on a bus
         "kind",
         "dac",  # of a stepper its output
         "drive_enabled",  # written by the card
@@ -131,6 +132,27 @@ COMPLIANCE = HiddenBlock(
         "keep_speed",
     ),
     usual=FINITE,
+)
+
+# What a drive on a bus has reported of its motor, see plant/physics/bus_motor_cy.py.
+BUS_MOTOR = HiddenBlock(
+    prefix="PLX",
+    family="bus_motors",
+    count=16,
+    doubles=(
+        "reported_cnt",  # its position
+        "probe_rise_cnt",  # where its touch probe latched it
+        "probe_fall_cnt",
+    ),
+    ints=(
+        "has_probe",  # the first external input of a capture is the touch probe of the drive
+        "reported_edges",  # of the touch probe, since the last tick: 1 rising, 2 falling, 3 both
+        "probe_edges",  # the same, of this tick
+    ),
+    usual=FINITE,
+    ranges={
+        "has_probe": SWITCH,
+    },
 )
 
 # The terminals of the analog inputs of the card and what is wired to them.

@@ -20,6 +20,7 @@ from openacr.map.memory import Memory, flag_place
 from openacr.map.rows import analogs as analog_rows
 from openacr.map.rows import bus as bus_rows
 from openacr.map.rows import (
+    bus_motors,
     compliant_loads,
     encoders,
     every,
@@ -41,6 +42,7 @@ from openacr.plant.inputs import WORD_BITS, input_place, output_place
 from openacr.plant.describe.schema import (
     LOADLESS,
     Axis,
+    BusDrive,
     Contact,
     Direction,
     ExactDrive,
@@ -56,6 +58,7 @@ from openacr.plant.describe.schema import (
     switches,
 )
 from openacr.plant.physics.step_cy import (
+    BUS_DRIVE,
     EXACT_DRIVE,
     IDEAL_DRIVE,
     NO_ENCODER,
@@ -74,6 +77,7 @@ _KINDS = {
     PhaseDrive: PHASE_DRIVE,
     StepperDrive: STEPPER_DRIVE,
     ExactDrive: EXACT_DRIVE,
+    BusDrive: BUS_DRIVE,
 }
 FULL_DAC_BITS = 16
 _Row = tuple[int, ...]  # the place of a row for each motor
@@ -98,6 +102,7 @@ _REALS = (
     every(phases.reals, phases.REALS_SIZE),
     every(stepper_motors.reals, stepper_motors.REALS_SIZE),
     every(compliant_loads.reals, compliant_loads.REALS_SIZE),
+    every(bus_motors.reals, bus_motors.REALS_SIZE),
     every(analog_rows.reals, analog_rows.REALS_SIZE),
     every(wires.reals, wires.REALS_SIZE),
     every(plant.reals, plant.REALS_SIZE),
@@ -107,6 +112,7 @@ _INTS = (
     every(motors.ints, motors.INTS_SIZE),
     every(phases.ints, phases.INTS_SIZE),
     every(stepper_motors.ints, stepper_motors.INTS_SIZE),
+    every(bus_motors.ints, bus_motors.INTS_SIZE),
     every(analog_rows.ints, analog_rows.INTS_SIZE),
     every(wires.ints, wires.INTS_SIZE),
     every(input_words.ints, input_words.INTS_SIZE),
@@ -163,6 +169,7 @@ def _write_motor(memory: Memory, axis: Axis, world: World) -> None:
     doubles = {
         motors.dac_step: 2.0 ** (FULL_DAC_BITS - world.card.dac_bits),
         motors.position_cnt: count_of(axis, axis.initial),
+        bus_motors.reported_cnt: count_of(axis, axis.initial),
         **_drive_rows(axis),
         **load_rows(axis),
         **stop_rows(axis),
@@ -203,7 +210,7 @@ def _drive_rows(axis: Axis) -> dict[_Row, float]:
     """
     drive = axis.drive
     sign = 1 if axis.encoder_direction is Direction.UP else -1
-    if isinstance(drive, StepperDrive | ExactDrive):
+    if isinstance(drive, StepperDrive | ExactDrive | BusDrive):
         return {}
     rows = {motors.offset_v: drive.offset_v}
     if isinstance(drive, IdealDrive):

@@ -5,6 +5,7 @@ from difflib import get_close_matches
 
 from openacr.plant.describe.check_analog import analog_faults
 from openacr.plant.describe.check_bodies import body_faults
+from openacr.plant.describe.check_bus import bus_faults
 from openacr.plant.describe.check_devices import device_faults
 from openacr.plant.describe.check_networks import (
     canopen_faults,
@@ -25,11 +26,10 @@ from openacr.plant.describe.schema import (
     World,
     switches,
 )
-from openacr.plant.inputs import WIRED_RANGES, within
+from openacr.plant.inputs import OUTPUT_RANGES, WIRED_RANGES, within
 
 BOX_SIDES = 64
 INPUT_WORDS = 16
-OUTPUT_RANGES = ((32, 63), (288, 319), (352, 383), (416, 447), (480, 511))
 
 
 def contradictions(world: World) -> Iterator[Complaint]:
@@ -294,6 +294,7 @@ CHECKS: tuple[Callable[[World], Iterator[Complaint]], ...] = (
     _fault_inputs,
     canopen_faults,
     drive_faults,
+    bus_faults,
     analog_faults,
     device_faults,
     _device_outputs,

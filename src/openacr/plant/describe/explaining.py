@@ -112,7 +112,7 @@ def _plain(kind: inspect.Type, raw: Any) -> inspect.Type:
 
 def _allowed(path: locate.Path, raw: dict[str, Any], root: type) -> str:
     """Describe in words the values permitted at `path`."""
-    if path[-1:] == ("mode",):
+    if path[-1:] == ("mode",) and path[-2:] != ("bus", "mode"):
         return 'one of "torque", "velocity", "ideal", "phases", "stepper", "exact"'
     return _words(_type_at(path, raw, root))
 

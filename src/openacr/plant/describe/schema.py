@@ -13,6 +13,7 @@ from msgspec import Meta, Struct
 
 from openacr.models import DEFAULT_MODEL, MODELS, Model
 from openacr.plant.describe.body_schema import Body, Sign
+from openacr.plant.describe.bus_schema import Bus, BusDriveTable
 from openacr.plant.describe.network_schema import Canopen, TalkingDrive
 
 AXES = 16
@@ -177,8 +178,12 @@ class StepperDrive(_Drive, frozen=True, kw_only=True, tag_field="mode", tag="ste
     damping: Damping = 0.2
 
 
+class BusDrive(_Drive, frozen=True, kw_only=True):
+    """The drive of an axis while its bus is open; no key of the file, see `real_world`."""
+
+
 Drive = TorqueDrive | VelocityDrive | IdealDrive | PhaseDrive | StepperDrive | ExactDrive
-LOADLESS = (IdealDrive, ExactDrive)  # drives without a load model, which need no motor
+LOADLESS = (IdealDrive, ExactDrive, BusDrive)  # drives without a load model, which need no motor
 
 
 class LimitSwitch(_Table, frozen=True):
@@ -217,6 +222,7 @@ class Axis(_Table, frozen=True):
     positive_limit: LimitSwitch | None = None
     negative_limit: LimitSwitch | None = None
     home: HomeSwitch | None = None
+    bus: BusDriveTable | None = None
     body: Body = Body()
 
     @property
@@ -299,6 +305,7 @@ class World(_Table, frozen=True):
     wire: tuple[Wire, ...] = ()
     analog: tuple[Analog, ...] = ()
     inputs: Inputs = Inputs()
+    bus: Bus | None = None
     canopen: Canopen | None = None
     drive: tuple[TalkingDrive, ...] = ()
     device: tuple[DeviceTable, ...] = ()

@@ -14,6 +14,7 @@ from openacr.cmath import fabs
 from openacr.map import numbers as at
 from openacr.map.rows import plant
 from openacr.plant.physics.analog_cy import analogs_follow
+from openacr.plant.physics.bus_motor_cy import bus_motor
 from openacr.plant.physics.compliance_cy import flex, flexion, is_compliant
 from openacr.plant.physics.drive_cy import (
     cache_motion_factors,
@@ -44,6 +45,7 @@ IDEAL_DRIVE = 3
 PHASE_DRIVE = 4
 STEPPER_DRIVE = 5
 EXACT_DRIVE = 6
+BUS_DRIVE = 7
 
 # of encoder_fault
 EDGES_LOST = 1
@@ -99,6 +101,8 @@ def _motor_tick(F: F64, I: I32, S: F32, n: int, dt: float) -> int:
     kind: int = I[i + at.PLI_KIND]
     if kind == STEPPER_DRIVE:
         stepper_motor(F, I, n, ready, dt)
+    elif kind == BUS_DRIVE:
+        bus_motor(F, I, n)
     elif is_compliant(F, n):
         _compliant_motor(F, I, S, n, ready, dt)
     else:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import msgspec
 
@@ -105,12 +105,25 @@ def _position_u(memory: Memory, axis: Axis) -> float:
     return position_of(axis, memory.F[motors.position_cnt[axis.number]])
 
 
+class RealDevices(Protocol):
+    """What is real of a machine: drives and terminals on a bus."""
+
+    def attend(self, tick: int) -> int:
+        """Exchange signals at the end of a tick; the next tick to be called in."""
+
+
 class AttachedDevices:
     """All devices of a machine; the engine calls `attend` in the tick that is due."""
 
     def __init__(self, memory: Memory, world: World, folder: Path | None) -> None:
         self._memory = memory
         self._all = [Attached(memory, world, table, folder) for table in world.device]
+        self._real: RealDevices | None = None
+
+    def join(self, real: RealDevices) -> None:
+        """Attend real devices as well, from the next tick on, restarts of the card included."""
+        self._real = real
+        self.power_up()
 
     def __iter__(self) -> Iterator[Attached]:
         """The devices in the order of the machine file."""
@@ -118,7 +131,7 @@ class AttachedDevices:
 
     def power_up(self) -> None:
         """Step all devices in the first tick."""
-        self._memory.F[machine_devices.due_tk] = 1.0 if self._all else 0.0
+        self._memory.F[machine_devices.due_tk] = 1.0 if self._all or self._real else 0.0
 
     def attend(self, tick: int, period_s: float) -> None:
         """Step the devices whose period begins at a tick; all of them begin in the first."""
@@ -129,6 +142,8 @@ class AttachedDevices:
             if passed % every_tk == 0:
                 each.step(every_tk * period_s)
             due_tk = min(due_tk, tick + every_tk - passed % every_tk)
+        if self._real is not None:
+            due_tk = min(due_tk, self._real.attend(tick))
         self._memory.F[machine_devices.due_tk] = due_tk
 
     def command(self, device: str, name: str, value: float) -> tuple[int, Value]:

@@ -1,0 +1,1 @@
+"""CiA 402, the profile of drives: its objects, its states and how a master leads a drive."""

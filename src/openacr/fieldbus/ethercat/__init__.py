@@ -1,0 +1,1 @@
+"""EtherCAT: what is on the wire, and devices that are emulated."""

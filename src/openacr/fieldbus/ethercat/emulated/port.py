@@ -1,0 +1,82 @@
+"""An emulated segment on a network interface: a raw socket, which needs the right to have one."""
+
+import errno
+import heapq
+import select
+import socket
+import time
+from collections.abc import Callable
+
+from openacr.errors import UserError
+from openacr.fieldbus.ethercat.emulated.faults import Line
+from openacr.fieldbus.ethercat.wire.frames import ETHERTYPE
+
+IDLE_S = 0.01  # how often time passes for the motors without a frame
+LONGEST = 2048
+_OUTGOING = 4  # the kind of a packet that this computer sent
+
+
+class Port:
+    """Serves a line on an interface until `close`; `poll` is called again and again."""
+
+    def __init__(
+        self, line: Line, interface: str, clock: Callable[[], int] = time.monotonic_ns
+    ) -> None:
+        self.line = line
+        self._clock = clock
+        self._late: list[tuple[int, int, bytes]] = []
+        self._number = 0
+        self._socket = _open(interface)
+
+    def poll(self, idle_s: float = IDLE_S) -> None:
+        """Wait for a frame or `idle_s`, and serve what there is."""
+        now = self._clock()
+        if self._late:
+            idle_s = min(idle_s, max(0.0, (self._late[0][0] - now) * 1e-9))
+        ready = select.select([self._socket], [], [], idle_s)[0]
+        now = self._clock()
+        if ready:
+            frame, sender = self._socket.recvfrom(LONGEST)
+            if sender[2] != _OUTGOING:
+                self._serve(frame, now)
+        else:
+            self.line.segment.advance(now)
+        while self._late and self._late[0][0] <= now:
+            self._send(heapq.heappop(self._late)[2])
+
+    def _serve(self, frame: bytes, now: int) -> None:
+        for each in self.line.send(frame, now):
+            if each.delay_ns:
+                self._number += 1
+                heapq.heappush(self._late, (now + each.delay_ns, self._number, each.frame))
+            else:
+                self._send(each.frame)
+
+    def _send(self, frame: bytes) -> None:
+        try:
+            self._socket.send(frame)
+        except OSError as error:
+            if error.errno not in (errno.ENOBUFS, errno.ENETDOWN, errno.EAGAIN):
+                raise UserError(f"the interface cannot send: {error.strerror}") from None
+
+    def close(self) -> None:
+        """Release the interface."""
+        self._socket.close()
+
+
+def _open(interface: str) -> socket.socket:
+    if not hasattr(socket, "AF_PACKET"):
+        raise UserError("raw sockets of network interfaces are known on Linux only")
+    try:
+        one = socket.socket(socket.AF_PACKET, socket.SOCK_RAW, socket.htons(ETHERTYPE))
+    except PermissionError:
+        raise UserError(
+            f"{interface}: a raw socket needs root, or the capability CAP_NET_RAW of this Python"
+        ) from None
+    try:
+        one.bind((interface, ETHERTYPE))
+    except OSError as error:
+        one.close()
+        known = ", ".join(name for _, name in socket.if_nameindex())
+        raise UserError(f"{interface}: {error.strerror}; there are {known}") from None
+    return one

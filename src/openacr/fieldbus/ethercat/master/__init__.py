@@ -1,0 +1,1 @@
+"""The master of an EtherCAT segment: scan, SDO, states, the cyclic frame."""

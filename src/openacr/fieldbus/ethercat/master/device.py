@@ -1,0 +1,100 @@
+"""A device of the segment: where it is, who it is, its states."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from openacr.fieldbus.ethercat.master import eeprom
+from openacr.fieldbus.ethercat.master.port import FIRST_STATION, BusError, Port
+from openacr.fieldbus.ethercat.wire.frames import Command, by_position, by_station
+from openacr.fieldbus.ethercat.wire.registers import (
+    ERROR,
+    STATE_MASK,
+    Register,
+    State,
+    al_text,
+)
+from openacr.fieldbus.ethercat.wire.sii import Description
+
+MOST_DEVICES = 1000
+STATE_S = 5.0  # a change of state takes at most
+POLL_S = 0.001
+
+
+@dataclass(slots=True)
+class Device:
+    """A device that was found by a scan."""
+
+    port: Port
+    position: int
+    alias: int
+    description: Description
+
+    @property
+    def station(self) -> int:
+        """Its station address."""
+        return FIRST_STATION + self.position
+
+    @property
+    def label(self) -> str:
+        """What messages call it."""
+        name = self.description.name or self.description.order
+        return f"device {self.position} ({name})" if name else f"device {self.position}"
+
+    @property
+    def is_drive(self) -> bool:
+        """Whether it has the objects of a drive in its process data."""
+        pdos = (*self.description.receive, *self.description.transmit)
+        return any(entry.index in (0x6040, 0x6041) for pdo in pdos for entry in pdo.entries)
+
+    def state(self) -> tuple[State, int]:
+        """Its state, and the code of its error: 0 without one."""
+        data = self.port.read(self.station, Register.AL_STATUS, 6)
+        status = int.from_bytes(data[:2], "little")
+        code = int.from_bytes(data[4:6], "little") if status & ERROR else 0
+        return State(status & STATE_MASK or State.INIT), code
+
+    def request(self, state: State) -> None:
+        """Ask for a state; an error is acknowledged first."""
+        status = self.port.word(self.station, Register.AL_STATUS)
+        if status & ERROR:
+            acknowledged = status & STATE_MASK | ERROR
+            self.port.write_word(self.station, Register.AL_CONTROL, acknowledged)
+        self.port.write_word(self.station, Register.AL_CONTROL, state)
+
+    def reach(self, state: State) -> None:
+        """Bring it into a state; BusError with the reason the device gives."""
+        self.request(state)
+        deadline_s = self.port.link.now_s() + STATE_S
+        while True:
+            now, code = self.state()
+            if now is state and not code:
+                return
+            if code or self.port.link.now_s() > deadline_s:
+                why = al_text(code) if code else f"not within {STATE_S:g} s"
+                raise BusError(f"{self.label} does not reach {state.name}: {why}")
+            self.port.link.pause(POLL_S)
+
+
+def count(port: Port) -> int:
+    """How many devices answer."""
+    return port.ask(by_station(Command.BRD, 0, Register.TYPE, b"\0")).counter
+
+
+def scan(port: Port) -> list[Device]:
+    """All devices in the order of the cable, with station addresses; BusError for none."""
+    found = count(port)
+    if not 1 <= found <= MOST_DEVICES:
+        raise BusError(f"{found} devices answer on {port.link.name}: is there one with power?")
+    return list(_found(port, found))
+
+
+def _found(port: Port, number: int) -> Iterator[Device]:
+    for position in range(number):
+        station = FIRST_STATION + position
+        address = station.to_bytes(2, "little")
+        port.ask(by_position(Command.APWR, position, Register.STATION, address))
+    for position in range(number):
+        station = FIRST_STATION + position
+        alias = port.word(station, Register.ALIAS)
+        description = eeprom.description(port, station)
+        yield Device(port, position, alias or description.alias, description)

@@ -1,0 +1,131 @@
+"""The bus of a machine at work: once a cycle all signals are exchanged with its devices.
+
+What goes wrong, and what follows:
+
+| seen | reaction |
+|---|---|
+| more than `lost_frames` frames in a row lost, damaged or with a wrong working counter | all stop |
+| no exchange for `late_s` | all stop |
+| a device leaves OP | all stop |
+| the servo period is changed | all stop |
+| a drive reports a fault, leaves operation, jumps, operates in another mode | its axis stops |
+
+*Stop*: all motion of the axis is killed, Drive Fault is set, the drive is asked for a quick stop
+and is off on the card. DRIVE RES resets it; after a stop of all it brings the bus up again.
+"""
+
+import logging
+
+from openacr.fieldbus.ethercat.master.master import Member
+from openacr.fieldbus.ethercat.master.port import BusError, Link
+from openacr.fieldbus.machine.axis_drive import AxisDrive
+from openacr.fieldbus.machine.bringing_up import bring_up
+from openacr.fieldbus.machine.terminal import RealTerminal
+from openacr.motion.card import Card
+from openacr.plant.describe.bus_schema import Bus
+from openacr.plant.describe.schema import World
+
+log = logging.getLogger(__name__)
+
+
+class RealMachine:
+    """The drives and terminals of a machine; `attend` once a cycle, `close` at the end."""
+
+    def __init__(self, card: Card, world: World, link: Link) -> None:
+        self._card, self._world, self._link = card, world, link
+        self._bus = world.bus or Bus()
+        self._bad = 0  # exchanges in a row
+        self._alarm = ""
+        self.cycles = self.bad_cycles = 0
+        self._period_s = card.clock.period_s
+        brought = bring_up(link, world, self._period_s)
+        self._master = brought.master
+        self.drives = [
+            AxisDrive(card, axis, axis.bus, brought.drives[axis.number])
+            for axis in world.axis
+            if axis.bus is not None
+        ]
+        self._terminals = self._made_terminals(brought.terminals)
+        self._latest_s: float | None = None
+
+    def enable(self) -> None:
+        """Allow drives to be enabled, by DRIVE ON; before it the bus is only read."""
+        for drive in self.drives:
+            drive.may_enable = True
+
+    @property
+    def alarm(self) -> str:
+        """What has stopped all drives, until it is reset."""
+        return self._alarm
+
+    def attend(self, tick: int) -> int:
+        """Exchange the signals of a tick; the next tick to be called in."""
+        now_s = self._link.now_s()
+        passed_s = 0.0 if self._latest_s is None else now_s - self._latest_s
+        if passed_s > self._bus.late_s:
+            self._stop(f"no exchange for {passed_s:.3g} s (late_s = {self._bus.late_s:g})")
+        if self._card.clock.period_s != self._period_s:
+            self._stop("the servo period was changed: the cycle of the bus is that of its start")
+        for drive in self.drives:
+            drive.give(self._master.image, now_s, self._bus.enable_s)
+        for terminal in self._terminals:
+            terminal.give(self._master.image)
+        self._exchange(now_s)
+        if self._alarm and any(drive.is_resetting for drive in self.drives):
+            self._reset()
+        return tick + self._bus.cycle
+
+    def close(self) -> None:
+        """Bring all devices to INIT: drives are off, outputs rest."""
+        self._master.shut_down()
+
+    def _exchange(self, now_s: float) -> None:
+        self.cycles += 1
+        before_s = now_s if self._latest_s is None else self._latest_s
+        back = self._master.exchange()
+        passed_s = self._link.now_s() - before_s  # at most: a frame may wait on its way
+        if back is None or not back.is_whole:
+            self._bad += 1
+            self.bad_cycles += 1
+            if self._bad > self._bus.lost_frames:
+                what = "no frame comes back" if back is None else "the working counter is wrong"
+                self._stop(f"{what}, {self._bad} times in a row")
+            return
+        self._bad = 0
+        self._latest_s = now_s
+        if not back.are_operating:
+            self._stop("a device has left OP")
+        for drive in self.drives:
+            drive.take(back.image, now_s, passed_s)
+        for terminal in self._terminals:
+            terminal.take(back.image)
+
+    def _stop(self, text: str) -> None:
+        if not self._alarm:
+            log.error("the bus %s: %s; all its drives are stopped", self._link.name, text)
+            self._alarm = text
+        for drive in self.drives:
+            drive.fail(self._alarm)
+
+    def _reset(self) -> None:
+        """Bring the bus up again; what cannot be brought up stays stopped."""
+        try:
+            brought = bring_up(self._link, self._world, self._card.clock.period_s)
+            self._period_s = self._card.clock.period_s
+        except BusError as failure:
+            log.error("the bus %s stays stopped: %s", self._link.name, failure)
+            self._stop(str(failure))
+            return
+        self._master = brought.master
+        for drive in self.drives:
+            drive.connect(brought.drives[drive.axis.number])
+            drive.alarm = ""
+        self._terminals = self._made_terminals(brought.terminals)
+        self._alarm, self._bad, self._latest_s = "", 0, None
+
+    def _made_terminals(self, members: list[Member]) -> list[RealTerminal]:
+        memory = self._card.memory
+        return [
+            RealTerminal(memory, table, member)
+            for table, member in zip(self._bus.terminal, members, strict=True)
+        ]
