@@ -22,7 +22,7 @@ from openacr.panel.control.station import Station
 from openacr.sysvar import password
 
 FIRST = [
-    "Programs", "Status", "Servo loop", "I/O", "PLC", "Values", "Terminal", "Watch list", "ALARMS",
+    "Programs", "PLC", "Editor", "Variables", "Watch list", "Terminal", "Values", "ALARMS",
 ]  # fmt: skip
 ANEW = """() => import('/js/bench/workspace.js').then(({ arrange }) => {
   localStorage.clear();
@@ -30,8 +30,10 @@ ANEW = """() => import('/js/bench/workspace.js').then(({ arrange }) => {
 })"""
 # As the workspace does when it is opened.
 OPENED = """() => import('/js/bench/workspace.js').then(({ arrange }) =>
-  import('/js/bench/layouts.js').then(({ presentLayout }) => arrange(presentLayout('wide'))))"""
-KEPT = "() => JSON.parse(localStorage.getItem('openacr.panel.bench.wide') || 'null')"
+  import('/js/bench/layouts.js').then(({ presentLayout }) =>
+    arrange(presentLayout('wide', 'program'))))"""
+KEY = "openacr.panel.bench.wide.program"
+KEPT = f"() => JSON.parse(localStorage.getItem('{KEY}') || 'null')"
 
 
 @pytest.fixture(scope="module")
@@ -96,6 +98,7 @@ def test_the_first_layout_shows_panes_of_the_operators_screens_live(
     page: Page, served: Served
 ) -> None:
     expect(page.locator(".bench-tab-text")).to_have_text(FIRST)
+    page.evaluate("import('/js/bench/workspace.js').then((each) => each.openPane('servo'))")
     expect(page.locator("#state")).to_contain_text("IDLE")
     gear = page.locator("[data-pane=servo] [data-box=gear] .value")
     for value in (250, 0):  # gear offset of X
@@ -106,10 +109,10 @@ def test_the_first_layout_shows_panes_of_the_operators_screens_live(
 
 
 def test_panes_are_closed_and_opened_and_the_browser_keeps_what_is_open(page: Page) -> None:
-    page.locator(".bench-tab-text", has_text="I/O").click()
+    page.locator(".bench-tab-text", has_text="Watch list").click()
     page.get_by_role("button", name="CLOSE PANE").click()
-    page.locator(".dv-tab", has_text="Servo loop").locator(".bench-close").click()
-    left = [name for name in FIRST if name not in ("I/O", "Servo loop")]
+    page.locator(".dv-tab", has_text="Values").locator(".bench-close").click()
+    left = [name for name in FIRST if name not in ("Watch list", "Values")]
     expect(page.locator(".bench-tab-text")).to_have_text(left)
     open_pane(page, "Gains")
     expect(page.locator("[data-pane=gain] .gain-row").first).to_be_visible()
@@ -160,7 +163,7 @@ def test_a_kept_layout_that_cannot_be_used_is_replaced_by_the_first(
         expect(page.locator(".bench-tab-text")).to_have_count(len(FIRST) - 1)
         broken = json.dumps(kept(page, len(FIRST) - 1)).replace('"terminal"', '"teleprinter"')
         assert "teleprinter" in broken
-    page.evaluate("(text) => localStorage.setItem('openacr.panel.bench.wide', text)", broken)
+    page.evaluate(f"(text) => localStorage.setItem('{KEY}', text)", broken)
     page.evaluate(OPENED)
     expect(page.locator(".bench-tab-text")).to_have_text(FIRST)
     assert page.complaints == []  # type: ignore[attr-defined]
@@ -425,7 +428,7 @@ def test_the_watch_list_shows_formats_and_is_kept_with_the_layout(
 ) -> None:
     search(page, "p12322")
     row_of(page, "P12322").click()
-    page.get_by_role("button", name="WATCH").click()
+    page.locator("[data-pane=tree]").get_by_role("button", name="WATCH").click()
     name = page.get_by_label("P12288, BIT516 or axis0.actual position")
     name.fill("P5; BIT516")
     name.press("Enter")

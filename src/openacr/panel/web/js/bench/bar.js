@@ -1,118 +1,47 @@
-// The keys of the workspace: panes, layouts, the operator's screens.
-import { report } from "../core/app.js";
+// The keys of the workspace: jobs, panes, layouts, the operator's screens.
 import { byId, fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
-import { ask, askText, confirm } from "../frame/dialog.js";
-import { keepNamedLayouts, namedLayouts } from "./layouts.js";
-import { PANES } from "./panes.js";
-import { arrange, closePane, layoutNow, mayCloseAll, openPane } from "./workspace.js";
+import { ACTIONS, shownKeys, spokenKeys } from "./actions.js";
+import { NARROW, job } from "./workspace.js";
+
+/** @typedef {import("./actions.js").ActionName} ActionName */
+
+const JOB_KEYS = /** @type {const} */ (["program", "tune", "watch"]);
 
 export function startBar() {
   const bar = byId("menu");
   bar.ariaLabel = t("bench.keys");
   fill(
     bar,
-    keyOf("bench.panes", choosePane, {
-      data: { does: "panes" },
-      title: "Alt+P, Alt+1 \u2026 9",
-      attr: { "aria-keyshortcuts": "Alt+P" },
-    }),
-    keyOf("bench.layouts", chooseLayout),
-    keyOf("bench.close", closePane),
+    ...["panes", "layouts", "close", "keys"].map((each) => keyOf("button.menu-key", /** @type {ActionName} */ (each))),
     h("a.menu-key", { href: "/" }, t("bench.operator")),
   );
+  const jobs = JOB_KEYS.map((each) => keyOf("button.key", each));
+  const group = h("div.row.jobs", { role: "group", ariaLabel: t("bench.jobs") }, ...jobs);
+  const place = () => (NARROW.matches ? byId("menu").prepend(group) : byId("tools").before(group));
+  NARROW.addEventListener("change", place);
+  place();
+  job.watch((now) => {
+    for (const key of jobs) key.ariaPressed = String(key.dataset.does === now);
+  });
 }
 
 /**
- * @param {import("../core/texts.js").Said} label
- * @param {() => void} onclick
- * @param {object} [more]
+ * A key that does an action of the workspace.
+ * @param {"button.key" | "button.menu-key"} what
+ * @param {ActionName} name
  */
-function keyOf(label, onclick, more = {}) {
-  return h("button.menu-key", { type: "button", onclick, ...more }, t(label));
-}
-
-/** Choose a pane from all there are. */
-async function choosePane() {
-  let chosen = "";
-  const tiles = Object.entries(PANES).map(([pane, { title }]) =>
-    h(
-      "button.key",
-      {
-        type: "submit",
-        onclick: () => {
-          chosen = pane;
-        },
-      },
-      t(title),
-    ),
+function keyOf(what, name) {
+  const { title, keys, does } = ACTIONS[name];
+  return h(
+    what,
+    {
+      type: "button",
+      data: { does: name },
+      title: `${t(title)} (${shownKeys(keys)})`,
+      attr: { "aria-keyshortcuts": spokenKeys(keys) },
+      onclick: () => void does(),
+    },
+    t(title),
   );
-  const submit = { text: t("key.cancel"), value: () => chosen || null, isSubmit: true };
-  const pane = await ask({
-    title: t("bench.panes"),
-    className: "wide",
-    first: tiles[0],
-    body: [h("div.tiles", {}, ...tiles)],
-    choices: [submit],
-  });
-  if (pane) openPane(pane, { isNew: true });
-}
-
-/** Keep the layout under a name, take one, delete one, or go back to the first one. */
-async function chooseLayout() {
-  const named = namedLayouts();
-  let chosen = "";
-  const rows = Object.keys(named)
-    .sort()
-    .map((name) =>
-      h(
-        "div.row",
-        { data: { layout: name } },
-        h(
-          "button.key.grow",
-          {
-            type: "submit",
-            onclick: () => {
-              chosen = name;
-            },
-          },
-          name,
-        ),
-        h(
-          "button.key.bad",
-          {
-            type: "button",
-            ariaLabel: t("bench.delete", { name }),
-            title: t("bench.delete", { name }),
-            onclick: () => {
-              delete named[name];
-              keepNamedLayouts(named);
-              document.querySelector(`[data-layout="${CSS.escape(name)}"]`)?.remove();
-            },
-          },
-          "\u00d7",
-        ),
-      ),
-    );
-  const what = await ask({
-    title: t("bench.layouts"),
-    body: rows.length ? rows : [h("p.hint", {}, t("bench.nolayout"))],
-    choices: [
-      { text: t("bench.reset"), value: "reset" },
-      { text: t("bench.save"), value: "save" },
-      { text: t("key.close"), value: () => (chosen ? "take" : null), isSubmit: true },
-    ],
-  });
-  if (what === "save") await keepNamed(named);
-  else if (what === "take" && (await mayCloseAll())) arrange(named[chosen]);
-  else if (what === "reset" && (await mayCloseAll())) arrange(null);
-}
-
-/** @param {Record<string, import("./layouts.js").Layout>} named */
-async function keepNamed(named) {
-  const name = await askText(t("bench.save"), t("bench.name"));
-  if (!name || (name in named && !(await confirm(t("bench.save"), t("bench.replace", { name }), t("bench.save")))))
-    return;
-  keepNamedLayouts({ ...named, [name]: layoutNow() });
-  report(t("bench.saved", { name }));
 }

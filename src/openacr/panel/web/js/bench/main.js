@@ -13,14 +13,14 @@ async function start() {
   followSystemTheme();
   useLanguage(setting("language", "en"));
   addTexts(texts);
-  const [clock, top, prompt, stop, workspace, bar, shortcuts] = await Promise.all([
+  const [clock, top, prompt, stop, workspace, bar, actions] = await Promise.all([
     import("../frame/clock.js"),
     import("../frame/top.js"),
     import("../frame/prompt.js"),
     import("../frame/stop.js"),
     import("./workspace.js"),
     import("./bar.js"),
-    import("./shortcuts.js"),
+    import("./actions.js"),
   ]);
   top.startTop(() => workspace.openPane("alarms"));
   prompt.startPrompt();
@@ -28,7 +28,7 @@ async function start() {
   clock.startClock();
   workspace.startWorkspace();
   bar.startBar();
-  shortcuts.startShortcuts();
+  actions.startActions();
 }
 
 void start();

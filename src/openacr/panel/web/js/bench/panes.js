@@ -10,7 +10,8 @@ import { modulePane, screenPane, tabPane } from "./adapters.js";
  * @property {(ask: () => boolean | Promise<boolean>) => void} beforeClose asked before the pane is closed
  *
  * @typedef {(host: HTMLElement, place: Place) => (() => void) | Promise<() => void>} Mount
- * @typedef {{ title: import("../core/texts.js").Said, role?: string, most?: number, load: () => Promise<Mount> }} Pane
+ * @typedef {{ title: import("../core/texts.js").Said, role?: string, most?: number, isLarge?: boolean,
+ *   load: () => Promise<Mount> }} Pane `isLarge`: it opens in the largest place
  */
 
 /** @type {Record<string, Pane>} */
@@ -23,7 +24,12 @@ export const PANES = {
   },
   status: { title: { en: "Status", de: "Zustand" }, most: 8, load: modulePane(() => import("./panes/status.js")) },
   programs: { title: { en: "Programs", de: "Programme" }, load: screenPane(() => import("../screens/programs.js")) },
-  editor: { title: { en: "Editor", de: "Editor" }, most: 4, load: modulePane(() => import("./panes/editor.js")) },
+  editor: {
+    title: { en: "Editor", de: "Editor" },
+    most: 4,
+    isLarge: true,
+    load: modulePane(() => import("./panes/editor.js")),
+  },
   variables: {
     title: { en: "Variables", de: "Variablen" },
     most: 4,
@@ -40,22 +46,25 @@ export const PANES = {
   tune: {
     title: { en: "Tuning", de: "Einstellen" },
     role: "service",
+    isLarge: true,
     load: modulePane(() => import("./panes/tune.js")),
   },
-  scope: { title: "scope.title", role: "service", load: modulePane(() => import("./panes/scope.js")) },
+  scope: { title: "scope.title", role: "service", isLarge: true, load: modulePane(() => import("./panes/scope.js")) },
   tree: { title: "pane.tree", load: modulePane(() => import("./panes/tree.js")) },
   watch: { title: { en: "Watch list", de: "Beobachten" }, load: modulePane(() => import("./panes/watch.js")) },
   io: { title: { en: "I/O", de: "E/A" }, load: tabPane(async () => (await import("../frame/tab_io.js")).ioTab) },
   board: { title: "board.title", role: "service", load: screenPane(() => import("../screens/board.js")) },
-  world: { title: { en: "World", de: "Welt" }, load: modulePane(() => import("./panes/world.js")) },
+  world: { title: { en: "World", de: "Welt" }, isLarge: true, load: modulePane(() => import("./panes/world.js")) },
   wizard: {
     title: { en: "Configuration", de: "Konfiguration" },
     role: "service",
+    isLarge: true,
     load: modulePane(() => import("./panes/wizard.js")),
   },
   timeline: {
     title: { en: "Timeline", de: "Zeitachse" },
     role: "service",
+    isLarge: true,
     load: modulePane(() => import("./panes/timeline.js")),
   },
   alarms: {

@@ -2,20 +2,23 @@
 import { createDockview } from "../../vendor/dockview.js";
 import { refuse } from "../core/app.js";
 import { byId, h } from "../core/dom.js";
+import { Signal } from "../core/signal.js";
 import { t } from "../core/texts.js";
 import { showPane } from "./content.js";
-import { FIRST, keepLayout, presentLayout } from "./layouts.js";
+import { JOBS, firstLayout, keepJob, keepLayout, panesOf, presentJob, presentLayout } from "./layouts.js";
 import { PANES } from "./panes.js";
 
 /** @typedef {import("../../vendor/dockview.js").DockviewApi} DockviewApi */
 
-const NARROW = window.matchMedia("(max-width: 900px)");
+export const NARROW = window.matchMedia("(max-width: 900px)");
 /** @type {DockviewApi} */
 let dock;
 /** @type {Map<string, () => boolean | Promise<boolean>>} */
 const closing = new Map();
 let isLoading = false;
 let form = formOf();
+/** What the workspace is used for now: each job has a layout of its own. */
+export const job = new Signal(presentJob());
 
 export function startWorkspace() {
   dock = createDockview(byId("work"), {
@@ -30,7 +33,7 @@ export function startWorkspace() {
   });
   load();
   dock.onDidLayoutChange(() => {
-    if (!isLoading) keepLayout(form, dock.toJSON());
+    if (!isLoading) keepLayout(form, job.value, dock.toJSON());
   });
   NARROW.addEventListener("change", () => {
     form = formOf();
@@ -54,12 +57,20 @@ function formOf() {
 export function openPane(pane, { isNew = false } = {}) {
   const open = dock.panels.filter((each) => each.view.contentComponent === pane);
   if (open.length && !(isNew && open.length < (PANES[pane].most ?? 1))) open[0].api.setActive();
-  else
+  else {
+    const beside = (PANES[pane].isLarge && largestPanel()) || dock.activePanel;
     addPane(
       pane,
       open.map((each) => each.id),
-      dock.activePanel ? { referencePanel: dock.activePanel.id, direction: "within" } : undefined,
+      beside ? { referencePanel: beside.id, direction: "within" } : undefined,
     );
+  }
+}
+
+/** What is shown in the largest place. */
+function largestPanel() {
+  const area = (/** @type {{ width: number, height: number }} */ group) => group.width * group.height;
+  return [...dock.groups].sort((one, other) => area(other) - area(one))[0]?.activePanel;
 }
 
 /**
@@ -70,13 +81,7 @@ export function openPane(pane, { isNew = false } = {}) {
 function addPane(pane, taken, position) {
   let n = 1;
   while (taken.includes(`${pane}-${n}`)) n++;
-  dock.addPanel({
-    id: `${pane}-${n}`,
-    component: pane,
-    title: titleOf(pane, n),
-    position,
-    inactive: isLoading && position?.direction === "within",
-  });
+  dock.addPanel({ id: `${pane}-${n}`, component: pane, title: titleOf(pane, n), position });
 }
 
 /**
@@ -92,40 +97,56 @@ function numberOf(id) {
   return Number(id.split("-")[1]);
 }
 
-/** Lay the panes out as they were kept, else as at first. */
-function load() {
-  arrange(presentLayout(form));
+/** Lay the panes out as they were kept, else as at first. @param {{ isReusing?: boolean }} [options] */
+function load(options) {
+  arrange(presentLayout(form, job.value), options);
+}
+
+/**
+ * Change to the layout of another job, which is as it was left. Panes that are in both go on as they are; one that is
+ * not, with changes, may keep the present layout.
+ * @param {import("./layouts.js").Job} wanted
+ */
+export async function chooseJob(wanted) {
+  if (wanted === job.value) return;
+  const next = presentLayout(form, wanted);
+  const stays = next?.panels ?? Object.fromEntries(panesOf(wanted).map((pane) => [`${pane}-1`, true]));
+  for (const [id, mayClose] of closing) if (!(id in stays) && !(await mayClose())) return;
+  keepLayout(form, job.value, dock.toJSON());
+  keepJob(wanted);
+  job.set(wanted);
+  load({ isReusing: true });
 }
 
 /**
  * Lay panes out; without a layout, or with one that cannot be used, as at first. A narrow screen has all panes in one
  * place.
  * @param {import("./layouts.js").Layout | null} layout
+ * @param {{ isReusing?: boolean }} [options] whether panes that are open go on as they are
  */
-export function arrange(layout) {
+export function arrange(layout, { isReusing = false } = {}) {
+  const options = { reuseExistingPanels: isReusing };
   isLoading = true;
   try {
     if (layout && form === "narrow")
       inOnePlace(Object.values(layout.panels).map((each) => [each.id, each.params ?? {}]));
-    else if (layout) dock.fromJSON(known(layout));
-    else first();
+    else if (layout) dock.fromJSON(known(layout), options);
+    else first(options);
   } catch {
     dock.clear();
     first();
   }
   isLoading = false;
   for (const panel of dock.panels) panel.api.setTitle(titleOf(panel.view.contentComponent, numberOf(panel.id)));
-  keepLayout(form, layout ? dock.toJSON() : null);
+  keepLayout(form, job.value, layout ? dock.toJSON() : null);
 }
 
-/** The first layout. */
-function first() {
-  dock.clear();
-  if (form === "narrow") inOnePlace(FIRST.map(({ pane }) => [`${pane}-1`, {}]));
-  else
-    for (const { pane, beside, direction } of FIRST)
-      addPane(pane, [], beside ? { referencePanel: `${beside}-1`, direction } : undefined);
-  dock.getPanel(`${FIRST[0].pane}-1`)?.api.setActive();
+/** The first layout of the job. @param {{ reuseExistingPanels: boolean }} [options] */
+function first(options) {
+  const { width, height } = byId("work").getBoundingClientRect();
+  if (form === "narrow") inOnePlace(panesOf(job.value).map((pane) => [`${pane}-1`, {}]));
+  else dock.fromJSON(firstLayout(job.value, { width, height }), options);
+  dock.getPanel(`${JOBS[job.value].largest}-1`)?.api.setActive();
 }
 
 /** @param {[string, Record<string, any>][]} panes ids of panels, and what is kept of them */

@@ -2,6 +2,7 @@
 const BENCH = {
   "bench.keys": { en: "Keys of the workspace", de: "Tasten des Arbeitsplatzes" },
   "bench.panes": { en: "PANES", de: "FENSTER" },
+  "bench.jobs": { en: "Layouts for three jobs", de: "Anordnungen f\u00fcr drei Arbeiten" },
   "bench.layouts": { en: "LAYOUTS", de: "ANORDNUNG" },
   "bench.close": { en: "CLOSE PANE", de: "FENSTER SCHLIESSEN" },
   "bench.operator": { en: "OPERATOR", de: "BEDIENER" },
