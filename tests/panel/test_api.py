@@ -437,6 +437,14 @@ def test_parameters_of_the_card_are_found(web: httpx.Client) -> None:
     assert 516 in [each["number"] for each in found]
 
 
+def test_parameters_and_flags_are_found_by_words_the_best_first(web: httpx.Client) -> None:
+    found = web.get("/api/card/search", params={"text": "master1 in motion", "count": 2}).json()
+    assert next(each["id"] for each in found["items"]) == "BIT548"
+    found = web.get("/api/card/search", params={"text": "p12290", "count": 1}).json()
+    assert [(each["id"], each["unit"]) for each in found["items"]] == [("P12290", "pulse")]
+    assert web.get("/api/card/search", params={"text": "x", "count": 501}).is_client_error
+
+
 def test_objects_of_the_card_are_listed_with_what_is_found_in_each(web: httpx.Client) -> None:
     def groups(**params: str | int) -> list[dict[str, Any]]:
         found: list[dict[str, Any]] = web.get("/api/card/groups", params=params).json()["groups"]

@@ -8,6 +8,7 @@ from starlette.concurrency import run_in_threadpool
 
 from openacr.client.names import named
 from openacr.client.panels import PANELS, Row, panel_named, record_of
+from openacr.client.search import search
 from openacr.map import Flag, Parameter, flags, parameters
 from openacr.map.block import Access
 from openacr.mill.config.pparm import LAST, OperatorParameters
@@ -36,6 +37,13 @@ class Named(Query, frozen=True):
     """Names or numbers of parameters and flags, with semicolons between them."""
 
     names: Annotated[str, Meta(max_length=8000)]
+
+
+class Words(Query, frozen=True):
+    """Some words of a name, or a number, and how many are wanted."""
+
+    text: Annotated[str, Meta(max_length=200)]
+    count: Annotated[int, Meta(ge=1, le=MOST)] = 20
 
 
 class Variables(Body, frozen=True):
@@ -137,6 +145,15 @@ async def card_named(call: Call) -> object:
     names = [name.strip() for name in call.query.names.split(";")]
     return await run_in_threadpool(
         lambda: {"items": [data_of(named(name)) for name in names if name]}
+    )
+
+
+@endpoint("GET", "/card/search", query=Words)
+async def card_search(call: Call) -> object:
+    """The parameters and flags whose names fit some words best, the best first."""
+    query: Words = call.query
+    return await run_in_threadpool(
+        lambda: {"items": [data_of(each) for each in search(query.text, query.count)]}
     )
 
 
