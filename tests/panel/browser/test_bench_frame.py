@@ -1,11 +1,16 @@
-"""The frame of the engineer's workspace for a mouse: three jobs, shortcuts."""
+"""The frame of the engineer's workspace for a mouse: three jobs, shortcuts, search."""
 
+import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import open_page, until, until_model
+from tests.panel.browser.test_screens import AXE, AXE_RUN
+
+from openacr.sysvar import password
 
 JOBS = {
     "PROGRAM": ["Programs", "PLC", "Editor", "Variables", "Watch list", "Terminal", "Values",
@@ -177,7 +182,7 @@ def test_the_list_of_shortcuts_has_each_key_of_the_table_and_opens_by_f1_and_que
 def test_keys_show_their_shortcuts_and_one_that_types_a_sign_is_none(page: Page) -> None:
     expect(page.get_by_role("button", name="PANES")).to_have_attribute("title", "PANES (Alt+P)")
     expect(job(page, "TUNE")).to_have_attribute("aria-keyshortcuts", "Control+Alt+2")
-    found = page.evaluate("""() => import('/js/bench/actions.js').then(({ isPressed }) => {
+    found = page.evaluate("""() => import('/js/bench/shown_keys.js').then(({ isPressed }) => {
       const event = (more) => new KeyboardEvent('keydown', { code: 'Digit2', ...more });
       const keys = 'Ctrl+Alt+2';
       const both = { ctrlKey: true, altKey: true };
@@ -186,3 +191,119 @@ def test_keys_show_their_shortcuts_and_one_that_types_a_sign_is_none(page: Page)
         .map((each) => isPressed(event(each), keys));
     })""")
     assert found == [True, False, False, False, False]
+
+
+# --- search ---------------------------------------------------------------------------
+
+
+def search(page: Page, typed: str) -> Locator:
+    """What the search finds, once it has more than a moment ago."""
+    page.keyboard.press("Control+K")
+    field = page.get_by_role("combobox", name="Pane, command, parameter")
+    expect(field).to_be_focused()
+    page.keyboard.type(typed)
+    return page.get_by_role("listbox", name="What is found").get_by_role("option")
+
+
+def title(name: str) -> re.Pattern[str]:
+    return re.compile(rf"^{re.escape(name)}")
+
+
+def test_the_search_opens_a_pane_in_the_editor_and_by_its_key(page: Page) -> None:
+    page.locator("[data-pane=editor] .cm-content").click()
+    expect(search(page, "gains").first).to_have_text(title("Gains"))
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    expect(page.locator("[data-pane=gain] .gain-row").first).to_be_visible()
+    page.get_by_role("button", name="SEARCH").click()
+    expect(page.get_by_role("combobox", name="Pane, command")).to_be_focused()
+
+
+def test_the_search_does_with_a_value_what_its_key_says(page: Page) -> None:
+    found = search(page, "axis1 act pos")
+    expect(found.first).to_have_text(title("AXIS1 Actual Position"))
+    page.keyboard.press("Enter")
+    expect(page.locator("[data-pane=watch] [data-item=P12546]")).to_be_visible()
+    expect(search(page, "bit516").first).to_have_text(title("MASTER0 In Motion"))
+    page.keyboard.press("Control+Enter")
+    expect(page.get_by_label("CH4 source")).to_have_value("BIT516")
+    expect(search(page, "12290").first).to_have_text(title("AXIS0 Actual Position"))
+    page.keyboard.press("Shift+Enter")
+    expect(page.get_by_label("Parameters to compare")).to_have_value("P12290")
+    expect(search(page, "p12547").first).to_have_text(title("AXIS1 Following Error"))
+    found.first.get_by_text("show in Values").click()
+    expect(page.locator("[data-pane=tree] [data-key=P12547]")).to_be_visible()
+
+
+def test_arrow_keys_choose_among_what_is_found_and_are_heard(page: Page) -> None:
+    found = search(page, "act pos")
+    expect(found.nth(1)).to_have_text(title("AXIS1 Actual Position"))
+    field = page.get_by_role("combobox", name="Pane, command, parameter")
+    for key, n in (("ArrowDown", 1), ("ArrowDown", 2), ("ArrowUp", 1), ("ArrowUp", 0)):
+        page.keyboard.press(key)
+        expect(found.nth(n)).to_have_attribute("aria-selected", "true")
+        expect(page.locator(".palette-entry[aria-selected=true]")).to_have_count(1)
+        expect(field).to_have_attribute("aria-activedescendant", f"palette-{n}")
+    page.keyboard.press("ArrowUp")
+    expect(found.last).to_have_attribute("aria-selected", "true")
+    page.keyboard.press("Escape")
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    expect(search(page, "act pos").first).to_have_text(title("AXIS0 Actual Position"))
+    assert page.evaluate(AXE_RUN, "dialog") == []
+
+
+def test_a_line_of_a_program_is_found_and_the_editor_shows_it(page: Page) -> None:
+    found = search(page, ":lv0 = p96")
+    expect(found).to_have_text([title("LV0 = P96")])
+    expect(found.first).to_contain_text("PROG7 50")
+    page.keyboard.press("Enter")
+    active = page.locator("[data-pane=editor] .cm-activeLine")
+    expect(active).to_contain_text("LV0 = P96")
+
+
+def test_where_a_number_is_used_is_found_however_it_is_written(page: Page) -> None:
+    expect(search(page, ":BIT520").first).to_have_text(title("SET 520"))
+    page.keyboard.press("Escape")
+    found = search(page, ":P98")
+    expect(found.first).to_contain_text("P98")
+    texts = found.locator(".palette-title").all_inner_texts()
+    assert all(re.search(r"P98\b", text) for text in texts)
+
+
+def test_a_command_is_given_with_its_arguments_and_one_of_keys_is_not_offered(
+    page: Page, served: Served
+) -> None:
+    expect(search(page, ">card.write").first).to_contain_text("card.write")
+    page.keyboard.press("Enter")
+    dialog = page.get_by_role("dialog", name="card.write")
+    dialog.get_by_label("parameter").fill("5")
+    dialog.get_by_label("value").fill("-2,5")
+    page.keyboard.press("Enter")
+    expect(page.locator("#prompt")).to_have_text("card.write was carried out")
+    assert served.call(lambda station: float(station.link.machine.card.read(5))) == -2.5
+    expect(search(page, ">card.write").first).to_contain_text("card.write")
+    page.keyboard.press("Enter")
+    dialog.get_by_label("parameter").fill("x")
+    page.keyboard.press("Enter")
+    expect(page.locator("#prompt")).to_contain_text("card.write: Expected `int`, got `str`")
+    expect(search(page, ">jog.")).to_have_text([title("Jog"), title("jog.stop")])
+
+
+def test_an_entry_says_which_role_it_needs_and_asks_for_it(
+    browser: Browser, tmp_path: Path
+) -> None:
+    served = Served(tmp_path)
+    password.change(served.panel.installation.store, "deep secret")
+    context = browser.new_context(viewport={"width": 1366, "height": 768})
+    try:
+        page = open_page(context, f"{served.url}/bench")
+        found = search(page, ">tuning").first
+        expect(found).to_contain_text("This needs the role service: log in")
+        page.keyboard.press("Enter")
+        page.get_by_role("dialog").get_by_label("Password").fill("deep secret")
+        page.keyboard.press("Enter")
+        expect(page.locator("[data-pane=tune] .tune")).to_be_visible()
+        expect(search(page, ">tuning").first).not_to_contain_text("This needs")
+    finally:
+        context.close()
+        served.close()

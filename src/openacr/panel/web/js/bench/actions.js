@@ -4,10 +4,12 @@ import { t } from "../core/texts.js";
 import { ask } from "../frame/dialog.js";
 import { chooseLayout, choosePane } from "./layout_dialogs.js";
 import { JOBS } from "./layouts.js";
+import { isPressed, shownKeys } from "./shown_keys.js";
 import { chooseJob, closePane, openPane, showPaneAt } from "./workspace.js";
 
 const TEXTS = {
   keys: { en: "SHORTCUTS", de: "TASTEN" },
+  search: { en: "SEARCH", de: "SUCHEN" },
   nine: { en: "Show an open pane, in their order", de: "Ein offenes Fenster zeigen, in ihrer Reihenfolge" },
   editor: { en: "Show the editor", de: "Den Editor zeigen" },
   terminal: { en: "Show a terminal", de: "Ein Terminal zeigen" },
@@ -23,6 +25,7 @@ const TEXTS = {
  */
 
 export const ACTIONS = /** @satisfies {Record<string, Action>} */ ({
+  search: { title: TEXTS.search, keys: "Ctrl+K", does: async () => (await import("./palette.js")).openPalette() },
   program: { title: JOBS.program.title, keys: "Ctrl+Alt+1", does: () => chooseJob("program") },
   tune: { title: JOBS.tune.title, keys: "Ctrl+Alt+2", does: () => chooseJob("tune") },
   watch: { title: JOBS.watch.title, keys: "Ctrl+Alt+3", does: () => chooseJob("watch") },
@@ -51,7 +54,7 @@ export function startActions() {
   window.addEventListener(
     "keydown",
     (event) => {
-      const action = bound.find(({ keys }) => keys.split(", ").some((each) => isPressed(event, each)));
+      const action = bound.find(({ keys }) => keys.split(", ").some((each) => isMeant(event, each)));
       if (!action || document.querySelector("dialog[open]")) return;
       event.preventDefault();
       event.stopPropagation();
@@ -62,24 +65,13 @@ export function startActions() {
 }
 
 /**
- * Whether a key with its modifiers is pressed. A sign alone is one only where nothing is typed.
+ * A sign alone counts only where nothing is typed.
  * @param {KeyboardEvent} event
  * @param {string} keys
  */
-export function isPressed(event, keys) {
-  if (keys === "?")
-    return event.key === "?" && !event.ctrlKey && !event.altKey && !event.metaKey && !isTyping(event.target);
-  const parts = keys.split("+");
-  const key = parts.at(-1) ?? "";
-  const code = /^\d$/.test(key) ? `Digit${key}` : /^[A-Z]$/.test(key) ? `Key${key}` : key;
-  return (
-    event.code === code &&
-    event.ctrlKey === parts.includes("Ctrl") &&
-    event.altKey === parts.includes("Alt") &&
-    event.shiftKey === parts.includes("Shift") &&
-    !event.metaKey &&
-    !event.getModifierState("AltGraph") // it types the third sign of a key
-  );
+function isMeant(event, keys) {
+  if (keys !== "?") return isPressed(event, keys);
+  return event.key === "?" && !event.ctrlKey && !event.altKey && !event.metaKey && !isTyping(event.target);
 }
 
 /** @param {EventTarget | null} target */
@@ -88,18 +80,6 @@ function isTyping(target) {
     target instanceof HTMLElement &&
     (target.isContentEditable || target.matches("input, textarea, select, .editor-host *"))
   );
-}
-
-/** Keys as they are shown: Strg in German. @param {string} keys */
-export function shownKeys(keys) {
-  return document.documentElement.lang === "de"
-    ? keys.replaceAll("Ctrl", "Strg").replaceAll("Shift", "Umschalt")
-    : keys;
-}
-
-/** Keys for screen readers. @param {string} keys */
-export function spokenKeys(keys) {
-  return keys.replaceAll("Ctrl", "Control").replaceAll(",", "");
 }
 
 function showShortcuts() {

@@ -1,7 +1,8 @@
 // The keys of the workspace: jobs, panes, layouts, the operator's screens.
 import { byId, fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
-import { ACTIONS, shownKeys, spokenKeys } from "./actions.js";
+import { ACTIONS } from "./actions.js";
+import { shownKeys, spokenKeys } from "./shown_keys.js";
 import { NARROW, job } from "./workspace.js";
 
 /** @typedef {import("./actions.js").ActionName} ActionName */
@@ -18,7 +19,8 @@ export function startBar() {
   );
   const jobs = JOB_KEYS.map((each) => keyOf("button.key", each));
   const group = h("div.row.jobs", { role: "group", ariaLabel: t("bench.jobs") }, ...jobs);
-  const place = () => (NARROW.matches ? byId("menu").prepend(group) : byId("tools").before(group));
+  const search = keyOf("button.key", "search");
+  const place = () => (NARROW.matches ? byId("menu").prepend(group, search) : byId("tools").before(search, group));
   NARROW.addEventListener("change", place);
   place();
   job.watch((now) => {

@@ -199,6 +199,17 @@ export function compare({ kept, keep, seconds }) {
 
   return {
     element,
+    /** Compare more parameters or flags. @param {string[]} ids */
+    add(ids) {
+      const before = names.value
+        .split(/[;,]/)
+        .map((each) => each.trim())
+        .filter(Boolean);
+      names.value = [...new Set([...before, ...ids])].join(", ");
+      keep({ parameters: names.value });
+      names.scrollIntoView({ block: "nearest" });
+      if (other.value) void draw().catch(refuseHere);
+    },
     /** @param {import("../core/model.js").TimeBranch[]} branches */
     offer(branches) {
       const before = other.value;

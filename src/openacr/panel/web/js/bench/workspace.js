@@ -103,7 +103,7 @@ function load(options) {
 }
 
 /**
- * Change to the layout of another job, which is as it was left. Panes that are in both go on as they are; one that is
+ * Change to the layout of another job, which is as it was left. Panes that are in both stay as they are; one that is
  * not, with changes, may keep the present layout.
  * @param {import("./layouts.js").Job} wanted
  */
@@ -122,7 +122,7 @@ export async function chooseJob(wanted) {
  * Lay panes out; without a layout, or with one that cannot be used, as at first. A narrow screen has all panes in one
  * place.
  * @param {import("./layouts.js").Layout | null} layout
- * @param {{ isReusing?: boolean }} [options] whether panes that are open go on as they are
+ * @param {{ isReusing?: boolean }} [options] whether panes that are open stay as they are
  */
 export function arrange(layout, { isReusing = false } = {}) {
   const options = { reuseExistingPanels: isReusing };

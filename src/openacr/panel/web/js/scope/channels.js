@@ -76,6 +76,21 @@ export class Channels {
     return this.asked.map((n) => this.rows[n].source.value.trim());
   }
 
+  /**
+   * Give a parameter or flag the first channel without a source; returns its label, "" where there is none. One that has
+   * a channel keeps it.
+   * @param {string} id
+   */
+  take(id) {
+    const sources = this.rows.slice(0, MATHS).map((row) => row.source.value.trim().toUpperCase());
+    const has = sources.indexOf(id.toUpperCase());
+    const place = has < 0 ? sources.indexOf("") : has;
+    if (place < 0) return "";
+    this.rows[place].source.value = id;
+    this.title();
+    return nameOf(place);
+  }
+
   /** Names and units of the sources. */
   async nameUnits() {
     const names = this.sources();

@@ -16,6 +16,7 @@ import { fromCard, fromFile, toCard } from "../editor/card_text.js";
 import { comparison } from "../editor/compare.js";
 import { nameActions } from "../editor/name_actions.js";
 import { projectPart } from "../editor/project_part.js";
+import { takeWanted } from "../wanted.js";
 
 const TEXTS = {
   which: { en: "Program or file", de: "Programm oder Datei" },
@@ -441,5 +442,24 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   );
   choice.value = [...choice.options].some((each) => each.value === kept.level) ? kept.level : "";
   if (choice.value) await chooseLevel();
+  endings.add(takeWanted("editor", ([level, line]) => void goToStored(level, Number(line)).catch(refuse)));
+
+  /**
+   * Show a line of a program of the card, which is opened where another text is.
+   * @param {string} level
+   * @param {number} number of the line on the card
+   */
+  async function goToStored(level, number) {
+    if (opened.level !== level) {
+      choice.value = level;
+      await chooseLevel();
+    }
+    if (opened.level !== level) return; // it has changes that are kept
+    if (!stored) await knowStored([level]);
+    const at = stored?.at(level, number) ?? null;
+    if (at === null) return editor.focus();
+    const line = editor.doc().lineAt(at).number - 1;
+    editor.goTo([line, 0, line, 0]);
+  }
   return () => endings.end();
 }

@@ -1,5 +1,5 @@
 // The oscilloscope: eight channels and one computed, trigger, cursors, XY, spectrum, references, files.
-import { give, link, model, refuse } from "../../core/app.js";
+import { give, link, model, refuse, report } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { keyOf } from "../../core/keys.js";
 import { Endings, Signal } from "../../core/signal.js";
@@ -21,6 +21,7 @@ import { stateOf, stateText } from "../../scope/state.js";
 import { triggerPlugin } from "../../scope/trigger_mark.js";
 import { within, zoomed } from "../../scope/view.js";
 import { createXy } from "../../scope/xy.js";
+import { takeWanted } from "../wanted.js";
 
 const TEXTS = {
   settings: { en: "SETTINGS", de: "EINSTEL\u00adLUNGEN" },
@@ -35,6 +36,11 @@ const TEXTS = {
   zoom: {
     en: "wheel: zoom, drag: pan, double click: the sweep",
     de: "Rad: Zoom, ziehen: verschieben, Doppelklick: die Ablenkung",
+  },
+  taken: { en: "{name} is {channel}", de: "{name} ist {channel}" },
+  full: {
+    en: "All eight channels have a source: empty one for {name}",
+    de: "Alle acht Kan\u00e4le haben eine Quelle: einen leeren f\u00fcr {name}",
   },
   zoomLabel: {
     en: "Screen of the scope: + and - zoom a record at rest, arrow keys pan it, 0 shows its sweep",
@@ -401,5 +407,19 @@ export async function mount(host, { head, kept, keep }) {
     }),
   );
   show(view);
+  endings.add(takeWanted("scope", (ids) => void take(ids).catch(refuse)));
+
+  /** Give parameters and flags a channel each; a scope that samples begins anew with them. @param {string[]} ids */
+  async function take(ids) {
+    for (const name of ids) {
+      const channel = channels.take(name);
+      if (channel) report(t(TEXTS.taken, { name, channel }));
+      else refuse(t(TEXTS.full, { name }));
+    }
+    const isSampling = live.list.length > 0 && !recording.isTaken && !isAtRest();
+    if (isSampling) await sample();
+    else await channels.nameUnits();
+    changed();
+  }
   return () => endings.end();
 }

@@ -10,6 +10,7 @@ import { ask } from "../../frame/dialog.js";
 import { compare } from "../compared.js";
 import { createLanes } from "../lanes.js";
 import { secondsOf, within, zoomed } from "../time_view.js";
+import { takeWanted } from "../wanted.js";
 
 const TEXTS = {
   pause: { en: "PAUSE", de: "PAUSE" },
@@ -337,6 +338,7 @@ export async function mount(host, { head, kept, keep }) {
     model.timeline.watch(list),
     model.timeline.watch(() => void readLanes().catch(() => {})),
     model.moment.watch(draw),
+    takeWanted("timeline", comparing.add),
     () => comparing.end(),
     () => clearInterval(timer),
   );

@@ -7,6 +7,7 @@ import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
 import { changeValue, needItems, shownValue } from "../../frame/card_value.js";
 import { showFacts } from "../facts.js";
+import { takeWanted } from "../wanted.js";
 import { addToWatchList } from "../watch_list.js";
 
 const TEXTS = {
@@ -263,6 +264,12 @@ export async function mount(host, { head }) {
     () => seen.end(),
   );
   await search();
+  endings.add(
+    takeWanted("tree", ([text]) => {
+      field.value = text;
+      void search();
+    }),
+  );
   return () => endings.end();
 }
 

@@ -5,7 +5,7 @@ import { fill, h, setText } from "../../core/dom.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
 import { FORMATS, changeValue, fullName, isFlag, needItems, shownValue } from "../../frame/card_value.js";
-import { wanted } from "../watch_list.js";
+import { takeWanted } from "../wanted.js";
 
 const TEXTS = {
   name: { en: "P12288, BIT516 or axis0.actual position", de: "P12288, BIT516 oder axis0.actual position" },
@@ -157,11 +157,7 @@ export async function mount(host, { head, kept, keep }) {
   endings.add(
     () => live.end(),
     model.flags.watch(update),
-    wanted.watch((ids) => {
-      if (!ids.length) return;
-      wanted.value = [];
-      void add(ids);
-    }),
+    takeWanted("watch", (ids) => void add(ids)),
   );
   return () => endings.end();
 }
