@@ -21,22 +21,32 @@ import { want } from "./wanted.js";
  * @typedef {keyof typeof KINDS} Kind
  */
 
+const TEXTS = {
+  action: { en: "key", de: "Taste" },
+  pane: { en: "pane", de: "Fenster" },
+  layout: { en: "layout", de: "Anordnung" },
+  command: { en: "command", de: "Befehl" },
+  value: { en: "value", de: "Wert" },
+  line: { en: "line", de: "Zeile" },
+  help: { en: "help", de: "Hilfe" },
+  open: { en: "open", de: "\u00f6ffnen" },
+  give: { en: "give", de: "geben" },
+  show: { en: "show", de: "zeigen" },
+};
+
 /** Kinds of entries: their names, the sign before which only they are found, and what they cost among others. */
 export const KINDS = Object.freeze({
-  action: { name: { en: "key", de: "Taste" }, sign: ">", cost: 0 },
-  pane: { name: { en: "pane", de: "Fenster" }, sign: ">", cost: 0 },
-  layout: { name: { en: "layout", de: "Anordnung" }, sign: ">", cost: 0 },
-  command: { name: { en: "command", de: "Befehl" }, sign: ">", cost: 0.5 },
-  value: { name: { en: "value", de: "Wert" }, sign: "#", cost: 0.4 },
-  line: { name: { en: "line", de: "Zeile" }, sign: ":", cost: 1 },
-  help: { name: { en: "help", de: "Hilfe" }, sign: "?", cost: 0.8 },
+  action: { name: TEXTS.action, sign: ">", cost: 0 },
+  pane: { name: TEXTS.pane, sign: ">", cost: 0 },
+  layout: { name: TEXTS.layout, sign: ">", cost: 0 },
+  command: { name: TEXTS.command, sign: ">", cost: 0.5 },
+  value: { name: TEXTS.value, sign: "#", cost: 0.4 },
+  line: { name: TEXTS.line, sign: ":", cost: 1 },
+  help: { name: TEXTS.help, sign: "?", cost: 0.8 },
 });
 const MOST = 40; // of one search
 const EXPLAINED = 6; // what an entry costs whose explanation alone has the words
 const LEAST = 2; // letters from which values and lines are searched
-const OPEN = { en: "open", de: "\u00f6ffnen" };
-const GIVE = { en: "give", de: "geben" };
-const SHOW = { en: "show", de: "zeigen" };
 
 /** Lines of the programs of the card, as they were read last. @type {Entry[]} */
 let lines = [];
@@ -59,13 +69,16 @@ function entry(kind, title, detail, label, does) {
 function own() {
   const named = namedLayouts();
   return [
-    ...Object.values(ACTIONS).map(({ title, keys, does }) => ({ ...entry("action", t(title), "", SHOW, does), keys })),
+    ...Object.values(ACTIONS).map(({ title, keys, does }) => ({
+      ...entry("action", t(title), "", TEXTS.show, does),
+      keys,
+    })),
     ...Object.entries(PANES).map(([pane, { title, role }]) => ({
-      ...entry("pane", t(title), "", OPEN, () => openPane(pane, { isNew: true })),
+      ...entry("pane", t(title), "", TEXTS.open, () => openPane(pane, { isNew: true })),
       role,
     })),
     ...Object.keys(named).map((name) =>
-      entry("layout", name, "", OPEN, async () => (await mayCloseAll()) && arrange(named[name])),
+      entry("layout", name, "", TEXTS.open, async () => (await mayCloseAll()) && arrange(named[name])),
     ),
   ];
 }
@@ -89,14 +102,14 @@ async function readServed() {
           const title = command.titles?.[language] ?? name;
           const detail = title === name ? command.summary : `${name} \u2014 ${command.summary}`;
           return {
-            ...entry("command", title, detail, GIVE, () => giveByHand(name, title, command, about)),
+            ...entry("command", title, detail, TEXTS.give, () => giveByHand(name, title, command, about)),
             role: command.role,
             words: `${title} ${name}`,
           };
         }),
       ...Object.entries(pages)
         .filter(([key]) => !(key in about["x-commands"]))
-        .map(([key, title]) => entry("help", String(title), "", SHOW, () => showPage(key, language))),
+        .map(([key, title]) => entry("help", String(title), "", TEXTS.show, () => showPage(key, language))),
     ],
   };
 }
@@ -108,7 +121,9 @@ async function readLines() {
     const [, word, number] = /^([A-Z]+)(\d+)$/.exec(level) ?? [];
     const listed = await get("card/listing", { [word === "PLC" ? "plc" : "program"]: number });
     return listed.lines.map((/** @type {{ number: number, text: string }} */ line) => ({
-      ...entry("line", line.text, `${level} ${line.number}`, OPEN, () => want("editor", level, String(line.number))),
+      ...entry("line", line.text, `${level} ${line.number}`, TEXTS.open, () =>
+        want("editor", level, String(line.number)),
+      ),
     }));
   });
   lines = (await Promise.all(read)).flat();
