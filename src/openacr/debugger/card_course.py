@@ -7,11 +7,10 @@ present moment then may be before a line, within a tick.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 
 from openacr.controller.controller import Controller
-from openacr.debugger import questions, rungs
+from openacr.debugger import rungs
 from openacr.debugger.breakpoints import (
     MASTERS,
     DataBreakpoint,
@@ -22,20 +21,12 @@ from openacr.debugger.breakpoints import (
     running_watch,
     watches_of,
 )
-from openacr.debugger.calls import PROGRAMS, depth_of, is_running, name_of
-from openacr.debugger.conditions import Conditions
+from openacr.debugger.calls import PROGRAMS, is_running, name_of
+from openacr.debugger.line_stops import LineStops
 from openacr.debugger.stops import Reason, Stop
 from openacr.engine.watches import WATCHES
 from openacr.errors import UserError
 from openacr.timeline import Moment, Timeline
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """A step: to the next line of a program in at most `depth` open routines (None: in any)."""
-
-    program: int
-    depth: int | None = None
 
 
 class CardCourse:
@@ -53,12 +44,10 @@ class CardCourse:
         """
         self.card = card
         self.timeline = timeline or Timeline(card)
-        self._conditions = Conditions(partial(questions.answer, card), show)
-        self._lines: dict[tuple[int, int], LineBreakpoint] = {}
+        self._lines = LineStops(card, show)
         self._rungs: list[LineBreakpoint] = []  # of PLCs
         self._data: list[DataBreakpoint] = []
         self._faults: frozenset[Fault] = frozenset()
-        self._step: Step | None = None
         self._stop: Stop | None = None
         self._watching = Watching()
         self._driven: tuple[int, int, int] | None = None  # tick, PLC, line of the last such stop
@@ -70,9 +59,7 @@ class CardCourse:
         of_plcs = [each for each in breakpoints if each.program >= PROGRAMS]
         self._require_watches(self._data, of_plcs)
         self._rungs = of_plcs
-        self._lines = {
-            (each.program, each.line): each for each in breakpoints if each.program < PROGRAMS
-        }
+        self._lines.set_lines(each for each in breakpoints if each.program < PROGRAMS)
 
     def set_data(self, breakpoints: list[DataBreakpoint]) -> None:
         """Stop at these changes, and no others; UserError for a value that does not exist."""
@@ -111,7 +98,7 @@ class CardCourse:
 
     def paused(self, program: int) -> Stop:
         """The stop of a pause."""
-        self._step = None
+        self._lines.steps.clear()
         return Stop(Reason.PAUSE, program)
 
     def resume(self, program: int) -> None:
@@ -124,10 +111,7 @@ class CardCourse:
 
         Routines that it calls are passed over unless `into`; with `out`, the rest of its own.
         """
-        if not is_running(self.card, program):
-            raise UserError(f"{name_of(program)} does not run: only a running program can step")
-        depth = depth_of(self.card, program)
-        self._step = Step(program, None if into else depth - 1 if out else depth)
+        self._lines.begin_step(program, into=into, out=out)
 
     def run(self, ticks: int) -> Stop | None:
         """Advance by a number of ticks; why it has stopped before their end, or None."""
@@ -139,7 +123,7 @@ class CardCourse:
                     return None
                 stop = self._stopped()
                 if stop is not None:
-                    self._step = None
+                    self._lines.steps.clear()
                     return stop
         finally:
             self._disarm()
@@ -147,7 +131,7 @@ class CardCourse:
 
     def tick(self) -> Stop:
         """Complete the present tick, or advance by one."""
-        self._step = None
+        self._lines.steps.clear()
         self.timeline.advance(0 if self.card.within else 1)
         return Stop(Reason.STEP, None, "one servo interrupt")
 
@@ -155,16 +139,16 @@ class CardCourse:
 
     def run_back(self) -> Stop:
         """Go back to the last stop before the present, or to the first moment."""
-        self._step = None
+        self._lines.steps.clear()
         return self._seek_stop()
 
     def step_back(self, program: int) -> Stop:
         """Go back to the line that a program has executed before the present."""
-        self._step = Step(program)
+        self._lines.steps = {program: None}
         try:
             return self._seek_stop(only_step=True)
         finally:
-            self._step = None
+            self._lines.steps.clear()
 
     def tick_back(self) -> Stop:
         """Go back to the end of the servo interrupt before."""
@@ -207,13 +191,10 @@ class CardCourse:
         self._watching = Watching()
         if not only_step:
             self._watch()
-        if self._step is not None:
-            program = self._step.program
+        for program in self._lines.steps:
             self._watching.add([running_watch(program)], partial(self._ended, program))
         self.card.watch(self._watching.watches)
-        programs = {each.program for each in self._lines.values()} if not only_step else set()
-        if self._step is not None:
-            programs.add(self._step.program)
+        programs = self._lines.programs(only_steps=only_step)
         self.card.announce_lines(
             sum(1 << program for program in programs), self._ask if programs else None
         )
@@ -238,16 +219,8 @@ class CardCourse:
 
     def _ask(self, program: int, line: int) -> bool:
         """Whether the card stops before a line."""
-        step = self._step
-        if step is not None and step.program == program:
-            if step.depth is None or depth_of(self.card, program) <= step.depth:
-                self._stop = Stop(Reason.STEP, program)
-                return True
-        found = self._lines.get((program, line))
-        if found is not None and self._conditions.are_met(found, program):
-            self._stop = Stop(Reason.BREAKPOINT, program)
-            return True
-        return False
+        self._stop = self._lines.reason(program, line)
+        return self._stop is not None
 
     def _stopped(self) -> Stop | None:
         """Why `advance` has ended, or None if that is no reason to stop."""
@@ -262,12 +235,12 @@ class CardCourse:
         return None
 
     def _changed(self, breakpoint: DataBreakpoint) -> Stop | None:
-        if not self._conditions.holds(0, breakpoint.condition):
+        if not self._lines.conditions.holds(0, breakpoint.condition):
             return None
         return Stop(Reason.DATA, None, f"{breakpoint.name} has changed")
 
     def _coil_changed(self, rung: LineBreakpoint, driven: list[int]) -> Stop | None:
-        if not self._conditions.are_met(rung, rung.program):
+        if not self._lines.conditions.are_met(rung, rung.program):
             return None
         self._driven = self.card.lived_tk, rung.program, rung.line
         return Stop(Reason.BREAKPOINT, rung.program, rungs.states(self.card, driven))
@@ -285,11 +258,11 @@ class CardCourse:
         return Stop(Reason.EXCEPTION, None, f"the motion of MASTER{master} is killed")
 
     def _ended(self, program: int) -> Stop | None:
-        failures, step = self.card.executor.threads.failures, self._step
+        failures = self.card.executor.threads.failures
         if is_running(self.card, program):
             return None  # it has started
         if program in failures and Fault.PROGRAM in self._faults:
             return Stop(Reason.EXCEPTION, program, failures[program])
-        if step is not None and step.program == program:
+        if program in self._lines.steps:
             return Stop(Reason.STEP, program, f"{name_of(program)} has ended")
         return None
