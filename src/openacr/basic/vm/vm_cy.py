@@ -150,10 +150,15 @@ def vm_run(
         if op == DO_STATEMENT:
             if budget == 0:
                 event = VM_SLICE
+            elif (
+                announced
+                and code[pc + 2]
+                and I[engine.line_announced] != t + 1
+                and not I[rows + at.THI_PASSED]
+            ):
+                event = VM_LINE
             elif I[flags_at] & STOPS and code[pc + 2] and not I[rows + at.THI_PASSED]:
                 event = VM_FLAGS
-            elif announced and code[pc + 2] and I[engine.line_announced] != t + 1:
-                event = VM_LINE
             else:
                 if announced:
                     I[engine.line_announced] = 0

@@ -77,7 +77,8 @@ def _require_rest(station: Station, level: Level, what: str) -> None:
         runner.alarms.require_none()
 
 
-def _begin(station: Station, word: str, level: Level) -> None:
+def begin(station: Station, word: str, level: Level) -> None:
+    """Give a program a command that may begin motion; UserError where none may begin."""
     _require_rest(station, level, "no program of the card is started")
     _take(station, level)
     station.on_card.programs.command(station.link.required, word, level)
@@ -140,19 +141,19 @@ def _require_halted(station: Station, level: Level) -> None:
 )
 def run(station: Station, *, program: Program | None = None, plc: Plc | None = None) -> None:
     """Start a program or a PLC of the card."""
-    _begin(station, "RUN", required(station, program, plc))
+    begin(station, "RUN", required(station, program, plc))
 
 
 @command("card.resume", Role.SERVICE, is_motion=True)
 def resume(station: Station, *, program: Program | None = None, plc: Plc | None = None) -> None:
     """Go on where PAUSE has held a program."""
-    _begin(station, "RESUME", required(station, program, plc))
+    begin(station, "RESUME", required(station, program, plc))
 
 
 @command("card.step", Role.SERVICE, is_motion=True)
 def step(station: Station, *, program: Program | None = None, plc: Plc | None = None) -> None:
     """Carry out one line of a program in block mode."""
-    _begin(station, "STEP", required(station, program, plc))
+    begin(station, "STEP", required(station, program, plc))
 
 
 @command("card.block", Role.SERVICE, is_motion=True)
@@ -164,7 +165,7 @@ def block(
     if on:
         station.on_card.programs.command(station.link.required, "BLK", level)
     else:
-        _begin(station, "AUT", level)
+        begin(station, "AUT", level)
 
 
 @command("card.pause", Role.SERVICE)

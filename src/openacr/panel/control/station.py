@@ -89,6 +89,8 @@ class Station:
         )
         self.times = Times(self.link, self.interlocks, around)
         self.facts = self._facts()
+        if installation.history is not None:
+            installation.history.breakpoints.on_note = self.screens.say
         self._failures = Failures(self.link, partial(end_all, End.ALARM))
         self.snapshot = Snapshot(number=0, tick_ms=0.0, read_s=0.0)
         self.now_s = 0.0  # of the present step or order
@@ -115,6 +117,7 @@ class Station:
             "scope": self.captures.data,
             "timeline": self.times.timeline,
             "moment": self.times.moment,
+            "breakpoints": self.on_card.breakpoints,
         }
         return Facts(makers, self.screens.tell)
 

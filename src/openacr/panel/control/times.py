@@ -272,7 +272,8 @@ class Times:
 
 def step_tick(history: History) -> None:
     """Complete the present tick, or let one pass."""
-    history.timeline.advance(0 if history.card.within else 1)
+    if history.timeline.advance(0 if history.card.within else 1):
+        history.attend()
 
 
 def step_back(history: History) -> None:

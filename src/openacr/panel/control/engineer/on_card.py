@@ -12,11 +12,16 @@ from openacr.client.talk import Talk
 from openacr.errors import UserError
 from openacr.panel.control.engineer.card_programs import CardPrograms, read_states
 from openacr.panel.control.engineer.conversations import Aside
+from openacr.panel.control.machine.breakpoints import Breakpoints
 from openacr.panel.control.machine.installation import Installation
 from openacr.panel.control.machine.place import Rows
 
 HEAR_S = 0.1  # between two looks at what has been printed
 MOST_PARKED = 8
+NO_BREAKPOINTS = (
+    "a card over a link cannot stop before a line: it has no breakpoints. PAUSE holds a program,"
+    " BLOCK and STEP carry it out line by line"
+)
 
 
 class ParkedTexts:
@@ -98,10 +103,24 @@ class OnCard:
     """States by the link of the session; texts and listening by streams of their own."""
 
     def __init__(self, installation: Installation, tell: Callable[[dict[str, Any]], None]) -> None:
+        self._installation = installation
         self.aside = Aside(installation)
         self.programs = CardPrograms(tell)
         self.parked = ParkedTexts()
         self.listening = Listening(installation, tell)
+
+    @property
+    def stops(self) -> Breakpoints:
+        """The breakpoints of a card in this process; UserError for any other card."""
+        if self._installation.history is None:
+            raise UserError(NO_BREAKPOINTS)
+        return self._installation.history.breakpoints
+
+    def breakpoints(self) -> dict[str, Any]:
+        """The breakpoints and what they hold, for the screens; else why there are none."""
+        if self._installation.history is None:
+            return {"why_not": NO_BREAKPOINTS, "breakpoints": [], "held": []}
+        return {"why_not": "", **self._installation.history.breakpoints.data()}
 
     def step(self, now_s: float) -> None:
         """Carry on with what is under way; never waits."""

@@ -12,6 +12,7 @@ from openacr.controller import Controller
 from openacr.debugger.breakpoints import MASTERS, kill_watch, running_watch
 from openacr.debugger.calls import PROGRAMS, is_running, name_of
 from openacr.errors import UserError
+from openacr.panel.control.machine.breakpoints import Breakpoints
 from openacr.panel.control.machine.lanes import Lanes
 from openacr.timeline import Bookmark, Bookmarks, Branch, Kind, Timeline
 
@@ -37,6 +38,7 @@ class History:
         self.is_away = False  # from its links: none is opened
         self.unmarked: frozenset[int] = frozenset()  # programs of the panel, whose ends count not
         self._size = (-1, 0)  # tick, bytes
+        self.breakpoints = Breakpoints(card, lambda: not (self.is_away or self.timeline.is_past))
         self.arm()
 
     # --- the card as links see it -----------------------------------------------------
@@ -89,7 +91,7 @@ class History:
         end_tk = self.lived_tk + (0 if self.is_still else ticks)
         while self.lived_tk < end_tk:
             if self.timeline.advance(end_tk - self.lived_tk):
-                self._mark_events()
+                self.attend()
         if not self.timeline.is_past:
             self.lanes.look(self.timeline.branch.number)
 
@@ -114,11 +116,14 @@ class History:
         self.bookmarks.add(self.timeline.branch.number, Bookmark(self.lived_tk, kind, text))
 
     def arm(self) -> None:
-        """Have every tick seen in which a program ends or motion is killed."""
+        """Have every tick seen in which a program ends or motion is killed, and breakpoints."""
         watches = [running_watch(program) for program in range(PROGRAMS)]
         self.card.watch(watches + [kill_watch(master) for master in range(MASTERS)])
+        self.breakpoints.arm()
 
-    def _mark_events(self) -> None:
+    def attend(self) -> None:
+        """An event has ended `advance`: hold a program at its breakpoint, set bookmarks."""
+        self.breakpoints.attend()
         for place in self.card.take_fired():
             if place < PROGRAMS:
                 self._mark_end(place)
