@@ -2,12 +2,19 @@
 
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import httpx
 import pytest
 from playwright.sync_api import BrowserContext, Locator, Page, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import hold_answers, open_page, release_answers, until_model
+from tests.panel.browser.conftest import (
+    hold_answers,
+    open_page,
+    picture,
+    release_answers,
+    until_model,
+)
 from tests.panel.browser.test_bench import open_pane
 from tests.panel.browser.test_screens import AXE, AXE_RUN
 
@@ -234,3 +241,45 @@ def test_variables_and_the_flow_stack_of_a_program_are_seen_and_changed(
     expect(shown.locator("[data-variable=LV0] .live")).to_have_text("7")
     expect(shown.locator("[data-item=P5] .live")).to_have_text("7")
     page.get_by_role("button", name="CLOSE PANE").click()
+
+
+def test_a_breakpoint_holds_the_program_before_its_line_and_keys_let_it_step(
+    page: Page, served: Served, pictures: Path
+) -> None:
+    bar = pane(page).get_by_role("toolbar", name="Breakpoints and steps")
+    expect(bar).to_be_hidden()
+    pane(page).locator(".cm-lineNumbers .cm-gutterElement").get_by_text("3", exact=True).click()
+    expect(page.locator("#prompt")).to_contain_text("nothing is executed there")
+    pane(page).locator(".cm-lineNumbers .cm-gutterElement").get_by_text("4", exact=True).click()
+    expect(lines(page).nth(3)).to_have_class(re.compile("cm-line-break"))
+    on_card(served, "RUN PROG3")
+    held = pane(page).locator(".cm-line-held")
+    expect(held).to_have_text(" LV0 = LV0+1")
+    expect(held).to_have_attribute("data-mark", "PROG3")
+    expect(page.locator("#prompt")).to_contain_text("PROG3 is held before line 40")
+    expect(pane(page).locator(".cm-line-running")).to_have_count(0)
+    lines(page).nth(5).click()
+    page.keyboard.press("F10")
+    expect(held).to_have_text(" DWL 0.2")
+    bar.get_by_role("button", name="STEP INTO").click()
+    expect(held).to_have_text(" GOTO more")
+    picture(page, pictures / "bench-program.png")
+    on_card(served, "PROG3", "LV0 = 0")
+    lines(page).nth(3).click()
+    page.keyboard.press("Shift+F9")
+    page.get_by_role("dialog").get_by_role("textbox").fill("LV0 = 3")
+    page.keyboard.press("Enter")
+    expect(lines(page).nth(3)).to_have_attribute("title", "LV0 = 3")
+    page.keyboard.press("F5")
+    expect(held).to_have_text(" LV0 = LV0+1")
+    assert served.call(lambda s: s.link.machine.card.ask("LV0", program=3)) == 3
+    page.reload()
+    until_model(page, "model.hello.value.client")
+    expect(pane(page).locator(".cm-line-break")).to_have_text(" LV0 = LV0+1")
+    expect(held).to_have_text(" LV0 = LV0+1")
+    bar.get_by_role("button", name="BREAKPOINTS: 1").click()
+    page.get_by_role("dialog", name="Breakpoints").get_by_role("button", name="REMOVE ALL").click()
+    expect(pane(page).locator(".cm-line-break")).to_have_count(0)
+    bar.get_by_role("button", name="GO ON").click()
+    expect(held).to_have_count(0)
+    on_card(served, "HALT PROG3")

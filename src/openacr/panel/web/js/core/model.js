@@ -14,6 +14,9 @@ import { Signal } from "./signal.js";
  */
 
 /**
+ * @typedef {{ why_not: string, breakpoints: { program: number, line: number, condition: string }[],
+ *   held: { program: number, line: number, why: string, hit: number }[] }} Breakpoints
+ *
  * @typedef {{ number: number, name: string, parent: number | null, fork: number | null, first: number,
  *   last: number | null }} TimeBranch
  * @typedef {{ why: string, period_s: number, still: boolean, away: boolean, speed: number | null, branch: number,
@@ -129,6 +132,7 @@ export class Model {
         bytes: 0,
       }),
     );
+    this.breakpoints = new Signal(/** @type {Breakpoints} */ ({ why_not: "", breakpoints: [], held: [] }));
     this.says = new Signal(/** @type {{ text: string, at_s: number, homing: boolean }[]} */ ([]));
     this.changed = new Signal(/** @type {{ what: string, cells: number[] }} */ ({ what: "", cells: [] }));
     this.jogEnded = new Signal(/** @type {{ press: number, ended: string, text: string } | null} */ (null));
@@ -214,4 +218,5 @@ const EVENTS = Object.freeze({
   texts: 1,
   timeline: 1,
   moment: 1,
+  breakpoints: 1,
 });

@@ -25,6 +25,7 @@ import { SyncedText, offsetsOf, placeOf } from "./synced.js";
 const ABOUT = EditorView.theme({
   ".about": { maxWidth: "38em", maxHeight: "16em", overflow: "auto", padding: "0.3em 0.7em", whiteSpace: "normal" },
   ".about p, .about ul": { margin: "0.4em 0" },
+  ".cm-lineNumbers .cm-gutterElement": { cursor: "pointer" },
 });
 
 /**
@@ -36,11 +37,12 @@ const ABOUT = EditorView.theme({
  * @property {(changes: import("../../vendor/codemirror.js").ChangeSet) => void} changed
  * @property {() => void} moved the cursor
  * @property {Record<string, () => void>} keys
+ * @property {(line: number, isRight: boolean) => void} lineChosen a line number was pressed, from 1
  *
  * @param {HTMLElement} host
  * @param {Options} options
  */
-export function createControllerEditor(host, { name, setup, text, found, changed, moved, keys }) {
+export function createControllerEditor(host, { name, setup, text, found, changed, moved, keys, lineChosen }) {
   const place = h("div.editor", {});
   host.replaceChildren(place);
   const root = place.attachShadow({ mode: "open" });
@@ -52,6 +54,10 @@ export function createControllerEditor(host, { name, setup, text, found, changed
       return true;
     },
   }));
+  const pressed = (/** @type {boolean} */ isRight) => (/** @type {EditorView} */ its, /** @type {any} */ block) => {
+    lineChosen(its.state.doc.lineAt(block.from).number, isRight);
+    return isRight;
+  };
   const state = EditorState.create({ doc: text });
   const synced = new SyncedText(name, setup, state.doc);
   const view = new EditorView({
@@ -60,7 +66,7 @@ export function createControllerEditor(host, { name, setup, text, found, changed
     state: EditorState.create({
       doc: state.doc,
       extensions: [
-        lineNumbers(),
+        lineNumbers({ domEventHandlers: { click: pressed(false), contextmenu: pressed(true) } }),
         history(),
         drawSelection(),
         highlightActiveLine(),
@@ -110,6 +116,11 @@ export function createControllerEditor(host, { name, setup, text, found, changed
     apply: (edits) => applyEdits(view, edits),
     /** @param {import("./line_marks.js").LineMark[]} marks */
     mark: (marks) => view.dispatch({ effects: setLineMarks.of(marks) }),
+    /**
+     * Bring a place into view.
+     * @param {number} at
+     */
+    see: (at) => view.dispatch({ effects: EditorView.scrollIntoView(at, { y: "center" }) }),
     /** @param {number[]} span from line and column to line and column, from 0 */
     goTo(span) {
       view.dispatch({ selection: { anchor: offsetsOf(view.state.doc, span).from }, scrollIntoView: true });

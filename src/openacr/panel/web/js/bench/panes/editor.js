@@ -14,6 +14,7 @@ import { ask, confirm } from "../../frame/dialog.js";
 import { stateText } from "../../screens/programs.js";
 import { fromCard, fromFile, toCard } from "../editor/card_text.js";
 import { comparison } from "../editor/compare.js";
+import { debugPart } from "../editor/debug_part.js";
 import { nameActions } from "../editor/name_actions.js";
 import { projectPart } from "../editor/project_part.js";
 import { takeWanted } from "../wanted.js";
@@ -81,6 +82,13 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   let editor;
 
   const actions = nameActions({ asked, editor: () => editor, list, showBeside });
+  const debug = debugPart({
+    level: () => opened.level,
+    editor: () => editor,
+    stored: () => stored,
+    state: (level) => stateOf(level)?.state ?? "",
+    drawMarks: () => editor && drawMarks(),
+  });
   const choice = h("select.field", { ariaLabel: t(TEXTS.which), onchange: () => void chooseLevel() });
   const input = h("input", {
     type: "file",
@@ -122,7 +130,12 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   const signature = h("div.mono.text-signature", { ariaLive: "off" });
   const status = h("span.hint.grow", { role: "status" });
   host.classList.add("is-editor");
-  host.append(h("div.text-work.grow", {}, code, beside), problems, h("div.row.text-foot", {}, status, signature));
+  host.append(
+    debug.bar,
+    h("div.text-work.grow", {}, code, beside),
+    problems,
+    h("div.row.text-foot", {}, status, signature),
+  );
 
   const isChanged = () => editor.text() !== saved;
   const stateOf = (/** @type {string} */ level) => states.find((each) => each.name === level);
@@ -135,8 +148,13 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     refused = null;
     drawnMarks = "";
     if (editor) editor.close();
-    editor = createControllerEditor(code, { ...now, found: showFindings, changed, moved, keys: actions.keys });
-    if (!now.isCards && !now.text) saved = now.text;
+    editor = createControllerEditor(code, {
+      ...now,
+      found: showFindings,
+      changed,
+      moved,
+      ...debug.editing(actions.keys),
+    });
     closeBeside();
     choice.value = now.level;
     keep({ level: now.level });
@@ -157,6 +175,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
         ? ""
         : t("role.needed", { role: t("role.service") });
     project.draw();
+    debug.draw();
     const about = [
       opened.level || opened.name,
       state ? stateText(state) : "",
@@ -170,9 +189,9 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
 
   function drawMarks() {
     /** @type {import("../../edit/line_marks.js").LineMark[]} */
-    const marks = refused ? [refused] : [];
+    const marks = [...(refused ? [refused] : []), ...debug.marks()];
     for (const { name, line } of states) {
-      const at = line && stored ? stored.at(name, line) : null;
+      const at = line && stored && !debug.holds(name) ? stored.at(name, line) : null;
       if (at !== null) marks.push({ at, kind: "running", text: name });
     }
     const drawn = JSON.stringify(marks);
@@ -431,6 +450,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
       draw();
     }),
     project.watch(),
+    debug.watch(),
   );
   const { programs } = await get("card/programs");
   fill(
