@@ -80,7 +80,7 @@ def test_the_memory_is_not_divided_while_programs_run(hand: HandStation) -> None
 
 def test_an_index_profile_is_run_and_recorded_from_its_start(hand: HandStation) -> None:
     taken: list[Samples] = []
-    hand.station.on_samples = taken.append
+    hand.station.on_samples = lambda _to, each: taken.append(each)
     before = hand.places()
     result = hand.do("scope.index", profile=PROFILE, channels=[12290], period_ms=5.0, samples=400)
     assert result["time_s"] == pytest.approx(5 / 10 + 10 / 2 / 500 + 10 / 2 / 250)
@@ -96,7 +96,7 @@ def test_an_index_profile_is_run_and_recorded_from_its_start(hand: HandStation) 
     speeds = [(b - a) / scale / 0.005 for a, b in pairwise(values)]
     assert median(v for v in speeds if v > 9.0) == pytest.approx(10.0, rel=0.02)  # F600
     assert values[-1] - values[0] == pytest.approx(5.0 * scale, abs=2.0)
-    assert hand.station.scope.capture is not None
+    assert hand.station.captures.of(1).scope.capture is not None
     hand.do("jog.increment", axis="X", direction=1, distance=1.0, tick=hand.tick)  # its own ramps
     hand.until(lambda: not hand.is_busy)
 
@@ -121,7 +121,7 @@ def test_a_profile_that_is_none_moves_nothing(hand: HandStation, text: str, why:
     assert why in error["text"]
     hand.run(0.3)
     assert hand.places() == before
-    assert hand.station.scope.capture is None
+    assert hand.station.captures.of(1).scope.capture is None
 
 
 def test_an_index_profile_that_is_stopped_ends_and_leaves_no_jerk(hand: HandStation) -> None:

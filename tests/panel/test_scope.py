@@ -33,15 +33,16 @@ def test_eight_channels_hold_what_the_card_shows_in_each_tick(hand: HandStation)
         hand.do("scope.arm", channels=CHANNELS, period_ms=every * 0.5)
         hand.do("jog.increment", axis="X", direction=1, distance=5.0, tick=hand.tick)
         hand.run(0.1)
-        station.captures.sampling.collect(station.scope)
-        station.scope.take()
-        begun = station.scope.capture.next if station.scope.capture else 0
+        own = station.captures.of(1)
+        own.sampling.collect(own.scope)
+        own.scope.take()
+        begun = own.scope.capture.next if own.scope.capture else 0
         seen = []
         for _ in range(400):
             controller.advance(1)
             seen.append([_shown(controller, each) for each in CHANNELS])
-        station.captures.sampling.collect(station.scope)
-        found = station.scope.take()
+        own.sampling.collect(own.scope)
+        found = own.scope.take()
         assert found is not None
         first, block, period_s = found
         assert (first, period_s, len(channels)) == (begun, every * 0.0005, 8)
@@ -66,7 +67,7 @@ def test_nothing_is_recorded_after_the_end_of_a_capture(hand: HandStation) -> No
     hand.do("scope.stop")
     hand.run(0.1)
     assert len(controller.take_trace().time_s) == 0
-    assert hand.station.scope.take() is None
+    assert hand.station.captures.of(1).scope.take() is None
 
 
 # --- trigger --------------------------------------------------------------------------
@@ -161,9 +162,10 @@ def test_a_sweep_that_a_gap_cuts_is_never_whole() -> None:
     assert (capture.triggered_at, capture.swept_at) == (1, 1)
 
 
-def test_a_capture_is_replaced_or_ended_by_another_client_only_if_it_takes_it(
+def test_a_capture_of_a_linked_card_is_replaced_or_ended_by_another_client_only_if_it_takes_it(
     hand: HandStation,
 ) -> None:
+    hand.station.captures.is_shared = True
     others = [Person(n, Role.SERVICE, f"10.0.0.{n}", name) for n, name in ((2, "Ann"), (3, ""))]
     for each in others:
         hand.station.join(each)
@@ -175,10 +177,8 @@ def test_a_capture_is_replaced_or_ended_by_another_client_only_if_it_takes_it(
             "code": "taken",
             "text": "the scope samples for service 1 (127.0.0.1): wait until it stops, or take it",
         }
-    assert (hand.events("scope")[-1]["first"], hand.station.scope.running is None) == (
-        mine["first"],
-        False,
-    )
+    scope = hand.station.captures.of(1).scope
+    assert (hand.events("scope")[-1]["first"], scope.running is None) == (mine["first"], False)
     hand.do("scope.arm", channels=[12290])  # one's own
     assert hand.send("scope.arm", who=ann, channels=[1], take=True)["ok"]
     assert hand.events("scope")[-1]["owner"] == "Ann"
@@ -188,11 +188,131 @@ def test_a_capture_is_replaced_or_ended_by_another_client_only_if_it_takes_it(
     assert not hand.is_busy
     hand.station.leave(ann.client)  # what a client that has gone has begun is free
     assert hand.send("scope.stop", who=third)["ok"]
-    assert hand.station.scope.running is None
+    assert scope.running is None
     hand.do("scope.arm", channels=[12290])
-    assert hand.station.scope.running is not None
+    assert scope.running is not None
     hand.do("scope.stop")
     assert hand.send("scope.arm", who=third, channels=[1])["ok"]  # one that is over, too
+
+
+SAMPLED = {
+    1: (("P12288", "BIT516"), 1.5),
+    2: (("P12290", "P6916", "P12288"), 1.0),
+    3: (("P6916",), 0.0),
+}  # channels and period in ms by client
+
+
+def others_of(hand: HandStation, count: int) -> dict[int, Person]:
+    """Clients beside that of the test, from number 2 on."""
+    found = {n: Person(n, Role.SERVICE, f"10.0.0.{n}") for n in range(2, count + 2)}
+    for each in found.values():
+        hand.station.join(each)
+    return found
+
+
+def test_clients_of_a_virtual_card_sample_channels_of_their_own_at_once(hand: HandStation) -> None:
+    station, controller = hand.station, hand.installation.controller
+    assert controller is not None
+    people = {1: hand.me, **others_of(hand, 2)}
+    taken: dict[int | None, list[Samples]] = {1: [], 2: [], 3: []}
+    station.on_samples = lambda to, each: taken[to].append(each)
+    seen: dict[int, tuple[float, ...]] = {}
+    names = sorted({name for channels, _ in SAMPLED.values() for name in channels})
+    begun: dict[int, int] = {}
+
+    def live(ticks: int) -> None:
+        for _ in range(ticks):
+            controller.advance(1)
+            seen[controller.lived_tk] = tuple(_shown(controller, each) for each in names)
+        for to, samples in station.captures.samples():
+            station.on_samples(to, samples)
+
+    hand.do("jog.increment", axis="X", direction=1, distance=5.0, tick=hand.tick)
+    hand.run(0.1)
+    for client, (channels, period_ms) in SAMPLED.items():  # the others begin between two samples
+        who = people[client]
+        answer = hand.send("scope.arm", who=who, channels=channels, period_ms=period_ms)
+        begun[client] = answer["result"]["tick"]
+        live(100)
+    assert hand.send("scope.stop", who=people[3])["ok"]
+    live(101)
+    assert hand.send("scope.stop", who=people[2])["ok"]
+    live(50)
+    for client, (channels, period_ms) in SAMPLED.items():
+        blocks = [block for _, block, _ in taken[client]]
+        firsts = [first for first, _, _ in taken[client]]
+        sizes = [block.shape[1] for block in blocks]
+        assert firsts == [sum(sizes[:n]) for n in range(len(sizes))]
+        every = max(1, round(period_ms / 0.5))
+        last = {1: 451, 2: 301, 3: 100}[client]  # ticks that it was there
+        ticks = [begun[client] + every * n for n in range(sum(sizes))]
+        assert len(ticks) == -(-last // every)
+        places = [names.index(each) for each in channels]
+        expected = [[seen[tick][place] for tick in ticks] for place in places]
+        assert np.concatenate(blocks, axis=1).tolist() == expected
+        assert station.captures.data(client)["running"] is (client == 1)
+    assert len({row[names.index("P12290")] for row in seen.values()}) > 20  # it moves
+    hand.do("scope.stop")
+    live(10)
+    assert len(controller.take_trace().time_s) == 0
+    hand.until(lambda: not hand.is_busy)
+
+
+def test_states_of_captures_go_to_their_clients(hand: HandStation) -> None:
+    (other,) = others_of(hand, 1).values()
+    hand.do("scope.arm", channels=[1])
+    assert hand.send("scope.stop", who=other)["ok"]  # that of the other one alone
+    own = [each for each in hand.events("scope") if each["running"]]
+    assert [(each["to"], each["channels"]) for each in own] == [(1, ["P1"])]
+    assert hand.station.captures.data(other.client) == {"running": False}
+
+
+def test_a_client_that_comes_back_goes_on_with_its_capture(hand: HandStation) -> None:
+    other, again = others_of(hand, 2).values()
+    mine = hand.do("scope.arm", channels=[1])["number"]
+    theirs = hand.send("scope.arm", who=other, channels=[2])["result"]["number"]
+    assert mine != theirs
+    for number in (mine, theirs, 99):  # the first two have their clients
+        error = hand.send("scope.resume", who=again, number=number)["error"]["text"]
+        assert error == f"capture {number} is not there any more: START begins another one"
+    hand.station.leave(other.client)
+    hand.run(0.1)
+    found = hand.send("scope.resume", who=again, number=theirs)["result"]
+    assert (found["running"], found["channels"], found["first"]) == (True, ["P2"], 0)
+    taken: list[int | None] = []
+    hand.station.on_samples = lambda to, _each: taken.append(to)
+    hand.run(0.1)
+    assert set(taken) == {1, again.client}
+    assert hand.events("scope")[-1]["to"] == again.client
+
+
+def test_a_capture_waits_a_minute_for_its_client(hand: HandStation) -> None:
+    (other,) = others_of(hand, 1).values()
+    assert hand.send("scope.arm", who=other, channels=[2])["ok"]
+    scope = hand.station.captures.of(other.client).scope
+    hand.station.leave(other.client)
+    hand.run(0.01)
+    hand.now_s += 59.9
+    hand.run(0.01)
+    assert scope.running is not None
+    hand.run(0.2)
+    assert scope.running is None
+
+
+def test_a_fifth_capture_ends_one_without_a_client_or_is_refused(hand: HandStation) -> None:
+    others = list(others_of(hand, 6).values())
+    for each in others[:4]:
+        assert hand.send("scope.arm", who=each, channels=[1])["ok"]
+    assert hand.refused("scope.arm", channels=[2])["text"] == (
+        "the scope samples for 4 clients already: one of them has to stop"
+    )
+    assert hand.send("scope.arm", who=others[3], channels=[2])["ok"]  # its own is replaced
+    hand.station.leave(others[1].client)
+    hand.do("scope.arm", channels=[2])
+    running = [hand.station.captures.data(each.client)["running"] for each in others[:4]]
+    assert running == [True, False, True, True]
+    assert hand.send("scope.stop", who=others[0])["ok"]
+    assert hand.send("scope.arm", who=others[4], channels=[1])["ok"]
 
 
 def test_a_value_that_begins_at_the_level_does_not_trigger() -> None:
@@ -258,8 +378,8 @@ def test_a_refusal_of_a_polled_card_ends_the_capture_and_is_said(
     hand: HandStation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     station = hand.station
-    monkeypatch.setattr(station.captures, "sampling", Polled())
-    capture = station.scope.arm([named("P4000")], 0.01, 10, None)
+    station.captures.of(1).sampling = Polled()
+    capture = station.captures.of(1).scope.arm([named("P4000")], 0.01, 10, None)
     hand.run(0.1)
     assert capture.is_over
     assert len([text for text in hand.said if text.startswith("the scope has ended: ")]) == 1
@@ -302,7 +422,7 @@ def test_a_record_of_the_sampler_is_what_the_card_went_through_tick_by_tick(
     hand.do("jog.increment", axis="X", direction=1, distance=5.0, tick=hand.tick)
     hand.run(0.1)
     sent: list[Samples] = []
-    hand.station.on_samples = sent.append
+    hand.station.on_samples = lambda _to, each: sent.append(each)
     scope.arm(channels, period_s, 250, None)
     sampler.begin(scope)
     (first, block, _), (then, _, _) = recorded(hand, sampler, scope, 2)

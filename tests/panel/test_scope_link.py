@@ -63,7 +63,7 @@ def reached(line: Line, tmp_path: Path) -> Iterator[Reach]:
             remote, records = Remote(address, tmp_path), list[Samples]()
             opens.callback(remote.close)
             until(lambda: remote.station.snapshot.number > 0)
-            remote.station.on_samples = records.append
+            remote.station.on_samples = lambda _to, each: records.append(each)
             return remote, records
 
         yield reach
@@ -112,7 +112,7 @@ def test_records_end_with_a_session(
 ) -> None:
     monkeypatch.setattr(link, "RETRY_S", 0.1)
     remote, records = reached(line.proxy.address, 1.5)
-    scope = remote.station.scope
+    scope = remote.station.captures.of(1).scope
 
     def record() -> None:
         records.clear()

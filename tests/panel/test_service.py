@@ -90,7 +90,7 @@ def test_queries_only_read(hand: HandStation) -> None:
 
 def test_the_scope_samples_in_the_time_of_the_card(hand: HandStation) -> None:
     taken: list[Samples] = []
-    hand.station.on_samples = taken.append
+    hand.station.on_samples = lambda _to, each: taken.append(each)
     assert hand.installation.controller is not None
     begin_s = hand.installation.controller.time_s
     hand.do("scope.arm", channels=[12288, 12290], period_ms=1.0, samples=1000)
@@ -117,7 +117,7 @@ def test_a_single_capture_ends_after_its_trigger(hand: HandStation) -> None:
     assert hand.events("scope")[-1] == {
         "event": "scope", "running": True, "channels": ["P12290"], "period_s": 0.001,
         "first": 0, "samples": 100, "trigger": None, "swept": None, "tick": tick,
-        "owner": "service 1",
+        "owner": "service 1", "number": 1, "to": 1,
     }  # fmt: skip
     hand.do("jog.increment", axis="X", direction=1, distance=1.0, tick=hand.tick)
     hand.run(1.0)

@@ -555,7 +555,7 @@ def test_samples_of_the_scope_are_those_of_the_history_at_their_ticks(
         "scope.arm", channels=["P12290", "P6916", "BIT81"], period_ms=period_ms, samples=100
     )
     taken: list[Samples] = []
-    hand.station.on_samples = taken.append
+    hand.station.on_samples = lambda _to, each: taken.append(each)
     hand.run(0.2)
     first, block, _period_s = taken[0]
     every_tk = round(period_ms / 1000.0 / history(hand).period_s)

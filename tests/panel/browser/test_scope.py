@@ -14,6 +14,7 @@ from scipy import integrate, signal
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import LONGEST_MS, left_over, open_page, until_model
 
+from openacr.panel.control.engineer.scope import Capture
 from openacr.panel.control.station import Station
 
 pytestmark = pytest.mark.evidence("oracle", "numpy.fft, numpy.gradient, scipy.signal and integrate")
@@ -162,6 +163,12 @@ def test_the_maths_channel_computes_as_numpy_does(
 RECORD = """() => import('/js/scope/screen.js').then(({ shown }) => shown.value)"""
 
 
+def capture_of(station: Station) -> Capture:
+    """The capture that was begun last."""
+    found = [own.scope.capture for own in station.captures._all.values() if own.scope.capture]
+    return max(found, key=lambda each: each.number)
+
+
 def write(station: Station, value: float) -> None:
     station.link.machine.card.write(7, value)
 
@@ -289,9 +296,38 @@ def test_the_last_whole_sweep_stays_with_its_measures_until_the_next_one_is_whol
     press(page, "REFERENCE")
 
 
-def test_a_second_browser_asks_before_it_takes_the_scope_and_the_first_one_says_so(
+def test_two_browsers_sample_their_own_channels_at_once(
     page: Page, context: BrowserContext, served: Served
 ) -> None:
+    served.call(partial(write, value=4.0))
+    arm_on_flag(page, 1922, "auto")
+    other = open_page(context, f"{served.url}/bench")
+    show_scope(other)
+    fill(other, {"CH1 source": "BIT1921", "CH2 source": "", "CH3 source": "P6916"})
+    other.get_by_label("Trigger", exact=True).select_option("roll")
+    press(other, "START")
+    for each, names in ((page, ["P7", "BIT1922"]), (other, ["BIT1921", "P6916"])):
+        until_model(each, f"model.capture.value.channels?.join() === '{','.join(names)}'")
+        before = str(status(each).text_content())
+        expect(status(each)).not_to_have_text(before)  # both go on
+        expect(status(each)).to_contain_text("samples")
+    expect(page.locator("[data-trace=CH1] td").first).to_have_text("4")
+    expect(other.locator("[data-trace=CH1] td").first).to_have_text("0")
+    other.evaluate("import('/js/core/app.js').then(({ link }) => link.renew())")
+    until_model(other, "model.capture.value.running && model.capture.value.number > 0")
+    before = str(status(other).text_content())
+    expect(status(other)).not_to_have_text(before)  # it goes on after a connection that was cut
+    press(other, "STOP SCOPE")
+    expect(status(other)).to_contain_text("Stopped at")
+    expect(status(page)).not_to_contain_text("Stopped")
+    press(page, "STOP SCOPE")
+    other.close()
+
+
+def test_of_a_linked_card_a_second_browser_asks_before_it_takes_the_scope_and_the_first_says_so(
+    page: Page, context: BrowserContext, served: Served, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(served.station.captures, "is_shared", True)
     arm_on_flag(page, 1922, "auto")
     expect(status(page)).to_contain_text("samples")
     other = open_page(context, f"{served.url}/bench")
@@ -317,6 +353,7 @@ def test_a_second_browser_asks_before_it_takes_the_scope_and_the_first_one_says_
     press(page, "START")  # the one that took it has gone
     expect(status(page)).to_contain_text(re.compile("^(WAITING|TRIGGERED)"))
     press(page, "STOP SCOPE")
+    expect(status(page)).to_contain_text("Stopped at")  # before cards are not shared any more
 
 
 # Numbers that are cut off, and a plot that is less than so wide and high.
@@ -401,7 +438,7 @@ def test_the_level_of_the_trigger_is_dragged_and_acts_at_once(page: Page, served
     served.call(lambda station: station.link.machine.card.pause(0.1))
     served.call(partial(write, value=2.9))
     served.call(lambda station: station.link.machine.card.pause(0.1))
-    assert served.call(lambda station: station.scope.capture.triggered_at) is None  # type: ignore[union-attr]
+    assert served.call(lambda station: capture_of(station).triggered_at) is None
     served.call(partial(write, value=3.1))
     until_model(page, "model.capture.value.swept !== null")
     press(page, "STOP SCOPE")
@@ -409,7 +446,7 @@ def test_the_level_of_the_trigger_is_dragged_and_acts_at_once(page: Page, served
 
 def trigger_level(station: Station) -> float | None:
     """The level at which the scope triggers."""
-    capture = station.scope.capture
+    capture = capture_of(station)
     return None if capture is None or capture.trigger is None else capture.trigger.level
 
 

@@ -201,8 +201,8 @@ def scope_arm(
 
     They are named by name, P12290, BIT516 or number. A sweep has the time of `sweep_ms` where
     that is above 0, else `samples`. A card at the end of a link records into LA0 to LA7 and SA0
-    to SA7 of `program` (SAMP); else it is polled. A capture of another client is replaced only
-    with `take`.
+    to SA7 of `program` (SAMP), else it is polled; its capture is replaced by that of another
+    client only with `take`.
     """
     wanted = Wanted(channels, period_ms, samples, sweep_ms, program, take)
     chosen = None if trigger is None else Trigger(**structs.asdict(trigger))
@@ -214,8 +214,7 @@ def _armed(captures: Captures, client: int, wanted: Wanted, trigger: Trigger | N
     if not wanted.take:
         captures.require_free(client)
     channels = [named(str(each)) for each in wanted.channels]
-    sampling = captures.source(wanted.program)
-    period_s = sampling.period_s(wanted.period_ms / 1000.0)
+    period_s = captures.period_s(wanted.period_ms / 1000.0, wanted.program)
     samples = wanted.samples
     if wanted.sweep_ms > 0.0:
         samples = round(wanted.sweep_ms / 1000.0 / period_s)
@@ -224,7 +223,7 @@ def _armed(captures: Captures, client: int, wanted: Wanted, trigger: Trigger | N
                 f"a sweep of {wanted.sweep_ms:g} ms has {samples} samples of"
                 f" {1000 * period_s:g} ms: {LEAST_SAMPLES} to {MOST_SAMPLES} are possible"
             )
-    return captures.arm(sampling, channels, period_s, samples, trigger, client)
+    return captures.arm(client, channels, period_s, samples, trigger, wanted.program)
 
 
 @command("scope.index", Role.SERVICE, is_motion=True, en="INDEX", de="INDEX")
@@ -251,16 +250,27 @@ def scope_index(
     try:
         runner.jog(lambda jogging: jogging.index(found))
     except BaseException:
-        captures.stop()
+        captures.stop(client)
         raise
     return {"time_s": found.time_s, **capture.data()}
 
 
 @command("scope.stop", Role.SERVICE, needs_control=False, en="STOP SCOPE", de="SCOPE HALT")
 def scope_stop(client: int, captures: Captures) -> None:
-    """End the capture, unless it is that of another client."""
+    """End the own capture; of a card at the end of a link the one there is, if it is free."""
     captures.require_free(client)
-    captures.stop()
+    captures.stop(client)
+
+
+@command("scope.resume", Role.SERVICE, needs_control=False)
+def scope_resume(
+    client: int, captures: Captures, *, number: Annotated[int, Meta(ge=1)]
+) -> dict[str, object]:
+    """Go on with the capture that this browser began before its connection was cut.
+
+    `number` is that of the event `scope`; refused where it is another client's, or gone.
+    """
+    return captures.resume(client, number).data()
 
 
 @command(

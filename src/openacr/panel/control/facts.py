@@ -1,6 +1,6 @@
 """Facts in words for browsers: each is sent when it has changed."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from openacr.cnc.canonical import Spin
@@ -19,13 +19,18 @@ Data = dict[str, Any]
 
 
 class Facts:
-    """The facts of one station by name, as they were sent last."""
+    """The facts of one station by name, as they were sent last; some are those of one client."""
 
     def __init__(
-        self, makers: Mapping[str, Callable[[], Data]], tell: Callable[[Data], None]
+        self,
+        makers: Mapping[str, Callable[[], Data]],
+        own: Mapping[str, Callable[[int], Data]],
+        clients: Callable[[], Iterable[int]],
+        tell: Callable[[Data], None],
     ) -> None:
-        self._makers, self._tell = makers, tell
+        self._makers, self._own, self._clients, self._tell = makers, own, clients, tell
         self._reported: dict[str, Data] = {}
+        self._reported_own: dict[tuple[str, int], Data] = {}
 
     def tell(self) -> None:
         """Tell the facts that have changed."""
@@ -34,9 +39,18 @@ class Facts:
             if self._reported.get(name) != data:
                 self._reported[name] = data
                 self._tell({"event": name, **data})
+        own = {
+            (name, client): make(client)
+            for name, make in self._own.items()
+            for client in self._clients()
+        }
+        for (name, client), data in own.items():
+            if self._reported_own.get((name, client)) != data:
+                self._tell({"event": name, **data, "to": client})
+        self._reported_own = own
 
     def all(self) -> list[Data]:
-        """All facts, for a browser that has just connected."""
+        """The facts of all, for a browser that has just connected; its own are sent by `tell`."""
         self.tell()
         return [{"event": name, **data} for name, data in self._reported.items()]
 

@@ -16,7 +16,8 @@ from openacr.mill.card.alarms import CONTROL_FAILED, AlarmError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.panel.control.engineer.captures import Captures
 from openacr.panel.control.engineer.on_card import OnCard
-from openacr.panel.control.engineer.scope import Samples, Scope
+from openacr.panel.control.engineer.scope import Samples
+from openacr.panel.control.engineer.sources import Sources
 from openacr.panel.control.engineer.terminal import Terminals
 from openacr.panel.control.engineer.tuning import Tuning
 from openacr.panel.control.engineer.watches import Watches
@@ -57,7 +58,7 @@ class Station:
     def __init__(self, installation: Installation, carry_out: Carry) -> None:
         self._carry_out = carry_out
         self.on_snapshot: Callable[[], None] = lambda: None  # a new snapshot is there
-        self.on_samples: Callable[[Samples], None] = lambda _samples: None
+        self.on_samples: Callable[[int | None, Samples], None] = lambda _to, _samples: None
         self.on_end: Callable[[], None] = lambda: None  # EXIT: the program is to end
         self.installation = installation
         self.link = Link(installation)
@@ -76,8 +77,8 @@ class Station:
         self.terminals = Terminals(installation)
         self.on_card = OnCard(installation, self.screens.tell)
         self.world = WorldPane(installation)
-        self.scope = Scope()
-        self.captures = Captures(self.link, self.scope, self.people, self.screens.say)
+        sources = Sources(self.link)
+        self.captures = Captures(self.link, sources, self.people, self.screens.say)
         self.buttons = Buttons()
         self.watches = Watches()
         end_all = self.hand_motion.presses.end_all
@@ -114,12 +115,12 @@ class Station:
             "overrides": of_machine.overrides,
             "mdi": self.typed.data,
             "home": of_machine.home,
-            "scope": self.captures.data,
             "timeline": self.times.timeline,
             "moment": self.times.moment,
             "breakpoints": self.on_card.breakpoints,
         }
-        return Facts(makers, self.screens.tell)
+        own = {"scope": self.captures.data}
+        return Facts(makers, own, lambda: self.people.clients, self.screens.tell)
 
     # --- the session of the machine ---------------------------------------------------
 
@@ -310,8 +311,8 @@ class Station:
         self.ticks.note(snapshot.tick_ms, now_s)
         self.snapshot = snapshot
         self.on_snapshot()
-        for samples in self.captures.samples():
-            self.on_samples(samples)
+        for to, samples in self.captures.samples():
+            self.on_samples(to, samples)
         self.facts.tell()
         if self.link.session is not None or self.link.is_away:
             self.watches.look(self.link.read, now_s, is_past=self.link.is_away)

@@ -73,8 +73,8 @@ class Hub:
     def _looked(self) -> None:
         self._soon(self.show)
 
-    def _sampled(self, taken: Samples) -> None:
-        self._soon(self._show_samples, taken)
+    def _sampled(self, to: int | None, taken: Samples) -> None:
+        self._soon(self._show_samples, to, taken)
 
     def _report(self, wish: Wish, parameters: list[int], changed: Changed) -> None:
         self._soon(self._show_values, wish, parameters, changed)
@@ -121,8 +121,8 @@ class Hub:
         for browser in wanted:
             browser.outbox.offer(Topic.STATUS, seq, frame, now_s)
 
-    def _show_samples(self, taken: Samples) -> None:
-        """Send the new samples of the scope to the browsers that want them; none is left out."""
+    def _show_samples(self, to: int | None, taken: Samples) -> None:
+        """Send the new samples of a capture to its browser, or to all; none is left out."""
         snapshot = self._station.snapshot
 
         def build(samples: Samples) -> tuple[int, bytes]:
@@ -132,8 +132,9 @@ class Hub:
                 seq, snapshot.tick_ms, age_ms, first=first, period_s=period_s, block=block
             )
 
-        for browser in self._browsers.values():
-            browser.outbox.put(Topic.SCOPE, taken, joined, build)
+        for client, browser in self._browsers.items():
+            if to is None or to == client:
+                browser.outbox.put(Topic.SCOPE, taken, joined, build)
 
     def _show_values(self, wish: Wish, parameters: list[int], changed: Changed) -> None:
         """Send watched values to the browser that watches them; none is left out."""

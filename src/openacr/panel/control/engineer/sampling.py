@@ -4,19 +4,14 @@ The engine records every servo period, whatever passes its time; other cards are
 step of the control thread, so that a period is as exact as the link.
 """
 
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
 
-from openacr.engine.samples import Sample, sample_of_flag, sample_of_parameter
-from openacr.errors import UserError
 from openacr.map import Flag, Parameter
 from openacr.mill.session import MillSession
+from openacr.panel.control.engineer.recorder import Recorder, Share
 from openacr.panel.control.engineer.scope import Scope
-from openacr.panel.control.machine.installation import Installation
-
-if TYPE_CHECKING:
-    from openacr.controller import Controller
 
 LEAST_S = 0.001  # from one poll of a card to the next
 
@@ -41,50 +36,42 @@ class Sampling(Protocol):
 
 
 class Recorded:
-    """Samples of a card in this process, recorded by its engine in every chosen tick."""
+    """Samples of a card in this process, of every chosen tick, by the recorder that all share."""
 
-    def __init__(self, controller: "Controller") -> None:
-        self._controller = controller
-        self._is_on = False
+    def __init__(self, recorder: Recorder) -> None:
+        self._recorder = recorder
+        self._share: Share | None = None
 
     def _every_tk(self, wanted_s: float) -> int:
-        return max(1, round(wanted_s / self._controller.period_s))
+        return max(1, round(wanted_s / self._recorder.period_s))
 
     def period_s(self, wanted_s: float) -> float:
         """Whole servo periods, at least one."""
-        return self._every_tk(wanted_s) * self._controller.period_s
+        return self._every_tk(wanted_s) * self._recorder.period_s
 
     def begin(self, scope: Scope) -> None:
         """Record from the next tick on; UserError for a channel that the card does not have."""
         if scope.running is not None:
-            samples = [self._sample(each) for each in scope.running.channels]
-            self._controller.record(self._every_tk(scope.running.period_s), samples=samples)
-            scope.running.tick = self._controller.lived_tk + 1
-            self._is_on = True
-
-    def _sample(self, channel: Parameter | Flag) -> Sample:
-        if isinstance(channel, Flag):
-            return sample_of_flag(channel.number)
-        sample = sample_of_parameter(self._controller.memory, channel.number)
-        if sample is None:
-            raise UserError(f"P{channel.number}: this card has no such parameter")
-        return sample
+            every_tk = self._every_tk(scope.running.period_s)
+            self._share = self._recorder.join(scope.running.channels, every_tk)
+            scope.running.tick = self._share.due_tk
 
     def step(self, session: MillSession, scope: Scope, now_s: float) -> None:
         """The engine records by itself."""
 
     def collect(self, scope: Scope) -> None:
         """Add what the engine has recorded since the last call."""
-        if self._is_on and scope.running is not None:
-            scope.add(self._controller.take_trace().values.T)
+        if self._share is not None and scope.running is not None:
+            for block in self._recorder.take(self._share):
+                scope.add(block)
         if scope.running is None:
             self.end()
 
     def end(self) -> None:
         """Record no more."""
-        if self._is_on:
-            self._is_on = False
-            self._controller.end_record()
+        if self._share is not None:
+            self._recorder.leave(self._share)
+            self._share = None
 
 
 class Polled:
@@ -116,12 +103,6 @@ class Polled:
 
     def end(self) -> None:
         """Nothing goes on."""
-
-
-def source_of(installation: Installation) -> Sampling:
-    """The source of an installation: the engine of a card in this process, else polls."""
-    controller = installation.controller
-    return Polled() if controller is None else Recorded(controller)
 
 
 def row_of(channel: Parameter | Flag) -> int:

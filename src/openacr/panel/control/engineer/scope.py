@@ -52,6 +52,7 @@ class Capture:
     samples: int
     trigger: Trigger | None
     owner: int | None = None  # the client that began it
+    number: int = 0  # of this panel
     first: int = 0  # number of the first sample
     next: int = 0  # number of the sample that follows
     since: int = 0  # number of the first sample after the last gap
@@ -71,6 +72,7 @@ class Capture:
     def data(self) -> dict[str, Any]:
         """The state of the capture."""
         return {
+            "number": self.number,
             "running": not self.is_over,
             "channels": [name_of(each) for each in self.channels],
             "period_s": self.period_s,

@@ -67,6 +67,11 @@ class People:
         """Whether a client is connected."""
         return client in self._people
 
+    @property
+    def clients(self) -> list[int]:
+        """All who are connected."""
+        return list(self._people)
+
     def person(self, client: int | None) -> Person | None:
         """A client that is connected."""
         return None if client is None else self._people.get(client)

@@ -21,3 +21,14 @@ export async function arm(command, args) {
     return null;
   }
 }
+
+/**
+ * Go on with a capture after each connection that was cut; returns the function that ends it. A capture that is gone
+ * stays as it is: stopped.
+ * @param {() => number} number of the capture, 0 before the first one
+ */
+export function resumed(number) {
+  return link.isOpen.watch((isOpen) => {
+    if (isOpen && number()) void link.command("scope.resume", { number: number() }).catch(() => {});
+  });
+}

@@ -7,7 +7,7 @@ const PATIENCE = 2; // sweeps without a trigger after which an automatic one run
 /**
  * @typedef {{ running: boolean, first?: number, trigger?: number | null, swept?: number | null,
  *   owner?: string | null }} Capture
- * @typedef {{ first: number, samples: number, period_s: number, channels?: string[], tick?: number | null }} Armed what
+ * @typedef {{ number?: number, first: number, samples: number, period_s: number, channels?: string[], tick?: number | null }} Armed what
  *   the server says of a new capture
  * @typedef {{ before: number, mode: string } | null} Trigger
  * @typedef {{ first: number, zero: number, period: number, channels: Float64Array[] }} Window samples that are missing
@@ -31,6 +31,7 @@ export class Recording {
     /** Rings by channel: a sample is at its number modulo their size. @type {Float64Array[]} */
     this.data = [];
     this.size = 1;
+    this.number = 0; // of the capture, 0 before the first one
     this.begun = 0; // number of the first sample
     this.samples = 1; // of a sweep
     /** @type {Trigger} */
@@ -71,6 +72,7 @@ export class Recording {
   begin(channels, armed, trigger, run = "sweep") {
     this.size = KEPT * armed.samples + LEAST;
     this.data = Array.from({ length: channels }, () => new Float64Array(this.size).fill(Number.NaN));
+    this.number = armed.number ?? 0;
     this.begun = this.next = armed.first;
     this.samples = armed.samples;
     this.period = armed.period_s;

@@ -7,7 +7,7 @@ import { Endings } from "../core/signal.js";
 import { t } from "../core/texts.js";
 import { confirm } from "../frame/dialog.js";
 import { mayMove } from "../motion/actions.js";
-import { arm as armed } from "../scope/arm.js";
+import { arm as armed, resumed } from "../scope/arm.js";
 import { Recording } from "../scope/recording.js";
 import { DIVISIONS, fitting } from "../scope/scales.js";
 import { COLORS, createScreen } from "../scope/screen.js";
@@ -125,6 +125,7 @@ export const screen = {
     for (const { scale, offset } of channels)
       for (const field of [scale, offset]) field.addEventListener("input", draw);
     endings.add(
+      resumed(() => (run.list.length ? recording.number : 0)),
       model.scope.watch((piece) => {
         if (!piece || !run.list.length) return;
         recording.add(piece);

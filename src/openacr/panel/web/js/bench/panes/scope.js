@@ -5,7 +5,7 @@ import { keyOf } from "../../core/keys.js";
 import { Endings, Signal } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
 import { ask } from "../../frame/dialog.js";
-import { arm } from "../../scope/arm.js";
+import { arm, resumed } from "../../scope/arm.js";
 import { samplesOf } from "../../scope/branch.js";
 import { Channels, fullLabel } from "../../scope/channels.js";
 import { cursorPlugin } from "../../scope/cursors.js";
@@ -387,6 +387,7 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   endings.add(
+    resumed(() => (live.list.length ? recording.number : 0)),
     () => live.end(),
     () =>
       void (link.isOpen.value && live.list.length && !recording.isTaken && link.command("scope.stop").catch(() => {})),
