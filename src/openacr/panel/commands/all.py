@@ -6,6 +6,7 @@ from openacr.panel.commands import (  # noqa: F401
     motion,
     people,
     programs,
+    recording,
     running,
     service,
     timeline,

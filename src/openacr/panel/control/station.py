@@ -16,6 +16,7 @@ from openacr.mill.card.alarms import CONTROL_FAILED, AlarmError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.panel.control.engineer.captures import Captures
 from openacr.panel.control.engineer.on_card import OnCard
+from openacr.panel.control.engineer.records import Records
 from openacr.panel.control.engineer.scope import Samples
 from openacr.panel.control.engineer.sources import Sources
 from openacr.panel.control.engineer.terminal import Terminals
@@ -79,6 +80,9 @@ class Station:
         self.world = WorldPane(installation)
         sources = Sources(self.link)
         self.captures = Captures(self.link, sources, self.people, self.screens.say)
+        path = installation.store.path
+        folder = None if path is None else path.parent
+        self.records = Records(sources, self.people, self.screens.say, folder)
         self.buttons = Buttons()
         self.watches = Watches()
         end_all = self.hand_motion.presses.end_all
@@ -118,6 +122,7 @@ class Station:
             "timeline": self.times.timeline,
             "moment": self.times.moment,
             "breakpoints": self.on_card.breakpoints,
+            "record": self.records.data,
         }
         own = {"scope": self.captures.data}
         return Facts(makers, own, lambda: self.people.clients, self.screens.tell)
@@ -148,6 +153,7 @@ class Station:
         self.stopping.end()
         self.lamp.end()
         self.captures.stop()
+        self.records.end()
         self.tuning.end()
         if session is not None:
             with suppress(*LINK_ERRORS):
@@ -225,6 +231,7 @@ class Station:
         try:
             clock = self.installation.pace.advance(session.card, now_s)
             self.captures.step(session, now_s)
+            self.records.step(session, now_s)
             if clock >= self._poll_at:
                 self._poll_at = clock + session.poll_in_s
                 self._poll(now_s)
@@ -294,6 +301,7 @@ class Station:
         """The card is at another moment: all values are reported again."""
         self._shown_at = 0.0
         self.captures.stop()
+        self.records.end()
         self.watches.renew()
         self.installation.pace.begin(self.now_s)
 
@@ -313,6 +321,7 @@ class Station:
         self.on_snapshot()
         for to, samples in self.captures.samples():
             self.on_samples(to, samples)
+        self.records.collect()
         self.facts.tell()
         if self.link.session is not None or self.link.is_away:
             self.watches.look(self.link.read, now_s, is_past=self.link.is_away)

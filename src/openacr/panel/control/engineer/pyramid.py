@@ -152,6 +152,8 @@ class Pyramid:
         return [_summary(each) for each in joined.tolist()]
 
     def _require(self, first: int, last: int) -> None:
+        if not self._end.alive:
+            raise UserError("this record was dropped: another one was begun")
         if not self.first <= first < last <= self.next:
             raise UserError(
                 f"samples {first} to {last}: of this record {self.first} to {self.next} are kept"

@@ -15,6 +15,7 @@ from openacr.panel.server.calls import (  # noqa: F401
     pictures,
     programs,
     project,
+    record,
     scope,
     session,
     texts,

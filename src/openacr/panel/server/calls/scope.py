@@ -37,7 +37,7 @@ class OfRecord(Query, frozen=True):
 async def parquet(call: Call) -> object:
     """A record as Parquet: 64-bit numbers, column by column, become a file with the time in s."""
     query: OfRecord = call.query
-    names = _names(query.names)
+    names = names_of(query.names)
     data = await limited(call.request, MOST_BYTES)
     if len(data) % (8 * len(names)):
         raise PanelError("bad", f"{len(data)} bytes are no {len(names)} columns of equal length")
@@ -46,7 +46,8 @@ async def parquet(call: Call) -> object:
     return Response(content, media_type=TYPE)
 
 
-def _names(text: str) -> list[str]:
+def names_of(text: str) -> list[str]:
+    """Names of columns from a JSON list; PanelError unless they are different texts."""
     try:
         names = json.loads(text)
     except ValueError:
