@@ -14,6 +14,8 @@ from scipy import integrate, signal
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import LONGEST_MS, left_over, open_page, until_model
 
+from openacr.client.names import named
+from openacr.panel.control.engineer.pyramid import Pyramid
 from openacr.panel.control.engineer.scope import Capture
 from openacr.panel.control.station import Station
 
@@ -526,3 +528,90 @@ def test_numbers_of_a_channel_are_shown_whole_and_the_plot_has_room(page: Page) 
             "CH2 offset": "40000.25", "Trigger level": "-1234567",
         })  # fmt: skip
         assert left_over(page, CUT, f"() => ({ROOM})([{least[0]}, {least[1]}])") == []
+
+
+# --- long records ---------------------------------------------------------------------
+
+
+def an_hour_of_the_clock(station: Station) -> int:
+    """A record of the clock of the card every 100 ms, and of a flag; its samples."""
+    record = station.records.begin(1, [named("P6916"), named("BIT1921")], 0.1, take=True)
+    station.records.end()
+    record.samples = Pyramid(2, 1 << 24)
+    clock = 100.0 * np.arange(36_000.0)
+    record.samples.append(np.array([clock, clock * 0.0]))
+    return record.samples.next
+
+
+def test_any_part_of_an_hour_is_zoomed_dragged_measured_and_exported(
+    page: Page, served: Served
+) -> None:
+    page.set_viewport_size({"width": 1366, "height": 768})
+    show_scope(page)
+    fill(page, {"Sweep, ms/div": "1000", "Sampling, ms": "100", "M source": ""})
+    page.get_by_label("Trigger", exact=True).select_option("record")
+    count = served.call(an_hour_of_the_clock)
+    assert count == 36_000
+    expect(status(page)).to_have_text("Record of 1:00:00")
+    expect(page.get_by_label("CH1 source", exact=True)).to_have_value("P6916")
+    expect(page.get_by_label("CH2 source", exact=True)).to_have_value("BIT1921")
+    strip = page.locator(".scope-overview")
+    strip.focus()
+    page.keyboard.press("0")  # the whole hour
+    row = page.locator("[data-trace=CH1] td")
+    span = 100.0 * (count - 1)
+    expect(row.last).to_have_text("\u2013")
+    expect(row.nth(4)).to_have_text(f"{span:g}" if span < 1e6 else str(int(span)))
+    for _ in range(12):
+        page.keyboard.press("+")
+    page.keyboard.press("End")
+    until(page, lambda: page.evaluate(RECORD)["x"], lambda found: found[1] == 100.0 * count)
+    clock = until(
+        page, lambda: page.evaluate(RECORD)["times"], lambda found: found and found[-1] > 3.59e6
+    )
+    assert set(np.diff(clock).round()) == {100.0}  # every sample
+    box = strip.bounding_box()
+    assert box is not None
+    middle = box["x"] + box["width"] / 2.0
+    page.mouse.move(middle, box["y"] + 9.0)
+    page.mouse.down()
+    page.mouse.up()
+    x = until(page, lambda: page.evaluate(RECORD)["x"], lambda found: found[0] < 1.9e6)
+    assert sum(x) / 2.0 == pytest.approx(1.8e6, abs=4000.0)
+    with page.expect_download() as saved:
+        press(page, "EXPORT")
+        page.get_by_role("dialog").get_by_role("button", name="CSV").click()
+    lines = saved.value.path().read_text().splitlines()
+    assert lines[0].startswith("time_s,CH1 P6916 SYSTEM Global System Clock [ms],CH2 BIT1921")
+    values = [float(line.split(",")[1]) for line in lines[1:]]
+    assert set(np.diff(values)) == {100.0}
+    assert len(values) == pytest.approx((x[1] - x[0]) / 100.0, abs=1.0)
+    assert page.complaints == []  # type: ignore[attr-defined]
+
+
+def test_the_end_of_a_record_that_grows_stays_on_the_screen_until_it_is_moved(
+    page: Page, served: Served
+) -> None:
+    show_scope(page)
+    fill(page, {"CH1 source": "P6916", "CH2 source": "", "Sweep, ms/div": "50",
+                "Sampling, ms": "1"})  # fmt: skip
+    page.get_by_label("Trigger", exact=True).select_option("record")
+    press(page, "START")
+    page.get_by_role("dialog").get_by_role("button", name="RECORD").click()  # the hour is dropped
+    expect(status(page)).to_contain_text("RECORDING")
+
+    def edge() -> float:
+        return float(page.evaluate(RECORD)["x"][0])
+
+    first = until(page, edge, lambda found: found > 0.0)
+    until(page, edge, lambda found: found > first)
+    page.locator(".scope-overview").focus()
+    page.keyboard.press("Home")
+    until(page, edge, lambda found: found == 0.0)
+    served.call(lambda station: station.link.machine.card.pause(0.2))
+    assert edge() == 0.0
+    page.keyboard.press("End")
+    until(page, edge, lambda found: found > first)
+    press(page, "STOP SCOPE")
+    expect(status(page)).to_contain_text("Record of")
+    assert not served.call(lambda station: station.records.data()["running"])

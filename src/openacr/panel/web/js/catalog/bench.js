@@ -109,6 +109,7 @@ const BENCH = {
   "scope.window.hamming": { en: "Hamming", de: "Hamming" },
   "scope.window.blackman": { en: "Blackman", de: "Blackman" },
   "scope.window.flattop": { en: "flat top", de: "Flat Top" },
+  "scope.record": { en: "record (hours)", de: "Aufzeichnung (Stunden)" },
   "scope.roll": { en: "roll", de: "rollend" },
   "scope.either": { en: "either", de: "beide" },
 };

@@ -147,6 +147,8 @@ export class Model {
     this.watched = new Signal(/** @type {[number, number][]} */ ([]));
     this.capture = new Signal(/** @type {{ running: boolean, trigger?: number | null }} */ ({ running: false }));
     this.scope = new Signal(/** @type {ReturnType<typeof readScope> | null} */ (null));
+    /** The long record that the panel keeps. */
+    this.record = new Signal(/** @type {import("../scope/long_record.js").State} */ ({ number: 0, running: false }));
     this.world = new Signal(/** @type {import("./frames.js").World | null} */ (null));
     this.isStale = new Signal(true);
     /** Card time of the last status drawn on the screen, ms; motion is asked for with it. */
@@ -219,4 +221,5 @@ const EVENTS = Object.freeze({
   timeline: 1,
   moment: 1,
   breakpoints: 1,
+  record: 1,
 });

@@ -1,4 +1,4 @@
-// A capture begins; one of another browser is replaced only when that is confirmed.
+// A capture or a record begins; one of another browser is replaced only when that is confirmed.
 import { give, link, refuse } from "../core/app.js";
 import { CommandError } from "../core/link.js";
 import { t } from "../core/texts.js";
@@ -6,16 +6,17 @@ import { confirm } from "../frame/dialog.js";
 
 /**
  * Begin a capture; what the server says of it, or null.
- * @param {"scope.arm" | "scope.index"} command
+ * @param {"scope.arm" | "scope.index" | "record.begin"} command
  * @param {Record<string, any>} args
  * @returns {Promise<any>}
  */
 export async function arm(command, args) {
+  const take = t(command === "record.begin" ? command : "scope.take");
   try {
     return await link.command(command, args);
   } catch (error) {
     if (!(error instanceof CommandError)) throw error;
-    if (error.code === "taken" && (await confirm(t("scope.take"), error.message, t("scope.take"))))
+    if (error.code === "taken" && (await confirm(take, error.message, take)))
       return give(command, { ...args, take: true });
     refuse(error.message);
     return null;

@@ -91,6 +91,18 @@ export class Channels {
     return nameOf(place);
   }
 
+  /**
+   * Have these sources, in this order, unless they are what was asked for: a record may be another browser's.
+   * @param {string[]} ids
+   */
+  async have(ids) {
+    if (this.asked.map((place) => this.items[place]?.id).join() === ids.join()) return;
+    this.rows.slice(0, MATHS).forEach((row, n) => {
+      row.source.value = ids[n] ?? "";
+    });
+    await this.nameUnits();
+  }
+
   /** Names and units of the sources. */
   async nameUnits() {
     const names = this.sources();

@@ -110,13 +110,22 @@ function keepFile(name, blob) {
  * Ask for the kind of a file, and keep what is shown as one.
  * @param {{ traces: Channel[], period: number, begin: number, canvas: HTMLCanvasElement | null | undefined,
  *   trigger: any }} shown s
+ * @param {string} [part] another text, where `csv` is a file of the server
+ * @param {string} [csv] its address
  */
-export async function exportAs({ traces, period, begin, canvas, trigger }) {
+export async function exportAs({ traces, period, begin, canvas, trigger }, part = t("scope.export.text"), csv = "") {
   const kind = await ask({
     title: t("scope.export"),
-    body: [h("p", {}, t("scope.export.text"))],
-    choices: ["csv", "parquet", "png"].map((each) => ({ text: each.toUpperCase(), value: each })),
+    body: [h("p", {}, part)],
+    choices: (csv ? ["csv", "png"] : ["csv", "parquet", "png"]).map((each) => ({
+      text: each.toUpperCase(),
+      value: each,
+    })),
   });
+  if (csv && kind === "csv") {
+    h("a", { href: csv, download: "" }).click();
+    return;
+  }
   const now = new Date();
   try {
     if (kind && kind !== "png" && !traces.length) throw new Error(t("scope.export.none"));

@@ -41,13 +41,15 @@ export function distanceText([t1, t2]) {
  * @param {{ period: number, begin: number }} time s between two samples, s of the first one
  * @param {[number, number] | null} times
  * @param {Map<string, ArrayLike<number>>} reference by label
+ * @param {import("./long_record.js").Found | null} [known] measures of the traces and values at the cursors, where the
+ *   server has computed them
  */
-export function showMeasures(table, traces, { period, begin }, times, reference) {
+export function showMeasures(table, traces, { period, begin }, times, reference, known = null) {
   const [from, to] = times && period ? samplesAt(times, period, begin) : [0, Infinity];
-  const at = times && period ? times.map((time) => Math.round((time / 1000 - begin) / period)) : [];
+  const places = times && period ? times.map((time) => Math.round((time / 1000 - begin) / period)) : [];
   const heads = [
     "",
-    ...at.map((_each, n) => `t${n + 1}`),
+    ...places.map((_each, n) => `t${n + 1}`),
     ...COLUMNS.map((each) => t(/** @type {any} */ (`scope.measure.${each}`))),
   ];
   fill(
@@ -56,10 +58,11 @@ export function showMeasures(table, traces, { period, begin }, times, reference)
     h(
       "tbody",
       {},
-      ...traces.map((trace) => {
+      ...traces.map((trace, place) => {
         const text = (/** @type {number | null | undefined} */ value, format = trace.format) =>
           value === null || value === undefined || !Number.isFinite(value) ? "\u2013" : numberText(value, format);
-        const found = measured(trace.values, from, to);
+        const found = known ? spanned(known.measures[place]) : measured(trace.values, from, to);
+        const at = known ? known.at.map((each) => each[place]) : places.map((n) => trace.values[n]);
         const other = reference.get(trace.label);
         const values = [
           found?.min,
@@ -78,10 +81,17 @@ export function showMeasures(table, traces, { period, begin }, times, reference)
             h("span.scope-key", { style: `--channel: ${trace.color}` }),
             h("span.scope-name", {}, fullLabel(trace)),
           ),
-          ...at.map((n) => h("td.number", {}, text(trace.values[n]))),
+          ...places.map((_each, n) => h("td.number", {}, text(at[n]))),
           ...values.map((value) => h("td.number", {}, text(value, trace.format === "fixed" ? "fixed" : "plain"))),
         );
       }),
     ),
   );
+}
+
+/** @param {import("./long_record.js").Measures | undefined} found */
+function spanned(found) {
+  if (!found) return null;
+  const span = found.max === null || found.min === null ? null : found.max - found.min;
+  return { ...found, span };
 }

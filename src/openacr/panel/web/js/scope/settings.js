@@ -8,7 +8,7 @@ import { DIVISIONS } from "./scales.js";
 import { WINDOWS } from "./spectrum.js";
 
 const SLOPES = /** @type {Record<string, number>} */ ({ rising: 1, falling: -1, either: 0 });
-const MODES = ["free", "roll", "auto", "normal", "single"];
+const MODES = ["free", "roll", "auto", "normal", "single", "record"];
 
 export class Settings {
   /**
@@ -87,7 +87,7 @@ export class Settings {
   /** The channel that triggers and its level; null where none does. */
   get trigger() {
     const mode = this.fields.mode.value;
-    return mode === "free" || mode === "roll"
+    return ["free", "roll", "record"].includes(mode)
       ? null
       : {
           channel: this.fields.trigger.value,
@@ -105,6 +105,11 @@ export class Settings {
 
   get spectrum() {
     return { window: this.fields.window.value, isDecibel: this.fields.amplitude.value === "decibel" };
+  }
+
+  /** Whether a long record is made and shown. */
+  get isRecord() {
+    return this.fields.mode.value === "record";
   }
 
   /** @returns {import("./recording.js").Run} */

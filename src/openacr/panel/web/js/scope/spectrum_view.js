@@ -1,8 +1,9 @@
 // Spectra of the traces over the frequency.
-import { h } from "../core/dom.js";
+import { fill, h } from "../core/dom.js";
 import { plain } from "../core/format.js";
 import { t } from "../core/texts.js";
 import { uPlot } from "../../vendor/uplot.js";
+import { fullLabel } from "./channels.js";
 import { decibels, peaks, spectrum } from "./spectrum.js";
 
 const LEGEND_PX = 34;
@@ -90,10 +91,28 @@ export function createSpectrum(host, endings) {
  * @param {ReturnType<typeof spectrum>} found
  * @param {string} unit
  */
-export function peaksOf(found, unit) {
+function peaksOf(found, unit) {
   if (!found) return [h("td", {}, t("scope.spectrum.gap"))];
   const digits = (/** @type {number} */ value) => String(Number(value.toPrecision(5)));
   return peaks(found.amplitudes, PEAKS).map((n) =>
     h("td.number", {}, `${digits(n * found.step)} Hz: ${digits(found.amplitudes[n])} ${unit}`.trim()),
   );
+}
+
+/**
+ * Fill the table with the peaks of every trace.
+ * @param {HTMLTableElement} table
+ * @param {import("./channels.js").Channel[]} traces
+ * @param {Parameters<typeof peaksOf>[0][]} found
+ */
+export function showPeaks(table, traces, found) {
+  const rows = traces.map((each, n) =>
+    h(
+      "tr",
+      { data: { trace: each.label } },
+      h("th", { attr: { scope: "row" } }, fullLabel(each)),
+      ...peaksOf(found[n], each.unit),
+    ),
+  );
+  fill(table, h("tbody", {}, ...rows));
 }

@@ -1,5 +1,12 @@
 // What the scope does, from what the server and this browser know of its capture.
+import { duration } from "../core/format.js";
 import { t } from "../core/texts.js";
+
+const TEXTS = {
+  none: { en: "No record: START begins one", de: "Keine Aufzeichnung: START beginnt eine" },
+  running: { en: "RECORDING, {time}", de: "ZEICHNET AUF, {time}" },
+  rests: { en: "Record of {time}", de: "Aufzeichnung von {time}" },
+};
 
 /** @typedef {"idle" | "taken" | "stopped" | "waiting" | "triggered" | "running"} State */
 
@@ -28,4 +35,13 @@ export function stateText(state, capture, count) {
   if (state === "stopped") return t("scope.stopped", { count });
   if (state === "running") return count ? t("scope.read", { count }) : t("scope.armed");
   return t(state === "waiting" ? "scope.state.waiting" : "scope.state.triggered", { count });
+}
+
+/**
+ * The state of a long record in words.
+ * @param {import("./long_record.js").LongRecord} record
+ */
+export function recordText({ state, ends, ms }) {
+  if (!state.number) return t(TEXTS.none);
+  return t(state.running ? TEXTS.running : TEXTS.rests, { time: duration(((ends[1] - ends[0]) * ms) / 1000) });
 }

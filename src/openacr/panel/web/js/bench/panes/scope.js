@@ -1,6 +1,6 @@
 // The oscilloscope: eight channels and one computed, trigger, cursors, XY, spectrum, references, files.
 import { give, link, model, refuse, report } from "../../core/app.js";
-import { fill, h, setText } from "../../core/dom.js";
+import { h, setText } from "../../core/dom.js";
 import { keyOf } from "../../core/keys.js";
 import { Endings, Signal } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
@@ -10,14 +10,16 @@ import { samplesOf } from "../../scope/branch.js";
 import { Channels, fullLabel } from "../../scope/channels.js";
 import { cursorPlugin } from "../../scope/cursors.js";
 import { exportAs } from "../../scope/export.js";
+import { LongRecord } from "../../scope/long_record.js";
 import { distanceText, samplesAt, showMeasures } from "../../scope/measure_table.js";
+import { createOverview } from "../../scope/overview.js";
 import { panningPlugin } from "../../scope/panning.js";
 import { moved, Recording } from "../../scope/recording.js";
 import { DIVISIONS } from "../../scope/scales.js";
 import { createScreen } from "../../scope/screen.js";
-import { createSpectrum, peaksOf } from "../../scope/spectrum_view.js";
+import { createSpectrum, showPeaks } from "../../scope/spectrum_view.js";
 import { Settings } from "../../scope/settings.js";
-import { stateOf, stateText } from "../../scope/state.js";
+import { recordText, stateOf, stateText } from "../../scope/state.js";
 import { triggerPlugin } from "../../scope/trigger_mark.js";
 import { within, zoomed } from "../../scope/view.js";
 import { createXy } from "../../scope/xy.js";
@@ -41,6 +43,14 @@ const TEXTS = {
   full: {
     en: "All eight channels have a source: empty one for {name}",
     de: "Alle acht Kan\u00e4le haben eine Quelle: einen leeren f\u00fcr {name}",
+  },
+  part: {
+    en: "The {count} samples between the cursors (without them: on the screen) as CSV, or the picture.",
+    de: "Die {count} Messwerte zwischen den Cursorn (ohne sie: auf dem Schirm) als CSV, oder das Bild.",
+  },
+  tooMany: {
+    en: "XY and FFT need samples: zoom in until every one is shown",
+    de: "XY und FFT brauchen Messwerte: näher heran, bis jeder gezeigt wird",
   },
   zoomLabel: {
     en: "Screen of the scope: + and - zoom a record at rest, arrow keys pan it, 0 shows its sweep",
@@ -75,7 +85,8 @@ export async function mount(host, { head, kept, keep }) {
   let part = null;
   const changed = () => {
     keep({ channels: channels.kept(), ...settings.kept(), isFull: side.hidden });
-    draw();
+    showRecord();
+    update();
   };
   const channels = new Channels(kept.channels ?? [], changed);
   const settings = new Settings(kept, changed);
@@ -101,9 +112,15 @@ export async function mount(host, { head, kept, keep }) {
   sideKey.ariaPressed = String(!side.hidden);
   const cursorKey = keyOf(TEXTS.cursors, toggleCursors);
   const referenceKey = keyOf(TEXTS.reference, toggleReference);
+  const long = new LongRecord(() => settings.isRecord && update(), endings);
+  const overview = createOverview(
+    long,
+    () => channels.asked.map((place) => channels.scaleOf(`CH${place + 1}`) ?? { color: "", scale: 1, offset: 0 }),
+    endings,
+  );
   head.append(
-    keyOf("scope.start", () => void sample().catch(refuse), ".main"),
-    keyOf("scope.stop", () => void give("scope.stop")),
+    keyOf("scope.start", () => void (settings.isRecord ? beginRecord() : sample()).catch(refuse), ".main"),
+    keyOf("scope.stop", () => void give(settings.isRecord ? "record.end" : "scope.stop")),
     keyOf("scope.autoscale", () => {
       channels.fit(shownNow().traces);
       changed();
@@ -123,16 +140,12 @@ export async function mount(host, { head, kept, keep }) {
       "div.stack.grow.scope-right",
       {},
       ...hosts,
+      overview.canvas,
       h("div.row.wrap.scope-line", {}, state, zooming, distance),
       h("div.scroll.scope-table", { tabIndex: 0 }, table),
     ),
   );
-  const panning = panningPlugin({
-    isAsked: () => isAtRest() && !cursors.value,
-    zoom,
-    pan,
-    reset: () => showPart(null),
-  });
+  const panning = panningPlugin({ isAsked: () => isAtRest() && !cursors.value, zoom, pan, reset });
   const screen = createScreen(hosts[0], endings, [triggerPlugin(mark, moveLevel), cursorPlugin(cursors), panning]);
   const xy = createXy(hosts[1], endings, fullLabel);
   const spectra = createSpectrum(hosts[2], endings);
@@ -146,6 +159,7 @@ export async function mount(host, { head, kept, keep }) {
 
   /** Whether there is a record that no sample is added to. */
   function isAtRest() {
+    if (settings.isRecord) return long.ends[1] > 0;
     return recording.count > 0 && ["stopped", "taken"].includes(stateNow());
   }
 
@@ -153,6 +167,11 @@ export async function mount(host, { head, kept, keep }) {
    * The part of the record that is shown: its traces, ms of the first sample and of the left edge, ms of a division.
    */
   function shownNow() {
+    if (settings.isRecord) {
+      const { channels: curves, ...frame } = long.curves();
+      const known = channels.traces(curves, frame.period);
+      return { ...frame, traces: long.isEnvelope ? known.filter(({ label }) => label !== "M") : known };
+    }
     const period = recording.period;
     const ms = 1000 * period;
     let shown = recording.window();
@@ -198,9 +217,9 @@ export async function mount(host, { head, kept, keep }) {
         ...each,
         values: moved(each.values, Math.round((begin - start) / (1000 * period)), length),
       }));
-    const other = reference ? at(reference.traces, reference.start) : [];
+    const other = reference && !settings.isRecord ? at(reference.traces, reference.start) : [];
     if (view === "time") {
-      const next = coming();
+      const next = settings.isRecord ? { traces: [], start } : coming();
       const named = other.map((each) => ({
         ...each,
         label: `${each.label} ${t(TEXTS.referenceShort)}`,
@@ -210,6 +229,8 @@ export async function mount(host, { head, kept, keep }) {
         [...present, ...named, ...at(next.traces, next.start).map((each) => ({ ...each, isFaint: true }))],
         frame,
       );
+    } else if (settings.isRecord && long.isEnvelope) {
+      refuseOnce();
     } else if (view === "xy") xy.draw(settings.traceOf(present, "x"), settings.traceOf(present, "y"));
     else drawSpectrum(present, period, start / 1000);
     if (view !== "spectrum")
@@ -219,8 +240,39 @@ export async function mount(host, { head, kept, keep }) {
         { period, begin: start / 1000 },
         cursors.value,
         new Map(other.map(({ label, values }) => [label, values])),
+        settings.isRecord && long.isEnvelope ? long.found : null,
       );
+    if (settings.isRecord) overview.draw();
     setText(distance, cursors.value ? distanceText(cursors.value) : "");
+  }
+
+  /** Extremes are neither a path nor a spectrum: the screen shows its curves until a part has few enough samples. */
+  function refuseOnce() {
+    refuse(t(TEXTS.tooMany));
+    show("time");
+  }
+
+  /** Show the record that the panel keeps, where that is what was chosen. */
+  function showRecord() {
+    overview.canvas.hidden = !settings.isRecord;
+    long.isOn = settings.isRecord;
+    if (!settings.isRecord) return;
+    long.width = hosts[0].clientWidth || long.width;
+    const { state: now } = long;
+    if (now.number)
+      void channels
+        .have(now.channels ?? [])
+        .then(update)
+        .catch(refuse);
+    long.ask();
+  }
+
+  /** Begin a long record. */
+  async function beginRecord() {
+    const asked = { channels: channels.sources(), period_ms: settings.number("period") };
+    await channels.nameUnits();
+    long.view = { from: 0, step: settings.sweepMs };
+    await arm("record.begin", asked);
   }
 
   /** @param {import("../../scope/view.js").View | null} chosen */
@@ -243,11 +295,21 @@ export async function mount(host, { head, kept, keep }) {
    * @param {number} at
    */
   function zoom(isFiner, at) {
-    showPart(zoomed(shownNow(), isFiner, at, ends(), 1000 * recording.period));
+    if (settings.isRecord) long.zoom(isFiner, at);
+    else showPart(zoomed(shownNow(), isFiner, at, ends(), 1000 * recording.period));
+  }
+
+  function reset() {
+    if (settings.isRecord) long.all();
+    else showPart(null);
   }
 
   /** @param {number} by */
   function pan(by) {
+    if (settings.isRecord) {
+      long.pan(by);
+      return;
+    }
     const { from, step } = shownNow();
     showPart(within({ from: from + by, step }, ends()));
   }
@@ -257,7 +319,7 @@ export async function mount(host, { head, kept, keep }) {
     const { from, step } = shownNow();
     if (event.key in KEYS) zoom(KEYS[event.key] > 0, from + (DIVISIONS / 2) * step);
     else if (event.key in PANS) pan(PANS[event.key] * step);
-    else if (event.key === "0") showPart(null);
+    else if (event.key === "0") reset();
     else return;
     event.preventDefault();
   }
@@ -296,21 +358,7 @@ export async function mount(host, { head, kept, keep }) {
       values: Float64Array.from(each.values).subarray(Math.max(0, from), to + 1),
     }));
     const found = spectra.draw(parts, period, settings.spectrum);
-    fill(
-      table,
-      h(
-        "tbody",
-        {},
-        ...present.map((each, n) =>
-          h(
-            "tr",
-            { data: { trace: each.label } },
-            h("th", { attr: { scope: "row" } }, fullLabel(each)),
-            ...peaksOf(found[n], each.unit),
-          ),
-        ),
-      ),
-    );
+    showPeaks(table, present, found);
   }
 
   /** @param {typeof VIEWS[number]} chosen */
@@ -374,16 +422,22 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   function update() {
-    const now = stateNow();
+    const now = settings.isRecord ? (long.state.running ? "running" : "stopped") : stateNow();
     state.dataset.state = now;
-    setText(state, stateText(now, model.capture.value, recording.count));
+    setText(state, settings.isRecord ? recordText(long) : stateText(stateNow(), model.capture.value, recording.count));
     draw();
   }
 
   async function choose() {
     const { traces: shown, period, start } = shownNow();
+    const names = shown.filter(({ label }) => label !== "M").map(fullLabel);
     const canvas = { time: screen.canvas, xy: xy.canvas, spectrum: spectra.canvas() }[view];
-    await exportAs({ traces: shown, period, begin: start / 1000, canvas, trigger: settings.trigger });
+    const picture = { traces: shown, period, begin: start / 1000, canvas, trigger: settings.trigger };
+    if (!settings.isRecord) await exportAs(picture);
+    else {
+      const [first, last] = long.part();
+      await exportAs(picture, t(TEXTS.part, { count: last - first }), last > first ? long.file(names) : "");
+    }
   }
 
   endings.add(
@@ -393,6 +447,8 @@ export async function mount(host, { head, kept, keep }) {
       void (link.isOpen.value && live.list.length && !recording.isTaken && link.command("scope.stop").catch(() => {})),
     cursors.watch((both) => {
       cursorKey.ariaPressed = String(both !== null);
+      long.cursors = both;
+      if (settings.isRecord) long.ask();
       screen.redraw();
       draw();
     }),
@@ -401,13 +457,23 @@ export async function mount(host, { head, kept, keep }) {
       recording.add(piece);
       update();
     }),
+    model.record.watch((record) => {
+      long.note(record);
+      if (!settings.isRecord) return;
+      showRecord();
+      update();
+    }),
     model.capture.watch((capture) => {
       if (!live.list.length) return;
       recording.note(capture);
       update();
     }),
   );
+  long.view = { from: 0, step: settings.sweepMs };
+  long.note(model.record.value);
+  showRecord();
   show(view);
+  update();
   endings.add(takeWanted("scope", (ids) => void take(ids).catch(refuse)));
 
   /** Give parameters and flags a channel each; a scope that samples begins anew with them. @param {string[]} ids */

@@ -1,0 +1,212 @@
+// A long record: the server keeps its samples, the browser has the columns of what it shows.
+import { address, call, get, latest } from "../core/api.js";
+import { refuse } from "../core/app.js";
+import { DIVISIONS } from "./scales.js";
+import { within, zoomed } from "./view.js";
+
+const MARGIN = 1; // screens on either side that are asked for besides: a pan shows them at once
+const REST_MS = 250; // from one look at a record that grows to the next
+const HEAD = 6; // numbers before the columns
+
+/**
+ * @typedef {{ number: number, running: boolean, channels?: string[], period_s?: number, owner?: string | null }} State
+ * @typedef {{ first: number, width: number, low: Float64Array[], high: Float64Array[], ends: [number, number] }} Columns
+ * @typedef {{ count: number, min: number | null, max: number | null, mean: number | null, rms: number | null }} Measures
+ * @typedef {{ measures: Measures[], at: Record<string, number | null>[] }} Found
+ */
+
+/**
+ * The columns of an answer.
+ * @param {ArrayBuffer} data
+ * @returns {Columns}
+ */
+export function columnsOf(data) {
+  const numbers = new Float64Array(data);
+  const [first, width, count, channels, oldest, next] = numbers;
+  const block = (/** @type {number} */ n) =>
+    Array.from({ length: channels }, (_each, channel) => {
+      const begin = HEAD + (n * channels + channel) * count;
+      return numbers.subarray(begin, begin + count);
+    });
+  const low = block(0);
+  return { first, width, low, high: width === 1 ? low : block(1), ends: [oldest, next] };
+}
+
+/**
+ * Columns as a curve: the lowest and the highest value of each, one after the other.
+ * @param {Columns} columns
+ */
+export function curveOf({ width, low, high }) {
+  return low.map((values, channel) =>
+    width === 1
+      ? values
+      : Float64Array.from({ length: 2 * values.length }, (_each, n) => (n % 2 ? high[channel] : values)[n >> 1]),
+  );
+}
+
+export class LongRecord {
+  /**
+   * @param {() => void} changed
+   * @param {import("../core/signal.js").Endings} endings
+   */
+  constructor(changed, endings) {
+    this.changed = changed;
+    /** @type {State} */
+    this.state = { number: 0, running: false };
+    /** The first sample that is kept, and the one after the last. @type {[number, number]} */
+    this.ends = [0, 0];
+    /** @type {import("./view.js").View} */
+    this.view = { from: 0, step: 1000 };
+    this.isFollowing = true; // the end of a record that grows stays on the screen
+    /** @type {Columns | null} */
+    this.shown = null;
+    /** @type {Columns | null} */
+    this.whole = null;
+    /** @type {Found | null} */
+    this.found = null;
+    this.width = 800; // of the screen, pixels
+    this.newest = { shown: latest(endings), whole: latest(endings), found: latest(endings) };
+    this.isAsking = false;
+    this.isWanted = false; // asked again meanwhile
+    /** @type {[number, number] | null} */
+    this.cursors = null;
+    const timer = setInterval(() => this.state.running && this.isOn && this.ask(), REST_MS);
+    endings.add(() => clearInterval(timer));
+    this.isOn = false; // it is on the screen
+  }
+
+  /** ms of a sample. */
+  get ms() {
+    return 1000 * (this.state.period_s ?? 0.001);
+  }
+
+  /** Times of both ends, ms. @returns {[number, number]} */
+  get times() {
+    return [this.ends[0] * this.ms, this.ends[1] * this.ms];
+  }
+
+  /** Whether columns of several samples are shown. */
+  get isEnvelope() {
+    return (this.shown?.width ?? 1) > 1;
+  }
+
+  /**
+   * The server says what record there is.
+   * @param {State} state
+   */
+  note(state) {
+    if (state.number !== this.state.number)
+      [this.ends, this.shown, this.whole, this.found] = [[0, 0], null, null, null];
+    if (state.number !== this.state.number) this.isFollowing = true;
+    this.state = state;
+    if (this.isOn) this.ask();
+  }
+
+  /**
+   * What the screen shows: curves of the channels with ms of their first point and s between two.
+   */
+  curves() {
+    const { shown } = this;
+    const channels = shown ? curveOf(shown) : (this.state.channels ?? []).map(() => new Float64Array(0));
+    const period = ((shown?.width ?? 1) * this.ms) / 1000 / (this.isEnvelope ? 2 : 1);
+    return { channels, period, start: (shown?.first ?? 0) * this.ms, ...this.view };
+  }
+
+  /**
+   * Show a part; the end is followed again where it is in it.
+   * @param {import("./view.js").View} view
+   */
+  show(view) {
+    this.view = within(view, this.times);
+    this.isFollowing = this.view.from + DIVISIONS * this.view.step >= this.times[1] - this.ms;
+    this.changed();
+    this.ask();
+  }
+
+  /**
+   * @param {boolean} isFiner
+   * @param {number} at ms
+   */
+  zoom(isFiner, at) {
+    this.show(zoomed(this.view, isFiner, at, this.times, this.ms));
+  }
+
+  /** @param {number} by ms */
+  pan(by) {
+    this.show({ ...this.view, from: this.view.from + by });
+  }
+
+  /** The whole record on the screen. */
+  all() {
+    const [first, last] = this.times;
+    this.show({ from: first, step: Math.max(this.ms, (last - first) / DIVISIONS) });
+  }
+
+  /** Samples between the cursors, else on the screen. @returns {[number, number]} */
+  part() {
+    const [from, to] = this.cursors
+      ? [Math.min(...this.cursors), Math.max(...this.cursors)]
+      : [this.view.from, this.view.from + DIVISIONS * this.view.step];
+    const at = (/** @type {number} */ time) => Math.round(time / this.ms);
+    return [Math.max(this.ends[0], at(from)), Math.min(this.ends[1], at(to) + (this.cursors ? 1 : 0))];
+  }
+
+  /** Ask for what is shown; one question at a time. */
+  ask() {
+    if (!this.state.number) return;
+    this.isWanted = true;
+    if (!this.isAsking) void this.answer().catch(refuse);
+  }
+
+  async answer() {
+    this.isAsking = true;
+    try {
+      while (this.isWanted) {
+        this.isWanted = false;
+        await this.look();
+      }
+    } finally {
+      this.isAsking = false;
+    }
+  }
+
+  async look() {
+    const { from, step } = this.view;
+    const span = DIVISIONS * step;
+    const at = (/** @type {number} */ time) => Math.max(0, Math.round(time / this.ms));
+    const shown = await this.columns(at(from - MARGIN * span), at(from + (1 + MARGIN) * span) + 1, 1 + 2 * MARGIN);
+    if (!shown) return;
+    [this.shown, this.ends] = [shown, shown.ends];
+    if (this.isFollowing && this.state.running)
+      this.view = within({ from: Math.max(this.times[0], this.times[1] - span), step }, this.times);
+    this.changed();
+    this.whole = (await this.columns(...this.ends, 0.5)) ?? this.whole;
+    const [first, last] = this.part();
+    const cursors = (this.cursors ?? []).map((time) => Math.max(0, Math.round(time / this.ms))).join(",");
+    this.found =
+      last > first ? await get("record/measures", { number: this.state.number, first, last, at: cursors }) : null;
+    this.changed();
+  }
+
+  /**
+   * @param {number} first
+   * @param {number} last
+   * @param {number} screens
+   */
+  async columns(first, last, screens) {
+    const { number } = this.state;
+    const most = Math.max(2, Math.min(8192, Math.round(screens * this.width)));
+    const reply = await call(address("record/view", { number, first, last, most }));
+    const found = columnsOf(await reply.arrayBuffer());
+    return number === this.state.number ? found : null;
+  }
+
+  /**
+   * The address of the part as a CSV file.
+   * @param {string[]} names of the columns
+   */
+  file(names) {
+    const [first, last] = this.part();
+    return address("record/csv", { number: this.state.number, first, last, names: JSON.stringify(names) });
+  }
+}
