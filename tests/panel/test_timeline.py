@@ -6,20 +6,30 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+import numpy as np
 import pytest
 from tests.controller.hosts import X_AND_Y, connected
 from tests.panel.bench import LIMIT_S, HandStation, Served
 
 from openacr.controller import Controller
+from openacr.controller.changes import MOVED, Changes
 from openacr.controller.journal import read_journal
 from openacr.controller.replay import Replay
 from openacr.debugger.calls import is_running
 from openacr.errors import UserError
+from openacr.journal.entries import Entered, JournalEntry
 from openacr.map.words import af1, mf1
 from openacr.panel.control.engineer.scope import Samples
 from openacr.panel.control.engineer.watches import Wish
 from openacr.panel.control.machine.history import AWAY, MOST_BRANCHES, STILL, History
-from openacr.panel.control.machine.lanes import MOST_CHANGES, Lanes, _Course
+from openacr.panel.control.machine.lanes import (
+    MOST_CHANGES,
+    PART_CHANGES,
+    SETPOINTS,
+    WORDS,
+    Course,
+    arrivals,
+)
 from openacr.panel.control.station import Station
 from openacr.panel.control.times import Times, step_move
 from openacr.protocol.events import ControlKey
@@ -371,33 +381,46 @@ def test_bookmarks_are_set_at_the_tick_in_which_programs_end_and_errors_come(
 
 
 def lanes(hand: HandStation, branch: int, first: int, last: int) -> dict[tuple[str, int], Any]:
-    found = history(hand).lanes.between(branch, first, last, history(hand).unmarked)
-    return {(each.kind, each.number): each.spans for each in found}
+    hidden = history(hand).unmarked
+    found = history(hand).lanes.of(branch).lanes(first, last, hidden, near=0)
+    return {(each.kind, each.number): each for each in found}
 
 
-def test_lanes_have_the_times_in_which_axes_moved_and_programs_ran(hand: HandStation) -> None:
-    start, tick_s = history(hand).lived_tk, history(hand).period_s
+def test_lanes_have_the_ticks_in_which_axes_moved_and_programs_ran(hand: HandStation) -> None:
+    start = history(hand).lived_tk
     hand.run(0.5)
-    assert lanes(hand, 0, 0, history(hand).lived_tk) == {}  # not of the panel's own watchdog
-    begin = history(hand).lived_tk
+    drives = lanes(hand, 0, 0, history(hand).lived_tk)
+    assert {kind for kind, _number in drives} <= {"drive"}  # not the panel's own watchdog
     for line in ("10 DWL 0.4", "RUN"):
         hand.station.link.machine.card.command(line, program=5)
     hand.do("jog.increment", axis="Y", direction=1, distance=1.0, tick=hand.tick)
     hand.until(lambda: not hand.is_busy)
-    end = history(hand).lived_tk
     hand.run(1.0)
-    found = lanes(hand, 0, start, history(hand).lived_tk)
-    assert sorted(found) == [("axis", 1), ("program", 5)]
-    ((first, last),) = found["axis", 1]
-    look_tk = 0.02 / tick_s
-    assert begin - look_tk <= first <= begin + 4 * look_tk
-    assert end - 4 * look_tk <= last <= end + look_tk
-    ((first, last),) = found["program", 5]
-    assert (last - first) * tick_s == pytest.approx(0.4, abs=0.05)
-    middle = (first + last) // 2
-    assert lanes(hand, 0, middle, middle + 100)["program", 5] == [(middle, middle + 100)]
-    assert lanes(hand, 0, last, history(hand).lived_tk).keys() <= {("axis", 1)}
-    assert lanes(hand, 1, 0, end) == {}
+    end = history(hand).lived_tk
+    found = lanes(hand, 0, start, end)
+    assert {key for key in found if key[0] in ("axis", "program")} == {("axis", 1), ("program", 5)}
+    (program,) = found["program", 5].spans
+    (moved,) = found["axis", 1].spans
+    assert found["program", 5].on_tk == program[1] - program[0]
+    assert (found["axis", 1].changes, found["program", 5].changes) == (2, 2)
+    middle = sum(program) // 2
+    part = lanes(hand, 0, middle, middle + 100)["program", 5]
+    assert (part.spans, part.on_tk, part.changes) == ([(middle, middle + 100)], 100, 0)
+    assert lanes(hand, 0, program[1], end)["program", 5].spans == []
+
+    def commanded_cnt(tick: int) -> float:
+        hand.do("timeline.seek", tick=tick)
+        return history(hand).card.memory.F[SETPOINTS[1]]
+
+    card = history(hand).card
+    for tick, runs in zip(program, (True, False), strict=True):
+        typed_tk = int(runs)  # it was started between two ticks
+        for at, expected in ((tick - 1 - typed_tk, not runs), (tick, runs)):
+            hand.do("timeline.seek", tick=at)
+            assert is_running(card, 5) is expected
+    first, last = moved
+    assert commanded_cnt(first - 2) == commanded_cnt(first - 1) != commanded_cnt(first)
+    assert commanded_cnt(last - 2) != commanded_cnt(last - 1) == commanded_cnt(last)
 
 
 def test_a_branch_has_the_lanes_of_what_was_before_it_and_its_own(hand: HandStation) -> None:
@@ -405,48 +428,107 @@ def test_a_branch_has_the_lanes_of_what_was_before_it_and_its_own(hand: HandStat
     hand.run(0.5)
     fork = history(hand).lived_tk - 200
     hand.do("timeline.seek", tick=fork)
-    before = lanes(hand, 0, 0, history(hand).last_tk)["program", 5]
+    before = lanes(hand, 0, 0, history(hand).last_tk)["program", 5].spans
     hand.do("timeline.run", speed=1.0)  # what is lived through again is not noted twice
     hand.until(lambda: history(hand).is_still)
-    assert lanes(hand, 0, 0, history(hand).last_tk)["program", 5] == before
+    assert lanes(hand, 0, 0, history(hand).last_tk)["program", 5].spans == before
+    assert before[0][1] == history(hand).last_tk
     hand.do("timeline.seek", tick=fork)
     hand.do("timeline.branch")
     history(hand).card.send("PROG5\rHALT\r")
     hand.do("timeline.run", speed=1.0)
     hand.run(0.5)
-    ((first, last),) = lanes(hand, 1, 0, history(hand).last_tk)["program", 5]
+    ((first, last),) = lanes(hand, 1, 0, history(hand).last_tk)["program", 5].spans
     assert first == before[0][0]
-    assert fork <= last <= fork + 100
+    assert last == fork + 1  # what comes between two ticks is noted at the end of the later one
+    for tick, runs in ((fork - 1, True), (fork, False)):
+        hand.do("timeline.seek", tick=tick)
+        assert is_running(history(hand).card, 5) is runs
+    hand.do("timeline.switch", number=0)
+    assert lanes(hand, 0, 0, 1 << 40)["program", 5].spans == before
+    hand.do("timeline.run", speed=1.0)  # on from the end of that branch
+    hand.run(0.3)
+    hand.run(0.3)
+    assert lanes(hand, 0, 0, 1 << 40)["program", 5].spans == [(before[0][0], history(hand).last_tk)]
+    hand.do("timeline.switch", number=1)
     hand.do("timeline.switch", number=0)
     hand.do("timeline.forget", number=1)
-    assert lanes(hand, 1, 0, 1 << 40) == {}
 
 
-def test_spans_that_are_nearer_than_a_thousandth_are_one_and_old_ones_are_forgotten() -> None:
+def test_inputs_and_outputs_have_lanes_where_they_changed_and_drives_where_they_are_on() -> None:
     host = connected(*X_AND_Y)
-    course = Lanes(host.card)
-    noted = [(100 * k, k % 2, 100 * k + 100) for k in range(1, MOST_CHANGES + 3)]
-    own = course._courses.setdefault(0, _Course())
-    for since, mask, tick in noted[:6]:
-        own.note(since, mask, tick)
-    (lane,) = course.between(0, 0, 99_000)
-    assert lane.spans == [(100, 200), (300, 400), (500, 600)]
-    (lane,) = course.between(0, 0, 100_000)
-    assert lane.spans == [(100, 600)]
-    own.note(900, 1, 1000)  # nothing is known from 700 on
-    (lane,) = course.between(0, 500, 1000)
-    assert lane.spans == [(500, 600), (900, 1000)]
-    own.note(1000, 1, 1100)
-    assert own.ticks[-2:] == [600, 900]  # only changes are kept
-    (lane,) = course.between(0, 500, 2000)
-    assert lane.spans == [(500, 600), (900, 1100)]  # nothing is known from 1100 on
-    assert course.between(0, 1100, 2000) == []
-    shared = own.until(300)
-    assert (shared.ticks, shared.masks, shared.end) == ([100, 200], [1, 0], 300)
-    for since, mask, tick in noted[11:]:
-        own.note(since, mask, tick)
-    assert len(own.ticks) <= MOST_CHANGES
-    assert own.ticks[-1] == noted[-1][0]
+    own = History(host.card)
+    begin = own.lived_tk
+    host.card.set_input(3, True)
+    own.advance(10)
+    host.card.bit[63] = True  # the last output
+    own.advance(10)
+    host.card.bit[63] = False
+    own.advance(5)
+    found = {(each.kind, each.number): each for each in own.lanes.of(0).lanes(begin, own.lived_tk)}
+    assert found["input", 3].spans == [(begin + 1, begin + 25)]
+    assert found["output", 31].spans == [(begin + 11, begin + 21)]
+    assert (found["output", 31].flag, found["input", 3].flag) == (63, 3)
+    assert (found["output", 31].on_tk, found["output", 31].changes) == (10, 2)
+
+
+def noted(values: list[tuple[int, int]], word: int = MOVED) -> Changes:
+    ticks, states = np.array(values).T
+    return Changes(ticks, np.full(len(ticks), word), states)
+
+
+def course(*values: tuple[int, int], end: int) -> Course:
+    own = Course(0, np.zeros(len(WORDS) + 1, np.int64))
+    own.note(noted(list(values)), end)
+    return own
+
+
+def test_spans_that_are_nearer_than_a_thousandth_are_one_but_sums_are_exact() -> None:
+    own = course((100, 1), (200, 0), (300, 1), (400, 0), (500, 1), end=600)
+    for last, spans in (
+        (99_999, [(100, 200), (300, 400), (500, 600)]),
+        (100_000, [(100, 600)]),
+    ):
+        (lane,) = own.lanes(0, last)
+        assert (lane.spans, lane.on_tk, lane.changes) == (spans, 300, 5)
+    (lane,) = own.lanes(150, 350)
+    assert (lane.spans, lane.on_tk, lane.changes) == ([(150, 200), (300, 350)], 100, 2)
+    (lane,) = own.lanes(100, 200)
+    assert (lane.spans, lane.on_tk, lane.changes) == ([(100, 200)], 100, 1)
+    (lane,) = own.lanes(200, 300)
+    assert (lane.spans, lane.on_tk, lane.changes) == ([], 0, 1)
+    own.note(noted([(550, 0), (600, 0), (700, 0), (800, 1)]), 900)  # what is known comes again
+    (lane,) = own.lanes(0, 5000)
+    assert lane.spans == [(100, 200), (300, 400), (500, 700), (800, 900)]
+    (lane,) = own.until(300).lanes(0, 5000)
+    assert lane.spans == [(100, 200)]
+    assert own.until(301).lanes(0, 5000)[0].spans == [(100, 200), (300, 301)]
+
+
+def test_of_too_many_changes_the_oldest_are_forgotten_and_what_was_on_then_is_known() -> None:
+    own = course((10, 3), end=10)
+    for part in range(0, MOST_CHANGES + 20_000, 1000):
+        ticks = range(part + 11, part + 1011)
+        own.note(noted([(tick, 2 + tick % 2) for tick in ticks]), part + 1010)
+    kept = len(own.changes.ticks)
+    assert MOST_CHANGES - PART_CHANGES <= kept <= MOST_CHANGES + PART_CHANGES
+    x, y = own.lanes(0, own.end, near=0)
+    assert own.first > 10
+    assert y.spans == [(own.first, own.end)]  # on all the time
+    assert x.spans[0][0] in (own.first, own.first + 1)
+    assert own.size_bytes < 24 * kept + 24
+
+
+def test_arrivals_are_packets_and_lines_of_each_stream() -> None:
+    came = [
+        JournalEntry(10, Entered.BYTES, 2, "X1\rY2\r"),
+        JournalEntry(12, Entered.BYTES, 2, "\0\x02\r\r"),
+        JournalEntry(11, Entered.BYTES, 5, "V"),
+        JournalEntry(40, Entered.BYTES, 2, "Z\r"),
+    ]
+    first, second = arrivals(came, 2)
+    assert first == (2, [(10, 13), (40, 41)], 1, 3, 12)
+    assert second == (5, [(11, 12)], 0, 0, 1)
 
 
 def test_a_branch_is_saved_as_a_journal_that_replays_to_equal_digests(
@@ -598,7 +680,10 @@ def test_samples_differences_and_a_journal_come_over_http(quiet_panel: Served) -
             several = get("/samples", branch=0, **{**query, "parameters": names}).json()
             assert (several["names"], len(several["channels"])) == (["P1", "BIT81"], 2)
         drawn = get("/lanes", branch=0, first=0, last=tick).json()
-        assert drawn == {"lanes": []}
+        assert {each["kind"] for each in drawn["lanes"]} <= {"drive"}
+        assert [sorted(each) for each in drawn["hosts"][:1]] == [
+            ["lines", "packets", "size_bytes", "spans", "stream"]
+        ]
         found = get("/differences", branch=0, other=1, tick=tick).json()
         assert found == {
             "count": 1,

@@ -14,6 +14,7 @@ from pathlib import Path
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.channels import StreamKind
 from openacr.controller import snapshot as snapshots
+from openacr.controller.changes import Changes
 from openacr.controller.engine_run import AskLine, EngineRun
 from openacr.controller.inputs import JournalFile
 from openacr.controller.loading import PATIENCE_S, EmptyStart, Loader, LoadError, Origins
@@ -288,6 +289,21 @@ class Controller:
     def take_trace(self) -> Trace:
         """The samples recorded since the last call, which are then dropped."""
         return self._engine.recording.take()
+
+    def log_changes(self, words: Sequence[tuple[int, int]], numbers: Sequence[int] = ()) -> None:
+        """Note from now on in which ticks bits change, and in which numbers do.
+
+        `words` are places in the memory with masks, `numbers` places of numbers of 64 bits.
+        """
+        self._engine.changes.begin(words, numbers)
+
+    def logged(self) -> list[int]:
+        """The present values of the words of `log_changes`."""
+        return self._engine.changes.present()
+
+    def take_changes(self) -> Changes:
+        """What `log_changes` has noted since the last call."""
+        return self._engine.changes.take(self.clock.before_tk)
 
     # journals
 

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from openacr.basic.channels.channel_words import take_escapes
 from openacr.basic.execute.threads import KINEMATICS
 from openacr.compiled import is_compiled, pick
+from openacr.controller.changes import ChangeLog
 from openacr.controller.late_handlers import Handler, LateHandlers
 from openacr.controller.parts import CardParts
 from openacr.controller.sample_buffers import Recording
@@ -53,6 +54,7 @@ class EngineRun:
         self.was_ended = False  # the latest `advance`, by an event
         self.recording = Recording(parts.card)
         self._late: LateHandlers | None = None
+        self.changes = ChangeLog(parts.memory)
         self._seen = memoryview(bytearray(HEAP_BYTE_BASE)).cast("i")
         self.leave_out_rest(is_compiled)  # as plain Python a trial lasts thousands of ticks
 
@@ -170,6 +172,7 @@ class EngineRun:
         """The card is at another moment: no line of it has been announced."""
         self._set_engine(engine.line_announced, 0)
         self.within = 0
+        self.changes.see_present()
 
     @contextmanager
     def undisturbed(self) -> Iterator[None]:
@@ -204,7 +207,14 @@ class EngineRun:
             memory = self._memory if late is None else late.machine
             code, nums = (space.code, space.nums) if late is None else late.code
             reason = _engine_run(
-                memory.F, memory.I, memory.S, code, nums, self.recording.view, self._seen
+                memory.F,
+                memory.I,
+                memory.S,
+                code,
+                nums,
+                self.recording.view,
+                self._seen,
+                self.changes.view,
             )
             if late is not None and reason == loop_cy.DONE and late.take_due():
                 continue

@@ -7,9 +7,11 @@ the same point of the same tick.
 """
 
 from openacr.basic.vm.scheduler_cy import EXECUTED, scheduler_step
+from openacr.engine.change_log_cy import WORDS, changes_note
 from openacr.engine.quiet_cy import (
     IN_FULL,
     LEFT,
+    LEFT_OUT,
     WAIT,
     is_unattended,
     plcs_step,
@@ -107,7 +109,9 @@ def room_made(I: I32) -> bool:
     return False
 
 
-def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64, seen: I32) -> int:
+def engine_run(
+    F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64, seen: I32, log: I32
+) -> int:
     """Run until the requested ticks are done or Python is needed; return the reason."""
     quiet_stir(seen)  # the caller may have changed anything
     axes: int = I[kernel.axes]
@@ -135,6 +139,8 @@ def engine_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64, seen: I
             if I[engine.in_tick] == EXECUTED:
                 quiet_stir(seen)
             I[engine.in_tick] = 0
+            if log[WORDS] and seen[LEFT_OUT] == 0:
+                changes_note(I, log)
             if until_met(I):
                 I[engine.until_word] = 0
                 return UNTIL_MET

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass, field
 
 from openacr.errors import UserError
@@ -11,6 +11,10 @@ from openacr.timeline.keyframe import Keyframe
 from openacr.timeline.moment import Moment
 
 ENTRY_BYTES = 200  # of an input in memory, without its text
+
+
+def _tick(entry: JournalEntry) -> int:
+    return entry.tick
 
 
 @dataclass
@@ -57,6 +61,11 @@ class Branch:
         """Append an input."""
         self.entries.append(entry)
         self._text_bytes += len(entry.text)
+
+    def between(self, first_tk: int, last_tk: int) -> list[JournalEntry]:
+        """The inputs from one tick to another, with both."""
+        begin = bisect_left(self.entries, first_tk, key=_tick)
+        return self.entries[begin : bisect_right(self.entries, last_tk, key=_tick)]
 
     @property
     def inputs_bytes(self) -> int:

@@ -61,7 +61,7 @@ class History:
     def size_bytes(self, tick: int) -> int:
         """What the history takes in memory, counted again when this tick is another one."""
         if self._size[0] != tick:
-            self._size = tick, self.timeline.size_bytes
+            self._size = tick, self.timeline.size_bytes + self.lanes.size_bytes
         return self._size[1]
 
     def open_stream(self, kind: StreamKind) -> int:
@@ -92,8 +92,7 @@ class History:
         while self.lived_tk < end_tk:
             if self.timeline.advance(end_tk - self.lived_tk):
                 self.attend()
-        if not self.timeline.is_past:
-            self.lanes.look(self.timeline.branch.number)
+        self.lanes.look(self.timeline.branch.number)
 
     def pause(self, seconds: float) -> None:
         """Let card time pass [s]; at the end of what has happened it becomes still."""
@@ -148,7 +147,8 @@ class History:
     def _forked(self, parent: Branch, branch: Branch) -> None:
         """Another branch has begun: it shares bookmarks; of too many, the oldest is forgotten."""
         self.bookmarks.fork(parent.number, branch.number, self.lived_tk)
-        self.lanes.fork(parent.number, branch.number, self.lived_tk)
+        ended_tk = self.lived_tk - bool(self.card.within)  # what a tick has begun may be another
+        self.lanes.fork(parent.number, branch.number, ended_tk)
         self.names[branch.number] = f"branch {branch.number}"
         if len(self.timeline.branches) > MOST_BRANCHES:
             others = (each for each in self.timeline.branches if each not in (parent, branch))

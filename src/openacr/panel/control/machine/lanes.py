@@ -1,129 +1,278 @@
-"""Which axes moved and which programs ran, as a picture of the history shows them."""
+"""What a picture of the history shows: what moved, ran, was on or arrived, to the tick.
 
-from bisect import bisect_left, bisect_right
+The engine notes changes of flags and which setpoints moved (`Controller.log_changes`); a branch
+keeps them as arrays. What is on in a lane, and for how long, is computed from these arrays, which
+never change: any thread may do it.
+"""
+
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
-from openacr.client.program_states import PROGRAMS
+import numpy as np
+
 from openacr.controller import Controller
+from openacr.controller.changes import MOVED, Changes, Integers
+from openacr.journal.entries import JournalEntry
+from openacr.map import numbers as at
 from openacr.map.rows import axes
-from openacr.map.words import pf
+from openacr.map.words import af4, mf1, pf, plf
 
-LOOK_S = 0.02  # of card time from one look to the next
-MOST_CHANGES = 20_000  # of one branch; of more, the oldest are forgotten
-SETPOINTS = list(axes.primary_setpoint)
+MOST_CHANGES = 200_000  # of one branch, 16 bytes each; of more, the oldest are forgotten
+TOGETHER, PART_CHANGES = 256, 10_000  # parts that are joined, and their changes
+NEAR = 1000  # part of what is shown in which two spans are one
+ALL = -1
+SETPOINTS = list(axes.psp_cnt)
 AXES = range(len(SETPOINTS))
-STATES = list(pf.word)
+BITS = 32
+
+
+class Kind(NamedTuple):
+    """Lanes of one kind: their words with the mask of what is on, or all flags of one word."""
+
+    name: str
+    words: Sequence[int]
+    mask: int = ALL  # ALL: a lane for each flag of the one word
+
+
+KINDS = (
+    Kind("master", mf1.word, mf1.IN_MOTION),
+    Kind("hold", mf1.word, mf1.IN_FEEDHOLD),
+    Kind("program", pf.word, pf.PROGRAM_RUNNING),
+    Kind("pause", pf.word, pf.PAUSE_MODE),
+    Kind("plc", plf.word, plf.PLC_RUNNING),
+    Kind("drive", af4.word, af4.DRIVE_ENABLED),
+    Kind("kill", af4.word, af4.KILL_ALL_MOTION_REQUEST),
+    Kind("input", (at.W_INPUTS,)),
+    Kind("output", (at.W_OUTPUTS,)),
+)
+_MASKS: dict[int, int] = {}
+for _kind in KINDS:
+    for _word in _kind.words:
+        _MASKS[_word] = _MASKS.get(_word, 0) | _kind.mask
+WORDS = list(_MASKS.items())  # places with masks, as they are logged
+_INDEX = {word: index for index, word in enumerate(_MASKS)}
+
+
+class Place(NamedTuple):
+    """Where the state of a lane is: a logged word, or MOVED, and the bits that are on."""
+
+    kind: str
+    number: int
+    word: int
+    mask: int
+
+    @property
+    def flag(self) -> int | None:
+        """Its flag of the card; None where it is not one."""
+        if self.word == MOVED:
+            return None
+        bit = (self.mask & -self.mask).bit_length() - 1
+        return (WORDS[self.word][0] - at.FLAG_WORD_BASE) * BITS + bit
+
+
+def _places() -> Iterable[Place]:
+    for number in AXES:
+        yield Place("axis", number, MOVED, 1 << number)
+    for kind in KINDS:
+        for number, word in enumerate(kind.words):
+            if kind.mask != ALL:
+                yield Place(kind.name, number, _INDEX[word], kind.mask)
+                continue
+            for bit in range(BITS):
+                yield Place(kind.name, bit, _INDEX[word], 1 << bit)
+
+
+PLACES = tuple(_places())
 
 
 @dataclass(frozen=True, slots=True)
 class Lane:
-    """When an axis moved or a program ran: spans in ticks, the end not included."""
+    """A lane of a part of the history: when it was on, in ticks, the end not included."""
 
-    kind: str  # axis or program
+    kind: str
     number: int
+    flag: int | None
     spans: list[tuple[int, int]]
+    on_tk: int  # in all, to the tick
+    changes: int
 
 
 @dataclass(slots=True)
-class _Course:
-    """The changes of one branch: what moves and runs from a tick on, a bit for each lane."""
+class Course:
+    """The changes of one branch, and what was on before the first of them."""
 
-    ticks: list[int] = field(default_factory=list)
-    masks: list[int] = field(default_factory=list)
-    end: int = 0  # the latest look
+    first: int
+    base: Integers  # values of the words, then of MOVED
+    parts: list[Changes] = field(default_factory=list)
+    loose: list[Changes] = field(default_factory=list)  # of the latest steps of the clock
+    end: int = 0  # everything up to this tick is known
 
-    def note(self, since: int, mask: int, tick: int) -> None:
-        """From one tick to another this moves and runs."""
-        if since > self.end:  # nothing is known of what was between
-            self._add(self.end, 0)
-        self._add(since, mask)
-        self.end = tick
-
-    def _add(self, tick: int, mask: int) -> None:
-        if mask == (self.masks[-1] if self.masks else 0):
+    def note(self, changes: Changes, tick: int) -> None:
+        """What has changed up to a tick; what is known already is left out."""
+        new = changes.after(self.end) if len(changes.ticks) else changes
+        self.end = max(self.end, tick)
+        if not len(new.ticks):
             return
-        self.ticks.append(tick)
-        self.masks.append(mask)
-        if len(self.ticks) > MOST_CHANGES:
-            del self.ticks[: MOST_CHANGES // 2], self.masks[: MOST_CHANGES // 2]
+        self.loose.append(new)
+        loose = sum(len(each.ticks) for each in self.loose)
+        if len(self.loose) >= TOGETHER or loose >= PART_CHANGES:
+            self._join()
 
-    def until(self, tick: int) -> "_Course":
-        """What was noted before a tick."""
-        count = bisect_left(self.ticks, tick)
-        return _Course(self.ticks[:count], self.masks[:count], min(self.end, tick))
+    def _join(self) -> None:
+        together = Changes.joined(self.loose)
+        words, values = together.words.astype(np.int32), together.values.astype(np.int32)
+        self.parts.append(Changes(together.ticks, words, values))
+        self.loose = []
+        while sum(len(each.ticks) for each in self.parts) > MOST_CHANGES and len(self.parts) > 1:
+            oldest = self.parts.pop(0)
+            self.base = self.base.copy()
+            self.base[oldest.words] = oldest.values  # MOVED is the last one
+            self.first = int(oldest.ticks[-1])
+
+    @property
+    def changes(self) -> Changes:
+        """All of them."""
+        return Changes.joined([*self.parts, *self.loose])
+
+    def until(self, tick: int) -> "Course":
+        """What was known at a tick; the arrays are shared."""
+        parts = [part.until(tick) for part in [*self.parts, *self.loose]]
+        kept = [part for part in parts if len(part.ticks)]
+        return Course(self.first, self.base, kept, [], min(self.end, tick))
+
+    @property
+    def size_bytes(self) -> int:
+        """What its changes take in memory."""
+        return sum(each.size_bytes for each in [*self.parts, *self.loose])
+
+    def copied(self) -> "Course":
+        """As it is now, for another thread."""
+        return Course(self.first, self.base, list(self.parts), list(self.loose), self.end)
+
+    def lanes(
+        self, first: int, last: int, hidden: frozenset[int] = frozenset(), near: int | None = None
+    ) -> list[Lane]:
+        """The lanes that are ever on or change on this branch, from a tick to another.
+
+        `hidden` are programs without a lane; spans nearer to each other than `near` are one,
+        of themselves a thousandth of the time.
+        """
+        near = (last - first) // NEAR if near is None else near
+        changes = self.changes
+        order = np.argsort(changes.words, kind="stable")
+        words = changes.words[order]
+        begin, end = max(first, self.first), min(last, self.end)
+        found = []
+        of_word: dict[int, tuple[Integers, Integers]] = {}
+        for place in PLACES:
+            if place.word not in of_word:
+                low, high = np.searchsorted(words, [place.word, place.word + 1])
+                chosen = order[low:high]
+                of_word[place.word] = changes.ticks[chosen], changes.values[chosen]
+            if place.kind in ("program", "pause") and place.number in hidden:
+                continue
+            ticks, values = of_word[place.word]
+            was_on = bool(self.base[place.word] & place.mask)
+            is_on = (values & place.mask) != 0
+            turned = is_on != np.concatenate(([was_on], is_on[:-1]))
+            edges = ticks[turned]
+            if not len(edges) and (not was_on or place.kind in ("input", "output")):
+                continue
+            found.append(_lane(place, edges, was_on, begin, end, near))
+        return found
+
+
+def _lane(place: Place, edges: Integers, was_on: bool, first: int, last: int, near: int) -> Lane:
+    """The lane of the ticks at which a state turned."""
+    low, high = np.searchsorted(edges, [first, last], "right")
+    if was_on ^ bool(low % 2):
+        edges, low = np.concatenate((edges[:low], [first], edges[low:high])), low
+    else:
+        edges = edges[:high]
+    inside = edges[low:]
+    changes = int(high - low)
+    if len(inside) % 2:
+        inside = np.concatenate((inside, [max(last, first)]))
+    starts, ends = inside[::2], inside[1::2]
+    on_tk = int((ends - starts).sum())
+    if len(starts):
+        apart = starts[1:] - ends[:-1] > near
+        starts = starts[np.concatenate(([True], apart))]
+        ends = ends[np.concatenate((apart, [True]))]
+    spans = [(a, b) for a, b in zip(starts.tolist(), ends.tolist(), strict=True) if b > a]
+    return Lane(place.kind, place.number, place.flag, spans, on_tk, changes)
+
+
+class Arrivals(NamedTuple):
+    """What arrived from a host on a stream in a part of the history."""
+
+    stream: int
+    spans: list[tuple[int, int]]
+    packets: int
+    lines: int
+    size_bytes: int
+
+
+PACKET = "\0"  # the first byte of a binary packet
+
+
+def arrivals(entries: Sequence[JournalEntry], near: int) -> list[Arrivals]:
+    """The bytes that arrived, for each stream: when, packets and lines."""
+    of_stream: dict[int, list[JournalEntry]] = {}
+    for entry in entries:
+        of_stream.setdefault(entry.number, []).append(entry)
+    found = []
+    for stream, own in sorted(of_stream.items()):
+        ticks = np.array([entry.tick for entry in own], np.int64)
+        apart = np.diff(ticks) > near
+        starts = ticks[np.concatenate(([True], apart))]
+        ends = ticks[np.concatenate((apart, [True]))] + 1
+        packets = [entry for entry in own if entry.text.startswith(PACKET)]
+        size = sum(len(entry.text) for entry in own)
+        lines = sum(e.text.count("\r") for e in own) - sum(e.text.count("\r") for e in packets)
+        spans = list(zip(starts.tolist(), ends.tolist(), strict=True))
+        found.append(Arrivals(stream, spans, len(packets), lines, size))
+    return found
 
 
 class Lanes:
-    """What has moved and run on each branch of the history of a card."""
+    """What has happened on each branch of the history of a card."""
 
     def __init__(self, card: Controller) -> None:
         self._card = card
-        self._every_tk = max(1, round(LOOK_S / card.period_s))
-        self._courses: dict[int, _Course] = {}
-        self._seen: tuple[int, int, list[float]] = (-1, 0, [])  # branch, tick, setpoints
+        self._courses: dict[int, Course] = {}
+        card.log_changes(WORDS, SETPOINTS)
+        self._courses[0] = self._begun()
+
+    def _begun(self) -> Course:
+        tick = self._card.lived_tk
+        base: Any = np.array([*self._card.logged(), 0], np.int64)
+        return Course(tick, base, end=tick)
 
     def look(self, branch: int) -> None:
-        """Note what has moved since the last look, and what runs; where it is time for it."""
-        tick = self._card.lived_tk
-        before, since, places = self._seen
-        if before == branch and tick - since < self._every_tk:
-            return
-        setpoints = self._setpoints()
-        self._seen = branch, tick, setpoints
-        if before != branch:
-            return
-        mask = 0
-        for axis in AXES:
-            mask |= (setpoints[axis] != places[axis]) << axis
-        for program in PROGRAMS:
-            runs = bool(int(self._card.memory.read(STATES[program])) & pf.PROGRAM_RUNNING)
-            mask |= runs << len(AXES) + program
-        self._courses.setdefault(branch, _Course()).note(since, mask, tick)
+        """Keep what was noted since the last look, if it is new."""
+        self._courses[branch].note(self._card.take_changes(), self._card.lived_tk)
 
-    def _setpoints(self) -> list[float]:
-        return [self._card.memory.read(row) for row in SETPOINTS]
+    def of(self, branch: int) -> Course:
+        """What has happened on a branch, for any thread."""
+        return self._courses[branch].copied()
 
     def fork(self, parent: int, branch: int, tick: int) -> None:
         """Another branch has begun: it shares what was before."""
-        self._courses[branch] = self._courses.get(parent, _Course()).until(tick)
-        self._seen = branch, tick, self._setpoints()
+        self.look(parent)
+        self._courses[branch] = self._courses[parent].until(tick)
 
     def forget(self, branch: int) -> None:
         """Forget a branch."""
         self._courses.pop(branch, None)
 
-    def between(
-        self, branch: int, first: int, last: int, hidden: frozenset[int] = frozenset()
-    ) -> list[Lane]:
-        """The lanes in which something happens from a tick to another, without some programs.
-
-        Spans that are nearer to each other than a thousandth of this are one.
-        """
-        course = self._courses.get(branch, _Course())
-        begin = max(0, bisect_right(course.ticks, first) - 1)
-        end = bisect_left(course.ticks, last)
-        if begin >= end:
-            return []
-        ends = [*course.ticks[begin + 1 : end], min(last, course.end)]
-        parts = [
-            (max(first, since), until, mask)
-            for since, until, mask in zip(
-                course.ticks[begin:end], ends, course.masks[begin:end], strict=True
-            )
-            if until > first
-        ]
-        near = (last - first) // 1000
-        lanes = []
-        for place in range(len(AXES) + len(PROGRAMS)):
-            number = place - len(AXES)
-            spans: list[tuple[int, int]] = []
-            for since, until, mask in parts:
-                if not mask >> place & 1 or number in hidden:
-                    continue
-                if spans and since - spans[-1][1] <= near:
-                    since = spans.pop()[0]
-                spans.append((since, until))
-            if spans:
-                kind = "axis" if number < 0 else "program"
-                lanes.append(Lane(kind, place if number < 0 else number, spans))
-        return lanes
+    @property
+    def size_bytes(self) -> int:
+        """What is kept in memory; what branches share counts once."""
+        parts = {
+            id(part): part.size_bytes
+            for course in self._courses.values()
+            for part in [*course.parts, *course.loose]
+        }
+        return sum(parts.values())

@@ -1,27 +1,47 @@
 """The timeline: samples and differences of branches, by living through them in a process."""
 
 import tempfile
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 from msgspec import Meta
 from starlette.background import BackgroundTask
+from starlette.concurrency import run_in_threadpool
 from starlette.responses import FileResponse
 
 from openacr.client.names import named
 from openacr.errors import UserError
-from openacr.map import parameters
+from openacr.journal.entries import Entered, JournalEntry
+from openacr.map import Flag, parameters
+from openacr.map.memory import flag_place
 from openacr.panel.control.engineer.sampling import row_of, value_in
 from openacr.panel.control.engineer.scope import name_of
+from openacr.panel.control.machine.lanes import AXES, NEAR, arrivals
+from openacr.panel.control.machine.lanes import Course as Happened
 from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Call, Query, endpoint
 from openacr.timeline import Course
+from openacr.timeline.details import change_of, details, line_of
 
 MOST_PARAMETERS = 8
 MOST_SAMPLES = 20_000
 MOST_TICKS = 1_000_000  # of one interval
 MOST_DIFFERENCES = 200
+MOST_DETAILS_S = 20.0
+SEARCHED_S, FIRST_SEARCHED_S = 300.0, 5.0  # of card time
+# Names of lanes by their kind; all others are named by their axis.
+NAMES = {
+    "master": "MASTER{}",
+    "hold": "MASTER{}",
+    "program": "PROG{}",
+    "pause": "PROG{}",
+    "plc": "PLC{}",
+    "input": "IN {}",
+    "output": "OUT {}",
+}
 Number = Annotated[int, Meta(ge=0, lt=1 << 31)]
 Tick = Annotated[int, Meta(ge=0, lt=1 << 62)]
 
@@ -42,6 +62,23 @@ class Interval(Query, frozen=True):
     branch: Number
     first: Tick
     last: Tick
+
+
+class Detailed(Interval, frozen=True):
+    """A part of a branch, with the columns that its picture has."""
+
+    columns: Annotated[int, Meta(ge=2, le=4000)] = 500
+
+
+class Sought(Query, frozen=True):
+    """What is looked for from a tick on: a flag by name or number, or a line of a program."""
+
+    branch: Number
+    tick: Tick
+    back: bool = False
+    flag: Annotated[str, Meta(max_length=80)] = ""
+    program: Annotated[int, Meta(ge=0, le=15)] = 0
+    line: Annotated[int, Meta(ge=0, le=999_999)] = 0
 
 
 class Compared(Query, frozen=True):
@@ -90,23 +127,116 @@ async def samples(call: Call) -> object:
 
 @endpoint("GET", "/timeline/lanes", query=Interval)
 async def lanes(call: Call) -> object:
-    """When axes moved and programs ran, as spans in ticks; as seen every 20 ms of card time."""
+    """What moved, ran, was on or arrived in a part of a branch: spans in ticks, exact to the tick.
+
+    With each lane how long it was on in all (ticks), and how often it changed.
+    """
     query: Interval = call.query
 
-    def look(station: Station) -> list[dict[str, object]]:
+    def look(station: Station) -> tuple[Happened, frozenset[int], list[JournalEntry], list[str]]:
         history = station.times.history
-        name = station.installation.axis_name
-        found = history.lanes.between(query.branch, query.first, query.last, history.unmarked)
-        return [
+        names = [station.installation.axis_name(axis) for axis in AXES]
+        branch = history.timeline.branches.named(query.branch)
+        came = branch.between(query.first, query.last)
+        return history.lanes.of(query.branch), history.unmarked, came, names
+
+    course, hidden, came, names = await call.panel.ask(look)
+    return await run_in_threadpool(_lanes, query, course, hidden, came, names)
+
+
+def _lanes(
+    query: Interval,
+    course: Happened,
+    hidden: frozenset[int],
+    came: list[JournalEntry],
+    names: list[str],
+) -> dict[str, object]:
+    """The lanes as they are sent."""
+    found = course.lanes(query.first, query.last, hidden)
+    heard = arrivals(
+        [entry for entry in came if entry.what is Entered.BYTES],
+        (query.last - query.first) // NEAR,
+    )
+    return {
+        "first": query.first,
+        "last": query.last,
+        "lanes": [
             {
-                "name": name(each.number) if each.kind == "axis" else f"PROG{each.number}",
                 "kind": each.kind,
+                "number": each.number,
+                "name": NAMES.get(each.kind, names[each.number % len(names)]).format(
+                    each.flag if each.kind == "output" else each.number
+                ),
+                "flag": each.flag,
                 "spans": each.spans,
+                "on": each.on_tk,
+                "changes": each.changes,
             }
             for each in found
-        ]
+        ],
+        "hosts": [each._asdict() for each in heard],
+    }
 
-    return {"lanes": await call.panel.ask(look)}
+
+@endpoint("GET", "/timeline/details", query=Detailed)
+async def shown_details(call: Call) -> object:
+    """Curves and distances of the axes, and the lines of programs, of at most 20 s of a branch.
+
+    The part is lived through again beside the machine, which goes on.
+    """
+    query: Detailed = call.query
+    period_s = await call.panel.ask(lambda station: station.times.history.period_s)
+    length_s = (query.last - query.first) * period_s
+    if not 0.0 < length_s <= MOST_DETAILS_S:
+        raise UserError(f"details of {length_s:g} s: at most {MOST_DETAILS_S:g} s are shown")
+    course = await _course(call, query.branch, query.first, query.last)
+    return await call.panel.histories.run(details, course, query.first, query.last, query.columns)
+
+
+@endpoint("GET", "/timeline/find", query=Sought)
+async def find(call: Call) -> object:
+    """The tick of the next or previous change of a flag, or of the next line of a program.
+
+    UserError where there is none within five minutes of card time.
+    """
+    query: Sought = call.query
+    if query.flag:
+        flag = named(query.flag)
+        if not isinstance(flag, Flag):
+            raise UserError(f"{query.flag} is no flag: write BIT516 or its name")
+        word, mask = flag_place(flag.number)
+        what = f"BIT{flag.number} does not change"
+        search: Callable[..., int | None] = partial(change_of, word=word, mask=mask)
+    else:
+        what = f"PROG{query.program} does not come to line {query.line}"
+        search = partial(line_of, program=query.program, line=query.line)
+    branch, period_s = await call.panel.ask(
+        lambda station: (
+            station.times.history.timeline.branches.named(query.branch),
+            station.times.history.period_s,
+        )
+    )
+    begin, left_s, length_s = query.tick, SEARCHED_S, FIRST_SEARCHED_S
+    while left_s > 0.0:
+        length_tk = round(length_s / period_s)
+        if query.back:
+            first, last = max(branch.first.tick, begin - length_tk), begin
+        else:
+            first, last = begin, min(branch.last.tick, begin + length_tk)
+        if first >= last:
+            break
+        course = await _course(call, query.branch, first, last)
+        reach = last - 1 if query.back and last == query.tick else last
+        found = await call.panel.histories.run(
+            partial(search, course, first_tk=first, last_tk=reach, is_last=query.back)
+        )
+        if found is not None:
+            return {"tick": found}
+        begin = first if query.back else last
+        left_s -= length_s
+        length_s *= 2.0
+    where = "before" if query.back else "after"
+    raise UserError(f"{what} within {SEARCHED_S:g} s {where} this moment, or the branch ends")
 
 
 @endpoint("GET", "/timeline/differences", query=Compared)
