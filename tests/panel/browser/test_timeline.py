@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import BrowserContext, Locator, Page, expect
+from playwright.sync_api import BrowserContext, FloatRect, Locator, Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import open_page, until_model
 
@@ -172,9 +172,12 @@ def test_a_bookmark_is_a_tick_on_the_ruler_and_leads_to_its_moment(
     assert served.call(lived) == tick
 
 
+def lane(page: Page, name: str) -> Locator:
+    return pane(page).locator(f"[data-lane='{name}']")
+
+
 def test_programs_have_lanes_a_click_goes_to_its_moment_and_the_wheel_zooms(page: Page) -> None:
-    lane = pane(page).locator("[data-lane=PROG5] .time-span")
-    expect(lane.first).to_be_visible()
+    expect(lane(page, "program 5")).to_have_attribute("data-spans", re.compile("[1-9]"))
     slider = pane(page).get_by_role("slider", name="Moment")
     ruler = pane(page).locator(".time-ruler")
     ruler.scroll_into_view_if_needed()
@@ -194,6 +197,143 @@ def test_programs_have_lanes_a_click_goes_to_its_moment_and_the_wheel_zooms(page
     assert abs(low + 0.25 * part - expected) <= near  # what is below the pointer stays
     pane(page).get_by_role("button", name="ALL", exact=True).click()
     expect(slider).to_have_attribute("max", str(whole[1]))
+
+
+def shown_part(page: Page) -> tuple[int, int]:
+    slider = pane(page).get_by_role("slider", name="Moment")
+    low, high = (int(slider.get_attribute(name) or 0) for name in ("min", "max"))
+    return low, high
+
+
+def ruler_box(page: Page) -> FloatRect:
+    ruler = pane(page).locator(".time-ruler")
+    ruler.scroll_into_view_if_needed()
+    box = ruler.bounding_box()
+    assert box is not None
+    return box
+
+
+def test_dragging_selects_a_span_with_its_sums_and_zooms_to_it(page: Page, served: Served) -> None:
+    (first, last), box, before = shown_part(page), ruler_box(page), moment(page)
+    y = box["y"] + 4.0
+    page.mouse.move(box["x"] + 0.5 * box["width"], y)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.4 * box["width"], y)
+    page.mouse.move(box["x"] + 0.3 * box["width"], y)
+    page.mouse.up()
+    sums = pane(page).locator(".time-sums")
+    row = sums.locator("[data-sum='program 5'] td")
+    expect(row.first).to_have_text("PROG5")
+    assert moment(page) == before  # a drag is no click
+    text = sums.locator(".time-length").inner_text()
+    found = re.fullmatch(r"Selected: ([\d.]+) s, from ([\d.]+) to ([\d.]+) s", text)
+    assert found is not None, text
+    length_s, from_s, to_s = map(float, found.groups())
+    period_s = served.call(lambda station: station.times.history.period_s)
+    near_s = 3.0 * (last - first) / box["width"] * period_s
+    for got, part in ((from_s, 0.3), (to_s, 0.5)):
+        assert abs(got - (first + part * (last - first)) * period_s) <= near_s
+    assert abs(length_s - (to_s - from_s)) <= 2 * period_s
+    expect(row.nth(1)).to_have_text(f"{length_s:.4f}")  # it runs all the time
+    expect(row.nth(2)).to_have_text("100.0")
+    expect(row.nth(4)).to_contain_text("lines")  # of at most 20 s
+    pane(page).get_by_role("button", name="ZOOM TO SELECTION").click()
+    low, high = (round(each / period_s) for each in (from_s, to_s))
+    slider = pane(page).get_by_role("slider", name="Moment")
+    expect(slider).to_have_attribute("min", str(low))
+    expect(slider).to_have_attribute("max", str(high))
+    pane(page).get_by_label("Parameters to compare").fill("")
+    pane(page).get_by_label("Parameters to compare").fill("P0")
+    pane(page).get_by_role("button", name="CURVES").click()
+    expect(page.locator(".time-chart [data-parameter=P0]")).to_have_count(1)
+    pane(page).get_by_role("button", name="CLEAR SELECTION").click()
+    expect(sums).to_be_hidden()
+
+
+def test_keys_zoom_and_move_along_only_while_the_focus_is_in_the_pane(page: Page) -> None:
+    pane(page).get_by_role("button", name="ALL", exact=True).click()
+    whole = shown_part(page)
+    slider = pane(page).get_by_role("slider", name="Moment")
+    page.mouse.move(0, 0)  # not over the lanes: the present moment stays where it is
+    pane(page).get_by_label("Lanes", exact=True).focus()
+    page.keyboard.press("w")
+    expect(slider).not_to_have_attribute("max", str(whole[1]))
+    low, high = shown_part(page)
+    assert abs((high - low) - (whole[1] - whole[0]) / 1.6) <= 2
+    page.keyboard.press("d")
+    page.keyboard.press("a")
+    page.keyboard.press("s")
+    expect(slider).to_have_attribute("max", str(whole[1]))
+    page.keyboard.press("w")
+    expect(slider).not_to_have_attribute("max", str(whole[1]))
+    zoomed = shown_part(page)
+    field = pane(page).get_by_label("Filter the lanes")
+    field.press_sequentially("sawd")  # letters of a text
+    page.locator("#prompt").click()
+    page.keyboard.press("s")
+    assert shown_part(page) == zoomed
+    expect(lane(page, "program 5")).to_have_count(0)  # filtered
+    field.fill("prog5")
+    expect(lane(page, "program 5")).to_have_count(1)
+    field.fill("")
+
+
+def test_lanes_are_pinned_and_groups_fold(page: Page) -> None:
+    name = lane(page, "program 5")
+    name.click()
+    expect(name).to_have_attribute("aria-pressed", "true")
+    pinned = pane(page).get_by_role("button", name=re.compile("Pinned"))
+    expect(pinned).to_have_attribute("aria-expanded", "true")
+    pinned.click()
+    expect(name).to_have_count(0)
+    pinned.click()
+    name.click()
+    expect(pinned).to_have_count(0)
+    expect(name).to_have_attribute("aria-pressed", "false")
+
+
+def test_the_next_change_of_a_flag_and_the_previous_line_are_gone_to(
+    page: Page, served: Served
+) -> None:
+    period_s = served.call(lambda station: station.times.history.period_s)
+    go_to(page, "2")
+    until_model(page, f"model.moment.value.tick === {round(2.0 / period_s)}")
+    pane(page).get_by_label("What is looked for").select_option("line")
+    pane(page).get_by_label("Program", exact=True).fill("5")
+    pane(page).get_by_label("Line", exact=True).fill("10")
+    count = served.call(counted)
+    before = moment(page)
+    pane(page).get_by_role("button", name="NEXT").click()
+    until_model(page, f"model.moment.value.tick > {before}")
+    assert served.call(counted) == count + 1
+    there = moment(page)
+    assert (there - before) * period_s < 0.02
+    pane(page).get_by_role("button", name="PREVIOUS").click()
+    until_model(page, f"model.moment.value.tick < {there}")
+    assert served.call(counted) == count
+    pane(page).get_by_label("What is looked for").select_option("flag")
+    pane(page).get_by_label("BIT516 or its name").fill("P0")
+    pane(page).get_by_role("button", name="NEXT").click()
+    expect(page.locator("#prompt")).to_contain_text("P0 is no flag: write BIT516 or its name")
+    page.complaints.clear()  # type: ignore[attr-defined]  # the browser names the refusal
+
+
+def test_another_branch_is_drawn_below_and_one_click_changes_to_it(page: Page) -> None:
+    present: int = page.evaluate(
+        "import('/js/core/app.js').then(({ model }) => model.timeline.value.branch)"
+    )
+    other = 1 - present
+    key = pane(page).get_by_role("button", name=re.compile("below those of this branch"))
+    key.click()
+    expect(key).to_have_attribute("aria-pressed", "true")
+    key.click()
+    expect(key).to_have_attribute("aria-pressed", "false")
+    for number in (other, present):
+        pane(page).locator(f"[data-name='to {number}']").click()
+        until_model(page, f"model.timeline.value.branch === {number}")
+    go_to(page, "2")
+    until_model(page, "model.moment.value.tick < model.moment.value.last")
+    assert page.complaints == []  # type: ignore[attr-defined]
 
 
 def test_a_new_branch_here_keeps_what_followed_on_its_own(page: Page, served: Served) -> None:

@@ -1,7 +1,24 @@
 // The workspace of the engineer: the shown part of the history, answers of the wizard, links of the machine.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { placeOf, rulerOf, secondsOf, within, zoomed } from "../../../src/openacr/panel/web/js/bench/time_view.js";
+import {
+  arranged,
+  differences,
+  lanesOf,
+  lastBefore,
+  movedBy,
+  spanAt,
+  toggled,
+} from "../../../src/openacr/panel/web/js/bench/lane_list.js";
+import {
+  keyed,
+  neighbour,
+  placeOf,
+  rulerOf,
+  secondsOf,
+  within,
+  zoomed,
+} from "../../../src/openacr/panel/web/js/bench/time_view.js";
 import {
   changed,
   textOf,
@@ -45,6 +62,118 @@ test("the ruler has round times", () => {
   assert.deepEqual(rulerOf([0, 2000], 0.0005, 6), [0, 0.2, 0.4, 0.6, 0.8, 1]);
   assert.deepEqual(rulerOf([500, 1500], 0.001, 4), [0.5, 1, 1.5]);
   assert.deepEqual(rulerOf([7, 7], 1, 4), []);
+});
+
+test("W and S zoom about a tick, A and D move along", () => {
+  const whole = /** @type {[number, number]} */ ([0, 1600]);
+  assert.deepEqual(keyed("w", [0, 1600], 400, whole), [150, 1150]);
+  assert.deepEqual(keyed("S", [150, 1150], 400, whole), [0, 1600]);
+  assert.deepEqual(keyed("a", [500, 1000], 400, whole), [400, 900]);
+  assert.deepEqual(keyed("d", [500, 1000], 400, whole), [600, 1100]);
+  assert.deepEqual(keyed("d", [1500, 1600], 400, whole), [1500, 1600]);
+  assert.equal(keyed("x", [0, 10], 5, whole), null);
+});
+
+test("a neighbour of a tick is never the tick itself", () => {
+  const ticks = [10, 20, 30];
+  assert.deepEqual([neighbour(ticks, 20, false), neighbour(ticks, 20, true)], [30, 10]);
+  assert.deepEqual([neighbour(ticks, 19, false), neighbour(ticks, 21, true)], [20, 20]);
+  assert.deepEqual([neighbour(ticks, 30, false), neighbour(ticks, 10, true)], [undefined, undefined]);
+});
+
+const LANES = lanesOf({
+  lanes: [
+    { kind: "program", number: 5, name: "PROG5", spans: [], on: 0, changes: 0 },
+    { kind: "axis", number: 0, name: "X", spans: [], on: 0, changes: 0 },
+    { kind: "program", number: 6, name: "PROG6", spans: [], on: 0, changes: 0 },
+    { kind: "pause", number: 5, name: "PROG5", spans: [], on: 0, changes: 0 },
+  ],
+  hosts: [{ stream: 2, spans: [[1, 2]], packets: 3, lines: 4, size_bytes: 9 }],
+});
+
+/** @param {any} arrangement */
+const rowsOf = (arrangement) =>
+  arranged(LANES, arrangement, (lane) => `${lane.name} ${lane.kind}`).map((row) =>
+    "group" in row ? `${row.isFolded ? "+" : "-"}${row.group} ${row.count}` : row.lane.id,
+  );
+
+test("lanes are in groups that fold, pinned ones first, in their own order, filtered by words", () => {
+  assert.deepEqual(rowsOf({}), [
+    "-axes 1",
+    "axis 0",
+    "-programs 3",
+    "program 5",
+    "program 6",
+    "pause 5",
+    "-hosts 1",
+    "host 2",
+  ]);
+  assert.deepEqual(rowsOf({ folded: ["programs", "hosts"], pinned: ["host 2", "axis 0", "axis 7"] }), [
+    "-pinned 2",
+    "host 2",
+    "axis 0",
+    "+programs 3",
+  ]);
+  assert.deepEqual(rowsOf({ order: ["pause 5", "program 6"], filter: " PROGRAM prog " }), [
+    "-programs 2",
+    "program 6",
+    "program 5",
+  ]);
+  assert.equal(LANES[4].changes, 7);
+});
+
+test("a lane changes its place with its neighbour, and at the end it stays", () => {
+  assert.deepEqual(movedBy(["a", "b", "c"], "b", -1), ["b", "a", "c"]);
+  assert.deepEqual(movedBy(["a", "b", "c"], "b", 1), ["a", "c", "b"]);
+  assert.deepEqual(movedBy(["a", "b"], "a", -1), ["a", "b"]);
+  assert.deepEqual(movedBy(["a", "b"], "b", 1), ["a", "b"]);
+  assert.deepEqual(movedBy(["a", "b"], "z", 1), ["a", "b"]);
+  assert.deepEqual([toggled(["a"], "b"), toggled(["a", "b"], "a")], [["a", "b"], ["b"]]);
+});
+
+test("two lanes differ where exactly one of them is on", () => {
+  assert.deepEqual(
+    differences(
+      [
+        [0, 10],
+        [20, 30],
+      ],
+      [
+        [0, 10],
+        [25, 40],
+      ],
+    ),
+    [
+      [20, 25],
+      [30, 40],
+    ],
+  );
+  assert.deepEqual(differences([[0, 10]], []), [[0, 10]]);
+  assert.deepEqual(differences([[0, 10]], [[10, 20]]), [
+    [0, 10],
+    [10, 20],
+  ]);
+  assert.deepEqual(differences([[5, 6]], [[5, 6]]), []);
+});
+
+test("a span ends before its last tick, a slice lasts until the next one", () => {
+  const spans = /** @type {[number, number][]} */ ([
+    [5, 8],
+    [10, 12],
+  ]);
+  assert.deepEqual(
+    [4, 5, 7, 8, 11, 12].map((tick) => spanAt(spans, tick)?.[0]),
+    [undefined, 5, 5, undefined, 10, undefined],
+  );
+  const slices = /** @type {[number, number][]} */ ([
+    [5, 10],
+    [7, 20],
+    [9, 30],
+  ]);
+  assert.deepEqual(
+    [4, 5, 6, 7, 9, 99].map((tick) => lastBefore(slices, tick)?.[1]),
+    [undefined, 10, 10, 20, 30, 30],
+  );
 });
 
 test("an answer is changed where its dialog has it, and an empty table goes with its last value", () => {

@@ -182,15 +182,24 @@ def _lanes(
 async def shown_details(call: Call) -> object:
     """Curves and distances of the axes, and the lines of programs, of at most 20 s of a branch.
 
-    The part is lived through again beside the machine, which goes on.
+    The part, as far as the branch has it, is lived through again beside the machine, which goes on.
     """
     query: Detailed = call.query
-    period_s = await call.panel.ask(lambda station: station.times.history.period_s)
-    length_s = (query.last - query.first) * period_s
+
+    def look(station: Station) -> tuple[Course, int, int, float]:
+        history = station.times.history
+        branch = history.timeline.branches.named(query.branch)
+        first = max(query.first, branch.first.tick)
+        last = min(query.last, branch.last.tick)
+        course = history.timeline.course(query.branch, first, last)
+        return course, first, last, history.period_s
+
+    course, first, last, period_s = await call.panel.ask(look)
+    length_s = (last - first) * period_s
     if not 0.0 < length_s <= MOST_DETAILS_S:
         raise UserError(f"details of {length_s:g} s: at most {MOST_DETAILS_S:g} s are shown")
-    course = await _course(call, query.branch, query.first, query.last)
-    return await call.panel.histories.run(details, course, query.first, query.last, query.columns)
+    found = await call.panel.histories.run(details, course, first, last, query.columns)
+    return {"first": first, "last": last, **found}
 
 
 @endpoint("GET", "/timeline/find", query=Sought)

@@ -197,6 +197,31 @@ export function compare({ kept, keep, seconds }) {
     chart.dataset.parameters = String(shown.length);
   }
 
+  /**
+   * Curves of the present branch over a part of it.
+   * @param {import("./time_view.js").Part} part
+   * @param {string[]} offered where nothing is named
+   */
+  async function over([first, last], offered) {
+    const { branch, branches, period_s: period } = model.timeline.value;
+    if (!names.value.trim()) names.value = offered.slice(0, COLORS.length).join(", ");
+    keep({ parameters: names.value });
+    const own = branches.find((each) => each.number === branch);
+    setText(found, t("time.curves"));
+    try {
+      const sampled = await newest(
+        get("timeline/samples", { branch, parameters: names.value, first, last, count: SAMPLES }),
+      );
+      if (!sampled || !own) return;
+      fill(found);
+      show([sampled], period, [own.name]);
+      chart.scrollIntoView({ block: "nearest" });
+    } catch (reason) {
+      clear();
+      refuseHere(reason);
+    }
+  }
+
   return {
     element,
     /** Compare more parameters or flags. @param {string[]} ids */
@@ -210,6 +235,7 @@ export function compare({ kept, keep, seconds }) {
       names.scrollIntoView({ block: "nearest" });
       if (other.value) void draw().catch(refuseHere);
     },
+    over,
     /** @param {import("../core/model.js").TimeBranch[]} branches */
     offer(branches) {
       const before = other.value;

@@ -65,3 +65,31 @@ export function secondsOf(text) {
   const [, hours = "0", minutes = "0", seconds] = found;
   return 3600 * Number(hours) + 60 * Number(minutes) + Number(seconds.replace(",", "."));
 }
+
+/**
+ * The next of some ticks after a tick, or the previous one before it; undefined where there is none.
+ * @param {number[]} ticks in their order
+ * @param {number} tick
+ * @param {boolean} back
+ */
+export function neighbour(ticks, tick, back) {
+  return back ? ticks.filter((each) => each < tick).at(-1) : ticks.find((each) => each > tick);
+}
+
+/**
+ * What a key does with the shown part, as in Perfetto: W and S zoom, A and D move along; null for any other key.
+ * @param {string} key
+ * @param {Part} part
+ * @param {number} at tick that stays where it is
+ * @param {Part} whole
+ */
+export function keyed(key, part, at, whole) {
+  const by = 0.2 * (part[1] - part[0]);
+  const keys = {
+    w: () => zoomed(part, true, at, whole),
+    s: () => zoomed(part, false, at, whole),
+    a: () => within([part[0] - by, part[1] - by], whole),
+    d: () => within([part[0] + by, part[1] + by], whole),
+  };
+  return /** @type {Record<string, () => Part>} */ (keys)[key.toLowerCase()]?.() ?? null;
+}

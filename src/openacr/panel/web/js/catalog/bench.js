@@ -39,9 +39,15 @@ const BENCH = {
   "time.kind.hand": { en: "mark", de: "Lesezeichen" },
   "time.parameters": { en: "Parameters to compare", de: "Parameter zum Vergleichen" },
   "time.names": { en: "P12288, BIT516, axis0.actual position", de: "P12288, BIT516, axis0.actual position" },
+  "time.lanes": { en: "Lanes", de: "Spuren" },
+  "time.lanes.unit": { en: "units/s", de: "Einheiten/s" },
   "time.lanes.use": {
-    en: "A click goes to the moment, the wheel zooms, with Shift it moves along",
-    de: "Ein Klick geht zum Zeitpunkt, das Rad vergr\u00f6\u00dfert, mit Umschalt verschiebt es",
+    en: "A click goes to the moment, dragging selects; the wheel, W and S zoom, with Shift, A and D it moves along",
+    de: "Ein Klick geht zum Zeitpunkt, Ziehen w\u00e4hlt aus; Rad, W und S vergr\u00f6\u00dfern, mit Umschalt, A und D verschiebt es",
+  },
+  "time.curves": {
+    en: "The selection is lived through again \u2026",
+    de: "Die Auswahl wird noch einmal durchlebt \u2026",
   },
   "time.other": { en: "Branch to compare with", de: "Zweig zum Vergleichen" },
   "time.around": { en: "Time around the moment", de: "Zeit um den Zeitpunkt" },

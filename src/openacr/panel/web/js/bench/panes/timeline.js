@@ -1,42 +1,28 @@
 // The timeline of a virtual card: time that is still, fast or slow, back, in branches, and two of them compared.
 import { get, latest } from "../../core/api.js";
 import { give, model, refuse } from "../../core/app.js";
-import { fill, h, setText } from "../../core/dom.js";
+import { h, setText } from "../../core/dom.js";
 import { keyOf } from "../../core/keys.js";
 import { plain } from "../../core/format.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
-import { ask } from "../../frame/dialog.js";
+import { createBranches } from "../branches.js";
 import { compare } from "../compared.js";
+import { lanesOf } from "../lane_list.js";
 import { createLanes } from "../lanes.js";
-import { secondsOf, within, zoomed } from "../time_view.js";
+import { createSelection } from "../selection.js";
+import { createTimeKeys } from "../time_keys.js";
+import { createMarks } from "../time_marks.js";
+import { createSearch } from "../time_search.js";
+import { keyed, secondsOf, within, zoomed } from "../time_view.js";
 import { takeWanted } from "../wanted.js";
 
 const TEXTS = {
-  pause: { en: "PAUSE", de: "PAUSE" },
-  run: { en: "RUN", de: "WEITER" },
-  speed: { en: "Speed", de: "Geschwindigkeit" },
-  most: { en: "as fast as it goes", de: "so schnell es geht" },
-  step: { en: "STEP", de: "SCHRITT" },
-  stepWhat: { en: "What a step is", de: "Was ein Schritt ist" },
-  stepNumber: { en: "Number of the program or master", de: "Nummer des Programms oder Masters" },
-  branch: { en: "NEW BRANCH HERE", de: "NEUER ZWEIG HIER" },
-  operate: { en: "OPERATE FROM HERE", de: "VON HIER BEDIENEN" },
   moment: { en: "Moment", de: "Zeitpunkt" },
   memory: {
     en: "{used} MB of {most} MB of memory, nothing on disk",
     de: "{used} MB von {most} MB Speicher, nichts auf der Platte",
   },
-  marks: { en: "Bookmarks", de: "Lesezeichen" },
-  mark: { en: "MARK", de: "MERKEN" },
-  markText: { en: "Text of a bookmark", de: "Text eines Lesezeichens" },
-  branches: { en: "Branch", de: "Zweig" },
-  from: { en: "from s", de: "von s" },
-  to: { en: "to s", de: "bis s" },
-  do: { en: "Keys", de: "Tasten" },
-  name: { en: "NAME", de: "NAME" },
-  switch: { en: "CHANGE TO", de: "WECHSELN" },
-  forget: { en: "FORGET", de: "VERGESSEN" },
   at: { en: "Time, s", de: "Zeit, s" },
   atWrong: { en: "{text} is no time: 885.8 or 14:45.8", de: "{text} ist keine Zeit: 885,8 oder 14:45,8" },
   go: { en: "GO", de: "HIN" },
@@ -47,10 +33,9 @@ const TEXTS = {
   },
 };
 
-const SPEEDS = [0.01, 0.1, 0.5, 1, 2, 5, 10, 100, 0]; // 0: as fast as it goes
-const STEPS = ["tick", "back", "line", "move"];
 const JUMPS = [-20, -1, 1, 20]; // s
 const LOOK_MS = 1000; // from one look at the lanes to the next
+const DETAILED = 20; // s that are shown in detail at most
 const MEGA = 1e6;
 
 /**
@@ -59,43 +44,7 @@ const MEGA = 1e6;
  */
 export async function mount(host, { head, kept, keep }) {
   const endings = new Endings();
-  const speed = h(
-    "select.field",
-    { ariaLabel: t(TEXTS.speed), onchange: () => void run() },
-    ...SPEEDS.map((each) => h("option", { value: String(each) }, each ? `${each}\u00d7` : t(TEXTS.most))),
-  );
-  speed.value = "1";
-  const run = () => give("timeline.run", { speed: Number(speed.value) || null });
-  const pause = keyOf(TEXTS.pause, () => void (model.timeline.value.still ? run() : give("timeline.pause")), ".main");
-  const what = h(
-    "select.field",
-    { ariaLabel: t(TEXTS.stepWhat), onchange: showNumber },
-    ...STEPS.map((each) => h("option", { value: each }, t(/** @type {any} */ (`time.step.${each}`)))),
-  );
-  const number = h("input.field.time-number", {
-    type: "number",
-    min: "0",
-    max: "15",
-    value: "0",
-    ariaLabel: t(TEXTS.stepNumber),
-  });
-  const step = () => give("timeline.step", { what: what.value, number: Number(number.value) || 0 });
-  const operate = keyOf(TEXTS.operate, () => void give("timeline.operate"));
-  const branch = keyOf(TEXTS.branch, () => void give("timeline.branch"));
-  head.append(
-    pause,
-    speed,
-    keyOf(TEXTS.step, () => void step()),
-    what,
-    number,
-    branch,
-    operate,
-  );
-  function showNumber() {
-    number.hidden = what.value === "tick" || what.value === "back";
-  }
-  showNumber();
-
+  const keys = createTimeKeys(head);
   const slider = h("input.grow.time-slider", {
     type: "range",
     step: "1",
@@ -105,24 +54,9 @@ export async function mount(host, { head, kept, keep }) {
   });
   const shown = h("strong.live.time-now", {});
   const used = h("span.hint", {});
-  const marks = h("div.time-marks.scroll", { role: "group", tabIndex: 0, ariaLabel: t(TEXTS.marks) });
-  const rows = h("tbody", {});
   const notHere = h("div.notice", { hidden: true });
   const parts = h("div.grow.scroll", { tabIndex: 0 });
-  const text = h("input.field.grow", { ariaLabel: t(TEXTS.markText), placeholder: t(TEXTS.markText), maxLength: 80 });
-  const marking = h(
-    "form.row",
-    {
-      onsubmit: (/** @type {Event} */ event) => {
-        event.preventDefault();
-        void give("timeline.mark", { text: text.value.trim() }).then((done) => {
-          if (done) text.value = "";
-        });
-      },
-    },
-    text,
-    h("button.key", { type: "submit" }, t(TEXTS.mark)),
-  );
+  const marks = createMarks({ seconds });
   const comparing = compare({ kept, keep, seconds });
   const at = h("input.field.time-at", {
     ariaLabel: t(TEXTS.at),
@@ -154,32 +88,54 @@ export async function mount(host, { head, kept, keep }) {
   );
   /** The part that is shown; null: all of the branch. @type {import("../time_view.js").Part | null} */
   let part = null;
-  /** @type {import("../lanes.js").Lane[]} */
-  let lanes = [];
-  const newest = latest();
+  /** The branch whose lanes are drawn below those of the present one. @type {number | null} */
+  let compared = null;
+  let read = ""; // which details are shown
+  /** @type {import("../lane_paint.js").Details | null} */
+  let details = null;
+  const [newest, newestDetails] = [latest(), latest()];
   const picture = createLanes({
     seconds,
     seek: (tick) => void seek(tick),
     zoom: (isFiner, tick) => look(zoomed(partNow(), isFiner, tick, whole())),
     pan: (by) => look(within([partNow()[0] + by, partNow()[1] + by], whole())),
+    select: (chosen) => void select(chosen),
+    kept: { ...kept.lanes },
+    keep: (lanes) => keep({ lanes }),
+  });
+  const branches = createBranches({
+    seconds,
+    compare: (number) => {
+      compared = compared === number ? null : number;
+      drawLanes();
+      void readLanes().catch(refuse);
+    },
+  });
+  const selection = createSelection({
+    seconds,
+    period: () => model.timeline.value.period_s,
+    branch: () => model.timeline.value.branch,
+    most: DETAILED,
+    zoom: (chosen) => look(within(chosen, whole())),
+    curves: (chosen, names) => void comparing.over(chosen, names),
+    clear: () => void select(null),
+  });
+  const search = createSearch({
+    now: () => ({ ...model.timeline.value, tick: model.moment.value.tick }),
+    seek,
+    kept: { ...kept.search },
+    keep: (values) => keep({ search: values }),
   });
   parts.append(
     h("div.row", {}, slider),
+    branches.lanes,
     picture.element,
     going,
+    search.element,
+    selection.element,
     used,
-    marking,
-    marks,
-    h(
-      "table.grid",
-      {},
-      h(
-        "thead",
-        {},
-        h("tr", {}, ...[TEXTS.branches, TEXTS.from, TEXTS.to, TEXTS.do].map((each) => h("th", {}, t(each)))),
-      ),
-      rows,
-    ),
+    marks.element,
+    branches.table,
     comparing.element,
   );
   host.append(notHere, parts);
@@ -202,8 +158,8 @@ export async function mount(host, { head, kept, keep }) {
 
   /** First and last tick of the branch. @returns {import("../time_view.js").Part} */
   function whole() {
-    const { branch: present, branches } = model.timeline.value;
-    return [branches.find((each) => each.number === present)?.first ?? 0, model.moment.value.last];
+    const { branch: present, branches: all } = model.timeline.value;
+    return [all.find((each) => each.number === present)?.first ?? 0, model.moment.value.last];
   }
 
   function partNow() {
@@ -218,20 +174,62 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   async function readLanes() {
-    const { why, branch: present, branches } = model.timeline.value;
-    if (why || !branches.length || !picture.element.offsetParent) return;
+    const { why, branch: present, branches: all } = model.timeline.value;
+    if (why || !all.length || !picture.element.offsetParent) return;
     const [first, last] = partNow();
-    const found = await newest(get("timeline/lanes", { branch: present, first, last }));
+    if (!all.some((each) => each.number === compared) || compared === present) compared = null;
+    const other = compared;
+    const found = await newest(
+      Promise.all([
+        get("timeline/lanes", { branch: present, first, last }),
+        other === null ? null : get("timeline/lanes", { branch: other, first, last }),
+      ]),
+    );
     if (!found) return;
-    lanes = found.lanes;
+    const [own, others] = found;
+    void readDetails(present, first, last).catch(() => {}); // a refusal is that of a moment: lanes are drawn
+    picture.show({ lanes: lanesOf(own), other: others && lanesOf(others), details });
     drawLanes();
   }
 
-  function drawLanes() {
-    const { period_s: period, bookmarks } = model.timeline.value;
-    picture.draw(partNow(), period, lanes, bookmarks);
-    picture.mark(model.moment.value.tick);
+  /** @param {number} branch @param {number} first @param {number} last */
+  async function readDetails(branch, first, last) {
+    const asked = `${branch} ${first} ${last}`;
+    if (asked === read) return;
+    read = asked;
+    details = null;
+    if (part === null || (last - first) * model.timeline.value.period_s > DETAILED) return;
+    const found = await newestDetails(
+      get("timeline/details", { branch, first, last, columns: Math.max(2, picture.element.clientWidth >> 1) }),
+    );
+    if (!found || read !== asked) return;
+    details = { ...found, part: [found.first, found.last] };
+    picture.detail(/** @type {import("../lane_paint.js").Details} */ (details));
   }
+
+  function drawLanes() {
+    const { period_s: period, bookmarks, branch: present, branches: all } = model.timeline.value;
+    picture.draw(partNow(), period, bookmarks);
+    picture.mark(model.moment.value.tick);
+    branches.draw(all, present, compared, model.moment.value.last, partNow());
+  }
+
+  /** @param {import("../time_view.js").Part | null} chosen */
+  async function select(chosen) {
+    picture.choose(chosen);
+    await selection.show(chosen).catch(refuse);
+  }
+
+  host.addEventListener("keydown", (event) => {
+    const field = event.target instanceof Element && event.target.closest("input, select, textarea");
+    if (field || event.ctrlKey || event.altKey || event.metaKey) return;
+    if (event.key === "Escape") return void select(null);
+    const held = Number.isNaN(picture.pointed()) ? model.moment.value.tick : picture.pointed();
+    const next = keyed(event.key, partNow(), held, whole());
+    if (!next) return;
+    event.preventDefault();
+    look(next);
+  });
 
   /** @param {number} tick */
   async function seek(tick) {
@@ -260,12 +258,10 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   function draw() {
-    const { still, away, branch: present, branches, most_bytes: most } = model.timeline.value;
+    const { still, away, branch: present, branches: all, most_bytes: most } = model.timeline.value;
     const { tick, last, bytes } = model.moment.value;
-    const own = branches.find((each) => each.number === present);
-    setText(pause, t(still ? TEXTS.run : TEXTS.pause));
-    operate.disabled = !away;
-    branch.disabled = !away || tick >= last;
+    const own = all.find((each) => each.number === present);
+    keys.show({ still, away, isEnd: tick >= last });
     setText(used, t(TEXTS.memory, { used: plain(bytes / MEGA, 1), most: plain(most / MEGA, 0) }));
     if (isAsking || !own) return;
     const [from, to] = partNow();
@@ -276,61 +272,15 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   function list() {
-    const { why, branch: present, branches, bookmarks } = model.timeline.value;
+    const { why, branch: present, branches: all, bookmarks } = model.timeline.value;
     notHere.hidden = !why;
     parts.hidden = head.inert = Boolean(why);
     setText(notHere, why);
     if (why) return;
-    fill(
-      marks,
-      ...bookmarks.map((each) =>
-        h(
-          "button.key",
-          { type: "button", data: { kind: each.kind }, onclick: () => void give("timeline.seek", { tick: each.tick }) },
-          `${seconds(each.tick)} s ${t(/** @type {any} */ (`time.kind.${each.kind}`))}: ${each.text}`,
-        ),
-      ),
-    );
-    fill(
-      rows,
-      ...branches.map((each) =>
-        h(
-          "tr",
-          { data: { branch: String(each.number) }, className: each.number === present ? "is-present" : "" },
-          h("td", {}, each.number === present ? h("strong", {}, each.name, " \u25c0") : each.name),
-          h("td.number", {}, seconds(each.fork ?? each.first)),
-          h("td.number", {}, each.last === null ? "\u2026" : seconds(each.last)),
-          h(
-            "td.row.wrap",
-            {},
-            keyOf(TEXTS.name, () => void rename(each)),
-            ...(each.number === present
-              ? []
-              : [
-                  keyOf(TEXTS.switch, () => void give("timeline.switch", { number: each.number })),
-                  keyOf(TEXTS.forget, () => void give("timeline.forget", { number: each.number })),
-                ]),
-          ),
-        ),
-      ),
-    );
-    comparing.offer(branches.filter((each) => each.number !== present));
+    marks.list(bookmarks);
+    branches.list(all, present);
+    comparing.offer(all.filter((each) => each.number !== present));
     draw();
-  }
-
-  /** @param {import("../../core/model.js").TimeBranch} branchOf */
-  async function rename(branchOf) {
-    const field = h("input.field", { value: branchOf.name, maxLength: 80, ariaLabel: t(TEXTS.name) });
-    const name = await ask({
-      title: t(TEXTS.name),
-      body: [field],
-      first: field,
-      choices: [
-        { text: t(TEXTS.name), kind: "main", isSubmit: true, value: () => field.value.trim() || undefined },
-        { text: t("key.cancel"), value: null },
-      ],
-    });
-    if (name) await give("timeline.name", { number: branchOf.number, name });
   }
 
   const timer = setInterval(() => void readLanes().catch(() => {}), LOOK_MS); // a link that is lost says so elsewhere
@@ -340,6 +290,7 @@ export async function mount(host, { head, kept, keep }) {
     model.moment.watch(draw),
     takeWanted("timeline", comparing.add),
     () => comparing.end(),
+    () => picture.end(),
     () => clearInterval(timer),
   );
   return () => endings.end();
