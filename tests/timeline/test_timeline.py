@@ -54,6 +54,26 @@ def test_a_keyframe_is_taken_when_it_is_due(timeline: Timeline) -> None:
     assert ticks == list(range(0, 1001, every_tk))
 
 
+def test_time_that_is_lived_through_again_takes_no_keyframe_but_where_they_were_thinned(
+    timeline: Timeline,
+) -> None:
+    timeline.advance(1000)
+    every_tk = round(0.1 / timeline.card.period_s)
+    before = [each.tick for each in timeline.branch.keyframes]
+    timeline.seek(before[1] + 30)
+    timeline.advance(before[-1] - timeline.now.tick)
+    assert [each.tick for each in timeline.branch.keyframes] == before
+    gone = timeline.branch.keyframes.pop(2).tick
+    timeline.seek(gone + 10)
+    timeline.advance(every_tk)
+    assert [each.tick for each in timeline.branch.keyframes] == [
+        *before[:2], gone + 10, *before[3:],
+    ]  # fmt: skip
+    timeline.seek(timeline.branch.last)
+    timeline.advance(every_tk)
+    assert timeline.branch.keyframes[-1].tick == before[-1] + every_tk
+
+
 def test_inputs_come_again_on_the_path_forward(timeline: Timeline) -> None:
     timeline.advance(700)
     begin = timeline.now

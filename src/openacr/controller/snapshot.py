@@ -65,7 +65,7 @@ class Snapshot(Struct, frozen=True):
     model: str
     world: str
     layout: str
-    rows: bytes
+    rows: bytes | bytearray  # of its own, never changed
     beside: Beside
 
 
@@ -75,7 +75,7 @@ def take(card: WholeCard) -> Snapshot:
         card.model.name,
         world_print(card.world),
         LAYOUT,
-        bytes(card.image()),
+        card.image(),  # a copy of its own: another one of it would take 40 times as long
         Beside(
             language_state.take(card.system, card.executor),
             card.streams.state(),
@@ -105,7 +105,7 @@ def put_back(card: WholeCard, snapshot: Snapshot) -> None:
     card.nonvolatile.restore(snapshot.beside.stored)
 
 
-def _put_back(card: WholeCard, rows: bytes, language: Language, moves: list[bytes]) -> None:
+def _put_back(card: WholeCard, rows: bytes | bytearray, language: Language, moves: list[bytes]) -> None:
     card.memory.restore(rows)
     language_state.put_back(card.system, card.executor, language)
     try:

@@ -123,7 +123,7 @@ class Memory:
         """The same, to be changed."""
         return bytearray(self._buffer)
 
-    def restore(self, snapshot: bytes) -> None:
+    def restore(self, snapshot: bytes | bytearray) -> None:
         """Return to a snapshot of a card with the same memory layout."""
         if len(snapshot) != len(self._buffer):
             raise StoreError(

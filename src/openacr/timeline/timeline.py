@@ -54,6 +54,7 @@ class Timeline:
         self.branches = Branches([Branch(0, Moment(card.lived_tk), [first])])
         self.branch = self.branches[0]  # the present one
         self._entered = 0  # inputs up to now
+        self.next_tk = card.lived_tk + self._every_tk  # when a keyframe may be due
         self.on_fork: Callable[[Branch, Branch], None] = lambda _before, _branch: None
         card.recorder = self
 
@@ -139,7 +140,8 @@ class Timeline:
         return wanted if is_there else card.was_ended
 
     def _reach(self) -> None:
-        if self.now.order > self.branch.last.order:
+        tick, last = self.card.lived_tk, self.branch.last  # at every step of the clock
+        if tick > last.tick or (tick == last.tick and self.now.order > last.order):
             self.branch.last = self.now
 
     def foresee(self, entries: Sequence[JournalEntry], last_tk: int) -> None:
@@ -173,8 +175,12 @@ class Timeline:
         """Take over a keyframe, unless the present is between it and the moment."""
         if Moment(keyframe.tick).order <= self.now.order <= unless_before.order:
             return
+        self._take_over(keyframe)
+
+    def _take_over(self, keyframe: Keyframe) -> None:
         self.card.take_over(keyframe.snapshot)
         self._entered = keyframe.entered
+        self.next_tk = keyframe.tick + self._every_tk
 
     def _live_to(self, moment: Moment) -> None:
         branch = self.branch
@@ -224,8 +230,7 @@ class Timeline:
         self.branch = branch
         with self.card.undisturbed():
             keyframe = self.branch.keyframe(self.branch.last)
-            self.card.take_over(keyframe.snapshot)
-            self._entered = keyframe.entered
+            self._take_over(keyframe)
             self._live_to(self.branch.last)
         self.card.streams.discard_output()
 
@@ -257,11 +262,6 @@ class Timeline:
 
     # what the card reports (openacr.controller.inputs.JournalFile)
 
-    @property
-    def next_tk(self) -> int:
-        """When the next keyframe is due, in ticks of the life of the card."""
-        return self.branch.keyframe(self.now).tick + self._every_tk
-
     def note(self, entry: JournalEntry) -> None:
         """Note an input at the present moment; in the past it begins another branch."""
         if self.is_past:
@@ -281,10 +281,13 @@ class Timeline:
         """Do nothing: inputs are kept in memory."""
 
     def mark(self) -> None:
-        """Take the keyframe that is due."""
-        self.branch.put(
-            Keyframe(self._base, self.card.snapshot(), self.card.lived_tk, self._entered)
-        )
+        """Take a keyframe, unless one of time that is lived through again is near enough."""
+        tick = self.card.lived_tk
+        self.next_tk = self.branch.keyframe(self.now).tick + self._every_tk
+        if tick < self.next_tk:
+            return
+        self.next_tk = tick + self._every_tk
+        self.branch.put(Keyframe(self._base, self.card.snapshot(), tick, self._entered))
         self.branches.shorten(self._most_bytes)
 
     def close(self) -> None:
