@@ -1,5 +1,7 @@
 """How the axes of a card are attached to the masters of its programs: only read."""
 
+from dataclasses import replace
+
 from openacr.client.effects import Op
 from openacr.client.errors import RefusedError
 from openacr.client.requests import Level
@@ -18,6 +20,6 @@ def attached(talk: Talk) -> Op[list[Attached]]:
             lines = yield from talk.query("ATTACH", at=Level.program(program))
         except RefusedError:  # it has no memory, or the card does not list them
             continue
-        found += attachments(lines)[1]
+        found += [replace(each, program=program) for each in attachments(lines)[1]]
     yield from talk.go(home)
     return found

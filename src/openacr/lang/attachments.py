@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 _MASTER = re.compile(r"ATTACH MASTER(\d+)")
 _SLAVE = re.compile(r'ATTACH SLAVE(\d+) AXIS(\d+) "(.*)"')
@@ -16,6 +16,7 @@ class Attached:
     slave: int
     axis: int
     name: str
+    program: int | None = field(default=None, compare=False)  # that has listed it
 
 
 def attachments(lines: Iterable[str]) -> tuple[int | None, list[Attached]]:

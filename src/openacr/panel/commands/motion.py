@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from msgspec import Meta
 
 from openacr.errors import UserError
+from openacr.mill.config.settings import Settings
 from openacr.mill.run.lifecycle import State
 from openacr.mill.run.runner import Runner
 from openacr.mill.session import MillSession
@@ -23,6 +24,7 @@ from openacr.panel.roles import Role
 
 PressNumber = Annotated[int, Meta(ge=0, le=2**53)]
 Direction = Literal[-1, 1]
+Speed = Annotated[float, Meta(gt=0.0, le=1e6)]  # units of the axis a second
 Mode = Literal["auto", "manual", "mdi", "home", "setup", "diagnose"]
 Position = dict[str, dict[str, float]]
 
@@ -31,6 +33,21 @@ def indices(machine: MillSession, names: str) -> list[int]:
     """The axes of these names; all configured ones without a name."""
     settings = machine.runner.settings
     return [settings.named(name).index for name in names.upper() or settings.names()]
+
+
+def jogged_axis(link: Link, name: str, speed: float | None) -> int:
+    """The number of an axis that is to be jogged; UserError for a speed it lacks or cannot have."""
+    settings = Settings(link.installation.store)
+    is_own = name.upper() in settings.names()
+    index = link.machine.runner.settings.named(name.upper()).index if is_own else None
+    if index is None:
+        index = link.installation.axis(name)
+        is_own = link.required.is_set_up and any(each.index == index for each in settings.axes)
+    if is_own and speed is not None:
+        raise UserError(f"axis {name.upper()} is AcroMill's: its speeds are SLOW and FAST of JOG")
+    if not is_own and speed is None:
+        raise UserError(f"axis {name.upper()} is not AcroMill's: give its speed in units/s")
+    return index
 
 
 # --- jog ------------------------------------------------------------------------------
@@ -57,7 +74,7 @@ def indices(machine: MillSession, names: str) -> list[int]:
 def press(
     order: Order,
     client: int,
-    machine: MillSession,
+    link: Link,
     hand_motion: HandMotion,
     now_s: float,
     *,
@@ -67,17 +84,20 @@ def press(
     tick: float,
     first: Literal[True],
     fast: bool = False,
+    speed: Speed | None = None,
 ) -> None:
     """Jog an axis while the key is held.
 
-    `first` says that this is a new press, not a keep-alive.
+    `first` says that this is a new press, not a keep-alive. An axis that is not AcroMill's is
+    named as its master names it, or AXISn; `speed` is in its units a second.
     """
-    index = machine.runner.settings.named(axis.upper()).index
+    index = jogged_axis(link, axis, speed)
     hand_motion.press(
         Key(client, press),
         index,
         direction,
         fast=fast,
+        speed_ups=speed,
         tick_ms=tick,
         received_s=order.received_s,
         now_s=now_s,
@@ -93,7 +113,7 @@ def release(client: int, hand_motion: HandMotion, *, press: PressNumber) -> None
 @command("jog.increment", is_motion=True)
 def increment(
     order: Order,
-    machine: MillSession,
+    link: Link,
     hand_motion: HandMotion,
     *,
     axis: str,
@@ -102,13 +122,21 @@ def increment(
     preset: Annotated[int, Meta(ge=0, le=5)] = 0,
     distance: Annotated[float, Meta(ge=0.0, le=1e6)] = 0.0,
     fast: bool = False,
+    speed: Speed | None = None,
 ) -> None:
-    """Move an axis by one increment: a preset of the store (1 to 5), or a distance."""
-    index = machine.runner.settings.named(axis.upper()).index
+    """Move an axis by one increment: a preset of the store (1 to 5), or a distance.
+
+    An axis that is not AcroMill's has no presets; `speed` is in its units a second.
+    """
+    index = jogged_axis(link, axis, speed)
     if bool(preset) == bool(distance):
         raise UserError("an increment is a preset from 1 to 5 or a distance above 0")
+    if preset and speed is not None:
+        raise UserError(f"axis {axis.upper()} is not AcroMill's: give a distance, no preset")
     hand_motion.require_fresh(tick, order.received_s)
-    hand_motion.increment(index, direction, preset=preset, distance_u=distance, fast=fast)
+    hand_motion.increment(
+        index, direction, preset=preset, distance_u=distance, fast=fast, speed_ups=speed
+    )
 
 
 @command("jog.stop", Role.VIEW, needs_control=False, is_stop=True)
@@ -343,7 +371,7 @@ def _stop(
     """Do every step of a stop, whichever fails; the first error is raised at the end."""
     found: list[str] = []
     steps: list[Callable[[], object]] = [
-        lambda: station.hand_motion.presses.end_all(End.STOP),
+        station.hand_motion.end_held,
         station.typed.drop,
         lambda: station.tuning.stop(station.link.session),
         lambda: found.extend(station.stopping.stop(station.now_s, ends=ends)),

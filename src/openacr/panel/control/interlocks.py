@@ -4,6 +4,7 @@ from openacr.errors import UserError
 from openacr.mill.run.lifecycle import State
 from openacr.panel.control.engineer.tuning import Tuning
 from openacr.panel.control.machine.link import Link
+from openacr.panel.control.operator.card_jogs import CardJogs
 
 MEASURED = "an axis is measured (servo tuning): wait until it rests, or STOP"
 FIRST_REST = "wait until it rests, or STOP, then go back"
@@ -12,15 +13,16 @@ FIRST_REST = "wait until it rests, or STOP, then go back"
 class Interlocks:
     """Whether the panel moves the machine: by a program, a key, servo tuning."""
 
-    def __init__(self, link: Link, tuning: Tuning) -> None:
-        self._link, self._tuning = link, tuning
+    def __init__(self, link: Link, tuning: Tuning, card_jogs: CardJogs) -> None:
+        self._link, self._tuning, self._card_jogs = link, tuning, card_jogs
 
     @property
     def is_moved(self) -> bool:
         """Whether the panel moves the machine; UserError where the card cannot be reached."""
         if self._link.session is None:
             raise UserError(self._link.lost)
-        return self._link.session.runner.is_busy or self._tuning.is_moving
+        is_busy = self._link.session.runner.is_busy or self._card_jogs.are_active
+        return is_busy or self._tuning.is_moving
 
     @property
     def rests(self) -> bool:

@@ -33,6 +33,7 @@ from openacr.panel.control.machine.lamp import Lamp
 from openacr.panel.control.machine.link import Link, reason
 from openacr.panel.control.machine.snapshot import Snapshot, Ticks
 from openacr.panel.control.operator.buttons import Buttons
+from openacr.panel.control.operator.card_jogs import CardJogs
 from openacr.panel.control.operator.hand_motion import HandMotion
 from openacr.panel.control.operator.orders import LATER, Order, failure
 from openacr.panel.control.operator.part import Part
@@ -68,9 +69,10 @@ class Station:
         self.jobs = Jobs()
         self.ticks = Ticks()
         self.tuning = Tuning(installation, self.jobs, self.screens.tell)
-        self.interlocks = Interlocks(self.link, self.tuning)
+        self.card_jogs = CardJogs(self.link)
+        self.interlocks = Interlocks(self.link, self.tuning, self.card_jogs)
         self.settings = StoredSettings(self.link, self.interlocks, self.screens)
-        self.hand_motion = HandMotion(self.link, self.ticks, self.screens.tell)
+        self.hand_motion = HandMotion(self.link, self.ticks, self.card_jogs, self.screens.tell)
         self.stopping = Stopping(self.link, self.tuning)
         self.lamp = Lamp(self.link)
         self.typed = Typed(self.link)
@@ -148,6 +150,7 @@ class Station:
         self.times.wake(self.now_s)  # it takes some ticks
         session = self.link.drop()
         self.typed.forget()
+        self.card_jogs.end()
         self.terminals.end()
         self.on_card.end()
         self.stopping.end()
@@ -238,6 +241,7 @@ class Station:
             if clock >= self._snapshot_at:
                 self._snapshot_at = clock + SNAPSHOT_S * self.installation.pace.speed
                 self._sample(now_s)
+            self.screens.guarded(self.hand_motion.step)
             self.on_card.step(now_s)
             self.tuning.step(now_s)
             self.screens.guarded(lambda: self.stopping.step(now_s))

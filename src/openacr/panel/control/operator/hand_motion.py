@@ -9,6 +9,7 @@ from openacr.map.words import af4
 from openacr.mill.session import MillSession
 from openacr.panel.control.machine.link import Link
 from openacr.panel.control.machine.snapshot import Ticks
+from openacr.panel.control.operator.card_jogs import CardJogs
 from openacr.panel.control.operator.orders import PanelError
 from openacr.panel.control.operator.presses import End, Key, Presses
 
@@ -18,8 +19,15 @@ LONGEST_AGE_S = 0.2  # of what a browser has drawn, when it begins or keeps moti
 class HandMotion:
     """Axes moved by hand at the screens."""
 
-    def __init__(self, link: Link, ticks: Ticks, tell: Callable[[dict[str, Any]], None]) -> None:
+    def __init__(
+        self,
+        link: Link,
+        ticks: Ticks,
+        card_jogs: CardJogs,
+        tell: Callable[[dict[str, Any]], None],
+    ) -> None:
         self._link, self._ticks, self._report = link, ticks, tell
+        self._card_jogs = card_jogs
         self.presses = Presses(self._drop, self._tell)
 
     # --- held keys --------------------------------------------------------------------
@@ -31,22 +39,27 @@ class HandMotion:
         direction: int,
         *,
         fast: bool,
+        speed_ups: float | None,
         tick_ms: float,
         received_s: float,
         now_s: float,
     ) -> None:
-        """Begin a press: the axis moves until it ends."""
+        """Begin a press: the axis moves until it ends. `speed_ups`: of one not AcroMill's."""
         if not self.presses.is_new(key):
             raise PanelError("refused", f"press {key.number} is over: press the key again")
         self.presses.use_up(key)
         self.require_fresh(tick_ms, received_s)
         if now_s - received_s > LONGEST_AGE_S:
             raise PanelError("stale", "the press waited too long: press the key again")
-        session = self._link.machine
         if axis in self.presses.axes:
             self.presses.end_all(End.STOP, "two keys of one axis")
-            name = session.runner.settings.axis(axis).name
+            name = self._link.installation.axis_name(axis)
             raise UserError(f"axis {name} is jogged by another key: both stop")
+        if speed_ups is not None:
+            self._card_jogs.begin(axis, direction, speed_ups)
+            self.presses.begin(key, axis, received_s)
+            return
+        session = self._link.machine
         if session.runner.jogging.is_active and not self.presses.are_held:
             session.runner.stop()  # an increment is under way, or a jog ramps down
             raise UserError("an axis is still moving: press again when it rests")
@@ -71,6 +84,11 @@ class HandMotion:
         """End the presses whose browsers are silent."""
         self.presses.expire(now_s)
 
+    def step(self) -> None:
+        """Carry on with the axes that are not AcroMill's."""
+        for axis, text in self._card_jogs.step():
+            self.presses.end_axis(axis, End.REFUSED, text)
+
     def require_fresh(self, tick_ms: float, received_s: float) -> None:
         """Refuse motion by a browser that shows something old."""
         age_s = self._ticks.age_s(tick_ms, received_s)
@@ -87,7 +105,7 @@ class HandMotion:
 
     def _drop(self, client: int, axis: int) -> None:
         session = self._link.session
-        if session is not None:
+        if session is not None and not self._card_jogs.release(axis):
             session.runner.controls.release(_holder(client), axis)
 
     def _tell(self, key: Key, why: End, text: str) -> None:
@@ -97,13 +115,23 @@ class HandMotion:
     # --- increments -------------------------------------------------------------------
 
     def increment(
-        self, axis: int, direction: int, *, preset: int, distance_u: float, fast: bool
+        self,
+        axis: int,
+        direction: int,
+        *,
+        preset: int,
+        distance_u: float,
+        fast: bool,
+        speed_ups: float | None,
     ) -> None:
         """Move an axis by an increment of the store (`preset`), or by a distance."""
-        runner = self._link.machine.runner
         if self.presses.are_held:
             self.presses.end_all(End.STOP, "an increment was commanded")
             raise UserError("a key is held: the axes stop, no increment is made")
+        if speed_ups is not None:
+            self._card_jogs.begin(axis, direction, speed_ups, distance_u=distance_u)
+            return
+        runner = self._link.machine.runner
         self._require_drive(self._link.machine, axis)
         if preset:
             runner.jog(lambda jogging: jogging.increment(axis, direction, preset, fast=fast))
@@ -113,10 +141,17 @@ class HandMotion:
 
     def stop(self) -> None:
         """Bring everything that is moved by hand to rest."""
-        self.presses.end_all(End.STOP)
+        self.end_held()
         session = self._link.session
         if session is not None and session.runner.jogging.is_active:
             session.runner.jogging.stop_all()
+
+    def end_held(self) -> None:
+        """End every held key, and what moves an axis that is not AcroMill's."""
+        try:
+            self.presses.end_all(End.STOP)
+        finally:
+            self._card_jogs.release_all()
 
 
 def _holder(client: int) -> str:

@@ -95,6 +95,11 @@ class Presses:
         finally:
             self._ended(key, why, text)
 
+    def end_axis(self, axis: int, why: End, text: str) -> None:
+        """End the press that holds an axis, if there is one."""
+        for key in [key for key, press in self._held.items() if press.axis == axis]:
+            self.end(key, why, text)
+
     def end_all(self, why: End, text: str = "", *, client: int | None = None) -> None:
         """End every press, or those of one client."""
         failure: Exception | None = None
