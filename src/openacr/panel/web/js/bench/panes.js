@@ -37,7 +37,7 @@ export const PANES = {
   },
   plc: { title: { en: "PLC", de: "PLC" }, load: tabPane(async () => (await import("../frame/tab_plc.js")).plcTab) },
   servo: { title: "servo.title", load: screenPane(() => import("../screens/servo.js")) },
-  jog: { title: "jog.title", role: "operate", load: screenPane(() => import("../screens/jog.js")) },
+  jog: { title: "jog.title", role: "operate", load: modulePane(() => import("./panes/jog.js")) },
   gain: {
     title: { en: "Gains", de: "Verst\u00e4rkungen" },
     role: "service",

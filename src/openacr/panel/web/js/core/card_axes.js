@@ -1,4 +1,5 @@
-// The axes of the card: those of the machine, then others that its programs move, named AXIS2 in commands.
+// The axes of the card: those of the machine, then others that its programs move, named AXIS2 in commands. On a card
+// that AcroMill has not set up all of them are others.
 import { get } from "./api.js";
 import { link, model } from "./app.js";
 
@@ -6,7 +7,8 @@ import { link, model } from "./app.js";
 
 /** @returns {Promise<CardAxis[]>} */
 export async function cardAxes() {
-  const own = model.axes.map((axis) => ({ ...axis, title: axis.name, isMachines: true }));
+  const machines = model.hello.value.machine.lacks ? [] : model.axes;
+  const own = machines.map((axis) => ({ ...axis, title: axis.name, isMachines: true }));
   const { axes } = await get("card/axes").catch(() => ({ axes: [] }));
   const others = axes
     .filter((/** @type {any} */ each) => !own.some(({ index }) => index === each.index))

@@ -10,7 +10,7 @@ import { t } from "../core/texts.js";
 import { shown } from "../frame/screen_host.js";
 
 /**
- * @typedef {{ axis: string, direction: 1 | -1, fast: boolean }} Jog
+ * @typedef {{ axis: string, direction: 1 | -1, fast?: boolean, speed?: number }} Jog an axis of the card has a speed
  * @typedef {{ element: HTMLElement, pointer: number | null, key: string | null, id: number }} Press
  */
 

@@ -1,0 +1,130 @@
+"""Panes for any axis of the card, on the gantry: its Z belongs to a program of the card alone."""
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import BrowserContext, Locator, Page, expect
+from tests.panel.bench import Served
+from tests.panel.browser.conftest import open_page, picture, until, until_model
+from tests.panel.browser.test_bench import open_pane
+
+from openacr.map.rows import axes
+from openacr.panel.control.station import Station
+from openacr.panel.machine.project import of_project
+
+GANTRY = Path(__file__).parents[3] / "examples" / "gantry"
+Z = 2
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return shutil.copytree(GANTRY, tmp_path_factory.mktemp("project") / "gantry")
+
+
+@pytest.fixture(scope="module")
+def served(folder: Path) -> Iterator[Served]:
+    installation = of_project(folder, store=None, programs=None, otherwise=folder.parent / "parts")
+    panel = Served(folder.parent, installation=installation)
+    yield panel
+    panel.close()
+
+
+@pytest.fixture(scope="module")
+def workspace(context: BrowserContext, served: Served) -> Page:
+    page = open_page(context, f"{served.url}/bench")
+    page.set_viewport_size({"width": 1366, "height": 768})
+    until_model(page, "model.hello.value.client")
+    return page
+
+
+@pytest.fixture
+def page(workspace: Page) -> Iterator[Page]:
+    yield workspace
+    assert workspace.complaints == []  # type: ignore[attr-defined]
+
+
+def type_line(served: Served, *lines: str) -> None:
+    def typed(station: Station) -> None:
+        for line in lines:
+            station.link.machine.card.command(line, program=1)
+
+    served.call(typed)
+
+
+def offset(station: Station) -> float:
+    """The jog offset of Z while it is jogged, its position at rest; in units."""
+    card = station.link.machine.card
+    return float(card.read(axes.primary_setpoint[Z])) / float(card.read(axes.ppu[Z]))
+
+
+def is_jogged(station: Station) -> bool:
+    return station.card_jogs.are_active
+
+
+def row_of_z(page: Page) -> Locator:
+    return page.locator("[data-pane=jog] tr[data-axis=AXIS2]")
+
+
+def test_z_moves_while_its_key_is_held_with_the_speed_of_the_pane(
+    page: Page, served: Served, pictures: Path
+) -> None:
+    type_line(served, "DRIVE ON Z", "JOG ACC Z100", "JOG DEC Z100")
+    open_pane(page, "Jog")
+    row = row_of_z(page)
+    plus = row.get_by_role("button", name="Z (AXIS2) plus")
+    plus.hover()
+    page.mouse.down()
+    page.mouse.up()
+    expect(page.locator("#prompt")).to_contain_text("Z (AXIS2): give a speed above 0")
+    row.get_by_label("Speed").fill("0.5")
+    before = served.call(offset)
+    plus.hover()
+    page.mouse.down()
+    until(page, lambda: served.call(offset) > before + 0.1)
+    expect(plus).to_have_class("key jog-key hold is-held")
+    picture(page, pictures / "jog-of-the-card.png")
+    page.mouse.up()
+    until(page, lambda: not served.call(is_jogged))
+    at = served.call(offset)
+    expect(row.locator("[data-position]")).to_have_text(f"{at:.4f}")
+
+
+def test_a_step_moves_z_by_it_at_each_press(page: Page, served: Served) -> None:
+    row = row_of_z(page)
+    row.get_by_label("Step").fill("0.05")
+    at = served.call(offset)
+    row.get_by_role("button", name="Z (AXIS2) minus").click()
+    until(page, lambda: abs(served.call(offset) - (at - 0.05)) < 1e-6)
+    until(page, lambda: not served.call(is_jogged))
+    row.get_by_label("Step").fill("-1")
+    row.get_by_role("button", name="Z (AXIS2) minus").click()
+    expect(page.locator("#prompt")).to_contain_text("a step is a number above 0, or empty")
+    assert served.call(offset) == pytest.approx(at - 0.05, abs=1e-6)
+    row.get_by_label("Step").fill("")
+
+
+def test_a_page_that_is_frozen_lets_z_rest(page: Page, served: Served) -> None:
+    """A closed lid: the page runs no more, its key is still down."""
+    session = page.context.new_cdp_session(page)
+    row_of_z(page).get_by_role("button", name="Z (AXIS2) plus").hover()
+    before = served.call(offset)
+    page.mouse.down()
+    until(page, lambda: served.call(offset) > before)
+    session.send("Page.setWebLifecycleState", {"state": "frozen"})
+    until(page, lambda: not served.call(is_jogged))
+    session.send("Page.setWebLifecycleState", {"state": "active"})
+    at = served.call(offset)
+    page.mouse.up()
+    assert served.call(offset) == at
+
+
+def test_a_drive_that_is_off_is_named(page: Page, served: Served) -> None:
+    type_line(served, "SET 8532", "DRIVE OFF Z")
+    plus = row_of_z(page).get_by_role("button", name="Z (AXIS2) plus")
+    plus.hover()
+    page.mouse.down()
+    expect(page.locator("#prompt")).to_contain_text("the drive of axis AXIS2 is off")
+    page.mouse.up()
+    type_line(served, "CLR 8532", "DRIVE ON Z")
