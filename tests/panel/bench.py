@@ -13,6 +13,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, TypeVar
 
+from openacr.controller import Controller
 from openacr.panel.commands.all import carry_out
 from openacr.panel.control.machine.installation import Installation
 from openacr.panel.control.operator.orders import Order
@@ -160,6 +161,12 @@ class HandStation:
         self.station.close()
         self.station.jobs.close()
         self.installation.close()
+
+
+def card_of(hand: HandStation) -> Controller:
+    """The card in the process of a station."""
+    assert hand.installation.controller is not None
+    return hand.installation.controller
 
 
 class HandControl(ControlThread):

@@ -1,58 +1,19 @@
 """Held keys and increments of an axis that only a program of the card has: Z of the gantry."""
 
-import shutil
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.panel.bench import STEP_S, HandStation
+from tests.panel.bench import STEP_S, HandStation, card_of
 
 from openacr.client import Card
-from openacr.controller import Controller
 from openacr.map.rows import axes
 from openacr.map.words import af1
-from openacr.panel.control.machine.installation import Installation
 from openacr.panel.control.operator.people import Person
-from openacr.panel.machine import opened
-from openacr.panel.machine.project import of_project
 from openacr.panel.roles import Role
 
-GANTRY = Path(__file__).parents[2] / "examples" / "gantry"
 Z = 2
 SPEED = 0.1  # in/s; JOG DEC 100: a ramp of 1 ms
 REST_S = 0.22  # of card time, from the last sign of the browser
-
-
-@pytest.fixture(params=["set up", "as it is"])
-def gantry(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[HandStation]:
-    """The gantry with the drive of Z on, by its own store and by one that does not know it."""
-    if request.param == "set up":
-        installation = of_project(
-            shutil.copytree(GANTRY, tmp_path / "gantry"),
-            store=None,
-            programs=None,
-            otherwise=tmp_path / "parts",
-        )
-    else:
-        (tmp_path / "programs").mkdir()
-        card = Controller.from_project(GANTRY)
-        installation = Installation.inside(
-            card, opened(tmp_path / "sysvar.db"), tmp_path / "programs"
-        )
-        installation.is_agreed = False
-    hand = HandStation(tmp_path, installation=installation)
-    with Card.open(card_of(hand)) as there:
-        for line in ("DRIVE ON", "JOG ACC 100", "JOG DEC 100"):
-            there.command(f"AXIS2 {line}")
-    hand.run(0.1)
-    yield hand
-    hand.close()
-
-
-def card_of(hand: HandStation) -> Controller:
-    assert hand.installation.controller is not None
-    return hand.installation.controller
 
 
 def position(hand: HandStation) -> float:

@@ -127,4 +127,52 @@ def test_a_drive_that_is_off_is_named(page: Page, served: Served) -> None:
     page.mouse.down()
     expect(page.locator("#prompt")).to_contain_text("the drive of axis AXIS2 is off")
     page.mouse.up()
-    type_line(served, "CLR 8532", "DRIVE ON Z")
+    type_line(served, "DRIVE ON Z")
+
+
+def drive_row(page: Page) -> Locator:
+    return page.locator("[data-pane=drives] tr[data-axis=AXIS2]")
+
+
+def is_enabled(station: Station) -> bool:
+    return station.drives.look()[Z].is_enabled
+
+
+def test_a_drive_is_switched_off_and_on_after_a_question(
+    page: Page, served: Served, pictures: Path
+) -> None:
+    open_pane(page, "Drives")
+    row = drive_row(page)
+    expect(row.locator(".drive-state")).to_have_text("ON")
+    expect(row.get_by_role("meter", name="Output, V")).to_have_attribute("aria-valuemax", "10")
+    for word, state, is_on in (("OFF", "OFF", False), ("ON", "ON", True)):
+        row.get_by_role("button", name=f"DRIVE {word}").click()
+        dialog = page.get_by_role("dialog", name=f"DRIVE {word}")
+        expect(dialog).to_contain_text("axis Z (AXIS2)")
+        assert served.call(is_enabled) is not is_on
+        dialog.get_by_role("button", name=f"DRIVE {word}").click()
+        expect(row.locator(".drive-state")).to_have_text(state)
+        assert served.call(is_enabled) is is_on
+    expect(page.locator("#prompt")).to_contain_text("The drive of axis Z (AXIS2) is on")
+    picture(page, pictures / "drives.png")
+
+
+def test_what_bars_a_drive_is_read_before_it_is_pressed_and_reset_lifts_it(
+    page: Page, served: Served
+) -> None:
+    type_line(served, "DRIVE OFF Z", "SET 5645")
+    row = drive_row(page)
+    expect(row.locator("[data-wrong='enable.latched']")).to_contain_text("RESET clears its latch")
+    row.get_by_role("button", name="DRIVE ON").click()
+    expect(page.locator("#prompt")).to_contain_text("Z (AXIS2): the Motion Enable Input was open")
+    row.get_by_role("button", name="RESET DRIVE").click()
+    expect(row.locator("[data-wrong]")).to_have_count(0)
+    row.get_by_role("button", name="DRIVE ON").click()
+    page.get_by_role("dialog").get_by_role("button", name="DRIVE ON").click()
+    expect(row.locator(".drive-state")).to_have_text("ON")
+
+
+def test_all_off_switches_every_drive_off_at_once(page: Page, served: Served) -> None:
+    page.get_by_role("button", name="ALL OFF").click()
+    expect(page.locator("[data-pane=drives] .drive-state.is-running")).to_have_count(0)
+    assert not any(each.is_enabled for each in served.call(lambda s: s.drives.look()))

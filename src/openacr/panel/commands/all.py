@@ -2,6 +2,7 @@
 
 from openacr.panel.commands import (  # noqa: F401
     debugging,
+    drives,
     memory,
     motion,
     people,

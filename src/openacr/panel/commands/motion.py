@@ -365,6 +365,21 @@ def estop(station: Station, person: Person) -> dict[str, list[str]]:
     return _stop(station, lambda runner: runner.kill(name), ends=True)
 
 
+@command("stop.drives", Role.VIEW, needs_control=False, is_stop=True, en="ALL OFF", de="ALLE AUS")
+def drives_off(station: Station, person: Person) -> dict[str, list[str]]:
+    """Kill all motion and switch the drives of all axes off, AcroMill's or not, by software.
+
+    Each drive stays off until DRIVE ON.
+    """
+    try:
+        station.stopping.kill()
+    finally:
+        found = _stop(
+            station, lambda runner: runner.kill(station.people.name_of(person)), ends=True
+        )
+    return found
+
+
 def _stop(
     station: Station, stop_part: Callable[[Runner], object], *, ends: bool
 ) -> dict[str, list[str]]:

@@ -15,6 +15,7 @@ from openacr.errors import OpenacrError
 from openacr.mill.card.alarms import CONTROL_FAILED, AlarmError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.panel.control.engineer.captures import Captures
+from openacr.panel.control.engineer.drives import Drives
 from openacr.panel.control.engineer.on_card import OnCard
 from openacr.panel.control.engineer.records import Records
 from openacr.panel.control.engineer.scope import Samples
@@ -79,6 +80,7 @@ class Station:
         self.part = Part(self.link, self.jobs)
         self.terminals = Terminals(installation)
         self.on_card = OnCard(installation, self.screens.tell)
+        self.drives = Drives(self.link)
         self.world = WorldPane(installation)
         sources = Sources(self.link)
         self.captures = Captures(self.link, sources, self.people, self.screens.say)
@@ -153,6 +155,7 @@ class Station:
         self.card_jogs.end()
         self.terminals.end()
         self.on_card.end()
+        self.drives.end()
         self.stopping.end()
         self.lamp.end()
         self.captures.stop()
@@ -243,6 +246,7 @@ class Station:
                 self._sample(now_s)
             self.screens.guarded(self.hand_motion.step)
             self.on_card.step(now_s)
+            self.drives.step(now_s)
             self.tuning.step(now_s)
             self.screens.guarded(lambda: self.stopping.step(now_s))
         except LINK_ERRORS as lost:

@@ -12,6 +12,7 @@ from starlette.concurrency import run_in_threadpool
 from openacr.client import Level
 from openacr.client.backup import surroundings
 from openacr.client.card_axes import attached
+from openacr.client.drives import BARS, said
 from openacr.client.program_states import PLCS, PROGRAMS
 from openacr.client.stored import ListedLine, Room, listing, rooms, version_of
 from openacr.errors import CardError
@@ -97,6 +98,38 @@ async def attached_axes(call: Call) -> object:
     """The axes that programs of the card move, with the names that they give them."""
     found = {each.axis: each.name for each in await talked(call.panel, attached)}
     return {"axes": [{"index": index, "name": found[index]} for index in sorted(found)]}
+
+
+@endpoint("GET", "/card/drives")
+async def card_drives(call: Call) -> object:
+    """The drives of the axes that programs of the card have, with what is wrong with each.
+
+    Lengths are in units of the axis, outputs in V. `wrong` has a key and a text for each cause, the
+    first ones (`bars`) keep the drive from being switched on.
+    """
+
+    def read(station: Station) -> list[dict[str, object]]:
+        session, installation = station.link.required, station.installation
+        settings = session.runner.settings if session.is_set_up else None
+        own = {} if settings is None else {each.index: each.name for each in settings.axes}
+        names = {each.axis: each.name for each in reversed(installation.attached)}
+        return [
+            {
+                **asdict(drive),
+                "name": own.get(drive.axis, f"AXIS{drive.axis}"),
+                "title": own.get(drive.axis, f"{names[drive.axis]} (AXIS{drive.axis})"),
+                "is_homed": settings.is_homed(drive.axis)
+                if settings is not None and drive.axis in own
+                else drive.is_homed,
+                "wrong": [
+                    {"key": key, "text": said(key, drive.axis), "bars": key in BARS}
+                    for key in drive.wrong
+                ],
+            }
+            for drive in station.drives.look()
+        ]
+
+    return {"drives": await call.panel.ask(read)}
 
 
 @endpoint("GET", "/card/listing", query=OfProgram)

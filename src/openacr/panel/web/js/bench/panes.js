@@ -38,6 +38,11 @@ export const PANES = {
   plc: { title: { en: "PLC", de: "PLC" }, load: tabPane(async () => (await import("../frame/tab_plc.js")).plcTab) },
   servo: { title: "servo.title", load: screenPane(() => import("../screens/servo.js")) },
   jog: { title: "jog.title", role: "operate", load: modulePane(() => import("./panes/jog.js")) },
+  drives: {
+    title: { en: "Drives", de: "Antriebe" },
+    role: "operate",
+    load: modulePane(() => import("./panes/drives.js")),
+  },
   gain: {
     title: { en: "Gains", de: "Verst\u00e4rkungen" },
     role: "service",
