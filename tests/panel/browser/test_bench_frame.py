@@ -170,7 +170,7 @@ def test_the_list_of_shortcuts_has_each_key_of_the_table_and_opens_by_f1_and_que
     page.keyboard.press("Backspace")
     page.keyboard.press("F1")
     shown = page.get_by_role("dialog", name="SHORTCUTS")
-    expect(shown.locator("kbd")).to_have_text([*rows, "Alt+1 \u2026 Alt+9", "Pause"])
+    expect(shown.locator("kbd")).to_have_text([*rows, "Alt+1 \u2026 Alt+9", "Shift+F10", "Pause"])
     page.keyboard.press("Alt+P")  # not over a dialog
     expect(page.get_by_role("dialog")).to_have_count(1)
     page.keyboard.press("Escape")
@@ -307,3 +307,120 @@ def test_an_entry_says_which_role_it_needs_and_asks_for_it(
     finally:
         context.close()
         served.close()
+
+
+# --- names ----------------------------------------------------------------------------
+
+
+def drag(page: Page, what: Locator, to: Locator, *, drop: bool = True) -> None:
+    """Drag with the mouse from the middle of one element to that of another."""
+    what.scroll_into_view_if_needed()
+    places = [each.bounding_box() for each in (what, to)]
+    middles = [(box["x"] + box["width"] / 2, box["y"] + 20) for box in places if box]
+    page.mouse.move(*middles[0])
+    page.mouse.down()
+    page.mouse.move(middles[0][0] + 10, middles[0][1])
+    page.mouse.move(*middles[1])
+    if drop:
+        page.mouse.up()
+
+
+def test_a_name_is_dragged_from_status_into_watch_list_scope_and_timeline(page: Page) -> None:
+    job(page, "WATCH").click()
+    cell = page.locator("[data-pane=status] [data-item=P12290]")
+    expect(cell).to_be_visible()
+    drag(page, cell, page.locator("[data-pane=watch]"))
+    expect(page.locator("[data-pane=watch] [data-item=P12290]")).to_be_visible()
+    page.wait_for_selector("[data-pane=scope] .u-over")
+    page.wait_for_selector("[data-pane=timeline] .time-lanes")
+    drag(page, page.locator("[data-pane=watch] tr[data-item=P12290]"),
+         page.locator("[data-pane=timeline]"))  # fmt: skip
+    expect(page.get_by_label("Parameters to compare")).to_have_value("P12290")
+    other = page.locator("[data-pane=status] [data-item=P12546]")
+    drag(page, other, page.locator("[data-pane=scope]"))
+    expect(page.get_by_label("CH4 source")).to_have_value("P12546")
+    expect(page.locator("#prompt")).to_have_text("P12546 is CH4")
+    drag(page, other, page.locator(".dv-tab", has_text="Timeline"))
+    expect(page.get_by_label("Parameters to compare")).to_have_value("P12290, P12546")
+
+
+def test_a_drag_that_is_given_up_or_ends_elsewhere_changes_nothing(page: Page) -> None:
+    job(page, "WATCH").click()
+    cell = page.locator("[data-pane=status] [data-item=P12290]")
+    watch = page.locator("[data-pane=watch]")
+    drag(page, cell, watch, drop=False)
+    expect(page.locator(".name-ghost")).to_have_text("P12290")
+    expect(page.locator(".name-ghost")).to_have_class(re.compile("is-taken"))
+    page.keyboard.press("Escape")
+    expect(page.locator(".name-ghost")).to_have_count(0)
+    page.mouse.up()
+    drag(page, cell, page.locator("#prompt"))
+    expect(page.locator(".name-ghost")).to_have_count(0)
+    cell.click()  # without a move it is a click
+    expect(page.locator("[data-pane=status] .tree-facts")).to_contain_text("P12290")
+    expect(watch.locator("[data-item]")).to_have_count(0)
+
+
+def test_a_name_of_the_keyboard_has_the_menu_also_in_the_tree_and_among_inputs(page: Page) -> None:
+    job(page, "WATCH").click()
+    menu = page.get_by_role("menu")
+    page.locator("[data-pane=status] [data-item=P12546]").focus()
+    page.keyboard.press("Shift+F10")
+    expect(menu.get_by_role("menuitem")).to_have_text(
+        ["watch", "scope", "compare", "show in Values", "where used"]
+    )
+    page.keyboard.press("ArrowUp")
+    expect(menu.get_by_role("menuitem", name="where used")).to_be_focused()
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Enter")
+    expect(page.get_by_label("CH4 source")).to_have_value("P12546")
+    page.locator("[data-pane=status] [data-item=P12546]").focus()
+    page.keyboard.press("Shift+F10")
+    page.keyboard.press("Escape")
+    expect(menu).to_have_count(0)
+    expect(page.locator("[data-pane=status] [data-item=P12546]")).to_be_focused()
+    page.locator(".bench-tab-text", has_text="I/O").click()
+    page.locator("[data-pane=io] [data-item=BIT0]").focus()
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("Shift+F10")
+    menu.get_by_role("menuitem", name="show in Values").click()
+    expect(page.locator("[data-pane=tree] [data-item=BIT1]")).to_be_visible()
+    tree = page.locator("[data-pane=tree] [role=tree]")
+    tree.focus()
+    while not tree.locator("[aria-selected=true][data-item]").count():
+        page.keyboard.press("ArrowDown")
+    page.keyboard.press("Shift+F10")
+    expect(page.get_by_role("menu", name=re.compile(r"^(P|BIT)\d+$"))).to_be_visible()
+    page.keyboard.press("Escape")
+
+
+PLACE_OF = """(word) => {
+  const texts = document.createTreeWalker(document.querySelector('[data-pane=programs]'), 4);
+  while (!texts.nextNode().textContent.includes(word));
+  const range = new Range();
+  const at = texts.currentNode.textContent.indexOf(word);
+  range.setStart(texts.currentNode, at);
+  range.setEnd(texts.currentNode, at + word.length);
+  const box = range.getBoundingClientRect();
+  return [box.x + box.width / 2, box.y + box.height / 2];
+}"""
+
+
+def test_a_number_in_a_text_has_the_menu_and_where_used_lists_the_lines(page: Page) -> None:
+    page.locator("[data-pane=programs] [data-name=PROG7]").click()
+    line = page.locator("[data-pane=programs]").get_by_text("P6916").first
+    expect(line).to_be_visible()
+    found = page.evaluate("""() => import('/js/bench/names.js').then(({ wordAt }) => [
+      ...[3, 4, 9, 10, 12, 19].map((place) => wordAt('LET P6916 = BIT 516', place)),
+      wordAt('PP1', 1)])""")
+    assert found == ["", "P6916", "P6916", "", "BIT516", "BIT516", ""]
+    page.evaluate("""() => import('/js/bench/names.js').then(({ actsOn }) =>
+      { void actsOn('P6916').at(-1).does(); })""")
+    entries = page.get_by_role("listbox", name="What is found").get_by_role("option")
+    expect(entries).to_have_text([title("LV1 = P6916"), title("LV2 = P6916-LV1")])
+    page.keyboard.press("Escape")
+    x, y = page.evaluate(PLACE_OF, "P6916")
+    page.mouse.click(x, y, button="right")
+    page.get_by_role("menu", name="P6916").get_by_role("menuitem", name="watch").click()
+    expect(page.locator("[data-pane=watch] [data-item=P6916]")).to_be_visible()

@@ -15,6 +15,10 @@ const TEXTS = {
   terminal: { en: "Show a terminal", de: "Ein Terminal zeigen" },
   run: { en: "RUN of the program chosen in Programs", de: "START des in Programme gew\u00e4hlten Programms" },
   step: { en: "STEP of the program chosen in Programs", de: "SCHRITT des in Programme gew\u00e4hlten Programms" },
+  menu: {
+    en: "Menu of a parameter or flag, which the mouse can also drag into a pane",
+    de: "Men\u00fc zu Parameter oder Flag; die Maus zieht sie auch in ein Fenster",
+  },
   stop: { en: "STOP: feed hold", de: "STOPP: Vorschub halt" },
 };
 
@@ -44,6 +48,7 @@ const COUNT = 9; // panes that a digit shows
 /** What modules of panes and of the frame bind themselves, for the list alone. @type {[string, import("../core/texts.js").Said][]} */
 const OTHERS = [
   [`Alt+1 \u2026 Alt+${COUNT}`, TEXTS.nine],
+  ["Shift+F10", TEXTS.menu],
   ["Pause", TEXTS.stop],
 ];
 

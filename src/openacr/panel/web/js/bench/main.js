@@ -13,7 +13,7 @@ async function start() {
   followSystemTheme();
   useLanguage(setting("language", "en"));
   addTexts(texts);
-  const [clock, top, prompt, stop, workspace, bar, actions] = await Promise.all([
+  const [clock, top, prompt, stop, workspace, bar, actions, names] = await Promise.all([
     import("../frame/clock.js"),
     import("../frame/top.js"),
     import("../frame/prompt.js"),
@@ -21,6 +21,7 @@ async function start() {
     import("./workspace.js"),
     import("./bar.js"),
     import("./actions.js"),
+    import("./names.js"),
   ]);
   top.startTop(() => workspace.openPane("alarms"));
   prompt.startPrompt();
@@ -29,6 +30,7 @@ async function start() {
   workspace.startWorkspace();
   bar.startBar();
   actions.startActions();
+  names.startNames();
 }
 
 void start();

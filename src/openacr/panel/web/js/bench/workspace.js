@@ -255,6 +255,7 @@ function tabOf() {
         "\u00d7",
       );
       text.textContent = title;
+      [element.dataset.tab] = api.id.split("-");
       api.onDidTitleChange((changed) => {
         text.textContent = changed.title;
       });

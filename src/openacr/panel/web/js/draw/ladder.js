@@ -69,6 +69,7 @@ export function drawRung(rung, nameOf) {
     ),
     ...rung.symbols.flatMap((symbol) => {
       const [body, title] = [svg("g", { class: `symbol ${symbol.kind}` }), svg("title", {})];
+      if (symbol.flag !== null) body.dataset.item = `BIT${symbol.flag}`;
       body.append(title, ...shapeOf(symbol), ...textsOf(symbol, nameOf));
       symbols.push({ symbol, body, title });
       return [...stubsOf(symbol, line), body];

@@ -38,7 +38,7 @@ export async function ioTab(panel, endings) {
  * @param {Point[]} points
  */
 function columnOf(title, points) {
-  const rows = points.map((point) => {
+  const rows = points.map((point, n) => {
     const [lamp, state] = [h("span.lamp", { ariaHidden: "true" }), h("span.io-state", {})];
     return {
       point,
@@ -46,7 +46,7 @@ function columnOf(title, points) {
       state,
       element: h(
         "div.io-row",
-        { data: { bit: String(point.number) } },
+        { data: { bit: String(point.number), item: `BIT${point.number}` }, tabIndex: n === 0 ? 0 : -1 },
         lamp,
         h("span.number", {}, String(point.number)),
         h("span.io-name", { title: point.name }, point.name),
@@ -58,7 +58,7 @@ function columnOf(title, points) {
     "section.block",
     { ariaLabel: title },
     h("h3", {}, title),
-    h("div.io-list", {}, ...rows.map((row) => row.element)),
+    h("div.io-list", { onkeydown: move }, ...rows.map((row) => row.element)),
   );
   const draw = (/** @type {Map<number, number>} */ words) => {
     for (const { point, lamp, state } of rows) {
@@ -68,4 +68,15 @@ function columnOf(title, points) {
     }
   };
   return { element, draw };
+}
+
+/** Arrow keys go through the rows, of which Tab reaches one. @param {KeyboardEvent} event */
+function move(event) {
+  const row = /** @type {HTMLElement} */ (event.target);
+  const next = { ArrowDown: row.nextElementSibling, ArrowUp: row.previousElementSibling }[event.key];
+  if (!(next instanceof HTMLElement)) return;
+  event.preventDefault();
+  row.tabIndex = -1;
+  next.tabIndex = 0;
+  next.focus();
 }

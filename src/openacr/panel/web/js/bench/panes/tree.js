@@ -152,7 +152,7 @@ export async function mount(host, { head }) {
       {
         id: `${host.id || "tree"}-${place}`,
         role: "treeitem",
-        data: { key: row.key },
+        data: row.item ? { key: row.key, item: row.item.id } : { key: row.key },
         onclick: () => choose(place, true),
         ondblclick: () => act(),
         attr: {
