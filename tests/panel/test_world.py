@@ -316,3 +316,34 @@ def test_the_world_is_served_over_http(panel: Served) -> None:
     answer = httpx.get(f"{panel.url}/api/world/body", params={"axis": 0})
     assert answer.status_code == 422
     assert "names no file" in answer.json()["error"]["text"]
+
+
+def test_inputs_that_are_forced_are_known_to_every_browser_and_all_are_released_at_once(
+    tmp_path: Path,
+) -> None:
+    world = parse_world(DEVICES)
+    pane = WorldPane(Installation.inside(Controller(world=world), Store(), tmp_path))
+    assert pane.forced()["forced"] == []
+    assert pane.forced()["inputs"] == [each.flag for each in pane.card.world_view.sources
+                                       if each.is_driven]  # fmt: skip
+    pane.set_input("me", 5, "on")  # nothing drives it: it is switched, not forced
+    pane.set_input("me", 2, "on")
+    pane.set_input("me", 12, "off")
+    found = {each["input"]: (each["on"], each["what"]) for each in pane.forced()["forced"]}
+    assert set(found) == {2, 12}
+    assert found[2][0] is True
+    assert found[12] == (False, "opened of gripper")
+    assert pane.release_all("me") == 2
+    assert pane.forced()["forced"] == []
+    assert pane.card.bit[5]
+    assert pane.release_all("me") == 0
+    elsewhere = WorldPane(Installation.at("127.0.0.1:1", Store(), tmp_path))
+    assert elsewhere.forced() == {"why_not": OUT_OF_REACH, "inputs": [], "forced": []}
+
+
+def test_the_list_of_forced_inputs_is_a_fact_that_follows_the_card(hand: HandStation) -> None:
+    (driven, *_) = hand.events("forced")[-1]["inputs"]
+    hand.do("world.input", input=driven, state="on")
+    assert [each["input"] for each in hand.events("forced")[-1]["forced"]] == [driven]
+    assert hand.do("world.release") == {"released": 1}
+    assert hand.events("forced")[-1]["forced"] == []

@@ -9,6 +9,7 @@ import pytest
 from playwright.sync_api import BrowserContext, Page, Route, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import LONGEST_MS, READY, give, open_page, until_model
+from tests.panel.browser.test_bench import open_pane
 
 from openacr.controller import Controller
 from openacr.panel.control.machine.installation import Installation
@@ -288,3 +289,37 @@ def test_a_machine_that_leaves_its_fitted_picture_is_fitted_again(page: Page) ->
     assert near == first
     assert far != first
     assert back == far  # it is in the picture: nothing jumps
+
+
+def test_a_forced_input_lights_a_lamp_in_every_browser_and_is_released_from_its_list(
+    page: Page, served: Served
+) -> None:
+    lamp = page.get_by_role("button", name="FORCED: ")
+    expect(lamp).to_be_hidden()
+    page.bring_to_front()
+    open_pane(page, "I/O")
+    until_model(page, "model.forced.value.inputs.length")
+    (first, second, *_) = served.call(lambda station: station.world.forced()["inputs"])
+    give(page, "world.input", input=first, state="on")
+    give(page, "world.input", input=second, state="off")
+    expect(lamp).to_have_text("FORCED: 2")
+    row = page.locator(f"[data-pane=io] [data-bit='{first}'] .io-state")
+    expect(row).to_have_text("forced on")
+    lamp.click()
+    dialog = page.get_by_role("dialog", name="Forced inputs")
+    dialog.get_by_role("button", name=f"RELEASE BIT{first}").click()
+    expect(lamp).to_have_text("FORCED: 1")
+    dialog.get_by_role("button", name="RELEASE ALL").click()
+    expect(lamp).to_be_hidden()
+    expect(page.locator("#prompt")).to_contain_text("1 input was released")
+    assert served.call(lambda station: station.world.forced()["forced"]) == []
+    item = {"id": f"BIT{first}", "number": first, "name": "", "object": "", "index": None,
+            "section": "", "doc": "", "writable": True, "parameter": 0}  # fmt: skip
+    page.evaluate(
+        "(item) => void import('/js/frame/card_value.js').then((m) => m.changeValue(item, ''))",
+        item,
+    )
+    page.get_by_role("dialog").get_by_role("button", name="FORCE ON").click()
+    expect(lamp).to_have_text("FORCED: 1")
+    give(page, "world.release")
+    expect(lamp).to_be_hidden()

@@ -26,6 +26,12 @@ def world_input(
     world.set_input(person.data()["name"], input, state)
 
 
+@command("world.release", Role.SERVICE, is_motion=True)
+def release_all(person: Person, world: WorldPane) -> dict[str, int]:
+    """Release all inputs that are forced; the machine drives them again."""
+    return {"released": world.release_all(person.data()["name"])}
+
+
 @command("world.fault", Role.SERVICE, is_motion=True)
 def world_fault(
     person: Person, world: WorldPane, *, axis: AxisNumber, kind: MachineFault, value: Finite = 0.0

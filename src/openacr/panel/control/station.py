@@ -127,6 +127,7 @@ class Station:
             "moment": self.times.moment,
             "breakpoints": self.on_card.breakpoints,
             "record": self.records.data,
+            "forced": self.world.forced,
         }
         own = {"scope": self.captures.data}
         return Facts(makers, own, lambda: self.people.clients, self.screens.tell)

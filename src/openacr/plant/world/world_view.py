@@ -94,10 +94,14 @@ class WorldView:
         """The state at this moment."""
         return WorldState(
             tuple(self._position_u(link.axis) for link in self.links),
-            tuple(inputs.state(self._memory, each.flag) for each in self.sources),
+            self.inputs(),
             tuple(Fact(*each) for each in faults.active(self._world, self._memory)),
             tuple(DeviceState(each.commands, each.signals) for each in self._devices),
         )
+
+    def inputs(self) -> tuple[InputState, ...]:
+        """The inputs at this moment, in the order of `sources`."""
+        return tuple(inputs.state(self._memory, each.flag) for each in self.sources)
 
     def _position_u(self, number: int) -> float:
         count = self._memory.F[motors.position_cnt[number]]

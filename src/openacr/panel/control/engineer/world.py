@@ -64,6 +64,22 @@ class WorldPane:
                 return card.device_folder / link.file
         raise UserError(f"axis {axis}: machine.toml names no file with its body")
 
+    def forced(self) -> Data:
+        """The inputs that are held by hand, those that can be, and why none can."""
+        if self._installation.controller is None:
+            return {"why_not": OUT_OF_REACH, "inputs": [], "forced": []}
+        view = self.card.world_view
+        sources = {each.flag: each.what for each in view.sources if each.is_driven}
+        return {
+            "why_not": "",
+            "inputs": list(sources),
+            "forced": [
+                {"input": each.flag, "on": each.is_on, "what": sources[each.flag]}
+                for each in view.inputs()
+                if each.is_forced
+            ],
+        }
+
     # --- watching ---------------------------------------------------------------------
 
     def look(self, now_s: float) -> None:
@@ -91,6 +107,13 @@ class WorldPane:
         else:
             self.card.set_input(number, state == "on")
         log.info("%s: input %d is %s by hand", who, number, state)
+
+    def release_all(self, who: str) -> int:
+        """Release every input that is forced; how many there were."""
+        forced = [each.flag for each in self.card.world_view.inputs() if each.is_forced]
+        for number in forced:
+            self.set_input(who, number, "released")
+        return len(forced)
 
     def fault(self, who: str, axis: int, kind: str, value: float) -> None:
         """Cause a fault on an axis."""

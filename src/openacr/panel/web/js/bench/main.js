@@ -13,7 +13,7 @@ async function start() {
   followSystemTheme();
   useLanguage(setting("language", "en"));
   addTexts(texts);
-  const [clock, top, prompt, stop, workspace, bar, actions, names] = await Promise.all([
+  const [clock, top, prompt, stop, workspace, bar, actions, names, forced] = await Promise.all([
     import("../frame/clock.js"),
     import("../frame/top.js"),
     import("../frame/prompt.js"),
@@ -22,6 +22,7 @@ async function start() {
     import("./bar.js"),
     import("./actions.js"),
     import("./names.js"),
+    import("./forced.js"),
   ]);
   top.startTop(() => workspace.openPane("alarms"));
   prompt.startPrompt();
@@ -31,6 +32,7 @@ async function start() {
   bar.startBar();
   actions.startActions();
   names.startNames();
+  forced.startForced();
 }
 
 void start();

@@ -133,8 +133,6 @@ const WORLD = {
   "world.input.on.of": { en: "Input {input} on", de: "Eingang {input} ein" },
   "world.input.off.of": { en: "Input {input} off", de: "Eingang {input} aus" },
   "world.input.released.of": { en: "Release input {input}", de: "Eingang {input} freigeben" },
-  "world.forced.on": { en: "forced on", de: "ein, erzwungen" },
-  "world.forced.off": { en: "forced off", de: "aus, erzwungen" },
   "world.fault.axis": { en: "Axis of the fault", de: "Achse des Fehlers" },
   "world.fault.kind": { en: "Kind of the fault", de: "Art des Fehlers" },
   "world.fault.cause": { en: "CAUSE", de: "AUSL\u00d6SEN" },

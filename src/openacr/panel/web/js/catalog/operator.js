@@ -222,6 +222,8 @@ const BLOCKS = {
   "program.from": { en: "RUN FROM {line}", de: "AB ZEILE {line}" },
   "io.inputs": { en: "Inputs", de: "Eingänge" },
   "io.outputs": { en: "Outputs", de: "Ausgänge" },
+  "io.forced.on": { en: "forced on", de: "ein, erzwungen" },
+  "io.forced.off": { en: "forced off", de: "aus, erzwungen" },
   "io.on": { en: "on", de: "ein" },
   "io.off": { en: "off", de: "aus" },
 };

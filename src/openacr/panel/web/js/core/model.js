@@ -133,6 +133,13 @@ export class Model {
       }),
     );
     this.breakpoints = new Signal(/** @type {Breakpoints} */ ({ why_not: "", breakpoints: [], held: [] }));
+    this.forced = new Signal(
+      /** @type {{ why_not: string, inputs: number[], forced: { input: number, on: boolean, what: string }[] }} */ ({
+        why_not: "",
+        inputs: [],
+        forced: [],
+      }),
+    );
     this.says = new Signal(/** @type {{ text: string, at_s: number, homing: boolean }[]} */ ([]));
     this.changed = new Signal(/** @type {{ what: string, cells: number[] }} */ ({ what: "", cells: [] }));
     this.jogEnded = new Signal(/** @type {{ press: number, ended: string, text: string } | null} */ (null));
@@ -222,4 +229,5 @@ const EVENTS = Object.freeze({
   moment: 1,
   breakpoints: 1,
   record: 1,
+  forced: 1,
 });

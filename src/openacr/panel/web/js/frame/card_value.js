@@ -8,6 +8,20 @@ import { ask } from "./dialog.js";
 import { logIn } from "./log_in.js";
 import { askNumber } from "./number_pad.js";
 
+const TEXTS = {
+  once: {
+    en: "The flag is written once, not held: the card, a program or a PLC may change it at any time.",
+    de: "Der Merker wird einmal geschrieben, nicht gehalten: Die Karte, ein Programm oder eine SPS kann ihn jederzeit \u00e4ndern.",
+  },
+  held: {
+    en: "An input that the machine drives: FORCE holds it at its level until RELEASE, as a stuck contact or a cut wire.",
+    de: "Ein Eingang, den die Maschine treibt: ERZWINGEN h\u00e4lt ihn auf seinem Pegel bis FREIGEBEN, wie ein klebender Kontakt oder ein Drahtbruch.",
+  },
+  forceOff: { en: "FORCE OFF", de: "AUS ERZWINGEN" },
+  forceOn: { en: "FORCE ON", de: "EIN ERZWINGEN" },
+  release: { en: "RELEASE", de: "FREIGEBEN" },
+};
+
 /**
  * @typedef {{ id: string, number: number, name: string, object: string, index: number | null, section: string,
  *   doc: string, writable: boolean, unit?: string, parameter?: number }} Item
@@ -93,6 +107,10 @@ function shortest(value) {
 export async function changeValue(item, shown) {
   if (!model.may("service") && !(await logIn("service"))) return;
   const title = `${item.id} ${fullName(item)}`;
+  if (isFlag(item) && model.forced.value.inputs.includes(item.number)) {
+    await forceInput(item, title, shown);
+    return;
+  }
   if (isFlag(item)) {
     const choices = [
       { text: t("key.cancel"), value: null },
@@ -101,7 +119,7 @@ export async function changeValue(item, shown) {
     ];
     const chosen = await ask({
       title,
-      body: [h("p", {}, item.doc), h("p", {}, t("values.now", { value: shown }))],
+      body: [h("p", {}, item.doc), h("p", {}, t("values.now", { value: shown })), h("p.hint", {}, t(TEXTS.once))],
       choices,
     });
     if (chosen === null) return;
@@ -113,4 +131,25 @@ export async function changeValue(item, shown) {
   if (number === null) return;
   const answer = await give("card.write", { parameter: item.number, value: number });
   if (answer) report(t("board.written", { number: item.number, value: answer.value }));
+}
+
+/**
+ * Hold an input of the machine at a level, or release it.
+ * @param {Item} item
+ * @param {string} title
+ * @param {string} shown
+ */
+async function forceInput(item, title, shown) {
+  const isForced = model.forced.value.forced.some(({ input }) => input === item.number);
+  const state = await ask({
+    title,
+    body: [h("p", {}, item.doc), h("p", {}, t("values.now", { value: shown })), h("p.hint", {}, t(TEXTS.held))],
+    choices: [
+      { text: t("key.cancel"), value: null },
+      ...(isForced ? [{ text: t(TEXTS.release), value: "released" }] : []),
+      { text: t(TEXTS.forceOff), value: "off" },
+      { text: t(TEXTS.forceOn), value: "on" },
+    ],
+  });
+  if (state) await give("world.input", { input: item.number, state });
 }

@@ -26,6 +26,7 @@ export async function ioTab(panel, endings) {
     own.add(
       needWords(words),
       model.flags.watch((states) => [left, right].forEach(({ draw }) => draw(states))),
+      model.forced.watch(() => [left, right].forEach(({ draw }) => draw(model.flags.value))),
     );
   };
   await show().catch(refuse);
@@ -61,10 +62,13 @@ function columnOf(title, points) {
     h("div.io-list", { onkeydown: move }, ...rows.map((row) => row.element)),
   );
   const draw = (/** @type {Map<number, number>} */ words) => {
+    const { forced } = model.forced.value;
     for (const { point, lamp, state } of rows) {
       const isOn = stateOf(words, point.number);
       lamp.classList.toggle("is-on", isOn === true);
-      setText(state, isOn === undefined ? "\u2013" : isOn ? t("io.on") : t("io.off"));
+      const isForced = forced.some(({ input }) => input === point.number);
+      const text = isForced ? (isOn ? "io.forced.on" : "io.forced.off") : isOn ? "io.on" : "io.off";
+      setText(state, isOn === undefined ? "\u2013" : t(text));
     }
   };
   return { element, draw };

@@ -33,6 +33,13 @@ const TEXTS = {
   noprogram: { en: "Choose a program that runs", de: "Ein Programm w\u00e4hlen, das l\u00e4uft" },
 };
 
+/** @type {["on" | "over" | "into" | "out", import("../../core/texts.js").Said, string][]} */
+const GO_KEYS = [
+  ["on", TEXTS.on, "F5"],
+  ["over", TEXTS.over, "F10"],
+  ["into", TEXTS.into, "F11"],
+  ["out", TEXTS.out, "Shift-F11"],
+];
 const numberOf = (/** @type {string} */ name) => (name.startsWith("PROG") ? Number(name.slice(4)) : -1);
 let reported = 0; // the last hold that was said, by any editor
 
@@ -45,9 +52,7 @@ let reported = 0; // the last hold that was said, by any editor
  */
 export function debugPart({ level, stored, state, editor, drawMarks }) {
   const listKey = h("button.key", { type: "button", onclick: () => void showList() });
-  const goKeys = /** @type {const} */ (["on", "over", "into", "out"]).map((how, n) =>
-    keyOf(TEXTS[how], () => void go(how), "", { title: ["F5", "F10", "F11", "Shift-F11"][n], data: { go: how } }),
-  );
+  const goKeys = GO_KEYS.map(([how, label, title]) => keyOf(label, () => void go(how), "", { title }));
   const bar = h("div.row.text-debug", { hidden: true, role: "toolbar", ariaLabel: t(TEXTS.keys) }, ...goKeys, listKey);
   const held = () => model.breakpoints.value.held;
   const isHeld = (/** @type {string} */ name) => held().some((each) => `PROG${each.program}` === name);

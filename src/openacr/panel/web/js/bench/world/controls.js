@@ -63,7 +63,7 @@ export function inputTable(inputs) {
         const [isOn, isForced] = [on.includes(input), forced.includes(input)];
         lamp.classList.toggle("is-on", isOn);
         element.classList.toggle("is-forced", isForced);
-        setText(state, t(isForced ? (isOn ? "world.forced.on" : "world.forced.off") : isOn ? "io.on" : "io.off"));
+        setText(state, t(isForced ? (isOn ? "io.forced.on" : "io.forced.off") : isOn ? "io.on" : "io.off"));
         keys.on.setAttribute("aria-pressed", String(isForced && isOn));
         keys.off.setAttribute("aria-pressed", String(isForced && !isOn));
         keys.released.disabled = !isForced;
