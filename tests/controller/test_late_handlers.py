@@ -9,11 +9,14 @@ from tests.controller.hosts import at_axes
 from tests.parity.journeys import JOURNEYS, card, live, take
 
 from openacr.controller import Controller
+from openacr.controller.late_handlers import LateHandlers, _Pending
 from openacr.errors import UserError
+from openacr.map.words import pf
 
 IN_MOTION, KILL, INHIBIT = 516, 522, 540
 PATH = [f"X{x} Y{y}" for x, y in ((10, 0), (10, 10), (4, 12), (0, 3), (5, 5), (5, -5), (-3, 0))]
 LATE_TK = 50
+WAITING = pf.PROGRAM_DWELLING | pf.PROGRAM_INHIBITED | pf.MOVE_PENDING
 
 
 def machine(*program: str, number: int = 0) -> Controller:
@@ -145,6 +148,14 @@ COMMANDS = (
     "JOG REN Y", "PAUSE", "RESUME",
 )  # fmt: skip
 
+OTHERS = (
+    "TRJ X3 Y1", "TRJ X-3", "MSEEK X(2,0)", "GEAR SRC X1", "GEAR ON X", "GEAR OFF X", "GEAR RES X",
+    "CAM OFF X", "RES X", "REN Y", "INTCAP X2", "ENC0 RES 5", "ENC1 LIMIT 4000", "JOG HOME X1",
+    "DRIVE OFF X", "DRIVE ON X", "LOOK ON LOOK TOL 0.2", "LOOK OFF", "SET 522", "HALT CLR 522",
+    "RUN PROG1", "HALT PROG1", "HALT ALL", "SPLINE MODE 0", "SPLINE END", "BKL X0.1", "SET 8467",
+    "CLR 8467", "ROTATE 10 X0 Y0", "DWL 0.02", "P1=7", "LIST", "MULT X4", "PGAIN X0.002", "TOV 1",
+)  # fmt: skip
+
 
 @pytest.mark.parametrize("seed", range(12))
 def test_no_setpoint_jumps_whatever_is_commanded_while_it_moves(seed: int) -> None:
@@ -159,6 +170,59 @@ def test_no_setpoint_jumps_whatever_is_commanded_while_it_moves(seed: int) -> No
         places += setpoints(made, drawn.randrange(90))
     # 1000 and 500 units/s2 are 0.25 and 0.125 pulses per tick2; a corner may add as much again.
     assert largest_jerk_cnt(places) < 1.0
+
+
+HALTED = ("10 P1=P1+1", "PRINT P1", "DWL 0.003", "PRINT P1+0.5", "GOTO 10")
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_program_that_is_halted_and_run_anew_while_its_statement_waits(seed: int) -> None:
+    """What the loop made of the program before it learned of that is nothing any more."""
+    drawn = Random(seed)
+    made = machine()
+    made.ask("SYS\rDIM P(9)\rPROG0\r")
+    enter(made, 1, *HALTED)
+    made.delay_handlers(LATE_TK, seed=seed)
+    heard: list[str] = []
+    made.listen(lambda program, text: heard.append(text))
+    for _ in range(30):
+        made.send(drawn.choice(("RUN PROG1", "HALT PROG1", "HALT PROG1 RUN PROG1")) + "\r")
+        made.advance(drawn.randrange(70))
+    made.send("HALT PROG1\r")
+    made.advance(2 * LATE_TK)
+    count, printed = made.p[1], len(heard)
+    made.advance(200)
+    assert (made.p[1], len(heard)) == (count, printed)
+    assert not any(made.memory.I[pf.word[1]] & mask for mask in (pf.PROGRAM_RUNNING, WAITING))
+    made.send("P1=0\rRUN PROG1\r")
+    del heard[:]
+    made.advance(3000)
+    numbers = [float(text) for text in heard if text.strip()]
+    assert numbers[:4] == [1.0, 1.5, 2.0, 2.5]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_rows_that_both_sides_change_have_a_rule(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """No cell becomes the handler's that the loop has changed since the handler began."""
+    crossed: set[int] = set()
+    take_over = LateHandlers._take
+
+    def taken(self: LateHandlers, pending: _Pending) -> None:
+        crossed.update(place for _, place in pending.changes.crossed(self.machine))
+        take_over(self, pending)
+
+    monkeypatch.setattr(LateHandlers, "_take", taken)
+    drawn = Random(seed)
+    made = machine()
+    made.ask("SYS\rDIM P(9)\rPROG0\rMBUF ON\r")
+    enter(made, 1, *HALTED)
+    made.delay_handlers(LATE_TK, seed=seed)
+    for _ in range(60):
+        made.send(drawn.choice(COMMANDS + OTHERS) + "\r")
+        made.advance(drawn.randrange(60))
+    assert not crossed
 
 
 def test_an_equal_seed_gives_an_equal_life_and_another_one_another() -> None:

@@ -68,8 +68,8 @@ class EngineRun:
             self._late.end()
             self._late = None
         if longest_tk >= 0:
-            space = self._parts.executor.threads.space
-            self._late = LateHandlers(self._memory, space, longest_tk, seed)
+            running = self._parts.executor.threads
+            self._late = LateHandlers(running, longest_tk, seed)
 
     def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
         """Advance the card by `ticks` ticks plus `seconds`, or until an event ends it.
@@ -236,6 +236,8 @@ class EngineRun:
                     return _LINE
             else:
                 thread = reason - loop_cy.THREAD
+                if late is not None and thread >= 0 and not late.is_wanted(thread):
+                    continue
                 with self._handled(_HANDLERS.get(reason, Handler.STATEMENT), thread):
                     self._attend(reason)
                     rebooted = self._parts.reboot_if_requested()

@@ -16,11 +16,13 @@ from dataclasses import dataclass
 from enum import StrEnum
 from random import Random
 
-from openacr.basic.vm.code import CodeSpace
+from openacr.basic.execute.threads import ENDS_WITH_PROGRAM, Threads
+from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.vm.scheduler_cy import THREAD_AWAY, THREAD_READY
 from openacr.engine.changes import Changes
 from openacr.map.memory import Memory
 from openacr.map.rows import engine, kernel, system, threads
+from openacr.map.words import pf
 from openacr.views import F64, I32
 
 
@@ -42,13 +44,14 @@ class _Pending:
     due_tk: int
     changes: Changes
     code: tuple[I32, F64] | None  # programs as they are compiled from then on
+    lives: list[int]  # of the threads, as Python knows them
 
 
 class LateHandlers:
     """The two states of a card whose handlers take 0 to `longest_tk` ticks each."""
 
-    def __init__(self, memory: Memory, space: CodeSpace, longest_tk: int, seed: int) -> None:
-        self._memory, self._space = memory, space
+    def __init__(self, running: Threads, longest_tk: int, seed: int) -> None:
+        self._running, self._memory, self._space = running, running.memory, running.space
         self.machine = Memory()
         self._longest_tk = longest_tk
         self._drawn = {kind: Random(f"{seed} {kind}") for kind in Handler}
@@ -56,7 +59,7 @@ class LateHandlers:
         self._changes = Changes()
         self._set_aside_tk = 0  # of the ticks that the engine was asked for
         self._adopt()
-        memory.noted = self._calling
+        self._memory.noted = self._calling
 
     @property
     def code(self) -> tuple[I32, F64]:
@@ -93,6 +96,7 @@ class LateHandlers:
         changes, self._changes = self._changes, Changes()
         orders = changes.note(self._before, self._memory)
         orders.take(self.machine)
+        self._note_threads(changes)
         self._before = self._memory.snapshot()
         code = self._compiled_anew()
         if not changes and code is None:
@@ -100,12 +104,23 @@ class LateHandlers:
         due_tk = self.tick + (0 if at_once else self._drawn[kind].randint(0, self._longest_tk))
         if not at_once and self._pending:
             due_tk = max(due_tk, self._pending[-1].due_tk)
-        pending = _Pending(due_tk, changes, code)
+        lives = self._machine_lives if at_once and self._pending else self._lives
+        pending = _Pending(due_tk, changes, code, lives)
         if at_once or (due_tk == self.tick and not self._pending):
             self._take(pending)
         else:
             self._pending.append(pending)
             self.reckon()
+
+    def is_wanted(self, thread: int) -> bool:
+        """Whether a thread is what Python knows; if it has ended or begun anew, the loop leaves it.
+
+        The loop learns of it with what is pending; until then the thread does nothing.
+        """
+        if self._running.lives[thread] == self._machine_lives[thread]:
+            return True
+        self.machine.I[threads.state[thread]] = THREAD_AWAY
+        return False
 
     @contextmanager
     def handler(self, kind: Handler, thread: int | None = None) -> Iterator[None]:
@@ -146,6 +161,7 @@ class LateHandlers:
 
     def _take(self, pending: _Pending) -> None:
         pending.changes.take(self.machine)
+        self._machine_lives = pending.lives
         if pending.code is not None:
             self._code = pending.code
 
@@ -154,9 +170,19 @@ class LateHandlers:
         self.machine.replace(self._memory)
         self._renewals = self._memory.renewals
         self._pending.clear()
+        self._lives = self._machine_lives = list(self._running.lives)
         self._changes = Changes()
         self._before = self._memory.snapshot()
         self._code = self._latest = self._copied()
+
+    def _note_threads(self, changes: Changes) -> None:
+        """Threads that have begun or ended: the loop may have taken the old ones on meanwhile."""
+        lives, self._lives = self._lives, list(self._running.lives)
+        for thread, (old, new) in enumerate(zip(lives, self._lives, strict=True)):
+            if old != new:
+                changes.note_as_they_are(self._memory, threads.ints[thread], threads.INTS_SIZE)
+                if thread < PROGRAMS:
+                    changes.note_as_they_are(self._memory, pf.word[thread], mask=ENDS_WITH_PROGRAM)
 
     def _copied(self) -> tuple[I32, F64]:
         code, nums = self._space.code, self._space.nums

@@ -11,6 +11,7 @@ from openacr.map.memory import Memory
 from openacr.map.merging import HEAP, Cell, cells
 from openacr.map.rows import storage
 
+_ENTRY = changes_cy.ENTRY
 _CHUNK = 1024  # cells that are compared together
 _NUMBERS = (Cell.NUMBER, Cell.NUMBER_SHIFT, Cell.LOOP_NUMBER, Cell.ORDER_NUMBER)
 _LOOPS = (Cell.LOOP_WORD, Cell.LOOP_NUMBER)
@@ -26,7 +27,7 @@ class Changes:
         self._entries = array("i")
 
     def __len__(self) -> int:
-        return len(self._entries) // changes_cy.ENTRY
+        return len(self._entries) // _ENTRY
 
     def note_call(self, call: int, number: int, whole: int, value: float) -> None:
         """Add a call of the kernel."""
@@ -45,6 +46,33 @@ class Changes:
             entries = orders._entries if kind in _ORDERS else self._entries
             entries.extend([kind, place, *old, *new])
         return orders
+
+    def note_as_they_are(self, memory: Memory, place: int, count: int = 1, mask: int = -1) -> None:
+        """Add the masked bits of words, whatever the loop makes of them meanwhile."""
+        for word in range(place, place + count):
+            self._entries.extend([changes_cy.MASKED, word, mask, 0, memory.I[word], 0])
+
+    def crossed(self, memory: Memory) -> list[tuple[Cell, int]]:
+        """The cells that get the handler's value although the loop has changed them meanwhile.
+
+        Kind and place (in F or in I), but for words that are given as they are; up to the first
+        call of the kernel, which may change any.
+        """
+        entries = [self._entries[k : k + _ENTRY] for k in range(0, len(self._entries), _ENTRY)]
+        given = {entry[1] for entry in entries if entry[0] == changes_cy.MASKED}
+        found = []
+        for kind, place, *bits in entries:
+            if kind == changes_cy.CALL:
+                break
+            if kind not in (Cell.WORD, Cell.NUMBER) or place in given:
+                continue
+            if kind == Cell.WORD:
+                now = [memory.I[place], 0]
+            else:
+                now = memory.I[2 * place : 2 * place + 2].tolist()
+            if now not in (bits[:2], bits[2:]):
+                found.append((Cell(kind), place))
+        return found
 
     def take(self, memory: Memory) -> None:
         """Change a state by these entries."""

@@ -21,6 +21,7 @@ NUMBER = 5
 NUMBER_SHIFT = 6
 ORDER_NUMBER = 8
 CALL = 16
+MASKED = 17  # some bits of a word, given as a mask and their values
 
 
 def changes_take(F: F64, I: I32, S: F32, L: I32, D: F64, count: int) -> None:
@@ -44,5 +45,7 @@ def changes_take(F: F64, I: I32, S: F32, L: I32, D: F64, count: int) -> None:
                 I[2 * place + 1] = L[e + 5]
             else:
                 F[place] = F[place] + (D[3 * k + 2] - D[3 * k + 1])
+        elif kind == MASKED:
+            I[place] = (I[place] & ~L[e + 2]) | (L[e + 4] & L[e + 2])
         elif kind == CALL:
             kernel_call(F, I, S, place, L[e + 2], L[e + 3], D[3 * k + 2])

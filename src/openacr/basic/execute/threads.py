@@ -53,6 +53,7 @@ class Threads:
         self.space = CodeSpace(self.memory)
         self._runs: list[Run | None] = [None] * threads.COUNT
         self.sources: dict[int, tuple[StoredLine, ...]] = {}  # what each thread executes
+        self.lives = [0] * threads.COUNT  # how often each thread has begun or ended
         self.failures: dict[int, str] = {}  # of programs that an error has ended
 
     def views(self) -> tuple[Any, Any, Any, Any, Any]:
@@ -88,6 +89,7 @@ class Threads:
     def start(self, thread: int, chunk: Chunk, run: Run, start: int) -> None:
         """Let a thread begin at a place of its code; the scheduler goes on with it."""
         self.space.put(thread, chunk)
+        self.lives[thread] += 1
         self._runs[thread] = run
         self.failures.pop(thread, None)
         for row in _CLEARED_BY_START:
@@ -117,6 +119,7 @@ class Threads:
         self.set_row(thread, threads.state, scheduler.THREAD_IDLE)
         self.set_row(thread, threads.depth, 0)
         self._mark(thread, active=False)
+        self.lives[thread] += 1
         self._runs[thread] = None
         self.sources.pop(thread, None)
 

@@ -11,6 +11,7 @@ wait_value = tuple(range(187966, 203518, 324))
 wait_deadline_tk = tuple(range(187967, 203519, 324))
 STACK_SIZE = 192
 stack = tuple(range(188096, 203648, 324))
+INTS_SIZE = 273
 ints = tuple(range(441652, 454756, 273))
 state = tuple(range(441652, 454756, 273))
 event = tuple(range(441653, 454757, 273))
