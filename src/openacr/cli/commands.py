@@ -38,6 +38,10 @@ COMMANDS: dict[str, Entry | Family] = {
     "serve": Entry("serve", "serve"),
     "panel": Entry("panel", "panel"),
     "bridge": Entry("bridge", "bridge"),
+    "bus": Family(
+        "Buses of real machines, and devices that are emulated.",
+        {"emulate": Entry("bus_emulate", "emulate_bus")},
+    ),
     "replay": Entry("run.replay", "replay"),
     "sweep": Entry("sweep.command", "sweep"),
     "debug": Entry("debug", "debug"),
