@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from openacr.controller import Controller
 from openacr.fieldbus.ethercat.emulated.build import segment_of
+from openacr.fieldbus.ethercat.emulated.drive import Drive
 from openacr.fieldbus.ethercat.emulated.segment import Segment
 from openacr.fieldbus.machine.real_machine import RealMachine
 from openacr.map.rows import axes
@@ -78,9 +79,11 @@ class OnBus:
         """Type lines; what the card has answered to them."""
         return "".join(self.card.send(line + "\r") for line in lines)
 
-    def drive(self, number: int = 0):  # type: ignore[no-untyped-def]
+    def drive(self, number: int = 0) -> Drive:
         """The emulated drive at a position."""
-        return self.segment.slaves[number]
+        drive = self.segment.slaves[number]
+        assert isinstance(drive, Drive)
+        return drive
 
     def position(self, n: int = 0) -> int:
         """Actual position of an axis [pulses]."""

@@ -6,6 +6,8 @@ import math
 import pytest
 from tests.fieldbus.bus_rig import OnBus
 
+from openacr.fieldbus.cia402.drive import Order
+from openacr.fieldbus.ethercat.emulated.terminals import Digital
 from openacr.fieldbus.ethercat.master.port import BusError
 from openacr.fieldbus.ethercat.wire.registers import Register, State
 from openacr.map.rows import axes
@@ -36,8 +38,15 @@ def machine(bus: str = 'mode = "csp"', axes: int = 1, more: str = "") -> str:
     return BUS + more + "".join(AXIS.format(n=n, name="XY"[n], bus=bus) for n in range(axes))
 
 
-def on_bus(bus: str = 'mode = "csp"', axes: int = 1, more: str = "", **how: bool) -> OnBus:
-    return OnBus(machine(bus, axes, more), **how)
+def on_bus(
+    bus: str = 'mode = "csp"',
+    axes: int = 1,
+    more: str = "",
+    *,
+    is_real: bool = True,
+    digital: int = 0,
+) -> OnBus:
+    return OnBus(machine(bus, axes, more), is_real=is_real, digital=digital)
 
 
 def moving() -> OnBus:
@@ -67,7 +76,7 @@ def counts_until_rest(made: OnBus) -> int:
 def test_nothing_is_enabled_by_the_start_of_the_card() -> None:
     made = on_bus(axes=2)
     made.card.advance(400)
-    assert [drive.profile.state.name for drive in made.segment.slaves] == ["DISABLED", "DISABLED"]
+    assert [made.drive(n).profile.state.name for n in (0, 1)] == ["DISABLED", "DISABLED"]
 
 
 def test_drive_on_enables_and_the_flag_follows_the_drive() -> None:
@@ -108,7 +117,9 @@ def test_drive_off_switches_the_drive_off_and_it_can_be_switched_on_again_at_onc
     made.card.advance(10)
     assert made.drive().profile.state.name == "DISABLED"
     made.switch_on()
-    made.send("DRIVE OFF X", "DRIVE ON X")
+    made.send("DRIVE OFF X")
+    made.card.advance(1)  # the status word still shows operation
+    made.send("DRIVE ON X")
     made.card.advance(100)
     assert made.is_enabled()
     assert made.machine.drives[0].alarm == ""
@@ -134,6 +145,29 @@ def test_a_restart_of_the_card_switches_the_drives_off_and_keeps_the_bus() -> No
     made.card.advance(100)
     assert made.drive().profile.state.name == "DISABLED"
     assert made.machine.alarm == ""
+
+
+def test_a_drive_that_does_not_come_up_is_given_up_after_a_time(
+    caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = on_bus(more="enable_s = 0.1\n")
+    monkeypatch.setattr(made.drive().profile, "obey", lambda *_: None)
+    made.send("DRIVE ON X")
+    made.card.advance(190)
+    assert made.machine.drives[0].drive.order is Order.ON
+    made.card.advance(20)
+    assert made.machine.drives[0].drive.order.value == "off"
+    assert not made.is_enabled()
+    assert "is not enabled: it is in switch on disabled after 0.1 s" in caplog.text
+
+
+def test_a_drive_that_operates_in_another_mode_is_stopped() -> None:
+    made = on_bus()
+    made.drive().objects.mode.value = 9
+    made.send("DRIVE ON X")
+    made.card.advance(100)
+    assert made.machine.drives[0].alarm == "it operates in mode 9, not in CSP"
+    assert not made.is_enabled()
 
 
 # --- motion ---------------------------------------------------------------------------
@@ -180,11 +214,23 @@ def test_counts_of_the_drive_are_scaled_to_those_of_the_card(more: str, at: int)
     assert abs(made.position() - 4000) <= 4
 
 
+@pytest.mark.parametrize("mult", [1, 2, -4])
+def test_the_multiplier_of_the_encoder_is_taken_out_of_the_target(mult: int) -> None:
+    made = on_bus()
+    made.send(f"MULT X{mult}")
+    made.switch_on()
+    made.send(*RAMP, "X1000")
+    made.card.advance(3000)
+    assert made.position() == made.setpoint() == 1000
+    assert abs(made.drive().objects.target_position.number - 1000 * 4 // mult) <= 1
+
+
 @pytest.mark.parametrize(
     ("bus", "gains"),
     [
         ('mode = "csv"\nper_volt = 20000.0', ("PGAIN X0.005",)),
         ('mode = "csv"\nper_volt = -20000.0', ("DAC0 GAIN -3276.8", "PGAIN X0.005")),
+        ('mode = "csv"\nper_volt = 20000.0\ndirection = "down"', ("PGAIN X0.005",)),
         ('mode = "cst"\nper_volt = 100.0', ("PGAIN X0.01", "DGAIN X0.0001")),
     ],
 )
@@ -231,6 +277,7 @@ def test_a_fault_of_the_drive_kills_the_motion_and_needs_a_reset() -> None:
     made.send("DRIVE ON X")
     made.card.advance(200)
     assert not made.is_enabled()
+    assert made.machine.drives[0].drive.order is not Order.ON
     made.send("DRIVE RES X")
     made.card.advance(400)
     at = made.position()
@@ -386,6 +433,12 @@ def test_a_capture_is_the_position_that_the_touch_probe_has_latched() -> None:
     latched = made.drive().objects.probed[0].number
     assert latched > 100
     assert made.card.memory.I[axes.hardware_capture[0]] == latched
+    made.send("INTCAP X6")  # the falling edge, which has not come yet
+    made.card.advance(20)
+    assert made.card.memory.I[axes.capture_mode[0]] == 6
+    made.drive().probe.touch(False)
+    made.card.advance(10)
+    assert made.card.memory.I[axes.hardware_capture[0]] == made.drive().objects.probed[1].number
 
 
 def test_contacts_of_the_drive_and_of_a_terminal_are_inputs_of_the_card() -> None:
@@ -393,6 +446,7 @@ def test_contacts_of_the_drive_and_of_a_terminal_are_inputs_of_the_card() -> Non
     more += "outputs_from = 40\noutputs = 8\n"
     made = on_bus('mode = "csp"\ninputs = { home = 3 }', more=more, digital=1)
     terminal = made.segment.slaves[1]
+    assert isinstance(terminal, Digital)
     made.card.bit[41] = True
     terminal.set_input(2, True)
     made.card.advance(3)

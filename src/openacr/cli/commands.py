@@ -37,8 +37,9 @@ COMMANDS: dict[str, Entry | Family] = {
     "run": Entry("run.command", "run"),
     "serve": Entry("serve", "serve"),
     "bus": Family(
-        "Drives and terminals on an EtherCAT bus.",
+        "Drives and terminals on an EtherCAT bus, real or emulated.",
         {
+            "emulate": Entry("bus_emulate", "emulate_bus"),
             "scan": Entry("bus", "scan_bus"),
             "state": Entry("bus", "show_states"),
             "sdo": Family(

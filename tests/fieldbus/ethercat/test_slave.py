@@ -85,7 +85,7 @@ def test_the_eeprom_is_read_by_its_registers(bus: Bus) -> None:
         data += bus.read(0, Register.EEPROM_DATA, 8)
     said = sii.parse(data)
     assert said == bus.segment.slaves[0].description
-    assert (said.name, said.mailboxes.out_start, said.sync[2].size) == ("axis0", OUT, 16)
+    assert (said.name, said.mailboxes.out_start, said.sync[2].size) == ("drive", OUT, 16)
 
 
 def test_the_eeprom_refuses_writes_without_the_bit_that_enables_them(bus: Bus) -> None:
@@ -301,7 +301,7 @@ def test_other_protocols_are_refused_by_mail(bus: Bus) -> None:
 def test_objects_are_read_expedited_whole_and_in_segments(bus: Bus) -> None:
     bus.preop(0)
     assert bus.upload(0, 0x1018, 2) == (0x402).to_bytes(4, "little")
-    assert bus.upload(0, 0x1008) == b"axis0"
+    assert bus.upload(0, 0x1008) == b"drive"
     whole = bus.upload(0, 0x1018, complete=True)
     assert whole == bytes.fromhex("0400 c20a0000 02040000 01000000 01000000")
     assert bus.upload(0, 0x1018, 1, complete=True) == whole[2:]

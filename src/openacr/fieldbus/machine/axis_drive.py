@@ -214,7 +214,9 @@ class AxisDrive:
         mult = rows.I[encoders.mult[self._n]]
         if n is None or not self._is_ready or not mult:
             return self._counts or 0
-        missing = rows.F[axes.ssp_cnt[n]] - rows.I[axes.actual_position[n]]
+        # With the fraction that the encoder carries the target depends on the setpoint alone.
+        actual = rows.I[axes.actual_position[n]] + rows.F[encoders.partial_cnt[self._n]]
+        missing = rows.F[axes.ssp_cnt[n]] - actual
         place_cnt = rows.F[motors.raw_count[self._n]] + missing * RAW_COUNTS / mult
         return self._zero + round(place_cnt * self._scale)
 

@@ -41,7 +41,7 @@ class Clock:
         self._put(Register.SYSTEM_TIME, self.system_ns(now), 8)
 
     def latch(self, now: int, before: int, after: int | None) -> None:
-        """Note when a frame passed: `before` slaves before this one, `after` come after it, or None."""
+        """Note when a frame passed: `before` slaves precede this one, `after` follow, or None."""
         arrived = self.local_ns(now + before * HOP_NS)
         self._put(Register.RECEIVE_TIMES, arrived & 0xFFFFFFFF, 4)
         back = 0 if after is None else arrived + 2 * after * HOP_NS

@@ -42,7 +42,7 @@ class Drive(Slave):
         self._home_cnt = 0
         self._is_homed = False
         self._is_held = False  # a cause of a fault that is still there
-        super().__init__(drive_description(name, alias), name)
+        super().__init__(drive_description(motor.axis.number + 1, alias), name)
 
     def add_objects(self) -> None:
         """The objects of the profile."""

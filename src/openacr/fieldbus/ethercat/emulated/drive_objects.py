@@ -163,7 +163,7 @@ def _rated_amps(motor: Motor) -> float:
     return motor.rated_nm / per_amp if per_amp else 0.0
 
 
-def drive_description(name: str, alias: int) -> sii.Description:
+def drive_description(serial: int, alias: int) -> sii.Description:
     """What the EEPROM of a drive says."""
     receive = [_pdo(0x1600, RECEIVED, 2, "Outputs")]
     receive += [
@@ -173,8 +173,8 @@ def drive_description(name: str, alias: int) -> sii.Description:
         _pdo(0x1A00, TRANSMITTED, 3, "Inputs"),
         _pdo(0x1A01, ((0x6041, U16), (0x6064, I32)), 0xFF, ""),
     )
-    identity = sii.Identity(VENDOR, PRODUCT, 1, 1)
-    return describe(identity, name, tuple(receive), transmit, alias)
+    identity = sii.Identity(VENDOR, PRODUCT, 1, serial)
+    return describe(identity, "drive", tuple(receive), transmit, alias)
 
 
 def _pdo(index: int, mapped: Iterable[tuple[int, DataType]], sync: int, name: str) -> sii.Pdo:

@@ -81,7 +81,7 @@ class Line:
         return each > 0 and self._random.randrange(each) == 0
 
     def _damaged(self, frame: bytes) -> bytes:
-        """One byte changed after the head of the frame, as noise on a cable does that a checksum missed."""
+        """One byte of the datagrams changed, as by noise that a checksum missed."""
         control = self.segment.slaves[0].controller
         errors = control.memory[Register.RX_ERRORS]
         control.memory[Register.RX_ERRORS] = min(255, errors + 1)
@@ -93,22 +93,23 @@ class Line:
 
     def command(self, text: str) -> str:
         """Do a command of `FAULTS`; what was done. UserError if it is not one."""
+        fault, numbers = self.check(text)
+        return fault.act(self, *numbers)
+
+    def check(self, text: str) -> tuple["Fault", list[int]]:
+        """A command and its numbers; UserError if it is not one."""
         name, *given = text.split() or [""]
         fault = FAULTS.get(name)
         if fault is None:
             raise UserError(f"{name or 'nothing'}: the faults are {', '.join(FAULTS)}")
-        low, high = len([n for n in fault.arguments if n.isupper()]), len(fault.arguments)
-        if not low <= len(given) <= high:
+        least, most = len([n for n in fault.arguments if n.isupper()]), len(fault.arguments)
+        if not least <= len(given) <= most:
             raise UserError(f"{text}: write {fault.usage(name)}")
         numbers = [_number(each, text) for each in given]
-        if fault.arguments and fault.arguments[0] == "SLAVE":
-            self._check_slave(numbers[0], text)
-        return fault.act(self, *numbers)
-
-    def _check_slave(self, number: int, text: str) -> None:
-        if not 0 <= number < len(self.segment.slaves):
-            last = len(self.segment.slaves) - 1
+        last = len(self.segment.slaves) - 1
+        if fault.arguments[:1] == ("SLAVE",) and not 0 <= numbers[0] <= last:
             raise UserError(f"{text}: slaves are numbered from 0 to {last}")
+        return fault, numbers
 
     def drive(self, number: int) -> Drive:
         """A slave that is a drive; UserError if it is another device."""
@@ -293,3 +294,10 @@ FAULTS: dict[str, Fault] = {
     "probe": Fault(("SLAVE", "LEVEL"), _probe, "set the probe input of a drive to 0 or 1"),
     "state": Fault((), _show, "show all slaves"),
 }
+
+
+def helped() -> str:
+    """All faults, a line each."""
+    lines = [(fault.usage(name), fault.text) for name, fault in FAULTS.items()]
+    width = max(len(usage) for usage, _ in lines)
+    return "\n".join(f"{usage:<{width}}  {text}" for usage, text in lines)
