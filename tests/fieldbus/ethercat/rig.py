@@ -123,6 +123,12 @@ class Bus:
                 continue
             return coe.parse_reply(body)
 
+    def answer_emergencies(self, slave: int = 0) -> None:
+        """Collect the mails that wait."""
+        while self.number(slave, Register.SYNC + 13, 1) & 0x08:
+            body = coe.service_of(self.collect(slave).payload)[1]
+            self.emergencies.append(coe.Emergency.parse(body))
+
     def sdo(self, slave: int, request: coe.Request) -> coe.Reply:
         self.mail(slave, request.pack())
         return self.answer(slave)
