@@ -52,7 +52,13 @@ def texts_of(form: Form, store: Store) -> Iterator[str]:
     for group in form.groups(store, 0 if form.is_per_axis else None):
         yield group.title
         for each in map(known, group.cells):
-            yield from (each.name, each.row.doc, each.row.typical, *each.row.words.values(), *each.row.bits)
+            yield from (
+                each.name,
+                each.row.doc,
+                each.row.typical,
+                *each.row.words.values(),
+                *each.row.bits,
+            )
 
 
 def texts_of_rows(dialog: Dialog) -> Iterator[str]:

@@ -105,7 +105,9 @@ def put_back(card: WholeCard, snapshot: Snapshot) -> None:
     card.nonvolatile.restore(snapshot.beside.stored)
 
 
-def _put_back(card: WholeCard, rows: bytes | bytearray, language: Language, moves: list[bytes]) -> None:
+def _put_back(
+    card: WholeCard, rows: bytes | bytearray, language: Language, moves: list[bytes]
+) -> None:
     card.memory.restore(rows)
     language_state.put_back(card.system, card.executor, language)
     try:
