@@ -712,7 +712,9 @@ def test_a_server_that_ends_in_a_pause_brings_its_machine_to_rest(tmp_path: Path
 
     def pause_in_motion(station: Station) -> None:
         axis = station.link.machine.runner.settings.named("X").index
-        station.hand_motion.increment(axis, 1, preset=0, distance_u=50.0, fast=False)
+        station.hand_motion.increment(
+            axis, 1, preset=0, distance_u=50.0, speed_ups=None, fast=False
+        )
         station.times.history.advance(400)
         station.times.pause()
 

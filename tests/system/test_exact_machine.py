@@ -94,7 +94,7 @@ def test_friction_and_a_motor_mean_nothing_to_it() -> None:
 
 
 def test_serve_without_a_project_runs_it() -> None:
-    made = _load(None, None)
+    made = _load(None, None, None)
     assert made.world == exact_world()
     assert {axis.number for axis in made.world.axis} == set(range(8))
     made.close()
