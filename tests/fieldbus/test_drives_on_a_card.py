@@ -370,6 +370,21 @@ def test_a_jump_of_the_encoder_stops_the_axis() -> None:
     assert abs(counts_until_rest(made)) < RAMP_CNT
 
 
+def test_an_axis_that_was_stopped_is_not_enabled_before_a_reset() -> None:
+    made = on_bus()
+    made.switch_on()
+    made.drive().jump(5000)
+    made.card.advance(100)
+    made.send("DRIVE ON X")
+    for _ in range(100):
+        made.card.advance(2)
+        assert made.drive().profile.state.name == "DISABLED"
+    made.send("DRIVE RES X")
+    made.card.advance(100)
+    made.switch_on()
+    assert made.position() == made.setpoint() == 5000
+
+
 def test_a_bus_that_was_not_exchanged_for_long_stops_all_axes() -> None:
     made = moving()
     made.link.now_ns += 150_000_000
