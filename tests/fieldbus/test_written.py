@@ -34,9 +34,8 @@ def test_objects_are_read_and_written_by_one_master_after_another() -> None:
         (device,) = scan(Port(SegmentLink(segment)))
         if turn == 0:
             Master(device.port, [device]).to_preop()
-        objects = Objects(device)
-        objects.write(0x6085, 0, (1000 + turn).to_bytes(4, "little"))
-        assert objects.number(0x6085) == 1000 + turn
+        Objects(device).write(0x6085, 0, (1000 + turn).to_bytes(4, "little"))
+        assert Objects(device).number(0x6085) == 1000 + turn
 
 
 def test_a_refused_object_is_named_with_its_reason() -> None:
