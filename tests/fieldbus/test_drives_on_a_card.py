@@ -50,7 +50,7 @@ def on_bus(
 
 
 def moving() -> OnBus:
-    """X on a long way at 40000 pulses/s."""
+    """X in a long move at 40000 pulses/s."""
     made = on_bus()
     made.switch_on()
     made.send(*RAMP, "X100000")
