@@ -101,6 +101,17 @@ def test_enabling_moves_nothing_whatever_the_setpoint_was_before() -> None:
     assert math.floor(made.drive().motor.position_cnt) == 0
 
 
+def test_a_motor_that_is_turned_while_its_drive_comes_up_stays_where_it_is_then() -> None:
+    made = on_bus()
+    made.send("DRIVE ON X")
+    made.card.advance(2)
+    made.drive().jump(300)
+    made.card.advance(200)
+    assert made.is_enabled()
+    assert made.position() == made.setpoint() == 300
+    assert math.floor(made.drive().motor.position_cnt) == 300
+
+
 def test_a_move_that_begins_before_the_drive_is_ready_is_killed() -> None:
     made = on_bus()
     made.send(*RAMP, "DRIVE ON X", "X20000")
@@ -368,6 +379,21 @@ def test_a_jump_of_the_encoder_stops_the_axis() -> None:
     assert "its position jumped by" in made.machine.drives[0].alarm
     assert is_stopped(made)
     assert abs(counts_until_rest(made)) < RAMP_CNT
+
+
+def test_an_axis_that_was_stopped_is_not_enabled_before_a_reset() -> None:
+    made = on_bus()
+    made.switch_on()
+    made.drive().jump(5000)
+    made.card.advance(100)
+    made.send("DRIVE ON X")
+    for _ in range(100):
+        made.card.advance(2)
+        assert made.drive().profile.state.name == "DISABLED"
+    made.send("DRIVE RES X")
+    made.card.advance(100)
+    made.switch_on()
+    assert made.position() == made.setpoint()
 
 
 def test_a_bus_that_was_not_exchanged_for_long_stops_all_axes() -> None:
