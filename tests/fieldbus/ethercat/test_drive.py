@@ -176,7 +176,7 @@ def moving(bus: Bus, speed: int = 20) -> int:
     return 99 * speed
 
 
-@pytest.mark.parametrize(("option", "state"), [(2, 0x40), (6, 0x07)])
+@pytest.mark.parametrize(("option", "state"), [(2, 0x40), (5, 0x07), (6, 0x07)])
 def test_a_quick_stop_takes_the_ramp_and_then_its_option(bus: Bus, option: int, state: int) -> None:
     download(bus, 0x605A, option, 2)
     download(bus, 0x6085, 200_000, 4)
@@ -190,7 +190,17 @@ def test_a_quick_stop_takes_the_ramp_and_then_its_option(bus: Bus, option: int, 
     assert bus.position() - begun == pytest.approx(20_000**2 / (2 * 200_000), abs=45)
     bus.command(position=bus.position())
     bus.cycle(5)
-    assert shown(bus) == (0x27 if option == 6 else 0x40)
+    assert shown(bus) == (0x27 if option >= 5 else 0x40)
+
+
+def test_a_quick_stop_that_switches_off_cannot_be_taken_back(bus: Bus) -> None:
+    download(bus, 0x6085, 50_000, 4)
+    moving(bus)
+    bus.command(control=0x0B, position=99 * 20)
+    bus.cycle(2)
+    bus.command(control=0x0F, position=99 * 20)
+    bus.cycle(5)
+    assert shown(bus) == 0x07
 
 
 def test_halt_stops_by_the_ramp_and_stays_enabled(bus: Bus) -> None:
@@ -208,13 +218,15 @@ def test_a_drive_that_fails_in_motion_stops_and_needs_its_cause_mended(bus: Bus)
     bus.cycle(100)
     stopped = bus.position()
     assert shown(bus) == 0x08
-    for control, state in ((0x80, 0x08), (0x00, 0x08)):
+    for control, state in ((0x00, 0x08), (0x80, 0x08)):
         bus.command(control=control)
         bus.cycle(2)
         assert shown(bus) == state
     bus.drive(0).mend()
     bus.cycle(2)
     assert shown(bus) == 0x08  # an edge is wanted
+    bus.command(control=0x00)
+    bus.cycle(2)
     bus.command(control=0x80)
     bus.cycle(2)
     assert shown(bus) == 0x40

@@ -103,7 +103,7 @@ def test_the_eeprom_refuses_writes_without_the_bit_that_enables_them(bus: Bus) -
 
 def test_preop_needs_the_mailboxes_of_the_eeprom(bus: Bus) -> None:
     assert bus.ask(0, State.PREOP) == (State.INIT | ERROR, AlCode.MAILBOX)
-    for change in ((OUT + 1, 256, 0x26), (OUT, 255, 0x26), (OUT, 256, 0x22), (OUT, 256, 0x24)):
+    for change in ((OUT + 1, 256, 0x26), (OUT, 255, 0x26), (OUT, 257, 0x26), (OUT, 256, 0x22)):
         bus.mailboxes(0)
         bus.write(0, Register.SYNC, SyncManager(*change).pack())
         assert bus.ask(0, State.PREOP | ERROR) == (State.INIT | ERROR, AlCode.MAILBOX)
@@ -152,6 +152,13 @@ def test_safeop_needs_sync_managers_of_the_mapped_length(
     bus.preop(0)
     bus.map(0, outputs, inputs)
     assert bus.ask(0, State.SAFEOP) == (State.PREOP | ERROR, code)
+
+
+def test_process_data_cannot_be_in_the_mailboxes(bus: Bus) -> None:
+    bus.preop(0)
+    bus.map(0, 16, 34)
+    bus.write(0, Register.SYNC + 16, SyncManager(IN + 255, 16, 0x64).pack())
+    assert bus.ask(0, State.SAFEOP) == (State.PREOP | ERROR, AlCode.OUTPUT_SIZE)
 
 
 def test_op_waits_a_second_for_outputs(bus: Bus) -> None:

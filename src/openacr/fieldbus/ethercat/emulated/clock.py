@@ -13,6 +13,8 @@ CORRECTED = 16  # the part of a difference that is corrected by each write of th
 FARTHEST_NS = 1_000_000  # differences beyond are no drift: the offset is wrong
 HOP_NS = 600  # of a frame through a slave and its cable
 _WRAP = 1 << 64
+_ACTIVATION = int(Register.ACTIVATION)
+_PULSES = int(Activation.CYCLIC | Activation.SYNC0)
 _MOST_SYNCS = 1000  # that are made good after a pause
 
 
@@ -62,8 +64,7 @@ class Clock:
     @property
     def cycle_ns(self) -> int:
         """The cycle of SYNC0 while it is active, otherwise 0."""
-        wanted = Activation.CYCLIC | Activation.SYNC0
-        if self._registers[Register.ACTIVATION] & wanted != wanted:
+        if self._registers[_ACTIVATION] & _PULSES != _PULSES:
             return 0
         return int.from_bytes(self._get(Register.SYNC0_CYCLE, 4), "little")
 

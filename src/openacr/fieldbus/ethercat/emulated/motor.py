@@ -9,6 +9,7 @@ POSITION, SPEED and INTEGRAL are in 1/s and follow from the servo period, so tha
 machine is followed well, whatever its inertia.
 """
 
+from openacr import compiled
 from openacr.errors import UserError
 from openacr.map.memory import Memory
 from openacr.map.rows import dacs, motors
@@ -27,6 +28,7 @@ from openacr.plant.describe.schema import (
 from openacr.plant.inputs import input_place
 from openacr.plant.physics.step_cy import plant_step
 
+_STEP = compiled.pick(plant_step)
 HIGHEST_VOLTS = 10.0
 OVERLOAD = 3.0  # peak torque of a drive: times its rated torque
 PERMILLE = 1000.0
@@ -48,7 +50,7 @@ class Plant:
     def step(self) -> None:
         """One servo period of the world."""
         memory = self.memory
-        plant_step(memory.F, memory.I, memory.S, self._axes, self.period_s)
+        _STEP(memory.F, memory.I, memory.S, self._axes, self.period_s)
 
 
 class Motor:
