@@ -15,10 +15,12 @@ from tests.controller.late_life import digests
 from tests.parity.journeys import JOURNEYS, card, live, take
 
 from openacr import compiled
+from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.controller.late_handlers import LateHandlers, _Pending
 from openacr.errors import UserError
 from openacr.map.words import pf
+from openacr.protocol.move import Move
 
 ROOT = Path(__file__).parents[2]
 IN_MOTION, KILL, INHIBIT = 516, 522, 540
@@ -109,29 +111,38 @@ def test_a_program_that_refills_the_buffer_late_moves_as_ever(seed: int) -> None
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_no_flag_and_no_count_of_either_side_is_lost(seed: int) -> None:
-    """A program in the loop sets, clears and counts beside what a host changes."""
-    loop = ("10 P1=P1+1", "SET 1921", "CLR 1921", "IF (P1 < 400) THEN GOTO 10", "SET 1922")
+def test_binary_moves_that_wait_for_room_run_as_ever(seed: int) -> None:
+    """More than the buffer holds arrive at once; the loop asks for the next ones, once for each."""
+    packets = [Move.of({0: n % 5 * 2000, 1: n % 3 * 2000}, vel=100.0).encode() for n in range(40)]
 
-    def run(longest_tk: int | None) -> tuple[Controller, list[bool]]:
-        made = machine(*loop)
-        made.ask("SYS\r")
-        made.ask("DIM P(100)\r")
+    def run(longest_tk: int | None) -> list[tuple[float, float]]:
+        made = at_axes().card
         made.delay_handlers(longest_tk, seed=seed)
-        made.send("RUN PROG0\r")
-        for n in range(24):
-            made.send(f"SET {1923 + n}\rP{10 + n}={n}\r")
-            made.advance(17)
-            if n % 3 == 0:
-                made.send(f"CLR {1923 + n}\r")
-        made.advance(1500)
-        return made, [made.bit[1920 + n] for n in range(28)]
+        stream = made.open_stream(StreamKind.PACKETS)
+        places = setpoints(made, 1)
+        made.receive(stream, b"".join(packets))
+        return from_first_motion(places + setpoints(made, 14000))
 
-    made, late = run(LATE_TK)
-    other, expected = run(None)
-    assert late == expected
-    assert expected[2] and expected[4] and not expected[3]
-    assert [made.p[n] for n in range(64)] == [other.p[n] for n in range(64)]
+    late = run(20)
+    assert late[-1] == (8000.0, 0.0)
+    assert late == run(None)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_flag_of_either_side_is_lost(seed: int) -> None:
+    """A program in the loop and a host set flags of one word, each at its own times."""
+    program = [line for n in range(15) for line in ("DWL 0.012", f"SET {1921 + 2 * n}", "P1=P1+1")]
+    made = machine(*program)
+    made.ask("SYS\rDIM P(100)\r")
+    made.delay_handlers(LATE_TK, seed=seed)
+    made.send("RUN PROG0\r")
+    for n in range(15):
+        made.send(f"SET {1920 + 2 * n}\rP{10 + n}={n}\r")
+        made.advance(23)
+    made.advance(600)
+    assert [n for n in range(1920, 1952) if made.bit[n]] == list(range(1920, 1950))
+    assert made.p[1] == 15
+    assert [made.p[10 + n] for n in range(15)] == list(range(15))
 
 
 @pytest.mark.parametrize(("seed", "after_tk"), [(n, 37 * n % 400) for n in range(12)])
