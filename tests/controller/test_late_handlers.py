@@ -19,6 +19,8 @@ from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.controller.late_handlers import LateHandlers, _Pending
 from openacr.errors import UserError
+from openacr.kernel import calls_cy
+from openacr.map.rows import masters
 from openacr.map.words import pf
 from openacr.protocol.move import Move
 
@@ -159,6 +161,21 @@ def test_a_move_that_is_issued_while_a_kill_comes_is_killed(seed: int, after_tk:
     here = setpoints(made, 1)[0]
     made.send("HALT\rCLR 522\r")
     assert set(setpoints(made, 800)) == {here}
+
+
+def test_a_move_whose_predecessors_are_dropped_is_dropped_with_them() -> None:
+    made = machine()
+    made.ask("MBUF ON\rX10\rX20\rX30\r")
+    rows = made.memory.I
+    record = rows[masters.first[0]] + rows[masters.head[0]] + rows[masters.queued[0]]
+    made.bit[KILL] = True
+    made.advance(2)
+    made.bit[KILL] = False
+    made.card.call(calls_cy.RECORD_ENTER, 0, record)
+    assert not rows[masters.queued[0]]
+    assert not made.bit[IN_MOTION]
+    made.card.call(calls_cy.RECORD_ENTER, 0, rows[masters.first[0]] + rows[masters.head[0]])
+    assert rows[masters.queued[0]] == 1
 
 
 COMMANDS = (
