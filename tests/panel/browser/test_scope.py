@@ -255,6 +255,7 @@ def arm_on_flag(page: Page, flag: int, mode: str, **more: str) -> None:
     })  # fmt: skip
     page.get_by_label("Trigger", exact=True).select_option(mode)
     page.get_by_label("Trigger source", exact=True).select_option("CH2")
+    page.get_by_label("Flags", exact=True).select_option("curves")
     press(page, "START")
     until_model(
         page, f"model.capture.value.running && model.capture.value.channels[1] === 'BIT{flag}'"
@@ -528,6 +529,40 @@ def test_numbers_of_a_channel_are_shown_whole_and_the_plot_has_room(page: Page) 
             "CH2 offset": "40000.25", "Trigger level": "-1234567",
         })  # fmt: skip
         assert left_over(page, CUT, f"() => ({ROOM})([{least[0]}, {least[1]}])") == []
+
+
+def test_flags_are_in_lanes_below_curves_that_have_axes_of_their_own(
+    page: Page, served: Served
+) -> None:
+    page.set_viewport_size({"width": 1920, "height": 1080})
+    show_scope(page)
+    fill(page, {
+        "CH1 source": "P7", "CH2 source": "P6", "CH3 source": "BIT1921", "CH4 source": "BIT1922",
+        "CH1 units/div": "2", "CH1 offset": "0", "CH1 unit": "mm", "CH2 unit": "mm",
+        "CH2 units/div": "5", "CH2 offset": "1", "Sweep, ms/div": "5", "Sampling, ms": "0.5",
+    })  # fmt: skip
+    page.get_by_label("Trigger", exact=True).select_option("free")
+    page.get_by_label("Flags", exact=True).select_option("lanes")
+    served.call(partial(write, value=4.0))
+    served.call(partial(switch, flag=1921, on=True))
+    served.call(partial(switch, flag=1922, on=False))
+    press(page, "START")
+    for axes, places, names in (
+        ("divisions", [2.0, -0.2, -3.1, -4.9], []),
+        ("own", [2.0, -0.2, -3.1, -4.9], ["CH1 mm", "CH2 mm"]),
+        ("unit", [2.0, 0.0, -3.1, -4.9], ["mm"]),
+    ):
+        page.get_by_label("Y axes", exact=True).select_option(axes)
+
+        def look() -> list[Any]:
+            found = page.evaluate(RECORD)
+            return [*(round(each[-1], 3) for each in found["channels"]), found["axes"]]
+
+        until(page, look, lambda found, wanted=[*places, names]: found == wanted)
+    press(page, "STOP SCOPE")
+    expect(status(page)).to_contain_text("Stopped at")
+    fill(page, {"CH4 source": "", "CH1 unit": "", "CH2 unit": ""})
+    page.get_by_label("Y axes", exact=True).select_option("divisions")
 
 
 # --- long records ---------------------------------------------------------------------

@@ -4,13 +4,19 @@ import { test } from "node:test";
 import { ExpressionError } from "../../../src/openacr/panel/web/js/core/expression.js";
 import { computed, derivative, integral } from "../../../src/openacr/panel/web/js/scope/maths.js";
 import { deviation, measured } from "../../../src/openacr/panel/web/js/scope/measures.js";
+import { columnsOf, curveOf } from "../../../src/openacr/panel/web/js/scope/columns.js";
+import { gripOf } from "../../../src/openacr/panel/web/js/scope/overview.js";
 import {
+  axesOf,
+  extremes,
   fitting,
   gridOf,
   labelsOf,
   laidOut,
+  laneOf,
   stepAbove,
   stepBelow,
+  valuesOf,
 } from "../../../src/openacr/panel/web/js/scope/scales.js";
 import { decibels, peaks, spectrum, transformed, windowOf } from "../../../src/openacr/panel/web/js/scope/spectrum.js";
 import { zoomed } from "../../../src/openacr/panel/web/js/scope/view.js";
@@ -210,4 +216,87 @@ test("a name that is no channel or function of the maths channel is refused, als
       text,
     );
   }
+});
+
+test("curves have an axis each, or one for all of a unit; flags have none", () => {
+  const traces = [
+    { label: "CH1", unit: "mm", isFlag: false },
+    { label: "CH2", unit: "", isFlag: true },
+    { label: "CH3", unit: "V", isFlag: false },
+    { label: "CH4", unit: "mm", isFlag: false },
+  ];
+  const names = (kind) => axesOf(traces, kind).map(({ label }) => label);
+  assert.deepEqual(names("divisions"), []);
+  assert.deepEqual(names("own"), ["CH1", "CH3", "CH4"]);
+  assert.deepEqual(names("unit"), ["CH1", "CH3"]);
+});
+
+test("an axis has the values of its curve at the lines of the grid that have room", () => {
+  const axis = { scale: 2, offset: -3 };
+  assert.deepEqual(valuesOf(axis, [-1, 0, 1], 14), ["\u22125", "\u22123", "\u22121"]);
+  assert.deepEqual(valuesOf(axis, [-1, 0, 1, 2], 13.9), ["", "\u22123", "", "1"]);
+});
+
+test("lanes of flags are those of AUTOSCALE, whatever curves are there", () => {
+  const flag = { values: [0, 1], isFlag: true };
+  const curve = { values: [0, 8], isFlag: false };
+  assert.deepEqual([laneOf(0, 2, false), laneOf(1, 2, false)], laidOut([curve, flag, flag]).slice(1));
+  assert.deepEqual(
+    [0, 1, 2].map((n) => laneOf(n, 3, true)),
+    laidOut([flag, flag, flag]),
+  );
+  const { scale, offset } = laneOf(1, 2, false);
+  near([-offset / scale, (1 - offset) / scale], [-4.9, -4.1], 1e-3); // the lowest lane has one division
+});
+
+test("extremes are those of all records together", () => {
+  assert.deepEqual(
+    extremes([
+      [3, NaN, 5],
+      [4, -1],
+    ]),
+    [-1, 5],
+  );
+  assert.deepEqual(extremes([[NaN], []]), []);
+});
+
+test("columns of a long record become a curve from low to high, single samples stay as they are", () => {
+  const many = columnsOf(Float64Array.from([32, 16, 2, 2, 0, 99, 1, 2, 3, 4, 11, 12, 13, 14]).buffer);
+  assert.deepEqual([many.first, many.width, many.ends], [32, 16, [0, 99]]);
+  assert.deepEqual(
+    curveOf(many).map((each) => [...each]),
+    [
+      [1, 11, 2, 12],
+      [3, 13, 4, 14],
+    ],
+  );
+  const single = columnsOf(Float64Array.from([7, 1, 3, 1, 0, 99, 5, 6, 7]).buffer);
+  assert.deepEqual(
+    curveOf(single).map((each) => [...each]),
+    [[5, 6, 7]],
+  );
+});
+
+test("the part in the overview is moved in its middle, resized at its edges, and jumps to a place beside it", () => {
+  const at = (x, part = [100, 200]) => gripOf(x, part);
+  assert.deepEqual(
+    [92, 100, 108].map((x) => at(x)),
+    [0, 0, 0],
+  );
+  assert.deepEqual(
+    [192, 208].map((x) => at(x)),
+    [1, 1],
+  );
+  assert.deepEqual(
+    [109, 191].map((x) => at(x)),
+    ["window", "window"],
+  );
+  assert.deepEqual(
+    [91, 209].map((x) => at(x)),
+    ["jump", "jump"],
+  );
+  assert.deepEqual(
+    [99, 105].map((x) => at(x, [100, 106])),
+    [0, 1],
+  ); // a narrow one has both edges
 });

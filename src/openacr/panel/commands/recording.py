@@ -28,7 +28,7 @@ def record_begin(
     return records.data()
 
 
-@command("record.end", Role.SERVICE, needs_control=False, en="STOP RECORD", de="AUFZEICHNUNG HALT")
+@command("record.end", Role.SERVICE, needs_control=False)
 def record_end(records: Records) -> None:
     """Add no more samples to the record, which stays."""
     records.end()

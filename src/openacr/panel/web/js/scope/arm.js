@@ -11,7 +11,7 @@ import { confirm } from "../frame/dialog.js";
  * @returns {Promise<any>}
  */
 export async function arm(command, args) {
-  const take = t(command === "record.begin" ? command : "scope.take");
+  const take = command === "record.begin" ? t("record.begin") : t("scope.take");
   try {
     return await link.command(command, args);
   } catch (error) {

@@ -7,7 +7,7 @@ import { t } from "../core/texts.js";
 import { FORMATS, fullName, isFlag } from "../frame/card_value.js";
 import { numberField, numberOf, selectField, textField } from "./fields.js";
 import { computed } from "./maths.js";
-import { laidOut } from "./scales.js";
+import { extremes, laidOut, laneOf } from "./scales.js";
 import { COLORS } from "./screen.js";
 
 export const CHANNELS = 8;
@@ -37,6 +37,8 @@ export class Channels {
     this.asked = [];
     /** What they are, by place. @type {import("../frame/card_value.js").Item[]} */
     this.items = [];
+    this.hasLanes = true; // flags are drawn in lanes, whatever their scales
+    this.isShared = false; // curves of a unit have the scale of the first one
     this.maths = ""; // the expression that is wrong, whose error has been shown
   }
 
@@ -145,21 +147,46 @@ export class Channels {
    */
   trace(place, values) {
     const row = this.rows[place];
-    const unit = row.unit.value.trim() || row.unit.placeholder;
+    const unit = this.unitOf(place);
     const item = this.items[place];
     const [id, name] = item ? [item.id, fullName(item)] : [row.source.value.trim(), ""];
     return {
       label: nameOf(place),
       id,
       name,
-      isFlag: Boolean(item && isFlag(item)),
+      isFlag: this.isFlag(place),
       color: row.color.value,
       values,
-      scale: numberOf(row.scale) || 1,
-      offset: numberOf(row.offset) || 0,
+      ...this.scaling(place),
       unit,
       format: row.format.value,
     };
+  }
+
+  /** @param {number} place */
+  isFlag(place) {
+    const item = this.items[place];
+    return Boolean(item && isFlag(item));
+  }
+
+  /** @param {number} place */
+  unitOf(place) {
+    const { unit } = this.rows[place];
+    return unit.value.trim() || unit.placeholder;
+  }
+
+  /**
+   * How a channel is drawn: a flag in its lane, a curve in its scale or in that of its unit.
+   * @param {number} place
+   */
+  scaling(place) {
+    const flags = this.asked.filter((each) => this.isFlag(each));
+    if (this.hasLanes && this.isFlag(place))
+      return laneOf(flags.indexOf(place), flags.length, flags.length === this.asked.length);
+    const curves = [...this.asked, MATHS].filter((each) => !this.isFlag(each));
+    const first = curves.find((each) => this.unitOf(each) === this.unitOf(place)) ?? place;
+    const row = this.rows[this.isShared && !this.isFlag(place) ? first : place];
+    return { scale: numberOf(row.scale) || 1, offset: numberOf(row.offset) || 0 };
   }
 
   /**
@@ -167,7 +194,11 @@ export class Channels {
    * @param {Channel[]} traces
    */
   fit(traces) {
-    laidOut(traces).forEach((fit, n) => {
+    const together = traces.map((each) => {
+      const group = traces.filter((other) => this.isShared && !other.isFlag && other.unit === each.unit);
+      return each.isFlag || group.length < 2 ? each : { ...each, values: extremes(group.map(({ values }) => values)) };
+    });
+    laidOut(together).forEach((fit, n) => {
       const row = this.rows[this.rows.findIndex((_each, place) => nameOf(place) === traces[n].label)];
       if (fit) [row.scale.value, row.offset.value] = [String(fit.scale), String(fit.offset)];
     });
@@ -179,8 +210,8 @@ export class Channels {
    * @param {string} label
    */
   scaleOf(label) {
-    const row = this.rows.find((each, n) => nameOf(n) === label && each.source.value.trim());
-    return row ? { scale: numberOf(row.scale) || 1, offset: numberOf(row.offset) || 0, color: row.color.value } : null;
+    const place = this.rows.findIndex((each, n) => nameOf(n) === label && each.source.value.trim());
+    return place < 0 ? null : { ...this.scaling(place), color: this.rows[place].color.value };
   }
 
   /** Every field says its whole value when the pointer rests on it. */

@@ -1,48 +1,19 @@
 // A long record: the server keeps its samples, the browser has the columns of what it shows.
 import { address, call, get, latest } from "../core/api.js";
 import { refuse } from "../core/app.js";
+import { columnsOf, curveOf } from "./columns.js";
 import { DIVISIONS } from "./scales.js";
 import { within, zoomed } from "./view.js";
 
 const MARGIN = 1; // screens on either side that are asked for besides: a pan shows them at once
 const REST_MS = 250; // from one look at a record that grows to the next
-const HEAD = 6; // numbers before the columns
 
 /**
  * @typedef {{ number: number, running: boolean, channels?: string[], period_s?: number, owner?: string | null }} State
- * @typedef {{ first: number, width: number, low: Float64Array[], high: Float64Array[], ends: [number, number] }} Columns
+ * @typedef {import("./columns.js").Columns} Columns
  * @typedef {{ count: number, min: number | null, max: number | null, mean: number | null, rms: number | null }} Measures
  * @typedef {{ measures: Measures[], at: Record<string, number | null>[] }} Found
  */
-
-/**
- * The columns of an answer.
- * @param {ArrayBuffer} data
- * @returns {Columns}
- */
-export function columnsOf(data) {
-  const numbers = new Float64Array(data);
-  const [first, width, count, channels, oldest, next] = numbers;
-  const block = (/** @type {number} */ n) =>
-    Array.from({ length: channels }, (_each, channel) => {
-      const begin = HEAD + (n * channels + channel) * count;
-      return numbers.subarray(begin, begin + count);
-    });
-  const low = block(0);
-  return { first, width, low, high: width === 1 ? low : block(1), ends: [oldest, next] };
-}
-
-/**
- * Columns as a curve: the lowest and the highest value of each, one after the other.
- * @param {Columns} columns
- */
-export function curveOf({ width, low, high }) {
-  return low.map((values, channel) =>
-    width === 1
-      ? values
-      : Float64Array.from({ length: 2 * values.length }, (_each, n) => (n % 2 ? high[channel] : values)[n >> 1]),
-  );
-}
 
 export class LongRecord {
   /**

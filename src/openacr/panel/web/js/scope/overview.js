@@ -1,7 +1,7 @@
 // The whole record below the plot, with the part that is shown: it is dragged, resized at its edges, moved by keys.
 import { h } from "../core/dom.js";
 import { t } from "../core/texts.js";
-import { DIVISIONS, HALF } from "./scales.js";
+import { DIVISIONS, extremes, HALF } from "./scales.js";
 
 const TEXTS = {
   label: {
@@ -28,10 +28,10 @@ export function gripOf(x, [left, right]) {
 
 /**
  * @param {LongRecord} record
- * @param {() => { color: string, scale: number, offset: number }[]} styles of the channels
+ * @param {() => string[]} colors of the channels, each drawn over the whole height
  * @param {import("../core/signal.js").Endings} endings
  */
-export function createOverview(record, styles, endings) {
+export function createOverview(record, colors, endings) {
   const canvas = h("canvas.scope-overview", {
     tabIndex: 0,
     role: "slider",
@@ -118,15 +118,16 @@ export function createOverview(record, styles, endings) {
     ctx.scale(devicePixelRatio, devicePixelRatio);
     const style = getComputedStyle(canvas);
     const { whole } = record;
-    styles().forEach(({ color, scale, offset }, channel) => {
+    colors().forEach((color, channel) => {
       if (!whole?.low[channel]) return;
+      const [low = 0, high = 1] = extremes([whole.low[channel], whole.high[channel]]);
       ctx.strokeStyle = color;
       ctx.beginPath();
-      whole.low[channel].forEach((low, n) => {
+      whole.low[channel].forEach((lowest, n) => {
         const x = placeOf((whole.first + n * whole.width) * record.ms);
-        const y = (/** @type {number} */ value) => height * (0.5 - (value - offset) / scale / DIVISIONS);
-        if (Number.isNaN(low)) return;
-        ctx.moveTo(x, y(low) + 0.5);
+        const y = (/** @type {number} */ value) => height * (0.92 - (0.84 * (value - low)) / (high - low || 1));
+        if (Number.isNaN(lowest)) return;
+        ctx.moveTo(x, y(lowest) + 0.5);
         ctx.lineTo(x, y(whole.high[channel][n]) - 0.5);
       });
       ctx.stroke();

@@ -34,14 +34,32 @@ export function stepBelow(value) {
  * @param {number} [middle] divisions from the middle of the screen up
  */
 export function fitting(values, height = DIVISIONS, middle = 0) {
-  let [low, high] = [Infinity, -Infinity];
-  for (let n = 0; n < values.length; n++) {
-    if (values[n] < low) low = values[n];
-    if (values[n] > high) high = values[n];
-  }
+  const [low = Infinity, high = -Infinity] = extremes([values]);
   if (low > high) return null;
   const scale = high > low ? stepAbove((high - low) / (height - 2)) : 1;
   return { scale, offset: Number(((Math.round((low + high) / 2 / scale) - middle) * scale).toPrecision(9)) };
+}
+
+/**
+ * Divisions of the lane of a flag.
+ * @param {number} flags
+ * @param {boolean} isAlone there are no curves
+ */
+function laneHeight(flags, isAlone) {
+  return isAlone ? Math.min(2 * LANE, DIVISIONS / flags) : Math.min(LANE, LANES / Math.max(1, flags));
+}
+
+/**
+ * Scale and offset of a flag in its lane; the first lane is above the others at the bottom.
+ * @param {number} place of the flag among all flags
+ * @param {number} flags
+ * @param {boolean} isAlone there are no curves
+ */
+export function laneOf(place, flags, isAlone) {
+  const lane = laneHeight(flags, isAlone);
+  const scale = 1 / (HIGH * lane);
+  const bottom = (flags - 1 - place + (1 - HIGH) / 2) * lane;
+  return { scale: Number(scale.toPrecision(4)), offset: Number(((HALF - bottom) * scale).toPrecision(6)) };
 }
 
 /**
@@ -50,19 +68,38 @@ export function fitting(values, height = DIVISIONS, middle = 0) {
  */
 export function laidOut(traces) {
   const flags = traces.filter(({ isFlag }) => isFlag).length;
-  const lane =
-    flags === traces.length ? Math.min(2 * LANE, DIVISIONS / flags) : Math.min(LANE, LANES / Math.max(1, flags));
-  const free = DIVISIONS - flags * lane;
-  let place = flags;
-  return traces.map(({ values, isFlag }) => {
-    if (!isFlag) return fitting(values, free, HALF - free / 2);
-    place--;
-    const scale = 1 / (HIGH * lane);
-    return {
-      scale: Number(scale.toPrecision(4)),
-      offset: Number(((HALF - (place + (1 - HIGH) / 2) * lane) * scale).toPrecision(6)),
-    };
-  });
+  const isAlone = flags === traces.length;
+  const free = DIVISIONS - flags * laneHeight(flags, isAlone);
+  let place = 0;
+  return traces.map(({ values, isFlag }) =>
+    isFlag ? laneOf(place++, flags, isAlone) : fitting(values, free, HALF - free / 2),
+  );
+}
+
+/**
+ * Lowest and highest value of all; empty without any.
+ * @param {ArrayLike<number>[]} all
+ */
+export function extremes(all) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const values of all)
+    for (let n = 0; n < values.length; n++) {
+      if (values[n] < low) low = values[n];
+      if (values[n] > high) high = values[n];
+    }
+  return low > high ? [] : [low, high];
+}
+
+/**
+ * The axes that show the values of curves: one each, or one for all of a unit.
+ * @template {{ unit: string, isFlag: boolean }} T
+ * @param {T[]} traces
+ * @param {string} kind "own" or "unit"; else none
+ */
+export function axesOf(traces, kind) {
+  const curves = traces.filter(({ isFlag }) => !isFlag);
+  if (kind === "own") return curves;
+  return kind === "unit" ? curves.filter((each, n) => curves.findIndex(({ unit }) => unit === each.unit) === n) : [];
 }
 
 /**
@@ -88,4 +125,17 @@ export function labelsOf(lines, step, room, letter = 8) {
   const widest = Math.max(1, ...texts.map(({ length }) => length + 1)) * letter;
   const every = [1, 2, 5, 10].find((each) => each * room >= widest) ?? DIVISIONS;
   return texts.map((text, n) => (Math.round(lines[n] / step) % every === 0 ? text : ""));
+}
+
+/**
+ * The values of an axis at lines of the grid, empty where there is no room.
+ * @param {{ scale: number, offset: number }} axis
+ * @param {number[]} lines in divisions
+ * @param {number} room pixels from line to line
+ */
+export function valuesOf({ scale, offset }, lines, room) {
+  const every = [1, 2, 5].find((each) => each * room >= 14) ?? DIVISIONS;
+  return lines.map((line) =>
+    line % every ? "" : String(Number((line * scale + offset).toPrecision(5))).replace("-", "\u2212"),
+  );
 }

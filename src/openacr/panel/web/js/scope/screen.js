@@ -3,7 +3,7 @@ import { plain } from "../core/format.js";
 import { Signal } from "../core/signal.js";
 import { t } from "../core/texts.js";
 import { uPlot } from "../../vendor/uplot.js";
-import { DIVISIONS, gridOf, HALF, labelsOf } from "./scales.js";
+import { DIVISIONS, gridOf, HALF, labelsOf, valuesOf } from "./scales.js";
 
 export const COLORS = Object.freeze([
   "#1f77b4",
@@ -17,21 +17,26 @@ export const COLORS = Object.freeze([
 ]);
 const LEGEND_PX = 34;
 const DASH = [6, 4];
+const MOST_AXES = 6; // of values, left and right in turn
+const AXIS_PX = 46;
+const SECONDS_MS = 1000; // of a division: times are in s from here on
 const FAINT = "70"; // opacity of what comes of the next sweep
 
 /**
  * @typedef {{ label: string, color: string, values: ArrayLike<number>, scale: number, offset: number, isFlag?: boolean,
  *   isReference?: boolean, isFaint?: boolean }} Trace `scale`: units of a division
- * @typedef {{ start: number, period: number, from: number, step: number }} Frame ms of the first sample, s between two,
+ * @typedef {{ label: string, color: string, scale: number, offset: number }} Axis shows values of curves
+ * @typedef {{ start: number, period: number, from: number, step: number, axes?: Axis[] }} Frame ms of the first sample, s between two,
  *   ms of the left edge and of a division
  */
 
-/** What is drawn: ends of both scales, times in ms, traces in divisions. */
+/** What is drawn: ends of both scales, times in ms, traces in divisions, names of the axes of values. */
 export const shown = new Signal({
   x: [0, DIVISIONS],
   y: [-HALF, HALF],
   times: /** @type {number[]} */ ([]),
   channels: /** @type {(number | null)[][]} */ ([]),
+  axes: /** @type {string[]} */ ([]),
 });
 
 /**
@@ -43,6 +48,8 @@ export function createScreen(chart, endings, plugins = []) {
   /** @type {Trace[]} */
   let drawn = [];
   let [from, step] = [0, 1];
+  /** @type {Axis[]} */
+  let axes = [];
   const style = getComputedStyle(chart);
   const stepped = uPlot.paths.stepped?.({ align: 1 });
   const axis = {
@@ -51,7 +58,27 @@ export function createScreen(chart, endings, plugins = []) {
     ticks: { stroke: () => style.borderColor },
   };
   const times = (/** @type {any} */ self, /** @type {number[]} */ splits) =>
-    labelsOf(splits, step, self.bbox.width / devicePixelRatio / DIVISIONS);
+    step < SECONDS_MS
+      ? labelsOf(splits, step, self.bbox.width / devicePixelRatio / DIVISIONS)
+      : labelsOf(
+          splits.map((each) => each / 1000),
+          step / 1000,
+          self.bbox.width / devicePixelRatio / DIVISIONS,
+        );
+  const room = (/** @type {any} */ self) => self.bbox.height / devicePixelRatio / DIVISIONS;
+  const ofValues = Array.from({ length: MOST_AXES }, (_each, n) => ({
+    scale: "y",
+    side: n % 2 ? 1 : 3,
+    stroke: () => axes[n]?.color ?? style.color,
+    grid: { show: false },
+    ticks: { show: false },
+    labelSize: 16,
+    labelGap: 0,
+    size: () => (axes[n] ? AXIS_PX : 0),
+    splits: () => (axes[n] ? gridOf(-HALF, 1) : []),
+    values: (/** @type {any} */ self, /** @type {number[]} */ splits) =>
+      axes[n] ? valuesOf(axes[n], splits, room(self)) : [],
+  }));
   const plot = new uPlot(
     {
       width: Math.max(200, chart.clientWidth),
@@ -74,9 +101,10 @@ export function createScreen(chart, endings, plugins = []) {
           labelSize: 20,
           splits: () => gridOf(-HALF, 1),
           values: (/** @type {any} */ self, /** @type {number[]} */ splits) =>
-            labelsOf(splits, 1, self.bbox.height / devicePixelRatio / DIVISIONS, 6),
-          size: 34,
+            axes.length ? [] : labelsOf(splits, 1, room(self), 6),
+          size: () => (axes.length ? 6 : 34),
         },
+        .../** @type {any[]} */ (ofValues),
       ],
       series: [
         {
@@ -104,7 +132,23 @@ export function createScreen(chart, endings, plugins = []) {
 
   /** @param {any} self */
   function noteDrawn({ scales: { x, y }, data: [drawnTimes, ...channels] }) {
-    shown.set({ x: [x.min ?? 0, x.max ?? 0], y: [y.min ?? 0, y.max ?? 0], times: drawnTimes, channels });
+    shown.set({
+      x: [x.min ?? 0, x.max ?? 0],
+      y: [y.min ?? 0, y.max ?? 0],
+      times: drawnTimes,
+      channels,
+      axes: axes.map(({ label }) => label),
+    });
+  }
+
+  /** Name the axes. @param {Axis[]} chosen */
+  function setAxes(chosen) {
+    axes = chosen.slice(0, MOST_AXES);
+    plot.axes[0].label = step < SECONDS_MS ? "ms" : "s";
+    plot.axes[1].label = /** @type {any} */ (axes.length ? null : t("scope.divisions"));
+    ofValues.forEach((_each, n) => {
+      plot.axes[n + 2].label = /** @type {any} */ (axes[n] ? axes[n].label : null);
+    });
   }
 
   /** Have one series for each trace; those there are stay as they are. */
@@ -147,6 +191,7 @@ export function createScreen(chart, endings, plugins = []) {
     draw(traces, frame) {
       [drawn, from, step] = [traces, frame.from, frame.step > 0 ? frame.step : 1];
       setSeries();
+      setAxes(frame.axes ?? []);
       const length = Math.max(0, ...traces.map(({ values }) => values.length));
       const samples = Array.from({ length }, (_each, n) => frame.start + n * frame.period * 1000);
       const divisions = traces.map(({ values, scale, offset }) =>

@@ -90,9 +90,11 @@ export function createXy(host, endings, nameOf) {
     /**
      * @param {Channel | undefined} x
      * @param {Channel | undefined} y
+     * @param {boolean} [isEqual] both with the coarser scale: a circle is round
      */
-    draw(x, y) {
+    draw(x, y, isEqual = false) {
       both = x && y ? [x, y] : [];
+      if (isEqual && x && y) both = both.map((each) => ({ ...each, scale: Math.max(x.scale, y.scale) }));
       paint();
     },
   };

@@ -15,7 +15,7 @@ import { distanceText, samplesAt, showMeasures } from "../../scope/measure_table
 import { createOverview } from "../../scope/overview.js";
 import { panningPlugin } from "../../scope/panning.js";
 import { moved, Recording } from "../../scope/recording.js";
-import { DIVISIONS } from "../../scope/scales.js";
+import { axesOf, DIVISIONS } from "../../scope/scales.js";
 import { createScreen } from "../../scope/screen.js";
 import { createSpectrum, showPeaks } from "../../scope/spectrum_view.js";
 import { Settings } from "../../scope/settings.js";
@@ -113,11 +113,7 @@ export async function mount(host, { head, kept, keep }) {
   const cursorKey = keyOf(TEXTS.cursors, toggleCursors);
   const referenceKey = keyOf(TEXTS.reference, toggleReference);
   const long = new LongRecord(() => settings.isRecord && update(), endings);
-  const overview = createOverview(
-    long,
-    () => channels.asked.map((place) => channels.scaleOf(`CH${place + 1}`) ?? { color: "", scale: 1, offset: 0 }),
-    endings,
-  );
+  const overview = createOverview(long, () => channels.asked.map((place) => channels.rows[place].color.value), endings);
   head.append(
     keyOf("scope.start", () => void (settings.isRecord ? beginRecord() : sample()).catch(refuse), ".main"),
     keyOf("scope.stop", () => void give(settings.isRecord ? "record.end" : "scope.stop")),
@@ -208,6 +204,8 @@ export async function mount(host, { head, kept, keep }) {
   }
 
   function draw() {
+    channels.hasLanes = settings.fields.flags.value === "lanes";
+    channels.isShared = settings.fields.axes.value === "unit";
     zooming.hidden = view !== "time" || !isAtRest();
     const { traces: present, ...frame } = shownNow();
     const { start, period } = frame;
@@ -225,14 +223,16 @@ export async function mount(host, { head, kept, keep }) {
         label: `${each.label} ${t(TEXTS.referenceShort)}`,
         isReference: true,
       }));
-      screen.draw(
-        [...present, ...named, ...at(next.traces, next.start).map((each) => ({ ...each, isFaint: true }))],
-        frame,
-      );
+      screen.draw([...present, ...named, ...at(next.traces, next.start).map((each) => ({ ...each, isFaint: true }))], {
+        ...frame,
+        axes: axesOf(present, settings.fields.axes.value).map(axisOf),
+      });
     } else if (settings.isRecord && long.isEnvelope) {
       refuseOnce();
-    } else if (view === "xy") xy.draw(settings.traceOf(present, "x"), settings.traceOf(present, "y"));
-    else drawSpectrum(present, period, start / 1000);
+    } else if (view === "xy") {
+      const isEqual = settings.fields.aspect.value === "equal";
+      xy.draw(settings.traceOf(present, "x"), settings.traceOf(present, "y"), isEqual);
+    } else drawSpectrum(present, period, start / 1000);
     if (view !== "spectrum")
       showMeasures(
         table,
@@ -273,6 +273,12 @@ export async function mount(host, { head, kept, keep }) {
     await channels.nameUnits();
     long.view = { from: 0, step: settings.sweepMs };
     await arm("record.begin", asked);
+  }
+
+  /** @param {Channel} trace */
+  function axisOf(trace) {
+    const isShared = settings.fields.axes.value === "unit";
+    return { ...trace, label: isShared ? trace.unit || trace.label : `${trace.label} ${trace.unit}`.trim() };
   }
 
   /** @param {import("../../scope/view.js").View | null} chosen */
