@@ -558,7 +558,7 @@ def test_flags_are_in_lanes_below_curves_that_have_axes_of_their_own(
             found = page.evaluate(RECORD)
             return [*(round(each[-1], 3) for each in found["channels"]), found["axes"]]
 
-        until(page, look, lambda found, wanted=[*places, names]: found == wanted)
+        until(page, look, [*places, names].__eq__)
     press(page, "STOP SCOPE")
     expect(status(page)).to_contain_text("Stopped at")
     fill(page, {"CH4 source": "", "CH1 unit": "", "CH2 unit": ""})

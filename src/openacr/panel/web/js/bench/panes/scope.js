@@ -35,10 +35,7 @@ const TEXTS = {
     en: "What another branch of the timeline did at the same ticks is drawn dashed; REFERENCE takes it away.",
     de: "Was ein anderer Zweig der Zeitleiste in denselben Takten tat, wird gestrichelt gezeichnet; REFERENZ nimmt es weg.",
   },
-  zoom: {
-    en: "wheel: zoom, drag: pan, double click: the sweep",
-    de: "Rad: Zoom, ziehen: verschieben, Doppelklick: die Ablenkung",
-  },
+  zoom: { en: "wheel: zoom, drag: pan, double click: back", de: "Rad: Zoom, ziehen: verschieben, Doppelklick: zurück" },
   taken: { en: "{name} is {channel}", de: "{name} ist {channel}" },
   full: {
     en: "All eight channels have a source: empty one for {name}",
