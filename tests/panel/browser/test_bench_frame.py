@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import open_page, until, until_model
-from tests.panel.browser.test_screens import AXE, AXE_RUN
+from tests.panel.browser.test_screens import AXE, AXE_COLORS, AXE_RUN
 
 from openacr.sysvar import password
 
@@ -424,3 +424,55 @@ def test_a_number_in_a_text_has_the_menu_and_where_used_lists_the_lines(page: Pa
     page.mouse.click(x, y, button="right")
     page.get_by_role("menu", name="P6916").get_by_role("menuitem", name="watch").click()
     expect(page.locator("[data-pane=watch] [data-item=P6916]")).to_be_visible()
+
+
+# --- accessibility --------------------------------------------------------------------
+
+# Texts smaller than 12 pixels, also in shadow roots; those of pictures are scaled with them.
+SMALL = """(pane) => {
+  const found = [];
+  const look = (root) => {
+    for (const each of root.querySelectorAll('*')) {
+      if (each.shadowRoot) look(each.shadowRoot);
+      const isText = [...each.childNodes].some((one) => one.nodeType === 3 && one.textContent.trim());
+      if (!isText || each instanceof SVGElement || !each.checkVisibility()) continue;
+      const size = parseFloat(getComputedStyle(each).fontSize);
+      if (size < 12) found.push(`${each.className || each.tagName} is ${size.toFixed(1)}: ${each.textContent.slice(0, 20)}`);
+    }
+  };
+  look(document.querySelector(pane));
+  return found;
+}"""  # noqa: E501
+
+
+@pytest.mark.timeout(300)
+def test_every_pane_keeps_the_rules_of_accessibility_for_a_mouse_light_and_dark(page: Page) -> None:
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    names = page.evaluate("import('/js/bench/panes.js').then(({ PANES }) => Object.keys(PANES))")
+    found: dict[str, list[str]] = {"frame": page.evaluate(SMALL, "body")}
+    for name in names:
+        page.evaluate(
+            "(name) => import('/js/bench/workspace.js').then((each) => each.openPane(name))", name
+        )
+        pane = f"[data-pane={name}]"
+        expect(page.locator(f"{pane} .pane-body > *").first).to_be_visible()
+        for theme in ("light", "dark"):
+            page.emulate_media(color_scheme="light" if theme == "light" else "dark")
+            rules = AXE_RUN if theme == "light" else AXE_COLORS
+            found[f"{name} {theme}"] = page.evaluate(rules, pane)
+        found[f"{name} size"] = page.evaluate(SMALL, pane)
+    assert {name: each for name, each in found.items() if each} == {}
+
+
+def test_the_focus_is_seen_and_nothing_moves_where_that_is_not_wanted(page: Page) -> None:
+    page.emulate_media(reduced_motion="reduce")
+    job(page, "TUNE").focus()
+    page.keyboard.press("Tab")  # by the keyboard
+    style = "(each) => [getComputedStyle(each).outlineStyle, getComputedStyle(each).outlineWidth]"
+    assert page.evaluate(f"({style})(document.activeElement)") == ["solid", "3px"]
+    moving = page.evaluate("""() => [...document.querySelectorAll('*')].filter((each) => {
+      const { transitionDuration, animationName } = getComputedStyle(each);
+      return animationName !== 'none' || !/^(0s(, )?)+$/.test(transitionDuration);
+    }).map((each) => each.className)""")
+    assert moving == []
+    page.emulate_media(reduced_motion="no-preference")

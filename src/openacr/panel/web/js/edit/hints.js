@@ -23,7 +23,7 @@ class Hint extends WidgetType {
 const LOOKS = EditorView.theme({
   ".cm-hint": {
     color: "var(--quiet)",
-    fontSize: "0.85em",
+    fontSize: "max(12px, 0.85em)",
     padding: "0 0.4em",
     marginLeft: "0.3em",
     border: "1px solid var(--edge)",
