@@ -26,7 +26,7 @@ export const JOBS = Object.freeze({
     ]),
   },
   tune: {
-    title: { en: "TUNE", de: "EINSTELLEN" },
+    title: { en: "TUNE", de: "EINSTEL\u00adLEN" },
     largest: "scope",
     parts: /** @type {Part[]} */ ([
       {
@@ -40,7 +40,7 @@ export const JOBS = Object.freeze({
     ]),
   },
   watch: {
-    title: { en: "WATCH", de: "BEOBACHTEN" },
+    title: { en: "WATCH", de: "BEOB\u00adACHTEN" },
     largest: "scope",
     parts: /** @type {Part[]} */ ([
       {
