@@ -21,6 +21,8 @@ from openacr.journal.entries import Entered, JournalEntry
 from openacr.map.words import af1, mf1
 from openacr.panel.control.engineer.scope import Samples
 from openacr.panel.control.engineer.watches import Wish
+from openacr.panel.control.machine.blocks import MOST as MOST_BLOCKS
+from openacr.panel.control.machine.blocks import Block, Blocks, part_lanes
 from openacr.panel.control.machine.history import AWAY, MOST_BRANCHES, STILL, History
 from openacr.panel.control.machine.lanes import (
     MOST_CHANGES,
@@ -553,6 +555,69 @@ def test_the_end_of_a_part_program_is_marked_when_the_panel_notes_it(hand: HandS
     hand.run(0.1)
     (mark,) = history(hand).bookmarks.of(0)
     assert (mark.kind.value, mark.text) == ("end", "short.nc has ended")
+
+
+def test_the_block_of_a_part_program_is_known_at_a_moment_and_the_program_starts_there(
+    hand: HandStation,
+) -> None:
+    lines = ["G1 X4 F1200", "G1 Y4", "G1 X0", "G1 Y0", "G4 P0.5", "M2"]
+    (hand.installation.programs / "square.nc").write_text("\n".join(lines) + "\n")
+    hand.do("program.load", path="square.nc")
+    hand.do("run.begin")
+    seen = {}
+    hand.until(lambda: hand.station.part.line > 0)
+    while hand.is_busy:
+        hand.run(0.05)
+        seen[history(hand).lived_tk] = hand.station.part.line
+    hand.run(0.1)
+    end = hand.places()
+    assert fact(hand, "moment")["block"] is None  # it is not a moment
+    at = next(tick for tick, line in seen.items() if line == 3)
+    hand.do("timeline.seek", tick=at)
+    assert fact(hand, "moment")["block"] == {"path": "square.nc", "line": 3}
+    (lane,) = part_lanes(
+        history(hand).blocks.between(0, 0, at + 1), 0, at + 1, history(hand).last_tk, 0
+    )
+    assert [line for _tick, line in lane["slices"]] == [1, 2, 3]  # type: ignore[attr-defined]
+    assert lane["spans"][-1][1] == at + 1  # type: ignore[index]
+    hand.do("timeline.seek", tick=10)
+    assert fact(hand, "moment")["block"] is None
+    hand.do("timeline.seek", tick=at)
+    assert hand.do("timeline.operate") == {"tick": at}
+    hand.run(0.2)
+    branch = history(hand).timeline.branch.number
+    assert history(hand).blocks.at(branch, at + 1) is None  # it is under way no more
+    before = hand.places()
+    answer = hand.do("run.begin", line=3, safe_z=0.0)
+    assert hand.places() == before  # nothing moves before it is confirmed
+    hand.do("run.begin", line=3, safe_z=0.0, confirm=answer["rehearsal"]["token"])
+    hand.until(lambda: hand.is_busy)
+    hand.until(lambda: not hand.is_busy)
+    assert hand.places()[:2] == pytest.approx(end[:2])
+
+
+def test_blocks_are_noted_once_thinned_from_their_beginning_and_shared_up_to_a_fork() -> None:
+    blocks = Blocks()
+    for tick, line in ((10, 1), (12, 1), (15, 2), (20, 0), (30, 7)):
+        blocks.note(0, Block(tick, "a.nc", line))
+    blocks.note(0, Block(25, "a.nc", 9))  # known time, lived through again
+    assert [blocks.at(0, tick) and blocks.at(0, tick).line for tick in (9, 10, 14, 15, 20, 30)] == [  # type: ignore[union-attr]
+        None, 1, 1, 2, None, 7,
+    ]  # fmt: skip
+    blocks.fork(0, 1, 16)
+    assert [blocks.at(1, 16), blocks.at(1, 17)] == [Block(15, "a.nc", 2), None]
+    blocks.fork(0, 2, 9)
+    assert blocks.at(2, 100) is None
+    assert [each.tick for each in blocks.between(0, 16, 30)] == [15, 20, 30]
+    (lane,) = part_lanes(blocks.between(0, 12, 35), 12, 35, 32, 0)
+    assert (lane["spans"], lane["on"]) == ([(12, 20), (30, 32)], 10)
+    assert lane["slices"] == [(12, 1), (15, 2), (30, 7)]
+    for tick in range(100, 100 + MOST_BLOCKS):
+        blocks.note(0, Block(tick, "a.nc", tick))
+    assert blocks.at(0, 15) is None
+    assert blocks.at(0, 99 + MOST_BLOCKS) == Block(99 + MOST_BLOCKS, "a.nc", 99 + MOST_BLOCKS)
+    blocks.forget(0)
+    assert blocks.at(0, 200) is None
 
 
 def test_a_bridge_is_given_nothing_of_the_past(hand: HandStation) -> None:

@@ -391,3 +391,38 @@ def test_labels_of_an_axis_have_room_and_a_curve_that_is_constant_a_height(page:
       m.valueText(null), m.endsOf([[1, 1], [1]]), m.endsOf([[0, 100], [-100]]), m.endsOf([[NaN], []]),
     ])""")  # noqa: E501
     assert found == [37, 18, "\u221275000", "\u2013", [0.5, 1.5], [-116, 116], [0, 1]]
+
+
+def cut(station: Station) -> None:
+    """Have a part program be under way on the branch that is shown."""
+    lines = ["G1 X4 F120", "G1 Y4", "G1 X0", "M2"]
+    file = station.installation.programs / "slow.nc"
+    file.write_text("\n".join(lines) + "\n")
+
+
+def test_a_part_program_that_was_under_way_is_offered_to_start_at_its_line(
+    page: Page, served: Served
+) -> None:
+    served.call(cut)
+    go_to(page, "2")
+    pane(page).get_by_role("button", name="OPERATE FROM HERE").click()
+    until_model(page, "!model.timeline.value.away")
+    expect(page.locator("dialog[open]")).to_have_count(0)  # nothing was cut there
+    give = "import('/js/core/app.js').then(({{ give }}) => give({}))"
+    page.evaluate(give.format("'program.load', { path: 'slow.nc' }"))
+    page.evaluate(give.format("'run.begin'"))
+    until_model(page, "model.program.value.line === 1")
+    tick = served.call(lived)
+    until_model(page, f"model.moment.value.last > {tick + 2000}")
+    page.evaluate(give.format("'stop.all'"))
+    until_model(page, "!model.state.value.busy")
+    page.evaluate(give.format(f"'timeline.seek', {{ tick: {tick + 100} }}"))
+    until_model(page, "model.moment.value.block?.line === 1")
+    pane(page).get_by_role("button", name="OPERATE FROM HERE").click()
+    dialog = page.get_by_role("dialog")
+    expect(dialog).to_contain_text("slow.nc was at line 1")
+    dialog.get_by_role("button", name="START AT LINE 1").click()
+    expect(dialog.get_by_label("Start line")).to_have_value("1")
+    dialog.get_by_role("button", name="CANCEL").click()
+    expect(dialog).to_have_count(0)
+    assert page.complaints == []  # type: ignore[attr-defined]

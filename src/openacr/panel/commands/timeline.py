@@ -86,6 +86,8 @@ def unmark(times: Times, *, tick: Tick) -> None:
 
 
 @command("timeline.operate", Role.SERVICE)
-def operate(times: Times, now_s: float) -> None:
+def operate(times: Times, now_s: float) -> dict[str, int]:
     """Operate the machine from the present moment on, in real time."""
+    tick = times.history.lived_tk
     times.operate(now_s)
+    return {"tick": tick}

@@ -276,6 +276,7 @@ class Station:
             if was_under_way and not self.part.executing.is_under_way:
                 self.times.mark(Kind.END, f"{self.part.name} has ended")
             self.screens.guarded(self.part.poll)
+            self.times.follow(self.part.path, self.part.line)
             self._print()
         except AlarmError as error:  # another program has taken the machine
             self.lose(str(error), now_s)

@@ -257,6 +257,12 @@ class Times:
             following_end=none,
         )
 
+    def follow(self, path: str, line: int) -> None:
+        """Note the block that the part program is at, where there is a history."""
+        history = self._link.installation.history
+        if history is not None:
+            history.follow(path, line)
+
     def watch_own(self) -> None:
         """The session is open: its own programs end without a bookmark."""
         history, session = self._link.installation.history, self._link.session

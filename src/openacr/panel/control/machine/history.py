@@ -12,6 +12,7 @@ from openacr.controller import Controller
 from openacr.debugger.breakpoints import MASTERS, kill_watch, running_watch
 from openacr.debugger.calls import PROGRAMS, is_running, name_of
 from openacr.errors import UserError
+from openacr.panel.control.machine.blocks import Block, Blocks
 from openacr.panel.control.machine.breakpoints import Breakpoints
 from openacr.panel.control.machine.lanes import Lanes
 from openacr.timeline import Bookmark, Bookmarks, Branch, Kind, Timeline
@@ -33,6 +34,7 @@ class History:
         self.most_bytes = most_bytes
         self.bookmarks = Bookmarks()
         self.lanes = Lanes(card)
+        self.blocks = Blocks()
         self.names = {0: "first"}
         self.is_still = False
         self.is_away = False  # from its links: none is opened
@@ -114,6 +116,10 @@ class History:
         """Set a bookmark at the present tick."""
         self.bookmarks.add(self.timeline.branch.number, Bookmark(self.lived_tk, kind, text))
 
+    def follow(self, path: str, line: int) -> None:
+        """Note the block that the part program of the panel is at; line 0: none runs."""
+        self.blocks.note(self.timeline.branch.number, Block(self.lived_tk, path, line))
+
     def arm(self) -> None:
         """Have every tick seen in which a program ends or motion is killed, and breakpoints."""
         watches = [running_watch(program) for program in range(PROGRAMS)]
@@ -149,6 +155,7 @@ class History:
         self.bookmarks.fork(parent.number, branch.number, self.lived_tk)
         ended_tk = self.lived_tk - bool(self.card.within)  # what a tick has begun may be another
         self.lanes.fork(parent.number, branch.number, ended_tk)
+        self.blocks.fork(parent.number, branch.number, ended_tk)
         self.names[branch.number] = f"branch {branch.number}"
         if len(self.timeline.branches) > MOST_BRANCHES:
             others = (each for each in self.timeline.branches if each not in (parent, branch))
@@ -159,6 +166,7 @@ class History:
         self.timeline.drop(number)
         self.bookmarks.forget(number)
         self.lanes.forget(number)
+        self.blocks.forget(number)
         self.names.pop(number, None)
 
 
@@ -195,9 +203,12 @@ def moment_data(history: History) -> dict[str, Any]:
     """Where the card is in its history: exactly while time is still, else every half second."""
     coarse_tk = 1 if history.is_still else max(1, round(COARSE_S / history.period_s))
     now, last_tk = history.timeline.now, history.last_tk // coarse_tk * coarse_tk
+    number = history.timeline.branch.number
+    block = history.blocks.at(number, now.tick) if history.is_away else None
     return {
         "tick": now.tick // coarse_tk * coarse_tk,
         "within": now.within if history.is_still else 0,
         "last": last_tk,
         "bytes": history.size_bytes(last_tk),
+        "block": None if block is None else {"path": block.path, "line": block.line},
     }

@@ -92,6 +92,11 @@ class Part:
         return self.loaded.name if self.loaded is not None else "the part program"
 
     @property
+    def path(self) -> str:
+        """Where the loaded program is in the folder of programs; empty without one."""
+        return "" if self.loaded is None else self.loaded.path
+
+    @property
     def bar(self) -> str:
         """Why the loaded program cannot be started; empty if it can."""
         return "" if self.loaded is None else _errors(self.loaded)

@@ -4,7 +4,7 @@ import tempfile
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 from msgspec import Meta
 from starlette.background import BackgroundTask
@@ -18,6 +18,7 @@ from openacr.map import Flag, parameters
 from openacr.map.memory import flag_place
 from openacr.panel.control.engineer.sampling import row_of, value_in
 from openacr.panel.control.engineer.scope import name_of
+from openacr.panel.control.machine.blocks import Block, part_lanes
 from openacr.panel.control.machine.lanes import AXES, NEAR, arrivals
 from openacr.panel.control.machine.lanes import Course as Happened
 from openacr.panel.control.station import Station
@@ -133,46 +134,54 @@ async def lanes(call: Call) -> object:
     """
     query: Interval = call.query
 
-    def look(station: Station) -> tuple[Happened, frozenset[int], list[JournalEntry], list[str]]:
+    def look(station: Station) -> tuple[Happened, Seen]:
         history = station.times.history
         names = [station.installation.axis_name(axis) for axis in AXES]
         branch = history.timeline.branches.named(query.branch)
         came = branch.between(query.first, query.last)
-        return history.lanes.of(query.branch), history.unmarked, came, names
+        blocks = history.blocks.between(query.branch, query.first, query.last)
+        return history.lanes.of(query.branch), Seen(history.unmarked, came, blocks, names)
 
-    course, hidden, came, names = await call.panel.ask(look)
-    return await run_in_threadpool(_lanes, query, course, hidden, came, names)
+    return await run_in_threadpool(_lanes, query, *await call.panel.ask(look))
 
 
-def _lanes(
-    query: Interval,
-    course: Happened,
-    hidden: frozenset[int],
-    came: list[JournalEntry],
-    names: list[str],
-) -> dict[str, object]:
+class Seen(NamedTuple):
+    """What lanes are made of beside the changes of the card."""
+
+    hidden: frozenset[int]
+    came: list[JournalEntry]
+    blocks: list[Block]
+    names: list[str]  # of axes
+
+
+def _lanes(query: Interval, course: Happened, seen: Seen) -> dict[str, object]:
     """The lanes as they are sent."""
-    found = course.lanes(query.first, query.last, hidden)
+    near = (query.last - query.first) // NEAR
+    found = course.lanes(query.first, query.last, seen.hidden)
+    parts = part_lanes(seen.blocks, query.first, query.last, course.end, near)
     heard = arrivals(
-        [entry for entry in came if entry.what is Entered.BYTES],
-        (query.last - query.first) // NEAR,
+        [entry for entry in seen.came if entry.what is Entered.BYTES],
+        near,
     )
     return {
         "first": query.first,
         "last": query.last,
         "lanes": [
-            {
-                "kind": each.kind,
-                "number": each.number,
-                "name": NAMES.get(each.kind, names[each.number % len(names)]).format(
-                    each.flag if each.kind == "output" else each.number
-                ),
-                "flag": each.flag,
-                "spans": each.spans,
-                "on": each.on_tk,
-                "changes": each.changes,
-            }
-            for each in found
+            *parts,
+            *(
+                {
+                    "kind": each.kind,
+                    "number": each.number,
+                    "name": NAMES.get(each.kind, seen.names[each.number % len(AXES)]).format(
+                        each.flag if each.kind == "output" else each.number
+                    ),
+                    "flag": each.flag,
+                    "spans": each.spans,
+                    "on": each.on_tk,
+                    "changes": each.changes,
+                }
+                for each in found
+            ),
         ],
         "hosts": [each._asdict() for each in heard],
     }

@@ -4,7 +4,7 @@
 /**
  * @typedef {[number, number]} Span first tick, and the one after the last
  * @typedef {{ id: string, kind: string, name: string, spans: Span[], on: number, changes: number, flag?: number | null,
- *   packets?: number, lines?: number }} Lane
+ *   packets?: number, lines?: number, slices?: [number, number][] }} Lane
  * @typedef {{ folded?: string[], pinned?: string[], order?: string[], filter?: string }} Arrangement
  * @typedef {{ group: string, count: number, isFolded: boolean }} Heading
  * @typedef {{ lane: Lane }} Row

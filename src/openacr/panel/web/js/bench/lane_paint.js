@@ -66,8 +66,11 @@ export function paint(canvas, [first, last], strips, { isCompared, details }) {
     }
     const number = Number(lane.id.split(" ")[1]);
     const curve = details && lane.kind === "axis" ? details.axes.find((each) => each.number === number) : undefined;
-    const lines =
-      details && lane.kind === "program" ? details.programs.find((each) => each.number === number) : undefined;
+    const lines = lane.slices
+      ? { number, lines: 0, slices: lane.slices, texts: {} }
+      : details && lane.kind === "program"
+        ? details.programs.find((each) => each.number === number)
+        : undefined;
     if (details && curve) {
       to.globalAlpha = 0.25;
       bars(lane.spans, begin, high, color);

@@ -3,6 +3,7 @@ import { give, model } from "../core/app.js";
 import { h, setText } from "../core/dom.js";
 import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
+import { ask } from "../frame/dialog.js";
 
 const TEXTS = {
   pause: { en: "PAUSE", de: "PAUSE" },
@@ -14,10 +15,44 @@ const TEXTS = {
   stepNumber: { en: "Number of the program or master", de: "Nummer des Programms oder Masters" },
   branch: { en: "NEW BRANCH HERE", de: "NEUER ZWEIG HIER" },
   operate: { en: "OPERATE FROM HERE", de: "VON HIER BEDIENEN" },
+  blockTitle: { en: "{path} was at line {line}", de: "{path} war bei Zeile {line}" },
+  block: {
+    en:
+      "The moves that were under way are dropped, and the part program has ended. A start at line {line} reads the lines " +
+      "before it without motion, shows what differs from the state they leave, and asks before anything moves: Z goes up " +
+      "first, then over the place, then down.",
+    de:
+      "Die laufenden Bewegungen sind verworfen, und das Teileprogramm ist beendet. Ein Start bei Zeile {line} liest die " +
+      "Zeilen davor ohne Bewegung, zeigt, was sich von ihrem Ergebnis unterscheidet, und fragt, bevor sich etwas bewegt: " +
+      "zuerst f\u00e4hrt Z hoch, dann \u00fcber die Stelle, dann hinunter.",
+  },
+  blockStart: { en: "START AT LINE {line} \u2026", de: "START BEI ZEILE {line} \u2026" },
+  blockNot: { en: "NO START", de: "KEIN START" },
 };
 
 const SPEEDS = [0.01, 0.1, 0.5, 1, 2, 5, 10, 100, 0]; // 0: as fast as it goes
 const STEPS = ["tick", "back", "line", "move"];
+
+/**
+ * Operate the machine from the moment on. A part program that was under way there cannot be continued, since what it had
+ * read ahead is not known any more: it is offered to start it at its line, with all questions of such a start.
+ */
+async function operateHere() {
+  const { block } = model.moment.value;
+  if (!(await give("timeline.operate")) || !block) return;
+  const isWanted = await ask({
+    title: t(TEXTS.blockTitle, block),
+    body: [h("p", {}, t(TEXTS.block, block))],
+    choices: [
+      { text: t(TEXTS.blockStart, block), kind: "main", value: true },
+      { text: t(TEXTS.blockNot), value: null },
+    ],
+  });
+  if (!isWanted) return;
+  if (model.program.value.loaded?.path !== block.path && !(await give("program.load", { path: block.path }))) return;
+  const { beginRun } = await import("../motion/begin.js");
+  await beginRun({ dry: false, line: block.line });
+}
 
 /** @param {HTMLElement} head */
 export function createTimeKeys(head) {
@@ -42,7 +77,7 @@ export function createTimeKeys(head) {
     ariaLabel: t(TEXTS.stepNumber),
   });
   const step = () => give("timeline.step", { what: what.value, number: Number(number.value) || 0 });
-  const operate = keyOf(TEXTS.operate, () => void give("timeline.operate"));
+  const operate = keyOf(TEXTS.operate, () => void operateHere());
   const branch = keyOf(TEXTS.branch, () => void give("timeline.branch"));
   head.append(
     pause,

@@ -125,12 +125,8 @@ export class Model {
       }),
     );
     this.moment = new Signal(
-      /** @type {{ tick: number, within: number, last: number, bytes: number }} */ ({
-        tick: 0,
-        within: 0,
-        last: 0,
-        bytes: 0,
-      }),
+      /** @type {{ tick: number, within: number, last: number, bytes: number,
+       *   block: { path: string, line: number } | null }} */ ({ tick: 0, within: 0, last: 0, bytes: 0, block: null }),
     );
     this.breakpoints = new Signal(/** @type {Breakpoints} */ ({ why_not: "", breakpoints: [], held: [] }));
     this.forced = new Signal(
