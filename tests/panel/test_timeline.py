@@ -497,6 +497,8 @@ def test_spans_that_are_nearer_than_a_thousandth_are_one_but_sums_are_exact() ->
     assert (lane.spans, lane.on_tk, lane.changes) == ([(150, 200), (300, 350)], 100, 2)
     (lane,) = own.lanes(100, 200)
     assert (lane.spans, lane.on_tk, lane.changes) == ([(100, 200)], 100, 1)
+    (lane,) = own.lanes(100, 199)  # a change in the first tick is none after it
+    assert (lane.spans, lane.on_tk, lane.changes) == ([(100, 199)], 99, 0)
     (lane,) = own.lanes(200, 300)
     assert (lane.spans, lane.on_tk, lane.changes) == ([], 0, 1)
     own.note(noted([(550, 0), (600, 0), (700, 0), (800, 1)]), 900)  # what is known comes again
@@ -606,6 +608,10 @@ def test_blocks_are_noted_once_thinned_from_their_beginning_and_shared_up_to_a_f
     ]  # fmt: skip
     blocks.fork(0, 1, 16)
     assert [blocks.at(1, 16), blocks.at(1, 17)] == [Block(15, "a.nc", 2), None]
+    blocks.note(0, Block(30, "a.nc", 8))
+    assert blocks.at(0, 30) == Block(30, "a.nc", 7)  # one block a tick
+    blocks.fork(0, 3, 15)
+    assert blocks.at(3, 15) == Block(15, "a.nc", 2)
     blocks.fork(0, 2, 9)
     assert blocks.at(2, 100) is None
     assert [each.tick for each in blocks.between(0, 16, 30)] == [15, 20, 30]
