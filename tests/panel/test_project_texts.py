@@ -22,7 +22,7 @@ from openacr.client.errors import ChangedError
 from openacr.client.stored import ListedLine
 from openacr.errors import UserError
 from openacr.panel.machine.project import of_project
-from openacr.panel.work.project_texts import differing, store, text_of
+from openacr.panel.work.project_texts import beside, states, store, text_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ONE = "' counts\n\nPROGRAM\nREM forever\n ' by ones\nP1=P1+1\nENDP\n' the end\n"
@@ -38,6 +38,26 @@ def root(tmp_path: Path) -> Path:
     )
     (tmp_path / "prog1.8k").write_text(ONE)
     return tmp_path
+
+
+def differing(root: Path, listings: dict[str, list[ListedLine]]) -> list[str]:
+    return [name for name, state in states(root, listings).items() if state != "equal"]
+
+
+def test_each_text_is_equal_different_or_only_on_one_side(root: Path) -> None:
+    more = [*LISTED, ListedLine(99, "END")]
+    assert states(root, {"PROG1": LISTED, "PROG2": TWO, "PROG3": []}) == {
+        "PROG1": "equal",
+        "PROG2": "equal",
+    }
+    assert states(root, {"PROG1": more, "PROG2": [], "PLC1": TWO}) == {
+        "PLC1": "card",
+        "PROG1": "differs",
+        "PROG2": "project",
+    }
+    rows = beside(root, "PROG1", more)
+    assert [row.listed for row in rows if not row.is_same] == ["END"]
+    assert all(row.listed == "" for row in beside(root, "PROG1", []))
 
 
 def test_what_the_card_lists_in_another_spelling_is_no_difference(root: Path) -> None:
@@ -119,10 +139,13 @@ def get(served: Served, call: str, **query: int) -> dict[str, object]:
 def test_a_program_that_was_changed_on_the_card_is_stored_in_its_project(
     served: Served, gantry: Path
 ) -> None:
-    assert get(served, "project") == {"name": "gantry", "differs": []}
+    same = [{"name": name, "state": "equal"} for name in ("PROG0", "PROG1")]
+    assert get(served, "project") == {"name": "gantry", "differs": [], "texts": same}
     text = "PROGRAM\nP5 = 5\nENDP\n"
     served.call(lambda station: station.link.machine.card.download(text, to=Level.program(1)))
     assert get(served, "project")["differs"] == ["PROG1"]
+    beside = get(served, "project/compare", program=1)
+    assert (beside["name"], beside["is_equal"]) == ("PROG1", False)
     before = get(served, "project/text", program=1)
     assert (before["is_same"], before["file"]) == (False, "prog1.8k")
     body = {"name": "PROG1", "text": text, "version": before["version"]}

@@ -10,6 +10,7 @@ from tests.panel.bench import Served
 from tests.panel.browser.conftest import open_page, picture, until, until_model
 from tests.panel.browser.test_bench import open_pane
 
+from openacr.client import Level
 from openacr.map.rows import axes
 from openacr.panel.control.station import Station
 from openacr.panel.machine.project import of_project
@@ -176,3 +177,42 @@ def test_all_off_switches_every_drive_off_at_once(page: Page, served: Served) ->
     page.get_by_role("button", name="ALL OFF").click()
     expect(page.locator("[data-pane=drives] .drive-state.is-running")).to_have_count(0)
     assert not any(each.is_enabled for each in served.call(lambda s: s.drives.look()))
+
+
+def test_the_project_is_compared_with_the_card_and_goes_to_both_sides(
+    page: Page, served: Served, folder: Path, pictures: Path
+) -> None:
+    sign = page.get_by_role("button", name="≠ PROJECT")
+    expect(sign).to_be_hidden()
+    before = (folder / "prog1.8k").read_text()
+    text = "PROGRAM\nDWL 7\nENDP\n"
+
+    def change(station: Station) -> None:
+        station.link.machine.card.download(text, to=Level.program(1))
+        station.on_card.programs.texts_changed("PROG1")
+
+    served.call(change)
+    sign.click()
+    pane = page.locator("[data-pane=project]")
+    row = pane.locator("tr[data-name=PROG1]")
+    expect(row.locator("[data-state=differs]")).to_have_text("differs")
+    expect(pane.locator("tr[data-name=PROG0] [data-state=equal]")).to_have_text("equal")
+    row.get_by_role("button", name="COMPARE PROG1").click()
+    expect(pane.locator("table.compared tr.is-different", has_text="DWL 7")).to_have_count(1)
+    picture(page, pictures / "project.png")
+    row.get_by_role("button", name="SAVE INTO PROJECT PROG1").click()
+    dialog = page.get_by_role("dialog", name="SAVE INTO PROJECT")
+    expect(dialog).to_contain_text("PROG1: 10 lines")
+    dialog.get_by_role("button", name="CANCEL").click()
+    assert (folder / "prog1.8k").read_text() == before
+    pane.locator("xpath=..").get_by_role("button", name="DOWNLOAD ALL").click()
+    dialog = page.get_by_role("dialog", name="DOWNLOAD")
+    expect(dialog).to_contain_text("PROG1: 1 line")
+    dialog.get_by_role("button", name="DOWNLOAD").click()
+    expect(row.locator("[data-state=equal]")).to_have_text("equal")
+    expect(sign).to_be_hidden()
+    served.call(change)
+    row.get_by_role("button", name="SAVE INTO PROJECT PROG1").click()
+    page.get_by_role("dialog").get_by_role("button", name="SAVE INTO PROJECT").click()
+    expect(row.locator("[data-state=equal]")).to_have_text("equal")
+    assert "DWL 7" in (folder / "prog1.8k").read_text()

@@ -5,17 +5,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import blake2b
 from pathlib import Path
+from typing import Literal
 
 from openacr.client.errors import ChangedError
 from openacr.client.requests import Level
 from openacr.client.stored import ListedLine
 from openacr.errors import UserError, unwritable
-from openacr.panel.work.comparing import side_by_side
+from openacr.panel.work.comparing import Row, side_by_side
 from openacr.panel.work.text_questions import Entered
 from openacr.project import decode, find_project
 from openacr.source_check import read
 
 Listings = Mapping[str, Sequence[ListedLine]]  # by PROG3, PLC0
+State = Literal["equal", "differs", "card", "project"]  # the last two: only there
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,14 +45,25 @@ class _Place:
     last: int = 0
 
 
-def differing(root: Path, listings: Listings) -> list[str]:
-    """The programs and PLCs whose text on the card is another one than in the project."""
-    entered = _entered(root)
-    return [
-        name
+def states(root: Path, listings: Listings) -> dict[str, State]:
+    """Of each program and PLC whether card and project have the same, or which of them has one."""
+    entered = {name: lines for name, (lines, _place) in _entered(root).items()}
+    return {
+        name: _state(entered.get(name, ()), listings.get(name, ()))
         for name in sorted({*entered, *listings}, key=_order)
-        if not _is_same(entered[name][0] if name in entered else (), listings.get(name, ()))
-    ]
+        if entered.get(name) or listings.get(name)
+    }
+
+
+def _state(entered: Sequence[Entered], listed: Sequence[ListedLine]) -> State:
+    if _is_same(entered, listed):
+        return "equal"
+    return "card" if not entered else "project" if not listed else "differs"
+
+
+def beside(root: Path, name: str, listed: Sequence[ListedLine]) -> list[Row]:
+    """The lines of a program of a project beside those of its listing."""
+    return side_by_side(_entered(root).get(name, ((), None))[0], listed)
 
 
 def text_of(root: Path, name: str, listed: Sequence[ListedLine]) -> ProjectText:

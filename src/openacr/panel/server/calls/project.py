@@ -17,7 +17,7 @@ from openacr.panel.roles import Role
 from openacr.panel.server.api import Body, Call, endpoint
 from openacr.panel.server.calls.on_card import OfProgram, talked
 from openacr.panel.server.panel import Panel
-from openacr.panel.work.project_texts import differing, store, text_of
+from openacr.panel.work.project_texts import State, beside, states, store, text_of
 
 MOST_TEXT = 2_000_000  # characters
 Listings = dict[str, list[ListedLine]]
@@ -33,14 +33,29 @@ class Stored(Body, frozen=True):
 
 @endpoint("GET", "/project")
 async def project(call: Call) -> object:
-    """The project in whose folder the card has begun, and the programs that differ from it.
+    """The project in whose folder the card has begun, and its programs beside those of the card.
 
-    `name` is empty where there is no project. What differs on the card is lost with its process.
+    `name` is empty where there is no project. The state of a text is equal, differs, or where it
+    is alone: card, project. What differs on the card is lost with its process.
     """
     root = call.panel.installation.project
     if root is None:
-        return {"name": "", "differs": []}
-    return {"name": call.panel.installation.name, "differs": await differences(call.panel)}
+        return {"name": "", "differs": [], "texts": []}
+    found = await _states(call.panel, root)
+    return {
+        "name": call.panel.installation.name,
+        "differs": [name for name, state in found.items() if state != "equal"],
+        "texts": [{"name": name, "state": state} for name, state in found.items()],
+    }
+
+
+@endpoint("GET", "/project/compare", query=OfProgram)
+async def compare_project(call: Call) -> object:
+    """A program of the project beside the card's: lines that mean the same are opposite."""
+    level = call.query.level
+    listed = await talked(call.panel, lambda talk: listing(talk, level))
+    rows = await call.panel.checks.run(beside, _root(call), str(level), listed)
+    return {"name": str(level), "rows": rows, "is_equal": all(row.is_same for row in rows)}
 
 
 @endpoint("GET", "/project/text", query=OfProgram)
@@ -66,9 +81,11 @@ async def store_project_text(call: Call) -> object:
 async def differences(panel: Panel) -> list[str]:
     """The programs of the card that differ from its project; none where it has no project."""
     root = panel.installation.project
-    if root is None:
-        return []
+    found = {} if root is None else await _states(panel, root)
+    return [name for name, state in found.items() if state != "equal"]
 
+
+async def _states(panel: Panel, root: Path) -> dict[str, State]:
     def own(station: Station) -> Level | None:
         """The program that the panel itself stores on the card: it is no part of the project."""
         if station.link.session is None:
@@ -77,7 +94,8 @@ async def differences(panel: Panel) -> list[str]:
 
     theirs = await panel.ask(own)
     found = await talked(panel, _listings)
-    return [each for each in await panel.checks.run(differing, root, found) if each != str(theirs)]
+    compared = await panel.checks.run(states, root, found)
+    return {name: state for name, state in compared.items() if name != str(theirs)}
 
 
 def _listings(talk: Talk) -> Op[Listings]:

@@ -2,6 +2,7 @@
 import { byId, fill, h } from "../core/dom.js";
 import { t } from "../core/texts.js";
 import { ACTIONS } from "./actions.js";
+import { projectSign } from "./project_sign.js";
 import { shownKeys, spokenKeys } from "./shown_keys.js";
 import { NARROW, job } from "./workspace.js";
 
@@ -15,6 +16,7 @@ export function startBar() {
   fill(
     bar,
     ...["panes", "layouts", "close", "keys"].map((each) => keyOf("button.menu-key", /** @type {ActionName} */ (each))),
+      projectSign(),
     h("a.menu-key", { href: "/" }, t("bench.operator")),
   );
   const jobs = JOB_KEYS.map((each) => keyOf("button.key", each));

@@ -30,6 +30,7 @@ export const PANES = {
     isLarge: true,
     load: modulePane(() => import("./panes/editor.js")),
   },
+  project: { title: { en: "Project", de: "Projekt" }, load: modulePane(() => import("./panes/project.js")) },
   variables: {
     title: { en: "Variables", de: "Variablen" },
     most: 4,

@@ -11,8 +11,9 @@ const AROUND = 3; // equal lines above and below a difference
  *
  * @param {Compared} compared
  * @param {(line: number) => void} chosen a line of the text, from 1
+ * @param {string} [here] what the text is
  */
-export function comparison({ name, rows, is_equal }, chosen) {
+export function comparison({ name, rows, is_equal }, chosen, here = t("texts.here")) {
   const shown = rows.map((_row, n) => rows.slice(Math.max(0, n - AROUND), n + AROUND + 1).some((each) => !each[4]));
   /** @type {HTMLElement[]} */
   const body = [];
@@ -43,7 +44,7 @@ export function comparison({ name, rows, is_equal }, chosen) {
     "table.grid.compared",
     { ariaLabel: t("texts.compared", { name }) },
     h("caption", {}, name, " \u00b7 ", t(is_equal ? "texts.same" : "texts.different")),
-    h("thead", {}, h("tr", {}, h("th", { colSpan: 2 }, t("texts.here")), h("th", { colSpan: 2 }, t("texts.oncard")))),
+    h("thead", {}, h("tr", {}, h("th", { colSpan: 2 }, here), h("th", { colSpan: 2 }, t("texts.oncard")))),
     h("tbody", {}, ...body),
   );
 }

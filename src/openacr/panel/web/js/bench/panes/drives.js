@@ -55,7 +55,7 @@ const WRONG = {
   "soft.minus": "Die negative Softwaregrenze wurde erreicht: ANTRIEB EIN löscht den Merker",
 };
 const EVERY_MS = 250; // from an answer to the next question
-const DIGITS = 4;
+const DIGITS = 3;
 const NEAR = 0.8; // of a limit
 
 /**
