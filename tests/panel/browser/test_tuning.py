@@ -96,6 +96,30 @@ def test_a_slider_acts_at_once_and_undo_and_redo_go_back_and_forth(
     assert page.complaints == []  # type: ignore[attr-defined]
 
 
+def test_any_earlier_set_of_gains_comes_back_with_one_press_and_redo_goes_forward(
+    page: Page, served: Served
+) -> None:
+    changes = page.locator(".tune-changes li")
+    count = changes.count()
+    values = []
+    for name, parameter in (("P Gain", P_GAIN), ("D Gain", D_GAIN), ("P Gain", P_GAIN)):
+        page.locator(f"[data-gain='{name}']").get_by_role("slider").press("ArrowRight")
+        expect(changes).to_have_count(count + len(values) + 1)
+        values.append(served.call(partial(gain, parameter=parameter)))
+    expect(changes.last.locator("time")).not_to_have_text("")
+    expect(changes.last.get_by_role("button")).to_have_count(0)  # it counts now
+    changes.nth(count).get_by_role("button").click()
+    expect(changes).to_have_count(count + 1)
+    expect(page.locator("#prompt")).to_contain_text("The gains are as they were then")
+    assert served.call(gain) == pytest.approx(values[0], rel=1e-6)
+    assert served.call(partial(gain, parameter=D_GAIN)) != pytest.approx(values[1], rel=1e-3)
+    for _ in range(2):
+        page.get_by_role("button", name="REDO", exact=True).click()
+    expect(changes).to_have_count(count + 3)
+    assert served.call(gain) == pytest.approx(values[2], rel=1e-6)
+    assert served.call(partial(gain, parameter=D_GAIN)) == pytest.approx(values[1], rel=1e-6)
+
+
 def elastic(station: Station) -> None:
     """Put the load of axis X, as heavy as its motor, on an elastic shaft."""
     controller = station.installation.controller

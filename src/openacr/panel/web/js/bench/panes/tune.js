@@ -257,7 +257,9 @@ export async function mount(host, { head, kept, keep }) {
       gains:
         GAINS.map((word) => `${word} ${shown(found.proposed.gains[word])}`).join(", ") + filterText(found.proposed),
     });
-    if (!mayMove() || !(await confirm(t("tune.apply"), text, t("tune.apply")))) return;
+    const worse = worseOf(found).map(([, said]) => said);
+    const question = [...worse, text].join("\n\n");
+    if (!mayMove() || !(await confirm(t("tune.apply"), question, t("tune.apply")))) return;
     const answer = await moved("tune.apply", { axis: axis.name, store: store.checked && axis.isMachines });
     await gains?.reload();
     if (!answer) return;
@@ -323,17 +325,7 @@ function table(advice) {
         coherence: shown(advice.coherence),
       }),
     ),
-    ...Object.entries(advice.worse).map(([name, [before, after]]) =>
-      h(
-        "p.notice",
-        { data: { worse: name } },
-        t(TEXTS.worse, {
-          name: t(/** @type {any} */ (`tune.worse.${name}`)),
-          before: name.endsWith("_s") ? inMs(before) : shown(before),
-          after: name.endsWith("_s") ? inMs(after) : shown(after),
-        }),
-      ),
-    ),
+    ...worseOf(advice).map(([name, said]) => h("p.notice", { data: { worse: name } }, said)),
     advice.time_s < LONGEST_S ? h("p.hint", {}, t(TEXTS.swept, { time: advice.time_s })) : null,
     advice.refusal || advice.limited_by
       ? h("p.hint", {}, advice.refusal || t(TEXTS.limited, { why: advice.limited_by }))
@@ -365,6 +357,22 @@ function table(advice) {
       ),
     ),
   );
+}
+
+/**
+ * What is predicted to become worse with the proposed gains: the name of each figure, and the sentence.
+ * @param {any} advice
+ * @returns {[string, string][]}
+ */
+function worseOf(advice) {
+  return Object.entries(advice.worse).map(([name, [before, after]]) => [
+    name,
+    t(TEXTS.worse, {
+      name: t(/** @type {any} */ (`tune.worse.${name}`)),
+      before: name.endsWith("_s") ? inMs(before) : shown(before),
+      after: name.endsWith("_s") ? inMs(after) : shown(after),
+    }),
+  ]);
 }
 
 /**

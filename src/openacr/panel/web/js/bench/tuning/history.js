@@ -1,6 +1,6 @@
 // What was changed of some named values, with undo, redo, and the values at the start.
 
-/** @typedef {{ name: string, before: number, after: number }} Change */
+/** @typedef {{ name: string, before: number, after: number, at: Date }} Change */
 
 export class History {
   constructor() {
@@ -15,10 +15,11 @@ export class History {
    * @param {string} name
    * @param {number} before
    * @param {number} after
+   * @param {Date} [at]
    */
-  note(name, before, after) {
+  note(name, before, after, at = new Date()) {
     if (before === after) return;
-    this.done.push({ name, before, after });
+    this.done.push({ name, before, after, at });
     this.undone = [];
   }
 
@@ -40,6 +41,21 @@ export class History {
     const change = this.undone.pop();
     if (change) this.done.push(change);
     return change;
+  }
+
+  /**
+   * Go back until a number of changes is left; the values that are to be set, by name.
+   * @param {number} count
+   * @returns {Map<string, number>}
+   */
+  backTo(count) {
+    /** @type {Map<string, number>} */
+    const found = new Map();
+    while (this.done.length > count) {
+      const change = this.undo();
+      if (change) found.set(change.name, change.before);
+    }
+    return found;
   }
 
   /**

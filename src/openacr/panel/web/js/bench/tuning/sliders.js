@@ -7,6 +7,14 @@ import { keyOf } from "../../core/keys.js";
 import { t } from "../../core/texts.js";
 import { History } from "./history.js";
 
+const TEXTS = {
+  back: { en: "BACK TO THIS", de: "HIERHER ZURÜCK" },
+  backTo: {
+    en: "Back to {name} {value} and all gains as then",
+    de: "Zurück zu {name} {value} und allen Werten wie damals",
+  },
+  wentBack: { en: "The gains are as they were then", de: "Die Werte sind wie damals" },
+};
 const DECADES = 1; // to both sides of the value at the start
 const STEPS = 100; // of a decade
 
@@ -112,13 +120,13 @@ export async function gainSliders(host, axis, isStored) {
   }
 
   /**
-   * @param {import("./history.js").Change | undefined} change
+   * @param {{ name: string, before?: number, after?: number } | undefined} change
    * @param {"before" | "after"} which
    */
   async function back(change, which) {
     const gain = change && gains.get(change.name);
     if (gain) {
-      await send(gain, change[which]);
+      await send(gain, change[which] ?? gain.value);
       gain.listed = gain.value;
     }
     drawHistory();
@@ -134,11 +142,33 @@ export async function gainSliders(host, axis, isStored) {
     report(t("tune.started"));
   }
 
+  /**
+   * The set of gains after a change of the list; REDO goes forward again.
+   * @param {number} count of changes that are left
+   */
+  async function backTo(count) {
+    for (const [name, value] of history.backTo(count)) await back({ name, before: value }, "before");
+    report(t(TEXTS.wentBack));
+  }
+
   function drawHistory() {
     undo.disabled = history.done.length === 0;
     redo.disabled = history.undone.length === 0;
     start.disabled = history.done.length === 0;
-    fill(list, ...history.done.map(({ name, before, after }) => h("li", {}, `${name}: ${before} \u2192 ${after}`)));
+    fill(
+      list,
+      ...history.done.map(({ name, before, after, at }, n) =>
+        h(
+          "li",
+          {},
+          h("time.quiet", {}, at.toLocaleTimeString()),
+          ` ${name}: ${before} \u2192 ${after} `,
+          n + 1 < history.done.length
+            ? keyOf(TEXTS.back, () => void backTo(n + 1), "", { ariaLabel: t(TEXTS.backTo, { name, value: after }) })
+            : "",
+        ),
+      ),
+    );
   }
 
   await reload();
