@@ -196,6 +196,20 @@ def test_an_axis_that_may_not_be_moved_says_why(
         assert card_of(gantry).p[axes.jog_offset[Z]] == at
 
 
+def test_a_kill_during_the_jog_ends_the_press_with_the_words_of_the_card(
+    gantry: HandStation,
+) -> None:
+    press(gantry)
+    gantry.keep(1, 0.2)
+    typed(gantry, "SET 8531")
+    gantry.keep(1, 0.2)
+    (event,) = gantry.events("jog")
+    assert event["ended"] == "refused"
+    assert gantry.installation.axis_name(Z) in event["text"]
+    assert time_to_rest(gantry) <= 0.02
+    assert not gantry.station.card_jogs.are_active
+
+
 def test_speeds_belong_to_the_axes_that_are_not_acromills(gantry: HandStation) -> None:
     text = "axis AXIS2 is not AcroMill's: give its speed in units/s"
     assert gantry.press(1, "AXIS2")["error"]["text"] == text
