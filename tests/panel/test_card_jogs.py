@@ -196,6 +196,12 @@ def test_an_axis_that_may_not_be_moved_says_why(
         assert card_of(gantry).p[axes.jog_offset[Z]] == at
 
 
+def test_an_axis_of_a_program_that_is_paused_may_be_moved(gantry: HandStation) -> None:
+    typed(gantry, "RUN PROG1", "PAUSE PROG1")
+    gantry.run(0.2)
+    assert press(gantry)["ok"]
+
+
 def test_a_kill_during_the_jog_ends_the_press_with_the_words_of_the_card(
     gantry: HandStation,
 ) -> None:

@@ -96,6 +96,14 @@ def test_what_drive_on_lifts_is_shown_and_lifted(
     assert drive(gantry).is_enabled
 
 
+def test_an_open_motion_enable_input_is_named_once(gantry: HandStation) -> None:
+    has(gantry, MISC, 1 << 14)
+    gantry.run(0.05)
+    assert int(card_of(gantry).p[MISC]) & 1 << 13  # its latch is set as well
+    assert "enable.open" in drive(gantry).wrong
+    assert "enable.latched" not in drive(gantry).wrong
+
+
 def test_a_fault_input_that_is_inverted_reports_a_fault_while_it_is_off(
     gantry: HandStation,
 ) -> None:
