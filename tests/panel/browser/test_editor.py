@@ -283,3 +283,28 @@ def test_a_breakpoint_holds_the_program_before_its_line_and_keys_let_it_step(
     bar.get_by_role("button", name="GO ON").click()
     expect(held).to_have_count(0)
     on_card(served, "HALT PROG3")
+
+
+def test_where_a_name_is_used_is_shown_over_all_programs_and_leads_to_the_line(
+    page: Page, served: Served, pictures: Path
+) -> None:
+    text = "PROGRAM\nP77 = LV0\nSET 130\nENDP\n"
+    served.call(lambda station: station.link.machine.card.download(text, to=Level.program(4)))
+    put(page, 4, " LV0 = LV0+P77")
+    lines(page).nth(3).locator(".tok-variable").get_by_text("P77").click()
+    page.keyboard.press("Shift+F12")
+    uses = page.locator("[data-pane=uses]")
+    expect(uses.locator(".use")).to_have_count(1)
+    expect(uses.locator(".use .is-writes")).to_contain_text("PROG4 20")
+    picture(page, pictures / "bench-program-uses.png")
+    uses.get_by_label("P10, BIT516, a name or words").fill("130")
+    expect(uses.locator(".use")).to_have_attribute("data-name", "BIT130")
+    uses.get_by_label("P10, BIT516, a name or words").fill("P7")
+    expect(uses.get_by_text("No program on the card names it")).to_be_visible()
+    uses.get_by_label("P10, BIT516, a name or words").fill("130")
+    uses.get_by_role("button", name="PROG4 30 writes").click()
+    page.get_by_role("dialog").get_by_role("button", name="DROP").click()
+    expect(pane(page).locator(".cm-activeLine")).to_contain_text("SET 130")
+    page.locator(".bench-tab-text").get_by_text("Cross reference", exact=True).click()
+    page.get_by_role("button", name="CLOSE PANE").click()
+    page.locator(".bench-tab-text").get_by_text("Editor", exact=True).click()

@@ -5,6 +5,7 @@ from openacr.panel.server.calls import (  # noqa: F401
     card,
     commands,
     configure,
+    cross_reference,
     forms,
     help,
     journals,

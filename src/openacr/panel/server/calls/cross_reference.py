@@ -7,6 +7,7 @@ from dataclasses import asdict
 from starlette.concurrency import run_in_threadpool
 
 from openacr.client.effects import Op
+from openacr.client.errors import RefusedError
 from openacr.client.requests import SYS
 from openacr.client.stored import ListedLine, listing, rooms
 from openacr.client.talk import Talk
@@ -34,7 +35,10 @@ def _read(talk: Talk) -> Op[tuple[dict[str, list[ListedLine]], dict[str, str]]]:
     found = {}
     for level in (yield from rooms(talk)):
         found[str(level)] = yield from listing(talk, level)
-    defined = yield from talk.query("DEF", at=SYS)
+    try:
+        defined = yield from talk.query("DEF", at=SYS)
+    except RefusedError:  # it has no memory for aliases
+        defined = ()
     aliases = {each[1]: each[2].strip() for line in defined if (each := _ALIAS.match(line))}
     return found, aliases
 

@@ -16,7 +16,7 @@ export function startBar() {
   fill(
     bar,
     ...["panes", "layouts", "close", "keys"].map((each) => keyOf("button.menu-key", /** @type {ActionName} */ (each))),
-      projectSign(),
+    projectSign(),
     h("a.menu-key", { href: "/" }, t("bench.operator")),
   );
   const jobs = JOB_KEYS.map((each) => keyOf("button.key", each));

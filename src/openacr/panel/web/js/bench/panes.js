@@ -57,6 +57,7 @@ export const PANES = {
   },
   scope: { title: "scope.title", role: "service", isLarge: true, load: modulePane(() => import("./panes/scope.js")) },
   tree: { title: "pane.tree", load: modulePane(() => import("./panes/tree.js")) },
+  uses: { title: { en: "Cross reference", de: "Querverweise" }, load: modulePane(() => import("./panes/uses.js")) },
   watch: { title: { en: "Watch list", de: "Beobachten" }, load: modulePane(() => import("./panes/watch.js")) },
   io: { title: { en: "I/O", de: "E/A" }, load: tabPane(async () => (await import("../frame/tab_io.js")).ioTab) },
   board: { title: "board.title", role: "service", load: screenPane(() => import("../screens/board.js")) },

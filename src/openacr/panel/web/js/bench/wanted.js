@@ -2,16 +2,20 @@
 import { Signal } from "../core/signal.js";
 import { openPane } from "./workspace.js";
 
-/** By pane: what it has not taken yet, e.g. ["P12288"]; of the editor ["PROG3", "120"]. */
+/** By pane: what it has not taken yet, e.g. ["P12288"]; of the editor ["PROG3", "120"], of the cross reference
+ * ["speed"]. */
 const WANTED = {
   watch: new Signal(/** @type {string[]} */ ([])),
   scope: new Signal(/** @type {string[]} */ ([])),
   timeline: new Signal(/** @type {string[]} */ ([])),
   tree: new Signal(/** @type {string[]} */ ([])),
   editor: new Signal(/** @type {string[]} */ ([])),
+  uses: new Signal(/** @type {string[]} */ ([])),
 };
 
 /** @typedef {keyof typeof WANTED} Taker */
+
+const ONE_AT_A_TIME = new Set(["editor", "tree", "uses"]);
 
 /**
  * Have a pane take something; it is opened where it is not.
@@ -19,7 +23,7 @@ const WANTED = {
  * @param {...string} what
  */
 export function want(pane, ...what) {
-  WANTED[pane].set(pane === "editor" || pane === "tree" ? what : [...WANTED[pane].value, ...what]);
+  WANTED[pane].set(ONE_AT_A_TIME.has(pane) ? what : [...WANTED[pane].value, ...what]);
   openPane(pane);
 }
 

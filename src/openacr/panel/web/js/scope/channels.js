@@ -1,6 +1,6 @@
 // The channels of the scope as rows of fields: source, colour, scale, offset, unit and format, and the maths channel.
 import { get } from "../core/api.js";
-import { refuse } from "../core/app.js";
+import { refuse, report } from "../core/app.js";
 import { h } from "../core/dom.js";
 import { ExpressionError } from "../core/expression.js";
 import { t } from "../core/texts.js";
@@ -10,6 +10,13 @@ import { computed } from "./maths.js";
 import { extremes, laidOut, laneOf } from "./scales.js";
 import { COLORS } from "./screen.js";
 
+const TEXTS = {
+  taken: { en: "{name} is {channel}", de: "{name} ist {channel}" },
+  full: {
+    en: "All eight channels have a source: empty one for {name}",
+    de: "Alle acht Kan\u00e4le haben eine Quelle: einen leeren f\u00fcr {name}",
+  },
+};
 export const CHANNELS = 8;
 const MATHS = CHANNELS; // place of the maths channel
 const FIRST = ["P12291", "P12290", "P12295"];
@@ -76,6 +83,18 @@ export class Channels {
   sources() {
     this.asked = this.rows.flatMap((row, n) => (n !== MATHS && row.source.value.trim() ? [n] : []));
     return this.asked.map((n) => this.rows[n].source.value.trim());
+  }
+
+  /**
+   * Give parameters and flags a channel each, and say which.
+   * @param {string[]} ids
+   */
+  takeAll(ids) {
+    for (const name of ids) {
+      const channel = this.take(name);
+      if (channel) report(t(TEXTS.taken, { name, channel }));
+      else refuse(t(TEXTS.full, { name }));
+    }
   }
 
   /**

@@ -1,7 +1,11 @@
 // Texts on their way from the card and to it.
 import { get, send } from "../../core/api.js";
 import { link, model, refuse } from "../../core/app.js";
+import { h } from "../../core/dom.js";
+import { t } from "../../core/texts.js";
 import { textOf } from "../../screens/programs.js";
+
+const TEXTS = { file: { en: "File", de: "Datei" } };
 
 const OF_CARD = /^(prog|plc)(\d+)\.8k$/i;
 
@@ -88,4 +92,13 @@ export async function toCard({ level, version }, text) {
   return level
     ? link.command("card.send", { ...which(level), parked, version })
     : link.command("card.download", { parked });
+}
+
+/**
+ * What can be opened: a file, and the programs that have memory.
+ * @param {{ name: string, bytes: number }[]} programs
+ */
+export function levelOptions(programs) {
+  const names = programs.filter((each) => each.bytes).map((each) => each.name);
+  return [h("option", { value: "" }, t(TEXTS.file)), ...names.map((name) => h("option", { value: name }, name))];
 }

@@ -3,6 +3,8 @@ import { refuse } from "../../core/app.js";
 import { h } from "../../core/dom.js";
 import { t } from "../../core/texts.js";
 import { askText } from "../../frame/dialog.js";
+import { nameAt } from "../places.js";
+import { want } from "../wanted.js";
 
 /**
  * @typedef {{ span: number[], text: string, kind: string, fix?: import("../../edit/language.js").Finding["fix"] }} Item
@@ -27,7 +29,15 @@ export function nameActions({ asked, editor, list, showBeside }) {
   async function uses() {
     const answer = await asked("references");
     if (!answer) return;
-    if (!answer.places.length) refuse(t("texts.noname"));
+    const { line, column } = editor().about();
+    const name = nameAt(
+      editor()
+        .doc()
+        .line(line + 1).text,
+      column,
+    );
+    if (!answer.places.length && !name) refuse(t("texts.noname"));
+    if (name) want("uses", name);
     list(answer.places.map((/** @type {any} */ each) => ({ ...each, kind: "use" })));
   }
 

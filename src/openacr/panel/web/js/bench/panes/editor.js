@@ -12,16 +12,15 @@ import { createControllerEditor } from "../../edit/controller_editor.js";
 import { StoredLines } from "../../edit/line_marks.js";
 import { ask, confirm } from "../../frame/dialog.js";
 import { stateText } from "../../screens/programs.js";
-import { fromCard, fromFile, toCard } from "../editor/card_text.js";
+import { fromCard, fromFile, levelOptions, toCard } from "../editor/card_text.js";
 import { comparison } from "../editor/compare.js";
 import { debugPart } from "../editor/debug_part.js";
 import { nameActions } from "../editor/name_actions.js";
+import { followPlaces } from "../editor/places_part.js";
 import { projectPart } from "../editor/project_part.js";
-import { takeWanted } from "../wanted.js";
 
 const TEXTS = {
   which: { en: "Program or file", de: "Programm oder Datei" },
-  file: { en: "File", de: "Datei" },
   read: { en: "READ", de: "LESEN" },
   send: { en: "DOWNLOAD", de: "SENDEN" },
   compare: { en: "COMPARE", de: "VERGLEICHEN" },
@@ -58,6 +57,7 @@ const TEXTS = {
 const [SIGNATURE_MS, HALTED] = [150, "halted"];
 
 /** @typedef {import("../editor/card_text.js").Opened} Opened */
+const NEW_FILE = Object.freeze({ name: "setup.8k", level: "", text: "", version: "", setup: "", isCards: false });
 
 /**
  * @param {HTMLElement} host
@@ -67,7 +67,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   const endings = new Endings();
   const newest = latest(endings);
   /** @type {Opened} */
-  let opened = { name: "setup.8k", level: "", text: "", version: "", setup: "", isCards: false };
+  let opened = NEW_FILE;
   let saved = "";
   let drawnMarks = "";
   /** @type {StoredLines | null} */
@@ -215,6 +215,12 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     drawMarks();
   }
 
+  /** @param {string} level */
+  async function storedOf(level) {
+    if (!stored) await knowStored([level]);
+    return stored;
+  }
+
   /** @param {import("../../../vendor/codemirror.js").ChangeSet} changes */
   function changed(changes) {
     stored?.changed(changes);
@@ -331,10 +337,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   async function chooseLevel() {
     const level = choice.value;
     if (!(await mayDrop())) choice.value = opened.level;
-    else
-      await open(
-        level ? fromCard(level) : { name: "setup.8k", level: "", text: "", version: "", setup: "", isCards: false },
-      );
+    else await open(level ? fromCard(level) : NEW_FILE);
   }
 
   async function chooseFile() {
@@ -453,33 +456,9 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     debug.watch(),
   );
   const { programs } = await get("card/programs");
-  fill(
-    choice,
-    h("option", { value: "" }, t(TEXTS.file)),
-    ...programs
-      .filter((/** @type {any} */ each) => each.bytes)
-      .map((/** @type {any} */ each) => h("option", { value: each.name }, each.name)),
-  );
+  fill(choice, ...levelOptions(programs));
   choice.value = [...choice.options].some((each) => each.value === kept.level) ? kept.level : "";
   if (choice.value) await chooseLevel();
-  endings.add(takeWanted("editor", ([level, line]) => void goToStored(level, Number(line)).catch(refuse)));
-
-  /**
-   * Show a line of a program of the card, which is opened where another text is.
-   * @param {string} level
-   * @param {number} number of the line on the card
-   */
-  async function goToStored(level, number) {
-    if (opened.level !== level) {
-      choice.value = level;
-      await chooseLevel();
-    }
-    if (opened.level !== level) return; // it has changes that are kept
-    if (!stored) await knowStored([level]);
-    const at = stored?.at(level, number) ?? null;
-    if (at === null) return editor.focus();
-    const line = editor.doc().lineAt(at).number - 1;
-    editor.goTo([line, 0, line, 0]);
-  }
+  endings.add(followPlaces({ opened: () => opened, stored: storedOf, editor: () => editor, choice, chooseLevel }));
   return () => endings.end();
 }

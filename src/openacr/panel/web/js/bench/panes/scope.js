@@ -1,5 +1,5 @@
 // The oscilloscope: eight channels and one computed, trigger, cursors, XY, spectrum, references, files.
-import { give, link, model, refuse, report } from "../../core/app.js";
+import { give, link, model, refuse } from "../../core/app.js";
 import { h, setText } from "../../core/dom.js";
 import { keyOf } from "../../core/keys.js";
 import { Endings, Signal } from "../../core/signal.js";
@@ -36,11 +36,6 @@ const TEXTS = {
     de: "Was ein anderer Zweig der Zeitleiste in denselben Takten tat, wird gestrichelt gezeichnet; REFERENZ nimmt es weg.",
   },
   zoom: { en: "wheel: zoom, drag: pan, double click: back", de: "Rad: Zoom, ziehen: verschieben, Doppelklick: zurück" },
-  taken: { en: "{name} is {channel}", de: "{name} ist {channel}" },
-  full: {
-    en: "All eight channels have a source: empty one for {name}",
-    de: "Alle acht Kan\u00e4le haben eine Quelle: einen leeren f\u00fcr {name}",
-  },
   part: {
     en: "The {count} samples between the cursors (without them: on the screen) as CSV, or the picture.",
     de: "Die {count} Messwerte zwischen den Cursorn (ohne sie: auf dem Schirm) als CSV, oder das Bild.",
@@ -477,19 +472,16 @@ export async function mount(host, { head, kept, keep }) {
   showRecord();
   show(view);
   update();
-  endings.add(takeWanted("scope", (ids) => void take(ids).catch(refuse)));
-
-  /** Give parameters and flags a channel each; a scope that samples begins anew with them. @param {string[]} ids */
-  async function take(ids) {
-    for (const name of ids) {
-      const channel = channels.take(name);
-      if (channel) report(t(TEXTS.taken, { name, channel }));
-      else refuse(t(TEXTS.full, { name }));
-    }
+  const sampleAgain = async () => {
     const isSampling = live.list.length > 0 && !recording.isTaken && !isAtRest();
-    if (isSampling) await sample();
-    else await channels.nameUnits();
+    await (isSampling ? sample() : channels.nameUnits());
     changed();
-  }
+  };
+  endings.add(
+    takeWanted("scope", (ids) => {
+      channels.takeAll(ids);
+      void sampleAgain().catch(refuse);
+    }),
+  );
   return () => endings.end();
 }
