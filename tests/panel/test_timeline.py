@@ -588,7 +588,7 @@ def test_the_block_of_a_part_program_is_known_at_a_moment_and_the_program_starts
     assert hand.do("timeline.operate") == {"tick": at}
     hand.run(0.2)
     branch = history(hand).timeline.branch.number
-    assert history(hand).blocks.at(branch, at + 1) is None  # it is under way no more
+    assert history(hand).blocks.at(branch, at + 1) is None  # it has ended there
     before = hand.places()
     answer = hand.do("run.begin", line=3, safe_z=0.0)
     assert hand.places() == before  # nothing moves before it is confirmed
