@@ -497,7 +497,7 @@ def test_spans_that_are_nearer_than_a_thousandth_are_one_but_sums_are_exact() ->
     assert (lane.spans, lane.on_tk, lane.changes) == ([(150, 200), (300, 350)], 100, 2)
     (lane,) = own.lanes(100, 200)
     assert (lane.spans, lane.on_tk, lane.changes) == ([(100, 200)], 100, 1)
-    (lane,) = own.lanes(100, 199)  # a change in the first tick is none after it
+    (lane,) = own.lanes(100, 199)  # the change in the first tick was before
     assert (lane.spans, lane.on_tk, lane.changes) == ([(100, 199)], 99, 0)
     (lane,) = own.lanes(200, 300)
     assert (lane.spans, lane.on_tk, lane.changes) == ([], 0, 1)
