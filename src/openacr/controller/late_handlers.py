@@ -4,7 +4,7 @@ The loop has a state of its own, the machine's. A handler (a statement of a prog
 executes, packets and lines of hosts, networks, devices, requests) works on the memory that all of
 Python knows, which is brought up to date before. What it has changed becomes a list, and the loop
 takes the list over between two ticks, as many ticks later as were drawn for it. The same seed
-gives the same life. Design: docs/decisions/0147-handlers-run-while-ticks-go-on.md.
+gives the same life. Design: docs/decisions/0144-handlers-run-while-ticks-go-on.md.
 """
 
 from __future__ import annotations

@@ -101,7 +101,7 @@ def test_any_earlier_set_of_gains_comes_back_with_one_press_and_redo_goes_forwar
 ) -> None:
     changes = page.locator(".tune-changes li")
     count = changes.count()
-    values = []
+    values: list[float] = []
     for name, parameter in (("P Gain", P_GAIN), ("D Gain", D_GAIN), ("P Gain", P_GAIN)):
         page.locator(f"[data-gain='{name}']").get_by_role("slider").press("ArrowRight")
         expect(changes).to_have_count(count + len(values) + 1)

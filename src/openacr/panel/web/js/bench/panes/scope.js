@@ -66,8 +66,7 @@ const PANS = /** @type {Record<string, number>} */ ({ ArrowLeft: -1, ArrowRight:
  */
 export async function mount(host, { head, kept, keep }) {
   const endings = new Endings();
-  const live = new Endings();
-  const recording = new Recording();
+  const [live, recording] = [new Endings(), new Recording()];
   const cursors = new Signal(/** @type {[number, number] | null} */ (null));
   /** @type {Reference | null} */
   let reference = null;
@@ -431,11 +430,9 @@ export async function mount(host, { head, kept, keep }) {
     const names = shown.filter(({ label }) => label !== "M").map(fullLabel);
     const canvas = { time: screen.canvas, xy: xy.canvas, spectrum: spectra.canvas() }[view];
     const picture = { traces: shown, period, begin: start / 1000, canvas, trigger: settings.trigger };
-    if (!settings.isRecord) await exportAs(picture);
-    else {
-      const [first, last] = long.part();
-      await exportAs(picture, t(TEXTS.part, { count: last - first }), last > first ? long.file(names) : "");
-    }
+    if (!settings.isRecord) return exportAs(picture);
+    const [first, last] = long.part();
+    return exportAs(picture, t(TEXTS.part, { count: last - first }), last > first ? long.file(names) : "");
   }
 
   endings.add(
@@ -472,16 +469,11 @@ export async function mount(host, { head, kept, keep }) {
   showRecord();
   show(view);
   update();
-  const sampleAgain = async () => {
-    const isSampling = live.list.length > 0 && !recording.isTaken && !isAtRest();
-    await (isSampling ? sample() : channels.nameUnits());
-    changed();
+  const isSampling = () => live.list.length > 0 && !recording.isTaken && !isAtRest();
+  const takeAll = (/** @type {string[]} */ ids) => {
+    channels.takeAll(ids);
+    void (isSampling() ? sample() : channels.nameUnits()).then(changed, refuse);
   };
-  endings.add(
-    takeWanted("scope", (ids) => {
-      channels.takeAll(ids);
-      void sampleAgain().catch(refuse);
-    }),
-  );
+  endings.add(takeWanted("scope", takeAll));
   return () => endings.end();
 }
