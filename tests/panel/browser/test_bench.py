@@ -94,11 +94,18 @@ def open_pane(page: Page, name: str) -> None:
     expect(page.get_by_role("dialog")).to_have_count(0)
 
 
+def show_pane(page: Page, kind: str) -> None:
+    """Show the pane of a kind that is open, or open one."""
+    page.evaluate(
+        "(kind) => import('/js/bench/workspace.js').then((each) => each.openPane(kind))", kind
+    )
+
+
 def test_the_first_layout_shows_panes_of_the_operators_screens_live(
     page: Page, served: Served
 ) -> None:
     expect(page.locator(".bench-tab-text")).to_have_text(FIRST)
-    page.evaluate("import('/js/bench/workspace.js').then((each) => each.openPane('servo'))")
+    show_pane(page, "servo")
     expect(page.locator("#state")).to_contain_text("IDLE")
     gear = page.locator("[data-pane=servo] [data-box=gear] .value")
     for value in (250, 0):  # gear offset of X

@@ -15,7 +15,7 @@ from tests.panel.browser.conftest import (
     release_answers,
     until_model,
 )
-from tests.panel.browser.test_bench import open_pane
+from tests.panel.browser.test_bench import show_pane
 from tests.panel.browser.test_screens import AXE, AXE_RUN
 
 from openacr.client import Level
@@ -51,7 +51,7 @@ def workspace(context: BrowserContext, served: Served) -> Page:
         assert httpx.post(f"{served.url}/api/text", json=text, timeout=None).status_code == 200
     page = open_page(context, f"{served.url}/bench")
     until_model(page, "model.hello.value.client")
-    open_pane(page, "Editor")
+    show_pane(page, "editor")
     expect(pane(page).get_by_label("Program or file").get_by_role("option")).not_to_have_count(0)
     return page
 
@@ -230,7 +230,7 @@ def test_variables_and_the_flow_stack_of_a_program_are_seen_and_changed(
     looping = "PROGRAM\nDIM LV(1)\nLV0 = 5\nWHILE (LV0 < 9)\nP5 = LV0\nDWL 0.1\nWEND\nENDP\n"
     stored(served, looping)
     on_card(served, "RUN PROG3")
-    open_pane(page, "Variables")
+    show_pane(page, "variables")
     shown = page.locator("[data-pane=variables]")
     shown.get_by_label("Program").select_option("3")
     expect(shown.locator(".level")).to_have_text("WHILE 40")

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import open_page, picture, until_model
-from tests.panel.browser.test_bench import open_pane
+from tests.panel.browser.test_bench import open_pane, show_pane
 
 from openacr.client import Level
 from openacr.panel.machine.project import of_project
@@ -74,7 +74,7 @@ def test_a_changed_program_is_signed_and_saved_into_the_project(
 ) -> None:
     size = listed(page, "PROG1").locator(".number")
     before = size.inner_text()
-    open_pane(page, "Editor")
+    show_pane(page, "editor")
     editor = page.locator("[data-pane=editor]")
     editor.get_by_label("Program or file").select_option("PROG1")
     expect(editor.locator(".cm-line").nth(2)).to_have_text("' as fast as it can")
@@ -138,6 +138,7 @@ def test_an_axis_is_measured_with_the_fields_as_they_are(page: Page, served: Ser
 def test_an_axis_that_only_the_card_has_is_seen_in_the_loop_and_gets_gains(
     page: Page, served: Served
 ) -> None:
+    show_pane(page, "servo")
     loop = page.locator("[data-pane=servo]")
     loop.get_by_role("radio", name="Z (AXIS2)").click()
     served.call(
@@ -160,7 +161,7 @@ def test_arrow_keys_jog_while_the_focus_is_in_the_pane_and_never_from_another(pa
     open_pane(page, "Jog")
     jog = page.locator("[data-pane=jog]")
     key = jog.get_by_role("button", name="X plus")
-    page.evaluate("import('/js/bench/workspace.js').then((each) => each.openPane('editor'))")
+    show_pane(page, "editor")
     page.locator("[data-pane=editor] .cm-line").first.click()
     page.evaluate(HELD)
     page.keyboard.press("ArrowRight")
@@ -186,11 +187,11 @@ def test_a_mouse_has_the_dense_form_in_which_lines_and_values_are_seen(
         key = page.locator("[data-pane=terminal] .pane-head .key").first
         box = key.bounding_box()
         assert box is not None
-        assert box["height"] == 32
+        assert box["height"] == 28
         line = page.get_by_label("Line for the card")
         pane = page.locator("[data-pane=terminal]")
         assert bottom(line) <= bottom(pane)
-        open_pane(page, "Editor")
+        show_pane(page, "editor")
         page.locator("[data-pane=editor]").get_by_label("Program or file").select_option("PROG0")
         expect(page.locator("[data-pane=editor] .cm-line").first).to_have_text("PROGRAM")
         picture(page, pictures / "bench_dense.png")
@@ -210,7 +211,7 @@ def test_keys_show_panes_and_run_and_step_a_program(page: Page, served: Served) 
     download(served, "PROGRAM\nP7 = 1\nP8 = 2\nENDP\n")
     page.locator(".bench-tab-text", has_text="Programs").click()
     listed(page, "PROG1").click()
-    page.locator(".bench-tab-text", has_text="Status").click()
+    page.locator(".bench-tab-text", has_text="PLC").click()
     page.keyboard.press("Alt+r")  # first the pane is shown
     expect(programs(page)).to_be_visible()
     page.keyboard.press("Alt+r")
@@ -225,5 +226,5 @@ def test_keys_show_panes_and_run_and_step_a_program(page: Page, served: Served) 
     expect(page.get_by_role("dialog", name="PANES")).to_be_visible()
     page.keyboard.press("Escape")
     page.keyboard.press("Alt+2")
-    expect(page.locator("[data-pane=status]")).to_be_visible()
+    expect(page.locator("[data-pane=plc]")).to_be_visible()
     page.keyboard.press("Alt+9")

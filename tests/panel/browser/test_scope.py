@@ -520,7 +520,7 @@ def test_xy_and_spectrum_are_views_of_the_same_record(page: Page) -> None:
 
 def test_numbers_of_a_channel_are_shown_whole_and_the_plot_has_room(page: Page) -> None:
     for size, least in (
-        ((1366, 768), (550, 170)), ((1920, 1080), (800, 400)), ((390, 844), (250, 120)),
+        ((1366, 768), (530, 170)), ((1920, 1080), (780, 400)), ((390, 844), (250, 120)),
     ):  # fmt: skip
         page.set_viewport_size({"width": size[0], "height": size[1]})
         show_scope(page)

@@ -31,7 +31,7 @@ MISFITS = """() => {
     if (!isBox && (Math.round(box.width) < LEAST || Math.round(box.height) < LEAST) && !key.matches('FREE')) found.push(`${name} is ${Math.round(box.width)} x ${Math.round(box.height)}`);
   }
   return found;
-}""".replace("LEAST", str(LEAST_PX)).replace("FREE", ".findings .item")  # noqa: E501
+}""".replace("LEAST", str(LEAST_PX)).replace("FREE", ".findings .item, .time-names *")  # noqa: E501
 
 SHOW = "(name) => import('/js/frame/menu_bar.js').then(({ openMenu }) => openMenu(name))"
 OPEN = "(name) => import('/js/frame/screen_host.js').then(({ openScreen }) => openScreen(name))"

@@ -69,7 +69,7 @@ def test_proposed_gains_are_set_when_confirmed_and_taken_back_by_undo(
 
 
 def test_a_step_is_drawn_over_the_one_before(page: Page) -> None:
-    page.get_by_role("button", name="STEP", exact=True).click()
+    page.locator("[data-pane=tune]").get_by_role("button", name="STEP", exact=True).click()
     page.get_by_role("dialog").get_by_role("button", name="STEP", exact=True).click()
     expect(page.locator("#prompt")).to_contain_text("Axis X: overshoot")
     step = page.get_by_role("img", name="Step, pulses")  # the one before was that of the new gains
