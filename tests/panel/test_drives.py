@@ -149,7 +149,7 @@ def test_a_moving_axis_keeps_its_drive_until_everything_is_switched_off(
     assert "STOP" in error
     viewer = Person(9, Role.VIEW, "10.0.0.9")
     gantry.station.join(viewer)
-    assert gantry.send("stop.estop", who=viewer)["ok"]
+    assert gantry.send("stop.drives", who=viewer)["ok"]
     gantry.run(0.1)
     assert not any(each.is_enabled for each in gantry.station.drives.look())
     at = drive(gantry).setpoint_u

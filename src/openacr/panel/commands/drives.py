@@ -33,7 +33,7 @@ def drive_on(
 
 @command("drive.off", en="DRIVE OFF", de="ANTRIEB AUS")
 def drive_off(drives: Drives, installation: Installation, *, axis: str) -> dict[str, str]:
-    """Switch the drive of an axis off, at rest; `stop.estop` switches all off, moving or not."""
+    """Switch the drive of an axis off, at rest; `stop.drives` switches all off, moving or not."""
     drives.off(installation.axis(axis))
     return {"axis": axis}
 

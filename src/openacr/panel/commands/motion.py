@@ -358,15 +358,25 @@ def stop_all(station: Station) -> dict[str, list[str]]:
 
 @command("stop.estop", Role.VIEW, needs_control=False, is_stop=True)
 def estop(station: Station, person: Person) -> dict[str, list[str]]:
+    """Kill all motion and switch the drives off, by software: it is no emergency stop."""
+    if station.link.session is None or not station.link.session.is_set_up:
+        station.stopping.kill()
+    name = station.people.name_of(person)
+    return _stop(station, lambda runner: runner.kill(name), ends=True)
+
+
+@command("stop.drives", Role.VIEW, needs_control=False, is_stop=True, en="ALL OFF", de="ALLE AUS")
+def drives_off(station: Station, person: Person) -> dict[str, list[str]]:
     """Kill all motion and switch the drives of all axes off, AcroMill's or not, by software.
 
-    It is no emergency stop. Each drive stays off until DRIVE ON.
+    Each drive stays off until DRIVE ON.
     """
-    name = station.people.name_of(person)
     try:
         station.stopping.kill()
     finally:
-        found = _stop(station, lambda runner: runner.kill(name), ends=True)
+        found = _stop(
+            station, lambda runner: runner.kill(station.people.name_of(person)), ends=True
+        )
     return found
 
 

@@ -26,7 +26,7 @@ MOST_STOPS = 8  # of a browser, of each kind: a finger on each key of an operato
 REST_S = 90.0  # longer than any wait of an ending
 AGAIN_S = 10.0  # from one report of a failure to the next one of the same text
 ORDERS_S = 0.005  # longest time of orders before the machine gets its step
-URGENT = ("stop.hold", "stop.all", "stop.estop", "jog.release", "jog.stop")
+URGENT = ("stop.hold", "stop.all", "stop.estop", "stop.drives", "jog.release", "jog.stop")
 
 Work = Callable[[], None]
 

@@ -37,7 +37,6 @@ const TEXTS = {
   isOn: { en: "The drive of axis {axis} is on", de: "Der Antrieb der Achse {axis} ist ein" },
   isOff: { en: "The drive of axis {axis} is off", de: "Der Antrieb der Achse {axis} ist aus" },
   wasReset: { en: "The drive of axis {axis} is reset", de: "Der Antrieb der Achse {axis} ist zurückgesetzt" },
-  everyOff: { en: "ALL OFF", de: "ALLE AUS" },
   allOff: { en: "All drives are off", de: "Alle Antriebe sind aus" },
   stop: { en: "Also a moving axis; no emergency stop", de: "Auch eine Achse in Bewegung; kein Not-Halt" },
 };
@@ -74,7 +73,7 @@ export async function mount(host, { head }) {
   const endings = new Endings();
   const table = h("tbody", {});
   head.append(
-    keyOf(TEXTS.everyOff, async () => (await give("stop.estop")) && report(t(TEXTS.allOff)), ".danger", {
+    keyOf("stop.drives", async () => (await give("stop.drives")) && report(t(TEXTS.allOff)), ".danger", {
       title: t(TEXTS.stop),
     }),
   );
