@@ -358,7 +358,7 @@ def stop_all(station: Station) -> dict[str, list[str]]:
 
 @command("stop.estop", Role.VIEW, needs_control=False, is_stop=True)
 def estop(station: Station, person: Person) -> dict[str, list[str]]:
-    """Kill all motion and switch the drives off, by software: it is no emergency stop."""
+    """Kill all motion, AcroMill's drives off, by software: it is no emergency stop."""
     if station.link.session is None or not station.link.session.is_set_up:
         station.stopping.kill()
     name = station.people.name_of(person)

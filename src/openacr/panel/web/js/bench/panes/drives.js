@@ -4,7 +4,7 @@ import { give, refuse, report } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { keyOf } from "../../core/keys.js";
 import { Endings } from "../../core/signal.js";
-import { t } from "../../core/texts.js";
+import { language, t } from "../../core/texts.js";
 import { confirm } from "../../frame/dialog.js";
 import { mayMove } from "../../motion/actions.js";
 
@@ -198,7 +198,7 @@ function rowOf(first) {
 
 /** @param {{ key: string, text: string }} wrong */
 function inWords({ key, text }) {
-  return t({ en: text, de: WRONG[key] ?? text });
+  return language() === "de" ? (WRONG[key] ?? text) : text;
 }
 
 /**
