@@ -45,9 +45,12 @@ def page(context: BrowserContext, served: Served) -> Page:
 
 
 def show_scope(page: Page) -> None:
-    """The scope alone in its place."""
-    page.evaluate("import('/js/bench/workspace.js').then((each) => each.openPane('scope'))")
-    expect(page.locator("[data-pane=scope] .scope-rows")).to_be_visible()
+    """The scope alone in its place; a window that has just changed its size lays out late."""
+    rows, looks = page.locator("[data-pane=scope] .scope-rows"), 0
+    while looks < 2:
+        page.evaluate("import('/js/bench/workspace.js').then((each) => each.openPane('scope'))")
+        page.wait_for_timeout(100)
+        looks = looks + 1 if rows.is_visible() else 0
 
 
 # --- spectrum -------------------------------------------------------------------------
