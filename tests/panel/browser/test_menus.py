@@ -268,6 +268,22 @@ def test_a_list_that_is_drawn_anew_leaves_the_focus_where_it_was(page: Page) -> 
     page.unroute("**/api/project")
 
 
+def test_a_row_that_is_drawn_anew_before_its_state_is_known_keeps_the_focus(
+    page: Page, served: Served
+) -> None:
+    page.evaluate(SHOW, "diagnostics")
+    page.keyboard.press("F1")
+    row = page.locator("#screen [data-bit='0']")
+    expect(row).to_be_focused()
+    expect(row).to_contain_text("off")
+    page.evaluate("document.activeElement.isOld = true")
+    page.evaluate("""import('/js/core/app.js').then(({ model }) => {
+      model.changed.set({ what: 'forms', cells: [] });
+    })""")
+    page.wait_for_function("() => !document.querySelector('#screen [data-bit]').isOld")
+    expect(row).to_be_focused()
+
+
 def test_a_late_answer_to_abort_leaves_the_menu_that_was_chosen_meanwhile(page: Page) -> None:
     page.evaluate(SHOW, "stop")
     hold_answers(page)

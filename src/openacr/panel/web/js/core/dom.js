@@ -64,10 +64,11 @@ export function fill(element, ...children) {
     if (nameOf(each) === name) return /** @type {HTMLElement} */ (each).focus();
 }
 
-/** @param {Element | null} element */
+/** What an element is, whatever it shows at the moment. @param {Element | null} element */
 function nameOf(element) {
   if (!(element instanceof HTMLElement)) return "";
-  return element.dataset.name || element.id || element.ariaLabel || element.textContent || "";
+  const data = element.dataset.name ?? element.dataset.item;
+  return data || element.id || element.ariaLabel || element.textContent || "";
 }
 
 /**
