@@ -157,14 +157,7 @@ class Download:
 
     def pack(self) -> bytes:
         """The payload of its mail."""
-        command = 0x20 | _SIZED | _COMPLETE * self.complete
-        if self.size == len(self.data) and 0 < self.size <= EXPEDITED:
-            command |= _EXPEDITED | (EXPEDITED - self.size) << 2
-            body = _SDO.pack(command, self.index, self.subindex, self.data)
-        else:
-            size = _SIZE.pack(self.size)
-            body = _SDO.pack(command, self.index, self.subindex, size) + self.data
-        return coe(Service.REQUEST, body)
+        return coe(Service.REQUEST, _first(0x20, self))
 
 
 @dataclass(frozen=True, slots=True)
@@ -246,14 +239,7 @@ class Uploaded:
 
     def pack(self) -> bytes:
         """The payload of its mail."""
-        command = 0x40 | _SIZED | _COMPLETE * self.complete
-        if self.size == len(self.data) and 0 < self.size <= EXPEDITED:
-            command |= _EXPEDITED | (EXPEDITED - self.size) << 2
-            body = _SDO.pack(command, self.index, self.subindex, self.data)
-        else:
-            size = _SIZE.pack(self.size)
-            body = _SDO.pack(command, self.index, self.subindex, size) + self.data
-        return coe(Service.RESPONSE, body)
+        return coe(Service.RESPONSE, _first(0x40, self))
 
 
 @dataclass(frozen=True, slots=True)
@@ -356,6 +342,15 @@ def _first_data(command: int, body: bytes) -> tuple[int, bytes]:
         return len(data), data
     size: int = _SIZE.unpack_from(body, 4)[0]
     return size, body[_SDO.size :][:size]
+
+
+def _first(command: int, part: "Download | Uploaded") -> bytes:
+    """The first part of a transfer: up to four bytes go in the head, more after it."""
+    command |= _SIZED | _COMPLETE * part.complete
+    if part.size == len(part.data) and 0 < part.size <= EXPEDITED:
+        command |= _EXPEDITED | (EXPEDITED - part.size) << 2
+        return _SDO.pack(command, part.index, part.subindex, part.data)
+    return _SDO.pack(command, part.index, part.subindex, _SIZE.pack(part.size)) + part.data
 
 
 def _segment(toggle: bool, data: bytes, is_last: bool) -> bytes:
