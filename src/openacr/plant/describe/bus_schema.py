@@ -9,6 +9,8 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
+from openacr.map.numbers import FLAG_LAST
+
 Place = Annotated[int, Meta(ge=0, le=65534)]
 Alias = Annotated[int, Meta(ge=1, le=65535)]
 Number = Annotated[int, Meta(ge=0, le=4294967295)]
@@ -18,7 +20,7 @@ Seconds = Annotated[float, Meta(ge=0.001, le=10)]
 DriveCounts = Annotated[int, Meta(ge=4, le=1_073_741_824)]
 PerVolt = Annotated[float, Meta(ge=-1e9, le=1e9)]
 Speed = Annotated[float, Meta(gt=0, le=100_000)]
-CardFlag = Annotated[int, Meta(ge=0, le=17663)]
+FlagNumber = Annotated[int, Meta(ge=0, le=FLAG_LAST)]
 Points = Annotated[int, Meta(ge=0, le=256)]
 Interface = Annotated[str, Meta(min_length=1, max_length=15)]
 
@@ -73,16 +75,16 @@ class BusDriveTable(_OnTheBus, frozen=True):
     per_volt: PerVolt | None = None
     fastest_rev_s: Speed = 200.0
     probe: bool = False
-    inputs: dict[str, CardFlag] = {}
+    inputs: dict[str, FlagNumber] = {}
 
 
 class Terminal(_OnTheBus, frozen=True):
     """A terminal: its first digital input and output on the card, in the order of its channels."""
 
     name: str = ""
-    inputs_from: CardFlag | None = None
+    inputs_from: FlagNumber | None = None
     inputs: Points = 0
-    outputs_from: CardFlag | None = None
+    outputs_from: FlagNumber | None = None
     outputs: Points = 0
 
     @property

@@ -13,7 +13,7 @@ from msgspec import Meta, Struct
 
 from openacr.models import DEFAULT_MODEL, MODELS, Model
 from openacr.plant.describe.body_schema import Body, Sign
-from openacr.plant.describe.bus_schema import Bus, BusDriveTable
+from openacr.plant.describe.bus_schema import Bus, BusDriveTable, FlagNumber
 from openacr.plant.describe.network_schema import Canopen, TalkingDrive
 
 AXES = 16
@@ -21,7 +21,6 @@ COUNTS_PER_LINE = 4
 DEFAULT_UNITS = "units"
 
 AxisNumber = Annotated[int, Meta(ge=0, le=AXES - 1)]
-FlagNumber = Annotated[int, Meta(ge=0, le=17663)]
 Lines = Annotated[int, Meta(ge=1, le=25_000_000)]
 Counts = Annotated[int, Meta(ge=4, le=100_000_000)]
 Position = Annotated[float, Meta(ge=-1e9, le=1e9)]
