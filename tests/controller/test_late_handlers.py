@@ -1,18 +1,14 @@
 """Handlers that take time while ticks go on: nothing of either side is lost, no axis jumps."""
 
-import json
-import os
-import subprocess
-import sys
 from collections.abc import Sequence
 from itertools import pairwise
-from pathlib import Path
 from random import Random
 
 import pytest
 from tests.controller.hosts import at_axes
 from tests.controller.late_life import digests
 from tests.parity.journeys import JOURNEYS, card, live, take
+from tests.parity.plain import printed_by_plain_python
 
 from openacr import compiled
 from openacr.channels import StreamKind
@@ -24,7 +20,6 @@ from openacr.map.rows import masters
 from openacr.map.words import pf
 from openacr.protocol.move import Move
 
-ROOT = Path(__file__).parents[2]
 IN_MOTION, KILL, INHIBIT = 516, 522, 540
 PATH = [f"X{x} Y{y}" for x, y in ((10, 0), (10, 10), (4, 12), (0, 3), (5, 5), (5, -5), (-3, 0))]
 LATE_TK = 50
@@ -263,16 +258,7 @@ def test_rows_that_both_sides_change_have_a_rule(
 
 @pytest.mark.skipif(not compiled.is_compiled, reason="needs both builds")
 def test_both_builds_live_the_same_late_life() -> None:
-    path = os.pathsep.join((str(ROOT / "src"), str(ROOT)))
-    pure = subprocess.run(
-        [sys.executable, "-m", "tests.controller.late_life"],
-        env=os.environ | {"OPENACR_PURE": "1", "PYTHONPATH": path},
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert json.loads(pure.stdout) == digests()
+    assert printed_by_plain_python("tests.controller.late_life") == digests()
 
 
 def test_an_equal_seed_gives_an_equal_life_and_another_one_another() -> None:

@@ -1,18 +1,12 @@
 """The same life on the compiled and the pure core, and from any snapshot, ends the same."""
 
-import json
-import os
-import subprocess
-import sys
 from functools import cache
-from pathlib import Path
 
 import pytest
 from tests.parity.journeys import JOURNEYS, card, live, random_split, take
+from tests.parity.plain import printed_by_plain_python
 
 from openacr import compiled
-
-ROOT = Path(__file__).parents[2]
 
 
 @cache
@@ -23,16 +17,9 @@ def lived(name: str) -> list[str]:
 
 @pytest.mark.skipif(not compiled.is_compiled, reason="needs both builds")
 def test_both_builds_live_the_same_life() -> None:
-    path = os.pathsep.join((str(ROOT / "src"), str(ROOT)))
-    pure = subprocess.run(
-        [sys.executable, "-m", "tests.parity.journeys"],
-        env=os.environ | {"OPENACR_PURE": "1", "PYTHONPATH": path},
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    assert json.loads(pure.stdout) == {name: lived(name) for name in JOURNEYS}
+    assert printed_by_plain_python("tests.parity.journeys") == {
+        name: lived(name) for name in JOURNEYS
+    }
 
 
 @pytest.mark.parametrize("name", JOURNEYS)
