@@ -308,7 +308,7 @@ def test_every_pane_fits_every_size_and_keeps_the_rules_of_accessibility(
             picture(page, pictures / f"{name}.png")
     assert {name: each for name, each in found.items() if each} == {}
     complaints: list[str] = page.complaints  # type: ignore[attr-defined]
-    # A card that answers every pane at once may be busy; a pane asks again.
+    # Where all panes ask the card at once, a listing may run out of time; its pane says so.
     assert [each for each in complaints if "503" not in each] == []
     page.complaints.clear()  # type: ignore[attr-defined]
 
