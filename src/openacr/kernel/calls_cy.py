@@ -1,4 +1,4 @@
-"""Calls of commands to the kernel: what they do to the state that the loop goes on changing.
+"""Calls of commands to the kernel: what they do to the state that the loop keeps changing.
 
 A command that runs while ticks go on cannot write such rows itself: they are others by the time
 it is done. It notes a call instead, three numbers and a value, and the loop makes it.

@@ -21,7 +21,7 @@ from openacr.panel.control.operator.people import People
 
 MOST = 4  # captures at once
 AWAY_S = 60.0  # how long a capture waits for a client whose connection was cut
-SHARED = 0  # stands for every client where there is one capture
+SHARED = 0  # every client, where there is one capture
 
 
 @dataclass(slots=True)
@@ -113,7 +113,7 @@ class Captures:
             )
 
     def resume(self, client: int, number: int) -> Capture:
-        """A client that was connected before goes on with its capture; UserError without it."""
+        """A client that was connected before takes its capture up again; UserError without it."""
         for key, own in self._all.items():
             capture = own.scope.capture
             if capture is None or capture.number != number:
