@@ -1,12 +1,15 @@
 """JOG HOME with a modelled motor and switches: every path of the sequence, exact at any speed."""
 
+import numpy as np
 import pytest
-from tests.kernel.rig import Rig
+from tests.kernel.rig import Rig, T
 
-from openacr.map.rows import axes, encoders, motors
+from openacr.kernel.path.seek_cy import SEEK_RETURNING
+from openacr.map.rows import axes, encoders, masters, motors
 from openacr.motion.axis import registers
 from openacr.motion.jog import jog
 from openacr.motion.path import moves
+from openacr.motion.path.move_request import Target
 from openacr.plant.describe.counts import count_of
 from openacr.plant.describe.load import parse_world
 from openacr.plant.describe.schema import World
@@ -282,6 +285,28 @@ def test_a_held_marker_seek_goes_on_with_cycle_start(tick: int) -> None:
     assert rig.bit(CAPTURED)
     assert abs(rig.zero_raw - rig.count(0.3)) <= 1
     assert abs(rig.machine_u - 0.3) < 2 / COUNTS
+
+
+def test_a_marker_seek_that_is_cut_on_its_return_leaves_the_zero_where_it_was() -> None:
+    """TRJ that turns back: the axis rests beside the marker, and there nothing becomes 0."""
+    rig = Home(0.0)
+    rig.depth(4)
+    rig.master(vel=5, acc=20, dec=20, stp=20)
+    moves.seek(rig.card, 0, 0, 10.0, 0)
+    while rig.I[masters.seek_phase[0]] != SEEK_RETURNING:
+        rig.ticks()
+    places = [rig.real("psp_cnt")]
+    for _ in range(100):
+        rig.ticks()
+        places.append(rig.real("psp_cnt"))
+    zero = rig.zero_raw
+    moves.issue(rig.card, 0, [Target(0, 9.0)], replace=True)
+    for _ in range(5000):
+        rig.ticks()
+        places.append(rig.real("psp_cnt"))
+    assert abs(np.diff(places, n=2)).max() <= 20 * COUNTS * T**2 + 1e-6
+    assert rig.zero_raw == zero
+    assert places[-1] == 9.0 * COUNTS
 
 
 NARROW = """

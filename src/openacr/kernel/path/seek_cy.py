@@ -5,6 +5,7 @@ The captured position becomes 0.
 
 from openacr.kernel.axis.axis_cy import axis_offsets, axis_preload
 from openacr.kernel.axis.capture_cy import capture_arm, encoder_shift
+from openacr.kernel.path.interrupt_cy import CUT
 from openacr.kernel.path.path_cy import move_geometry, move_record, move_stop_rate
 from openacr.kernel.path.plan_cy import master_plan
 from openacr.kernel.profile.profile_cy import profile_reset, profile_stop
@@ -31,7 +32,10 @@ def seek_step(F: F64, I: I32, S: F32, m: int) -> None:
 
 
 def seek_end(F: F64, I: I32, S: F32, m: int) -> bool:
-    """An MSEEK path has come to rest; True while it still has to go back to the capture."""
+    """An MSEEK path has come to rest; True while it still has to go back to the capture.
+
+    One that was cut on its return (INT, TRJ) rests beside the capture: no position becomes 0.
+    """
     record: int = move_record(I, m)
     phase: int = I[masters.seek_phase[m]]
     axis: int = I[moves.seek_axis[record]] - 1
@@ -45,7 +49,7 @@ def seek_end(F: F64, I: I32, S: F32, m: int) -> bool:
         profile_reset(F, I, m, 0.0, 0.0)
         master_plan(F, I, S, m)
         return True
-    if phase == SEEK_RETURNING:
+    if phase == SEEK_RETURNING and I[masters.cut[m]] != CUT:
         encoder_shift(F, I, S, axis, int(F[axes.capture_cnt[axis]]))
         axis_preload(F, I, axis, 0.0)
     elif phase == SEEK_SEARCHING:
