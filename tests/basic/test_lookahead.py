@@ -313,3 +313,54 @@ def test_look_tol_sets_the_tolerance_of_the_moves_to_come() -> None:
     assert min(math.dist(place, (2, 0)) for place in path.places) == pytest.approx(0.25, rel=0.02)
     made.all("LOOK TOL 0")
     assert (4, 2) in Path(made, [(4, 2), (4, 4)]).places
+
+
+# Turns that the first three slaves do not show
+
+
+@pytest.mark.parametrize("turn_deg", [0.0, 30.0, 90.0, 180.0])
+@pytest.mark.parametrize("times", [1, 2])
+@pytest.mark.parametrize("tolerance", [0.0, 0.05])
+def test_a_point_given_again_changes_nothing_of_the_path(
+    turn_deg: float, times: int, tolerance: float
+) -> None:
+    """Exact corners: the path is the same, tick by tick; with a tolerance it stays on its line."""
+    corner = (3.0, 0.0)
+    turn = math.radians(turn_deg)
+    end = (3.0 + 2 * math.cos(turn), 2 * math.sin(turn))
+    made = bench(*([f"LOOK TOL {tolerance}"] if tolerance else []))
+    once = Path(bench(), [corner, end])
+    again = Path(made, [corner, *[corner] * times, end])
+    if not tolerance:
+        np.testing.assert_allclose(again.places, once.places, rtol=0, atol=1e-9)
+    elif turn_deg:
+        assert corner in again.places
+        changes = np.linalg.norm(np.diff(again.places, n=2, axis=0), axis=1)
+        assert changes.max() <= 100 * PERIOD_S**2 * (1 + 1e-6)
+    else:
+        assert again.ticks == once.ticks
+    assert again.places[-1] == once.places[-1]
+    assert again.steepest() <= 100 * (1 + 1e-5)
+
+
+def test_the_speed_at_a_turn_of_axes_beyond_the_first_three_is_that_of_its_angle() -> None:
+    """A turns back, C alone follows A, X follows C, and A follows X: each ends a motion."""
+    made = Bench("X", "Y", "Z", "A", "C").all("PPU X1000 Y1000 Z1000 A1000 C1000")
+    made.all("ACC 100 DEC 100 STP 100 VEL 10", "MBUF ON", "LOOK ON")
+    made.all("A5", "A2", "A8", "C4", "X3", "A10")
+    places = [[made.psp(axis) / 1000 for axis in (0, 3, 4)]]
+    while made.bit(IN_MOTION):
+        made.ticks(1)
+        places.append([made.psp(axis) / 1000 for axis in (0, 3, 4)])
+    assert places[-1] == [3.0, 10.0, 4.0]
+    assert np.abs(np.diff(places, n=2, axis=0)).max() <= 100 * PERIOD_S**2 * (1 + 1e-6)
+
+
+def test_axes_beyond_the_first_three_run_on_through_a_point_that_does_not_turn() -> None:
+    made = Bench("X", "Y", "Z", "A", "C").all("PPU X1000 Y1000 Z1000 A1000 C1000")
+    made.all("ACC 100 DEC 100 STP 100 VEL 10", "MBUF ON", "LOOK ON", "A3 C4", "A6 C8")
+    speeds = []
+    while made.bit(IN_MOTION):
+        made.ticks(1)
+        speeds.append(made.p(VELOCITY))
+    assert speeds.count(10.0) == 1801

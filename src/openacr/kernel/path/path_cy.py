@@ -26,7 +26,7 @@ from openacr.map.rows import axes, masters, moves, profiles
 from openacr.map.words import mf1, mf2
 from openacr.views import F32, F64, I32
 
-__all__ = ["move_directions", "move_shape", "path_slope", "path_turn_deg"]
+__all__ = ["move_directions", "move_shape", "path_join", "path_slope"]
 
 SLAVE_COUNT = 16
 # What a binary move brings along for its own time (row marks).
@@ -234,15 +234,58 @@ def path_direction(F: F64, I: I32, S: F32, m: int, record: int, part: float, pla
             F[place + s] = F[place + s] / sqrt(square_u2)
 
 
-def path_turn_deg(F: F64, before: int, after: int) -> float:
-    """Angle between the end of one move and the beginning of the next."""
+def path_join(F: F64, I: I32, S: F32, m: int, before: int, after: int) -> None:
+    """Note by how much the path turns between two moves that follow each other.
+
+    A move that goes nowhere heads where the one before it does, so that the turn of the path at
+    its place is not lost.
+    """
+    if F[moves.length_u[after]] <= 0.0:
+        for s in range(3):
+            F[moves.enter[after] + s] = F[moves.leave[before] + s]
+            F[moves.leave[after] + s] = F[moves.leave[before] + s]
+    F[moves.turn_deg[before]] = path_turn_deg(F, I, S, m, before, after)
+
+
+def path_turn_deg(F: F64, I: I32, S: F32, m: int, before: int, after: int) -> float:
+    """Angle between the end of one move and the beginning of the next.
+
+    It is that of the first three slaves; where neither move has any of them, that of the others.
+    """
     a: int = moves.leave[before]
     b: int = moves.enter[after]
+    if F[moves.length_u[before]] > 0.0 and F[moves.length_u[after]] > 0.0:
+        if not heads(F, a) and not heads(F, b):
+            return others_turn_deg(F, I, S, m, before, after)
+        if not heads(F, a) or not heads(F, b):
+            return 90.0
     x: float = F[a + 1] * F[b + 2] - F[a + 2] * F[b + 1]
     y: float = F[a + 2] * F[b] - F[a] * F[b + 2]
     z: float = F[a] * F[b + 1] - F[a + 1] * F[b]
     along: float = F[a] * F[b] + F[a + 1] * F[b + 1] + F[a + 2] * F[b + 2]
     return atan2(sqrt(x * x + y * y + z * z), along) * DEGREES
+
+
+def heads(F: F64, place: int) -> bool:
+    """Whether a direction that was noted is one: the first three slaves take part."""
+    return F[place] != 0.0 or F[place + 1] != 0.0 or F[place + 2] != 0.0
+
+
+def others_turn_deg(F: F64, I: I32, S: F32, m: int, before: int, after: int) -> float:
+    """Angle between two moves in which none of the first three slaves takes part."""
+    along: float = 0.0
+    before2: float = 0.0
+    after2: float = 0.0
+    for s in range(3, SLAVE_COUNT):
+        axis: int = I[masters.slave_axis[m] + s]
+        if axis >= 0:
+            old: float = path_slope(F, I, before, s, 1.0) / axis_scale(S, axis)
+            new: float = path_slope(F, I, after, s, 0.0) / axis_scale(S, axis)
+            along += old * new
+            before2 += old * old
+            after2 += new * new
+    across2: float = before2 * after2 - along * along
+    return atan2(sqrt(max(across2, 0.0)), along) * DEGREES
 
 
 def master_place(F: F64, I: I32, m: int) -> None:

@@ -21,7 +21,7 @@ from openacr.kernel.path.path_cy import (
     SLAVE_COUNT,
     move_directions,
     move_record,
-    path_turn_deg,
+    path_join,
 )
 from openacr.kernel.path.round_between_cy import round_between
 from openacr.kernel.path.round_cy import round_through
@@ -82,8 +82,7 @@ def record_look_back(F: F64, I: I32, S: F32, m: int, record: int, queued: int) -
     I[masters.look_dirty[m]] = 1
     if queued:
         before: int = record_place(I, m, queued - 1)
-        turn_deg: float = path_turn_deg(F, before, record)
-        F[moves.turn_deg[before]] = turn_deg
+        path_join(F, I, S, m, before, record)
         round_between(F, I, S, m, before, record)
     F[moves.corner_u[record]] = 0.0
     F[moves.corner_turn[record]] = 0.0

@@ -11,7 +11,7 @@ from openacr.kernel.path.path_cy import (
     SLAVE_COUNT,
     move_directions,
     move_shape,
-    path_turn_deg,
+    path_join,
 )
 from openacr.kernel.path.round_between_cy import round_again
 from openacr.map.rows import axes, masters, moves
@@ -33,5 +33,5 @@ def path_relay(F: F64, I: I32, S: F32, m: int) -> None:
                 F[masters.target_cnt[m] + s] = F[moves.target_cnt[record] + s]
         if k > 0:
             before: int = look_record(I, m, k - 1)
-            F[moves.turn_deg[before]] = path_turn_deg(F, before, record)
+            path_join(F, I, S, m, before, record)
             round_again(F, I, S, m, before, record)

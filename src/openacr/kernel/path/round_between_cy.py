@@ -37,6 +37,7 @@ from openacr.kernel.path.round_law_cy import (
     round_accel,
     round_cap,
     round_pays,
+    round_point,
     round_straight,
     round_turn,
 )
@@ -73,7 +74,12 @@ def round_decide(F: F64, I: I32, S: F32, m: int, a: int, b: int, active: bool) -
     F[moves.corner_turn[b]] = 0.0
     I[moves.ahead[a]] = AS_LOOK
     tolerance_u: float = F[moves.tolerance_u[a]]
-    if not tolerance_u > 0.0 or not round_straight(F, I, a) or not round_straight(F, I, b):
+    if not tolerance_u > 0.0:
+        return
+    if F[moves.turn_deg[a]] > 0.0 and round_point(F, I, a) and round_straight(F, I, b):
+        I[moves.ahead[a]] = STOPS if active else APART  # a point has no length to round on
+        return
+    if not round_straight(F, I, a) or not round_straight(F, I, b):
         return
     # What a TRJ has cut comes to rest; where the move after it begins is not known yet.
     if I[masters.cut[m]] and I[masters.queued[m]] <= cut_left(I, m) + 1:

@@ -38,9 +38,19 @@ def round_accel(F: F64, record: int) -> float:
 
 def round_straight(F: F64, I: I32, record: int) -> bool:
     """Whether a move is a straight line that merges with others."""
+    return F[moves.length_u[record]] > 0.0 and round_plain(F, I, record)
+
+
+def round_point(F: F64, I: I32, record: int) -> bool:
+    """Whether a move goes nowhere and merges with others."""
+    return F[moves.length_u[record]] <= 0.0 and round_plain(F, I, record)
+
+
+def round_plain(F: F64, I: I32, record: int) -> bool:
+    """Whether a move has no curve, time, flag, capture or trigger of its own."""
     if I[moves.curved[record]] or I[moves.tang_slave[record]] or is_bezier(I, record):
         return False
-    return look_plain(F, I, record) and F[moves.length_u[record]] > 0.0
+    return look_plain(F, I, record)
 
 
 def round_turn(F: F64, I: I32, S: F32, m: int, a: int, b: int) -> float:
