@@ -6,7 +6,7 @@ from pathlib import Path
 
 import httpx
 import pytest
-from playwright.sync_api import BrowserContext, Locator, Page, expect
+from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import (
     hold_answers,
@@ -99,6 +99,20 @@ def put(page: Page, line: int, text: str) -> None:
     page.keyboard.press("Shift+Home")
     page.keyboard.press("Shift+Home")
     page.keyboard.insert_text(text)
+
+
+@pytest.mark.parametrize(("chosen", "shown"), [("", "PROG0 · halted"), ("PROG3", "PROG3 · halted")])
+def test_the_editor_begins_with_the_first_program_or_the_one_chosen_in_another_pane(
+    browser: Browser, page: Page, served: Served, chosen: str, shown: str
+) -> None:
+    stored(served, COUNTING)
+    context = browser.new_context()
+    fresh = open_page(context, f"{served.url}/bench")
+    until_model(fresh, "model.hello.value.client")
+    fresh.evaluate(f"import('/js/core/programs.js').then((it) => it.chosenProgram.set('{chosen}'))")
+    show_pane(fresh, "editor")
+    expect(pane(fresh).locator(".text-foot .hint")).to_contain_text(shown)
+    context.close()
 
 
 def test_a_mistake_is_marked_listed_and_mended_while_typing(page: Page) -> None:

@@ -18,3 +18,12 @@ export function needPrograms() {
     if (--count === 0) end();
   };
 }
+
+/**
+ * The program to show where none was chosen: the first one with a text that is not the machine's, or with room for one.
+ * @param {{ name: string, used: number, bytes: number, owner: string }[]} listed
+ */
+export function firstProgram(listed) {
+  const free = listed.filter((each) => !each.owner);
+  return (free.find((each) => each.used) ?? free.find((each) => each.bytes))?.name ?? "PROG0";
+}

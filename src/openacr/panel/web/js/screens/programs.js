@@ -4,7 +4,7 @@ import { get, latest } from "../core/api.js";
 import { give, link, model, refuse, report } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
 import { keyOf } from "../core/keys.js";
-import { chosenProgram, needPrograms } from "../core/programs.js";
+import { chosenProgram, firstProgram, needPrograms } from "../core/programs.js";
 import { t, textOr } from "../core/texts.js";
 import { ask, confirm } from "../frame/dialog.js";
 import { createListing } from "../frame/listing.js";
@@ -346,12 +346,7 @@ export const screen = {
       },
     );
     await readList();
-    const first =
-      args.name ??
-      listed.find((each) => each.used && !each.owner)?.name ??
-      listed.find((each) => each.bytes && !each.owner)?.name ??
-      "PROG0";
-    await choose(first);
+    await choose(args.name ?? firstProgram(listed));
     /** @type {HTMLElement | null} */ (items.querySelector("[aria-selected=true]"))?.focus();
   },
 };

@@ -2,6 +2,7 @@
 import { get, send } from "../../core/api.js";
 import { link, model, refuse } from "../../core/app.js";
 import { h } from "../../core/dom.js";
+import { firstProgram } from "../../core/programs.js";
 import { t } from "../../core/texts.js";
 import { textOf } from "../../screens/programs.js";
 
@@ -101,4 +102,15 @@ export async function toCard({ level, version }, text) {
 export function levelOptions(programs) {
   const names = programs.filter((each) => each.bytes).map((each) => each.name);
   return [h("option", { value: "" }, t(TEXTS.file)), ...names.map((name) => h("option", { value: name }, name))];
+}
+
+/**
+ * The program to show first; "" for a file.
+ * @param {any[]} programs
+ * @param {string | undefined} kept "" for a file, undefined where no choice was made
+ * @param {string} chosen in another pane
+ */
+export function firstLevel(programs, kept, chosen) {
+  const wanted = kept ?? (chosen || firstProgram(programs));
+  return programs.some((each) => each.bytes && each.name === wanted) ? wanted : "";
 }

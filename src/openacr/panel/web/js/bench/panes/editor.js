@@ -12,7 +12,7 @@ import { createControllerEditor } from "../../edit/controller_editor.js";
 import { StoredLines } from "../../edit/line_marks.js";
 import { ask, confirm } from "../../frame/dialog.js";
 import { stateText } from "../../screens/programs.js";
-import { fromCard, fromFile, levelOptions, toCard } from "../editor/card_text.js";
+import { firstLevel, fromCard, fromFile, levelOptions, toCard } from "../editor/card_text.js";
 import { comparison } from "../editor/compare.js";
 import { debugPart } from "../editor/debug_part.js";
 import { nameActions } from "../editor/name_actions.js";
@@ -147,7 +147,10 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     stored = null;
     refused = null;
     drawnMarks = "";
-    if (editor) editor.close();
+    if (editor) {
+      editor.close();
+      keep({ level: now.level });
+    }
     editor = createControllerEditor(code, {
       ...now,
       found: showFindings,
@@ -157,7 +160,6 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     });
     closeBeside();
     choice.value = now.level;
-    keep({ level: now.level });
     if (now.level) chosenProgram.set(now.level);
     if (now.isCards) void knowStored([now.level]);
     draw();
@@ -457,8 +459,9 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   );
   const { programs } = await get("card/programs");
   fill(choice, ...levelOptions(programs));
-  choice.value = [...choice.options].some((each) => each.value === kept.level) ? kept.level : "";
-  if (choice.value) await chooseLevel();
+  choice.value = firstLevel(programs, kept.level, chosenProgram.value);
+  if (choice.value && (kept.level || !isChanged())) await chooseLevel();
+  else choice.value = opened.level;
   endings.add(followPlaces({ opened: () => opened, stored: storedOf, editor: () => editor, choice, chooseLevel }));
   return () => endings.end();
 }
