@@ -14,7 +14,7 @@ import { t } from "../core/texts.js";
  */
 export async function ioTab(panel, endings) {
   panel.classList.add("scroll");
-  const host = h("div", {});
+  const host = h("div.io-host", {});
   panel.append(host);
   const own = new Endings();
   endings.add(() => own.end());

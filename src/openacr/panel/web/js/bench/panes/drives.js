@@ -226,14 +226,16 @@ function bar(label) {
       element.classList.toggle("is-near", share >= NEAR);
       Object.assign(track, { ariaValueNow: String(value), ariaValueMin: String(low), ariaValueMax: String(high) });
       const said = limit === 0 ? TEXTS.unlimited : TEXTS.of;
-      setText(text, t(said, { value: number(value), limit: number(limit) }));
+      const far = low === -high ? `\u00b1${number(high)}` : number(limit);
+      setText(text, t(said, { value: number(value), limit: far }));
     },
   };
 }
 
 /** @param {number} value */
 function number(value) {
-  return value.toFixed(DIGITS).replace("-", "\u2212");
+  const digits = value.toFixed(DIGITS);
+  return Number(digits) === 0 ? digits.replace("-", "") : digits.replace("-", "\u2212");
 }
 
 /** @param {Drive} drive */

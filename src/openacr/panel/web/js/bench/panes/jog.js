@@ -101,8 +101,8 @@ async function cardKeys(axes, endings, kept, keep) {
           "tr",
           {},
           h("th", {}, t("form.axis")),
-          ...[TEXTS.position, TEXTS.speed, TEXTS.step].map((text) => h("th.number", {}, t(text))),
           h("th", {}),
+          ...[TEXTS.position, TEXTS.speed, TEXTS.step].map((text) => h("th.number", {}, t(text))),
         ),
       ),
       h("tbody", {}, ...rows.map(({ row }) => row)),
@@ -156,10 +156,10 @@ function rowOf({ name, title }, [setpoint, ppu, own], kept) {
       "tr",
       { data: { axis: name } },
       h("th", { scope: "row" }, title),
+      h("td", {}, h("div.row", {}, ...keys)),
       position,
       h("td.number", {}, speed),
       h("td.number", {}, step),
-      h("td", {}, h("div.row", {}, ...keys)),
     ),
     show(/** @type {Map<number, number>} */ values) {
       const scale = values.get(ppu.number) || 1;
