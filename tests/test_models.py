@@ -1,7 +1,6 @@
 """Controller models differ in what they have."""
 
-from dataclasses import replace
-
+from msgspec.structs import replace
 from tests.controller.hosts import Host
 
 from openacr.controller import Controller

@@ -7,11 +7,10 @@ A row keeps its number: programs that were ended by an error hold it, and so do 
 gets the next number. Sources of the core write `messages.MATH_ERROR.number`.
 """
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True)
-class Message:
+class Message(Struct, frozen=True):
     """One message; `{}` is replaced by the detail (a name or a line number)."""
 
     number: int

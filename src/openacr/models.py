@@ -5,8 +5,9 @@ programs are those the manuals state; counts they do not state are those of the 
 the family (20 encoders, 16 analog outputs and inputs).
 """
 
-from dataclasses import dataclass
 from enum import Flag
+
+from msgspec import Struct
 
 SYSTEM_MEMORY_BYTES = 1 << 20
 
@@ -31,8 +32,7 @@ _TITLES = {
 }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Model:
+class Model(Struct, frozen=True, kw_only=True):
     """One controller model.
 
     `axes` counts those of the firmware, which ATTACH knows; a small board has `connectors` for

@@ -7,11 +7,12 @@ is reported with its place, and no controller exists until the whole project is 
 import codecs
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from enum import Enum
 from functools import lru_cache
 from hashlib import blake2b
 from pathlib import Path
+
+from msgspec import Struct, field
 
 from openacr.errors import SourceError, UserError, read_bytes, unreadable
 
@@ -55,8 +56,7 @@ def decode(data: bytes) -> str:
     return data.decode("utf-8", errors="openacr-single-byte").removeprefix("\ufeff")
 
 
-@dataclass(frozen=True, slots=True)
-class SourceFile:
+class SourceFile(Struct, frozen=True):
     """One controller file: where it is, what it is for and the bytes it holds."""
 
     path: Path
@@ -70,8 +70,7 @@ class SourceFile:
         return decode(self.data)
 
 
-@dataclass(frozen=True, slots=True)
-class Project:
+class Project(Struct, frozen=True):
     """The files of one machine, all read and known to be text."""
 
     root: Path

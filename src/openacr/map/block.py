@@ -14,8 +14,9 @@ Where a manual prints another number than its own rule gives, the row says so in
 """
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from enum import Enum, StrEnum
+
+from msgspec import Struct
 
 from openacr.units import WORDS, words_of
 
@@ -68,8 +69,7 @@ NS = Access.UNKNOWN  # not stated
 FAST, SLOW = Speed.FAST, Speed.SLOW
 
 
-@dataclass(frozen=True, slots=True)
-class Packet:
+class Packet(Struct, frozen=True):
     """Address of a parameter in the binary protocol: group code, index and mask bit."""
 
     code: int
@@ -101,16 +101,14 @@ def objects_apart(number: int) -> Packet:
     return Packet(number >> 11 << 3, number & 0xFF, 1 << (number >> 8 & 7))
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
+class Span(Struct, frozen=True):
     """A run of objects (or flag words): number of the first, how many."""
 
     first: int
     count: int
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Struct, frozen=True):
     """One parameter of every object of a block."""
 
     offset: int

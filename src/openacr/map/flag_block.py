@@ -4,7 +4,8 @@ Flag `n` is bit `n % 32` of parameter `4096 + n // 32`; see `openacr.map.block` 
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from openacr.map.block import (
     BITS_PER_WORD,
@@ -19,8 +20,7 @@ from openacr.map.block import (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class FlagRow:
+class FlagRow(Struct, frozen=True):
     """One flag of every word of a flag block."""
 
     bit: int

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from copy import deepcopy
-from dataclasses import replace
 from typing import Any
+
+from msgspec.structs import replace
 
 from openacr.errors import CardError, MapError, SourceError, UserError
 from openacr.plant.describe import schema, toml_file

@@ -2,9 +2,10 @@
 
 from bisect import bisect_right
 from collections.abc import Iterator
-from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
+
+from msgspec import Struct
 
 from openacr.sysvar.lookup import parameter
 from openacr.sysvar.schema import (
@@ -42,8 +43,7 @@ READ_ONLY = "E212"
 RESERVED = "W220"
 
 
-@dataclass(frozen=True, slots=True)
-class Home:
+class Home(Struct, frozen=True):
     """A range of numbers with the same place and rights."""
 
     first: int

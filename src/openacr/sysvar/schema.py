@@ -7,10 +7,11 @@ describe a series of equal cells, `step` apart. Lengths are declared in inches.
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
 from typing import Any, Generic, TypeVar
+
+from msgspec import Struct, field
 
 from openacr.errors import MapError
 from openacr.map.numbers import FLAG_WORD_BASE
@@ -43,8 +44,7 @@ class Wire(Enum):
     OUTPUT = "output"
 
 
-@dataclass(frozen=True, slots=True)
-class At:
+class At(Struct, frozen=True):
     """Where a default is computed: axis, position in the series, and the other cells."""
 
     axis: int
@@ -55,8 +55,7 @@ class At:
 Default = float | str | Callable[[At], float | str]
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Struct, frozen=True):
     """One line of a tab: a parameter, or a series of `count` of them."""
 
     k: int
@@ -89,8 +88,7 @@ class Row:
         return "{}" in self.name
 
 
-@dataclass(frozen=True, slots=True)
-class Parameter:
+class Parameter(Struct, frozen=True):
     """One cell: its number, tab, axis and row."""
 
     number: int

@@ -5,11 +5,12 @@ counted from the machine's own zero), everything about motors and drives is in S
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import Annotated
 
 from msgspec import Meta, Struct
+from msgspec.structs import replace
 
 from openacr.models import DEFAULT_MODEL, MODELS, Model
 from openacr.plant.describe.body_schema import Body, Sign
