@@ -7,12 +7,13 @@ forward and backward, under the same law of limits.
 import math
 import random
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 from numpy.typing import NDArray
 from tests.mill.planned import Action, follow, motion_s
 from tests.mill.shop import PULSES, Shop, at, end, line, src

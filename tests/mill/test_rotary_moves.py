@@ -1,11 +1,10 @@
 """Moves of their own that turn a table, on a machine with a jerk limit: each axis keeps its own."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 from tests.mill.planned import ACCEL, JERK, Reals, go_on, stop
 from tests.mill.planned_rotary import (
     BEGIN,

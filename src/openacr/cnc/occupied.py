@@ -5,8 +5,9 @@ a ValueError at import. The page of all codes prints the table.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from enum import Enum
+
+from msgspec import Struct
 
 
 class Kind(Enum):
@@ -17,8 +18,7 @@ class Kind(Enum):
     PROGRAM = "PROG"
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Struct, frozen=True):
     """One number or several consecutive ones, and their use."""
 
     kind: Kind

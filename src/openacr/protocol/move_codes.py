@@ -1,9 +1,10 @@
 """The header codes of a binary move: which fields follow, and what kind of move it is."""
 
 import struct
-from dataclasses import dataclass
 from enum import IntEnum, IntFlag
 from functools import lru_cache
+
+from msgspec import Struct
 
 SLAVES = 16
 SHORT_HEADER, MIDDLE_HEADER, LONG_HEADER = 4, 5, 9
@@ -64,8 +65,7 @@ class Curve(IntEnum):
     SPLINE = 3
 
 
-@dataclass(frozen=True, slots=True)
-class Profile:
+class Profile(Struct, frozen=True):
     """The speed settings of header code 0: ramps at the end, and the override that applies."""
 
     stop_ramp: bool  # STP := DEC for this move, else STP := 0
@@ -74,8 +74,7 @@ class Profile:
     override_locked: bool  # the override counts as 1.0
 
 
-@dataclass(frozen=True, slots=True)
-class Header:
+class Header(Struct, frozen=True):
     """Decoded header codes: which fields follow, and what kind of move it is."""
 
     length: int

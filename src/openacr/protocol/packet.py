@@ -9,16 +9,17 @@ Every reply of the card is the request repeated, followed by four-byte words (UG
 import struct
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import Annotated, ClassVar, Self, TypeVar, get_type_hints
+
+from msgspec import Struct
 
 from openacr.protocol.host import Host, PacketError
 
 WORD_BYTES = 4
 
 
-@dataclass(frozen=True, slots=True)
-class Wire:
+class Wire(Struct, frozen=True):
     """The wire form of one field: a `struct` format, low byte first."""
 
     format: str
@@ -37,8 +38,7 @@ F32 = Annotated[float, Wire("f")]
 RESERVED_U32 = Annotated[int, Wire("2xI")]  # after two reserved bytes
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
+class Part(Struct, frozen=True):
     """One line of an explained hex dump: the bytes, name and value of a field."""
 
     data: bytes
@@ -132,8 +132,7 @@ def wires(packet: type[Packet]) -> tuple[tuple[str, Wire], ...]:
     return _WIRES[packet]
 
 
-@dataclass(frozen=True, slots=True)
-class _Form:
+class _Form(Struct, frozen=True):
     """The wire layout of a packet class, computed once."""
 
     names: tuple[str, ...]

@@ -2,12 +2,12 @@
 
 import random
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from itertools import pairwise
 from math import atan2, ceil, cos, hypot, pi, sin
 
 import numpy as np
 import shapely
+from msgspec.structs import replace
 from tests.cnc.compensation.tools import Path
 
 from openacr.cnc.geometry.elements import Element

@@ -1,11 +1,11 @@
 """Programs that switch, change, stop and wait at any place: the tool's path stays in one piece."""
 
 import random
-from dataclasses import replace
 from itertools import pairwise
 from math import atan2, dist, isfinite, remainder, tau
 
 import pytest
+from msgspec.structs import replace
 from tests.cnc.compensation.oracle import contour
 from tests.cnc.compensation.tools import EXACT, Trace
 

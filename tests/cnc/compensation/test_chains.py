@@ -1,9 +1,9 @@
 """Beginning and end of compensation, what waits between elements, and changes on the way."""
 
-from dataclasses import FrozenInstanceError, replace
 from math import cos, pi, radians, sin
 
 import pytest
+from msgspec.structs import replace
 from tests.cnc.compensation.tools import EXACT, FEED, Path, Trace, compensate, plane_point
 
 from openacr.cnc.canonical import Plane, Source
@@ -276,7 +276,7 @@ def test_elements_that_come_out_are_like_any_other() -> None:
     assert made == same
     assert hash(made) == hash(same)
     assert replace(made, pace=None).pace is None
-    with pytest.raises(FrozenInstanceError):
+    with pytest.raises(AttributeError):
         made.pace = None  # type: ignore[misc]
 
 

@@ -1,11 +1,11 @@
 """Compensation that begins with an arc, as LinuxCNC has it."""
 
 import math
-from dataclasses import replace
 
 import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 from tests.cnc.compensation.tools import EXACT, FEED
 from tests.cnc.programs import errors, run
 

@@ -71,7 +71,7 @@ def printable(text: str) -> str:
 
 def in_folder(findings: "list[Finding]", file: Path) -> "list[Finding]":
     """The findings with their files in the folder of `file`, as the user named it."""
-    from dataclasses import replace
+    from msgspec.structs import replace
 
     def placed(name: str) -> str:
         path = file.parent / name

@@ -1,8 +1,9 @@
 """Canonical actions: what happens between moves, and where a program stops or ends."""
 
 import math
-from dataclasses import dataclass
 from enum import Enum
+
+from msgspec import Struct
 
 from openacr.cnc.canonical.common import Point, Source
 
@@ -15,16 +16,14 @@ class Spin(Enum):
     OFF = 5
 
 
-@dataclass(frozen=True, slots=True)
-class Dwell:
+class Dwell(Struct, frozen=True):
     """Rest for some seconds."""
 
     source: Source
     seconds: float
 
 
-@dataclass(frozen=True, slots=True)
-class Spindle:
+class Spindle(Struct, frozen=True):
     """M3, M4, M5 with the speed that holds then."""
 
     source: Source
@@ -33,24 +32,21 @@ class Spindle:
     is_awaited: bool = True  # with the handshake; a new S alone has none
 
 
-@dataclass(frozen=True, slots=True)
-class Orient:
+class Orient(Struct, frozen=True):
     """Stop the spindle at its angle, or let it go again."""
 
     source: Source
     is_on: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Tapping:
+class Tapping(Struct, frozen=True):
     """A tap is about to enter its hole, or is out of it again: no feed hold in between."""
 
     source: Source
     is_on: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Coolant:
+class Coolant(Struct, frozen=True):
     """The coolant that flows from now on; both off is M9."""
 
     source: Source
@@ -58,8 +54,7 @@ class Coolant:
     flood: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Output:
+class Output(Struct, frozen=True):
     """A discrete output (M12..M37, OUT): `number` is that of the output, -1 none."""
 
     source: Source
@@ -67,8 +62,7 @@ class Output:
     is_on: bool
 
 
-@dataclass(frozen=True, slots=True)
-class SetBit:
+class SetBit(Struct, frozen=True):
     """A card flag to be set or cleared (BIT)."""
 
     source: Source
@@ -76,8 +70,7 @@ class SetBit:
     is_on: bool
 
 
-@dataclass(frozen=True, slots=True)
-class WaitBit:
+class WaitBit(Struct, frozen=True):
     """Go on when a card flag has a state (M1xx, M2xx), or gets it (`is_edge`); or after a time."""
 
     source: Source
@@ -88,16 +81,14 @@ class WaitBit:
     limit_s: float = math.inf
 
 
-@dataclass(frozen=True, slots=True)
-class Tool:
+class Tool(Struct, frozen=True):
     """M6: change to this tool."""
 
     source: Source
     number: int
 
 
-@dataclass(frozen=True, slots=True)
-class Transfer:
+class Transfer(Struct, frozen=True):
     """T Pn: a card variable gets this value."""
 
     source: Source
@@ -112,8 +103,7 @@ class Check(Enum):
     AT_REFERENCE = "G28"  # the axes stand on the point
 
 
-@dataclass(frozen=True, slots=True)
-class Confirm:
+class Confirm(Struct, frozen=True):
     """G27, G28, G30: a condition on axes that stand at `point`."""
 
     source: Source
@@ -122,16 +112,14 @@ class Confirm:
     point: Point
 
 
-@dataclass(frozen=True, slots=True)
-class Say:
+class Say(Struct, frozen=True):
     """A text for the operator."""
 
     source: Source
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Ask:
+class Ask(Struct, frozen=True):
     """INPUT: a text for the operator and the parameter that takes the answer; a Sync follows."""
 
     source: Source
@@ -147,8 +135,7 @@ class Pause(Enum):
     HAND_RETRACT = "M585"
 
 
-@dataclass(frozen=True, slots=True)
-class Stop:
+class Stop(Struct, frozen=True):
     """M0, M1 and the hand retract of G88."""
 
     source: Source
@@ -156,15 +143,13 @@ class Stop:
     text: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class BlockEnd:
+class BlockEnd(Struct, frozen=True):
     """A block with effect has ended: where single block stops."""
 
     source: Source
 
 
-@dataclass(frozen=True, slots=True)
-class SetCell:
+class SetCell(Struct, frozen=True):
     """A store or card parameter that must not change before the motion reaches it."""
 
     source: Source
@@ -172,15 +157,13 @@ class SetCell:
     value: float
 
 
-@dataclass(frozen=True, slots=True)
-class Sync:
+class Sync(Struct, frozen=True):
     """Nothing after this is interpreted before the machine is at rest and all is done."""
 
     source: Source
 
 
-@dataclass(frozen=True, slots=True)
-class End:
+class End(Struct, frozen=True):
     """M2 (or M30 where it ends programs), or the end of the text."""
 
     source: Source

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.cnc.canonical.common import PLANES, Pace, Point, Source
 from openacr.cnc.canonical.moves import Arc, Line, Rapid
@@ -15,16 +16,14 @@ if TYPE_CHECKING:
     from openacr.views import F64, I32
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Origin:
+class Origin(Struct, frozen=True, eq=False):
     """A text that moves come from; `text_of` reads the line between two places in it."""
 
     file: str
     text_of: Callable[[int, int], str]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Moves:
+class Moves(Struct, frozen=True, eq=False):
     """Rapids, lines and arcs in their order.
 
     Each has in `rows` its kind, line, pace (index in `paces`), plane (17 to 19), where its line

@@ -3,6 +3,8 @@
 from dataclasses import dataclass, field
 from enum import Enum
 
+from msgspec import Struct
+
 AXES = 8
 AXIS_LETTERS = "XYZABCUV"
 ROTARY = frozenset("ABC")
@@ -56,8 +58,7 @@ class Source:
     caller: "Source | None" = field(default=None, compare=False)  # the block of its cycle
 
 
-@dataclass(frozen=True, slots=True)
-class Pace:
+class Pace(Struct, frozen=True):
     """How a feed move is run: feed, junction with the next move, locks.
 
     The feed holds along the linear axes; where only rotary axes move, in degrees per

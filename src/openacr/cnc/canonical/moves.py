@@ -1,7 +1,8 @@
 """Canonical moves: rapid, line, arc, many lines, probe."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.cnc.canonical.common import Pace, Plane, Point, Source
 
@@ -10,8 +11,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-@dataclass(frozen=True, slots=True)
-class Rapid:
+class Rapid(Struct, frozen=True):
     """A straight line of all axes at rapid speed, from rest to rest."""
 
     source: Source
@@ -19,8 +19,7 @@ class Rapid:
     is_inserted: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(Struct, frozen=True):
     """A straight line at feed."""
 
     source: Source
@@ -30,8 +29,7 @@ class Line:
     is_compensated: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Arc:
+class Arc(Struct, frozen=True):
     """An arc or spiral in a plane; other axes go along linearly.
 
     `centre` lies on the first and second axis of the plane; `sweep_rad` is positive
@@ -51,8 +49,7 @@ class Arc:
     is_compensated: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Polyline:
+class Polyline(Struct, frozen=True):
     """Many plain lines at once, for long programs: `ends` is n x 8, `lines` n numbers of lines.
 
     All of them have the same pace; the text of each block can be read again from the file.
@@ -65,8 +62,7 @@ class Polyline:
     pace: Pace
 
 
-@dataclass(frozen=True, slots=True)
-class Probe:
+class Probe(Struct, frozen=True):
     """G31: a line at feed that ends where the probe trips; a Sync follows.
 
     `is_away`: it starts with the probe tripped and ends where that is over.

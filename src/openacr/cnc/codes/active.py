@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from msgspec import Struct
+
 from openacr.cnc.canonical import Point
 from openacr.cnc.program.program import Node
 from openacr.cnc.state.modal import Modal
@@ -38,8 +40,7 @@ class Curve:
     onward: tuple[float, float] = (0.0, 0.0)  # I and J of a G5 that continues it
 
 
-@dataclass(frozen=True, slots=True)
-class ModalMacro:
+class ModalMacro(Struct, frozen=True):
     """G66: what is called after every block that has moved."""
 
     start: Node
@@ -47,8 +48,7 @@ class ModalMacro:
     repeat_cnt: int
 
 
-@dataclass(frozen=True, slots=True)
-class Context:
+class Context(Struct, frozen=True):
     """What M70 keeps; `is_automatic` (M73): restored when the subroutine returns."""
 
     modal: Modal

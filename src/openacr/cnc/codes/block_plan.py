@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from openacr.cnc.canonical import AXIS_LETTERS
 from openacr.cnc.codes.table import DIALECTS, Axes, Code, Dialect, Group, Limit, check_limit
@@ -63,8 +66,7 @@ class Plan:
 Shape = tuple[str | tuple[str, float], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class _Known:
+class _Known(Struct, frozen=True):
     """The plan of one shape of blocks."""
 
     plan: Plan

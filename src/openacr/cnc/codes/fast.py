@@ -8,8 +8,9 @@ fast form does exactly what the form says; a block with any other code is left t
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import Enum, auto
+
+from msgspec import Struct
 
 
 class Does(Enum):
@@ -27,8 +28,7 @@ class Does(Enum):
     RESTS = auto()  # an entry that waits: what follows is no longer idle
 
 
-@dataclass(frozen=True, slots=True)
-class Sets:
+class Sets(Struct, frozen=True):
     """A field of the modal state gets a value, without `value` the number of the code.
 
     With `is_alone` the moves before and after differ in more than their ends. With `is_barred` no

@@ -8,8 +8,9 @@ reading of I, J and K gives equal radii.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.cnc.geometry import arc_cy
 from openacr.cnc.geometry.arcs import centre_by_words
@@ -32,8 +33,7 @@ READINGS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Words:
+class Words(Struct, frozen=True):
     """What an arc block says: its ends, and the words I J K R in default units."""
 
     plane: Plane

@@ -15,9 +15,11 @@ that only set values of the modal state have no other handler (`Table.sets`).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
 from enum import Enum, auto
 from typing import TYPE_CHECKING, TypedDict, Unpack
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from openacr.cnc.codes.fast import FastForms, Forms, Sets, forms_of
 from openacr.cnc.reading.findings import CodeError
@@ -105,8 +107,7 @@ class Axes(Enum):
     BARRED = auto()  # there may be none
 
 
-@dataclass(frozen=True, slots=True)
-class Limit:
+class Limit(Struct, frozen=True):
     """Values a word of a code may have, and the error otherwise."""
 
     letter: str
@@ -130,8 +131,7 @@ def check_limit(limit: Limit, value: float, column: int) -> None:
         raise CodeError(limit.error, column, f"{limit.letter}{value:g}", limit.reach)
 
 
-@dataclass(frozen=True, slots=True)
-class Code:
+class Code(Struct, frozen=True):
     """One G or M code, or the letter of a word that acts by itself."""
 
     letter: str
@@ -201,8 +201,7 @@ def _setter(changes: Mapping[float, list[Sets]], summary: str) -> Handler:
     return act
 
 
-@dataclass(slots=True)
-class Table:
+class Table(Struct):
     """Codes by number, letters by name; ValueError for a name registered twice."""
 
     gcodes: dict[float, Code] = field(default_factory=dict)
@@ -278,8 +277,7 @@ class Table:
             self.add(other.letters[letter])
 
 
-@dataclass(frozen=True, slots=True)
-class Dialect:
+class Dialect(Struct, frozen=True):
     """A language: grammar, codes, order of action and the state it starts with."""
 
     name: str

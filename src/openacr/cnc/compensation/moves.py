@@ -1,8 +1,7 @@
 """Elements from the rows of a chain: the moves of a piece, and those between pieces."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TypeVar, cast
+from typing import TypeVar
 
 from openacr.cnc.canonical import PLANES, Moves, Pace, Plane, Point, Source
 from openacr.cnc.compensation.curve_cy import SHORTEST
@@ -74,26 +73,6 @@ def is_motion(element: Element) -> bool:
     return element.centre is not None or dx * dx + dy * dy >= SHORTEST * SHORTEST
 
 
-@dataclass(slots=True)
-class _Draft:
-    """An element created in a fifth of the time of its constructor.
-
-    A frozen dataclass sets its fields through `object.__setattr__`, which is most of the time a
-    compensated element takes. A draft has the same slots and is not frozen; renamed to Element
-    it is one, and as frozen as any other.
-    """
-
-    source: Source
-    plane: Plane
-    start: Point
-    end: Point
-    pace: Pace | None
-    centre: tuple[float, float] | None
-    sweep_rad: float
-    is_inserted: bool
-    is_compensated: bool
-
-
 def tool_element(
     source: Source,
     plane: Plane,
@@ -105,6 +84,4 @@ def tool_element(
     is_inserted: bool = False,
 ) -> Element:
     """A move of the tool's centre."""
-    draft = _Draft(source, plane, start, end, pace, centre, sweep_rad, is_inserted, True)
-    draft.__class__ = Element  # type: ignore[assignment]
-    return cast(Element, draft)
+    return Element(source, plane, start, end, pace, centre, sweep_rad, is_inserted, True)

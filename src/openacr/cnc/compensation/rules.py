@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from enum import Enum
+
+from msgspec import Struct
 
 from openacr.cnc.geometry.elements import Element
 
@@ -19,8 +20,7 @@ class Side(Enum):
     RIGHT = "G42"
 
 
-@dataclass(frozen=True, slots=True)
-class Rules:
+class Rules(Struct, frozen=True):
     """The tolerances of system parameters 250101..250103, and Gouge Stop (P250130)."""
 
     epsilon: float = 0.002  # ends closer than this are joined; units of length

@@ -6,8 +6,9 @@ numpy is imported when the first chain ends: most programs have none.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
 
 from openacr.cnc.compensation.moves import tool_element_at
 from openacr.cnc.rows.chains import EXTRA

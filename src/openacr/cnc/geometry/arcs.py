@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from array import array
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from openacr.cnc.canonical import Plane, Point
 from openacr.cnc.geometry import arc_cy
@@ -23,8 +25,7 @@ _centre = pick(arc_cy.arc_centre)
 _sweep = pick(arc_cy.arc_about)
 
 
-@dataclass(frozen=True, slots=True)
-class ArcGeometry:
+class ArcGeometry(Struct, frozen=True):
     """An arc in its plane: the radius changes linearly over the sweep (+ counter-clockwise)."""
 
     centre: Pair

@@ -16,8 +16,9 @@ only step 1 applies; the others apply again with the next work system.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from operator import add
+
+from msgspec import Struct
 
 from openacr.cnc.canonical import AXES, Plane, Point
 from openacr.cnc.state.cells import COMMON, FIXTURES, FLOATING, LENGTH, LENGTH_WEAR, LOCAL
@@ -53,16 +54,14 @@ def origin_that_reads(
     return tuple(x - r for x, r in zip(point, reading, strict=True))
 
 
-@dataclass(frozen=True, slots=True)
-class Scale:
+class Scale(Struct, frozen=True):
     """G51: factors about a centre."""
 
     centre: Point
     factors: Point
 
 
-@dataclass(frozen=True, slots=True)
-class Rotation:
+class Rotation(Struct, frozen=True):
     """A rotation in a plane: G68, and that of a work system."""
 
     plane: Plane

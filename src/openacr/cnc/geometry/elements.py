@@ -4,13 +4,12 @@ Scaling and rotation are already applied. Offsets only shift, so the compensatio
 same before them and, as the interpreter uses it, in machine coordinates.
 """
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from openacr.cnc.canonical import Pace, Plane, Point, Source
 
 
-@dataclass(frozen=True, slots=True)
-class Element:
+class Element(Struct, frozen=True):
     """A straight line, or with a centre an arc of `sweep_rad` (+ counter-clockwise).
 
     `pace` is None for moves at rapid speed. `centre` lies on the first and second axis of

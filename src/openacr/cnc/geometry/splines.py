@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 Pair = tuple[float, float]
 TOLERANCE_INCH = 0.00004  # 1 micrometre: how far arcs may be from the curve
@@ -25,8 +26,7 @@ class TooManyArcsError(ValueError):
     """A curve that needs more than `MOST_ARCS` arcs."""
 
 
-@dataclass(frozen=True, slots=True)
-class Piece:
+class Piece(Struct, frozen=True):
     """An arc of a curve, or with `centre` None a line; `sweep_rad` + counter-clockwise."""
 
     end: Pair
@@ -35,8 +35,7 @@ class Piece:
     length: float
 
 
-@dataclass(frozen=True, slots=True)
-class Spline:
+class Spline(Struct, frozen=True):
     """A clamped uniform rational B-spline of an order (degree + 1) over control points."""
 
     points: tuple[Pair, ...]

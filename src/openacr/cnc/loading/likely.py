@@ -12,6 +12,8 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
+from msgspec import Struct
+
 from openacr.cnc.codes import dialects as _registered  # noqa: F401 - fills the table
 from openacr.cnc.codes.table import DIALECTS
 
@@ -60,8 +62,7 @@ _PATTERNS: tuple[tuple[str, int, str, re.Pattern[str]], ...] = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class Sign:
+class Sign(Struct, frozen=True):
     """A sign of one dialect, and the line where it was first found."""
 
     dialect: str

@@ -6,9 +6,10 @@ and geometry are found when it runs.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
+
+from msgspec import Struct
 
 from openacr.cnc.canonical import AXIS_LETTERS
 from openacr.cnc.codes.block_plan import BlockPlanner, Plan
@@ -32,8 +33,7 @@ from openacr.sysvar.tabs import AXIS, COMPATIBILITY, TOOL
 DEEPEST_INCLUDE = 8
 
 
-@dataclass(frozen=True, slots=True)
-class Folders:
+class Folders(Struct, frozen=True):
     """Folders searched for included texts, after the folder of the program."""
 
     library: Path | None = None

@@ -5,8 +5,9 @@ then the radius of the tool and P233 the lead-in radius of the store.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 from openacr.cnc.parts.part import (
     INCH,
@@ -43,8 +44,7 @@ DIGITS = 12
 G21 = 21
 
 
-@dataclass(frozen=True, slots=True)
-class Ready:
+class Ready(Struct, frozen=True):
     """A part with its sizes: the cells to set before it starts, and its text."""
 
     part: Part

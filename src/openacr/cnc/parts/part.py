@@ -10,9 +10,10 @@ Units are in, mm, deg and n (a plain number).
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
+
+from msgspec import Struct
 
 from openacr.cnc.reading.expressions import ExpressionReader
 from openacr.cnc.reading.findings import CodeError, Finding
@@ -37,8 +38,7 @@ class PartError(UserError):
         super().__init__("\n".join(map(str, self.findings)))
 
 
-@dataclass(frozen=True, slots=True)
-class Size:
+class Size(Struct, frozen=True):
     """One parameter of a part, in its own unit."""
 
     cell: int
@@ -78,8 +78,7 @@ class Rule(NamedTuple):
     condition: Node
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
+class Part(Struct, frozen=True):
     """A part program with its head."""
 
     path: Path

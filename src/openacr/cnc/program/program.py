@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from msgspec import Struct
+
 from openacr.cnc.canonical import Source
 from openacr.cnc.program.labels import Part, Place
 from openacr.cnc.reading.findings import Finding
@@ -32,8 +34,7 @@ class Node:
         self.source = Source(part.text.name, line, raw)
 
 
-@dataclass(frozen=True, slots=True)
-class OPlace:
+class OPlace(Struct, frozen=True):
     """An O-word and its position."""
 
     kind: str

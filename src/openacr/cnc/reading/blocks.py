@@ -1,12 +1,11 @@
 """A parsed block: words, assignments, a statement and messages, each with its column."""
 
-from dataclasses import dataclass, field
+from msgspec import Struct, field
 
 from openacr.cnc.reading.formulas import Node
 
 
-@dataclass(frozen=True, slots=True)
-class Word:
+class Word(Struct, frozen=True):
     """A letter and its value; `parameter` is the index in `T P3`, where the value is bare."""
 
     letter: str
@@ -15,8 +14,7 @@ class Word:
     parameter: Node | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Assignment:
+class Assignment(Struct, frozen=True):
     """`P5 = 1`, `#5 = 1`, `#<name> = 1`, `OUT(1) = 1`, `BIT(128) = 0`."""
 
     kind: str  # P, #, <, OUT, BIT
@@ -25,47 +23,41 @@ class Assignment:
     column: int
 
 
-@dataclass(frozen=True, slots=True)
-class Message:
+class Message(Struct, frozen=True):
     """`(MSG, text)`; with `has_values` the parameters in it are replaced."""
 
     text: str
     has_values: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Goto:
+class Goto(Struct, frozen=True):
     """GOTO: continue at a label."""
 
     label: Node
     column: int
 
 
-@dataclass(frozen=True, slots=True)
-class Gosub:
+class Gosub(Struct, frozen=True):
     """GOSUB: call a label."""
 
     label: Node
     column: int
 
 
-@dataclass(frozen=True, slots=True)
-class Return:
+class Return(Struct, frozen=True):
     """RET: return to the line after the call."""
 
     column: int
 
 
-@dataclass(frozen=True, slots=True)
-class InputTest:
+class InputTest(Struct, frozen=True):
     """`#n = 0|1` as the whole condition of an IF."""
 
     number: int
     wanted: int
 
 
-@dataclass(frozen=True, slots=True)
-class If:
+class If(Struct, frozen=True):
     """IF: execute a jump or call if a condition holds."""
 
     condition: Node
@@ -74,16 +66,14 @@ class If:
     test: InputTest | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Print:
+class Print(Struct, frozen=True):
     """PRINT: show texts and values."""
 
     items: tuple[str | Node, ...]
     column: int
 
 
-@dataclass(frozen=True, slots=True)
-class Input:
+class Input(Struct, frozen=True):
     """INPUT: ask the operator for the value of a parameter."""
 
     text: str
@@ -92,16 +82,14 @@ class Input:
     is_hash: bool = False  # in a macro, #1 to #33 are its locals
 
 
-@dataclass(frozen=True, slots=True)
-class Include:
+class Include(Struct, frozen=True):
     """`$I file`: include a file."""
 
     name: str
     column: int
 
 
-@dataclass(frozen=True, slots=True)
-class OWord:
+class OWord(Struct, frozen=True):
     """`O100 sub`, `O<name> while [..]`: structure of the rs274ngc dialect."""
 
     name: str
@@ -114,8 +102,7 @@ class OWord:
 Statement = Goto | Gosub | Return | If | Print | Input | Include | OWord
 
 
-@dataclass(slots=True)
-class Block:
+class Block(Struct):
     """One line of a part program."""
 
     label: int | None = None

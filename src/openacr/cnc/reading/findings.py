@@ -1,6 +1,7 @@
 """Findings of part programs: code, position and text of errors, warnings and alarms."""
 
-from dataclasses import asdict, dataclass
+from msgspec import Struct
+from msgspec.structs import asdict
 
 from openacr.errors import UserError
 
@@ -97,8 +98,7 @@ TEXTS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(Struct, frozen=True):
     """An error (`E105`), warning (`W212`) or alarm (`A62`) at a line and column, both from 1."""
 
     code: str

@@ -9,6 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
+from msgspec import Struct
+
 from openacr.cnc.reading.functions import NAMES, Function
 
 LOCALS = 33  # parameters of a call
@@ -93,8 +95,7 @@ class Number:
         return True
 
 
-@dataclass(frozen=True, slots=True)
-class Parameter:
+class Parameter(Struct, frozen=True):
     """`P n` or `#n`; the index is a formula of its own."""
 
     index: Node
@@ -130,8 +131,7 @@ def _read(n: float, at: Names, is_hash: bool) -> str:
     return f"read_hash({n!r})" if is_hash else f"read_p({n!r})"
 
 
-@dataclass(frozen=True, slots=True)
-class Named:
+class Named(Struct, frozen=True):
     """`#<name>`, or `EXISTS[#<name>]`."""
 
     name: str
@@ -152,8 +152,7 @@ class Named:
         return False
 
 
-@dataclass(frozen=True, slots=True)
-class State:
+class State(Struct, frozen=True):
     """`INP(n)`, `OUT(n)`, `BIT(n)`: a state of the machine, 0 or 1."""
 
     kind: str
@@ -177,8 +176,7 @@ class State:
 _READS = {"INP": "read_input", "OUT": "read_output", "BIT": "read_bit"}
 
 
-@dataclass(frozen=True, slots=True)
-class Call:
+class Call(Struct, frozen=True):
     """A function or operator of one or two operands."""
 
     function: Function

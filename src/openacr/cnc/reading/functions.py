@@ -2,8 +2,9 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 RADIANS = math.pi / 180.0
 
@@ -19,8 +20,7 @@ _COSINES = {
 _COSINES |= {-x: y for x, y in _COSINES.items()}
 
 
-@dataclass(frozen=True, slots=True)
-class Function:
+class Function(Struct, frozen=True):
     """A function or operator: how it is computed, and its form as Python source."""
 
     work: Callable[..., float]

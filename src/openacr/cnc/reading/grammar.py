@@ -1,7 +1,8 @@
 """Grammars of the dialects: their differences as tables for one parser."""
 
 import re
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from openacr.cnc.reading import functions as f
 from openacr.cnc.reading import refusals
@@ -9,16 +10,14 @@ from openacr.cnc.reading.functions import Function
 from openacr.cnc.reading.refusals import Refusals
 
 
-@dataclass(frozen=True, slots=True)
-class Operator:
+class Operator(Struct, frozen=True):
     """An operator between two operands; higher levels bind tighter."""
 
     level: int
     function: Function
 
 
-@dataclass(frozen=True, slots=True)
-class Grammar:
+class Grammar(Struct, frozen=True):
     """How expressions, parameters and statements are written."""
 
     brackets: str  # opening and closing

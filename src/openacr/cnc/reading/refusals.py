@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 ANY = frozenset[str]()
 MOST_SHOWN = 20  # codes of one row that are named one by one
 
 
-@dataclass(frozen=True, slots=True)
-class Refusal:
+class Refusal(Struct, frozen=True):
     """A refused code, word or form, with the reason."""
 
     shown: str  # as named on the page of codes
@@ -29,8 +29,7 @@ class Refusal:
     form: re.Pattern[str] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Refusals:
+class Refusals(Struct, frozen=True):
     """The refusals of one dialect."""
 
     rows: tuple[Refusal, ...] = ()

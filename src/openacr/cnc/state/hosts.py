@@ -8,6 +8,8 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from typing import Protocol
 
+from msgspec import Struct
+
 from openacr.cnc.canonical import Point, Spin
 
 
@@ -52,8 +54,7 @@ class Cells(Protocol):
         """
 
 
-@dataclass(frozen=True, slots=True)
-class Switched:
+class Switched(Struct, frozen=True):
     """What a machine has switched on: direction and set speed of the spindle, and coolant."""
 
     spin: Spin = Spin.OFF

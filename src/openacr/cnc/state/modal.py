@@ -10,6 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
+from msgspec import Struct
+
 from openacr.cnc.canonical import PLANES, PathMode, Plane, Spin
 from openacr.cnc.state.cells import CUT_SPEED, DEFAULT_UNIT, START_FEED, TOOL, TOOL_IN_SPINDLE
 from openacr.cnc.state.hosts import Cells
@@ -151,8 +153,7 @@ def always(value: object) -> Rule:
     return lambda cells: value
 
 
-@dataclass(frozen=True, slots=True)
-class Reset:
+class Reset(Struct, frozen=True):
     """The values of a field at power-up, at the start and end of programs, at ABORT."""
 
     field: str

@@ -9,7 +9,8 @@ error is the feed times the poll period.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from openacr.mill.config.settings import Settings
 from openacr.mill.config.tabs import AxisSettings
@@ -20,8 +21,7 @@ FALLING_EDGE = 4
 SOFTWARE_MODE, SOFTWARE_TRIGGER = 11, 113
 
 
-@dataclass(frozen=True, slots=True)
-class Capture:
+class Capture(Struct, frozen=True):
     """Capture set-up of a probing move; `reason` is why the input is polled, empty if it is not."""
 
     axes: tuple[AxisSettings, ...]

@@ -4,13 +4,12 @@ Speeds are per second here and per minute in the store; inputs and outputs are -
 configured. `settings` fills the records.
 """
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 LINEAR = frozenset("XYZUV")
 
 
-@dataclass(frozen=True, slots=True)
-class AxisSettings:
+class AxisSettings(Struct, frozen=True):
     """One axis: SERVO, AXES, HOME and JOG tabs."""
 
     index: int
@@ -42,8 +41,7 @@ class AxisSettings:
         return self.name in LINEAR
 
 
-@dataclass(frozen=True, slots=True)
-class HomeSettings:
+class HomeSettings(Struct, frozen=True):
     """Settings of one axis for finding its reference point."""
 
     is_negative: bool
@@ -58,8 +56,7 @@ class HomeSettings:
     priority: int
 
 
-@dataclass(frozen=True, slots=True)
-class Speeds:
+class Speeds(Struct, frozen=True):
     """The SPEEDS tab and the corner angles of the CONTROL tab."""
 
     max_ups: float
@@ -80,8 +77,7 @@ class Speeds:
     path_tolerance_u: float  # of paths planned with the jerk, where the program gives none
 
 
-@dataclass(frozen=True, slots=True)
-class SpindleSettings:
+class SpindleSettings(Struct, frozen=True):
     """The SPINDLE tab; inputs, outputs and the DAC are -1 where not configured."""
 
     code: int
@@ -102,8 +98,7 @@ class SpindleSettings:
     time_out_s: float
 
 
-@dataclass(frozen=True, slots=True)
-class Wiring:
+class Wiring(Struct, frozen=True):
     """The I/O, PROBE and TOOL tabs."""
 
     block_skip: int
@@ -131,8 +126,7 @@ class Wiring:
     tool_time_out_s: float
 
 
-@dataclass(frozen=True, slots=True)
-class Burning:
+class Burning(Struct, frozen=True):
     """Outputs of burning machines, -1 where not configured."""
 
     plasma: int

@@ -6,8 +6,9 @@ next lines; M2, Ctrl-Z or a failure of the line ends the program.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import TypeAlias
+
+from msgspec.structs import replace
 
 from openacr.cnc import canonical as c
 from openacr.cnc.interpreter.interpreter import Interpreter

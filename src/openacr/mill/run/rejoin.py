@@ -14,8 +14,10 @@ Otherwise it goes down at P itself: no other place is known to be free.
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from typing import TypeVar
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from openacr.cnc.canonical import (
     TOOL_AXIS,
@@ -93,8 +95,7 @@ def _vector(begin: Sequence[float], end: Sequence[float], weights: Sequence[floa
     return [(b - a) * weight for a, b, weight in zip(begin, end, weights, strict=True)]
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(Struct, frozen=True):
     """Where a path was left: the point, the direction in XY, and the move."""
 
     point: Point

@@ -10,7 +10,8 @@ after it. The move in which a trace stops is split at that point.
 """
 
 from collections import deque
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from openacr.cnc.canonical import Arc, Line, Pace, PathMode, Point, Probe, Rapid, Source
 from openacr.errors import UserError

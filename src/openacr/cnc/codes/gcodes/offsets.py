@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.cnc.canonical import Entry
 from openacr.cnc.codes.gcodes.work import length_of
@@ -31,8 +32,7 @@ ROTATED = 2  # L that takes R as a rotation
 _TURNED = {0, 1}  # axes a rotation about Z mixes
 
 
-@dataclass(frozen=True, slots=True)
-class Form:
+class Form(Struct, frozen=True):
     """One L of G10: the range of P, and where R goes when it takes no axis words."""
 
     last: int

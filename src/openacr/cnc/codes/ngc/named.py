@@ -6,8 +6,9 @@ Names and meanings are those of LinuxCNC ("Predefined Named Parameters"). They c
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.cnc.canonical import AXIS_LETTERS, ROTARY, Spin
 from openacr.cnc.codes.gcodes.work import SYSTEMS
@@ -20,8 +21,7 @@ CODES = {work: code for code, work in SYSTEMS.items()}
 PREDEFINED: dict[str, Named] = {}
 
 
-@dataclass(frozen=True, slots=True)
-class Named:
+class Named(Struct, frozen=True):
     """A name, as written in capitals, and how its value is found."""
 
     name: str

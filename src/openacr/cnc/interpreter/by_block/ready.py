@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
 
 from openacr.cnc.canonical import Entry, Output, SetBit
 from openacr.cnc.codes.block_plan import Plan

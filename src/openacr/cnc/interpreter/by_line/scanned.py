@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
+
+from msgspec.structs import replace
 
 from openacr.cnc.canonical import Moves, Pace, Point, Polyline, Source
 from openacr.cnc.canonical.batches import Origin

@@ -2,8 +2,9 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 from openacr.cnc.canonical import Entry
 from openacr.cnc.interpreter.interpreter import Options
@@ -66,8 +67,7 @@ def check_text(text: str, path: Path, cells: Store, dialect: str | None = None) 
     return checked(program, cells, name)[0].findings
 
 
-@dataclass(frozen=True, slots=True)
-class Watchers:
+class Watchers(Struct, frozen=True):
     """Who gets what while a program is read."""
 
     reader: Reader | None = None  # every move as it is planned

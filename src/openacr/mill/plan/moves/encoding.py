@@ -7,7 +7,9 @@ float cannot hold 0.00001 inch over 200 inches.
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+
+from msgspec.structs import replace
 
 from openacr.cnc.canonical import (
     Arc,

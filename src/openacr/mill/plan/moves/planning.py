@@ -5,6 +5,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Generic, NamedTuple, TypeVar
 
+from msgspec import Struct
+
 from openacr.cnc.canonical import PathMode
 from openacr.cnc.rows.room import doubles, integers
 from openacr.compiled import pick
@@ -26,8 +28,7 @@ _speeds = pick(core.queue_speeds)
 _travel = pick(core.queue_travel)
 
 
-@dataclass(frozen=True, slots=True)
-class CornerRules:
+class CornerRules(Struct, frozen=True):
     """Corner settings of the CONTROL and SPEEDS tabs; speeds in units/s."""
 
     angle1_deg: float = 0.0

@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from openacr.cnc.canonical import Arc, Point
 from openacr.mill.config.settings import Settings
@@ -13,8 +14,7 @@ from openacr.mill.plan.moves.encoding import Job, Motion
 QUARTER = 0.5 * math.pi
 
 
-@dataclass(frozen=True, slots=True)
-class Excess:
+class Excess(Struct, frozen=True):
     """A point beyond a limit: the axis, the point, and the limit it is beyond."""
 
     axis: AxisSettings

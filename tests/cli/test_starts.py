@@ -1,0 +1,35 @@
+"""What commands import before they do anything: the user waits for it each time."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+# Each class written by `dataclasses` is compiled when its module is imported.
+COUNTED = """
+import dataclasses, sys
+made, process = [], dataclasses._process_class
+def counted(cls, *options):
+    made.append(cls.__module__)
+    return process(cls, *options)
+dataclasses._process_class = counted
+from openacr.cli.main import main
+try:
+    main(sys.argv[1:])
+finally:
+    print(sum(name.startswith("openacr") for name in made), file=sys.stderr)
+"""
+
+
+def _dataclasses_of(folder: Path, *arguments: str) -> int:
+    """How many dataclasses of our own a command makes."""
+    environment = {**os.environ, "OPENACR_STORE": str(folder / "sysvar.db")}
+    command = [sys.executable, "-c", COUNTED, *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
+    return int(done.stderr.splitlines()[-1])
+
+
+def test_the_check_of_a_part_program_makes_hardly_any_dataclass(tmp_path: Path) -> None:
+    program = tmp_path / "SHORT.NC"
+    program.write_text("G0 X1\nM2\n")
+    assert _dataclasses_of(tmp_path, "mill", "check", str(program)) <= 30
