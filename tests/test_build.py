@@ -5,11 +5,13 @@ import os
 import re
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from openacr import compiled, messages, unity
 from openacr.cnc.rows import scans
+from openacr.compiled import looks_unchanged
 from openacr.kernel.tick_cy import tick
 from openacr.map.memory import Memory
 from openacr.map.rows import axes, kernel
@@ -30,6 +32,55 @@ def can_be_compiled() -> bool:
 def test_with_a_compiler_the_core_is_compiled_from_the_present_sources() -> None:
     assert compiled.is_compiled
     assert compiled.extension.SOURCE_HASH == source_hash()
+
+
+def core_of(folder: Path) -> SimpleNamespace:
+    """A core in a folder where it can be built, with one source as old as itself."""
+    package = folder / "src" / "openacr"
+    (package / "kernel").mkdir(parents=True)
+    (folder / "setup.py").touch()
+    (package / "kernel" / "one_cy.py").write_text("A = 1\n")
+    core = package / "_compiled.so"
+    core.touch()
+    for path in (package / "kernel" / "one_cy.py", core):
+        os.utime(path, (1000, 1000))
+    return SimpleNamespace(__file__=str(core), SOURCE_SIZES=[("kernel/one_cy.py", 6)])
+
+
+def test_sources_as_old_and_as_long_as_compiled_are_not_read(tmp_path: Path) -> None:
+    assert looks_unchanged(core_of(tmp_path), str(tmp_path / "src" / "openacr"))
+
+
+@pytest.mark.parametrize("installed", [False, True])
+def test_a_source_of_another_length_or_a_missing_one_is_noticed(
+    tmp_path: Path, installed: bool
+) -> None:
+    core, package = core_of(tmp_path), tmp_path / "src" / "openacr"
+    if installed:
+        (tmp_path / "setup.py").unlink()
+    source = package / "kernel" / "one_cy.py"
+    source.write_text("A = 12\n")
+    os.utime(source, (1000, 1000))
+    assert not looks_unchanged(core, str(package))
+    source.unlink()
+    assert not looks_unchanged(core, str(package))
+
+
+def test_a_source_that_is_newer_than_the_core_is_read_where_the_core_can_be_built(
+    tmp_path: Path,
+) -> None:
+    core, package = core_of(tmp_path), tmp_path / "src" / "openacr"
+    os.utime(package / "kernel" / "one_cy.py", (1001, 1001))
+    assert not looks_unchanged(core, str(package))
+    (tmp_path / "setup.py").unlink()  # an installed package: written by an installer in any order
+    assert looks_unchanged(core, str(package))
+
+
+def test_the_sizes_are_those_of_all_that_decides_the_core() -> None:
+    sizes = dict(unity.source_sizes())
+    assert sizes["kernel/tick_cy.py"] == len(Path(tick.__code__.co_filename).read_bytes())
+    assert {"unity.py", "unity_c.py", "messages.py", "map/fingerprint.py"} <= set(sizes)
+    assert {"cnc/rows/scans.py", "engine/loop_cy.py"} <= set(sizes)
 
 
 @pytest.mark.skipif(os.environ.get("OPENACR_PURE") != "1", reason="the core may be compiled")

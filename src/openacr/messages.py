@@ -7,10 +7,11 @@ A row keeps its number: programs that were ended by an error hold it, and so do 
 gets the next number. Sources of the core write `messages.MATH_ERROR.number`.
 """
 
-from msgspec import Struct
+from dataclasses import dataclass
 
 
-class Message(Struct, frozen=True):
+@dataclass(frozen=True, slots=True)
+class Message:
     """One message; `{}` is replaced by the detail (a name or a line number)."""
 
     number: int

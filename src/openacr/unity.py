@@ -79,16 +79,27 @@ def _source_of(module: str) -> Path:
     return PACKAGE.parent.joinpath(*module.split(".")).with_suffix(".py")
 
 
-def source_hash() -> str:
-    """Fingerprint of everything that decides the content of the extension."""
-    digest = hashlib.blake2b(digest_size=16)
+def deciding_files() -> list[Path]:
+    """The files that decide the content of the extension."""
     joining = [Path(__file__), PACKAGE / "unity_c.py"]
     places = PACKAGE / "map" / "fingerprint.py"  # of all names, those too that nothing reads
     own = sorted(_source_of(OWN_ROWS).with_suffix("").glob("*.py"))
-    for path in [*source_files(), places, *own, *joining]:
+    return [*source_files(), places, *own, *joining]
+
+
+def source_hash() -> str:
+    """Fingerprint of everything that decides the content of the extension."""
+    digest = hashlib.blake2b(digest_size=16)
+    for path in deciding_files():
         digest.update(path.read_bytes())
     digest.update(repr(_message_numbers()).encode())
     return digest.hexdigest()
+
+
+def source_sizes() -> list[tuple[str, int]]:
+    """Place below the package and size of each of these files, for a look that takes no time."""
+    files = [*deciding_files(), Path(messages.__file__)]
+    return [(os.path.relpath(path, PACKAGE), path.stat().st_size) for path in files]
 
 
 def write_unity(target: Path, *, checked: bool) -> Path:
@@ -113,6 +124,7 @@ def unity_source(*, checked: bool = False) -> str:
         if math_names
         else "",
         f"SOURCE_HASH = {source_hash()!r}",
+        f"SOURCE_SIZES = {source_sizes()!r}",
         f"CHECKED = {checked!r}",
     ]
     entrances = [entrance(functions[name], checked=checked) for name in exported]
