@@ -32,4 +32,4 @@ def _dataclasses_of(folder: Path, *arguments: str) -> int:
 def test_the_check_of_a_part_program_makes_hardly_any_dataclass(tmp_path: Path) -> None:
     program = tmp_path / "SHORT.NC"
     program.write_text("G0 X1\nM2\n")
-    assert _dataclasses_of(tmp_path, "mill", "check", str(program)) <= 30
+    assert _dataclasses_of(tmp_path, "mill", "check", str(program)) <= 10

@@ -1,13 +1,13 @@
 """Many blocks executed together: bit for bit the same as one by one."""
 
 import random
-from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 from tests.cnc.programs import Run, made, unrolled
 from tests.cnc.test_fuzz import ACROMILL, OTHER, mutated
 from tests.search import search

@@ -2,12 +2,12 @@
 
 import math
 import random
-from dataclasses import replace
 from itertools import islice
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 from tests.cnc.programs import Run, made, unrolled
 from tests.cnc.test_many_blocks import one_by_one
 from tests.search import search

@@ -1,7 +1,8 @@
 """What is planned: the time of a list of entries, the speed in a corner."""
 
 from collections.abc import Iterable
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings

@@ -2,13 +2,13 @@
 
 import math
 import random
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 from tests.mill.prediction import corner_speed
 
 from openacr.cnc.canonical import PathMode

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
-from msgspec import Struct
+from msgspec import Struct, field
 
 from openacr.cnc.canonical import Point
 from openacr.cnc.program.program import Node
 from openacr.cnc.state.modal import Modal
 
 
-@dataclass(slots=True)
-class Drilling:
+class Drilling(Struct):
     """The words of cycle blocks since the last G80: lengths in default units."""
 
     initial: float = 0.0
@@ -29,8 +26,7 @@ class Drilling:
         return r, b + r if is_from_r else b
 
 
-@dataclass(slots=True)
-class Curve:
+class Curve(Struct):
     """Splines: the control points since G5.2, and how the last G5 ended; default units."""
 
     points: list[tuple[float, float]] = field(default_factory=list)

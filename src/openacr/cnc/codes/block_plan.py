@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
 
-from msgspec import Struct
+from msgspec import Struct, field
 from msgspec.structs import replace
 
 from openacr.cnc.canonical import AXIS_LETTERS
@@ -22,8 +21,7 @@ _UNKNOWN = {"G": "E203", "M": "E205"}
 _MOTION_WORDS = frozenset("IJKRQPL")  # may belong to the motion or cycle that is active
 
 
-@dataclass(slots=True)
-class Plan:
+class Plan(Struct):
     """The acts of a block, and its words by letter."""
 
     block: Block

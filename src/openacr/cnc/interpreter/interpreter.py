@@ -9,7 +9,8 @@ rest.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from openacr.cnc.canonical import (
     AXES,
@@ -68,8 +69,7 @@ NO_LENGTH = 49
 _WAITS = Motion | Dwell | WaitBit | Stop
 
 
-@dataclass(slots=True)
-class Options:
+class Options(Struct):
     """How a program is run."""
 
     is_dry: bool = False  # DRY RUN: standard M codes do nothing

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct, field
 
 from openacr.cnc.canonical import (
     AXES,
@@ -41,8 +42,7 @@ CODES = {plane: code for code, plane in PLANES.items()}
 _add = pick(core.survey_moves)
 
 
-@dataclass(slots=True)
-class Survey:
+class Survey(Struct):
     """Counts, lengths, extents and findings of a program; lengths in default units.
 
     `unit` is that of the words of its first move, and `per` its length in it of a default unit.

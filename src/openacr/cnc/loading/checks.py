@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+
+from msgspec import Struct, field
 
 from openacr.cnc.codes.block_plan import Plan
 from openacr.cnc.codes.table import Dialect
@@ -36,8 +37,7 @@ class Report:
             self.warn(code, column)
 
 
-@dataclass(slots=True)
-class Seen:
+class Seen(Struct):
     """What was found in the lines so far."""
 
     motion: float = 1

@@ -10,9 +10,8 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from openacr.cnc.codes import dialects as _registered  # noqa: F401 - fills the table
 from openacr.cnc.codes.table import DIALECTS
@@ -74,8 +73,7 @@ class Sign(Struct, frozen=True):
         return f"{self.what} in line {self.line}"
 
 
-@dataclass(slots=True)
-class Likely:
+class Likely(Struct):
     """The signs of a text, one of each kind."""
 
     signs: list[Sign] = field(default_factory=list)

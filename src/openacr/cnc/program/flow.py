@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum, auto
+
+from msgspec import Struct
 
 from openacr.cnc.canonical import Source
 from openacr.cnc.program.labels import Part, Place
@@ -25,8 +27,7 @@ class Level(Enum):
     CYCLE = auto()
 
 
-@dataclass(slots=True, eq=False)
-class Frame:
+class Frame(Struct, eq=False):
     """One call; a GOSUB returns to a line, the others to the calling function."""
 
     level: Level

@@ -7,10 +7,9 @@ hundreds of thousands, as arrays that are sorted when the first label is looked 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from openacr.cnc.reading.text import Text, decoded
 
@@ -99,8 +98,7 @@ class Labels:
                 firsts = {row[0]: _place(part, row) for row in rows[::-1].tolist()} | firsts
 
 
-@dataclass(slots=True, eq=False)
-class Part:
+class Part(Struct, eq=False):
     """One text of a program; `labels` are shared with the texts it is added to."""
 
     text: Text

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from openacr.cnc.canonical import Source
 from openacr.cnc.program.labels import Part, Place
@@ -41,8 +40,7 @@ class OPlace(Struct, frozen=True):
     place: Place
 
 
-@dataclass(slots=True, eq=False)
-class Program:
+class Program(Struct, eq=False):
     """Texts with their labels, includes and M codes of the user."""
 
     main: Part

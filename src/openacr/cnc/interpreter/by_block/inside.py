@@ -6,8 +6,9 @@ That is more than codes may use (`codes/run.py`).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Protocol
+
+from msgspec import Struct
 
 from openacr.cnc.canonical import Entry, Moves, Point, Source
 from openacr.cnc.codes.block_plan import BlockPlanner, Plan
@@ -25,8 +26,7 @@ Assign = Callable[[Node], None]
 Act = Callable[[Node], Iterator[Entry] | None]
 
 
-@dataclass(slots=True)
-class Ready:
+class Ready(Struct):
     """What is done when a block is reached."""
 
     plan: Plan

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
+
+from msgspec import Struct, field
 
 from openacr.cnc.canonical import AXES
 from openacr.cnc.codes.fast import Does, Fast, Sets
@@ -58,8 +59,7 @@ class Notes:
         return self._limits.index(limit)
 
 
-@dataclass(slots=True)
-class Steps:
+class Steps(Struct):
     """Steps of a plan, and the code of formulas after them."""
 
     steps: list[tuple[int, int, int | list[int]]] = field(default_factory=list)

@@ -10,8 +10,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
+
+from msgspec import Struct
 
 from openacr.cnc import canonical as c
 from openacr.mill.config.settings import Settings
@@ -29,8 +30,7 @@ TOGETHER = 512  # moves planned at once
 MOTIONS = c.Rapid | c.Line | c.Arc | c.Polyline | c.Probe | c.Moves
 
 
-@dataclass(slots=True)
-class Prediction:
+class Prediction(Struct):
     """Run time in seconds by kind of motion, and the count of moves."""
 
     rapid_s: float = 0.0

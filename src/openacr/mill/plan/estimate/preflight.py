@@ -6,8 +6,9 @@ axis is checked as if it were homed, and one warning names those that are not.
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.cnc.canonical import Probe, Rapid, Source
 from openacr.cnc.reading.findings import Finding, found
@@ -28,8 +29,7 @@ NO_TOLERANCE = f"with one (G64 P, or P{SPEEDS.path_tolerance}) the path keeps it
 REACHED_PLANNED = 0.99  # a planned path is somewhat shorter than the programmed one
 
 
-@dataclass(slots=True)
-class Beyond:
+class Beyond(Struct):
     """All moves beyond one limit: the first, the last, the farthest and their count."""
 
     first: Job
@@ -55,8 +55,7 @@ class Beyond:
         return f"{self.cnt} moves, line {self.farthest_line} by {self.farthest.beyond_u:.6g}"
 
 
-@dataclass(slots=True)
-class Slow:
+class Slow(Struct):
     """A chain of feed moves up to rest or another feed, with its highest speed."""
 
     source: Source

@@ -7,7 +7,6 @@ float cannot hold 0.00001 inch over 200 inches.
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from msgspec.structs import replace
 
@@ -49,8 +48,7 @@ PLANES = {Plane.XY: 0, Plane.YZ: int(Code1.PLANE_BIT_0), Plane.ZX: int(Code1.PLA
 CARD_PLANE_AXES = (0, 1, 2)
 
 
-@dataclass(slots=True, kw_only=True)
-class Job(PlannedMove):
+class Job(PlannedMove, kw_only=True):
     """One move to be sent to the card: its plan and its end points."""
 
     entry: Motion

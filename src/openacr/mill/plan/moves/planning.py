@@ -2,7 +2,6 @@
 
 from collections import deque
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Generic, NamedTuple, TypeVar
 
 from msgspec import Struct
@@ -62,8 +61,7 @@ class Corner(NamedTuple):
     ramp_ups2: float  # of the weaker of the two moves
 
 
-@dataclass(slots=True, kw_only=True)
-class PlannedMove:
+class PlannedMove(Struct, kw_only=True):
     """One move in the planner; `start`/`end` are None where no linear axis moves."""
 
     length_u: float
