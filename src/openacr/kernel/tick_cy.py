@@ -7,7 +7,7 @@ outputs computed here act on it during the next one.
 from openacr.kernel.axis.analog_cy import analog_step
 from openacr.kernel.axis.axis_cy import axis_setpoints, axis_show, axis_take_written
 from openacr.kernel.axis.capture_cy import capture_step
-from openacr.kernel.axis.drive_cy import drive_step, motion_enable_step
+from openacr.kernel.axis.drive_cy import drive_step, encoder_faults, motion_enable_step
 from openacr.kernel.axis.feedback_cy import (
     encoder_filters_step,
     encoder_links_step,
@@ -158,9 +158,10 @@ def sources_read(F: F64, I: I32, S: F32, period_s: float) -> None:
 def axes_guard(F: F64, I: I32, S: F32, period_s: float) -> None:
     """Drives and limits: what kills motion does so before anything moves."""
     motion_enable_step(I, I[kernel.axes])
+    faults: int = encoder_faults(I)
     for n in range(I[kernel.axes]):
         if I[axes.on[n]]:
-            drive_step(I, n, period_s)
+            drive_step(I, n, period_s, faults)
             limits_step(F, I, S, n)
 
 

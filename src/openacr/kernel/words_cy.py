@@ -1,6 +1,6 @@
 """32-bit words as the card keeps them: wrapping, rounding and single bits."""
 
-from openacr.cmath import rint
+from openacr.cmath import fabs, rint
 
 __all__ = ["round32", "wrap32"]
 
@@ -15,8 +15,6 @@ def round32(value: float) -> int:
 
     Beyond +-2**62, and for NaN, where a C conversion would be undefined, the result is 0.
     """
-    rounded: float = rint(value)
-    if not (-4.611686018427388e18 < rounded < 4.611686018427388e18):
+    if not fabs(value) < 4.611686018427388e18:
         return 0
-    whole: int = int(rounded)
-    return wrap32(whole)
+    return wrap32(int(rint(value)))

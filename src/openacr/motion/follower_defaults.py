@@ -58,6 +58,7 @@ def set_follower_defaults(memory: Memory) -> None:
 def set_source(memory: Memory, tap: int, kind: int, index: int = 0) -> None:
     """Connect a tap; the caller lets it count from the present value."""
     memory.I[sources.kind[tap]] = kind
+    memory.F[sources.delta[tap]] = 0.0
     memory.I[sources.index[tap]] = index
 
 

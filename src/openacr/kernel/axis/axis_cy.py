@@ -27,13 +27,14 @@ __all__ = [
 NOT_BARRED = 0
 HARD_BARRED = 1
 SOFT_BARRED = 2
+BEYOND_FP32 = 3.5e38  # more than any 32-bit number but infinity
 ROUNDING_CNT = 1e-6  # of sums of offsets and points of curves; far below one pulse
 
 
 def axis_scale(S: F32, n: int) -> float:
     """Pulses per unit of axis n with its sign; a 0, infinity or NaN written counts as 1."""
     ppu: float = S[axes.ppu[n]]
-    return ppu if ppu != 0.0 and ppu - ppu == 0.0 else 1.0
+    return ppu if 0.0 < fabs(ppu) < BEYOND_FP32 else 1.0
 
 
 def axis_sense(S: F32, n: int) -> int:

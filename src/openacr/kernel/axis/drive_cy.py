@@ -13,7 +13,7 @@ all its motion is killed (KAMR). ENC RES clears the fault flags.
 """
 
 from openacr.map.numbers import W_MISC_CONTROL_1
-from openacr.map.rows import axes, motors
+from openacr.map.rows import axes, encoders, motors
 from openacr.map.words import af4, ef
 from openacr.views import I32
 
@@ -63,6 +63,14 @@ def feedback_broken(I: I32, n: int) -> int:
     if I[axes.velocity_source[n]] == 0 and 0 <= e < 24:
         found |= I[ef.word[e]]
     return 1 if found & (ef.ENCODER_SIGNAL_FAULT | ef.ENCODER_SIGNAL_LOST) else 0
+
+
+def encoder_faults(I: I32) -> int:
+    """Not 0 while any encoder has a signal fault."""
+    found: int = 0
+    for e in range(encoders.COUNT):
+        found |= I[ef.word[e]]
+    return found & (ef.ENCODER_SIGNAL_FAULT | ef.ENCODER_SIGNAL_LOST)
 
 
 def drive_faulted(I: I32, n: int) -> bool:
@@ -115,13 +123,16 @@ def drive_wiring(I: I32, n: int) -> None:
     I[motors.drive_enabled[k]] = 1 if drive_driven(I, n) else 0
 
 
-def drive_resting(I: I32, n: int) -> bool:
+def drive_resting(I: I32, n: int, faults: int) -> bool:
     """Whether nothing about the drive of axis n has changed since its last step."""
     flags: int = I[af4.word[n]]
     k: int = I[axes.position_index[n]]
     if flags != I[axes.drive_seen[n]] or I[axes.enable_ticks[n]] or k != I[axes.drive_wired[n]]:
         return False
-    if feedback_broken(I, n) != I[axes.feedback_broken[n]]:
+    broken: int = 0
+    if faults:
+        broken = feedback_broken(I, n)
+    if broken != I[axes.feedback_broken[n]]:
         return False
     k = I[axes.drive_motor[n]]
     if k < 0:
@@ -132,10 +143,10 @@ def drive_resting(I: I32, n: int) -> bool:
     return not shown or not I[motors.fault_mask[k]] | I[motors.fault_report[k]]
 
 
-def drive_step(I: I32, n: int, period_s: float) -> None:
-    """Follow the drive flags of axis n."""
+def drive_step(I: I32, n: int, period_s: float, faults: int) -> None:
+    """Follow the drive flags of axis n; `faults` of encoders as `encoder_faults` has found them."""
     word: int = af4.word[n]
-    if drive_resting(I, n):
+    if drive_resting(I, n, faults):
         return
     drive_request(I, n)
     if I[axes.enable_ticks[n]] > 0:

@@ -21,7 +21,13 @@ from openacr.kernel.axis.axis_cy import (
     limit_bars,
 )
 from openacr.kernel.axis.feedback_cy import FROM_ENCODER
-from openacr.kernel.followers.cam_cy import ballscrew_halt, ballscrew_step, cam_halt, cam_step
+from openacr.kernel.followers.cam_cy import (
+    BALLSCREW_TABLES,
+    ballscrew_halt,
+    ballscrew_step,
+    cam_halt,
+    cam_step,
+)
 from openacr.kernel.followers.gear_cy import gear_halt, gear_step
 from openacr.kernel.jog.jog_cy import JOG_HOMING, JOG_IDLE, JOG_KILLED, JOG_TO_TARGET
 from openacr.kernel.path.hold_cy import NOT_HELD, master_hold
@@ -46,6 +52,7 @@ from openacr.map.rows import (
     masters,
     objects,
     sources,
+    tables,
 )
 from openacr.map.words import af1, af2, af3, af4, af6
 from openacr.views import F32, F64, I32
@@ -177,6 +184,13 @@ def backlash_wanted(F: F64, I: I32, S: F32, n: int, psp_cnt: float) -> float:
     return full_cnt if psp_cnt > 0.0 else 0.0
 
 
+def backlash_used(F: F64, I: I32, n: int) -> bool:
+    """Whether axis n has a backlash offset or may get one."""
+    if I[axes.backlash_setting[n]] | I[axes.backlash_by_direction[n]]:
+        return True
+    return F[followers.backlash_wanted_cnt[n]] != 0.0 or F[axes.backlash_cnt[n]] != 0.0
+
+
 def backlash_step(F: F64, I: I32, S: F32, n: int, psp_cnt: float, dt_s: float) -> None:
     """Bring the backlash offset of axis n to what it should be, a step taking 10 ms."""
     wanted_cnt: float = backlash_wanted(F, I, S, n, psp_cnt)
@@ -298,8 +312,10 @@ def followers_step(F: F64, I: I32, S: F32, n: int, dt_s: float, rate_hz: float) 
             filter_step(F, I, S, n)
         psp_cnt: float = F[axes.position_cnt[n]] + F[axes.kinematics_cnt[n]]
         psp_cnt = psp_cnt + F[axes.gear_cnt[n]] + F[axes.jog_cnt[n]] + F[axes.cam_cnt[n]]
-        backlash_step(F, I, S, n, psp_cnt, dt_s)
-        ballscrew_step(F, I, S, n, psp_cnt)
+        if backlash_used(F, I, n):
+            backlash_step(F, I, S, n, psp_cnt, dt_s)
+        if I[af1.word[n]] & af1.BALLSCREW_ACTIVATE or I[tables.running[BALLSCREW_TABLES + n]]:
+            ballscrew_step(F, I, S, n, psp_cnt)
     if I[af2.word[n]] & af2.DIR_LIMIT_ACTIVATE:
         direction_step(F, I, S, n)
     if S[axes.rpm_factor[n]] > 0.0:

@@ -165,11 +165,13 @@ def source_follow(F: F64, I: I32, S: F32, t: int) -> None:
     if kind == FROM_NONE or kind == FROM_SELF:
         F[sources.delta[t]] = 0.0
         return
+    if kind == FROM_CLOCK:
+        F[sources.old[t]] = F[system.time_s] * PULSES_PER_S
+        F[sources.delta[t]] = F[system.period_s] * PULSES_PER_S
+        return
     value: float = source_count(F, I, S, kind, I[sources.index[t]])
     delta: float = value - F[sources.old[t]]
-    if kind == FROM_CLOCK:
-        delta = F[system.period_s] * PULSES_PER_S
-    elif source_wraps(I, kind, I[sources.index[t]]):
+    if source_wraps(I, kind, I[sources.index[t]]):
         delta = wrap32(round32(delta))
     elif not fabs(delta) < LARGEST_DELTA:
         delta = 0.0
@@ -178,9 +180,11 @@ def source_follow(F: F64, I: I32, S: F32, t: int) -> None:
 
 
 def sources_follow(F: F64, I: I32, S: F32, n: int) -> None:
-    """All taps of axis n."""
-    for use in range(USES):
-        source_follow(F, I, S, n * USES + use)
+    """All taps of axis n; one without a source has moved nothing (`source_prime`)."""
+    for t in range(n * USES, n * USES + USES):
+        kind: int = I[sources.kind[t]]
+        if kind != FROM_NONE and kind != FROM_SELF:
+            source_follow(F, I, S, t)
 
 
 def source_parameter(I: I32, t: int) -> int:

@@ -22,6 +22,7 @@ __all__ = ["limits_step"]
 
 SLAVE_COUNT = 16
 THREE_INPUTS = 7
+LAST_WHOLE_BIT = 29  # from which three flags are in one word
 LAST_FLAG = 17663
 PREVIOUS_SHIFT = 8
 INVERT_SHIFT = 16
@@ -48,10 +49,10 @@ def limit_inputs(I: I32, n: int) -> int:
     state: int = 0
     if 0 <= first <= LAST_FLAG:
         bit: int = first & 31
-        inputs: int = I[FLAG_WORD_BASE + (first >> 5)] & 4294967295
-        state = (
-            ((inputs >> bit) ^ (flags >> INVERT_SHIFT)) & THREE_INPUTS & ((4294967296 >> bit) - 1)
-        )
+        inputs: int = I[FLAG_WORD_BASE + (first >> 5)]
+        state = ((inputs >> bit) ^ (flags >> INVERT_SHIFT)) & THREE_INPUTS
+        if bit > LAST_WHOLE_BIT:
+            state = state & ((4294967296 >> bit) - 1)
     previous: int = (flags & THREE_INPUTS) << PREVIOUS_SHIFT
     flags = (flags & ~(THREE_INPUTS | (THREE_INPUTS << PREVIOUS_SHIFT))) | state | previous
     I[word] = flags
