@@ -44,7 +44,7 @@ TOOLS := $(VENV)/.tools
 BUILT := $(VENV)/.built
 RUNS := $(VENV)/.runs
 INSTALLED := $(VENV)/.installed
-CORE_SOURCES := setup.py src/openacr/unity.py src/openacr/unity_c.py src/openacr/cmath.py src/openacr/views.py \
+CORE_SOURCES := setup.py src/openacr/unity.py src/openacr/unity_c.py src/openacr/cmath.py src/openacr/csystem.pxd src/openacr/views.py \
 	src/openacr/messages.py src/openacr/map/fingerprint.py $(shell find src -name '*_cy.py')
 WORKERS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2)
 

@@ -45,6 +45,7 @@ def extensions() -> list[Extension]:
     )
     modules = cythonize(
         [module],
+        include_path=[str(ROOT / "src")],
         compiler_directives={
             "language_level": 3,
             "boundscheck": checked,

@@ -162,6 +162,26 @@ def test_every_integer_is_widened_before_anything_is_computed_of_it(
     ]
 
 
+def test_a_function_that_is_listed_so_has_an_entrance_without_the_lock_of_python(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = joined(
+        tmp_path,
+        monkeypatch,
+        "from openacr.csystem import now_ns\n"
+        '__all__ = ["f", "g"]\n__unlocked__ = ["f"]\n'
+        "def f(F: F64) -> None:\n    F[0] = now_ns()\n"
+        "def g(F: F64) -> None:\n    F[0] = 1.0\n",
+    )
+    assert "from cython.cimports.openacr.csystem import now_ns" in text
+    unlocked, locked = (text[text.index(f"def py_{name}(") :].splitlines()[1:3] for name in "fg")
+    assert [line.strip() for line in unlocked] == [
+        "with cython.nogil:",
+        "f(cython.cast(cython.p_char, cython.address(F[0])))",
+    ]
+    assert locked[0].strip() == "g(cython.cast(cython.p_char, cython.address(F[0])))"
+
+
 def test_every_compiled_source_is_joined_after_those_it_imports() -> None:
     files = unity.source_files()
     names = [path.name for path in unity.joining_order(files)]

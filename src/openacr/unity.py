@@ -13,7 +13,8 @@ what C needs:
   place in a row of the map (`masters.hold[m]`) becomes a sum: the first place of the row and m
   times the distance to the next;
 - every function becomes a C function that cannot raise; those listed in a module's
-  `__all__` also get a Python entrance `py_<name>`, which takes the views themselves.
+  `__all__` also get a Python entrance `py_<name>`, which takes the views themselves; where a
+  module lists them in `__unlocked__`, too, other threads of Python run on meanwhile.
 
 Refused, because interpreted and compiled results could differ: `//`, `%`, `**` and
 imports other than those of the core itself.
@@ -43,6 +44,8 @@ from openacr.unity_c import (
 )
 
 PACKAGE = Path(__file__).parent
+# What the sources import of C, and where Cython finds it.
+LIBRARIES = {"openacr.cmath": "libc.math", "openacr.csystem": "openacr.csystem"}
 CONSTANT_MODULES = ("openacr.map.numbers",)
 OWN_ROWS = "openacr.cnc.rows"  # written by hand; the others are generated: places, masks, and
 # the numbers that both are made of
@@ -81,7 +84,7 @@ def _source_of(module: str) -> Path:
 
 def deciding_files() -> list[Path]:
     """The files that decide the content of the extension."""
-    joining = [Path(__file__), PACKAGE / "unity_c.py"]
+    joining = [Path(__file__), PACKAGE / "unity_c.py", PACKAGE / "csystem.pxd"]
     places = PACKAGE / "map" / "fingerprint.py"  # of all names, those too that nothing reads
     own = sorted(_source_of(OWN_ROWS).with_suffix("").glob("*.py"))
     return [*source_files(), places, *own, *joining]
@@ -113,21 +116,26 @@ def write_unity(target: Path, *, checked: bool) -> Path:
 
 def unity_source(*, checked: bool = False) -> str:
     """The joined source text."""
-    math_names: set[str] = set()
+    libraries: dict[str, set[str]] = {module: set() for module in LIBRARIES}
     functions: dict[str, ast.FunctionDef] = {}
     exported: list[str] = []
+    unlocked: list[str] = []
     for path in joining_order(source_files()):
-        _collect(path, math_names, functions, exported)
+        _collect(path, libraries, functions, exported, unlocked)
     blocks = [
         "import cython",
-        f"from cython.cimports.libc.math import {', '.join(sorted(math_names))}"
-        if math_names
-        else "",
+        *(
+            f"from cython.cimports.{LIBRARIES[module]} import {', '.join(sorted(names))}"
+            for module, names in libraries.items()
+            if names
+        ),
         f"SOURCE_HASH = {source_hash()!r}",
         f"SOURCE_SIZES = {source_sizes()!r}",
         f"CHECKED = {checked!r}",
     ]
-    entrances = [entrance(functions[name], checked=checked) for name in exported]
+    entrances = [
+        entrance(functions[name], checked=checked, unlocked=name in unlocked) for name in exported
+    ]
     if not checked:
         places = {name: state_places(function) for name, function in functions.items()}
         for function in functions.values():
@@ -200,32 +208,35 @@ def _take_constant(node: ast.stmt, constants: dict[str, Constant]) -> bool:
 
 def _collect(
     path: Path,
-    math_names: set[str],
+    libraries: dict[str, set[str]],
     functions: dict[str, ast.FunctionDef],
     exported: list[str],
+    unlocked: list[str],
 ) -> None:
     constants = dict(_module_constants(path))
     inliner = Inline(constants | _message_numbers())
     for node in ast.parse(path.read_text(), str(path)).body:
         if isinstance(node, ast.ImportFrom):
-            _check_import(node, path, math_names)
+            _check_import(node, path, libraries)
         elif isinstance(node, ast.FunctionDef):
             if node.name in functions:
                 raise UnityError(f"{path.name}: function {node.name} is defined twice")
             _check_operators(node, path)
             functions[node.name] = inliner.visit(node)
-        elif _is_all(node):
+        elif _is_list(node, "__all__"):
             exported.extend(ast.literal_eval(node.value))  # type: ignore[attr-defined]
+        elif _is_list(node, "__unlocked__"):
+            unlocked.extend(ast.literal_eval(node.value))  # type: ignore[attr-defined]
         elif not _take_constant(node, constants) and not is_docstring(node):
             raise UnityError(
                 f"{path.name}:{node.lineno}: only functions and constants are compiled"
             )
 
 
-def _check_import(node: ast.ImportFrom, path: Path, math_names: set[str]) -> None:
+def _check_import(node: ast.ImportFrom, path: Path, libraries: dict[str, set[str]]) -> None:
     module = node.module or ""
-    if module == "openacr.cmath":
-        math_names.update(alias.name for alias in node.names)
+    if module in LIBRARIES:
+        libraries[module].update(alias.name for alias in node.names)
     elif module == "openacr" and [alias.name for alias in node.names] == ["messages"]:
         return
     elif module not in (*CONSTANT_MODULES, *ROW_PACKAGES, "openacr.views") and not (
@@ -242,9 +253,9 @@ def _check_operators(function: ast.FunctionDef, path: Path) -> None:
             raise UnityError(f"{path.name}:{node.lineno}: //, % and ** differ between builds")
 
 
-def _is_all(node: ast.stmt) -> bool:
+def _is_list(node: ast.stmt, name: str) -> bool:
     return (
         isinstance(node, ast.Assign)
         and isinstance(node.targets[0], ast.Name)
-        and node.targets[0].id == "__all__"
+        and node.targets[0].id == name
     )

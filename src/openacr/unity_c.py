@@ -211,8 +211,8 @@ def compiled_function(function: ast.FunctionDef, *, checked: bool) -> ast.Functi
     return function
 
 
-def entrance(function: ast.FunctionDef, *, checked: bool) -> str:
-    """The Python-callable wrapper of a compiled function."""
+def entrance(function: ast.FunctionDef, *, checked: bool, unlocked: bool = False) -> str:
+    """The Python-callable wrapper of a compiled function; `unlocked`: without Python's lock."""
     parameters, arguments, state = [], [], []
     for argument in function.args.args:
         name = argument.arg
@@ -234,5 +234,8 @@ def entrance(function: ast.FunctionDef, *, checked: bool) -> str:
         for other in state[1:]
     )
     call = f"{function.name}({', '.join(state[:1] + arguments)})"
+    if unlocked:
+        call = f"with cython.nogil:\n        {call}"
+        return f"def py_{function.name}({', '.join(parameters)}):\n{guard}    {call}"
     returns = "" if ast.unparse(function.returns or ast.Constant(None)) == "None" else "return "
     return f"def py_{function.name}({', '.join(parameters)}):\n{guard}    {returns}{call}"

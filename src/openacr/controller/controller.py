@@ -20,6 +20,7 @@ from openacr.controller.inputs import JournalFile
 from openacr.controller.loading import PATIENCE_S, EmptyStart, Loader, LoadError, Origins
 from openacr.controller.pages import card_page
 from openacr.controller.parts import CardParts
+from openacr.controller.realtime_card import SILENCE_S, RealtimeCard
 from openacr.controller.streams import CONSOLE
 from openacr.controller.surroundings import Surroundings, needs_axis
 from openacr.controller.trace import Trace
@@ -206,6 +207,18 @@ class Controller:
         if longest_tk is not None and longest_tk < 0:
             raise UserError(f"handlers that take {longest_tk} ticks: the minimum is 0")
         self._engine.delay_handlers(-1 if longest_tk is None else longest_tk, seed)
+
+    def real_time(self, silence_s: float = SILENCE_S) -> RealtimeCard:
+        """The card on the wall clock, in a loop that waits for no work of Python (Linux).
+
+        It lives from `start` to `close`; until then `advance`, `until` and `ask` are refused.
+        Programs get no slices while Python is silent for `silence_s`. UserError where the compiled
+        core is missing, a journal is kept, lines are announced or the servo period is too short.
+        """
+        if self.announced[1] is not None:
+            raise UserError("a card in real time stops before no line: end `announce_lines` first")
+        self.delay_handlers(None)
+        return self._engine.real_time(self, silence_s)
 
     def announce_lines(self, programs: int = 0, ask: AskLine | None = None) -> None:
         """Call `ask(program, line)` before each line of these programs (a mask of 0-15).

@@ -12,6 +12,7 @@ from openacr.compiled import is_compiled, pick
 from openacr.controller.changes import ChangeLog
 from openacr.controller.late_handlers import Handler, LateHandlers
 from openacr.controller.parts import CardParts
+from openacr.controller.realtime_card import RealtimeCard
 from openacr.controller.sample_buffers import Recording
 from openacr.engine import loop_cy, quiet_cy
 from openacr.engine.watches import (
@@ -23,6 +24,7 @@ from openacr.engine.watches import (
     take_orders,
 )
 from openacr.errors import UserError
+from openacr.host import CardHost
 from openacr.map.memory import flag_place
 from openacr.map.numbers import HEAP_BYTE_BASE
 from openacr.map.rows import engine
@@ -54,6 +56,7 @@ class EngineRun:
         self.was_ended = False  # the latest `advance`, by an event
         self.recording = Recording(parts.card)
         self._late: LateHandlers | None = None
+        self._real_time: RealtimeCard | None = None  # a loop on the wall clock
         self.changes = ChangeLog(parts.memory)
         self._seen = memoryview(bytearray(HEAP_BYTE_BASE)).cast("i")
         self.leave_out_rest(is_compiled)  # as plain Python a trial lasts thousands of ticks
@@ -70,6 +73,12 @@ class EngineRun:
         if longest_tk >= 0:
             running = self._parts.executor.threads
             self._late = LateHandlers(running, longest_tk, seed)
+
+    def real_time(self, card: CardHost, silence_s: float) -> RealtimeCard:
+        """Let a loop on the wall clock advance the card, from its `start` to its `close`."""
+        live = RealtimeCard(card, self._parts, self.recording.view, silence_s)
+        self._real_time = live
+        return live
 
     def advance(self, ticks: int = 0, *, seconds: float = 0.0) -> None:
         """Advance the card by `ticks` ticks plus `seconds`, or until an event ends it.
@@ -110,6 +119,8 @@ class EngineRun:
 
     def _live(self, ticks: int) -> int:
         """Run the engine, stopping where the journal needs a digest; returns why it ended."""
+        if self._real_time is not None and not self._real_time.is_closed:
+            raise UserError("the card lives in real time: it cannot be advanced by hand")
         if self._late is not None:
             self._late.commit(Handler.OUTSIDE)
         if self.within:

@@ -9,20 +9,18 @@ gives the same life. Design: docs/decisions/0144-handlers-run-while-ticks-go-on.
 
 from __future__ import annotations
 
-from array import array
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
 from random import Random
 
-from openacr.basic.execute.threads import ENDS_WITH_PROGRAM, Threads
-from openacr.basic.memory.program_memory import PROGRAMS
+from openacr.basic.execute.threads import Threads
 from openacr.basic.vm.scheduler_cy import THREAD_AWAY, THREAD_READY
+from openacr.controller.handler_lists import HandlerLists
 from openacr.engine.changes import Changes
 from openacr.map.memory import Memory
 from openacr.map.rows import engine, kernel, system, threads
-from openacr.map.words import pf
 from openacr.views import F64, I32
 
 
@@ -47,19 +45,16 @@ class _Pending:
     lives: list[int]  # of the threads, as Python knows them
 
 
-class LateHandlers:
+class LateHandlers(HandlerLists):
     """The two states of a card whose handlers take 0 to `longest_tk` ticks each."""
 
     def __init__(self, running: Threads, longest_tk: int, seed: int) -> None:
-        self._running, self._memory, self._space = running, running.memory, running.space
         self.machine = Memory()
         self._longest_tk = longest_tk
         self._drawn = {kind: Random(f"{seed} {kind}") for kind in Handler}
         self._pending: list[_Pending] = []
-        self._changes = Changes()
         self._set_aside_tk = 0  # of the ticks that the engine was asked for
-        self._adopt()
-        self._memory.noted = self._calling
+        super().__init__(running)
 
     @property
     def code(self) -> tuple[I32, F64]:
@@ -77,10 +72,6 @@ class LateHandlers:
         """Ticks until all that is pending now has been taken over."""
         return self._pending[-1].due_tk - self.tick if self._pending else 0
 
-    def end(self) -> None:
-        """From now on the memory of Python, which knows all that is pending, is the machine."""
-        self._memory.noted = None
-
     def see(self) -> None:
         """Bring the memory of Python up to date: the machine, and what is still pending."""
         self._memory.replace(self.machine)
@@ -91,13 +82,9 @@ class LateHandlers:
     def commit(self, kind: Handler, *, at_once: bool = False) -> None:
         """A handler has done its work: the loop takes it over in some ticks, or `at_once`."""
         if self._memory.renewals != self._renewals:  # another card: nothing is left of this one
-            self._adopt()
+            self._begin()
             return
-        changes, self._changes = self._changes, Changes()
-        orders = changes.note(self._before, self._memory)
-        orders.take(self.machine)
-        self._note_threads(changes)
-        self._before = self._memory.snapshot()
+        changes = self._collected()
         code = self._compiled_anew()
         if not changes and code is None:
             return
@@ -165,43 +152,13 @@ class LateHandlers:
         if pending.code is not None:
             self._code = pending.code
 
-    def _adopt(self) -> None:
+    def _begin(self) -> None:
         """The memory of Python is the machine's from now on."""
+        super()._begin()
         self.machine.replace(self._memory)
-        self._renewals = self._memory.renewals
         self._pending.clear()
-        self._lives = self._machine_lives = list(self._running.lives)
-        self._changes = Changes()
-        self._before = self._memory.snapshot()
-        self._code = self._latest = self._copied()
+        self._machine_lives = self._lives
+        self._code = self._latest
 
-    def _note_threads(self, changes: Changes) -> None:
-        """Threads that have begun or ended: the loop may have taken the old ones on meanwhile."""
-        lives, self._lives = self._lives, list(self._running.lives)
-        for thread, (old, new) in enumerate(zip(lives, self._lives, strict=True)):
-            if old != new:
-                changes.note_as_they_are(self._memory, threads.ints[thread], threads.INTS_SIZE)
-                if thread < PROGRAMS:
-                    changes.note_as_they_are(self._memory, pf.word[thread], mask=ENDS_WITH_PROGRAM)
-
-    def _copied(self) -> tuple[I32, F64]:
-        code, nums = self._space.code, self._space.nums
-        return memoryview(array("i", code)), memoryview(array("d", nums))
-
-    def _compiled_anew(self) -> tuple[I32, F64] | None:
-        """A copy of the code of all programs if it is not what the loop has or will have."""
-        code, nums = self._latest
-        space = self._space
-        if space.code.tobytes() == code.tobytes() and space.nums.tobytes() == nums.tobytes():
-            return None
-        self._latest = self._copied()
-        return self._latest
-
-    @contextmanager
-    def _calling(self, call: int, number: int, whole: int, value: float) -> Iterator[None]:
-        """Note a call of the kernel; what it changes here the loop changes itself."""
-        orders = self._changes.note(self._before, self._memory)
+    def _order(self, orders: Changes) -> None:
         orders.take(self.machine)
-        yield
-        self._changes.note_call(call, number, whole, value)
-        self._before = self._memory.snapshot()

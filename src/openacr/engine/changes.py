@@ -34,6 +34,14 @@ class Changes:
         halves = array("i", array("d", [value]).tobytes())
         self._entries.extend([changes_cy.CALL, call, number, whole, *halves])
 
+    def extend(self, others: Changes) -> None:
+        """Add all of another list."""
+        self._entries.extend(others._entries)
+
+    def words(self) -> memoryview[int]:
+        """The list as numbers, as the loop takes it over."""
+        return memoryview(self._entries)
+
     def note(self, before: bytes, memory: Memory) -> Changes:
         """Add the cells of `memory` that are not as in `before`; returns the orders among them.
 
@@ -79,7 +87,7 @@ class Changes:
         if self._entries:
             entries = memoryview(self._entries)
             numbers = entries.cast("B").cast("d")
-            _changes_take(memory.F, memory.I, memory.S, entries, numbers, len(self))
+            _changes_take(memory.F, memory.I, memory.S, entries, numbers, 0, len(self))
 
 
 _Halves = tuple[int, int]

@@ -24,9 +24,9 @@ CALL = 16
 MASKED = 17  # some bits of a word, given as a mask and their values
 
 
-def changes_take(F: F64, I: I32, S: F32, L: I32, D: F64, count: int) -> None:
-    """Change the state by the first `count` entries of a list; D are its 64-bit numbers."""
-    for k in range(count):
+def changes_take(F: F64, I: I32, S: F32, L: I32, D: F64, first: int, count: int) -> None:
+    """Change the state by `count` entries of a list from `first` on; D are its 64-bit numbers."""
+    for k in range(first, first + count):
         e: int = ENTRY * k
         kind: int = L[e]
         place: int = L[e + 1]

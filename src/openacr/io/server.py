@@ -15,9 +15,9 @@ from dataclasses import dataclass
 
 from openacr.channels import StreamKind
 from openacr.errors import NoFreeStreamError, UserError
+from openacr.host import CardHost
 from openacr.io import peers, status_port
 from openacr.io.bounded_log import bounded
-from openacr.io.host import CardHost
 from openacr.io.listening import bound_socket
 from openacr.io.pacing import Pacer, PacingReport
 from openacr.io.peers import Peer, TcpPeer

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from openacr.channels import StreamKind
 from openacr.errors import NoFreeStreamError, UserError
-from openacr.io.host import CardHost
+from openacr.host import CardHost
 from openacr.io.recorded_session import Recording
 from openacr.journal.entries import Entered, JournalEntry
 from openacr.protocol.terminal import XOFF, XON
