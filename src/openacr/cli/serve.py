@@ -14,13 +14,14 @@ import typer
 from openacr.channels import ASCII_PORT, BINARY_PORT
 from openacr.cli.guests import Allow, Insecure, admitted
 from openacr.cli.serve_on_bus import ServedBus, agreed, world_on_bus
+from openacr.cli.serve_realtime import agreed_realtime, in_real_time
 from openacr.cli.signals import stop_on_signals
 from openacr.errors import StoreError, UserError
 from openacr.protocol.status import STATUS_PORT
 
 if TYPE_CHECKING:
     from openacr.controller import Controller
-    from openacr.io.host import CardHost
+    from openacr.host import CardHost
     from openacr.io.serial_port import LineSettings
     from openacr.io.server import Address, CardServer, Guests
     from openacr.plant.describe.schema import World
@@ -78,19 +79,36 @@ def serve(
         bool, typer.Option("--real", help="Let drives on the bus be enabled; asks first.")
     ] = False,
     is_sure: Annotated[bool, typer.Option("--yes", help="Do not ask.")] = False,
+    is_real_time: Annotated[
+        bool,
+        typer.Option(
+            "--realtime", help="A loop of its own keeps the servo period, whatever Python does."
+        ),
+    ] = False,
+    core: Annotated[
+        int | None, typer.Option(min=0, help="Processor core of the loop of --realtime.")
+    ] = None,
+    silence: Annotated[
+        float | None,
+        typer.Option(help="Seconds without Python after which programs pause; default 1."),
+    ] = None,
 ) -> None:
     """Run a card in real time and serve hosts over TCP and serial lines.
 
     With --data saved parameters, user flash and battery-backed memory survive the process.
     The journal of the last minutes can be replayed with `openacr replay`. Drives of a bus in
-    machine.toml are read; only with --real can they be enabled. A card with a bus keeps no journal.
+    machine.toml are read; only with --real can they be enabled. A card with a bus, or with
+    --realtime, keeps no journal.
     """
     guests = admitted(host, allow, is_open=insecure)
     world = world_on_bus(project, bus)
+    agreed_realtime(
+        is_on=is_real_time, core=core, silence_s=silence, speed=speed, has_bus=world is not None
+    )
     interface = agreed(world, bus, speed, is_real=is_real, is_sure=is_sure)
     card = _load(project, data, world)
     try:
-        if not no_journal and world is None:
+        if not (no_journal or is_real_time) and world is None:
             _keep_journal(card, journal or (data / "journal" if data else None))
         ports = Ports(
             host,
@@ -101,7 +119,10 @@ def serve(
             STATUS_PORT if status_port is None and ascii_port == ASCII_PORT else status_port,
             is_status_wanted=status_port is not None,
         )
-        if world is None:
+        if is_real_time:
+            with in_real_time(card, core, silence) as live:
+                asyncio.run(serve_card(live.card, ports, speed, guests, live.begin))
+        elif world is None:
             asyncio.run(serve_card(card, ports, speed, guests))
         else:
             served = ServedBus(card, world, interface, is_real=is_real)
