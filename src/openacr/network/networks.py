@@ -7,11 +7,13 @@ from collections.abc import Callable
 from openacr.map.memory import Memory
 from openacr.map.rows import networks
 from openacr.network.canopen import master as canopen
+from openacr.network.canopen import startup
+from openacr.network.canopen.nodes import Nodes
 from openacr.network.drivetalk import service as drivetalk
 
 
 class Networks:
-    """The networks of one card; their entire state is in the map.
+    """The networks of one card; their entire state is in the map, but that of real nodes.
 
     `deliver` receives what a drive has sent for a channel connected to it.
     """
@@ -19,19 +21,25 @@ class Networks:
     def __init__(self, memory: Memory, deliver: Callable[[int, str], None]) -> None:
         self._memory = memory
         self._deliver = deliver
+        self.canopen = canopen.made(memory)
 
     def power_up(self) -> None:
         """Initialize after switching the card on."""
-        canopen.power_up(self._memory)
+        startup.power_up(self.canopen)
+        self._set_due()
+
+    def connect(self, nodes: Nodes) -> None:
+        """Look for all nodes that are not modelled on this bus as well."""
+        self.canopen.buses = (*self.canopen.buses, nodes)
         self._set_due()
 
     def attend(self) -> None:
         """Perform all actions that are due."""
-        canopen.attend(self._memory)
+        canopen.attend(self.canopen)
         drivetalk.attend(self._memory, self._deliver)
         self._set_due()
 
     def _set_due(self) -> None:
-        times = canopen.next_tk(self._memory), drivetalk.next_tk(self._memory)
+        times = canopen.next_tk(self.canopen), drivetalk.next_tk(self._memory)
         due_tk = min((time for time in times if time), default=0.0)
         self._memory.F[networks.due_tk] = due_tk

@@ -56,22 +56,27 @@ def clear_moved(master: Master) -> None:
             master.memory.I[standard[slave * WORDS + word]] = 0
 
 
-def read_outputs(master: Master, slave: int, count: int) -> list[int]:
-    """The commanded digital outputs of a slave, in words."""
-    words = -(-count // 32)
-    return [master.memory.I[output_word(master, slave, word)] for word in range(words)]
-
-
-def dac_counts(memory: Memory, slave: int, count: int) -> list[int]:
-    """The commanded analog outputs of a slave: (value + offset) * gain, in counts."""
-    return [_dac_counts(memory, _channel(slave, number)) for number in range(count)]
+def outputs(master: Master, slave: int, digital: int, analog: int) -> tuple[list[int], list[int]]:
+    """The commanded outputs of a slave: digital ones in words, analog ones in counts."""
+    words = range(-(-digital // 32))
+    return (
+        [master.memory.I[output_word(master, slave, word)] for word in words],
+        [_dac_counts(master.memory, _channel(slave, number)) for number in range(analog)],
+    )
 
 
 def _dac_counts(memory: Memory, channel: int) -> int:
+    """A value of the user in counts: (value + offset) * gain."""
     value = memory.S[canopen_dacs.dac_output_value[channel]]
     offset, gain = canopen_dacs.dac_offset[channel], canopen_dacs.dac_gain[channel]
     counts = (value + memory.S[offset]) * memory.S[gain]
     return round(min(max(counts, BOTTOM), FULL_SCALE)) if counts == counts else 0
+
+
+def show_digital_inputs(master: Master, slave: int, words: Sequence[int]) -> None:
+    """Show digital inputs, in words."""
+    for word, value in enumerate(words):
+        master.memory.I[input_word(master, slave, word)] = value
 
 
 def show_analog_inputs(memory: Memory, slave: int, counts: Sequence[int]) -> None:

@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 from openacr.map.memory import Memory
-from openacr.map.rows import network_master, network_slaves
+from openacr.map.rows import network_master
 from openacr.map.words import canf
 from openacr.network.canopen import exchange, startup
-from openacr.network.canopen.rows import SLAVES, TIMES, Master, Phase
-from openacr.plant.bus import bus
+from openacr.network.canopen.modelled import ModelledNodes
+from openacr.network.canopen.rows import TIMES, Master, Phase
 
 
-def power_up(memory: Memory) -> None:
-    """Begin after switching the card on."""
-    startup.power_up(Master(memory))
-
-
-def attend(memory: Memory) -> None:
-    """Do everything that is due."""
+def made(memory: Memory) -> Master:
+    """The master of a card, with the modelled nodes."""
     master = Master(memory)
-    bus.follow_power(memory)
+    master.buses = (ModelledNodes(master),)
+    return master
+
+
+def attend(master: Master) -> None:
+    """Do everything that is due."""
+    for bus in master.buses:
+        bus.attend()
     _serve_requests(master)
     if master.is_due(network_master.phase_tk):
         _end_phase(master)
@@ -46,9 +48,7 @@ def _end_phase(master: Master) -> None:
 
 
 def _run(master: Master) -> None:
-    exchange.receive_changes(master)
-    if master.is_due(network_master.arrival_tk):
-        exchange.arrive(master)
+    exchange.receive(master)
     if master.is_due(network_master.sync_tk):
         exchange.cycle(master)
     if master.is_due(network_master.health_tk):
@@ -57,13 +57,7 @@ def _run(master: Master) -> None:
         exchange.note_changes(master)
 
 
-def next_tk(memory: Memory) -> float:
+def next_tk(master: Master) -> float:
     """The tick at which something is due; 0 if nothing is."""
-    master = Master(memory)
-    times = [master.time(row) for row in TIMES]
-    times += [memory.F[network_slaves.change_tk[slave]] for slave in range(SLAVES)]
-    change_s = bus.next_change_s(memory)
-    if change_s is not None:
-        after_s = change_s - bus.now_s(memory)
-        times.append(master.later_tk(after_s * 1000))
+    times = [*(master.time(row) for row in TIMES), *(bus.next_tk() for bus in master.buses)]
     return min((time for time in times if time), default=0.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import IntEnum
+from typing import TYPE_CHECKING
 
 from openacr.map import numbers as at
 from openacr.map.memory import Memory
@@ -10,6 +11,9 @@ from openacr.map.rows import canopen, canopen_nodes, network_master, network_sla
 from openacr.map.words import canf
 from openacr.network import wake_cy
 from openacr.network.times import later_tk, tick_of
+
+if TYPE_CHECKING:
+    from openacr.network.canopen.nodes import Nodes
 
 SLAVES = network_slaves.COUNT
 WORD = at.W_CAN
@@ -44,10 +48,20 @@ class Phase(IntEnum):
 
 
 class Master:
-    """Reads and writes the rows of the master; it has no state of its own."""
+    """Reads and writes the rows of the master; knows the buses, and which slave is on which."""
 
     def __init__(self, memory: Memory) -> None:
         self.memory = memory
+        self.buses: tuple[Nodes, ...] = ()
+        self._bus_of: dict[int, Nodes] = {}
+
+    def nodes(self, slave: int) -> Nodes:
+        """The bus of a slave: the first one, unless it was looked for on another."""
+        return self._bus_of.get(slave, self.buses[0])
+
+    def look_on(self, bus: Nodes, slave: int) -> None:
+        """Look for a slave on a bus from now on."""
+        self._bus_of[slave] = bus
 
     # time
 
@@ -139,6 +153,10 @@ class Master:
     def live_slaves(self) -> list[int]:
         """The slaves that have not failed."""
         return [slave for slave in self.slaves() if self.slave(slave, network_slaves.live)]
+
+    def forget_slave(self, slave: int) -> None:
+        """Count a slave as failed, or not found yet."""
+        self.put_slave(slave, network_slaves.live, 0)
 
     def slave(self, slave: int, row: tuple[int, ...], place: int = 0) -> int:
         """Read a hidden row of a slave, or one place of an array row."""

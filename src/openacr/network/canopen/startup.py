@@ -14,13 +14,14 @@ from __future__ import annotations
 from openacr.map.rows import canopen, canopen_nodes, network_master, network_slaves
 from openacr.map.words import canf
 from openacr.network.canopen import exchange, figures, image
+from openacr.network.canopen.nodes import Pending
 from openacr.network.canopen.rows import FAULTS, SLAVES, BusState, Master, Phase
 from openacr.plant.bus import bus
+from openacr.plant.bus.bus import Found
 
 POWER_UP_MS = 100
 RESET_MS = 200
-NO_ANSWER_MS = 100
-QUESTIONS = 20  # messages to ask one node, and as many answers
+LOOK_AGAIN_MS = 1.0  # for the answers of a node that is still being asked
 HIGHEST_ID = 127
 MOST_BYTES, MOST_ANALOG = 64, 32  # of all nodes together, in each direction
 BIT_RATES = (10, 20, 50, 125, 250, 500, 800, 1000)
@@ -58,7 +59,7 @@ def become_ready(master: Master) -> None:
 
 def verify(master: Master) -> BusState:
     """Check the master id and the node ids; P32770 is the number of ids in use."""
-    if bus.has_fault(master.memory, bus.Trouble.CONTROLLER):
+    if any(nodes.has_failed() for nodes in master.buses):
         return BusState.INTERNAL_ERROR
     own = master.setting(canopen.master_node_id)
     if not 1 <= own <= HIGHEST_ID:
@@ -80,9 +81,8 @@ def reset(master: Master) -> None:
     if master.phase is Phase.ABSENT:
         master.change_flags(clear=canf.RESET_NETWORK)
         return
-    for node in bus.nodes(master.memory):
-        if bus.answers(master.memory, node, master.setting(canopen.bit_rate)):
-            bus.begin(master.memory, node, bus.NodeState.PRE_OPERATIONAL)
+    for nodes in master.buses:
+        nodes.reset()
     master.stop_times()
     for slave in range(SLAVES):
         master.show_slave(slave, canopen_nodes.node_state, 0)
@@ -103,15 +103,13 @@ def start(master: Master) -> None:
     if state is not BusState.PRE_OPERATIONAL:
         _end(master, state)
         return
-    bit_rate = master.setting(canopen.bit_rate)
-    master.put(network_master.bit_rate, bit_rate)
+    master.put(network_master.bit_rate, master.setting(canopen.bit_rate))
     master.put(network_master.cycle_ms, master.setting(canopen.cyclic_period))
     master.put(network_master.slaves, master.setting(canopen.number_of_slave_nodes))
     mapping = master.setting(canopen.alternate_digital_i_o_mapping)
     master.put(network_master.mapping, image.mapping_of(mapping))
-    for node in bus.nodes(master.memory):
-        if bus.answers(master.memory, node, bit_rate):
-            bus.stop(master.memory, node)
+    for nodes in master.buses:
+        nodes.stop()
     for slave in range(SLAVES):
         _forget(master, slave)
     master.enter(Phase.INTERROGATING)
@@ -122,7 +120,7 @@ def start(master: Master) -> None:
 def _forget(master: Master, slave: int) -> None:
     for row in (*FOUND_ROWS, canopen_nodes.node_state):
         master.show_slave(slave, row, 0)
-    master.put_slave(slave, network_slaves.live, 0)
+    master.forget_slave(slave)
 
 
 # asking the nodes
@@ -132,31 +130,31 @@ def ask_next(master: Master) -> None:
     """Take down what the present node has answered and ask the next one."""
     slave = master.get(network_master.slave)
     if slave >= 0:
-        _take_down(master, slave)
+        found = master.nodes(slave).answer(slave)
+        if isinstance(found, Pending):
+            master.set_time(network_master.phase_tk, LOOK_AGAIN_MS)
+            return
+        _take_down(master, slave, found)
     slave += 1
     master.put(network_master.slave, slave)
     if slave >= master.get(network_master.slaves):
         _conclude(master)
     else:
-        master.set_time(network_master.phase_tk, _answer_ms(master, slave))
+        master.set_time(network_master.phase_tk, _look(master, slave))
 
 
-def _find(master: Master, slave: int) -> int | None:
-    return bus.find(master.memory, master.node_id(slave), master.get(network_master.bit_rate))
+def _look(master: Master, slave: int) -> float:
+    """Ask the node of a slave: a modelled one, else on the last bus; time for its answer."""
+    modelled, *others = master.buses
+    is_modelled = not others or modelled.has(master.node_id(slave))
+    nodes = modelled if is_modelled else others[-1]
+    master.look_on(nodes, slave)
+    return nodes.ask(slave)
 
 
-def _answer_ms(master: Master, slave: int) -> float:
-    """Time until a node has answered everything; one that is not there is given up."""
-    if _find(master, slave) is None:
-        return NO_ANSWER_MS
-    return 2 * QUESTIONS * figures.MESSAGE_BITS / master.get(network_master.bit_rate)
-
-
-def _take_down(master: Master, slave: int) -> None:
-    node = _find(master, slave)
-    if node is None:
+def _take_down(master: Master, slave: int, found: Found | None) -> None:
+    if found is None:
         return
-    found = bus.describe(master.memory, node)
     values = (
         found.digital_input_bytes,
         found.digital_output_bytes,
@@ -166,8 +164,6 @@ def _take_down(master: Master, slave: int) -> None:
     )
     for row, value in zip(FOUND_ROWS, values, strict=True):
         master.show_slave(slave, row, value)
-    master.put_slave(slave, network_slaves.node, node)
-    master.put_slave(slave, network_slaves.words, -(-found.digital_input_bytes // 4))
     master.put_slave(slave, network_slaves.live, 1)
     master.show_slave(slave, canopen_nodes.node_state, 1)
 
