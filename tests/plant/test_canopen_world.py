@@ -6,6 +6,7 @@ from tests.network.rig import DI, DO, card, fault, node, output, start
 from openacr.controller import Controller
 from openacr.errors import SourceError, UserError
 from openacr.plant.describe.load import parse_world
+from openacr.plant.describe.real_world import is_real, real_world
 
 
 def signal(**keys: object) -> str:
@@ -107,3 +108,53 @@ def test_an_analog_value_needs_an_input() -> None:
         with pytest.raises(UserError, match="shows no analog input"):
             made.set_analog(parameter, 1.0)
     assert isinstance(made, Controller)
+
+
+# nodes on a bus of the computer
+
+BUS = '[canopen]\ninterface = "socketcan"\nchannel = "can0"\nbit_rate = 500\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ('[canopen]\nchannel = "can0"\n', "has the channel can0 of no interface"),
+        ("[canopen]\n" + node(1, modelled=True), "node 1 is modelled, as all nodes are"),
+        ("[canopen]\n" + node(1, product=3), "product of node 1 is not checked: it is modelled"),
+        (BUS + node(1, modelled=True, serial=3), "serial of node 1 is not checked"),
+        (BUS + node(1, bit_rate=125), "node 1 has 125 kbit/s, the bus 500"),
+        (BUS.replace("500", "300"), "bit_rate is 300"),
+    ],
+)
+def test_contradictions_of_real_nodes_are_refused(text: str, says: str) -> None:
+    assert says in refusal(text)
+
+
+def test_where_the_bus_is_open_only_modelled_nodes_are_left_and_they_keep_their_places() -> None:
+    nodes = node(3, bit_rate=500, digital_inputs=8, analog_inputs=1, analog_outputs=1) + node(
+        4, modelled=True, bit_rate=500, digital_inputs=8, analog_inputs=1, analog_outputs=1
+    )
+    faults = fault("lost", node=3) + fault("lost", node=4, at_s=9.0) + fault("noise")
+    signals = "".join(
+        signal(input=first, output=last)
+        for first, last in ((33288, 33280), (33800, 33280), (33288, 33792), (33800, 33792))
+    )
+    wires = "".join(
+        f"[[wire]]\ninput = {number}\noutput = 32\n" for number in (DI[0] + 2, DI[1] + 3)
+    )
+    world = parse_world(BUS + nodes + faults + signals + wires)
+    real = real_world(world)
+    assert is_real(world) and real.canopen is not None
+    assert [each.id for each in real.canopen.node] == [0, 4]
+    assert [each.node for each in real.canopen.fault] == [4]
+    assert [(each.input, each.output) for each in real.canopen.signal] == [(33800, 33792)]
+    assert [wire.input for wire in real.wire] == [DI[1] + 3]
+    made = Controller("ACR9000", world=real)
+    made.set_input(DI[1], True)
+    with pytest.raises(UserError, match="no CANopen node of the machine has it"):
+        made.set_input(DI[0], True)
+
+
+def test_without_an_interface_nothing_is_real() -> None:
+    world = parse_world("[canopen]\n" + node(3, digital_inputs=8))
+    assert not is_real(world) and real_world(world).canopen == world.canopen

@@ -144,10 +144,9 @@ def ask_next(master: Master) -> None:
 
 
 def _look(master: Master, slave: int) -> float:
-    """Ask the node of a slave: a modelled one, else on the last bus; time for its answer."""
-    modelled, *others = master.buses
-    is_modelled = not others or modelled.has(master.node_id(slave))
-    nodes = modelled if is_modelled else others[-1]
+    """Ask the node of a slave, on the last bus if none knows it; time for its answer."""
+    identity = master.node_id(slave)
+    nodes = next((bus for bus in master.buses if bus.has(identity)), master.buses[-1])
     master.look_on(nodes, slave)
     return nodes.ask(slave)
 

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from openacr.models import MODELS
 from openacr.plant.describe.complaint import Complaint, Path
 from openacr.plant.describe.network_schema import (
+    DIGITAL,
     FAULTS,
     NODES,
     SIGNALS,
@@ -18,6 +19,7 @@ from openacr.plant.describe.schema import ExactDrive, StepperDrive, World
 
 FIRST_INPUT, FIRST_OUTPUT, FLAGS_PER_NODE = 11520, 12032, 1024
 FIRST_ANALOG_OUTPUT, FIRST_ANALOG_INPUT = 33280, 33288
+PARAMETERS_PER_NODE = 512
 _OF_A_NODE = {FaultKind.SILENT, FaultKind.LOST}
 
 
@@ -38,6 +40,22 @@ def _ranges(world: World, first: int, count_of: Callable[[Node], int]) -> Iterat
             yield start, start + count - 1
 
 
+def nodes_inputs(world: World) -> set[int]:
+    """Return the flags of all inputs of nodes that are real where the bus is open."""
+    canopen = world.canopen
+    if canopen is None:
+        return set()
+    places = [place for place, node in enumerate(canopen.node) if node in canopen.real]
+    firsts = [FIRST_INPUT + place * FLAGS_PER_NODE for place in places]
+    return {first + number for first in firsts for number in range(DIGITAL)}
+
+
+def parameters_of(place: int) -> range:
+    """Return the parameters of the analog inputs and outputs of a node."""
+    first = FIRST_ANALOG_OUTPUT + PARAMETERS_PER_NODE * place
+    return range(first, first + PARAMETERS_PER_NODE)
+
+
 def canopen_faults(world: World) -> Iterator[Complaint]:
     """Yield the contradictions in `[canopen]`."""
     if world.canopen is None:
@@ -46,12 +64,33 @@ def canopen_faults(world: World) -> Iterator[Complaint]:
         text = f"the {world.card.model} has no CANopen controller"
         with_canopen = [model.name for model in MODELS.values() if model.has_canopen]
         yield Complaint(("canopen",), text, "these have: " + ", ".join(with_canopen))
+    yield from _bus(world.canopen)
     yield from _sizes(world.canopen)
     yield from _nodes(world.canopen)
     for place, fault in enumerate(world.canopen.fault):
         yield from _fault(("canopen", "fault", place), fault, world.canopen)
     for place, signal in enumerate(world.canopen.signal):
         yield from _signal(("canopen", "signal", place), signal, world)
+
+
+def _bus(canopen: Canopen) -> Iterator[Complaint]:
+    """The CAN bus of the computer, and what is said of real nodes."""
+    if canopen.interface is None and canopen.channel is not None:
+        text = f"[canopen] has the channel {canopen.channel} of no interface"
+        yield Complaint(("canopen", "channel"), text, 'add interface = "socketcan"')
+    for place, node in enumerate(canopen.node):
+        is_real = canopen.interface is not None and not node.modelled
+        if node.modelled and canopen.interface is None:
+            text = f"node {node.id} is modelled, as all nodes are without an interface"
+            yield Complaint(("canopen", "node", place, "modelled"), text, "leave the key out")
+        for key in ("vendor", "product", "revision", "serial"):
+            if getattr(node, key) is not None and not is_real:
+                text = f"{key} of node {node.id} is not checked: it is modelled"
+                hint = "only real nodes have an identity: [canopen] with interface"
+                yield Complaint(("canopen", "node", place, key), text, hint)
+        if is_real and node.bit_rate != canopen.bit_rate:
+            text = f"node {node.id} has {node.bit_rate} kbit/s, the bus {canopen.bit_rate}"
+            yield Complaint(("canopen", "node", place, "bit_rate"), text, "all have one bit rate")
 
 
 def _sizes(canopen: Canopen) -> Iterator[Complaint]:
@@ -97,12 +136,12 @@ def _fault(path: Path, fault: Fault, canopen: Canopen) -> Iterator[Complaint]:
 def _signal(path: Path, signal: Signal, world: World) -> Iterator[Complaint]:
     nodes = world.canopen.node if world.canopen else ()
     inputs = [
-        FIRST_ANALOG_INPUT + 512 * place + 16 * channel
+        FIRST_ANALOG_INPUT + PARAMETERS_PER_NODE * place + 16 * channel
         for place, node in enumerate(nodes)
         for channel in range(node.analog_inputs)
     ]
     outputs = [
-        FIRST_ANALOG_OUTPUT + 512 * place + 16 * channel
+        FIRST_ANALOG_OUTPUT + PARAMETERS_PER_NODE * place + 16 * channel
         for place, node in enumerate(nodes)
         for channel in range(node.analog_outputs)
     ]

@@ -10,6 +10,8 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
+from openacr.plant.describe.bus_schema import Number
+
 NODES = 4
 DIGITAL = 512
 ANALOG = 32
@@ -29,6 +31,9 @@ Level = Annotated[float, Meta(ge=-1e6, le=1e6)]
 Parameter = Annotated[int, Meta(ge=33280, le=35327)]
 Moment = Annotated[float, Meta(ge=0, le=1e9)]
 Share = Annotated[float, Meta(gt=0, le=1)]
+
+
+Name = Annotated[str, Meta(min_length=1, max_length=200)]
 
 
 class BitRate(IntEnum):
@@ -70,10 +75,18 @@ class FaultKind(StrEnum):
 
 
 class Node(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """One node: its coupler, its switches, and the terminals plugged into it."""
+    """One node: its coupler, its switches, and the terminals plugged into it.
+
+    Where the bus of the computer is open, a real node takes its place, unless it is `modelled`.
+    """
 
     id: NodeId
     name: str = ""
+    modelled: bool = False
+    vendor: Number | None = None
+    product: Number | None = None
+    revision: Number | None = None
+    serial: Number | None = None
     coupler: Coupler = Coupler.PIO_337
     bit_rate: BitRate = BitRate.KBIT_125
     health: Health = Health.HEARTBEAT
@@ -108,11 +121,22 @@ class Signal(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
 
 class Canopen(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """The CANopen bus; without this table the card has no CANopen controller."""
+    """The CANopen bus; without this table the card has no CANopen controller.
 
+    `interface` and `channel` name a CAN bus of the computer as python-can does.
+    """
+
+    interface: Name | None = None
+    channel: Name | None = None
+    bit_rate: BitRate = BitRate.KBIT_125
     node: tuple[Node, ...] = ()
     fault: tuple[Fault, ...] = ()
     signal: tuple[Signal, ...] = ()
+
+    @property
+    def real(self) -> tuple[Node, ...]:
+        """The nodes for which real ones are on the bus of the computer."""
+        return tuple(node for node in self.node if not node.modelled) if self.interface else ()
 
 
 class DriveType(StrEnum):

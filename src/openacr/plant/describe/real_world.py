@@ -3,16 +3,21 @@
 from msgspec.structs import replace
 
 from openacr.plant.describe.check_bus import bus_inputs
+from openacr.plant.describe.check_networks import nodes_inputs, parameters_of
+from openacr.plant.describe.network_schema import Canopen, Node
 from openacr.plant.describe.schema import Axis, BusDrive, Inputs, Load, World, switches
+
+ABSENT = 0  # the id of a place without a node
 
 
 def real_world(world: World) -> World:
     """The world with what is on the bus taken out of the model.
 
     Axes with a drive on the bus have no motor, no marker, no hard stops and no modelled switches;
-    an input that the bus drives is driven by nothing else.
+    an input that the bus drives is driven by nothing else. Real nodes leave their places empty.
     """
-    real = {number for _, number, _ in bus_inputs(world)}
+    nodes = nodes_inputs(world)
+    real = {number for _, number, _ in bus_inputs(world)} | nodes
     axes = tuple(_on_the_bus(axis) if axis.bus else _without(axis, real) for axis in world.axis)
     return replace(
         world,
@@ -24,7 +29,35 @@ def real_world(world: World) -> World:
         ),
         inputs=Inputs(
             on=tuple(number for number in world.inputs.on if number not in real),
-            off=(*(number for number in world.inputs.off if number not in real), *sorted(real)),
+            off=(
+                *(number for number in world.inputs.off if number not in real),
+                *sorted(real - nodes),
+            ),
+        ),
+        canopen=world.canopen and _modelled(world.canopen),
+    )
+
+
+def is_real(world: World) -> bool:
+    """Whether anything of the machine is on a bus of the computer."""
+    return world.bus is not None or bool(world.canopen and world.canopen.interface)
+
+
+def _modelled(canopen: Canopen) -> Canopen:
+    """The modelled nodes at their places, with their faults and signals."""
+    if not canopen.interface:
+        return canopen
+    places = [place for place, node in enumerate(canopen.node) if node.modelled]
+    kept = {canopen.node[place].id for place in places}
+    shown = {number for place in places for number in parameters_of(place)}
+    return replace(
+        canopen,
+        node=tuple(node if node.modelled else Node(id=ABSENT) for node in canopen.node),
+        fault=tuple(fault for fault in canopen.fault if fault.node in kept),
+        signal=tuple(
+            signal
+            for signal in canopen.signal
+            if signal.input in shown and (signal.output is None or signal.output in shown)
         ),
     )
 
