@@ -13,7 +13,7 @@ import typer
 
 from openacr.channels import ASCII_PORT, BINARY_PORT
 from openacr.cli.guests import Allow, Insecure, admitted
-from openacr.cli.serve_on_bus import ServedBus, agreed, world_on_bus
+from openacr.cli.serve_on_bus import Served, agreed, world_on_bus
 from openacr.cli.serve_realtime import agreed_realtime, in_real_time
 from openacr.cli.signals import stop_on_signals
 from openacr.errors import StoreError, UserError
@@ -76,7 +76,8 @@ def serve(
         ),
     ] = None,
     is_real: Annotated[
-        bool, typer.Option("--real", help="Let drives on the bus be enabled; asks first.")
+        bool,
+        typer.Option("--real", help="Let real drives be enabled, outputs be sent; asks first."),
     ] = False,
     is_sure: Annotated[bool, typer.Option("--yes", help="Do not ask.")] = False,
     is_real_time: Annotated[
@@ -96,9 +97,9 @@ def serve(
     """Run a card in real time and serve hosts over TCP and serial lines.
 
     With --data saved parameters, user flash and battery-backed memory survive the process.
-    The journal of the last minutes can be replayed with `openacr replay`. Drives of a bus in
-    machine.toml are read; only with --real can they be enabled. A card with a bus, or with
-    --realtime, keeps no journal.
+    The journal of the last minutes can be replayed with `openacr replay`. Drives and nodes of a bus
+    in machine.toml are read; only with --real can drives be enabled and outputs be switched. A card
+    with a bus, or with --realtime, keeps no journal.
     """
     guests = admitted(host, allow, is_open=insecure)
     world = world_on_bus(project, bus)
@@ -125,7 +126,7 @@ def serve(
         elif world is None:
             asyncio.run(serve_card(card, ports, speed, guests))
         else:
-            served = ServedBus(card, world, interface, is_real=is_real)
+            served = Served(card, world, interface, is_real=is_real)
             with closing(served):
                 asyncio.run(serve_card(card, ports, speed, guests, served.begin))
     finally:
@@ -173,13 +174,16 @@ def _load(path: Path | None, data: Path | None, world: "World | None") -> "Contr
     """A card with a project; refused lines are printed and end it with exit code 2."""
     from openacr.controller import Controller
     from openacr.errors import SourceError
+    from openacr.plant.describe.real_world import real_world
     from openacr.plant.describe.schema import exact_world
     from openacr.project import find_project
 
     if path is None:
         card, refused = Controller(world=exact_world(), data=data), list[SourceError]()
     else:
-        card, refused = Controller.load(find_project(path), data=data, world=world)
+        card, refused = Controller.load(
+            find_project(path), data=data, world=world and real_world(world)
+        )
     for notice in card.nonvolatile.notices:
         typer.echo(f"warning: {notice}", err=True)
     for error in refused:

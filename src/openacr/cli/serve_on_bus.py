@@ -1,6 +1,7 @@
-"""The bus of a served card: whether it is opened, who agrees, how it begins and ends."""
+"""What is real of a served card: whether it is opened, who agrees, how it begins and ends."""
 
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,15 +12,16 @@ from openacr.wording import counted
 
 if TYPE_CHECKING:
     from openacr.controller import Controller
+    from openacr.plant.describe.network_schema import Canopen
     from openacr.plant.describe.schema import World
 
 NO_BUS = "none"
 
 
 def world_on_bus(path: Path | None, bus: str | None) -> "World | None":
-    """The machine of a project with its bus open; None if it has none, or all is modelled."""
+    """The machine of a project with something real; None if all of it is modelled."""
     from openacr.plant.describe.load import load_world
-    from openacr.plant.describe.real_world import real_world
+    from openacr.plant.describe.real_world import is_real
     from openacr.project import find_project
 
     project = None if path is None else find_project(path)
@@ -30,33 +32,95 @@ def world_on_bus(path: Path | None, bus: str | None) -> "World | None":
     if world is None or world.bus is None:
         if bus not in (None, NO_BUS):
             raise UserError(f"--bus {bus}: the project has no machine.toml with [bus]")
-        return None
-    return real_world(world)
+    return world if world is not None and is_real(world) else None
 
 
 def agreed(
     world: "World | None", bus: str | None, speed: float, *, is_real: bool, is_sure: bool
 ) -> str:
-    """The interface of the bus, once the operator has agreed to real drives; "" without a bus."""
-    if world is None or world.bus is None:
+    """The interface of EtherCAT, once the operator has agreed to all that is real; "" without."""
+    if world is None:
         if is_real:
-            raise UserError("--real: no drive is on a bus (machine.toml has no [bus])")
+            raise UserError("--real: nothing of machine.toml is on a bus of this computer")
         return ""
-    interface = bus or world.bus.interface
-    if not interface:
+    interface = bus or world.bus.interface if world.bus is not None else ""
+    if world.bus is not None and not interface:
         raise UserError("[bus] of machine.toml names no interface: give --bus IFACE")
     if speed != 1.0:
         raise UserError(f"--speed {speed:g}: a card with a bus runs in real time, 1.0")
     if is_real and not is_sure:
         if not sys.stdin.isatty():
-            raise UserError("--real lets drives be enabled: say --yes")
-        names = ", ".join(axis.label for axis in world.axis if axis.bus)
-        typer.confirm(
-            f"Drives on {interface} can be enabled and axes {names} can move."
-            " Is the emergency stop within reach, and are all people clear?",
-            abort=True,
-        )
+            raise UserError("--real lets drives be enabled and outputs switched: say --yes")
+        for sentence in what_can_happen(world, interface):
+            typer.echo(sentence)
+        typer.confirm("Is the emergency stop within reach, and are all people clear?", abort=True)
     return interface
+
+
+def what_can_happen(world: "World", interface: str) -> Iterator[str]:
+    """What an operator agrees to, a sentence for each bus."""
+    if world.bus is not None:
+        names = ", ".join(axis.label for axis in world.axis if axis.bus)
+        yield f"Drives on {interface} can be enabled and axes {names} can move."
+    if world.canopen is not None and world.canopen.interface is not None:
+        yield f"CANopen nodes on {_can_name(world.canopen)} can switch their outputs."
+
+
+def _can_name(canopen: "Canopen") -> str:
+    return canopen.channel or canopen.interface or ""
+
+
+class Served:
+    """All that is real of a served card."""
+
+    def __init__(
+        self, card: "Controller", world: "World", interface: str, *, is_real: bool
+    ) -> None:
+        self._parts: list[ServedBus | ServedCan] = []
+        try:
+            if world.bus is not None:
+                self._parts.append(ServedBus(card, world, interface, is_real=is_real))
+            if world.canopen is not None and world.canopen.interface is not None:
+                self._parts.append(ServedCan(card, world.canopen, is_real=is_real))
+        except BaseException:
+            self.close()
+            raise
+
+    def begin(self) -> None:
+        """Let the card attend everything; UserError if it is not as described."""
+        for part in self._parts:
+            part.begin()
+
+    def close(self) -> None:
+        """Let everything rest, and close the interfaces."""
+        for part in reversed(self._parts):
+            part.close()
+
+
+class ServedCan:
+    """The CAN bus of a served card."""
+
+    def __init__(self, card: "Controller", canopen: "Canopen", *, is_real: bool) -> None:
+        from openacr.fieldbus.canopen.real_nodes import RealNodes
+        from openacr.io.can_link import CanLink
+
+        self._card, self._is_real = card, is_real
+        self._link = CanLink(canopen.interface or "", canopen.channel, canopen.bit_rate)
+        self._nodes = RealNodes(card.networks.canopen, canopen.real, self._link)
+
+    def begin(self) -> None:
+        """Let the card look for its nodes on the bus, when a program starts the network."""
+        if self._is_real:
+            self._nodes.allow()
+        self._card.networks.connect(self._nodes)
+        state = "outputs are sent" if self._is_real else "read only, no output is sent"
+        rate = self._link.bit_rate
+        typer.echo(f"CAN {self._link.name}: {rate} kbit/s, {state}", err=True)
+
+    def close(self) -> None:
+        """Reset the nodes that were started, and close the bus."""
+        self._nodes.close()
+        self._link.close()
 
 
 class ServedBus:
@@ -67,9 +131,10 @@ class ServedBus:
     ) -> None:
         from openacr.fieldbus.machine.real_machine import RealMachine
         from openacr.io.ethercat_link import RawLink
+        from openacr.plant.describe.real_world import real_world
 
         self._make = RealMachine
-        self._card, self._world, self._is_real = card, world, is_real
+        self._card, self._world, self._is_real = card, real_world(world), is_real
         self._link = RawLink(interface)
         self._machine: RealMachine | None = None
 
