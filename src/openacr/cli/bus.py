@@ -1,4 +1,4 @@
-"""`openacr bus`: the devices of an EtherCAT bus, found, asked and written down."""
+"""`openacr bus`: the devices of an EtherCAT or CAN bus, found, asked and written down."""
 
 import json
 from collections.abc import Iterator
@@ -9,15 +9,27 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from openacr.cli import bus_can
 from openacr.errors import UserError, unwritable
+from openacr.wording import counted
 
 if TYPE_CHECKING:
     from openacr.fieldbus.ethercat.master.device import Device
     from openacr.fieldbus.ethercat.master.sdo import Objects
 
-Interface = Annotated[str, typer.Argument(metavar="IFACE", help="Network interface: eth1.")]
+Interface = Annotated[
+    str,
+    typer.Argument(
+        metavar="IFACE",
+        help="Network interface (eth1), or a CAN bus: can0, socketcan:can0, pcan:X.",
+    ),
+]
 Position = Annotated[
-    int, typer.Argument(min=0, help="Position of the device on the cable, from 0.")
+    int, typer.Argument(min=0, help="Position of the device on the cable, from 0; or id of a node.")
+]
+BitRate = Annotated[
+    int | None,
+    typer.Option("--bit-rate", min=10, max=1000, help="Of a CAN bus, in kbit/s; default 125."),
 ]
 Object = Annotated[str, typer.Argument(metavar="INDEX[:SUB]", help="An object: 0x6041, 1018:4.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
@@ -46,17 +58,21 @@ def scan_bus(
         Path | None,
         typer.Option(metavar="FILE", help="Write a machine.toml of what was found: a new file."),
     ] = None,
+    bit_rate: BitRate = None,
     as_json: AsJson = False,
 ) -> None:
-    """List the devices of an EtherCAT bus in the order of the cable.
+    """List the devices of an EtherCAT bus in the order of the cable, or the nodes of a CAN bus.
 
     Nothing is switched on: devices are only asked. --write makes a first machine.toml, an axis for
-    each drive, inputs and outputs for each terminal.
+    each drive, inputs and outputs for each terminal, an entry for each I/O node of CANopen.
     """
     from openacr.fieldbus.machine.written import machine_file
 
     if write is not None and write.exists():
         raise UserError(f"{write}: there is such a file already; give a new name")
+    if _is_can(interface, bit_rate):
+        bus_can.scan(interface, bit_rate, write, as_json=as_json)
+        return
     with _devices(interface) as devices:
         if as_json:
             typer.echo(json.dumps([_record(device) for device in devices], indent=2))
@@ -71,10 +87,13 @@ def scan_bus(
             typer.echo(f"wrote {write}: read it before you use it", err=True)
 
 
-def show_states(interface: Interface, as_json: AsJson = False) -> None:
+def show_states(interface: Interface, bit_rate: BitRate = None, as_json: AsJson = False) -> None:
     """Show the states of all devices, and the reason of those with an error."""
     from openacr.fieldbus.ethercat.wire.registers import al_text
 
+    if _is_can(interface, bit_rate):
+        bus_can.show_states(interface, bit_rate, as_json=as_json)
+        return
     with _devices(interface) as devices:
         found = [(device, *device.state()) for device in devices]
     if as_json:
@@ -95,11 +114,15 @@ def read_object(
     kind: Annotated[
         Type | None, typer.Option("--type", help="Default: by its size, without a sign.")
     ] = None,
+    bit_rate: BitRate = None,
 ) -> None:
     """Read an object of a device (SDO)."""
     index, subindex = _object(name)
-    with _objects(interface, position) as objects:
-        data = objects.read(index, subindex)
+    if _is_can(interface, bit_rate):
+        data = bus_can.read(interface, bit_rate, position, index, subindex)
+    else:
+        with _objects(interface, position) as objects:
+            data = objects.read(index, subindex)
     typer.echo(_shown(data, kind))
 
 
@@ -111,19 +134,41 @@ def write_object(
     kind: Annotated[
         Type | None, typer.Option("--type", help="Default: as long as the object is now.")
     ] = None,
+    bit_rate: BitRate = None,
 ) -> None:
     """Write an object of a device (SDO).
 
     The device takes it at once; whether it keeps it without power is its own affair.
     """
     index, subindex = _object(name)
+    if _is_can(interface, bit_rate):
+        size = len(bus_can.read(interface, bit_rate, position, index, subindex)) if not kind else 0
+        data = _written(value, kind, size)
+        bus_can.write(interface, bit_rate, position, index, subindex, data)
+        return
     with _objects(interface, position) as objects:
-        if kind is None:
-            size = len(objects.read(index, subindex))
-            data = _number(value).to_bytes(size, "little", signed=value.startswith("-"))
-        else:
-            data = _packed(value, kind)
-        objects.write(index, subindex, data)
+        size = len(objects.read(index, subindex)) if kind is None else 0
+        objects.write(index, subindex, _written(value, kind, size))
+
+
+def _written(value: str, kind: Type | None, size: int) -> bytes:
+    """The bytes of a value: of its type, else as many as the object has."""
+    if kind is not None:
+        return _packed(value, kind)
+    try:
+        return _number(value).to_bytes(size, "little", signed=value.startswith("-"))
+    except OverflowError:
+        raise UserError(f"{value}: the object has {counted(size, 'byte')}") from None
+
+
+def _is_can(interface: str, bit_rate: int | None) -> bool:
+    """Whether the bus is a CAN bus; UserError for a bit rate of another one."""
+    if bus_can.is_can(interface):
+        return True
+    if bit_rate is not None:
+        hint = "of a CAN bus: can0, socketcan:can0"
+        raise UserError(f"--bit-rate {bit_rate}: {interface} is no CAN bus ({hint})")
+    return False
 
 
 @contextmanager

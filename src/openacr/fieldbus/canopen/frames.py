@@ -6,6 +6,7 @@ from typing import Protocol
 
 HIGHEST_NODE = 127
 OF_A_NODE = 0x7F  # bits of an identifier that name the node
+STATE = 0x7F  # bits of a health report: the state, without the toggle bit
 OFF, WARNING = 256, 96  # error counters of a controller
 
 

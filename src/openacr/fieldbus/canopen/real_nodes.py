@@ -20,6 +20,7 @@ from dataclasses import dataclass, field
 from openacr.fieldbus.canopen.frames import (
     OF_A_NODE,
     OFF,
+    STATE,
     Cob,
     Frame,
     Link,
@@ -49,12 +50,11 @@ log = logging.getLogger(__name__)
 
 LOOK_MS = 1.0  # how often frames are taken
 LONGEST_S = 10.0  # all answers of one node
-STATE_TEXTS = {
+STATE_TEXTS: dict[int, str] = {
     NodeState.BOOT: "it has begun anew",
     NodeState.STOPPED: "it is stopped",
     NodeState.PRE_OPERATIONAL: "it is pre-operational",
 }
-STATE = 0x7F  # bits of a health report, without the toggle bit
 
 
 @dataclass(slots=True)
@@ -209,10 +209,12 @@ class RealNodes:
         """Whether a node has reported in this period that it is operational."""
         node = self._nodes[slave]
         is_late = self._link.now_s() - node.heard_s > self._health_ms / 1000
-        if node.state == NodeState.OPERATIONAL and not is_late:
+        if node.state is None or is_late:
+            why = "it reports no health"
+        elif node.state != NodeState.OPERATIONAL:
+            why = STATE_TEXTS.get(node.state, f"it is in state {node.state}")
+        else:
             return True
-        state = STATE_TEXTS.get(node.state or 0, f"it is in state {node.state}")
-        why = "it reports no health" if is_late else state
         self._say(node, f"{why}: it is dead until the next start")
         node.is_running = False
         return False
