@@ -164,11 +164,20 @@ def test_without_python_can_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) 
         CanLink("virtual", "x", 125)
 
 
-def test_multicast_stays_on_this_computer(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    ("channel", "options"),
+    [
+        ("239.74.163.2", {"channel": "239.74.163.2"}),
+        ("239.74.163.2:5000", {"channel": "239.74.163.2", "port": 5000}),
+        ("ff15::7", {"channel": "ff15::7"}),
+        (None, {}),
+    ],
+)
+def test_multicast_stays_on_this_computer(
+    channel: str | None, options: dict[str, object], monkeypatch: pytest.MonkeyPatch
+) -> None:
     given: dict[str, object] = {}
     monkeypatch.setattr(can, "Bus", lambda **keys: given.update(keys) or Broken())
-    CanLink("udp_multicast", "239.74.163.2", 500).close()
-    assert given == {
-        "interface": "udp_multicast", "channel": "239.74.163.2", "bitrate": 500_000,
-        "hop_limit": 0, "fd": False,
-    }  # fmt: skip
+    CanLink("udp_multicast", channel, 500).close()
+    fixed = {"interface": "udp_multicast", "bitrate": 500_000, "hop_limit": 0, "fd": False}
+    assert given == fixed | options

@@ -1,33 +1,36 @@
-"""`openacr bus emulate`: drives and terminals of EtherCAT on a network interface."""
+"""`openacr bus emulate`: drives and terminals of EtherCAT, or nodes of CANopen, on a bus."""
 
 import os
+import select
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Protocol
 
 import typer
 
+from openacr.cli import bus_can
 from openacr.cli.signals import terminations_as_interrupts
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
-    from openacr.fieldbus.ethercat.emulated.faults import Line
     from openacr.plant.describe.schema import World
 
 MACHINE = "machine.toml"
 _MOST_TYPED = 4096
+_POLL_S = 0.001
 
 
 def emulate_bus(
     machine: Annotated[
         Path | None,
         typer.Argument(
-            metavar="[MACHINE]", help="machine.toml, or a project with one: a drive for each motor."
+            metavar="[MACHINE]", help="machine.toml, or a project with one: its motors or nodes."
         ),
     ] = None,
     interface: Annotated[
-        str, typer.Option(help="Network interface, such as an end of a veth pair.")
+        str, typer.Option(help="Network interface, an end of a veth pair; or a CAN bus: can0.")
     ] = "veth1",
     drives: Annotated[
         int | None, typer.Option(help="Number of equal drives, instead of a machine.")
@@ -44,13 +47,21 @@ def emulate_bus(
     ] = None,
     seed: Annotated[int, typer.Option(help="Of what faults draw.")] = 0,
 ) -> None:
-    """Emulate EtherCAT drives and terminals on a network interface (Linux, root).
+    """Emulate EtherCAT drives and terminals on a network interface (Linux, root), or CANopen nodes.
 
     Lines that are typed are faults (`help` lists them); Ctrl-C ends it with counts.
     """
     from openacr.fieldbus.ethercat.emulated.build import segment_of
-    from openacr.fieldbus.ethercat.emulated.faults import Line
+    from openacr.fieldbus.ethercat.emulated.faults import Line, helped
     from openacr.fieldbus.ethercat.emulated.port import Port
+
+    if bus_can.is_can(interface):
+        if machine is None or drives is not None or digital or analog:
+            raise UserError(
+                f"{interface}: nodes of a CAN bus are those of a MACHINE, without counts"
+            )
+        _emulate_nodes(_world(machine, None), interface, fault or [])
+        return
 
     segment = segment_of(_world(machine, drives), digital, analog)
     if not segment.slaves:
@@ -60,7 +71,7 @@ def emulate_bus(
     port = Port(line, interface)
     names = ", ".join(f"{n} {slave.name}" for n, slave in enumerate(segment.slaves))
     typer.echo(f"emulating on {interface}: {names}")
-    typed = _Typed(line)
+    typed = _Typed(line, helped)
     try:
         with terminations_as_interrupts():
             while True:
@@ -73,6 +84,42 @@ def emulate_bus(
         port.close()
         typer.echo(line.states())
         typer.echo(line.summary())
+
+
+def _emulate_nodes(world: "World", interface: str, later: list[str]) -> None:
+    """Emulate the CANopen nodes of a machine until Ctrl-C."""
+    from openacr.fieldbus.canopen.emulated import EmulatedNodes
+    from openacr.fieldbus.canopen.emulated_orders import Orders
+    from openacr.io.can_link import CanLink
+
+    if world.canopen is None or not world.canopen.node:
+        raise UserError("the machine has no CANopen nodes: add [[canopen.node]]")
+    link = CanLink(*bus_can.place_of(interface), world.canopen.bit_rate)
+    try:
+        nodes = EmulatedNodes(world, link)
+        orders = Orders(nodes)
+        waiting, typed = _Later(orders, later), _Typed(orders, Orders.help)
+        typer.echo(f"emulating on {interface}: {', '.join(f'node {n.id}' for n in nodes.nodes)}")
+        with terminations_as_interrupts():
+            while True:
+                if select.select(typed.descriptors, [], [], _POLL_S)[0]:
+                    typed.read()
+                nodes.attend()
+                waiting.act()
+    except KeyboardInterrupt:
+        typer.echo(orders.states())
+    finally:
+        link.close()
+
+
+class _Commanded(Protocol):
+    """What takes lines of text."""
+
+    def command(self, text: str) -> str:
+        """Do one; what was done. UserError if it is not one."""
+
+    def check(self, text: str) -> object:
+        """UserError if it is not one."""
 
 
 def _world(machine: Path | None, drives: int | None) -> "World":
@@ -89,7 +136,7 @@ def _world(machine: Path | None, drives: int | None) -> "World":
 class _Later:
     """Faults of the command line: those without a time act at once."""
 
-    def __init__(self, line: "Line", texts: list[str]) -> None:
+    def __init__(self, line: _Commanded, texts: list[str]) -> None:
         self._line = line
         self._start = time.monotonic()
         self._waiting: list[tuple[float, str]] = []
@@ -112,8 +159,8 @@ class _Later:
 class _Typed:
     """Faults that are typed, or come from a pipe."""
 
-    def __init__(self, line: "Line") -> None:
-        self._line = line
+    def __init__(self, line: _Commanded, helped: Callable[[], str]) -> None:
+        self._line, self._helped = line, helped
         self._begun = b""
         self.descriptors = [] if sys.stdin is None else [sys.stdin.fileno()]
 
@@ -127,10 +174,8 @@ class _Typed:
             self._act(each.decode("utf-8", "replace").strip())
 
     def _act(self, words: str) -> None:
-        from openacr.fieldbus.ethercat.emulated.faults import helped
-
         try:
             if words:
-                typer.echo(helped() if words in ("help", "?") else self._line.command(words))
+                typer.echo(self._helped() if words in ("help", "?") else self._line.command(words))
         except UserError as error:
             typer.echo(f"error: {error}", err=True)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 MOST_WAITING = 4096  # frames: half a second of a full bus at 1 Mbit/s
 READ_S = 0.1
 FAILURES = 10  # in a row, of reading: then the interface is gone
-_LOCAL = {"udp_multicast": {"hop_limit": 0, "fd": False}}  # never leaves this computer
+MULTICAST = "udp_multicast"
 # Of error frames of Linux (linux/can/error.h): classes in the identifier, details in a byte.
 _ERROR_CONTROLLER, _ERROR_BUS_OFF, _ERROR_RESTARTED = 0x04, 0x40, 0x100
 _RECEIVE_OVERRUN, _WARNINGS, _ACTIVE = 0x01, 0x3C, 0x40
@@ -104,15 +104,8 @@ class CanLink:
                 bus.shutdown()
 
     def _open(self) -> str:
-        interface, channel = self._how
-        options = {"channel": channel} if channel is not None else {}
         try:
-            bus = self._can.Bus(
-                interface=interface,
-                bitrate=1000 * self.bit_rate,
-                **options,
-                **_LOCAL.get(interface, {}),
-            )
+            bus = self._can.Bus(bitrate=1000 * self.bit_rate, **options_of(*self._how))
         except Exception as failure:  # python-can passes on whatever a driver raises
             return _said(failure)
         with self._lock:
@@ -165,6 +158,23 @@ class CanLink:
                     self._errors = max(self._errors, WARNING)
                 elif detail & _ACTIVE and self._errors < OFF:
                     self._errors = 0
+
+
+def options_of(interface: str, channel: str | None) -> dict[str, Any]:
+    """How python-can opens a bus.
+
+    A bus of `udp_multicast` stays on this computer; its channel is a group, or GROUP:PORT, as
+    all groups at a port are one bus.
+    """
+    options: dict[str, Any] = {"interface": interface}
+    if channel is not None:
+        options["channel"] = channel
+    if interface == MULTICAST:
+        options |= {"hop_limit": 0, "fd": False}
+        group, separator, port = (channel or "").rpartition(":")
+        if separator and port.isdigit() and "." in group:
+            options |= {"channel": group, "port": int(port)}
+    return options
 
 
 def _said(failure: Exception) -> str:

@@ -1,4 +1,4 @@
-"""An I/O node of python-canopen, which shares nothing with openacr; also as a process of its own.
+"""An I/O node of python-canopen, with all of CANopen of others; also as a process of its own.
 
 Its description is an EDS file. It has 16 digital inputs and outputs and two analog ones of each,
 no process data until a master maps them, and shows its outputs inverted (digital) or negated
@@ -6,12 +6,15 @@ no process data until a master maps them, and shows its outputs inverted (digita
 """
 
 import io
+import socket
 import struct
 import sys
 from typing import Any
 
 import can
 import canopen
+
+from openacr.io.can_link import MULTICAST, options_of
 
 U8, I16, U16, U32, TEXT = 0x5, 0x3, 0x6, 0x7, 0x9
 VENDOR = 0x12345
@@ -112,10 +115,16 @@ class LocalIo:
         )
 
 
-def main(interface: str, channel: str, node: str) -> None:
+def udp_bus() -> str:
+    """A bus that no other test uses, as a channel of udp_multicast."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("", 0))
+        return f"239.74.163.2:{free.getsockname()[1]}"
+
+
+def main(channel: str, node: str) -> None:
     """A process with one node, until its input ends."""
-    options: dict[str, Any] = {"hop_limit": 0, "fd": False} if interface == "udp_multicast" else {}
-    local = LocalIo(can.Bus(interface=interface, channel=channel, **options), int(node))
+    local = LocalIo(can.Bus(**options_of(MULTICAST, channel)), int(node))
     print("ready", flush=True)
     sys.stdin.read()
     local.close()

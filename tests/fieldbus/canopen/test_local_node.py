@@ -17,12 +17,11 @@ from openacr.plant.describe.real_world import real_world
 
 can = pytest.importorskip("can", reason="python-can is not installed")
 canopen = pytest.importorskip("canopen", reason="canopen is not installed")
-from tests.fieldbus.canopen.local_node import VENDOR, LocalIo  # noqa: E402
+from tests.fieldbus.canopen.local_node import VENDOR, LocalIo, udp_bus  # noqa: E402
 
 pytestmark = pytest.mark.evidence("client", "python-canopen, a CANopen stack with nodes of its own")
 
 LIMIT_S = 60.0
-GROUP = "239.74.163.2"
 
 
 class Paced:
@@ -111,13 +110,16 @@ def test_a_wrong_node_of_others_is_refused(caplog: pytest.LogCaptureFixture) -> 
 
 
 def test_a_node_in_another_process_is_reached_and_missed_when_that_is_killed() -> None:
-    command = [sys.executable, "-m", "tests.fieldbus.canopen.local_node", "udp_multicast", GROUP]
+    channel = udp_bus()
     far = subprocess.Popen(
-        [*command, "9"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        [sys.executable, "-m", "tests.fieldbus.canopen.local_node", channel, "9"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
     )
     try:
         assert far.stdout is not None and far.stdout.readline() == "ready\n"
-        with on_bus("udp_multicast", GROUP) as paced:
+        with on_bus("udp_multicast", channel) as paced:
             assert paced.start(9) == 2
             exchanges(paced)
             far.kill()

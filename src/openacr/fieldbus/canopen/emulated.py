@@ -7,10 +7,11 @@ machine file; here is what such a node says on a bus.
 from openacr.fieldbus.canopen.emulated_objects import Objects
 from openacr.fieldbus.canopen.frames import Cob, Frame, Link, Nmt, NodeState
 from openacr.fieldbus.canopen.io_node import EACH_SYNC, GUARDING, ON_CHANGE
-from openacr.map.memory import Memory
+from openacr.map.memory import Memory, flag_place
 from openacr.map.rows import bus_nodes, system
 from openacr.plant.build.apply_networks import write_nodes
-from openacr.plant.bus import bus
+from openacr.plant.bus import bus, terminals
+from openacr.plant.describe.network_schema import Canopen
 from openacr.plant.describe.schema import World
 
 STATES = {
@@ -28,7 +29,12 @@ class EmulatedNodes:
         write_nodes(self.memory, world)
         self._link = link
         self._start_s = link.now_s()
-        self.nodes = [EmulatedNode(self.memory, place, link) for place in bus.nodes(self.memory)]
+        canopen = world.canopen or Canopen()
+        self.nodes = [
+            EmulatedNode(self.memory, place, link)
+            for place in bus.nodes(self.memory)
+            if not canopen.node[place].modelled
+        ]
 
     def attend(self) -> None:
         """Serve all frames that have arrived, and send what is due."""
@@ -46,7 +52,8 @@ class EmulatedNode:
     """One node."""
 
     def __init__(self, memory: Memory, place: int, link: Link) -> None:
-        self._memory, self._place, self._link = memory, place, link
+        self.memory, self.place, self._link = memory, place, link
+        self.is_cut = self.is_disconnected = False  # by an order
         rows = memory.I
         self.id = rows[bus_nodes.id[place]]
         self._guarded = rows[bus_nodes.health[place]] == GUARDING
@@ -55,12 +62,12 @@ class EmulatedNode:
 
     def _begin(self) -> None:
         """Power-up or reset: everything as delivered."""
-        self.objects = Objects(self._memory, self._place)
+        self.objects = Objects(self.memory, self.place)
         self._guard_toggle = False
         self._sent_inputs: dict[int, bytes] = {}
         self._arrived: dict[int, bytes] = {}  # outputs that wait for the synchronisation
         self._beat_s = self._link.now_s()
-        bus.begin(self._memory, self._place, bus.NodeState.PRE_OPERATIONAL)
+        bus.begin(self.memory, self.place, bus.NodeState.PRE_OPERATIONAL)
         self.state = NodeState.PRE_OPERATIONAL
         self._send(Cob.HEALTH + self.id, bytes((NodeState.BOOT,)))
 
@@ -68,15 +75,41 @@ class EmulatedNode:
 
     def follow(self) -> None:
         """Follow the power of the node."""
-        is_on = self._memory.I[bus_nodes.state[self._place]] != bus.NodeState.OFF
+        has_power = self.memory.I[bus_nodes.state[self.place]] != bus.NodeState.OFF
+        is_on = has_power and not self.is_cut
         if is_on and self.state is None:
             self._begin()
-        elif not is_on:
+        elif not is_on and self.state is not None:
             self.state = None
+            if has_power:  # outputs drop
+                bus.begin(self.memory, self.place, bus.NodeState.PRE_OPERATIONAL)
+
+    @property
+    def outputs(self) -> int:
+        """The number of digital outputs."""
+        return self.memory.I[bus_nodes.digital_outputs[self.place]]
+
+    def output(self, number: int) -> bool:
+        """Whether a digital output is on."""
+        word = terminals.terminal_row(self.place, number, bus_nodes.outputs)
+        return bool(self.memory.I[word] >> number % 32 & 1)
+
+    def set_input(self, number: int, is_on: bool) -> None:
+        """Switch a digital input at its terminal."""
+        word = terminals.terminal_row(self.place, number, bus_nodes.levels)
+        mask = flag_place(number)[1]
+        level = self.memory.I[word]
+        self.memory.I[word] = level | mask if is_on else level & ~mask
+
+    def emergency(self, code: int) -> None:
+        """Report an emergency."""
+        if not self._is_silent:
+            self._send(Cob.EMERGENCY + self.id, code.to_bytes(2, "little") + bytes(6))
 
     @property
     def _is_silent(self) -> bool:
-        return self.state is None or bus.has_fault(self._memory, bus.Trouble.SILENT, self._place)
+        is_away = self.is_disconnected or bus.has_fault(self.memory, bus.Trouble.SILENT, self.place)
+        return self.state is None or is_away
 
     def hear(self, frame: Frame) -> None:
         """A frame of the bus."""
@@ -120,10 +153,10 @@ class EmulatedNode:
         if command in STATES:
             self.state = STATES[Nmt(command)]
             if self.state is NodeState.OPERATIONAL:
-                bus.run(self._memory, self._place)
+                bus.run(self.memory, self.place)
                 self._sent_inputs.clear()
             else:
-                bus.stop(self._memory, self._place)
+                bus.stop(self.memory, self.place)
         elif command == Nmt.RESET:
             self._begin()
 
