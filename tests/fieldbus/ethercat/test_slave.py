@@ -489,3 +489,44 @@ def test_with_sync0_inputs_are_those_of_its_last_pulse(bus: Bus) -> None:
     assert seen[0] == b"\0"
     assert seen[4:] == [b"\1"] * 4
     assert terminal.outputs[0]
+
+
+# -- a master that begins anew -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("number", "manager", "state", "code"),
+    [
+        (2, SyncManager(0, 0, 0, activate=0), State.PREOP, AlCode.OUTPUT_SIZE),
+        (2, SyncManager(0x1202, 16, 0x64), State.PREOP, AlCode.OUTPUT_SIZE),
+        (3, SyncManager(0x1600, 34, 0x20, activate=0), State.PREOP, AlCode.INPUT_SIZE),
+        (3, SyncManager(0x1600, 33, 0x20), State.PREOP, AlCode.INPUT_SIZE),
+        (0, SyncManager(0, 0, 0, activate=0), State.INIT, AlCode.MAILBOX),
+        (1, SyncManager(IN, 255, 0x22), State.INIT, AlCode.MAILBOX),
+    ],
+)
+def test_a_state_is_left_when_its_sync_managers_are_taken_away(
+    bus: Bus, number: int, manager: SyncManager, state: State, code: AlCode
+) -> None:
+    bus.op(0, 16, 34)
+    bus.write(0, Register.SYNC + 8 * number, manager.pack())
+    assert bus.number(0, Register.AL_STATUS) == state | ERROR
+    assert bus.number(0, Register.AL_CODE) == code
+
+
+@pytest.mark.parametrize("state", [State.SAFEOP, State.OP])
+def test_cleared_sync_managers_leave_the_registers_as_they_are(bus: Bus, state: State) -> None:
+    bus.op(0, 16, 34)
+    bus.ask(0, state)
+    bus.write(0, Register.STATION, b"\x01\x10")
+    registers = bus.read(0, Register.TYPE, 0x12)
+    bus.write(0, Register.SYNC, bytes(32))  # as KickCAT resets a segment, from whatever state
+    bus.segment.advance(bus.now + 10 * MS)
+    assert bus.read(0, Register.TYPE, 0x12) == registers
+
+
+def test_the_same_sync_managers_again_change_nothing(bus: Bus) -> None:
+    bus.op(0, 16, 34)
+    bus.mailboxes(0)
+    bus.map(0, 16, 34)
+    assert bus.number(0, Register.AL_STATUS) == State.OP

@@ -71,6 +71,9 @@ class Device(Protocol):
     def outputs_written(self, now: int) -> None:
         """The outputs were written."""
 
+    def managers_written(self) -> None:
+        """Sync managers were written."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Map:
@@ -185,6 +188,7 @@ class Controller:
                 self._device.asked_again()
                 acknowledged = Register.SYNC + SYNC_SIZE * number + PDI_PLACE
                 self.memory[acknowledged] = self.memory[acknowledged] & ~REPEAT | after & REPEAT
+        self._device.managers_written()
 
     def enable_sync(self, number: int, on: bool) -> None:
         """Let the device enable or disable a sync manager."""

@@ -64,6 +64,7 @@ class Slave(Transitions):
             Mapping(self.dictionary, TRANSMIT_ASSIGNED, Access.TRANSMIT, description.transmit),
         ]
         self._images = [Image([]), Image([])]
+        self._places = [0, 0]  # of the images in the memory
         self._written_at: int | None = None
         self._last_mail = b""
         self._add_identity()
@@ -140,11 +141,11 @@ class Slave(Transitions):
     def _put_inputs(self) -> None:
         if self.machine.state >= State.SAFEOP and self._images[1].size:
             self.inputs_wanted()
-            self._images[1].put(self.controller.memory, self.controller.syncs[SM_INPUTS].start)
+            self._images[1].put(self.controller.memory, self._places[1])
 
     def _take_outputs(self) -> None:
         if self.machine.state is State.OP and self._images[0].size:
-            self._images[0].take(self.controller.memory, self.controller.syncs[SM_OUTPUTS].start)
+            self._images[0].take(self.controller.memory, self._places[0])
             self.outputs_changed()
 
     def _watch(self, now: int) -> None:
@@ -223,6 +224,18 @@ class Slave(Transitions):
         if not self.is_synchronous:
             self._take_outputs()
 
+    def managers_written(self) -> None:
+        """A state whose sync managers the master changes or takes away is left with an error."""
+        if self.machine.state >= State.SAFEOP:
+            for place, code in ((0, AlCode.OUTPUT_SIZE), (1, AlCode.INPUT_SIZE)):
+                sync = self.controller.syncs[SM_OUTPUTS + place]
+                is_as_checked = sync.is_enabled and sync.start == self._places[place]
+                size = sync.size if is_as_checked else 0
+                if size != self._images[place].size:
+                    self.fail(State.PREOP, code)
+        if self.description.mailboxes.protocols and not self._has_mailboxes():
+            self.fail(State.INIT, AlCode.MAILBOX)
+
     # -- transitions -------------------------------------------------------------------------
 
     def start_mailbox(self) -> None:
@@ -230,20 +243,9 @@ class Slave(Transitions):
         wanted = self.description.mailboxes
         if not wanted.protocols:
             return
-        for number, start, size, direction in (
-            (SM_OUT, wanted.out_start, wanted.out_size, WRITTEN_BY_MASTER),
-            (SM_IN, wanted.in_start, wanted.in_size, 0),
-        ):
-            sync = self.controller.syncs[number]
-            is_right = (
-                sync.is_enabled
-                and sync.start == start
-                and sync.size == size
-                and sync.control & MODE_MASK == MAILBOX_MODE
-                and sync.control & DIRECTION_MASK == direction
-            )
-            if not is_right:
-                raise Refused(AlCode.MAILBOX)
+        if not self._has_mailboxes():
+            raise Refused(AlCode.MAILBOX)
+        for number in (SM_OUT, SM_IN):
             self.controller.enable_sync(number, True)
         for number in (SM_OUTPUTS, SM_INPUTS):
             self.controller.enable_sync(number, False)
@@ -251,6 +253,24 @@ class Slave(Transitions):
         self._last_mail = b""
         self.controller.set_full(SM_OUT, False)
         self.controller.set_full(SM_IN, False)
+
+    def _has_mailboxes(self) -> bool:
+        """Whether the sync managers of the mailboxes are those of the EEPROM."""
+        wanted = self.description.mailboxes
+        return all(
+            sync.is_enabled
+            and (sync.start, sync.size) == place
+            and sync.control & MODE_MASK == MAILBOX_MODE
+            and sync.control & DIRECTION_MASK == direction
+            for sync, place, direction in (
+                (
+                    self.controller.syncs[SM_OUT],
+                    (wanted.out_start, wanted.out_size),
+                    WRITTEN_BY_MASTER,
+                ),
+                (self.controller.syncs[SM_IN], (wanted.in_start, wanted.in_size), 0),
+            )
+        )
 
     def start_inputs(self) -> None:
         """PREOP to SAFEOP: the sync managers must have the length of what is mapped."""
@@ -274,6 +294,7 @@ class Slave(Transitions):
             ):
                 raise Refused(wrong_size)
             self._images[place] = image
+            self._places[place] = sync.start
         clock = self.controller.clock
         if self.controller.memory[Register.ACTIVATION] & 2 and not clock.cycle_ns:
             raise Refused(AlCode.CLOCK_SYNC)
