@@ -10,6 +10,8 @@ from openacr.fieldbus.cia402.drive import Order
 from openacr.fieldbus.ethercat.emulated.terminals import Digital
 from openacr.fieldbus.ethercat.master.port import BusError
 from openacr.fieldbus.ethercat.wire.registers import Register, State
+from openacr.kernel.axis.drive_cy import MEI_OPEN
+from openacr.map.numbers import W_MISC_CONTROL_1
 from openacr.map.rows import axes
 from openacr.map.words import af4
 
@@ -88,6 +90,40 @@ def test_drive_on_enables_and_the_flag_follows_the_drive() -> None:
     assert made.is_enabled(1)
     assert made.drive(0).profile.state.name == "DISABLED"
     assert not made.is_enabled(0)
+
+
+@pytest.mark.parametrize("cycle", [2, 7, 100])
+def test_between_two_frames_the_flag_does_not_run_ahead_of_the_drive(cycle: int) -> None:
+    made = on_bus(more=f"cycle = {cycle}\nlate_s = 1.0\n")
+    made.send("DRIVE ON X")
+    for _ in range(10 * cycle):
+        made.card.advance(1)
+        if made.is_enabled():
+            break
+        assert not made.card.memory.I[af4.word[0]] & af4.MOTOR_ON
+    assert made.is_enabled()
+    assert made.drive().profile.state.name == "ENABLED"
+    assert made.machine.drives[0]._is_ready
+
+
+def test_a_set_flag_asks_the_drive_as_drive_on_does() -> None:
+    made = on_bus(more="cycle = 4\n")
+    made.card.memory.I[af4.word[0]] |= af4.DRIVE_ENABLED
+    made.card.advance(2)
+    assert not made.is_enabled()
+    made.card.advance(50)
+    assert made.is_enabled()
+    assert made.drive().profile.state.name == "ENABLED"
+
+
+def test_an_open_motion_enable_input_keeps_the_flag_clear_and_the_drive_off() -> None:
+    made = on_bus()
+    made.send("DRIVE ON X")
+    made.card.advance(2)
+    made.card.memory.I[W_MISC_CONTROL_1] |= MEI_OPEN
+    made.card.advance(100)
+    assert not made.is_enabled()
+    assert made.drive().profile.state.name == "DISABLED"
 
 
 def test_enabling_moves_nothing_whatever_the_setpoint_was_before() -> None:

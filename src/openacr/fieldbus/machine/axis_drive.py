@@ -173,7 +173,7 @@ class AxisDrive:
         rows = self.memory.I
         rows[af4.word[n]] &= ~(af4.DRIVE_ENABLED | af4.MOTOR_ON)
         rows[axes.drive_old[n]] = 0
-        rows[axes.enable_ticks[n]] = 2
+        rows[axes.enable_ticks[n]] = 1
 
     def _is_asked(self, n: int) -> bool:
         rows = self.memory.I
@@ -187,6 +187,7 @@ class AxisDrive:
             self.fail("motion was commanded before it was ready")
         else:
             self._is_ready = True
+            card_drive.confirm(self.card, n)
 
     def _refuse(self, n: int, text: str) -> None:
         log.warning("the %s %s", self.label, text)

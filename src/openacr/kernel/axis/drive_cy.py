@@ -17,7 +17,7 @@ from openacr.map.rows import axes, encoders, motors
 from openacr.map.words import af4, ef
 from openacr.views import I32
 
-__all__ = ["drive_disable", "drive_driven", "drive_step", "motion_enable_step"]
+__all__ = ["drive_barred", "drive_disable", "drive_driven", "drive_step", "motion_enable_step"]
 
 MODELLED = 16
 MEI_LATCHED = 8192  # BIT5645
@@ -26,7 +26,8 @@ MEI_RESET = 32768  # BIT5647
 RESET_S = 0.05
 TO_DAC = 0
 TO_STEPPER = 1
-STEPPER_MOTOR = 5  # kind of a motor of the world
+STEPPER_MOTOR = 5  # kinds of a motor of the world
+BUS_MOTOR = 7
 
 
 def drive_driven(I: I32, n: int) -> bool:
@@ -143,13 +144,19 @@ def drive_resting(I: I32, n: int, faults: int) -> bool:
     return not shown or not I[motors.fault_mask[k]] | I[motors.fault_report[k]]
 
 
+def on_bus(I: I32, n: int) -> bool:
+    """Whether the drive of axis n is on a bus: the bus sets its flag once the drive operates."""
+    k: int = I[axes.drive_motor[n]]
+    return k >= 0 and I[motors.kind[k]] == BUS_MOTOR
+
+
 def drive_step(I: I32, n: int, period_s: float, faults: int) -> None:
     """Follow the drive flags of axis n; `faults` of encoders as `encoder_faults` has found them."""
     word: int = af4.word[n]
     if drive_resting(I, n, faults):
         return
     drive_request(I, n)
-    if I[axes.enable_ticks[n]] > 0:
+    if I[axes.enable_ticks[n]] > 0 and not on_bus(I, n):
         I[axes.enable_ticks[n]] -= 1
         if I[axes.enable_ticks[n]] == 0 and not drive_barred(I, n):
             I[word] |= af4.DRIVE_ENABLED | af4.MOTOR_ON

@@ -9,6 +9,7 @@ from openacr.motion.card import Card
 from openacr.motion.interlocks import axes_of, master_of, needs_rest
 
 _drive_disable = pick(drive_cy.drive_disable)
+_drive_barred = pick(drive_cy.drive_barred)
 _drive_driven = pick(drive_cy.drive_driven)
 
 ENABLE_S = 0.01  # from the command to the status flag
@@ -28,6 +29,15 @@ def is_enabled(card: Card, axis: int) -> bool:
 def is_driven(card: Card, axis: int) -> bool:
     """Whether the drive of an axis lets it put out anything."""
     return bool(_drive_driven(card.memory.I, axis))
+
+
+def confirm(card: Card, axis: int) -> None:
+    """The drive of an axis operates: Drive Enabled is set, unless something bars it."""
+    rows = card.memory.I
+    rows[axes.enable_ticks[axis]] = 0
+    if not _drive_barred(rows, axis):
+        rows[af4.word[axis]] |= af4.DRIVE_ENABLED | af4.MOTOR_ON
+        rows[axes.drive_old[axis]] = af4.DRIVE_ENABLED
 
 
 def has_fault(card: Card, axis: int) -> bool:
