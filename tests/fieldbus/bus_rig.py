@@ -57,9 +57,11 @@ class _InTime:
 class OnBus:
     """A card, its machine and the segment, with programs typed at P00."""
 
-    def __init__(self, text: str, *, is_real: bool = True, digital: int = 0) -> None:
+    def __init__(
+        self, text: str, *, is_real: bool = True, digital: int = 0, analog: int = 0
+    ) -> None:
         model = parse_world(text)
-        self.segment = segment_of(model, digital)
+        self.segment = segment_of(model, digital, analog)
         self.link = SegmentLink(self.segment)
         world = real_world(model)
         self.card = Controller(world.card.board, world=world)

@@ -21,9 +21,10 @@ def test_a_scan_writes_a_file_with_which_the_bus_comes_up() -> None:
     world = parse_world(text)
     assert world.bus is not None
     assert [axis.label for axis in world.axis] == ["X", "Y"]
-    assert [each.inputs_from for each in world.bus.terminal] == [0, 8]
-    assert [each.outputs_from for each in world.bus.terminal] == [32, 40]
-    assert "device 4 (analog): it has no digital channels" in text
+    assert [each.inputs_from for each in world.bus.terminal] == [0, 8, None]
+    assert [each.outputs_from for each in world.bus.terminal] == [32, 40, None]
+    assert [(each.adcs_from, each.adcs) for each in world.bus.terminal][2] == (0, 4)
+    assert "# dacs = 4" in text
     brought = bring_up(SegmentLink(segment), world, 0.0005)
     assert sorted(brought.drives) == [0, 1]
 

@@ -20,6 +20,7 @@ from openacr.fieldbus.cia402.drive import Drive, Order
 from openacr.fieldbus.cia402.states import State, state_of
 from openacr.fieldbus.ethercat.master.mapping import Signal
 from openacr.fieldbus.ethercat.master.master import Member
+from openacr.fieldbus.machine.touch_probes import TouchProbes
 from openacr.map.memory import Memory
 from openacr.map.rows import axes, bus_motors, encoders, motors
 from openacr.map.words import af4
@@ -35,9 +36,8 @@ log = logging.getLogger(__name__)
 
 RAW_COUNTS = 4.0  # raw counts per encoder line; MULT selects how many of them count
 MIDDLE = 0.5  # of a count: where an encoder starts
-FALLING = 4  # bit of the mode of a capture
-RISE, FALL = 1, 2  # edges, in rows and in the status of the touch probe (shifted by one)
-PROBE_ON, PROBE_RISE, PROBE_FALL = 0x01, 0x10, 0x20  # of the function of probe 1
+MOST_PERMILLE = 0xFFFF  # of a torque limit
+MOST_V = 10.0  # of an analog output
 RESET_S = 0.5  # a drive may take to leave its fault
 JITTER_CNT = 16  # of the drive, that a position may jump at rest
 
@@ -62,9 +62,8 @@ class AxisDrive:
         self.is_resetting = self._was_reset = self._was_asked = self._is_ready = False
         self._since_s = 0.0
         self._reset_s = -RESET_S
-        self._function = 0
-        self._latched = 0
         self._level: int | None = None
+        self._most_permille = round(min(MOST_PERMILLE, MOST_V * (table.torque_limit or 0.0)))
         self._connect(member)
         self.memory.I[bus_motors.has_probe[self._n]] = int(table.probe)
 
@@ -84,14 +83,13 @@ class AxisDrive:
         self._actual = Signal.of(of.ACTUAL_POSITION, in_, member.inputs_at)
         self._mode = Signal.of(of.MODE_DISPLAY, in_, member.inputs_at)
         self._error = Signal.of(of.ERROR_CODE, in_, member.inputs_at)
-        self._contacts = self._probe = None
+        self._contacts = self._limit = self._probes = None
         if self.table.inputs:
             self._contacts = Signal.of(of.DIGITAL_INPUTS, in_, member.inputs_at)
-        if self.table.probe:
-            self._probe = Signal.of(of.PROBE_FUNCTION, out, member.outputs_at)
-            self._probe_status = Signal.of(of.PROBE_STATUS, in_, member.inputs_at)
-            self._probe_rise = Signal.of(of.PROBE_1_RISE, in_, member.inputs_at)
-            self._probe_fall = Signal.of(of.PROBE_1_FALL, in_, member.inputs_at)
+        if self.table.torque_limit is not None:
+            self._limit = Signal.of(of.MOST_TORQUE, out, member.outputs_at)
+        if self.table.probe or self.table.marker:
+            self._probes = TouchProbes(self.memory, self._n, member, self.table)
         self._word = 0x40  # the status word of the last exchange
 
     @property
@@ -118,9 +116,10 @@ class AxisDrive:
             self._settle(n, now_s, patience_s)
         self._control.put(image, self.drive.next_word(self._word))
         self._target.put(image, self._target_of(n))
-        if self._probe is not None:
-            self._function = self._wanted_function(n)
-            self._probe.put(image, self._function)
+        if self._limit is not None:
+            self._limit.put(image, self._torque_limit(n))
+        if self._probes is not None:
+            self._probes.give(image)
 
     def _lead(self, n: int | None, now_s: float) -> None:
         """Ask the drive for what the card wants of it."""
@@ -221,12 +220,17 @@ class AxisDrive:
         place_cnt = rows.F[motors.raw_count[self._n]] + missing * RAW_COUNTS / mult
         return self._zero + round(place_cnt * self._scale)
 
-    def _wanted_function(self, n: int | None) -> int:
-        """What the touch probe is to look for: the edge of the capture that is armed."""
-        mode = self.memory.I[axes.capture_mode[n]] if n is not None else -1
-        if mode not in (2, 2 | FALLING):
-            return 0
-        return PROBE_ON | (PROBE_FALL if mode & FALLING else PROBE_RISE)
+    def _torque_limit(self, n: int | None) -> int:
+        """The smaller of the torque limits of both directions (TLM) in 0.1 % of rated torque.
+
+        A drive that no axis has keeps its last one: it may still be on its ramp.
+        """
+        if n is not None:
+            rows = self.memory.S
+            volts = min(rows[axes.plus_torque_limit[n]], -rows[axes.minus_torque_limit[n]])
+            value = volts * (self.table.torque_limit or 0.0)
+            self._most_permille = round(max(0.0, min(MOST_PERMILLE, value)))
+        return self._most_permille
 
     # --- after the exchange -----------------------------------------------------------
 
@@ -236,8 +240,8 @@ class AxisDrive:
         self._take_position(self._actual.get(image), passed_s)
         if self._contacts is not None:
             self._take_contacts(self._contacts.get(image))
-        if self._probe is not None:
-            self._take_probe(image)
+        if self._probes is not None:
+            self._probes.take(image, self._place_cnt)
         self.drive.state = state_of(self._word)
         if self.drive.has_fault:
             if not self.alarm and now_s - self._reset_s > RESET_S:
@@ -257,8 +261,7 @@ class AxisDrive:
             self.fail(f"its position jumped by {moved} counts within {passed_s * 1e3:.3g} ms")
         self._is_anew = False
         self._counts += moved
-        place_cnt = (self._counts - self._zero) / self._scale + MIDDLE
-        self.memory.F[bus_motors.reported_cnt[self._n]] = place_cnt
+        self.memory.F[bus_motors.reported_cnt[self._n]] = self._place_cnt(self._counts)
 
     def _take_contacts(self, level: int) -> None:
         if level == self._level:
@@ -267,19 +270,10 @@ class AxisDrive:
         for name, flag in self.table.inputs.items():
             inputs.drive(self.memory, flag, bool(level >> INPUT_BITS[name] & 1))
 
-    def _take_probe(self, image: bytes) -> None:
-        """Hand on a position that was latched since the probe was armed."""
-        latched = self._probe_status.get(image) >> 1 & (RISE | FALL) if self._function else 0
-        fresh, self._latched = latched & ~self._latched, latched
-        for edge, signal, row in (
-            (RISE, self._probe_rise, bus_motors.probe_rise_cnt),
-            (FALL, self._probe_fall, bus_motors.probe_fall_cnt),
-        ):
-            if fresh & edge:
-                counts = (self._counts or 0) + _wrapped(signal.get(image) - (self._counts or 0))
-                self.memory.F[row[self._n]] = (counts - self._zero) / self._scale + MIDDLE
-        if fresh:
-            self.memory.I[bus_motors.reported_edges[self._n]] |= fresh
+    def _place_cnt(self, latched: int) -> float:
+        """The count of the card at a latched position of the drive."""
+        counts = (self._counts or 0) + _wrapped(latched - (self._counts or 0))
+        return (counts - self._zero) / self._scale + MIDDLE
 
     # --- what goes wrong --------------------------------------------------------------
 

@@ -10,6 +10,7 @@ from openacr.fieldbus.ethercat.master.device import Device, scan
 from openacr.fieldbus.ethercat.master.master import Master, Member
 from openacr.fieldbus.ethercat.master.port import BusError, Link, Port
 from openacr.fieldbus.ethercat.master.sdo import Objects, SdoError
+from openacr.fieldbus.machine import touch_probes
 from openacr.plant.describe.bus_schema import Bus, BusDriveTable, Terminal
 from openacr.plant.describe.schema import Axis, World
 
@@ -119,10 +120,11 @@ def _wanted(table: BusDriveTable, target: Entry) -> tuple[list[Entry], list[Entr
     inputs = [of.STATUS_WORD, of.ACTUAL_POSITION, of.ERROR_CODE]
     if table.inputs:
         inputs.append(of.DIGITAL_INPUTS)
-    if table.probe:
+    if table.torque_limit is not None:
+        outputs.append(of.MOST_TORQUE)
+    if latches := touch_probes.inputs_of(table):
         outputs.append(of.PROBE_FUNCTION)
-        inputs += [of.PROBE_STATUS, of.PROBE_1_RISE, of.PROBE_1_FALL]
-    return outputs, [*inputs, of.MODE_DISPLAY]
+    return outputs, [*inputs, *latches, of.MODE_DISPLAY]
 
 
 def _interpolate(objects: Objects, cycle_s: float) -> None:
@@ -139,13 +141,15 @@ def _terminal(table: Terminal, device: Device) -> Member:
     """A terminal as its EEPROM describes it."""
     outputs = mapping.of_pdos(device.description.receive)
     inputs = mapping.of_pdos(device.description.transmit)
-    for what, layout, count in (
-        ("outputs", outputs, table.outputs),
-        ("inputs", inputs, table.inputs),
+    for what, has, count in (
+        ("digital outputs", outputs.contacts, table.outputs),
+        ("digital inputs", inputs.contacts, table.inputs),
+        ("analog outputs", outputs.words, table.dacs),
+        ("analog inputs", inputs.words, table.adcs),
     ):
-        if len(layout.contacts) < count:
+        if len(has) < count:
             raise BusError(
-                f"the terminal {table.label}: {device.label} has {len(layout.contacts)} digital"
-                f" {what}, machine.toml says {count}"
+                f"the terminal {table.label}: {device.label} has {len(has)} {what},"
+                f" machine.toml says {count}"
             )
     return Member(device, outputs, inputs)

@@ -126,6 +126,6 @@ class RealMachine:
     def _made_terminals(self, members: list[Member]) -> list[RealTerminal]:
         memory = self._card.memory
         return [
-            RealTerminal(memory, table, member)
+            RealTerminal(memory, table, member, self._world.card.dac_bits)
             for table, member in zip(self._bus.terminal, members, strict=True)
         ]

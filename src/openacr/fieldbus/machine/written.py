@@ -7,6 +7,7 @@ from openacr.fieldbus.ethercat.master.device import Device
 
 AXES = 16
 FIRST_OUTPUT = 32
+ADCS = 8
 CHANNELS = 32  # inputs of the card, and outputs
 NAMES = "XYZABCUV"
 COUNTS_PER_REV = 4000
@@ -33,12 +34,17 @@ def _lines(interface: str, devices: list[Device]) -> Iterator[str]:
 
 
 def _terminals(devices: list[Device]) -> Iterator[str]:
-    used_in = used_out = 0
+    used_in = used_out = used_adcs = 0
     for device in devices:
-        ins = len(mapping.of_pdos(device.description.transmit).contacts)
-        outs = len(mapping.of_pdos(device.description.receive).contacts)
+        inputs = mapping.of_pdos(device.description.transmit)
+        outputs = mapping.of_pdos(device.description.receive)
+        ins, outs = len(inputs.contacts), len(outputs.contacts)
+        if inputs.words or outputs.words:
+            yield from _analog(device, len(inputs.words), len(outputs.words), used_adcs)
+            used_adcs += len(inputs.words)
+            continue
         if not ins and not outs:
-            yield f"# {device.label}: it has no digital channels"
+            yield f"# {device.label}: it has no channels"
             continue
         if used_in + ins > CHANNELS or used_out + outs > CHANNELS:
             yield f"# {device.label}: the card has {CHANNELS} inputs and {CHANNELS} outputs"
@@ -53,6 +59,22 @@ def _terminals(devices: list[Device]) -> Iterator[str]:
             yield f"outputs_from = {FIRST_OUTPUT + used_out}  # check: the first output of the card"
             yield f"outputs = {outs}"
         used_in, used_out = used_in + ins, used_out + outs
+
+
+def _analog(device: Device, ins: int, outs: int, used: int) -> Iterator[str]:
+    if used + ins > ADCS:
+        yield f"# {device.label}: the card has {ADCS} analog inputs"
+        return
+    yield ""
+    yield "[[bus.terminal]]"
+    yield from _identity(device)
+    if ins:
+        yield f"adcs_from = {used}  # check: the first analog input of the card"
+        yield f"adcs = {ins}"
+    if outs:
+        yield f"# dacs_from = 8  # check: {outs} analog outputs, from the first that no axis has"
+        yield f"# dacs = {outs}"
+    yield "full_v = 10.0  # check: volts at 32767"
 
 
 def _axis(number: int, device: Device) -> Iterator[str]:

@@ -146,8 +146,9 @@ BUS_MOTOR = HiddenBlock(
     ),
     ints=(
         "has_probe",  # the first external input of a capture is the touch probe of the drive
-        "reported_edges",  # of the touch probe, since the last tick: 1 rising, 2 falling, 3 both
-        "probe_edges",  # the same, of this tick
+        # of the touch probe, since the last tick: 1 rising, 2 falling; of the marker: 4, 8
+        "reported_edges",
+        "probe_edges",  # of the touch probe in this tick
     ),
     usual=FINITE,
     ranges={

@@ -14,12 +14,17 @@ def write_analogs(memory: Memory, world: World) -> None:
     by_number = {axis.number: axis for axis in world.axis}
     for analog in world.analog:
         memory.F[analogs.base_v[analog.input]] = analog.volts
-        memory.F[analogs.dac_step[analog.input]] = 2.0 ** (FULL_DAC_BITS - world.card.dac_bits)
+        memory.F[analogs.dac_step[analog.input]] = dac_step(world.card.dac_bits)
         memory.I[analogs.dac[analog.input]] = 0 if analog.dac is None else analog.dac + 1
         if analog.axis is not None:
             memory.I[analogs.axis[analog.input]] = analog.axis + 1
             _follow(memory, analog, by_number[analog.axis])
     memory.I[plant.analogs] = len(world.analog)
+
+
+def dac_step(bits: int) -> float:
+    """How many counts of a converter of 16 bits one of so few bits takes at a time."""
+    return float(2.0 ** (FULL_DAC_BITS - bits))
 
 
 def _follow(memory: Memory, analog: Analog, axis: Axis) -> None:

@@ -19,8 +19,12 @@ Frames = Annotated[int, Meta(ge=1, le=1000)]
 Seconds = Annotated[float, Meta(ge=0.001, le=10)]
 DriveCounts = Annotated[int, Meta(ge=4, le=1_073_741_824)]
 PerVolt = Annotated[float, Meta(ge=-1e9, le=1e9)]
+TorquePerVolt = Annotated[float, Meta(gt=0, le=65535)]
 Speed = Annotated[float, Meta(gt=0, le=100_000)]
 FlagNumber = Annotated[int, Meta(ge=0, le=FLAG_LAST)]
+Adc = Annotated[int, Meta(ge=0, le=7)]
+Dac = Annotated[int, Meta(ge=0, le=15)]
+FullVolts = Annotated[float, Meta(gt=0, le=1000)]
 Points = Annotated[int, Meta(ge=0, le=256)]
 Interface = Annotated[str, Meta(min_length=1, max_length=15)]
 
@@ -75,17 +79,24 @@ class BusDriveTable(_OnTheBus, frozen=True):
     per_volt: PerVolt | None = None
     fastest_rev_s: Speed = 200.0
     probe: bool = False
+    marker: bool = False
+    torque_limit: TorquePerVolt | None = None
     inputs: dict[str, FlagNumber] = {}
 
 
 class Terminal(_OnTheBus, frozen=True):
-    """A terminal: its first digital input and output on the card, in the order of its channels."""
+    """A terminal: the first number on the card of each kind of channel, and how many, in order."""
 
     name: str = ""
     inputs_from: FlagNumber | None = None
     inputs: Points = 0
     outputs_from: FlagNumber | None = None
     outputs: Points = 0
+    adcs_from: Adc | None = None
+    adcs: Points = 0
+    dacs_from: Dac | None = None
+    dacs: Points = 0
+    full_v: FullVolts = 10.0
 
     @property
     def label(self) -> str:

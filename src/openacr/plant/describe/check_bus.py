@@ -8,6 +8,8 @@ from openacr.plant.describe.complaint import Complaint, Path
 from openacr.plant.describe.schema import Axis, StepperDrive, World
 from openacr.plant.inputs import OUTPUT_RANGES, WIRED_RANGES, within
 
+ADC_RANGE, DAC_RANGE = ((0, 7),), ((0, 15),)
+_ONE = {"outputs": "an output", "adcs": "an analog input", "dacs": "an analog output"}
 _PLACES = ("position", "alias", "serial")
 
 
@@ -66,16 +68,21 @@ def _drive(path: Path, axis: Axis, drive: BusDriveTable, world: World) -> Iterat
 
 
 def _terminal(path: Path, terminal: Terminal) -> Iterator[Complaint]:
-    for kind, ranges in (("inputs", WIRED_RANGES), ("outputs", OUTPUT_RANGES)):
+    for kind, ranges in (
+        ("inputs", WIRED_RANGES),
+        ("outputs", OUTPUT_RANGES),
+        ("adcs", ADC_RANGE),
+        ("dacs", DAC_RANGE),
+    ):
         first, count = getattr(terminal, f"{kind}_from"), getattr(terminal, kind)
         what = f"the terminal {terminal.label}"
         if (first is None) != (count == 0):
             text = f"{what} has only one of {kind} and {kind}_from"
             yield Complaint(path, text, f"{kind} is how many, {kind}_from the first of the card")
-        elif kind == "outputs" and first is not None:
+        elif kind != "inputs" and first is not None:
             for number in (first, first + count - 1):
                 if not within(number, ranges):
-                    text = f"{what} leads to {number}, which is not an output"
+                    text = f"{what} leads to {number}, which is not {_ONE[kind]}"
                     yield Complaint((*path, f"{kind}_from"), text, _ranges(kind, ranges))
                     break
 
@@ -94,7 +101,21 @@ def bus_inputs(world: World) -> Iterator[tuple[Path, int, str]]:
             yield ("bus", "terminal", index, "inputs_from"), number, what
 
 
+def bus_adcs(world: World) -> Iterator[tuple[Path, int, str]]:
+    """What of the bus brings voltages to analog inputs: its place in the file, the input, name."""
+    for index, terminal in enumerate(world.bus.terminal if world.bus else ()):
+        for channel in range(terminal.adcs if terminal.adcs_from is not None else 0):
+            what = f"analog channel {channel + 1} of the terminal {terminal.label}"
+            place: Path = ("bus", "terminal", index, "adcs_from")
+            yield place, (terminal.adcs_from or 0) + channel, what
+
+
 def _inputs(world: World) -> Iterator[Complaint]:
+    analog: dict[int, str] = {}
+    for path, number, what in bus_adcs(world):
+        if number in analog:
+            yield Complaint(path, f"two signals on ADC{number}: {analog[number]} and {what}")
+        analog.setdefault(number, what)
     taken: dict[int, str] = {}
     for path, number, what in bus_inputs(world):
         if not within(number, WIRED_RANGES):

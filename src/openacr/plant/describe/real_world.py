@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from openacr.plant.describe.check_bus import bus_inputs
+from openacr.plant.describe.check_bus import bus_adcs, bus_inputs
 from openacr.plant.describe.check_networks import nodes_inputs, parameters_of
 from openacr.plant.describe.network_schema import Canopen, Node
 from openacr.plant.describe.schema import Axis, BusDrive, Inputs, Load, World, switches
@@ -14,17 +14,24 @@ def real_world(world: World) -> World:
     """The world with what is on the bus taken out of the model.
 
     Axes with a drive on the bus have no motor, no marker, no hard stops and no modelled switches;
-    an input that the bus drives is driven by nothing else. Real nodes leave their places empty.
+    an input that the bus drives, digital or analog, is driven by nothing else. Real nodes leave
+    their places empty.
     """
     nodes = nodes_inputs(world)
     real = {number for _, number, _ in bus_inputs(world)} | nodes
+    analogs = {number for _, number, _ in bus_adcs(world)}
     axes = tuple(_on_the_bus(axis) if axis.bus else _without(axis, real) for axis in world.axis)
     return replace(
         world,
         axis=axes,
+        analog=tuple(one for one in world.analog if one.input not in analogs),
         wire=tuple(wire for wire in world.wire if wire.input not in real),
         device=tuple(
-            replace(device, inputs={k: v for k, v in device.inputs.items() if v not in real})
+            replace(
+                device,
+                inputs={k: v for k, v in device.inputs.items() if v not in real},
+                analogs={k: v for k, v in device.analogs.items() if v not in analogs},
+            )
             for device in world.device
         ),
         inputs=Inputs(

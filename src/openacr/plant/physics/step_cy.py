@@ -14,7 +14,7 @@ from openacr.cmath import fabs
 from openacr.map import numbers as at
 from openacr.map.rows import plant
 from openacr.plant.physics.analog_cy import analogs_follow
-from openacr.plant.physics.bus_motor_cy import bus_motor
+from openacr.plant.physics.bus_motor_cy import bus_motor, reported_marker
 from openacr.plant.physics.compliance_cy import flex, flexion, is_compliant
 from openacr.plant.physics.drive_cy import (
     cache_motion_factors,
@@ -114,7 +114,7 @@ def _motor_tick(F: F64, I: I32, S: F32, n: int, dt: float) -> int:
     if whole > position:
         whole -= 1.0
     F[f + at.PLF_RAW_COUNT] = whole
-    I[i + at.PLI_MARKER_EDGES] = 0
+    I[i + at.PLI_MARKER_EDGES] = reported_marker(I, n) if kind == BUS_DRIVE else 0
     if F[f + at.PLF_QUIET_LOW_CNT] <= position and position < F[f + at.PLF_QUIET_HIGH_CNT]:
         return 0
     if (I[i + at.PLI_ENCODER_FAULT] & NO_SIGNALS) == 0:

@@ -51,7 +51,7 @@ class Probe:
             for number in (0, 1):
                 bits = function >> PROBE_BITS * number & 0xFF
                 old = status >> PROBE_BITS * number & 0xFF
-                edge = edges[1] if bits & _MARKER else edges[0]
+                edge = _as_wanted(edges[1], bits) if bits & _MARKER else edges[0]
                 shown |= self._latch(number, bits, old, edge, home_cnt) << PROBE_BITS * number
             self._objects.probe_status.value = shown
         self._before, self._was_on = here, is_on
@@ -91,3 +91,8 @@ class Probe:
         if low < place <= high if here >= self._before else low <= place < high:
             return True, place
         return None
+
+
+def _as_wanted(edge: tuple[bool, int] | None, bits: int) -> tuple[bool, int] | None:
+    """A marker is one count wide: both its edges come in one period, the wanted one is latched."""
+    return edge if edge is None or bits & _RISE else (False, edge[1])

@@ -11,6 +11,7 @@ from openacr.fieldbus.ethercat.wire.sii import Pdo
 
 OUTPUTS_ASSIGNED = 0x1C12
 INPUTS_ASSIGNED = 0x1C13
+WORD = 16
 FIRST_OUTPUT_PDO = 0x1600
 FIRST_INPUT_PDO = 0x1A00
 
@@ -41,11 +42,26 @@ class Layout:
 
     @property
     def contacts(self) -> list[int]:
-        """The bits, counted from 0, that are objects of a bit: channels of a terminal."""
+        """The bits, counted from 0, that are objects of a bit: channels of a digital terminal.
+
+        Beside analog channels bits are states of these, and no contacts.
+        """
+        if self.words:
+            return []
         found, at = [], 0
         for index, _, bits in self.items:
             if index and bits == 1:
                 found.append(at)
+            at += bits
+        return found
+
+    @property
+    def words(self) -> list[int]:
+        """The bytes at which objects of 16 bits begin: channels of an analog terminal."""
+        found, at = [], 0
+        for index, _, bits in self.items:
+            if index and bits == WORD and at % 8 == 0:
+                found.append(at // 8)
             at += bits
         return found
 
