@@ -23,11 +23,14 @@ class SegmentLink:
     def __init__(self, segment: Segment) -> None:
         self.segment = segment
         self.now_ns = 1_000_000
+        self.frames = 0
+        self.frame_ns = 1000  # a frame takes
         self.pass_on: Callable[[bytes], bytes | None] | None = None  # faults of the wire
 
     def exchange(self, frame: bytes) -> bytes | None:
         """The frame as it comes back."""
-        self.now_ns += 1000
+        self.frames += 1
+        self.now_ns += self.frame_ns
         back = self.segment.process(frame, self.now_ns) or None
         return back if back is None or self.pass_on is None else self.pass_on(back)
 

@@ -2,6 +2,7 @@
 
 import logging
 import math
+import threading
 
 import pytest
 from tests.fieldbus.bus_rig import OnBus
@@ -398,6 +399,69 @@ def test_a_cable_pulled_out_stops_the_motor_and_a_reset_brings_the_bus_back() ->
     made.send("X/100")
     made.card.advance(1000)
     assert made.position() == at + 100
+
+
+def test_a_bus_is_brought_up_again_a_part_in_each_tick_while_the_card_runs() -> None:
+    made = on_bus(axes=2)
+    made.link.frame_ns = 50_000
+    lose(made, 4)
+    made.card.advance(10)
+    made.link.pass_on = None
+    made.send("DRIVE RES X")
+    seen = []
+    while made.machine.alarm and len(seen) < 5000:
+        before = made.link.frames
+        made.card.advance(1)
+        seen.append(made.link.frames - before)
+    assert made.machine.alarm == ""
+    assert max(seen) == 3  # an eighth of a millisecond, begun frames are ended
+    assert len(seen) > 100
+    made.switch_on(1)
+
+
+def test_a_drive_that_is_asked_while_the_bus_comes_up_is_refused(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    made = on_bus()
+    made.link.frame_ns = 50_000
+    lose(made, 4)
+    made.card.advance(10)
+    made.link.pass_on = None
+    made.send("DRIVE RES X")
+    made.card.advance(10)
+    made.send("DRIVE ON X")
+    made.card.advance(3000)
+    assert made.machine.alarm == ""
+    assert "is not enabled: the bus is being brought up" in caplog.text
+    assert made.drive().profile.state.name == "DISABLED"
+
+
+def test_a_bus_that_cannot_be_brought_up_again_stays_stopped_and_is_tried_again() -> None:
+    made = on_bus()
+    made.segment.connect(0)
+    made.card.advance(10)
+    made.send("DRIVE RES X")
+    made.card.advance(400)
+    assert "no frame comes back" in made.machine.alarm
+    assert is_stopped(made)
+    made.segment.connect(None)
+    made.send("DRIVE RES X")
+    made.card.advance(2000)
+    assert made.machine.alarm == ""
+
+
+def test_a_card_that_ends_while_its_bus_comes_up_leaves_no_thread() -> None:
+    made = on_bus()
+    lose(made, 4)
+    made.card.advance(10)
+    made.link.pass_on = None
+    made.link.frame_ns = 400_000
+    made.send("DRIVE RES X")
+    made.card.advance(3)
+    names = [thread.name for thread in threading.enumerate()]
+    assert "bus emulated" in names
+    made.machine.close()
+    assert "bus emulated" not in [thread.name for thread in threading.enumerate()]
 
 
 def test_a_device_that_leaves_op_stops_all_axes() -> None:

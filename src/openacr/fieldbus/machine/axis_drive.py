@@ -153,6 +153,12 @@ class AxisDrive:
             self.drive.ask(Order.ON)
             self._was_asked, self._since_s = True, now_s
 
+    def bar(self, why: str) -> None:
+        """Refuse DRIVE ON: the drive cannot hear it now."""
+        n = self.owner
+        if n is not None and self._is_asked(n):
+            self._refuse(n, f"is not enabled: {why}")
+
     def _settle(self, n: int, now_s: float, patience_s: float) -> None:
         """Show on the card how far enabling has got."""
         if not self._was_asked or (self._is_ready and self.drive.order is Order.ON):

@@ -11,7 +11,8 @@ What goes wrong, and what follows:
 | a drive reports a fault, leaves operation, jumps, operates in another mode | its axis stops |
 
 *Stop*: all motion of the axis is killed, Drive Fault is set, the drive is asked for a quick stop
-and is off on the card. DRIVE RES resets it; after a stop of all it brings the bus up again.
+and is off on the card. DRIVE RES resets it; after a stop of all it brings the bus up again,
+a part in each cycle.
 """
 
 import logging
@@ -19,13 +20,16 @@ import logging
 from openacr.fieldbus.ethercat.master.master import Member
 from openacr.fieldbus.ethercat.master.port import BusError, Link
 from openacr.fieldbus.machine.axis_drive import AxisDrive
-from openacr.fieldbus.machine.bringing_up import bring_up
+from openacr.fieldbus.machine.bringing_up import Brought, bring_up
+from openacr.fieldbus.machine.in_parts import InParts
 from openacr.fieldbus.machine.terminal import RealTerminal
 from openacr.motion.card import Card
 from openacr.plant.describe.bus_schema import Bus
 from openacr.plant.describe.schema import World
 
 log = logging.getLogger(__name__)
+SHARE = 0.25  # of a cycle, for bringing the bus up again beside the card
+LONGEST_S = 60.0  # that it takes
 
 
 class RealMachine:
@@ -47,6 +51,8 @@ class RealMachine:
         ]
         self._terminals = self._made_terminals(brought.terminals)
         self._latest_s: float | None = None
+        self._revival: InParts[Brought] | None = None  # after a stop of all, asked by DRIVE RES
+        self._revival_s = 0.0
 
     def enable(self) -> None:
         """Allow drives to be enabled, by DRIVE ON; before it the bus is only read."""
@@ -66,17 +72,25 @@ class RealMachine:
             self._stop(f"no exchange for {passed_s:.3g} s (late_s = {self._bus.late_s:g})")
         if self._card.clock.period_s != self._period_s:
             self._stop("the servo period was changed: the cycle of the bus is that of its start")
+        if self._revival is not None:
+            self._revive(self._revival)
+            return tick + self._bus.cycle
         for drive in self.drives:
             drive.give(self._master.image, now_s, self._bus.enable_s)
         for terminal in self._terminals:
             terminal.give(self._master.image)
         self._exchange(now_s)
         if self._alarm and any(drive.is_resetting for drive in self.drives):
-            self._reset()
+            world, period_s = self._world, self._card.clock.period_s
+            self._latest_s, self._period_s = None, period_s
+            self._revival = InParts(self._link, lambda link: bring_up(link, world, period_s))
+            self._revival_s = now_s
         return tick + self._bus.cycle
 
     def close(self) -> None:
         """Bring all devices to INIT: drives are off, outputs rest."""
+        if self._revival is not None:
+            self._revival.end()
         self._master.shut_down()
 
     def _exchange(self, now_s: float) -> None:
@@ -107,16 +121,24 @@ class RealMachine:
         for drive in self.drives:
             drive.fail(self._alarm)
 
-    def _reset(self) -> None:
-        """Bring the bus up again; what cannot be brought up stays stopped."""
+    def _revive(self, revival: InParts[Brought]) -> None:
+        """Go on bringing the bus up again; what cannot be brought up stays stopped."""
+        for drive in self.drives:
+            drive.bar("the bus is being brought up")
         try:
-            brought = bring_up(self._link, self._world, self._card.clock.period_s)
-            self._period_s = self._card.clock.period_s
+            if not revival.advance(SHARE * self._bus.cycle * self._period_s):
+                if self._link.now_s() - self._revival_s < LONGEST_S:
+                    return
+                revival.end()
+            brought = revival.result()
         except BusError as failure:
+            self._revival = None
             log.error("the bus %s stays stopped: %s", self._link.name, failure)
             self._stop(str(failure))
             return
+        self._revival = None
         self._master = brought.master
+        self._master.port.link = self._link  # from now on in one part
         for drive in self.drives:
             drive.connect(brought.drives[drive.axis.number])
             drive.alarm = ""
