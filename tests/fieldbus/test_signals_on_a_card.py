@@ -124,6 +124,29 @@ def test_a_torque_limit_beyond_16_bits_is_the_highest() -> None:
     assert made.drive().objects.max_torque.number == 65535
 
 
+@pytest.mark.parametrize(
+    ("mode", "most"), [("cst", 3276.7), ("cst", -3276.7), ("csv", 214748364.7)]
+)
+def test_a_voltage_may_ask_for_the_largest_target_and_no_more(mode: str, most: float) -> None:
+    text = machine().replace('mode = "csp"', f'mode = "{mode}"\nper_volt = PER')
+    parse_world(text.replace("PER", f"{most:.2f}"))
+    with pytest.raises(SourceError, match=r"10 V ask for .* per_volt at most"):
+        parse_world(text.replace("PER", f"{most * 1.0001:.2f}"))
+
+
+def test_a_drive_that_gives_less_torque_than_10_v_ask_for_is_named(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    text = "motor = { inertia_kgm2 = 2.0e-5, torque_nm_per_a = 0.1 }\n[axis.bus]"
+    drive = 'drive = { mode = "torque", amps_per_volt = 2.0, peak_amps = 18.0 }'
+    made = machine().replace('mode = "csp"', 'mode = "cst"\nper_volt = {}')
+    made = made.replace('drive = { mode = "exact" }', drive).replace("[axis.bus]", text)
+    OnBus(made.replace("{}", "300.0"))
+    assert caplog.text == ""
+    OnBus(made.replace("{}", "301.0"))
+    assert "the drive of axis X: 10 V ask for a torque of 3010, the drive gives" in caplog.text
+
+
 # --- voltages ---------------------------------------------------------------------------------
 
 ANALOG = (

@@ -211,8 +211,7 @@ class AxisDrive:
             rows.S, rows.I[motors.dac[self._n]], rows.F[motors.dac_step[self._n]]
         )
         value = round(volts * (self.table.per_volt or 0.0) * (1 if self._scale > 0 else -1))
-        most = 0x7FFF if self.table.mode is CyclicMode.CST else 0x7FFFFFFF
-        return max(-most, min(most, value))
+        return max(-self.table.most, min(self.table.most, value))
 
     def _position_of(self, n: int | None) -> int:
         """Where the setpoint means the drive to be; where it is while it does not operate."""

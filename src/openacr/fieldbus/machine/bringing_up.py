@@ -1,5 +1,6 @@
 """From a machine file to a bus in OP: find the devices, check who they are, map, synchronize."""
 
+import logging
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -11,8 +12,11 @@ from openacr.fieldbus.ethercat.master.master import Master, Member
 from openacr.fieldbus.ethercat.master.port import BusError, Link, Port
 from openacr.fieldbus.ethercat.master.sdo import Objects, SdoError
 from openacr.fieldbus.machine import touch_probes
-from openacr.plant.describe.bus_schema import Bus, BusDriveTable, Terminal
+from openacr.plant.describe.bus_schema import Bus, BusDriveTable, CyclicMode, Terminal
+from openacr.plant.describe.check_bus import MOST_V
 from openacr.plant.describe.schema import Axis, World
+
+log = logging.getLogger(__name__)
 
 QUICK_STOP_THEN_OFF = 2  # of 0x605A: the ramp of the quick stop, then off
 IDENTITY = ("vendor", "product", "revision", "serial")
@@ -106,12 +110,30 @@ def _drive(axis: Axis, table: BusDriveTable, device: Device, cycle_s: float) -> 
         objects.write(of.QUICK_STOP_OPTION.object, 0, QUICK_STOP_THEN_OFF.to_bytes(2, "little"))
     with suppress(SdoError):
         _interpolate(objects, cycle_s)
+    if table.mode is CyclicMode.CST:
+        with suppress(SdoError):
+            _compare_torque(axis, table, objects.number(of.MOST_TORQUE.object))
     outputs, inputs = _wanted(table, mode.target)
+    has = device.description
     return Member(
         device,
-        mapping.map_objects(objects, mapping.OUTPUTS_ASSIGNED, mapping.FIRST_OUTPUT_PDO, outputs),
-        mapping.map_objects(objects, mapping.INPUTS_ASSIGNED, mapping.FIRST_INPUT_PDO, inputs),
+        mapping.map_objects(
+            objects, mapping.OUTPUTS_ASSIGNED, mapping.FIRST_OUTPUT_PDO, outputs, has.receive
+        ),
+        mapping.map_objects(
+            objects, mapping.INPUTS_ASSIGNED, mapping.FIRST_INPUT_PDO, inputs, has.transmit
+        ),
     )
+
+
+def _compare_torque(axis: Axis, table: BusDriveTable, most: int) -> None:
+    """Say where the card can ask for more torque than the drive gives."""
+    asked = abs(table.per_volt or 0.0) * MOST_V
+    if asked > most:
+        log.warning(
+            "%s: %g V ask for a torque of %g, the drive gives at most %d (0x6072)",
+            _what(axis), MOST_V, asked, most,
+        )  # fmt: skip
 
 
 def _wanted(table: BusDriveTable, target: Entry) -> tuple[list[Entry], list[Entry]]:

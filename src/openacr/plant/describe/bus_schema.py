@@ -83,6 +83,11 @@ class BusDriveTable(_OnTheBus, frozen=True):
     torque_limit: TorquePerVolt | None = None
     inputs: dict[str, FlagNumber] = {}
 
+    @property
+    def most(self) -> int:
+        """The largest target, in units of the drive: torques have 16 bits, all others 32."""
+        return 0x7FFF if self.mode is CyclicMode.CST else 0x7FFFFFFF
+
 
 class Terminal(_OnTheBus, frozen=True):
     """A terminal: the first number on the card of each kind of channel, and how many, in order."""

@@ -10,6 +10,7 @@ from openacr.plant.inputs import OUTPUT_RANGES, WIRED_RANGES, within
 
 ADC_RANGE, DAC_RANGE = ((0, 7),), ((0, 15),)
 _ONE = {"outputs": "an output", "adcs": "an analog input", "dacs": "an analog output"}
+MOST_V = 10.0  # of an analog output
 _PLACES = ("position", "alias", "serial")
 
 
@@ -60,6 +61,11 @@ def _drive(path: Path, axis: Axis, drive: BusDriveTable, world: World) -> Iterat
             yield Complaint((*path, "per_volt"), text, "it takes the setpoint, not the voltage")
     elif drive.per_volt == 0.0:
         yield Complaint((*path, "per_volt"), f"{what}: per_volt 0 commands nothing")
+    elif drive.per_volt is not None and abs(drive.per_volt) * MOST_V > drive.most:
+        text = f"{what}: {MOST_V:g} V ask for {abs(drive.per_volt) * MOST_V:g}"
+        most = drive.most / MOST_V
+        hint = f"the target of {drive.mode} ends at {drive.most}: per_volt at most {most:g}"
+        yield Complaint((*path, "per_volt"), text, hint)
     for name in drive.inputs:
         if name not in INPUT_BITS:
             close = get_close_matches(name, INPUT_BITS, 1)

@@ -11,6 +11,7 @@ from openacr.fieldbus.ethercat.emulated.motor import Motor
 from openacr.fieldbus.ethercat.emulated.probe import Probe
 from openacr.fieldbus.ethercat.emulated.profile import HALT, POWERED, DriveState, Profile
 from openacr.fieldbus.ethercat.emulated.slave import COMMUNICATION_ERROR, Slave
+from openacr.fieldbus.ethercat.wire import sii
 from openacr.fieldbus.ethercat.wire.registers import AlCode
 
 HOMING, CSP, CSV, CST = 6, 8, 9, 10
@@ -29,7 +30,9 @@ class Drive(Slave):
 
     device_type = 0x00020192  # servo drive, profile 402
 
-    def __init__(self, motor: Motor, name: str, alias: int = 0) -> None:
+    def __init__(
+        self, motor: Motor, name: str, alias: int = 0, description: sii.Description | None = None
+    ) -> None:
         self.motor = motor
         self.profile = Profile()
         self.modes = (HOMING, CSP, CSV, CST) if motor.has_torque else (HOMING, CSP, CSV)
@@ -42,7 +45,7 @@ class Drive(Slave):
         self._home_cnt = 0
         self._is_homed = False
         self._is_held = False  # a cause of a fault that is still there
-        super().__init__(drive_description(motor.axis.number + 1, alias), name)
+        super().__init__(description or drive_description(motor.axis.number + 1, alias), name)
 
     def add_objects(self) -> None:
         """The objects of the profile."""

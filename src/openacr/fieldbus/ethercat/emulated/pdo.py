@@ -104,7 +104,9 @@ class Mapping:
         for pdo in self.pdos:
             self._add_pdo(pdo)
         indexes = [pdo.index for pdo in self.pdos if pdo.sync != 0xFF]
-        access = RO if all(pdo.is_fixed for pdo in self.pdos) else SETUP
+        # Where all PDOs are fixed and assigned there is nothing to choose.
+        has_choice = any(not pdo.is_fixed or pdo.sync == 0xFF for pdo in self.pdos)
+        access = SETUP if has_choice else RO
         count = Entry("Number of entries", DataType.UNSIGNED8, access, len(indexes))
         padded = indexes + [0] * (MOST_ASSIGNED - len(indexes))
         entries = [

@@ -12,6 +12,7 @@ from openacr.fieldbus.ethercat.wire.sii import Pdo
 OUTPUTS_ASSIGNED = 0x1C12
 INPUTS_ASSIGNED = 0x1C13
 WORD = 16
+MOST_PDOS, SMALL_PDO_BITS = 8, 64
 FIRST_OUTPUT_PDO = 0x1600
 FIRST_INPUT_PDO = 0x1A00
 
@@ -98,17 +99,20 @@ def of_pdos(pdos: Iterable[Pdo]) -> Layout:
 
 
 def map_objects(
-    objects: Objects, assigned: int, pdo: int, entries: Sequence[Entry], also: Sequence[Entry] = ()
+    objects: Objects, assigned: int, pdo: int, entries: Sequence[Entry], described: Sequence[Pdo]
 ) -> Layout:
-    """Map these objects, `also` if the device has room for them; the layout as it is then.
+    """Map these objects; the layout as it is then.
 
-    BusError if the device refuses, and has not all of `entries` in its process data by itself.
+    They are mapped to one PDO, else to several small ones from `pdo` on, else PDOs that the device
+    has `described` and that hold them are assigned as they are. BusError if it refuses all of it,
+    and has not all of `entries` in its process data by itself.
     """
-    for wanted in ([*entries, *also], entries) if also else (entries,):
+    why = ""
+    for mapped in _choices(pdo, entries, described):
         try:
-            _write(objects, assigned, pdo, wanted)
+            _write(objects, assigned, mapped)
         except SdoError as refused:
-            why = str(refused)
+            why = why or str(refused)
         else:
             return _read(objects, assigned)
     layout = _read(objects, assigned)
@@ -121,15 +125,63 @@ def map_objects(
     return layout
 
 
-def _write(objects: Objects, assigned: int, pdo: int, entries: Sequence[Entry]) -> None:
+# The PDOs to assign, each with the objects to map, or None to leave it as it is.
+_Mapped = dict[int, Sequence[Entry] | None]
+
+
+def _choices(pdo: int, entries: Sequence[Entry], described: Sequence[Pdo]) -> Iterator[_Mapped]:
+    yield {pdo: entries}
+    for most in (8, 4, 2):
+        parts = list(_parts(entries, most))
+        if 1 < len(parts) <= MOST_PDOS:
+            yield dict(enumerate(parts, pdo))
+    if chosen := _holding(entries, described):
+        yield dict.fromkeys(chosen)
+
+
+def _parts(entries: Sequence[Entry], most: int) -> Iterator[list[Entry]]:
+    """The objects in order, in PDOs of at most 8 bytes and `most` objects, as CANopen has them."""
+    part: list[Entry] = []
+    for entry in entries:
+        if part and (
+            len(part) == most or sum(one.bits for one in part) + entry.bits > SMALL_PDO_BITS
+        ):
+            yield part
+            part = []
+        part.append(entry)
+    yield part
+
+
+def _holding(entries: Sequence[Entry], described: Sequence[Pdo]) -> list[int]:
+    """PDOs that hold all these objects, those with most of them first; none if they do not."""
+    left = {(entry.object, entry.bits) for entry in entries}
+    chosen: list[int] = []
+    while left:
+        held = {
+            pdo.index: left & {(e.index, e.bits) for e in pdo.entries if not e.subindex}
+            for pdo in described
+        }
+        best = max(held, key=lambda index: len(held[index]), default=None)
+        if best is None or not held[best]:
+            return []
+        chosen.append(best)
+        left -= held[best]
+    return sorted(chosen)
+
+
+def _write(objects: Objects, assigned: int, mapped: _Mapped) -> None:
     objects.write(assigned, 0, b"\0")
-    objects.write(pdo, 0, b"\0")
-    for number, entry in enumerate(entries, 1):
-        mapping = entry.object << 16 | entry.bits
-        objects.write(pdo, number, mapping.to_bytes(4, "little"))
-    objects.write(pdo, 0, bytes([len(entries)]))
-    objects.write(assigned, 1, pdo.to_bytes(2, "little"))
-    objects.write(assigned, 0, b"\1")
+    for pdo, entries in mapped.items():
+        if entries is None:
+            continue
+        objects.write(pdo, 0, b"\0")
+        for number, entry in enumerate(entries, 1):
+            mapping = entry.object << 16 | entry.bits
+            objects.write(pdo, number, mapping.to_bytes(4, "little"))
+        objects.write(pdo, 0, bytes([len(entries)]))
+    for number, pdo in enumerate(mapped, 1):
+        objects.write(assigned, number, pdo.to_bytes(2, "little"))
+    objects.write(assigned, 0, bytes([len(mapped)]))
 
 
 def _read(objects: Objects, assigned: int) -> Layout:
