@@ -213,6 +213,8 @@ def _record(device: "Device") -> dict[str, Any]:
         "revision": who.revision,
         "serial": who.serial,
         "drive": device.is_drive,
+        "after": None if device.place is None else device.place.device,
+        "port": None if device.place is None else device.place.port,
     }
 
 
@@ -222,8 +224,15 @@ def _line(device: "Device") -> str:
     return (
         f"{device.position}: {device.description.name or device.description.order}, {what},"
         f" vendor 0x{who.vendor:X} product 0x{who.product:X} revision 0x{who.revision:X}"
-        f" serial {who.serial} alias {device.alias}"
+        f" serial {who.serial} alias {device.alias}{_branch(device)}"
     )
+
+
+def _branch(device: "Device") -> str:
+    """Where a device is that does not follow the one before it."""
+    if device.is_in_line or device.place is None:
+        return ""
+    return f", in a branch at port {device.place.port} of device {device.place.device}"
 
 
 def _object(text: str) -> tuple[int, int]:

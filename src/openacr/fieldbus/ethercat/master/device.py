@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from openacr.fieldbus.ethercat.master import eeprom
 from openacr.fieldbus.ethercat.master.port import FIRST_STATION, BusError, Port
+from openacr.fieldbus.ethercat.master.topology import Place, open_ports, places
 from openacr.fieldbus.ethercat.wire.frames import Command, by_position, by_station
 from openacr.fieldbus.ethercat.wire.registers import (
     ERROR,
@@ -28,6 +29,12 @@ class Device:
     position: int
     alias: int
     description: Description
+    place: Place | None = None  # of the first one, which has the cable of the computer
+
+    @property
+    def is_in_line(self) -> bool:
+        """Whether it follows the device before it."""
+        return self.place is None or self.place.device == self.position - 1
 
     @property
     def station(self) -> int:
@@ -93,8 +100,10 @@ def _found(port: Port, number: int) -> Iterator[Device]:
         station = FIRST_STATION + position
         address = station.to_bytes(2, "little")
         port.ask(by_position(Command.APWR, position, Register.STATION, address))
+    status = [port.word(FIRST_STATION + n, Register.DL_STATUS) for n in range(number)]
+    attached = places([open_ports(word) for word in status])
     for position in range(number):
         station = FIRST_STATION + position
         alias = port.word(station, Register.ALIAS)
         description = eeprom.description(port, station)
-        yield Device(port, position, alias or description.alias, description)
+        yield Device(port, position, alias or description.alias, description, attached[position])

@@ -83,9 +83,20 @@ class Master:
         for member in self.members:
             self._map(member)
         if with_clocks:
+            self._needs_line()
             self._reference = clocks.synchronize(self.port, self.members_devices, cycle_s)
         for member in self.members:
             member.device.reach(State.SAFEOP)
+
+    def _needs_line(self) -> None:
+        """Delays are measured in a line only."""
+        for device in self.devices:
+            if not device.is_in_line and device.place is not None:
+                raise BusError(
+                    f"{device.label} is in a branch, at port {device.place.port} of device"
+                    f" {device.place.device}: clocks are set up in a line only; say dc = false"
+                    " in [bus]"
+                )
 
     @property
     def members_devices(self) -> list[Device]:
