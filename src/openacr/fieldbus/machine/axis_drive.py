@@ -17,9 +17,11 @@ import logging
 from openacr.errors import CardError
 from openacr.fieldbus.cia402 import objects as of
 from openacr.fieldbus.cia402.drive import Drive, Order
+from openacr.fieldbus.cia402.faults import fault_text, group_of
 from openacr.fieldbus.cia402.states import State, state_of
 from openacr.fieldbus.ethercat.master.mapping import Signal
 from openacr.fieldbus.ethercat.master.master import Member
+from openacr.fieldbus.machine.report import DriveReport
 from openacr.fieldbus.machine.touch_probes import TouchProbes
 from openacr.map.memory import Memory
 from openacr.map.rows import axes, bus_motors, encoders, motors
@@ -76,6 +78,7 @@ class AxisDrive:
 
     def _connect(self, member: Member) -> None:
         mode = of.MODES[self.table.mode]
+        self.position = member.device.position
         out, in_ = member.outputs, member.inputs
         self._control = Signal.of(of.CONTROL_WORD, out, member.outputs_at)
         self._target = Signal.of(mode.target, out, member.outputs_at)
@@ -91,6 +94,7 @@ class AxisDrive:
         if self.table.probe or self.table.marker:
             self._probes = TouchProbes(self.memory, self._n, member, self.table)
         self._word = 0x40  # the status word of the last exchange
+        self._image = b""  # that came back last
 
     @property
     def label(self) -> str:
@@ -241,7 +245,7 @@ class AxisDrive:
 
     def take(self, image: bytes, now_s: float, passed_s: float) -> None:
         """Bring what the drive reports into the rows of the next tick."""
-        self._word = self._status.get(image)
+        self._word, self._image = self._status.get(image), image
         self._take_position(self._actual.get(image), passed_s)
         if self._contacts is not None:
             self._take_contacts(self._contacts.get(image))
@@ -250,7 +254,7 @@ class AxisDrive:
         self.drive.state = state_of(self._word)
         if self.drive.has_fault:
             if not self.alarm and now_s - self._reset_s > RESET_S:
-                self.fail(f"it reports fault 0x{self._error.get(image):04X}")
+                self.fail(f"it reports fault {_named(self._error.get(image))}")
         elif not self.alarm:
             self._report(FAULT_TAKEN_BACK)
         if self.drive.is_operating and self._mode.get(image) != of.MODES[self.table.mode].number:
@@ -280,6 +284,25 @@ class AxisDrive:
         counts = (self._counts or 0) + _wrapped(latched - (self._counts or 0))
         return (counts - self._zero) / self._scale + MIDDLE
 
+    def report(self, sent: bytearray) -> DriveReport:
+        """How the drive is, by what was sent last and what came back."""
+        code = self._error.get(self._image) if self._image else 0
+        n = self.owner
+        return {
+            "axis": self.axis.label,
+            "number": self.axis.number,
+            "position": self.position,
+            "state": self.drive.state.name if self.drive.state and self._image else "",
+            "mode": self._mode.get(self._image) if self._image else 0,
+            "actual": self._counts or 0,
+            "target": self._target.get(sent),
+            "is_enabled": n is not None and card_drive.is_enabled(self.card, n),
+            "code": code,
+            "group": group_of(code),
+            "text": fault_text(code),
+            "alarm": self.alarm,
+        }
+
     # --- what goes wrong --------------------------------------------------------------
 
     def fail(self, text: str) -> None:
@@ -300,6 +323,12 @@ class AxisDrive:
     def _report(self, what: int) -> None:
         if what == FAULT_REPORTED or self.memory.I[motors.fault_report[self._n]]:
             self.memory.I[motors.fault_report[self._n]] = what
+
+
+def _named(code: int) -> str:
+    """An error code with its meaning."""
+    text = fault_text(code)
+    return f"0x{code:04X} ({text})" if text else f"0x{code:04X}"
 
 
 def _wrapped(counts: int) -> int:

@@ -19,9 +19,11 @@ import logging
 
 from openacr.fieldbus.ethercat.master.master import Member
 from openacr.fieldbus.ethercat.master.port import BusError, Link
+from openacr.fieldbus.ethercat.wire.registers import al_text
 from openacr.fieldbus.machine.axis_drive import AxisDrive
 from openacr.fieldbus.machine.bringing_up import Brought, bring_up
 from openacr.fieldbus.machine.in_parts import InParts
+from openacr.fieldbus.machine.report import BusReport, Counters, DeviceReport
 from openacr.fieldbus.machine.terminal import RealTerminal
 from openacr.motion.card import Card
 from openacr.plant.describe.bus_schema import Bus
@@ -29,6 +31,8 @@ from openacr.plant.describe.schema import World
 
 log = logging.getLogger(__name__)
 SHARE = 0.25  # of a cycle, for bringing the bus up again beside the card
+LOOK_S = 0.05  # a device is asked for its state so often, one after the other
+LATE = 1.5  # cycles between two exchanges, of a late one
 LONGEST_S = 60.0  # that it takes
 
 
@@ -40,10 +44,15 @@ class RealMachine:
         self._bus = world.bus or Bus()
         self._bad = 0  # exchanges in a row
         self._alarm = ""
-        self.cycles = self.bad_cycles = 0
+        self.may_enable = False
+        self.counters: Counters = _none()
+        self._states: list[DeviceReport] = []
+        self._looked_s = link.now_s()
+        self._next_device = 0
         self._period_s = card.clock.period_s
         brought = bring_up(link, world, self._period_s)
         self._master = brought.master
+        self._list_devices()
         self.drives = [
             AxisDrive(card, axis, axis.bus, brought.drives[axis.number])
             for axis in world.axis
@@ -56,6 +65,7 @@ class RealMachine:
 
     def enable(self) -> None:
         """Allow drives to be enabled, by DRIVE ON; before it the bus is only read."""
+        self.may_enable = True
         for drive in self.drives:
             drive.may_enable = True
 
@@ -63,6 +73,33 @@ class RealMachine:
     def alarm(self) -> str:
         """What has stopped all drives, until it is reset."""
         return self._alarm
+
+    @property
+    def cycles(self) -> int:
+        """Frames of the exchange that were sent."""
+        return self.counters["sent"]
+
+    @property
+    def bad_cycles(self) -> int:
+        """Those that were lost, or came back with a wrong working counter."""
+        return self.counters["lost"] + self.counters["wrong"]
+
+    def reset_counters(self) -> None:
+        """Let the counters begin at 0."""
+        self.counters = _none()
+
+    def report(self) -> BusReport:
+        """The state of the bus, its devices and drives."""
+        return {
+            "interface": self._link.name,
+            "is_real": self.may_enable,
+            "is_coming_up": self._revival is not None,
+            "alarm": self._alarm,
+            "cycle_s": self._bus.cycle * self._period_s,
+            "counters": self.counters.copy(),
+            "devices": [each.copy() for each in self._states],
+            "drives": [drive.report(self._master.image) for drive in self.drives],
+        }
 
     def attend(self, tick: int) -> int:
         """Exchange the signals of a tick; the next tick to be called in."""
@@ -80,6 +117,9 @@ class RealMachine:
         for terminal in self._terminals:
             terminal.give(self._master.image)
         self._exchange(now_s)
+        if now_s - self._looked_s >= LOOK_S:
+            self._looked_s = now_s
+            self._look()
         if self._alarm and any(drive.is_resetting for drive in self.drives):
             world, period_s = self._world, self._card.clock.period_s
             self._latest_s, self._period_s = None, period_s
@@ -94,13 +134,16 @@ class RealMachine:
         self._master.shut_down()
 
     def _exchange(self, now_s: float) -> None:
-        self.cycles += 1
+        self.counters["sent"] += 1
+        cycle_s = self._bus.cycle * self._period_s
+        if self._latest_s is not None and now_s - self._latest_s > LATE * cycle_s:
+            self.counters["late"] += 1
         before_s = now_s if self._latest_s is None else self._latest_s
         back = self._master.exchange()
         passed_s = self._link.now_s() - before_s  # at most: a frame may wait on its way
         if back is None or not back.is_whole:
             self._bad += 1
-            self.bad_cycles += 1
+            self.counters["lost" if back is None else "wrong"] += 1
             if self._bad > self._bus.lost_frames:
                 what = "no frame comes back" if back is None else "the working counter is wrong"
                 self._stop(f"{what}, {self._bad} times in a row")
@@ -113,6 +156,29 @@ class RealMachine:
             drive.take(back.image, now_s, passed_s)
         for terminal in self._terminals:
             terminal.take(back.image)
+
+    def _look(self) -> None:
+        """Ask the next device for its state."""
+        self._next_device = (self._next_device + 1) % len(self._states)
+        shown, device = self._states[self._next_device], self._master.devices[self._next_device]
+        found = device.state_now()
+        state, code = ("", 0) if found is None else (found[0].name, found[1])
+        shown["state"], shown["code"] = state, code
+        shown["text"] = al_text(code) if code else ""
+
+    def _list_devices(self) -> None:
+        """All devices, which have just been brought into their states."""
+        self._states = [
+            {
+                "position": device.position,
+                "name": device.description.name or device.description.order,
+                "state": "OP" if device in self._master.members_devices else "PREOP",
+                "code": 0,
+                "text": "",
+            }
+            for device in self._master.devices
+        ]
+        self._next_device = 0
 
     def _stop(self, text: str) -> None:
         if not self._alarm:
@@ -139,6 +205,7 @@ class RealMachine:
         self._revival = None
         self._master = brought.master
         self._master.port.link = self._link  # from now on in one part
+        self._list_devices()
         for drive in self.drives:
             drive.connect(brought.drives[drive.axis.number])
             drive.alarm = ""
@@ -151,3 +218,7 @@ class RealMachine:
             RealTerminal(memory, table, member, self._world.card.dac_bits)
             for table, member in zip(self._bus.terminal, members, strict=True)
         ]
+
+
+def _none() -> Counters:
+    return {"sent": 0, "lost": 0, "wrong": 0, "late": 0}

@@ -55,10 +55,13 @@ class Device:
 
     def state(self) -> tuple[State, int]:
         """Its state, and the code of its error: 0 without one."""
-        data = self.port.read(self.station, Register.AL_STATUS, 6)
-        status = int.from_bytes(data[:2], "little")
-        code = int.from_bytes(data[4:6], "little") if status & ERROR else 0
-        return State(status & STATE_MASK or State.INIT), code
+        return _state(self.port.read(self.station, Register.AL_STATUS, 6))
+
+    def state_now(self) -> tuple[State, int] | None:
+        """The same, asked once; None if it does not answer."""
+        asked = by_station(Command.FPRD, self.station, Register.AL_STATUS, bytes(6))
+        back = self.port.once([asked])
+        return _state(back[0].data) if back and back[0].counter == 1 else None
 
     def request(self, state: State) -> None:
         """Ask for a state; an error is acknowledged first."""
@@ -80,6 +83,13 @@ class Device:
                 why = al_text(code) if code else f"not within {STATE_S:g} s"
                 raise BusError(f"{self.label} does not reach {state.name}: {why}")
             self.port.link.pause(POLL_S)
+
+
+def _state(data: bytes) -> tuple[State, int]:
+    status = int.from_bytes(data[:2], "little")
+    code = int.from_bytes(data[4:6], "little") if status & ERROR else 0
+    shown = status & STATE_MASK  # a value that is no state is none that was asked for
+    return State(shown) if shown in tuple(State) else State.INIT, code
 
 
 def count(port: Port) -> int:
