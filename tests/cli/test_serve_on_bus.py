@@ -1,12 +1,19 @@
 """`openacr serve` of a machine on a bus, as far as no network is needed: what is refused before."""
 
+import json
+import subprocess
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import pytest
+from tests import warm
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
 from openacr.cli.serve_on_bus import what_can_happen
+from openacr.client import Card
 from openacr.plant.describe.load import parse_world
 
 MACHINE = """
@@ -74,6 +81,74 @@ def test_an_interface_that_does_not_exist_is_named(project: Path) -> None:
     result = CliRunner().invoke(app, ["serve", str(project), "--ascii-port", "0"])
     assert result.exit_code == 2
     assert "no-such-if" in result.output
+
+
+class Served:
+    """A card on an emulated bus in a process of its own."""
+
+    def __init__(self, project: Path, *options: str) -> None:
+        words = ["serve", str(project), "--bus", "emulated", "--report-bus", "--no-journal"]
+        words += ["--ascii-port", "0", "--binary-port", "0", *options]
+        self.process = warm.Popen(
+            words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8"
+        )
+
+    def line(self, start: str) -> str:
+        """The rest of the next line with this start."""
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            if line.startswith(start):
+                return line.removeprefix(start)
+        raise AssertionError(f"it has ended without a line {start!r}")
+
+    def say(self, text: str) -> None:
+        assert self.process.stdin is not None
+        self.process.stdin.write(text)
+        self.process.stdin.flush()
+
+    def report_where(self, holds: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+        while True:
+            report: dict[str, Any] = json.loads(self.line("bus "))
+            if holds(report):
+                return report
+
+
+@pytest.fixture
+def served(project: Path) -> Iterator[Served]:
+    one = Served(project, "--real")
+    try:
+        yield one
+    finally:
+        with suppress(ProcessLookupError):
+            one.process.kill()
+        one.process.wait(timeout=60)
+        for pipe in (one.process.stdin, one.process.stdout):
+            if pipe is not None:
+                pipe.close()
+
+
+def test_an_emulated_bus_needs_no_interface_and_no_question_and_is_reported(
+    served: Served,
+) -> None:
+    address = served.line("listening ascii=").split()[0]
+    report = served.report_where(lambda one: one["counters"]["sent"] > 100)
+    assert (report["interface"], report["is_real"], report["alarm"]) == ("emulated", True, "")
+    assert [one["state"] for one in report["devices"]] == ["OP"]
+    with Card.open(address) as card:
+        card.command("ATTACH AXIS0 ENC0 DAC0 ENC0", program=0)
+        card.command("AXIS0 DRIVE ON", program=0)
+        report = served.report_where(lambda one: one["drives"][0]["is_enabled"])
+    assert (report["drives"][0]["state"], report["drives"][0]["mode"]) == ("OPERATING", 8)
+    before = report["counters"]["sent"]
+    served.say("reset\n")
+    served.report_where(lambda one: one["counters"]["sent"] < before)
+
+
+def test_a_card_ends_with_the_process_that_reads_its_reports(served: Served) -> None:
+    served.line("bus ")
+    assert served.process.stdin is not None
+    served.process.stdin.close()
+    assert served.process.wait(timeout=60) == 0
 
 
 def test_what_is_real_can_be_on_several_buses_and_all_of_it_is_named_before_consent() -> None:

@@ -72,7 +72,8 @@ def serve(
         str | None,
         typer.Option(
             metavar="IFACE",
-            help="Interface of the bus in place of that of machine.toml; none: all is modelled.",
+            help="Interface of the bus in place of that of machine.toml; emulated: the devices of"
+            " machine.toml in memory; none: all is modelled.",
         ),
     ] = None,
     is_real: Annotated[
@@ -93,6 +94,14 @@ def serve(
         float | None,
         typer.Option(help="Seconds without Python after which programs pause; default 1."),
     ] = None,
+    is_reported: Annotated[
+        bool,
+        typer.Option(
+            "--report-bus",
+            help="Print the state of the bus as lines of JSON; the line `reset` on standard input"
+            " sets its counters to 0, the end of standard input ends the card.",
+        ),
+    ] = False,
 ) -> None:
     """Run a card in real time and serve hosts over TCP and serial lines.
 
@@ -126,7 +135,7 @@ def serve(
         elif world is None:
             asyncio.run(serve_card(card, ports, speed, guests))
         else:
-            served = Served(card, world, interface, is_real=is_real)
+            served = Served(card, world, interface, is_real=is_real, is_reported=is_reported)
             with closing(served):
                 asyncio.run(serve_card(card, ports, speed, guests, served.begin))
     finally:

@@ -1,5 +1,9 @@
 """What is real of a served card: whether it is opened, who agrees, how it begins and ends."""
 
+import asyncio
+import json
+import os
+import signal
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,10 +16,18 @@ from openacr.wording import counted
 
 if TYPE_CHECKING:
     from openacr.controller import Controller
+    from openacr.fieldbus.machine.in_memory import EmulatedLink
+    from openacr.fieldbus.machine.real_machine import RealMachine
+    from openacr.io.ethercat_link import RawLink
     from openacr.plant.describe.network_schema import Canopen
     from openacr.plant.describe.schema import World
 
+    Link = RawLink | EmulatedLink
+
 NO_BUS = "none"
+EMULATED = "emulated"
+REPORT_S = 0.25
+MOST_TYPED = 4096
 
 
 def world_on_bus(path: Path | None, bus: str | None) -> "World | None":
@@ -32,7 +44,13 @@ def world_on_bus(path: Path | None, bus: str | None) -> "World | None":
     if world is None or world.bus is None:
         if bus not in (None, NO_BUS):
             raise UserError(f"--bus {bus}: the project has no machine.toml with [bus]")
-    return world if world is not None and is_real(world) else None
+    if world is None or not is_real(world):
+        return None
+    if bus == EMULATED:
+        from openacr.fieldbus.machine.in_memory import with_positions
+
+        return with_positions(world)
+    return world
 
 
 def agreed(
@@ -46,20 +64,23 @@ def agreed(
     interface = bus or world.bus.interface if world.bus is not None else ""
     if world.bus is not None and not interface:
         raise UserError("[bus] of machine.toml names no interface: give --bus IFACE")
+    sentences = list(what_can_happen(world, interface))
+    if not sentences:
+        return interface
     if speed != 1.0:
         raise UserError(f"--speed {speed:g}: a card with a bus runs in real time, 1.0")
     if is_real and not is_sure:
         if not sys.stdin.isatty():
             raise UserError("--real lets drives be enabled and outputs switched: say --yes")
-        for sentence in what_can_happen(world, interface):
+        for sentence in sentences:
             typer.echo(sentence)
         typer.confirm("Is the emergency stop within reach, and are all people clear?", abort=True)
     return interface
 
 
 def what_can_happen(world: "World", interface: str) -> Iterator[str]:
-    """What an operator agrees to, a sentence for each bus."""
-    if world.bus is not None:
+    """What an operator agrees to, a sentence for each bus that is real."""
+    if world.bus is not None and interface != EMULATED:
         names = ", ".join(axis.label for axis in world.axis if axis.bus)
         yield f"Drives on {interface} can be enabled and axes {names} can move."
     if world.canopen is not None and world.canopen.interface is not None:
@@ -74,12 +95,20 @@ class Served:
     """All that is real of a served card."""
 
     def __init__(
-        self, card: "Controller", world: "World", interface: str, *, is_real: bool
+        self,
+        card: "Controller",
+        world: "World",
+        interface: str,
+        *,
+        is_real: bool,
+        is_reported: bool,
     ) -> None:
         self._parts: list[ServedBus | ServedCan] = []
         try:
             if world.bus is not None:
-                self._parts.append(ServedBus(card, world, interface, is_real=is_real))
+                self._parts.append(
+                    ServedBus(card, world, interface, is_real=is_real, is_reported=is_reported)
+                )
             if world.canopen is not None and world.canopen.interface is not None:
                 self._parts.append(ServedCan(card, world.canopen, is_real=is_real))
         except BaseException:
@@ -127,32 +156,69 @@ class ServedBus:
     """The bus of a served card."""
 
     def __init__(
-        self, card: "Controller", world: "World", interface: str, *, is_real: bool
+        self,
+        card: "Controller",
+        world: "World",
+        interface: str,
+        *,
+        is_real: bool,
+        is_reported: bool,
     ) -> None:
-        from openacr.fieldbus.machine.real_machine import RealMachine
-        from openacr.io.ethercat_link import RawLink
-        from openacr.plant.describe.real_world import real_world
-
-        self._make = RealMachine
-        self._card, self._world, self._is_real = card, real_world(world), is_real
-        self._link = RawLink(interface)
+        self._card, self._world = card, world
+        self._is_real, self._is_reported = is_real, is_reported
+        self._link = _link(card, world, interface)
         self._machine: RealMachine | None = None
+        self._reporting: asyncio.Task[None] | None = None
 
     def begin(self) -> None:
         """Bring the bus up and let the card attend it; BusError if it is not as described."""
-        self._machine = machine = self._make(self._card.card, self._world, self._link)
+        from openacr.fieldbus.machine.real_machine import RealMachine
+        from openacr.plant.describe.real_world import real_world
+
+        self._machine = machine = RealMachine(self._card.card, real_world(self._world), self._link)
         if self._is_real:
             machine.enable()
         self._card.devices.join(machine)
         state = "can be enabled" if self._is_real else "read only, none can be enabled"
         drives = counted(len(machine.drives), "drive")
         typer.echo(f"bus {self._link.name}: {drives}, {state}", err=True)
+        if self._is_reported:
+            loop = asyncio.get_running_loop()
+            self._reporting = loop.create_task(self._report(machine))
+            loop.add_reader(sys.stdin.fileno(), self._hear, machine)
+
+    async def _report(self, machine: "RealMachine") -> None:
+        while True:
+            print(f"bus {json.dumps(machine.report())}", flush=True)
+            await asyncio.sleep(REPORT_S)
+
+    def _hear(self, machine: "RealMachine") -> None:
+        """A line of the process that started the card; without one the card ends as by Ctrl-C."""
+        words = os.read(sys.stdin.fileno(), MOST_TYPED)
+        if b"reset" in words:
+            machine.reset_counters()
+        if not words:
+            asyncio.get_running_loop().remove_reader(sys.stdin.fileno())
+            os.kill(os.getpid(), signal.SIGTERM)
 
     def close(self) -> None:
         """Bring all devices into INIT and close the interface."""
+        if self._reporting is not None:
+            self._reporting.cancel()
         if self._machine is not None:
             self._machine.close()
             cycles = counted(self._machine.cycles, "cycle")
             bad = self._machine.bad_cycles
             typer.echo(f"bus {self._link.name}: {cycles}, {bad} lost or wrong", err=True)
         self._link.close()
+
+
+def _link(card: "Controller", world: "World", interface: str) -> "Link":
+    """What carries frames to the bus of a machine."""
+    if interface == EMULATED:
+        from openacr.fieldbus.machine.in_memory import EmulatedLink, segment_of
+
+        return EmulatedLink(segment_of(world), lambda: round(card.lived_tk * card.period_s * 1e9))
+    from openacr.io.ethercat_link import RawLink
+
+    return RawLink(interface)

@@ -88,7 +88,7 @@ class Device:
 def _state(data: bytes) -> tuple[State, int]:
     status = int.from_bytes(data[:2], "little")
     code = int.from_bytes(data[4:6], "little") if status & ERROR else 0
-    shown = status & STATE_MASK  # a value that is no state is none that was asked for
+    shown = status & STATE_MASK  # other values are no states
     return State(shown) if shown in tuple(State) else State.INIT, code
 
 
