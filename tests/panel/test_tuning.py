@@ -46,6 +46,12 @@ def test_an_axis_is_measured_and_gets_what_was_proposed(hand: HandStation) -> No
     assert found["proposed"]["margins"]["crossover_hz"] == pytest.approx(30.0, rel=1e-3)
     assert max(found["measured"]["actual_cnt"]) > 50
     assert hand.events("tune")[-1] == {"event": "tune", "done": 1600, "count": 1600, "to": 1}
+    record = found["measured"]
+    error = np.subtract(record["setpoint_cnt"], record["actual_cnt"])
+    present, proposed = (found[name]["rms_error_cnt"] for name in ("present", "proposed"))
+    assert present == pytest.approx(float(np.sqrt(np.mean(error**2))), rel=1e-4)
+    assert 0.2 * present < proposed < 5.0 * present
+    assert proposed != present
     before = found["present"]["gains"]
     assert hand.do("tune.gains", axis="x")["P Gain"] == pytest.approx(before["PGAIN"])
     applied = hand.do("tune.apply", axis="x", store=True)

@@ -64,19 +64,26 @@ def _setting(advice: "Advice", proposal: "Proposal") -> Iterator[str]:
 
 
 def _worse(advice: "Advice") -> Iterator[str]:
-    """What the proposed gains make worse in a step, so that no one sets them unread."""
+    """What the proposed gains are predicted to make worse, so that no one sets them unread."""
     from openacr.tuning.advice import worse
 
     names = {
-        "overshoot_percent": "overshoot [%]",
-        "rise_s": "rise [ms]",
-        "settling_s": "settling [ms]",
+        "overshoot_percent": "overshoot [%] of a step",
+        "rise_s": "rise [ms] of a step",
+        "settling_s": "settling [ms] of a step",
+        "rms_error_cnt": "RMS error [pulses] of the sweep",
+        "phase_deg": "phase margin [deg]",
+        "gain_db": "gain margin [dB]",
+        "bandwidth_hz": "bandwidth [Hz]",
     }
     for name, (before, after) in worse(advice).items():
-        shown = [_ms(each) if name.endswith("_s") else f"{each:.1f}" for each in (before, after)]
+        shown = [
+            _ms(each) if name.endswith("_s") else "-" if each is None else f"{each:.1f}"
+            for each in (before, after)
+        ]
         yield (
-            f"worse than the present gains: {names[name]} of a step {shown[1]} instead of"
-            f" {shown[0]} (--phase, --bandwidth ask for calmer ones)"
+            f"worse than the present gains: {names[name]} {shown[1]} instead of {shown[0]}"
+            " (--phase, --bandwidth ask for calmer ones)"
         )
 
 
@@ -119,6 +126,7 @@ def _table(loops: "list[Outlook]") -> Iterator[tuple[str, list[str]]]:
     yield "step: settling [ms]", [_ms(each.settling_s) for each in steps]
     if steps[0].vibration_cnt is not None:
         yield "step: load swings [pulses]", [f"{each.vibration_cnt:.2g}" for each in steps]
+    yield "sweep: RMS error [pulses]", [f"{loop.rms_error_cnt:.1f}" for loop in loops]
     if loops[0].move_error_cnt is not None:
         yield "move: error [pulses]", [f"{loop.move_error_cnt:.0f}" for loop in loops]
 

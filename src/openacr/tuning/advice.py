@@ -20,16 +20,19 @@ from openacr.tuning.notches import choose
 from openacr.tuning.propose import Proposal, Wish
 from openacr.tuning.resonance import Resonance
 from openacr.tuning.settings import LoopSettings
-from openacr.tuning.twin import Record
+from openacr.tuning.twin import Record, run
 
 STEP_S = 0.25
 BODE_POINTS = 160
 PEAK_POINTS = 41  # beside, for each peak of a shaft
 BODE_SHARE = 0.45  # of the servo rate: at half of it the response is 0, its phase nothing
 NO_FEEDFORWARD = {"ffvel": 0.0, "ffacc": 0.0}  # a step of the setpoint only saturates it
-# A figure of a step is worse from these differences on, or from a share of it.
-WORSE_BY = {"overshoot_percent": 1.0, "rise_s": 0.0005, "settling_s": 0.002}
+# A figure is worse from these differences on, or from a share of it.
+WORSE_BY = {"overshoot_percent": 1.0, "rise_s": 0.0005, "settling_s": 0.002}  # of a step
+WORSE_ERROR_CNT = 0.5
 WORSE_SHARE = 0.05
+# A margin or bandwidth that has become less is worse below this: a faster loop has smaller margins.
+ENOUGH = {"phase_deg": 45.0, "gain_db": 8.0, "bandwidth_hz": math.inf}
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +53,7 @@ class Outlook:
     step: Record
     figures: predict.StepFigures
     move_error_cnt: float | None
+    rms_error_cnt: float | None = None  # of the sweep
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,9 +95,9 @@ def new_filters(advice: Advice) -> Filters | None:
 
 
 def worse(advice: Advice) -> dict[str, tuple[float | None, float | None]]:
-    """Figures of the predicted step that are worse with the proposed gains than with the present.
+    """Figures that are predicted worse with the proposed gains than with the present ones.
 
-    By name, present and proposed [% or s]; None: it does not get there.
+    By name, present and proposed [%, s, pulses, degrees, dB, Hz]; None: it does not get there.
     """
     if advice.proposed is None:
         return {}
@@ -101,16 +105,41 @@ def worse(advice: Advice) -> dict[str, tuple[float | None, float | None]]:
     for name, noise in WORSE_BY.items():
         before = getattr(advice.present.figures, name)
         after = getattr(advice.proposed.figures, name)
-        least = math.inf if before is None else before + max(noise, WORSE_SHARE * before)
-        if (math.inf if after is None else after) > least:
+        if _is_more(before, after, noise):
             found[name] = (before, after)
+    before, after = advice.present.rms_error_cnt, advice.proposed.rms_error_cnt
+    if _is_more(before, after, WORSE_ERROR_CNT):
+        found["rms_error_cnt"] = (before, after)
+    for name, enough in ENOUGH.items():
+        margins = (advice.present.margins, advice.proposed.margins)
+        before, after = (_margin(each, name) for each in margins)
+        if after < enough and after < before * (1.0 - WORSE_SHARE):
+            found[name] = (_finite(before), after)
     return found
+
+
+def _margin(margins: Margins, name: str) -> float:
+    """A margin; that of the gain to whichever side it is, which its sign tells."""
+    value = float(getattr(margins, name))
+    return abs(value) if name == "gain_db" else value
+
+
+def _is_more(before: float | None, after: float | None, noise: float) -> bool:
+    """Whether a figure has grown by more than its noise; None is beyond all others."""
+    least = math.inf if before is None else before + max(noise, WORSE_SHARE * before)
+    return (math.inf if after is None else after) > least
 
 
 def outlook(
     measurement: Measurement, found: Identified, settings: LoopSettings, move: Move | None
 ) -> Outlook:
-    """What a loop would do with the motor; its step without feed-forward."""
+    """What a loop would do with the motor; its step without feed-forward.
+
+    With the settings of the measurement the error of the sweep is the one that was recorded.
+    """
+    record = measurement.record
+    if settings is not measurement.settings:
+        record = run(settings, found.motor, record.setpoint_cnt, record)
     height = round(measurement.excitation.height_cnt)
     step = predict.step(settings.changed(**NO_FEEDFORWARD), found.motor, height, STEP_S)
     error = None
@@ -125,6 +154,7 @@ def outlook(
         step,
         predict.figures(step, found.motor.shaft),
         error,
+        float(np.sqrt(np.mean(np.square(record.error_cnt)))),
     )
 
 
@@ -148,6 +178,8 @@ def advice_data(advice: Advice) -> dict[str, Any]:
         "limited_by": advice.proposal.limited_by if advice.proposal else "",
         "refusal": advice.refusal,
         "time_s": measurement.excitation.duration_s,
+        "amplitude_cnt": measurement.excitation.height_cnt,
+        "band_hz": [measurement.excitation.low_hz, measurement.excitation.high_hz],
         "worse": worse(advice),
         "measured": measured,
         "modelled": modelled,
@@ -183,6 +215,7 @@ def _outlook_data(found: Outlook) -> dict[str, Any]:
         "margins": {**judged, "gain_db": _finite(found.margins.gain_db)},
         "figures": asdict(found.figures),
         "move_error_cnt": found.move_error_cnt,
+        "rms_error_cnt": found.rms_error_cnt,
         "step": curves(found.step)[0],
     }
 
