@@ -476,3 +476,37 @@ def test_the_focus_is_seen_and_nothing_moves_where_that_is_not_wanted(page: Page
     }).map((each) => each.className)""")
     assert moving == []
     page.emulate_media(reduced_motion="no-preference")
+
+
+def test_keys_of_the_field_have_their_symbol_and_keep_their_text_as_their_name(
+    page: Page, served: Served
+) -> None:
+    def symbol(key: Locator) -> Locator:
+        return key.locator("svg[aria-hidden=true]")
+
+    def until_text(key: Locator, is_seen: bool) -> None:
+        until(page, lambda: (wide_of_text(key) > 10) is is_seen)
+
+    def wide_of_text(key: Locator) -> float:
+        return float(key.locator(".key-text").evaluate("(text) => text.offsetWidth"))
+
+    programs = page.locator("[data-pane=programs]")
+    run = programs.get_by_role("button", name="RUN", exact=True)
+    expect(symbol(run)).to_have_attribute("data-symbol", "run")
+    until_text(run, True)
+    expect(programs.get_by_role("button", name="EDIT", exact=True).locator("svg")).to_have_count(0)
+    editor = page.locator("[data-pane=editor]")
+    send = editor.locator(".pane-head").get_by_role("button", name="DOWNLOAD")
+    expect(symbol(send)).to_have_attribute("data-symbol", "download")
+    for wide, is_text_seen in ((641, True), (640, False)):  # of the pane
+        editor.evaluate("(pane, wide) => { pane.style.width = `${wide}px`; }", wide)
+        until_text(send, is_text_seen)
+        expect(send).to_have_attribute("title", "DOWNLOAD")
+    page.evaluate("import('/js/bench/workspace.js').then((each) => each.openPane('tune'))")
+    step = page.locator("[data-pane=tune]").get_by_role("button", name="STEP", exact=True)
+    expect(step).to_be_visible()
+    expect(step.locator("svg")).to_have_count(0)  # a step of the position, no line of a program
+    operator = open_page(page.context, served.url)
+    expect(operator.locator(".key").first).to_be_visible()
+    expect(operator.locator(".key-symbol")).to_have_count(0)
+    operator.close()

@@ -1,5 +1,6 @@
 // The keys of the workspace: jobs, panes, layouts, the operator's screens.
 import { byId, fill, h } from "../core/dom.js";
+import { relabel } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { ACTIONS } from "./actions.js";
 import { projectSign } from "./project_sign.js";
@@ -37,15 +38,13 @@ export function startBar() {
  */
 function keyOf(what, name) {
   const { title, keys, does } = ACTIONS[name];
-  return h(
-    what,
-    {
-      type: "button",
-      data: { does: name },
-      title: `${t(title)} (${shownKeys(keys)})`,
-      attr: { "aria-keyshortcuts": spokenKeys(keys) },
-      onclick: () => void does(),
-    },
-    t(title),
-  );
+  const key = h(what, {
+    type: "button",
+    data: { does: name },
+    title: `${t(title)} (${shownKeys(keys)})`,
+    attr: { "aria-keyshortcuts": spokenKeys(keys) },
+    onclick: () => void does(),
+  });
+  relabel(key, title);
+  return key;
 }

@@ -1,8 +1,10 @@
 // Start of the engineer's workspace: the frame of the operator's with panes in the place of its windows.
 import { link, model } from "../core/app.js";
+import { showSymbols } from "../core/keys.js";
 import { applyTheme, followSystemTheme, setting } from "../core/settings.js";
 import { addTexts, useLanguage } from "../core/texts.js";
 import texts from "../catalog/bench.js";
+import { symbolOf } from "./symbols.js";
 
 async function start() {
   link.onEvent = (event) => model.takeEvent(event);
@@ -13,6 +15,7 @@ async function start() {
   followSystemTheme();
   useLanguage(setting("language", "en"));
   addTexts(texts);
+  showSymbols(symbolOf);
   const [clock, top, prompt, stop, workspace, bar, actions, names, forced] = await Promise.all([
     import("../frame/clock.js"),
     import("../frame/top.js"),

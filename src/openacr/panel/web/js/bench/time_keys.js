@@ -1,7 +1,7 @@
 // The keys above the timeline: time that runs, is still or goes step by step, another branch, the machine operated again.
 import { give, model } from "../core/app.js";
-import { h, setText } from "../core/dom.js";
-import { keyOf } from "../core/keys.js";
+import { h } from "../core/dom.js";
+import { keyOf, relabel } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { ask } from "../frame/dialog.js";
 
@@ -96,7 +96,7 @@ export function createTimeKeys(head) {
   return {
     /** @param {{ still: boolean, away: boolean, isEnd: boolean }} now */
     show({ still, away, isEnd }) {
-      setText(pause, t(still ? TEXTS.run : TEXTS.pause));
+      relabel(pause, still ? TEXTS.run : TEXTS.pause);
       operate.disabled = !away;
       branch.disabled = !away || isEnd;
     },

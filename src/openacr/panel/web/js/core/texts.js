@@ -49,6 +49,14 @@ export function t(what, values = {}) {
 }
 
 /**
+ * A text in English, whatever language is chosen: the name by which tables find what is said.
+ * @param {Said} what
+ */
+export function inEnglish(what) {
+  return typeof what === "string" ? (catalogue[what]?.en ?? what) : what.en;
+}
+
+/**
  * The text of a key that is made at run time, or the fallback where there is none.
  * @param {string} key
  * @param {string} fallback

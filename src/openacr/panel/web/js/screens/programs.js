@@ -229,7 +229,7 @@ export const screen = {
       const bar = owner || (model.may("service") ? "" : t("role.needed", { role: t("role.service") }));
       const [isRunning, isPaused] = [state !== undefined && state.state !== HALTED, state?.state === "paused"];
       const key = (/** @type {any} */ label, /** @type {() => void} */ does, more = {}) =>
-        h("button.key", { type: "button", disabled: Boolean(bar), title: bar, onclick: does, ...more }, t(label));
+        keyOf(label, does, "", { disabled: Boolean(bar), title: bar, ...more });
       const order =
         (/** @type {string} */ cmd, values = {}) =>
         () =>

@@ -1,7 +1,7 @@
 // Breakpoints in the editor: set at line numbers, the line before which a program is held, and the keys that let it go.
 import { give, model, refuse, report } from "../../core/app.js";
 import { fill, h } from "../../core/dom.js";
-import { keyOf } from "../../core/keys.js";
+import { keyOf, relabel } from "../../core/keys.js";
 import { t } from "../../core/texts.js";
 import { ask, askText } from "../../frame/dialog.js";
 
@@ -51,7 +51,7 @@ let reported = 0; // the last hold that was said, by any editor
  *   drawMarks: () => void }} pane
  */
 export function debugPart({ level, stored, state, editor, drawMarks }) {
-  const listKey = h("button.key", { type: "button", onclick: () => void showList() });
+  const listKey = keyOf(TEXTS.list, () => void showList());
   const goKeys = GO_KEYS.map(([how, label, title]) => keyOf(label, () => void go(how), "", { title }));
   const bar = h("div.row.text-debug", { hidden: true, role: "toolbar", ariaLabel: t(TEXTS.keys) }, ...goKeys, listKey);
   const held = () => model.breakpoints.value.held;
@@ -188,7 +188,7 @@ export function debugPart({ level, stored, state, editor, drawMarks }) {
     draw() {
       const { breakpoints, why_not } = model.breakpoints.value;
       bar.hidden = Boolean(why_not) || level().startsWith("PLC") || !(breakpoints.length || held().length);
-      listKey.textContent = t(TEXTS.list, { count: breakpoints.length });
+      relabel(listKey, TEXTS.list, { count: breakpoints.length });
       const name = program() < 0 ? "" : `PROG${program()}`;
       const isOff =
         !name || !model.may("service") || !(isHeld(name) || ["paused", "waits for STEP"].includes(state(name)));

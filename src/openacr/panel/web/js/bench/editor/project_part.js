@@ -51,7 +51,7 @@ export function projectPart({ opened, text, show, mayDrop, draw }) {
       const { level, project } = opened();
       saveKey.hidden = !hasProject() || !level;
       saveKey.disabled = !maySave();
-      saveKey.title = project?.why_not ?? "";
+      saveKey.title = project?.why_not || t("texts.project.save");
       openKey.hidden = !project || project.is_same || !project.text;
     },
     /** That the card differs from the project, in words; empty where it does not. */

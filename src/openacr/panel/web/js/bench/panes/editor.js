@@ -174,7 +174,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     sendKey.title = isRunning
       ? t(TEXTS.runs, { name: opened.level })
       : model.may("service")
-        ? ""
+        ? t(TEXTS.send)
         : t("role.needed", { role: t("role.service") });
     project.draw();
     debug.draw();
