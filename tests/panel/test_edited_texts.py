@@ -68,6 +68,23 @@ def test_numbers_of_parameters_and_flags_are_explained_after_them_in_16_bit_unit
     assert "Jog Active" in hints[1][2]
 
 
+def test_what_has_a_value_is_named_line_by_line_and_expressions_are_not() -> None:
+    text = (
+        "PROGRAM\nDIM LV(2)\nLV0 = SPEED + LA0( 3 ) + LA1(LV0) ' P9\nDWL 1\n"
+        "IF (P12288 > SV2) THEN SET BIT 130 : SPEED = P0 + P(LV0)\nENDP\n"
+    )
+    assert Editor(text).ask("values", 1, last=9) == [
+        (2, "PROG3", [("LV0", "LV0"), ("SPEED", "P0"), ("LA0(3)", "LA0(3)")]),
+        (4, "PROG3", [("P12288", "P12288"), ("SV2", "SV2"), ("BIT130", "BIT130"), ("SPEED", "P0"),
+                      ("LV0", "LV0")]),
+    ]  # fmt: skip
+    assert Editor(text).ask("values", 0, last=1) == []
+    plc = Editor("LD 5\nAND NOT gripper\nOUT 41\n", "plc2.8k", "#DEFINE gripper BIT33\n")
+    assert plc.ask("values", 1, last=2) == [
+        (1, "PLC2", [("gripper", "BIT33")]), (2, "PLC2", [("BIT41", "BIT41")]),
+    ]  # fmt: skip
+
+
 def test_programs_blocks_and_remarks_fold() -> None:
     text = "' one\n' two\nPROGRAM\nIF (P0 = 1)\nDWL 1\nENDIF\nENDP\n"
     editor = Editor(text, name="setup.8k")

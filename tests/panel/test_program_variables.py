@@ -8,8 +8,9 @@ import pytest
 from tests.panel.bench import HandStation, Served
 
 from openacr.client import Level
-from openacr.client.program_variables import Value, variables
+from openacr.client.program_variables import Value, dimensioned, variables
 from openacr.client.stored import ListedLine
+from openacr.debugger.variables import local_text
 from openacr.panel.server.calls.variables import NO_STACK, used
 
 NESTED = (
@@ -76,6 +77,24 @@ def test_parameters_and_flags_of_a_text_are_listed_once_by_number() -> None:
     assert [each["id"] for each in found] == ["P5", "P12288", "BIT130", "BIT516"]
 
 
+ASKED = ("LV0", "LV1", "LV2", "DA0(0)", "DA0(1)", "DA0(2)", "DA1(0)", "$V0", "$V1", "SV0", "$A0(0)")
+GIVEN = {"LV0": "7", "LV1": "1", "DA0(0)": "0", "DA0(1)": "2.5", "$V0": "'go'"}
+
+
+def test_chosen_variables_and_elements_are_read_and_those_without_memory_left_out(
+    hand: HandStation,
+) -> None:
+    running(hand)
+    future = hand.station.on_card.aside.begin(lambda talk: dimensioned(talk, 3, ASKED))
+    hand.until(future.done)
+    assert future.result() == GIVEN
+    card = hand.station.installation.controller
+    assert card is not None
+    held = {each: local_text(card, 3, each) for each in ASKED}
+    assert held == {**dict.fromkeys(ASKED), **GIVEN}
+    assert [local_text(card, 3, each) for each in ("P0", "LV0+1", "LA0", "LV0(0)")] == [None] * 4
+
+
 @pytest.fixture
 def web(panel: Served) -> Iterator[tuple[Served, httpx.Client]]:
     with httpx.Client(base_url=f"{panel.url}/api", timeout=None) as client:
@@ -107,3 +126,11 @@ def test_the_flow_stack_and_the_wait_of_a_program_are_read(
     refused = client.get("/card/variables", params={"plc": 0}).json()["error"]
     assert refused["text"] == "PLC0: only programs have variables of their own"
     monkeypatch.undo()
+    three = "/card/values?program=3&names="
+    values = {"values": {"LV1": "1", "DA0(1)": "2.5"}}
+    assert client.get(f"{three}LV1;DA0(1);LV2").json() == values
+    monkeypatch.setattr(type(served.station.installation), "controller", None)  # as over a link
+    assert client.get(f"{three}LV1;DA0(1);LV2").json() == values
+    monkeypatch.undo()
+    for wrong in ("LV0;?P0", "P0", "LV0;", ""):
+        assert client.get(f"{three}{wrong}").json()["error"]["code"] == "bad"

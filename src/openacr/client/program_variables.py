@@ -1,6 +1,7 @@
 """The variables of programs: read, asked for and changed at the prompt of their program."""
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from openacr.client.effects import Op
@@ -11,6 +12,8 @@ from openacr.errors import UserError
 MOST = 100  # variables of a kind, or elements of an array: each is a line of its own
 _SCALARS = re.compile(r"DIM (LV|SV|DV|\$V)\((\d+)(?:,\d+)?\)")
 _ARRAY = re.compile(r"DIM ((?:LA|SA|DA|\$A)\d+)\((\d+)(?:,\d+)?\)")
+# LV0, LA0(3): whose count DIM shows, and the place in it.
+LOCAL = re.compile(r"((?:LV|SV|DV|\$V)(?=\d+$)|(?:LA|SA|DA|\$A)\d+(?=\())\(?(\d+)\)?")
 _FLAG = re.compile(r"BIT\s*(\d+)", re.IGNORECASE)
 _VARIABLE = re.compile(
     r"(?:P|LV|SV|DV|\$V)\s*(?:\d+|\([^:]*\))|(?:LA|SA|DA|\$A)\s*\d+\s*\([^:]*\)", re.IGNORECASE
@@ -65,6 +68,20 @@ def variables(talk: Talk, program: int) -> Op[list[Value]]:
         elif array := _ARRAY.fullmatch(line):
             found.append((yield from _array(talk, program, array[1], int(array[2]))))
     return found
+
+
+def dimensioned(talk: Talk, program: int, names: Iterable[str]) -> Op[dict[str, str]]:
+    """The values of those of some variables and elements that a program has dimensioned."""
+    counts: dict[str, int] = {}  # of LV, of LA0
+    for line in (yield from talk.query("DIM", at=Level.program(program))):
+        if held := _SCALARS.fullmatch(line) or _ARRAY.fullmatch(line):
+            counts[held[1]] = int(held[2])
+    values = {}
+    for name in names:
+        found = LOCAL.fullmatch(name)
+        if found is not None and int(found[2]) < counts.get(found[1], 0):
+            values[name] = yield from _text(talk, program, name)
+    return values
 
 
 def _array(talk: Talk, program: int, name: str, count: int) -> Op[Value]:

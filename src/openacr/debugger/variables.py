@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from struct import iter_unpack
+from itertools import islice
+from struct import calcsize, iter_unpack
 
 from openacr.basic.memory.heap import ARRAYS, SCALARS
-from openacr.client.program_variables import Value
+from openacr.client.program_variables import LOCAL, Value
 from openacr.controller.controller import Controller
 from openacr.debugger.calls import levels_of, state_of
 
@@ -30,6 +31,32 @@ def locals_of(card: Controller, program: int) -> Iterator[Value]:
     for place, block in enumerate(strings.arrays):
         if block is not None:
             yield _array(f"$A{place}", [repr(text) for text in block.values])
+
+
+def local_text(card: Controller, program: int, name: str) -> str | None:
+    """The value of `LV0` or `SA1(3)` of a program; None while it is not dimensioned."""
+    found = LOCAL.fullmatch(name)
+    if found is None:
+        return None
+    owner, at = found[1], int(found[2])
+    kind, array = owner[:2], int(owner[2:] or 0)
+    if kind.startswith("$"):
+        strings = card.system.storage.locals.strings[program]
+        block = strings.variables if kind == "$V" else dict(enumerate(strings.arrays)).get(array)
+        return repr(block.values[at]) if block and at < len(block.values) else None
+    held, size = _held(card, program, kind, array), calcsize(f"<{_FORMATS[kind]}")
+    texts = list(_texts(kind, held[at * size : (at + 1) * size]))
+    return texts[0] if texts else None
+
+
+def _held(card: Controller, program: int, kind: str, array: int) -> bytes:
+    """Variables of a kind, or the elements of an array, as they are in memory."""
+    heap = card.system.storage.heap
+    for scalar in SCALARS:
+        if scalar.name == kind:
+            return heap.scalars(program, scalar)
+    table = next(each for each in ARRAYS if each.name == kind)
+    return next(islice(heap.elements(program, table), array, None), b"")
 
 
 def _texts(kind: str, held: bytes) -> Iterator[str]:

@@ -10,7 +10,7 @@ A file that is not open has no answers; places outside of a text are the nearest
 from collections.abc import Iterable, Iterator
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from openacr.editing import marks as marking
 from openacr.editing.completions import Completion, Signature
@@ -22,6 +22,9 @@ from openacr.editing.outlines import Entry, Fold
 from openacr.editing.symbols import Finding, Fix, Location
 from openacr.editing.texts import markdown
 from openacr.errors import UserError
+
+if TYPE_CHECKING:
+    from openacr.editing.controller.language import ControllerLanguage
 
 
 class Colored(NamedTuple):
@@ -46,7 +49,7 @@ class Engine:
         self._machine = store, dialect
 
     @cached_property
-    def _controller(self) -> Language:
+    def _controller(self) -> "ControllerLanguage":
         from openacr.editing.controller.language import ControllerLanguage
 
         return ControllerLanguage(self.files)
@@ -228,6 +231,15 @@ class Engine:
         for line, mark in self.colored(path, first, last):
             if text := language.hint(document, mark):
                 yield Shown(Place(line, mark.end), text)
+
+    def values(
+        self, path: Path, first: int, last: int
+    ) -> Iterator[tuple[int, str, list[tuple[str, str]]]]:
+        """Lines of a controller file that name values: line, program, as written with its name."""
+        document = self.document(path)
+        if is_controller(document):
+            lines = range(max(first, 0), min(last + 1, len(document.lines)))
+            yield from self._controller.values(document, lines)
 
     # what is wrong
 

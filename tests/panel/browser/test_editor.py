@@ -6,13 +6,14 @@ from pathlib import Path
 
 import httpx
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
+from playwright.sync_api import Browser, BrowserContext, Locator, Page, Route, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import (
     hold_answers,
     open_page,
     picture,
     release_answers,
+    until,
     until_model,
 )
 from tests.panel.browser.test_bench import show_pane
@@ -255,6 +256,103 @@ def test_variables_and_the_flow_stack_of_a_program_are_seen_and_changed(
     expect(shown.locator("[data-variable=LV0] .live")).to_have_text("7")
     expect(shown.locator("[data-item=P5] .live")).to_have_text("7")
     page.get_by_role("button", name="CLOSE PANE").click()
+
+
+VALUES = (
+    "PROGRAM\nDIM LV(1)\nDIM SA(1)\nDIM SA0(3)\n_more\nSA0(2) = 2.5 : LV0 = LV0+1\n"
+    "IF (BIT128 OR P5 > LV0+SA0(LV0 MOD 3)) THEN P5 = P5\nDWL 0.05\nGOTO more\nENDP\n"
+)
+RESULT = r"LV0 = (\d+)"
+
+
+def values(page: Page) -> Locator:
+    return pane(page).locator(".cm-values")
+
+
+def shown_count(page: Page) -> int:
+    found = re.search(RESULT, values(page).first.get_attribute("data-values") or "")
+    return int(found[1]) if found else -1
+
+
+def test_values_are_beside_the_lines_while_the_program_runs_and_move_no_text(
+    page: Page, served: Served
+) -> None:
+    looks = "(lines) => lines.map((each) => [each.offsetTop, each.offsetHeight, each.textContent])"
+    wide = "(scroller) => [scroller.scrollWidth, scroller.scrollHeight]"
+    scroller = pane(page).locator(".cm-scroller")
+    stored(served, VALUES)
+    on_card(served, "P5 = 3", "CLR 128")
+    lines(page).nth(0).click()
+    key(page, "READ").click()
+    expect(lines(page)).to_have_count(10)
+    expect(values(page)).to_have_count(2)
+    expect(values(page).first).to_have_attribute("data-values", "")  # it is halted
+    expect(lines(page).nth(6).locator(".cm-hint").first).to_be_visible()
+    expect(values(page).last).to_have_attribute("style", re.compile("width"))
+    page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    before = lines(page).evaluate_all(looks), scroller.evaluate(wide)
+    on_card(served, "RUN PROG3")
+    expect(values(page).first).to_have_attribute(
+        "data-values", re.compile(rf"SA0\(2\) = 2.5   {RESULT}")
+    )
+    expect(values(page).last).to_have_attribute(
+        "data-values", re.compile(rf"BIT128 = off   P5 = 3   {RESULT}")
+    )
+    first = shown_count(page)
+    until(page, lambda: shown_count(page) > first)
+    assert (lines(page).evaluate_all(looks), scroller.evaluate(wide)) == before
+    on_card(served, "SET 128", "P5 = 4")
+    expect(values(page).last).to_have_attribute("data-values", re.compile("BIT128 = on   P5 = 4"))
+    expect(values(page).last).to_have_attribute("title", re.compile("^BIT128 = on\nP5 = 4\nLV0 = "))
+    on_card(served, "PAUSE PROG3")
+    expect(pane(page).locator(".text-foot")).to_contain_text("paused")
+    expect(values(page).last).to_have_attribute("data-values", re.compile("BIT128 = on"))
+    assert shown_count(page) > 0
+    on_card(served, "HALT PROG3")
+    expect(values(page).last).to_have_attribute("data-values", "")
+
+
+def test_values_are_switched_off_and_stay_so_and_a_card_that_cannot_be_read_says_why(
+    page: Page, served: Served
+) -> None:
+    stored(served, VALUES)
+    key(page, "READ").click()
+    expect(lines(page)).to_have_count(10)
+    on_card(served, "RUN PROG3")
+    until(page, lambda: shown_count(page) > 0)
+    switch = key(page, "VALUES")
+    switch.click()
+    expect(values(page).first).to_have_attribute("data-values", "")
+    asked: list[str] = []
+    page.on("request", lambda each: asked.append(each.url) if "card/values" in each.url else None)
+    page.reload()
+    until_model(page, "model.hello.value.client")
+    expect(switch).to_have_attribute("aria-pressed", "false")
+    expect(values(page).first).to_have_attribute("data-values", "")
+    expect(pane(page).locator(".text-foot")).to_contain_text("dwells")
+    assert asked == []
+    held: list[Route] = []  # a link that is slow
+    page.route("**/api/card/values?*", lambda route: held.append(route))
+    switch.click()
+    until(page, lambda: held)
+    on_card(served, "CLR 128")
+    expect(values(page).last).to_have_attribute(
+        "data-values", re.compile("BIT128 = off .* LV0 = –")
+    )
+    on_card(served, "SET 128")
+    expect(values(page).last).to_have_attribute("data-values", re.compile("BIT128 = on"))
+    assert len(held) == 1  # the next question waits for the answer
+    held[0].fulfill(status=409, json={"error": {"code": "refused", "text": "no second connection"}})
+    expect(pane(page).locator(".text-foot")).to_contain_text("no second connection")
+    until(page, lambda: len(held) == 2)
+    page.unroute("**/api/card/values?*")  # which lets the second one through
+    until(page, lambda: shown_count(page) > 0)
+    expect(pane(page).locator(".text-foot")).not_to_contain_text("no second connection")
+    assert page.complaints == [  # type: ignore[attr-defined]
+        "Failed to load resource: the server responded with a status of 409 (Conflict)"
+    ]
+    page.complaints.clear()  # type: ignore[attr-defined]
+    on_card(served, "HALT PROG3")
 
 
 def test_a_breakpoint_holds_the_program_before_its_line_and_keys_let_it_step(

@@ -15,6 +15,7 @@ from openacr.editing.controller.folding import folds
 from openacr.editing.controller.marks import marks_of
 from openacr.editing.controller.names import ProjectNames, names_of
 from openacr.editing.controller.outline import Outline, Section, outline
+from openacr.editing.controller.values import value_name, values_in
 from openacr.editing.document import Document, Edit, Place
 from openacr.editing.languages import Files
 from openacr.editing.marks import Kind, Mark, Symbol
@@ -82,6 +83,24 @@ class ControllerLanguage:
 
     def _marks(self, document: Document, line: int) -> tuple[Mark, ...]:
         return next(self.marks(document, (line,)))[1]
+
+    def values(
+        self, document: Document, lines: Iterable[int]
+    ) -> Iterator[tuple[int, str, list[tuple[str, str]]]]:
+        """Lines that name values: the line, its program, and what `values_in` finds."""
+        targets = self._value_targets(document)
+        for line, marks in self.marks(document, lines):
+            if found := list(values_in(document.lines[line], marks, targets)):
+                yield line, self.section(document, line).title, found
+
+    def _value_targets(self, document: Document) -> dict[str, str]:
+        """The values that aliases stand for."""
+        found = {}
+        for alias, target in self.names(document).aliases.items():
+            marks = marks_of(target, NO_NAMES, NO_NAMES, is_plc=False)
+            if marks and (name := value_name(target, marks[0])):
+                found[alias] = name
+        return found
 
     # names
 

@@ -92,6 +92,12 @@ def hints(opened: Opened, about: About) -> object:
 
 
 @question
+def values(opened: Opened, about: About) -> object:
+    """What has a value in some lines: line, program, each as it is written with its name."""
+    return list(opened.engine.values(opened.path, about.line, about.last))
+
+
+@question
 def hover(opened: Opened, about: About) -> object:
     """What is at a place, as Markdown, and its span."""
     found = opened.engine.describe(opened.path, _place(opened, about))

@@ -48,7 +48,7 @@ class Asked(Edited, frozen=True, kw_only=True):
     """A question about a text, at a place or about lines; columns in 16-bit units, all from 0."""
 
     ask: Literal[
-        "colors", "hints", "hover", "complete", "signature", "definitions", "references",
+        "colors", "hints", "values", "hover", "complete", "signature", "definitions", "references",
         "renamable", "rename", "outline", "folds", "formatted", "findings", "stored",
     ]  # fmt: skip
     line: Place = 0

@@ -2,12 +2,15 @@
 
 from collections.abc import Sequence
 from dataclasses import asdict
+from typing import Annotated
 
+from msgspec import Meta
 from starlette.concurrency import run_in_threadpool
 
-from openacr.client.program_variables import variables
+from openacr.client.program_variables import dimensioned, variables
 from openacr.client.stored import ListedLine, listing
 from openacr.debugger.calls import is_running, levels_of, state_of
+from openacr.debugger.variables import local_text
 from openacr.editing.controller.marks import marks_of
 from openacr.editing.marks import Kind, Mark
 from openacr.errors import UserError
@@ -18,6 +21,7 @@ from openacr.panel.server.calls.card import data_of
 from openacr.panel.server.calls.on_card import OfProgram, talked
 
 MOST_USED = 200
+NAMES = r"^[LSD$][VA]\d{1,4}(\(\d{1,6}\))?(;[LSD$][VA]\d{1,4}(\(\d{1,6}\))?){0,59}$"
 NO_STACK = (
     "a card over a link does not show its flow stack: LISTEN and TRON show the lines it executes"
 )
@@ -41,6 +45,33 @@ async def card_variables(call: Call) -> object:
 
     place = await call.panel.ask(read)
     return {"name": f"PROG{number}", "variables": list(map(asdict, found)), **place}
+
+
+class Locals(OfProgram, frozen=True, kw_only=True):
+    """Variables and elements of a program, as LV0;LA0(3)."""
+
+    names: Annotated[str, Meta(max_length=2000, pattern=NAMES)]
+
+
+@endpoint("GET", "/card/values", query=Locals)
+async def card_values(call: Call) -> object:
+    """The values of variables and elements of a program; those it has not dimensioned are absent.
+
+    Those of a card in this process are read from its memory, also where its time is still.
+    """
+    number, names = _program(call), call.query.names.split(";")
+
+    def read(station: Station) -> dict[str, str] | None:
+        card = station.installation.controller
+        if card is None:
+            return None
+        held = {each: local_text(card, number, each) for each in names}
+        return {name: text for name, text in held.items() if text is not None}
+
+    found = await call.panel.ask(read)
+    if found is None:
+        found = await talked(call.panel, lambda talk: dimensioned(talk, number, names))
+    return {"values": found}
 
 
 @endpoint("GET", "/card/used", query=OfProgram)

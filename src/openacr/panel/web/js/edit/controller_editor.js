@@ -18,6 +18,7 @@ import {
   tooltips,
 } from "../../vendor/codemirror.js";
 import { applyEdits, language } from "./language.js";
+import { lineValues } from "./line_values.js";
 import { lineMarks, setLineMarks } from "./line_marks.js";
 import { LOOKS, findTexts } from "./looks.js";
 import { SyncedText, offsetsOf, placeOf } from "./synced.js";
@@ -37,12 +38,13 @@ const ABOUT = EditorView.theme({
  * @property {(changes: import("../../vendor/codemirror.js").ChangeSet) => void} changed
  * @property {() => void} moved the cursor
  * @property {Record<string, () => void>} keys
+ * @property {(seen: import("./line_values.js").Named[]) => void} named what the lines in view name has changed
  * @property {(line: number, isRight: boolean) => void} lineChosen a line number was pressed, from 1
  *
  * @param {HTMLElement} host
  * @param {Options} options
  */
-export function createControllerEditor(host, { name, setup, text, found, changed, moved, keys, lineChosen }) {
+export function createControllerEditor(host, { name, setup, text, found, changed, moved, keys, named, lineChosen }) {
   const place = h("div.editor", {});
   host.replaceChildren(place);
   const root = place.attachShadow({ mode: "open" });
@@ -60,6 +62,7 @@ export function createControllerEditor(host, { name, setup, text, found, changed
   };
   const state = EditorState.create({ doc: text });
   const synced = new SyncedText(name, setup, state.doc);
+  const values = lineValues(synced, named);
   const view = new EditorView({
     root,
     parent: root,
@@ -85,6 +88,7 @@ export function createControllerEditor(host, { name, setup, text, found, changed
         }),
         language(synced, found),
         lineMarks,
+        values.extension,
         keymap.of([...own, ...defaultKeymap, ...historyKeymap, ...searchKeymap]),
         EditorView.contentAttributes.of({
           "aria-label": t("texts.text"),
@@ -114,6 +118,7 @@ export function createControllerEditor(host, { name, setup, text, found, changed
     },
     /** @param {any[][]} edits */
     apply: (edits) => applyEdits(view, edits),
+    showValues: values.show,
     /** @param {import("./line_marks.js").LineMark[]} marks */
     mark: (marks) => view.dispatch({ effects: setLineMarks.of(marks) }),
     /**

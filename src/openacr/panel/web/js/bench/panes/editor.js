@@ -17,7 +17,9 @@ import { comparison } from "../editor/compare.js";
 import { debugPart } from "../editor/debug_part.js";
 import { nameActions } from "../editor/name_actions.js";
 import { followPlaces } from "../editor/places_part.js";
+import { problemList } from "../editor/problem_list.js";
 import { projectPart } from "../editor/project_part.js";
+import { valuesPart } from "../editor/values_part.js";
 
 const TEXTS = {
   which: { en: "Program or file", de: "Programm oder Datei" },
@@ -31,7 +33,6 @@ const TEXTS = {
   outline: { en: "OUTLINE", de: "GLIEDERUNG" },
   close: { en: "CLOSE", de: "SCHLIESSEN" },
   beside: { en: "Beside the text", de: "Neben dem Text" },
-  findings: { en: "Findings and places", de: "Befunde und Stellen" },
   changed: { en: "changed", de: "ge\u00e4ndert" },
   runs: { en: "{name} runs: halt it first", de: "{name} l\u00e4uft: erst anhalten" },
   more: { en: "{count} more {count|finding|findings}", de: "{count} {count|weiterer Befund|weitere Befunde}" },
@@ -81,6 +82,13 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   /** @type {ReturnType<typeof createControllerEditor>} */
   let editor;
 
+  const { problems, list } = problemList({
+    goTo: (span) => {
+      closeBeside();
+      editor.goTo(span);
+    },
+    apply: (edits) => editor.apply(edits),
+  });
   const actions = nameActions({ asked, editor: () => editor, list, showBeside });
   const debug = debugPart({
     level: () => opened.level,
@@ -88,6 +96,12 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     stored: () => stored,
     state: (level) => stateOf(level)?.state ?? "",
     drawMarks: () => editor && drawMarks(),
+  });
+  const values = valuesPart({
+    isSeen: () => host.offsetParent !== null,
+    state: (level) => stateOf(level)?.state,
+    show: (say) => editor.showValues(say),
+    draw: () => draw(),
   });
   const choice = h("select.field", { ariaLabel: t(TEXTS.which), onchange: () => void chooseLevel() });
   const input = h("input", {
@@ -118,6 +132,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     keyOf(TEXTS.uses, actions.uses),
     keyOf(TEXTS.format, actions.format),
     keyOf(TEXTS.outline, actions.outline),
+    values.key,
   );
   const code = h("div.editor-host.grow", {});
   const beside = h("div.stack.scroll.text-beside", {
@@ -126,7 +141,6 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     role: "region",
     ariaLabel: t(TEXTS.beside),
   });
-  const problems = h("div.findings.scroll", { hidden: true, role: "region", ariaLabel: t(TEXTS.findings) });
   const signature = h("div.mono.text-signature", { ariaLive: "off" });
   const status = h("span.hint.grow", { role: "status" });
   host.classList.add("is-editor");
@@ -151,11 +165,13 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
       editor.close();
       keep({ level: now.level });
     }
+    values.seen([]);
     editor = createControllerEditor(code, {
       ...now,
       found: showFindings,
       changed,
       moved,
+      named: values.seen,
       ...debug.editing(actions.keys),
     });
     closeBeside();
@@ -184,6 +200,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
       t("edit.lines", { count: editor.doc().lines }),
       isChanged() ? t(TEXTS.changed) : "",
       project.differs(),
+      values.why(),
     ];
     setText(status, about.filter(Boolean).join(" \u00b7 "));
     drawMarks();
@@ -255,35 +272,6 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
       findings.map(({ span, text, is_warning, fix }) => ({ span, text, kind: is_warning ? "warning" : "error", fix })),
     );
     if (more) problems.append(h("p.hint", {}, t(TEXTS.more, { count: more })));
-  }
-
-  /** @param {import("../editor/name_actions.js").Item[]} items */
-  function list(items) {
-    problems.hidden = items.length === 0;
-    fill(
-      problems,
-      ...items.map(({ span, text, kind, fix }) =>
-        h(
-          "div.row",
-          {},
-          h(
-            "button",
-            {
-              type: "button",
-              className: `key item grow ${kind}`,
-              onclick: () => {
-                closeBeside();
-                editor.goTo(span);
-              },
-            },
-            h("span", {}, kind === "error" ? "\u26a0" : "\u2139"),
-            h("span.number", {}, `${span[0] + 1}:${span[1] + 1}`),
-            h("span.name", {}, text),
-          ),
-          ...(fix ? [h("button.key", { type: "button", onclick: () => editor.apply(fix.edits) }, fix.title)] : []),
-        ),
-      ),
-    );
   }
 
   /** @param {...Node} content */
@@ -452,10 +440,12 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     needPrograms(),
     model.programs.watch(({ programs }) => {
       states = programs;
+      values.follow();
       draw();
     }),
     project.watch(),
     debug.watch(),
+    values.watch(),
   );
   const { programs } = await get("card/programs");
   fill(choice, ...levelOptions(programs));
