@@ -11,6 +11,8 @@ import pytest
 from tests.controller.hosts import X_AND_Y, connected
 from tests.panel.bench import LIMIT_S, HandStation, Served
 
+from openacr.client import Level
+from openacr.client.program_variables import variables
 from openacr.controller import Controller
 from openacr.controller.changes import MOVED, Changes
 from openacr.controller.journal import read_journal
@@ -19,6 +21,7 @@ from openacr.debugger.calls import is_running
 from openacr.errors import UserError
 from openacr.journal.entries import Entered, JournalEntry
 from openacr.map.words import af1, mf1
+from openacr.panel.control.engineer.conversations import answer_of
 from openacr.panel.control.engineer.scope import Samples
 from openacr.panel.control.engineer.watches import Wish
 from openacr.panel.control.machine.blocks import MOST as MOST_BLOCKS
@@ -222,6 +225,8 @@ def test_a_value_set_in_the_past_begins_a_branch_and_both_can_be_compared(
     hand.do("timeline.seek", tick=tick)
     assert hand.do("card.write", parameter=0, value=500.0) == {"value": 500.0}
     assert history(hand).timeline.branch.number == 1
+    at_s = tick * history(hand).period_s
+    assert hand.said[-1] == f"branch 1 begins at {at_s:.4g} s: first keeps the rest"
     hand.do("timeline.run", speed=1.0)
     hand.run(0.5)
     timeline = history(hand).timeline
@@ -237,6 +242,27 @@ def test_a_value_set_in_the_past_begins_a_branch_and_both_can_be_compared(
     assert hand.refused("timeline.forget", number=0)["text"] == (
         "branch 0 is the present one: change to another one first"
     )
+
+
+def test_what_is_asked_of_a_moment_is_answered_by_a_copy_at_its_statement(
+    hand: HandStation,
+) -> None:
+    hand.station.link.machine.card.command("DIM LV(1)", program=5)
+    hand.station.link.machine.card.download("10 LV0=LV0+1\n20 GOTO 10\n", to=Level.program(5))
+    hand.station.link.machine.card.command("RUN", program=5)
+    hand.run(0.5)
+    tick = history(hand).lived_tk - 500
+    hand.do("timeline.seek", tick=tick)
+    counts = []
+    for _ in range(4):  # lines 10 and 20 in turn, within one tick
+        hand.do("timeline.step", what="line", number=5)
+        assert history(hand).card.within
+        digest = history(hand).card.digest()
+        found = answer_of(history(hand).moment(), lambda talk: variables(talk, 5))
+        assert (len(found), found[0].name) == (1, "LV0")
+        counts.append(int(found[0].text))
+        assert history(hand).card.digest() == digest  # nothing of the card that is shown
+    assert [each - counts[0] for each in counts] in ([0, 0, 1, 1], [0, 1, 1, 2])
 
 
 def test_a_branch_begun_without_a_change_goes_on_as_the_first_without_its_inputs(

@@ -54,6 +54,15 @@ class Course:
         card.take_over(self.snapshot)
         return card
 
+    def at_last(self) -> Controller:
+        """Another card at the last moment."""
+        card = self.card()
+        player = Player(card)
+        for entry in self.entries:
+            player.play(entry)
+        player.advance_within(self.last.tick, self.last.within)
+        return card
+
     def moments(self, ticks: Sequence[int]) -> Iterator[Controller]:
         """The card at the ends of these ticks, which ascend; UserError for one outside."""
         card = self.card()

@@ -164,7 +164,7 @@ class Timeline:
         What programs print meanwhile is not heard, and what waits to be sent is dropped.
         """
         self._reach()
-        moment = Moment(moment) if isinstance(moment, int) else moment
+        moment = _moment(moment)
         self.branch.require(moment)
         with self.card.undisturbed():
             self._return_to(self.branch.keyframe(moment), unless_before=moment)
@@ -242,16 +242,16 @@ class Timeline:
         self.branches.remove(branch)
 
     def course(
-        self, number: int, first_tk: int | None = None, last_tk: int | None = None
+        self, number: int, first: Moment | int | None = None, last: Moment | int | None = None
     ) -> Course:
-        """A branch as plain data, from the latest keyframe before one tick up to another.
+        """A branch as plain data, from the latest keyframe before one moment up to another.
 
-        Without ticks, all of it; UserError for a branch or a tick that does not exist.
+        Without moments, all of it; UserError for a branch or a moment that does not exist.
         """
         self._reach()
         branch = self.branches.named(number)
-        first = branch.first if first_tk is None else Moment(first_tk)
-        last = branch.last if last_tk is None else Moment(last_tk)
+        first = branch.first if first is None else _moment(first)
+        last = branch.last if last is None else _moment(last)
         for moment in (first, last):
             branch.require(moment)
         return Course.of(self.card, branch, first, last)
@@ -300,3 +300,8 @@ class Timeline:
             yield
         finally:
             self.card.recorder = file
+
+
+def _moment(place: Moment | int) -> Moment:
+    """A moment; of a tick, its end."""
+    return Moment(place) if isinstance(place, int) else place

@@ -39,6 +39,8 @@ def level_of(program: int | None, plc: int | None) -> Level:
 
 def owner_of(station: Station, level: Level) -> str:
     """Why a program is not for the screens now; empty if it is."""
+    if station.link.is_away:
+        return station.link.lost
     session = station.link.required
     settings = session.runner.settings
     if not session.is_set_up:

@@ -99,6 +99,7 @@ class Station:
         self.times = Times(self.link, self.interlocks, around)
         self.facts = self._facts()
         if installation.history is not None:
+            installation.history.on_note = self.screens.say
             installation.history.breakpoints.on_note = self.screens.say
         self._failures = Failures(self.link, partial(end_all, End.ALARM))
         self.snapshot = Snapshot(number=0, tick_ms=0.0, read_s=0.0)
@@ -106,6 +107,7 @@ class Station:
         self.stopped_s = 0.0  # when the last stop was received
         self._poll_at = self._snapshot_at = 0.0  # on the clock of the pace
         self._shown_at = 0.0  # while time is still
+        self._texts: int | None = None  # of the programs at the moment that is shown
         self._alarms = 0
 
     def _facts(self) -> Facts:
@@ -151,6 +153,7 @@ class Station:
     def close(self) -> None:
         """Close the session: axes that move are brought to rest by the caller before."""
         self.times.wake(self.now_s)  # it takes some ticks
+        self._texts = None
         session = self.link.drop()
         self.typed.forget()
         self.card_jogs.end()
@@ -314,6 +317,10 @@ class Station:
         self.records.end()
         self.watches.renew()
         self.installation.pace.begin(self.now_s)
+        texts = self.times.history.texts()
+        if texts != self._texts:
+            self._texts = texts
+            self.on_card.programs.texts_changed("")
 
     def _print(self) -> None:
         """What the card has printed on its terminals."""

@@ -60,6 +60,18 @@ class Times:
             raise UserError(NOT_HERE)
         return history
 
+    @property
+    def settings(self) -> Settings | None:
+        """The parameters of the machine that AcroMill has set up, or had when the card was left.
+
+        UserError where the card cannot be reached.
+        """
+        session = self._link.session
+        if session is None and not self._link.is_away:
+            raise UserError(self._link.lost)
+        found = self._settings if session is None else session.runner.settings
+        return None if self._link.installation.lacks else found
+
     def timeline(self) -> dict[str, Any]:
         """The branches and bookmarks of the history, for the screens."""
         history = self._link.installation.history

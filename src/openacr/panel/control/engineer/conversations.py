@@ -12,14 +12,16 @@ from contextlib import suppress
 from typing import Any, TypeVar
 
 from openacr.client import ConnectionLostError, Options
-from openacr.client.drive import Conversation, perform
+from openacr.client.drive import Conversation, carry_out, perform
 from openacr.client.effects import Effect, Op, Open, Pause, Receive
-from openacr.client.links import Link, SerialLink, link_to
+from openacr.client.links import Link, ProcessLink, SerialLink, link_to
 from openacr.client.talk import Talk
 from openacr.errors import OpenacrError, UserError
+from openacr.panel.control.machine.breakpoints import pause_copy
 from openacr.panel.control.machine.history import STILL
 from openacr.panel.control.machine.installation import Installation
 from openacr.panel.control.machine.opening import close, opened
+from openacr.timeline import Course
 
 log = logging.getLogger(__name__)
 T = TypeVar("T")
@@ -28,6 +30,19 @@ MOST_WAITING = 20
 OPTIONS = Options(reconnect_s=0.0)
 TURN = 8  # effects between two steps of the machine
 NO_SECOND = "a card on a serial port has no second connection: its programs are not read or changed"
+
+
+def answer_of(moment: Course, talks: Talks[T]) -> T:
+    """The result of a conversation with the card as it was at a moment; any thread may ask.
+
+    It is held with a copy of that card, which lets the ticks pass that its answers take. Programs
+    of the copy are paused, so that their variables are those of the moment. What a conversation
+    changes is changed in the copy alone: it only asks.
+    """
+    card = moment.at_last()
+    pause_copy(card)
+    link = ProcessLink(card)
+    return carry_out(talks(Talk(link.name, link.kind, OPTIONS, link.now_s)), link)
 
 
 class Wait:

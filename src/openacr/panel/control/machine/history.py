@@ -5,6 +5,7 @@ wait in vain for anything that takes a tick.
 """
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 from openacr.channels import StreamKind
@@ -15,7 +16,7 @@ from openacr.errors import UserError
 from openacr.panel.control.machine.blocks import Block, Blocks
 from openacr.panel.control.machine.breakpoints import Breakpoints
 from openacr.panel.control.machine.lanes import Lanes
-from openacr.timeline import Bookmark, Bookmarks, Branch, Kind, Timeline
+from openacr.timeline import Bookmark, Bookmarks, Branch, Course, Kind, Timeline
 
 MOST_BYTES = 1 << 27  # of memory, for an hour of a machine that is used and some branches
 MOST_BRANCHES = 16
@@ -38,6 +39,7 @@ class History:
         self.names = {0: "first"}
         self.is_still = False
         self.is_away = False  # from its links: none is opened
+        self.on_note: Callable[[str], None] = lambda _text: None  # a change begins a branch
         self.unmarked: frozenset[int] = frozenset()  # programs of the panel, whose ends count not
         self._size = (-1, 0)  # tick, bytes
         self.breakpoints = Breakpoints(card, lambda: not (self.is_away or self.timeline.is_past))
@@ -110,6 +112,15 @@ class History:
         """Several parameters, without time or bytes; CardError for one that does not exist."""
         return [float(self.card.p[parameter]) for parameter in parameters]
 
+    def moment(self) -> Course:
+        """The card as it is at this moment, of which copies can be made."""
+        return self.timeline.course(self.timeline.branch.number, *[self.timeline.now] * 2)
+
+    def texts(self) -> int:
+        """A number that is another one where the programs and PLCs have other texts."""
+        programs, owners = self.card.system.programs, self.card.system.owners()
+        return hash(tuple((k, at.number, at.text) for k in owners for at in programs.lines(k)))
+
     # --- bookmarks --------------------------------------------------------------------
 
     def mark(self, kind: Kind, text: str) -> None:
@@ -157,6 +168,10 @@ class History:
         self.lanes.fork(parent.number, branch.number, ended_tk)
         self.blocks.fork(parent.number, branch.number, ended_tk)
         self.names[branch.number] = f"branch {branch.number}"
+        if self.is_away:
+            at_s = self.timeline.now.tick * self.period_s
+            kept = self.names[parent.number]
+            self.on_note(f"branch {branch.number} begins at {at_s:.4g} s: {kept} keeps the rest")
         if len(self.timeline.branches) > MOST_BRANCHES:
             others = (each for each in self.timeline.branches if each not in (parent, branch))
             self.forget(next(others).number)

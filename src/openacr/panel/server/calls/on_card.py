@@ -19,12 +19,13 @@ from openacr.errors import CardError
 from openacr.lang.lexer import tokens
 from openacr.panel.commands.programs import level_of, owner_of
 from openacr.panel.control.engineer.card_programs import State, read_states
-from openacr.panel.control.engineer.conversations import Talks
+from openacr.panel.control.engineer.conversations import Talks, answer_of
 from openacr.panel.control.station import Station
 from openacr.panel.server.api import Call, Query, endpoint
 from openacr.panel.server.panel import Panel
 from openacr.plc.diagram import pictures
 from openacr.plc.reader import PlcLine, read_line
+from openacr.timeline import Course
 
 T = TypeVar("T")
 
@@ -58,9 +59,22 @@ class _NoAliases:
 
 
 async def talked(panel: Panel, talks: Talks[T]) -> T:
-    """The result of a conversation beside the session."""
+    """The result of a conversation that only asks, beside the session.
+
+    A card whose time is still, or at a moment of its history, is asked by a copy of it: its
+    programs are those of the moment.
+    """
     future: Future[T] = Future()
-    await panel.ask(lambda station: station.on_card.aside.begin(talks, future))
+
+    def begin(station: Station) -> Course | None:
+        if station.link.is_still or station.link.is_away:
+            return station.times.history.moment()
+        station.on_card.aside.begin(talks, future)
+        return None
+
+    moment = await panel.ask(begin)
+    if moment is not None:
+        return await run_in_threadpool(answer_of, moment, talks)
     return await asyncio.wrap_future(future)
 
 
@@ -109,8 +123,7 @@ async def card_drives(call: Call) -> object:
     """
 
     def read(station: Station) -> list[dict[str, object]]:
-        session, installation = station.link.required, station.installation
-        settings = session.runner.settings if session.is_set_up else None
+        installation, settings = station.installation, station.times.settings
         own = {} if settings is None else {each.index: each.name for each in settings.axes}
         names = {each.axis: each.name for each in reversed(installation.attached)}
         return [
@@ -119,7 +132,7 @@ async def card_drives(call: Call) -> object:
                 "name": own.get(drive.axis, f"AXIS{drive.axis}"),
                 "title": own.get(drive.axis, f"{names[drive.axis]} (AXIS{drive.axis})"),
                 "is_homed": settings.is_homed(drive.axis)
-                if settings is not None and drive.axis in own
+                if settings is not None and drive.axis in own and not station.link.is_away
                 else drive.is_homed,
                 "wrong": [
                     {"key": key, "text": said(key, drive.axis), "bars": key in BARS}

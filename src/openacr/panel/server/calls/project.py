@@ -88,9 +88,8 @@ async def differences(panel: Panel) -> list[str]:
 async def _states(panel: Panel, root: Path) -> dict[str, State]:
     def own(station: Station) -> Level | None:
         """The program that the panel itself stores on the card: it is no part of the project."""
-        if station.link.session is None:
-            return None
-        return Level.program(station.link.session.runner.settings.watchdog_program)
+        settings = station.times.settings
+        return None if settings is None else Level.program(settings.watchdog_program)
 
     theirs = await panel.ask(own)
     found = await talked(panel, _listings)

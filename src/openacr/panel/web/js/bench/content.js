@@ -23,7 +23,14 @@ export function showPane(element, pane, layout) {
     isShown = true;
     // A pane that is shown takes no focus from another.
     const [head, host] = [h("div.row.wrap.pane-head", {}), h("div.pane-body", { inert: true })];
-    fill(element, head, host);
+    const past = pane.past && h("div.notice.pane-past", { role: "note" }, t(pane.past));
+    fill(element, head, past, host);
+    if (past)
+      endings.add(
+        model.timeline.watch(({ away }) => {
+          past.hidden = !away;
+        }),
+      );
     try {
       const load = await pane.load();
       if (isEnded) return;

@@ -121,6 +121,7 @@ export async function plcTab(panel, endings) {
         ),
       );
   }
+  endings.add(model.texts.watch((stored) => stored && ["", `PLC${plc}`].includes(stored.name) && void choose(plc)));
   await choose(Math.min(COUNT - 1, Math.max(0, plc || 0)));
 }
 

@@ -72,7 +72,7 @@ export async function mount(host, { head, kept, keep }) {
 
   async function readOwn() {
     clearTimeout(timer);
-    if (host.offsetParent && !document.hidden && !model.timeline.value.away) {
+    if (host.offsetParent && !document.hidden) {
       const found = await newestOwn(get("card/variables", { program })).catch((error) => {
         if (!drawn) refuse(error);
         return null;
