@@ -248,21 +248,25 @@ def test_what_is_asked_of_a_moment_is_answered_by_a_copy_at_its_statement(
     hand: HandStation,
 ) -> None:
     hand.station.link.machine.card.command("DIM LV(1)", program=5)
-    hand.station.link.machine.card.download("10 LV0=LV0+1\n20 GOTO 10\n", to=Level.program(5))
+    hand.station.link.machine.card.download(
+        "10 LV0=LV0+1\n20 P0=LV0\n30 GOTO 10\n", to=Level.program(5)
+    )
     hand.station.link.machine.card.command("RUN", program=5)
     hand.run(0.5)
     tick = history(hand).lived_tk - 500
     hand.do("timeline.seek", tick=tick)
-    counts = []
-    for _ in range(4):  # lines 10 and 20 in turn, within one tick
+    counts, written = [], []
+    for _ in range(6):  # lines 10, 20 and 30 in turn, within one tick
         hand.do("timeline.step", what="line", number=5)
         assert history(hand).card.within
         digest = history(hand).card.digest()
         found = answer_of(history(hand).moment(), lambda talk: variables(talk, 5))
         assert (len(found), found[0].name) == (1, "LV0")
         counts.append(int(found[0].text))
+        written.append(int(history(hand).card.p[0]))
         assert history(hand).card.digest() == digest  # nothing of the card that is shown
-    assert [each - counts[0] for each in counts] in ([0, 0, 1, 1], [0, 1, 1, 2])
+    assert counts[3:] == [each + 1 for each in counts[:3]]
+    assert sorted(b - a for a, b in zip(written, counts, strict=True)) == [0, 0, 0, 0, 1, 1]
 
 
 def test_a_branch_begun_without_a_change_goes_on_as_the_first_without_its_inputs(

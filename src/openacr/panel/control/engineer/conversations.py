@@ -17,7 +17,6 @@ from openacr.client.effects import Effect, Op, Open, Pause, Receive
 from openacr.client.links import Link, ProcessLink, SerialLink, link_to
 from openacr.client.talk import Talk
 from openacr.errors import OpenacrError, UserError
-from openacr.panel.control.machine.breakpoints import pause_copy
 from openacr.panel.control.machine.history import STILL
 from openacr.panel.control.machine.installation import Installation
 from openacr.panel.control.machine.opening import close, opened
@@ -35,13 +34,10 @@ NO_SECOND = "a card on a serial port has no second connection: its programs are 
 def answer_of(moment: Course, talks: Talks[T]) -> T:
     """The result of a conversation with the card as it was at a moment; any thread may ask.
 
-    It is held with a copy of that card, which lets the ticks pass that its answers take. Programs
-    of the copy are paused, so that their variables are those of the moment. What a conversation
-    changes is changed in the copy alone: it only asks.
+    It is held with a copy of that card, whose answers take no tick: all of them are of the moment.
+    What a conversation changes is changed in the copy alone: it only asks.
     """
-    card = moment.at_last()
-    pause_copy(card)
-    link = ProcessLink(card)
+    link = ProcessLink(moment.at_last())
     return carry_out(talks(Talk(link.name, link.kind, OPTIONS, link.now_s)), link)
 
 

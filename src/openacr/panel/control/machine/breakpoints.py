@@ -12,7 +12,7 @@ from typing import Any
 from openacr.controller import Controller
 from openacr.debugger import questions
 from openacr.debugger.breakpoints import LineBreakpoint
-from openacr.debugger.calls import PROGRAMS, is_running, name_of
+from openacr.debugger.calls import is_running, name_of
 from openacr.debugger.line_stops import LineStops
 from openacr.debugger.stops import Reason
 from openacr.errors import UserError
@@ -135,10 +135,3 @@ class Breakpoints:
             and bool(self._card.memory.I[pf.word[program]] & pf.PAUSE_MODE)
             and self._card.executor.threads.next_line(program) == held.line
         )
-
-
-def pause_copy(card: Controller) -> None:
-    """Let no program of a card that is looked at alone execute any more."""
-    for program in range(PROGRAMS):
-        if is_running(card, program):
-            card.bit[MODE_FLAG + 32 * program] = True
