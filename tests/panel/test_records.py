@@ -1,12 +1,14 @@
 """Long records: what the card went through, part by part, over HTTP."""
 
 import csv
+import io
 import json
 from pathlib import Path
 
 import httpx
 import numpy as np
 import pytest
+from pyarrow import parquet
 from tests.panel.bench import HandStation, Served
 
 from openacr.client.names import named
@@ -206,6 +208,20 @@ def test_a_part_becomes_a_csv_file(url: tuple[str, int], monkeypatch: pytest.Mon
     assert [row[2] for row in rows[5:]] == [""] * 15
 
 
+def test_a_part_becomes_a_parquet_file_of_the_same_columns(
+    url: tuple[str, int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(calls, "AT_ONCE", 7)
+    names = ["CH1 P1 [mm]", "CH2"]
+    answer = ask(url, "/parquet", first=95, last=115, names=json.dumps(names))
+    assert answer.headers["content-disposition"].endswith(f'"record-{url[1]}-95-115.parquet"')
+    found = parquet.read_table(io.BytesIO(answer.content))
+    assert found.column_names == ["time_s", *names]
+    assert found["time_s"].to_pylist() == pytest.approx([0.001 * n for n in range(20)])
+    assert found["CH1 P1 [mm]"].to_pylist() == VALUES[0, 95:115].tolist()
+    assert found["CH2"].to_pylist()[5:] == [None] * 15
+
+
 @pytest.mark.parametrize(
     ("path", "query", "why"),
     [
@@ -213,6 +229,8 @@ def test_a_part_becomes_a_csv_file(url: tuple[str, int], monkeypatch: pytest.Mon
         ("/view", {"first": 0}, "Object missing required field `last`"),
         ("/csv", {"first": 0, "last": 9, "names": '["a"]'}, "1 names: the record has 2 channels"),
         ("/csv", {"first": 0, "last": 9, "names": "a"}, "names: a JSON list of texts is needed"),
+        ("/parquet", {"first": 0, "last": 9, "names": '["a"]'}, "the record has 2 channels"),
+        ("/parquet", {"first": 0, "last": 5001, "names": '["a", "b"]'}, "0 to 5000 are kept"),
         ("/csv", {"first": 0, "last": 5001, "names": '["a", "b"]'}, "0 to 5000 are kept"),
         ("/measures", {"first": 9, "last": 9}, "of this record 0 to 5000 are kept"),
     ],

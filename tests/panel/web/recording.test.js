@@ -1,7 +1,7 @@
 // The record of the scope: which sweep is shown when triggers and samples come.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Recording, moved } from "../../../src/openacr/panel/web/js/scope/recording.js";
+import { Recording, moved, placed } from "../../../src/openacr/panel/web/js/scope/recording.js";
 import { stateOf, stateText } from "../../../src/openacr/panel/web/js/scope/state.js";
 
 const PERIOD = 0.001;
@@ -184,4 +184,16 @@ test("every state has its words, none before the first START", () => {
   for (const name of ["stopped", "running"]) assert.match(said(name), /7/);
   assert.notEqual(said("running", 0), said("running"));
   assert.notEqual(said("waiting"), said("triggered"));
+});
+
+test("a reference is placed at its time over points of another period, columns get its lowest and highest values", () => {
+  const values = [10, 11, 12, 13, 14, 15];
+  const own = { start: 2, period: 0.001 };
+  assert.deepEqual([...placed(values, own, { start: 1, period: 0.001 }, 4)], [NaN, 10, 11, 12]);
+  assert.deepEqual([...placed(values, own, { start: 2, period: 0.002 }, 4)], [10, 12, 14, NaN]);
+  assert.deepEqual([...placed(values, own, { start: 2, period: 0.0005 }, 3)], [10, 11, 11]);
+  const wild = [1, 9, NaN, 4, 5, 2, 8];
+  const columns = { start: 0, period: 0.0015 }; // three values each
+  assert.deepEqual([...placed(wild, { start: 0, period: 0.001 }, columns, 8, true)], [1, 9, 2, 5, 8, 8, NaN, NaN]);
+  assert.deepEqual([...placed(wild, own, columns, 4, true)], [1, 1, 4, 9]);
 });

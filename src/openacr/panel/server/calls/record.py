@@ -2,24 +2,27 @@
 
 import io
 import math
+import tempfile
 from collections.abc import Iterator
 from csv import writer
 from dataclasses import asdict
+from pathlib import Path
 from typing import Annotated
 
 import numpy as np
 from msgspec import Meta
+from starlette.background import BackgroundTask
 from starlette.concurrency import run_in_threadpool
-from starlette.responses import Response, StreamingResponse
+from starlette.responses import FileResponse, Response, StreamingResponse
 
 from openacr.panel.control.engineer.pyramid import Pyramid
 from openacr.panel.control.engineer.records import Record
 from openacr.panel.control.operator.orders import PanelError
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Call, Query, endpoint
-from openacr.panel.server.calls.scope import TIME, names_of
+from openacr.panel.server.calls.scope import TIME, TYPE, names_of, written
 
-MOST_COLUMNS = 8192
+MOST_COLUMNS = 65_536  # a part whose samples are computed with comes sample by sample
 AT_ONCE = 65_536  # samples of a file that are read at once
 BINARY = "application/octet-stream"
 Sample = Annotated[int, Meta(ge=0, lt=1 << 53)]
@@ -118,17 +121,54 @@ async def csv(call: Call) -> object:
 
     A missing sample is empty.
     """
+    found, names = await _part(call)
+    headers = {"Content-Disposition": f'attachment; filename="{_name(call.query)}.csv"'}
+    lines = _lines(found, call.query, names)
+    return StreamingResponse(lines, media_type="text/csv", headers=headers)
+
+
+@endpoint("GET", "/record/parquet", Role.SERVICE, query=File, gives=TYPE)
+async def parquet(call: Call) -> object:
+    """A part of a record as Parquet, with the columns of its CSV; missing samples are null."""
+    found, names = await _part(call)
+    with tempfile.NamedTemporaryFile(suffix=".parquet", delete=False) as file:
+        path = Path(file.name)
+    try:
+        await run_in_threadpool(_store, path, found, call.query, names)
+    except BaseException:
+        path.unlink(missing_ok=True)
+        raise
+    return FileResponse(
+        path,
+        media_type=TYPE,
+        filename=f"{_name(call.query)}.parquet",
+        background=BackgroundTask(path.unlink, missing_ok=True),
+    )
+
+
+async def _part(call: Call) -> tuple[Record, list[str]]:
+    """The record with names of its columns; refused before a file of the part begins."""
     found, query = await _record(call), call.query
     names = names_of(query.names)
     if len(names) != len(found.channels):
         raise PanelError(
             "bad", f"{len(names)} names: the record has {len(found.channels)} channels"
         )
-    found.samples.samples(query.last - 1, query.last)  # refused before the file begins
+    found.samples.samples(query.last - 1, query.last)
     found.samples.samples(query.first, query.first + 1)
-    file = f"record-{query.number}-{query.first}-{query.last}.csv"
-    headers = {"Content-Disposition": f'attachment; filename="{file}"'}
-    return StreamingResponse(_lines(found, query, names), media_type="text/csv", headers=headers)
+    return found, names
+
+
+def _name(query: File) -> str:
+    return f"record-{query.number}-{query.first}-{query.last}"
+
+
+def _store(path: Path, found: Record, query: File, names: list[str]) -> None:
+    with written(path, names) as write:
+        for begin in range(query.first, query.last, AT_ONCE):
+            end = min(begin + AT_ONCE, query.last)
+            times = found.period_s * np.arange(begin - query.first, end - query.first)
+            write(times, found.samples.samples(begin, end))
 
 
 def _lines(found: Record, query: File, names: list[str]) -> Iterator[str]:

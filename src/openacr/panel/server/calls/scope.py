@@ -2,7 +2,10 @@
 
 import io
 import json
-from typing import Annotated
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, Annotated, Any, TypeAlias
 
 import numpy as np
 from msgspec import Meta
@@ -20,6 +23,7 @@ MOST_COLUMNS = CHANNELS + 1  # and the maths channel
 MOST_BYTES = 8 * MOST_COLUMNS * MOST_SAMPLES
 TYPE = "application/vnd.apache.parquet"
 TIME = "time_s"
+Write: TypeAlias = Callable[[NDArray[np.floating[Any]], NDArray[np.float64]], None]
 
 
 class OfRecord(Query, frozen=True):
@@ -61,14 +65,28 @@ def names_of(text: str) -> list[str]:
 
 def _file(names: list[str], columns: NDArray[np.float64], time: OfRecord) -> bytes:
     """A Parquet file; missing samples (NaN) are null. UserError without pyarrow."""
+    target = io.BytesIO()
+    with written(target, names) as write:
+        write(time.begin_s + np.arange(columns.shape[1]) * time.period_s, columns)
+    return target.getvalue()
+
+
+@contextmanager
+def written(target: IO[bytes] | Path, names: list[str]) -> Iterator[Write]:
+    """Write a Parquet file, part after part: the times and the samples of each channel.
+
+    Missing samples (NaN) are null. UserError without pyarrow.
+    """
     try:
         import pyarrow
         import pyarrow.parquet
     except ImportError:
         raise UserError("Parquet needs pyarrow: pip install 'openacr[sweep]'") from None
-    arrays = {TIME: pyarrow.array(time.begin_s + np.arange(columns.shape[1]) * time.period_s)}
-    for name, values in zip(names, columns, strict=True):
-        arrays[name] = pyarrow.array(values, mask=np.isnan(values))
-    target = io.BytesIO()
-    pyarrow.parquet.write_table(pyarrow.table(arrays), target)
-    return target.getvalue()
+    schema = pyarrow.schema([(name, pyarrow.float64()) for name in (TIME, *names)])
+    with pyarrow.parquet.ParquetWriter(target, schema) as file:
+
+        def write(times: NDArray[np.floating[Any]], columns: NDArray[np.float64]) -> None:
+            known = [pyarrow.array(values, mask=np.isnan(values)) for values in columns]
+            file.write_table(pyarrow.table([pyarrow.array(times), *known], schema=schema))
+
+        yield write

@@ -110,24 +110,29 @@ function keepFile(name, blob) {
  * Ask for the kind of a file, and keep what is shown as one.
  * @param {{ traces: Channel[], period: number, begin: number, canvas: HTMLCanvasElement | null | undefined,
  *   trigger: any }} shown s
- * @param {string} [part] another text, where `csv` is a file of the server
- * @param {string} [csv] its address
+ * @param {string} [part] another text, where the server makes the files
+ * @param {((kind: "csv" | "parquet") => string) | null} [addressOf] their addresses
  */
-export async function exportAs({ traces, period, begin, canvas, trigger }, part = t("scope.export.text"), csv = "") {
+export async function exportAs(
+  { traces, period, begin, canvas, trigger },
+  part = t("scope.export.text"),
+  addressOf = null,
+) {
   const kind = await ask({
     title: t("scope.export"),
     body: [h("p", {}, part)],
-    choices: (csv ? ["csv", "png"] : ["csv", "parquet", "png"]).map((each) => ({
-      text: each.toUpperCase(),
-      value: each,
-    })),
+    choices: ["csv", "parquet", "png"].map((each) => ({ text: each.toUpperCase(), value: each })),
   });
-  if (csv && kind === "csv") {
-    h("a", { href: csv, download: "" }).click();
+  if (addressOf && kind === "csv") {
+    h("a", { href: addressOf(kind), download: "" }).click();
     return;
   }
   const now = new Date();
   try {
+    if (addressOf && kind === "parquet") {
+      keepFile(fileName(kind, now), await (await call(addressOf(kind))).blob()); // a refusal is said
+      return;
+    }
     if (kind && kind !== "png" && !traces.length) throw new Error(t("scope.export.none"));
     if (kind === "csv") keepFile(fileName(kind, now), new Blob([csvOf(traces, period, begin)], { type: "text/csv" }));
     else if (kind === "parquet") keepFile(fileName(kind, now), await parquetOf(traces, period, begin));

@@ -6,6 +6,7 @@ import { DIVISIONS } from "./scales.js";
 import { within, zoomed } from "./view.js";
 
 const MARGIN = 1; // screens on either side that are asked for besides: a pan shows them at once
+const MOST = { screen: 8192, computed: 50_000 }; // columns that are asked for
 const REST_MS = 250; // from one look at a record that grows to the next
 
 /**
@@ -44,6 +45,19 @@ export class LongRecord {
     const timer = setInterval(() => this.state.running && this.isOn && this.ask(), REST_MS);
     endings.add(() => clearInterval(timer));
     this.isOn = false; // it is on the screen
+    this.isComputed = false; // every sample is asked for, where the part has few enough
+  }
+
+  /** Samples on the screen. */
+  get size() {
+    return Math.round((DIVISIONS * this.view.step) / this.ms);
+  }
+
+  /** Why nothing is computed of what is shown: its samples, and how many may be; null where they may. */
+  get why() {
+    return this.isEnvelope && this.size > MOST.computed
+      ? { count: this.size, most: MOST.computed, seconds: (MOST.computed * this.ms) / 1000 }
+      : null;
   }
 
   /** ms of a sample. */
@@ -79,8 +93,18 @@ export class LongRecord {
   curves() {
     const { shown } = this;
     const channels = shown ? curveOf(shown) : (this.state.channels ?? []).map(() => new Float64Array(0));
-    const period = ((shown?.width ?? 1) * this.ms) / 1000 / (this.isEnvelope ? 2 : 1);
-    return { channels, period, start: (shown?.first ?? 0) * this.ms, ...this.view };
+    const each = ((shown?.width ?? 1) * this.ms) / (this.isEnvelope ? 2 : 1);
+    const start = (shown?.first ?? 0) * this.ms;
+    const { from, step } = this.view;
+    // What is kept beside the screen is not measured, but for the point before it and the one after.
+    const first = Math.max(0, Math.ceil((from - start) / each - 1e-6) - 1);
+    const last = Math.floor((from + DIVISIONS * step - start) / each + 1e-6) + 1;
+    return {
+      channels: channels.map((values) => values.subarray(first, Math.max(first, last + 1))),
+      period: each / 1000,
+      start: start + first * each,
+      ...this.view,
+    };
   }
 
   /**
@@ -145,7 +169,10 @@ export class LongRecord {
     const { from, step } = this.view;
     const span = DIVISIONS * step;
     const at = (/** @type {number} */ time) => Math.max(0, Math.round(time / this.ms));
-    const shown = await this.columns(at(from - MARGIN * span), at(from + (1 + MARGIN) * span) + 1, 1 + 2 * MARGIN);
+    const isWhole = this.isComputed && this.size <= MOST.computed;
+    const margin = isWhole && 3 * this.size > MOST.screen ? 0 : MARGIN;
+    const ends = [at(from - margin * span), at(from + (1 + margin) * span) + 1];
+    const shown = await this.columns(ends[0], ends[1], 1 + 2 * margin, isWhole);
     if (!shown) return;
     [this.shown, this.ends] = [shown, shown.ends];
     if (this.isFollowing && this.state.running)
@@ -163,21 +190,23 @@ export class LongRecord {
    * @param {number} first
    * @param {number} last
    * @param {number} screens
+   * @param {boolean} [isWhole] every sample is wanted
    */
-  async columns(first, last, screens) {
+  async columns(first, last, screens, isWhole = false) {
     const { number } = this.state;
-    const most = Math.max(2, Math.min(8192, Math.round(screens * this.width)));
+    const most = isWhole ? last - first + 1 : Math.max(2, Math.min(MOST.screen, Math.round(screens * this.width)));
     const reply = await call(address("record/view", { number, first, last, most }));
     const found = columnsOf(await reply.arrayBuffer());
     return number === this.state.number ? found : null;
   }
 
   /**
-   * The address of the part as a CSV file.
+   * The address of the part as a file.
+   * @param {"csv" | "parquet"} kind
    * @param {string[]} names of the columns
    */
-  file(names) {
+  file(kind, names) {
     const [first, last] = this.part();
-    return address("record/csv", { number: this.state.number, first, last, names: JSON.stringify(names) });
+    return address(`record/${kind}`, { number: this.state.number, first, last, names: JSON.stringify(names) });
   }
 }

@@ -25,6 +25,26 @@ export function moved(values, by, length) {
   return Float64Array.from({ length }, (_each, n) => values[n - by] ?? Number.NaN);
 }
 
+/**
+ * Values at the times of other ones: the nearest of each, or of each column (two points) the lowest and the highest.
+ * @param {ArrayLike<number>} values
+ * @param {{ start: number, period: number }} own ms of the first value, s between two
+ * @param {{ start: number, period: number }} times
+ * @param {number} length of what is returned
+ * @param {boolean} [isEnvelope] the points are lowest and highest values of columns
+ */
+export function placed(values, own, times, length, isEnvelope = false) {
+  const at = (/** @type {number} */ n) => (times.start - own.start + n * 1000 * times.period) / (1000 * own.period);
+  return Float64Array.from({ length }, (_each, n) => {
+    const [first, last] = isEnvelope ? [Math.ceil(at(n & ~1)), Math.ceil(at((n & ~1) + 2)) - 1] : [0, -1];
+    if (first >= last) return values[Math.round(at(n))] ?? Number.NaN;
+    let found = Number.NaN;
+    for (let k = Math.max(0, first); k <= Math.min(last, values.length - 1); k++)
+      if (!(n % 2 ? values[k] <= found : values[k] >= found) && !Number.isNaN(values[k])) found = values[k];
+    return found;
+  });
+}
+
 /** One capture: samples by channel, each at its number, so that a frame that was left out is a gap. */
 export class Recording {
   constructor() {

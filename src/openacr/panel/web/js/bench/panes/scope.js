@@ -4,10 +4,9 @@ import { h, setText } from "../../core/dom.js";
 import { keyOf } from "../../core/keys.js";
 import { Endings, Signal } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
-import { ask } from "../../frame/dialog.js";
 import { arm, resumed } from "../../scope/arm.js";
-import { samplesOf } from "../../scope/branch.js";
-import { Channels, fullLabel } from "../../scope/channels.js";
+import { BRANCH, ofBranch } from "../../scope/branch.js";
+import { Channels, CHANNELS, fullLabel } from "../../scope/channels.js";
 import { cursorPlugin } from "../../scope/cursors.js";
 import { exportAs } from "../../scope/export.js";
 import { LongRecord } from "../../scope/long_record.js";
@@ -15,6 +14,7 @@ import { distanceText, samplesAt, showMeasures } from "../../scope/measure_table
 import { createOverview } from "../../scope/overview.js";
 import { panningPlugin } from "../../scope/panning.js";
 import { moved, Recording } from "../../scope/recording.js";
+import { Reference, SHORT } from "../../scope/reference.js";
 import { axesOf, DIVISIONS } from "../../scope/scales.js";
 import { createScreen } from "../../scope/screen.js";
 import { createSpectrum, showPeaks } from "../../scope/spectrum_view.js";
@@ -28,21 +28,14 @@ import { takeWanted } from "../wanted.js";
 const TEXTS = {
   settings: { en: "SETTINGS", de: "EINSTEL\u00adLUNGEN" },
   cursors: { en: "CURSORS", de: "CURSOR" },
-  reference: { en: "REFER\u00adENCE", de: "REFE\u00adRENZ" },
-  referenceShort: { en: "ref", de: "Ref" },
-  branch: { en: "BRANCH \u2026", de: "ZWEIG \u2026" },
-  branchText: {
-    en: "What another branch of the timeline did at the same ticks is drawn dashed; REFERENCE takes it away.",
-    de: "Was ein anderer Zweig der Zeitleiste in denselben Takten tat, wird gestrichelt gezeichnet; REFERENZ nimmt es weg.",
-  },
   zoom: { en: "wheel: zoom, drag: pan, double click: back", de: "Rad: Zoom, ziehen: verschieben, Doppelklick: zurück" },
   part: {
-    en: "The {count} samples between the cursors (without them: on the screen) as CSV, or the picture.",
-    de: "Die {count} Messwerte zwischen den Cursorn (ohne sie: auf dem Schirm) als CSV, oder das Bild.",
+    en: "The {count} samples between the cursors (without them: on the screen) as CSV or Parquet, or the picture.",
+    de: "Die {count} Messwerte zwischen den Cursorn (ohne sie: auf dem Schirm) als CSV oder Parquet, oder das Bild.",
   },
   tooMany: {
-    en: "XY and FFT need samples: zoom in until every one is shown",
-    de: "XY und FFT brauchen Messwerte: näher heran, bis jeder gezeigt wird",
+    en: "{count} samples are on the screen: M, XY and FFT are computed of {most} at most, {seconds} s",
+    de: "{count} Messwerte sind auf dem Schirm: M, XY und FFT werden aus höchstens {most} berechnet, {seconds} s",
   },
   zoomLabel: {
     en: "Screen of the scope: + and - zoom a record at rest, arrow keys pan it, 0 shows its sweep",
@@ -57,19 +50,16 @@ const PANS = /** @type {Record<string, number>} */ ({ ArrowLeft: -1, ArrowRight:
 
 /**
  * @typedef {import("../../scope/channels.js").Channel} Channel
- * @typedef {{ traces: Channel[], period: number, start: number }} Reference `start`: ms of the first sample
  */
 
 /**
  * @param {HTMLElement} host
  * @param {import("../panes.js").Place} place
  */
-export async function mount(host, { head, kept, keep }) {
+export async function mount(host, { head, kept: layout, keep }) {
   const endings = new Endings();
   const [live, recording] = [new Endings(), new Recording()];
   const cursors = new Signal(/** @type {[number, number] | null} */ (null));
-  /** @type {Reference | null} */
-  let reference = null;
   /** @type {typeof VIEWS[number]} */
   let view = "time";
   /** The part of a record at rest that is shown, null: its sweep. @type {import("../../scope/view.js").View | null} */
@@ -79,8 +69,8 @@ export async function mount(host, { head, kept, keep }) {
     showRecord();
     update();
   };
-  const channels = new Channels(kept.channels ?? [], changed);
-  const settings = new Settings(kept, changed);
+  const channels = new Channels(layout.channels ?? [], changed);
+  const settings = new Settings(layout, changed);
   const hosts = VIEWS.map((each) => h("div.scope-chart.grow", { hidden: each !== view, data: { view: each } }));
   Object.assign(hosts[0], { role: "group", tabIndex: 0, ariaLabel: t(TEXTS.zoomLabel), onkeydown: zoomByKey });
   const state = h("span.scope-state.grow", { role: "status" });
@@ -90,7 +80,7 @@ export async function mount(host, { head, kept, keep }) {
   const keys = VIEWS.map((each) => keyOf(/** @type {any} */ (`scope.view.${each}`), () => show(each)));
   const side = h(
     "div.scope-side.scroll",
-    { tabIndex: 0, hidden: Boolean(kept.isFull) },
+    { tabIndex: 0, hidden: Boolean(layout.isFull) },
     channels.element(),
     settings.element(),
   );
@@ -102,7 +92,7 @@ export async function mount(host, { head, kept, keep }) {
   });
   sideKey.ariaPressed = String(!side.hidden);
   const cursorKey = keyOf(TEXTS.cursors, toggleCursors);
-  const referenceKey = keyOf(TEXTS.reference, toggleReference);
+  const reference = new Reference(() => draw(), shownNow);
   const long = new LongRecord(() => settings.isRecord && update(), endings);
   const overview = createOverview(long, () => channels.asked.map((place) => channels.rows[place].color.value), endings);
   head.append(
@@ -114,8 +104,8 @@ export async function mount(host, { head, kept, keep }) {
     }),
     ...keys,
     cursorKey,
-    referenceKey,
-    keyOf(TEXTS.branch, () => void referToBranch().catch(refuse)),
+    reference.key,
+    keyOf(BRANCH, () => void ofBranch(recording, channels).then((found) => found && reference.set(found), refuse)),
     sideKey,
     keyOf("scope.export", choose),
   );
@@ -206,14 +196,15 @@ export async function mount(host, { head, kept, keep }) {
         ...each,
         values: moved(each.values, Math.round((begin - start) / (1000 * period)), length),
       }));
-    const other = reference && !settings.isRecord ? at(reference.traces, reference.start) : [];
+    const { kept } = reference;
+    const other = settings.isRecord
+      ? reference.over(cursors.value ? Math.min(...cursors.value) : frame.from, frame, length, long.isEnvelope)
+      : kept
+        ? at(kept.traces, kept.start)
+        : [];
     if (view === "time") {
       const next = settings.isRecord ? { traces: [], start } : coming();
-      const named = other.map((each) => ({
-        ...each,
-        label: `${each.label} ${t(TEXTS.referenceShort)}`,
-        isReference: true,
-      }));
+      const named = other.map((each) => ({ ...each, label: `${each.label} ${t(SHORT)}`, isReference: true }));
       screen.draw([...present, ...named, ...at(next.traces, next.start).map((each) => ({ ...each, isFaint: true }))], {
         ...frame,
         axes: axesOf(present, settings.fields.axes.value).map(axisOf),
@@ -234,19 +225,27 @@ export async function mount(host, { head, kept, keep }) {
         settings.isRecord && long.isEnvelope ? long.found : null,
       );
     if (settings.isRecord) overview.draw();
-    setText(distance, cursors.value ? distanceText(cursors.value) : "");
+    setText(distance, cursors.value ? distanceText(cursors.value) : whyNot());
   }
 
   /** Extremes are neither a path nor a spectrum: the screen shows its curves until a part has few enough samples. */
   function refuseOnce() {
-    refuse(t(TEXTS.tooMany));
+    if (!long.why) return; // its samples are on their way
+    refuse(t(TEXTS.tooMany, long.why));
     show("time");
+  }
+
+  /** What cannot be computed of a long part, where that is wanted. */
+  function whyNot() {
+    const isWanted = settings.isRecord && channels.rows[CHANNELS].source.value.trim();
+    return isWanted && long.why ? t(TEXTS.tooMany, long.why) : "";
   }
 
   /** Show the record that the panel keeps, where that is what was chosen. */
   function showRecord() {
     overview.canvas.hidden = !settings.isRecord;
     long.isOn = settings.isRecord;
+    compute();
     if (!settings.isRecord) return;
     long.width = hosts[0].clientWidth || long.width;
     const { state: now } = long;
@@ -256,6 +255,14 @@ export async function mount(host, { head, kept, keep }) {
         .then(update)
         .catch(refuse);
     long.ask();
+  }
+
+  /** Have every sample of the part, where something is computed of them. */
+  function compute() {
+    const isComputed = view !== "time" || Boolean(channels.rows[CHANNELS].source.value.trim());
+    if (isComputed === long.isComputed) return;
+    long.isComputed = isComputed;
+    if (settings.isRecord) long.ask();
   }
 
   /** Begin a long record. */
@@ -365,45 +372,13 @@ export async function mount(host, { head, kept, keep }) {
       hosts[n].hidden = each !== view;
       keys[n].ariaPressed = String(each === view);
     });
+    compute();
     draw();
   }
 
   function toggleCursors() {
     const { from, step } = shownNow();
     cursors.set(cursors.value ? null : [from + 0.25 * DIVISIONS * step, from + 0.75 * DIVISIONS * step]);
-  }
-
-  /** The traces that are shown now are kept beside the next ones. */
-  function toggleReference() {
-    const { traces, start } = shownNow();
-    refer(reference ? null : traces.map((each) => ({ ...each, values: Float64Array.from(each.values) })), start);
-  }
-
-  /** What another branch did at the ticks that are shown is the reference. */
-  async function referToBranch() {
-    const { why, branch: present, branches, period_s: tickTime } = model.timeline.value;
-    const others = branches.flatMap((each) =>
-      each.number === present || each.last === null ? [] : { ...each, last: each.last },
-    );
-    if (why || !others.length) throw new Error(why || t("time.noother"));
-    const chosen = await ask({
-      title: t(TEXTS.branch),
-      body: [h("p", {}, t(TEXTS.branchText))],
-      choices: others.map((each) => ({ text: each.name, value: each })),
-    });
-    const { first, zero, period } = recording.window();
-    if (chosen)
-      refer(channels.traces(await samplesOf(chosen, recording, tickTime), period), (first - zero) * 1000 * period);
-  }
-
-  /**
-   * @param {Channel[] | null} chosen
-   * @param {number} begin ms of their first sample
-   */
-  function refer(chosen, begin) {
-    reference = chosen && { traces: chosen, period: recording.period, start: begin };
-    referenceKey.ariaPressed = String(reference !== null);
-    draw();
   }
 
   async function sample() {
@@ -432,7 +407,11 @@ export async function mount(host, { head, kept, keep }) {
     const picture = { traces: shown, period, begin: start / 1000, canvas, trigger: settings.trigger };
     if (!settings.isRecord) return exportAs(picture);
     const [first, last] = long.part();
-    return exportAs(picture, t(TEXTS.part, { count: last - first }), last > first ? long.file(names) : "");
+    return exportAs(
+      picture,
+      t(TEXTS.part, { count: last - first }),
+      last > first ? (kind) => long.file(kind, names) : null,
+    );
   }
 
   endings.add(
