@@ -98,7 +98,7 @@ class Served:
         assert self.process.stdout is not None
         for line in self.process.stdout:
             if line.startswith(start):
-                return line.removeprefix(start)
+                return str(line.removeprefix(start))
         raise AssertionError(f"it has ended without a line {start!r}")
 
     def say(self, text: str) -> None:

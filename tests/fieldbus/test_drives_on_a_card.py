@@ -408,7 +408,7 @@ def test_a_bus_is_brought_up_again_a_part_in_each_tick_while_the_card_runs() -> 
     made.card.advance(10)
     made.link.pass_on = None
     made.send("DRIVE RES X")
-    seen = []
+    seen: list[int] = []
     while made.machine.alarm and len(seen) < 5000:
         before = made.link.frames
         made.card.advance(1)

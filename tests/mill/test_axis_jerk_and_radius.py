@@ -128,7 +128,7 @@ def test_a_hold_keeps_the_jerk_of_the_table(jerk: float, at_s: float) -> None:
 def exact(move: c.Line | c.Arc) -> c.Line | c.Arc:
     """A move of its own."""
     return type(move)(
-        **{name: getattr(move, name) for name in move.__slots__ if name != "pace"},
+        **{name: getattr(move, name) for name in move.__struct_fields__ if name != "pace"},
         pace=c.Pace(move.pace.feed_upm, mode=c.PathMode.EXACT),
     )
 
