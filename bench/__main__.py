@@ -22,6 +22,7 @@ ORDER = (
     "sweep",
     "startup",
     "language_server",
+    "realtime",
     "terminal_latency",
     "packets",
     "bursts",
