@@ -32,7 +32,7 @@ FIGURES = (
         ("", ["--silence", "2"], "--core and --silence are for --realtime"),
         ("", ["--realtime", "--speed", "2"], "a card with --realtime runs in real time"),
         ("", ["--realtime", "--core", "99999"], "--core 99999: this process may use the cores"),
-        (MACHINE, ["--realtime"], "the bus of machine.toml is not exchanged"),
+        (MACHINE, ["--realtime"], "no-such-if"),
         pytest.param(
             "", ["--realtime", "--silence", "0"], "a silence of 0 s: it has to be above 0",
             marks=pytest.mark.skipif(not compiled.is_compiled, reason="needs the compiled core"),

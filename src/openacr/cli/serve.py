@@ -14,7 +14,12 @@ import typer
 from openacr.channels import ASCII_PORT, BINARY_PORT
 from openacr.cli.guests import Allow, Insecure, admitted
 from openacr.cli.serve_on_bus import Served, agreed, world_on_bus
-from openacr.cli.serve_realtime import agreed_realtime, in_real_time
+from openacr.cli.serve_realtime import (
+    RealtimeOptions,
+    agreed_realtime,
+    in_real_time,
+    served_in_real_time,
+)
 from openacr.cli.signals import stop_on_signals
 from openacr.errors import StoreError, UserError
 from openacr.protocol.status import STATUS_PORT
@@ -112,9 +117,9 @@ def serve(
     """
     guests = admitted(host, allow, is_open=insecure)
     world = world_on_bus(project, bus)
-    agreed_realtime(
-        is_on=is_real_time, core=core, silence_s=silence, speed=speed, has_bus=world is not None
-    )
+    agreed_realtime(is_on=is_real_time, core=core, silence_s=silence, speed=speed)
+    if is_real_time:
+        served_in_real_time(world, bus, is_reported=is_reported)
     interface = agreed(world, bus, speed, is_real=is_real, is_sure=is_sure)
     card = _load(project, data, world)
     try:
@@ -130,7 +135,8 @@ def serve(
             is_status_wanted=status_port is not None,
         )
         if is_real_time:
-            with in_real_time(card, core, silence) as live:
+            options = RealtimeOptions(core, silence, world, interface, is_real)
+            with in_real_time(card, options) as live:
                 asyncio.run(serve_card(live.card, ports, speed, guests, live.begin))
         elif world is None:
             asyncio.run(serve_card(card, ports, speed, guests))

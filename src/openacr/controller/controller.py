@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.channels import StreamKind
@@ -39,6 +40,9 @@ from openacr.plant.world.world_view import WorldView
 from openacr.project import Project, find_project
 from openacr.protocol.events import ControlKey
 from openacr.protocol.status import GROUPS, WORDS, FastStatus
+
+if TYPE_CHECKING:
+    from openacr.fieldbus.machine.realtime_bus import RealtimeBus
 
 
 class Controller:
@@ -208,17 +212,20 @@ class Controller:
             raise UserError(f"handlers that take {longest_tk} ticks: the minimum is 0")
         self._engine.delay_handlers(-1 if longest_tk is None else longest_tk, seed)
 
-    def real_time(self, silence_s: float = SILENCE_S) -> RealtimeCard:
+    def real_time(
+        self, silence_s: float = SILENCE_S, bus: RealtimeBus | None = None
+    ) -> RealtimeCard:
         """The card on the wall clock, in a loop that waits for no work of Python (Linux).
 
         It lives from `start` to `close`; until then `advance`, `until` and `ask` are refused.
-        Programs get no slices while Python is silent for `silence_s`. UserError where the compiled
+        Programs get no slices while Python is silent for `silence_s`; the frame of a bus is
+        exchanged within the loop. UserError where the compiled
         core is missing, a journal is kept, lines are announced or the servo period is too short.
         """
         if self.announced[1] is not None:
             raise UserError("a card in real time stops before no line: end `announce_lines` first")
         self.delay_handlers(None)
-        return self._engine.real_time(self, silence_s)
+        return self._engine.real_time(self, silence_s, bus)
 
     def announce_lines(self, programs: int = 0, ask: AskLine | None = None) -> None:
         """Call `ask(program, line)` before each line of these programs (a mask of 0-15).

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
 from openacr.basic.channels.channel_words import take_escapes
 from openacr.basic.execute.threads import KINEMATICS
@@ -28,6 +29,9 @@ from openacr.host import CardHost
 from openacr.map.memory import flag_place
 from openacr.map.numbers import HEAP_BYTE_BASE
 from openacr.map.rows import engine
+
+if TYPE_CHECKING:
+    from openacr.fieldbus.machine.realtime_bus import RealtimeBus
 
 LONGEST_RUN_TK = 2**31 - 1  # ticks of one run of the engine, which counts down in 32 bits
 
@@ -74,9 +78,9 @@ class EngineRun:
             running = self._parts.executor.threads
             self._late = LateHandlers(running, longest_tk, seed)
 
-    def real_time(self, card: CardHost, silence_s: float) -> RealtimeCard:
+    def real_time(self, card: CardHost, silence_s: float, bus: RealtimeBus | None) -> RealtimeCard:
         """Let a loop on the wall clock advance the card, from its `start` to its `close`."""
-        live = RealtimeCard(card, self._parts, self.recording.view, silence_s)
+        live = RealtimeCard(card, self._parts, self.recording.view, silence_s, bus)
         self._real_time = live
         return live
 

@@ -11,6 +11,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
 from openacr.basic.channels.channel_words import take_escapes
 from openacr.basic.execute.threads import KINEMATICS
@@ -28,17 +29,28 @@ from openacr.map.rows import threads
 from openacr.messages import NOT_SUPPORTED
 from openacr.views import F64
 
+if TYPE_CHECKING:
+    from openacr.fieldbus.machine.realtime_bus import RealtimeBus
+
 log = logging.getLogger(__name__)
 
 SILENCE_S = 1.0
 LOOK_S = 0.5  # the memory of Python is at most that old
+BUS_LOOK_S = 0.004  # between two looks at the drives of a bus
 SHORTEST_S = 200e-6  # a period in which the state can be copied, too
 
 
 class RealtimeCard(HandlerLists):
     """A card for servers; it lives from `start` to `close` whatever Python does."""
 
-    def __init__(self, card: CardHost, parts: CardParts, trace: F64, silence_s: float) -> None:
+    def __init__(
+        self,
+        card: CardHost,
+        parts: CardParts,
+        trace: F64,
+        silence_s: float,
+        bus: RealtimeBus | None = None,
+    ) -> None:
         if parts.inputs.file is not None:
             raise UserError("a card in real time keeps no journal: it could not be replayed")
         if card.period_s < SHORTEST_S:
@@ -47,7 +59,9 @@ class RealtimeCard(HandlerLists):
                 f" {1e6 * SHORTEST_S:g} us and more (PERIOD, or period_s of machine.toml)"
             )
         self._card, self._parts = card, parts
-        self._loop = RealtimeLoop(trace, silence_s)
+        self._bus = bus
+        self._look_s = LOOK_S if bus is None else BUS_LOOK_S
+        self._loop = RealtimeLoop(trace, silence_s, None if bus is None else bus.memory)
         self._pending: deque[Changes] = deque()
         self._served = self._loop.asked()
         self._said = 0  # of what the loop has passed over
@@ -56,14 +70,23 @@ class RealtimeCard(HandlerLists):
         super().__init__(parts.executor.threads)
 
     def start(self, prepare: Callable[[], None] = lambda: None) -> None:
-        """Begin to live; `prepare` is called first, on the thread of the loop."""
+        """Begin to live; `prepare` is called first, on the thread of the loop.
+
+        The bus, if there is one, is brought up before: BusError if it is not as described.
+        """
+        if self._bus is not None:
+            self._bus.connect()
         self._loop.start(self._memory, self._latest, prepare)
 
     def close(self) -> None:
-        """Bring all axes to rest and end the loop."""
+        """Bring all axes to rest and end the loop; the drives of a bus are off then."""
+        if self.is_closed:
+            return
         if self._loop.has_begun:
             self._loop.end()
             self.see()
+        if self._bus is not None:
+            self._bus.close()
         self.end()
         self.is_closed = True
 
@@ -142,7 +165,7 @@ class RealtimeCard(HandlerLists):
                 " brought all axes to rest"
             )
         asked = self._loop.asked()
-        if self.is_wanted or time.monotonic() > self._looked_s + LOOK_S:
+        if self.is_wanted or time.monotonic() > self._looked_s + self._look_s:
             with self._work():
                 self._attend(asked)
 
@@ -191,6 +214,8 @@ class RealtimeCard(HandlerLists):
     def _work(self) -> Iterator[None]:
         self.see()
         yield
+        if self._bus is not None:
+            self._bus.look()  # a drive that is to be enabled is held before the loop learns of it
         self._commit()
 
     def see(self) -> None:

@@ -13,6 +13,7 @@ from openacr.engine import realtime_cy as loop
 from openacr.engine.changes import Changes
 from openacr.engine.changes_cy import ENTRY
 from openacr.errors import UserError
+from openacr.fieldbus.machine.exchange_memory import ExchangeMemory
 from openacr.map.memory import Memory
 from openacr.map.numbers import HEAP_BYTE_BASE, MEMORY_BYTES
 from openacr.views import F64, I32
@@ -76,7 +77,9 @@ class RealtimeFigures:
 class RealtimeLoop:
     """Memory of the machine and the thread that lives it; UserError without the compiled core."""
 
-    def __init__(self, trace: F64, silence_s: float) -> None:
+    def __init__(
+        self, trace: F64, silence_s: float, exchange: ExchangeMemory | None = None
+    ) -> None:
         if not is_compiled:
             raise UserError("a real-time loop needs the compiled core (see docs/installation.md)")
         if not silence_s > 0.0:
@@ -87,7 +90,8 @@ class RealtimeLoop:
         self._numbers = real(loop.N_ROWS)
         self._numbers[loop.SILENCE_S] = silence_s
         self._numbers[loop.GONE_S] = GONE_TIMES * silence_s
-        self._numbers[loop.MADE_UP] = 1.0
+        self._numbers[loop.MADE_UP] = 1.0 if exchange is None else 0.0  # devices keep their time
+        self._exchange = exchange or ExchangeMemory()
         self._entries = whole(ENTRY * MOST_ENTRIES)
         self._next = 0  # free entry
         self._codes = [(whole(CODE_WORDS), real(CODE_NUMBERS)) for _ in range(2)]
@@ -115,13 +119,13 @@ class RealtimeLoop:
                 return
             finally:
                 is_ready.set()
-            machine, (first, second) = self.machine, self._codes
+            machine, bus, (first, second) = self.machine, self._exchange, self._codes
             seen, log = whole(HEAP_BYTE_BASE // 4), whole(change_log_cy.HEAD)
             seen[quiet_cy.PAUSE] = 0  # every tick takes its time
             _realtime_run(
                 machine.F, machine.I, machine.S, *first, *second, self._trace, seen, log,
                 self._entries, self._entries.cast("B").cast("d"), self._spare.I, self._rows,
-                self._numbers,
+                self._numbers, bus.rows, bus.numbers, bus.out, bus.back,
             )  # fmt: skip
 
         self._thread = threading.Thread(target=live, name="real-time loop", daemon=True)

@@ -51,6 +51,10 @@ class RawLink:
                     return data
         return None
 
+    def fileno(self) -> int:
+        """Number of the socket, for the real-time loop."""
+        return self._socket.fileno()
+
     def now_s(self) -> float:
         """Seconds of a clock that never goes back."""
         return time.monotonic()

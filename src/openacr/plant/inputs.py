@@ -107,7 +107,12 @@ def state(memory: Memory, flag: int) -> InputState:
 
 def is_driven(memory: Memory, flag: int) -> bool:
     """Whether the machine drives an input."""
-    return _driven(memory, *input_place(flag)) is not None
+    return driven_slot(memory, flag) is not None
+
+
+def driven_slot(memory: Memory, flag: int) -> int | None:
+    """Where the machine keeps the level to which it drives an input; None if it does not."""
+    return _driven(memory, *input_place(flag))
 
 
 def _driven(memory: Memory, word: int, mask: int) -> int | None:

@@ -120,19 +120,28 @@ class Master:
 
     def exchange(self) -> Exchanged | None:
         """Send the outputs of `image`, bring the inputs; None if the frame is lost."""
-        datagrams = [
+        back = self.port.once(self.datagrams())
+        if back is None:
+            return None
+        status = int.from_bytes(back[1].data, "little")
+        are_operating = not status & self.forbidden and bool(status & State.OP)
+        return Exchanged(back[0].data, back[0].counter == self.counter, are_operating)
+
+    def datagrams(self) -> list[Datagram]:
+        """The cyclic frame: the image, the joint state of all devices, the clock if any."""
+        found = [
             by_logical(Command.LRW, 0, bytes(self.image)),
             by_station(Command.BRD, 0, Register.AL_STATUS, b"\0\0"),
         ]
         if self._reference is not None:
-            datagrams.append(_clock(self._reference))
-        back = self.port.once(datagrams)
-        if back is None:
-            return None
-        status = int.from_bytes(back[1].data, "little")
+            found.append(_clock(self._reference))
+        return found
+
+    @property
+    def forbidden(self) -> int:
+        """Bits of the joint state that say that a member is not in OP."""
         only_op = State.OP if len(self.members) == len(self.devices) else State.OP | State.PREOP
-        are_operating = not status & (STATE_MASK | ERROR) & ~only_op and bool(status & State.OP)
-        return Exchanged(back[0].data, back[0].counter == self.counter, are_operating)
+        return (STATE_MASK | ERROR) & ~only_op
 
     def shut_down(self) -> None:
         """Bring all devices back to INIT; those that do not answer are left."""

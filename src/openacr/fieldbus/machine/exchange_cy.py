@@ -1,0 +1,303 @@
+"""The cyclic frame of a bus in the real-time loop: process data to rows of the card and back.
+
+What has to be on time is here: targets, positions, contacts, and the reactions to what goes wrong.
+Which control word a drive gets is decided by Python (`realtime_bus.py`), which writes the outputs
+of all devices into one of two images (BASE); the loop lays its targets and outputs over it.
+
+At the beginning of a period the outputs of the tick before go out, and what comes back takes effect
+in the tick that follows. B are whole numbers, N doubles, X the frame that goes out and the two
+images, Y the frame that came back. Nothing here allocates or fails.
+"""
+
+from openacr.cmath import fabs, rint
+from openacr.csystem import frame_exchange, now_ns
+from openacr.map.rows import axes, bus_motors, encoders, input_words, motors
+from openacr.map.words import af4
+from openacr.plant.physics.drive_cy import converter_volts
+from openacr.views import F32, F64, I32, U8
+
+__all__ = ["bus_exchange", "bus_give", "bus_take"]
+
+# Rows of B; the writer in brackets.
+ACTIVE = 0  # 1: frames are exchanged [Python]
+SOCKET = 1
+FRAME_SIZE = 2
+IMAGE_AT = 3  # of the image, in the frame
+OUTPUTS_SIZE = 4  # of the image; inputs follow
+COUNTER_AT = 5  # of the working counter, in the frame
+COUNTER = 6  # if all devices take part
+STATUS_AT = 7  # of the joint state of all devices, in the frame
+FORBIDDEN = 8  # bits of a joint state that is not operation
+OPERATING = 9  # bit that it has
+DATAGRAMS = 10
+INDEX_AT = 11  # of each datagram (3 rows), in the frame
+CYCLE_TK = 14
+WAIT_TK = 15  # [loop]
+LOST_FRAMES = 16  # in a row that may be lost
+BAD = 17  # in a row [loop]
+ALARM = 18  # what has stopped all drives [loop]
+DRIVES = 19
+INPUTS = 20
+OUTPUTS = 21
+BASE = 22  # which image is valid [Python]
+FRESH = 23  # 1: a frame came back whole and is to be taken [loop]
+GOOD = 24  # counts frames that came back whole [loop]
+SENT = 25  # counts frames, the index of the datagrams [loop]
+FIRST_DRIVE = 32
+DRIVE_ROWS = 16
+FIRST_CONTACT = 288  # inputs, then outputs
+CONTACT_ROWS = 5
+MOST_CONTACTS = 1024
+B_ROWS = 5408
+
+# Rows of a drive.
+OWNER = 0  # axis, -1 without one [Python]
+READY = 1  # it is to follow the setpoint [Python]
+FOLLOWS = 2  # it has followed it since it is ready [loop]
+CONTROL_AT = 3  # places in the image
+TARGET_AT = 4
+TARGET_SIZE = 5
+STATE_AT = 6
+ACTUAL_AT = 7
+IS_POSITION = 8  # mode csp
+MOTOR = 9
+IS_KNOWN = 10  # it has reported a position [loop; Python clears it]
+FAILED = 11  # what has stopped it [loop; Python clears it]
+JUMP_CNT = 12  # by which its position jumped [loop]
+
+# Rows of a contact: byte and bit in the image, word and mask of the card, slot of input_words.
+BYTE = 0
+BIT = 1
+WORD = 2
+MASK = 3
+SLOT = 4
+
+# Rows of N.
+RETURN_NS = 0  # a frame may take
+LATE_NS = 1  # between two exchanges
+LATEST_NS = 2  # exchange
+CYCLES = 3
+BAD_CYCLES = 4
+WORST_RETURN_NS = 5
+FIRST_NUMBERS = 16
+DRIVE_NUMBERS = 8
+N_ROWS = 144
+
+# Numbers of a drive.
+COUNTS = 0  # of the drive, beyond 32 bits
+ZERO = 1  # counts that are the card's count at power-up
+SCALE = 2  # counts for a raw count of the card
+PER_VOLT = 3
+FASTEST_CPS = 4
+
+# Images in X.
+FRAME_ROOM = 1536
+BASES = 1536
+X_SIZE = 4608
+
+# What has stopped all drives, and what has stopped one.
+ALARM_LOST = 1
+ALARM_COUNTER = 2
+ALARM_LATE = 3
+ALARM_LEFT = 4
+FAILED_JUMP = 1
+FAILED_STATE = 2
+
+QUICK_STOP = 2
+DISABLE_VOLTAGE = 0
+STATE_MASK = 111
+IN_OPERATION = 39
+MIDDLE = 0.5
+JITTER_CNT = 16.0
+RAW_COUNTS = 4.0
+
+
+def word_of(Y: U8, at: int) -> int:
+    """Sixteen bits."""
+    return Y[at] | (Y[at + 1] << 8)
+
+
+def long_of_image(Y: U8, at: int) -> int:
+    """Thirty-two bits with a sign."""
+    found: int = word_of(Y, at) | (word_of(Y, at + 2) << 16)
+    return found - 4294967296 if found >= 2147483648 else found
+
+
+def put(X: U8, at: int, size: int, value: int) -> None:
+    """Write the low bytes of a number."""
+    rest: int = value
+    for k in range(size):
+        X[at + k] = rest & 255
+        rest = rest >> 8
+
+
+def bus_exchange(B: I32, N: F64, X: U8, Y: U8, now: int) -> None:
+    """Send the outputs and wait for what comes back, at most RETURN_NS; no state is touched."""
+    B[FRESH] = 0
+    B[WAIT_TK] = B[WAIT_TK] - 1
+    if B[ACTIVE] == 0 or B[WAIT_TK] > 0:
+        return
+    B[WAIT_TK] = B[CYCLE_TK]
+    B[SENT] = B[SENT] + 1 if B[SENT] < 255 else 1
+    for k in range(B[DATAGRAMS]):
+        X[B[INDEX_AT + k]] = B[SENT]
+    N[CYCLES] += 1.0
+    if N[LATEST_NS] > 0.0 and float(now) - N[LATEST_NS] > N[LATE_NS]:
+        bus_alarm(B, ALARM_LATE)
+    size: int = frame_exchange(
+        B[SOCKET], X, B[FRAME_SIZE], Y, FRAME_ROOM, B[INDEX_AT], now + int(N[RETURN_NS])
+    )
+    N[WORST_RETURN_NS] = max(N[WORST_RETURN_NS], float(now_ns() - now))
+    is_back: bool = size >= B[FRAME_SIZE]
+    for k in range(B[DATAGRAMS]):
+        at: int = B[INDEX_AT + k]
+        is_back = is_back and Y[at] == X[at] and Y[at - 1] == X[at - 1]
+    is_whole: bool = is_back and word_of(Y, B[COUNTER_AT]) == B[COUNTER]
+    if is_whole:
+        B[BAD] = 0
+        B[FRESH] = 1
+        B[GOOD] = (B[GOOD] + 1) & 1073741823
+        return
+    N[BAD_CYCLES] += 1.0
+    B[BAD] = B[BAD] + 1
+    if B[BAD] > B[LOST_FRAMES]:
+        bus_alarm(B, ALARM_COUNTER if is_back else ALARM_LOST)
+
+
+def bus_alarm(B: I32, what: int) -> None:
+    """All drives are stopped, by the first reason."""
+    if B[ALARM] == 0:
+        B[ALARM] = what
+
+
+def axis_stop(I: I32, n: int) -> None:
+    """Motion of an axis is killed and Drive Fault is set."""
+    if n >= 0:
+        word: int = af4.word[n]
+        I[word] = I[word] | af4.DRIVE_FAULT | af4.KILL_ALL_MOTION_REQUEST
+
+
+def bus_take(F: F64, I: I32, B: I32, N: F64, Y: U8, now: int) -> None:
+    """Bring what came back into the rows of the tick; an alarm stops every axis."""
+    if B[FRESH]:
+        status: int = word_of(Y, B[STATUS_AT])
+        if status & B[FORBIDDEN] or not status & B[OPERATING]:
+            bus_alarm(B, ALARM_LEFT)
+        for d in range(B[DRIVES]):
+            drive_take(F, I, B, N, Y, d, now)
+        N[LATEST_NS] = float(now)
+        for k in range(B[INPUTS]):
+            contact_take(I, B, Y, FIRST_CONTACT + CONTACT_ROWS * k)
+    if B[ALARM]:
+        for d in range(B[DRIVES]):
+            r: int = FIRST_DRIVE + DRIVE_ROWS * d
+            if B[r + READY]:
+                axis_stop(I, B[r + OWNER])
+
+
+def drive_take(F: F64, I: I32, B: I32, N: F64, Y: U8, d: int, now: int) -> None:
+    """The position that a drive reports; a jump, or the end of operation, stops its axis."""
+    r: int = FIRST_DRIVE + DRIVE_ROWS * d
+    f: int = FIRST_NUMBERS + DRIVE_NUMBERS * d
+    image: int = B[IMAGE_AT]
+    actual: int = long_of_image(Y, image + B[r + ACTUAL_AT])
+    if B[r + IS_KNOWN] == 0:
+        B[r + IS_KNOWN] = 1
+        if N[f + ZERO] != N[f + ZERO]:  # the first position of all
+            N[f + ZERO] = float(actual)
+        N[f + COUNTS] = float(actual)
+    counts: int = int(N[f + COUNTS])
+    moved: int = (actual - counts) & 4294967295
+    moved = moved - 4294967296 if moved >= 2147483648 else moved
+    passed_s: float = 1e-9 * (float(now) - N[LATEST_NS])
+    N[f + COUNTS] = float(counts + moved)
+    F[bus_motors.reported_cnt[B[r + MOTOR]]] = (N[f + COUNTS] - N[f + ZERO]) / N[f + SCALE] + MIDDLE
+    if B[r + READY] == 0 or B[r + FAILED]:
+        return
+    if fabs(float(moved)) > N[f + FASTEST_CPS] * passed_s + JITTER_CNT:
+        B[r + JUMP_CNT] = moved
+        B[r + FAILED] = FAILED_JUMP
+    elif (word_of(Y, image + B[r + STATE_AT]) & STATE_MASK) != IN_OPERATION:
+        B[r + FAILED] = FAILED_STATE
+    if B[r + FAILED]:
+        axis_stop(I, B[r + OWNER])
+
+
+def contact_take(I: I32, B: I32, Y: U8, r: int) -> None:
+    """An input that the bus drives; a forced one keeps its level."""
+    slot: int = B[r + SLOT]
+    mask: int = B[r + MASK]
+    word: int = B[r + WORD]
+    if (Y[B[IMAGE_AT] + B[r + BYTE]] >> B[r + BIT]) & 1:
+        I[input_words.level[slot]] = I[input_words.level[slot]] | mask
+        if not I[input_words.stuck[slot]] & mask:
+            I[word] = I[word] | mask
+    else:
+        I[input_words.level[slot]] = I[input_words.level[slot]] & ~mask
+        if not I[input_words.stuck[slot]] & mask:
+            I[word] = I[word] & ~mask
+
+
+def bus_give(F: F64, I: I32, S: F32, B: I32, N: F64, X: U8) -> None:
+    """The outputs after a tick: what Python asks of the devices, targets and contacts over it."""
+    if B[ACTIVE] == 0:
+        return
+    image: int = B[IMAGE_AT]
+    base: int = BASES + FRAME_ROOM * B[BASE]
+    for k in range(B[OUTPUTS_SIZE]):
+        X[image + k] = X[base + k]
+    for d in range(B[DRIVES]):
+        drive_give(F, I, S, B, N, X, d)
+    for k in range(B[INPUTS], B[INPUTS] + B[OUTPUTS]):
+        r: int = FIRST_CONTACT + CONTACT_ROWS * k
+        at: int = image + B[r + BYTE]
+        bit: int = 1
+        bit = bit << B[r + BIT]
+        if I[B[r + WORD]] & B[r + MASK]:
+            X[at] = X[at] | bit
+        else:
+            X[at] = X[at] & ~bit & 255
+
+
+def drive_give(F: F64, I: I32, S: F32, B: I32, N: F64, X: U8, d: int) -> None:
+    """The target of a drive, and the control word that cannot wait for Python."""
+    r: int = FIRST_DRIVE + DRIVE_ROWS * d
+    f: int = FIRST_NUMBERS + DRIVE_NUMBERS * d
+    image: int = B[IMAGE_AT]
+    n: int = B[r + OWNER]
+    is_on: bool = B[r + READY] != 0 and n >= 0 and (I[af4.word[n]] & af4.DRIVE_ENABLED) != 0
+    if B[r + READY] == 0:
+        B[r + FOLLOWS] = 0
+    if B[ALARM] or B[r + FAILED]:
+        put(X, image + B[r + CONTROL_AT], 2, QUICK_STOP)
+    elif is_on:
+        B[r + FOLLOWS] = 1
+    elif B[r + FOLLOWS]:  # the card has switched it off
+        put(X, image + B[r + CONTROL_AT], 2, DISABLE_VOLTAGE)
+    put(
+        X, image + B[r + TARGET_AT], B[r + TARGET_SIZE], drive_target(F, I, S, B, N, r, f, n, is_on)
+    )
+
+
+def drive_target(
+    F: F64, I: I32, S: F32, B: I32, N: F64, r: int, f: int, n: int, is_on: bool
+) -> int:
+    """Where the setpoint means the drive to be, or what the converter asks of it."""
+    motor: int = B[r + MOTOR]
+    value: float = 0.0
+    if B[r + IS_POSITION]:
+        value = N[f + COUNTS]
+        mult: int = I[encoders.mult[motor]]
+        if is_on and mult:
+            # With the fraction that the encoder carries the target depends on the setpoint alone.
+            actual: float = float(I[axes.actual_position[n]]) + F[encoders.partial_cnt[motor]]
+            missing: float = F[axes.ssp_cnt[n]] - actual
+            place: float = F[motors.raw_count[motor]] + missing * RAW_COUNTS / float(mult)
+            value = N[f + ZERO] + rint(place * N[f + SCALE])
+        return int(value)
+    if not is_on:
+        return 0
+    value = converter_volts(S, I[motors.dac[motor]], F[motors.dac_step[motor]]) * N[f + PER_VOLT]
+    most: float = 32767.0 if B[r + TARGET_SIZE] == 2 else 2147483647.0
+    value = max(-most, min(most, rint(value)))
+    return int(value)

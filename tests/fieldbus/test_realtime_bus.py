@@ -1,0 +1,266 @@
+"""Drives on a bus whose frames the real-time loop exchanges; the segment is a process beside."""
+
+import ctypes
+import select
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from tests.fieldbus.test_drives_on_a_card import RAMP, machine
+
+from openacr import compiled
+from openacr.channels import StreamKind
+from openacr.compiled import pick
+from openacr.controller import Controller
+from openacr.fieldbus.cia402.states import State
+from openacr.fieldbus.machine import exchange_cy as at
+from openacr.fieldbus.machine.exchange_memory import ExchangeMemory
+from openacr.fieldbus.machine.realtime_bus import RealtimeBus
+from openacr.map.memory import flag_place
+from openacr.map.rows import axes, input_words
+from openacr.map.words import af4
+from openacr.plant.describe.load import parse_world
+from openacr.plant.describe.real_world import real_world
+
+ROOT = Path(__file__).parents[2]
+PATIENCE_S = 60.0
+PERIOD_S = 0.004  # on a busy computer an emulated segment has to answer in half of it
+bus_take, bus_give = pick(at.bus_take), pick(at.bus_give)
+PATIENT = "lost_frames = 500\nlate_s = 10.0\n"
+
+pytestmark = [
+    pytest.mark.skipif(sys.platform != "linux", reason="the loop is for Linux"),
+    pytest.mark.skipif(not compiled.is_compiled, reason="needs the compiled core"),
+]
+
+
+class PairLink:
+    """Frames to a process at the other end of a pair of sockets."""
+
+    name = "pair"
+
+    def __init__(self, end: socket.socket) -> None:
+        self._end = end
+
+    def fileno(self) -> int:
+        return self._end.fileno()
+
+    def exchange(self, frame: bytes) -> bytes | None:
+        self._end.send(frame)
+        while select.select([self._end], [], [], 2.0)[0]:
+            back = self._end.recv(2048)
+            if back[17] == frame[17]:
+                return back
+        return None
+
+    def now_s(self) -> float:
+        return time.monotonic()
+
+    def pause(self, seconds: float) -> None:
+        time.sleep(seconds)
+
+
+class LiveOnBus:
+    """A card in real time with its drives on a bus, and a host at P00."""
+
+    def __init__(self, text: str, link: PairLink, commands: socket.socket) -> None:
+        self._commands = commands
+        world = real_world(parse_world(text))
+        self.made = Controller(world.card.board, world=world)
+        numbers = [axis.number for axis in world.axis]
+        attached = [f"ATTACH AXIS{n} ENC{n} DAC{n} ENC{n}" for n in numbers]
+        slaves = [f'ATTACH SLAVE{n} AXIS{n} "{"XY"[n]}"' for n in numbers]
+        scale = [f"MULT {'XY'[n]}4" for n in numbers]
+        setup = ["SYS", *attached, "PROG0", "ATTACH MASTER0", *slaves, *scale, *RAMP]
+        for line in (*setup, f"PERIOD {PERIOD_S}"):
+            self.made.send(line + "\r")
+        self.bus = RealtimeBus(self.made.card, world, link, is_real=True)
+        self.card = self.made.real_time(PATIENCE_S, self.bus)
+        self.card.start()
+        self.stream = self.card.open_stream(StreamKind.TERMINAL)
+        self.send("PROG0")
+
+    def send(self, text: str) -> None:
+        self.card.receive(self.stream, text.encode() + b"\r")
+
+    def until(self, is_met: Callable[[], bool]) -> None:
+        limit_s = time.monotonic() + PATIENCE_S
+        while not is_met():
+            assert time.monotonic() < limit_s, (self.bus.alarm, [d.alarm for d in self.bus.drives])
+            self.card.advance()
+            self.card.take_output(self.stream)
+            self.card.see()
+            time.sleep(0.001)
+
+    def states(self, fault: str = "state") -> list[str]:
+        """Cause a fault; position and state of each drive."""
+        self._commands.send(fault.encode())
+        return self._commands.recv(2048).decode().split("\n")
+
+    def drives(self, fault: str = "state") -> list[float]:
+        """Cause a fault; where the motors of the drives are [counts]."""
+        return [float(line.split()[0]) for line in self.states(fault)]
+
+    def flags(self, n: int = 0) -> int:
+        return self.made.memory.I[af4.word[n]]
+
+    def is_enabled(self, n: int = 0) -> bool:
+        return bool(self.flags(n) & af4.DRIVE_ENABLED)
+
+    def position(self, n: int = 0) -> int:
+        return self.made.memory.I[axes.actual_position[n]]
+
+    def switch_on(self) -> None:
+        before = self.bus.memory.rows[at.GOOD]
+        self.until(lambda: self.bus.memory.rows[at.GOOD] > before + 5)
+        self.send("DRIVE ON X")
+        self.until(self.is_enabled)
+
+
+@contextmanager
+def live_on_bus(text: str, digital: int = 0) -> Iterator[LiveOnBus]:
+    frames, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM)
+    commands, their_commands = socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM)
+    numbers = [theirs.fileno(), their_commands.fileno()]
+    command = [sys.executable, "-m", "tests.fieldbus.segment_process", *map(str, numbers)]
+    with subprocess.Popen(
+        [*command, str(digital)], cwd=ROOT, stdin=subprocess.PIPE, pass_fds=numbers, text=True
+    ) as process:
+        assert process.stdin is not None
+        process.stdin.write(text)
+        process.stdin.close()
+        assert commands.recv(64) == b"ready"
+        try:
+            live = LiveOnBus(text, PairLink(frames), commands)
+            try:
+                yield live
+            finally:
+                live.card.close()
+                live.made.close()
+        finally:
+            process.kill()
+            for each in (frames, theirs, commands, their_commands):
+                each.close()
+
+
+def test_enabling_moves_nothing_and_a_move_arrives_to_the_count() -> None:
+    with live_on_bus(machine(more=PATIENT)) as live:
+        before = live.drives()[0]
+        live.switch_on()
+        live.until(lambda: live.card.is_settled)
+        assert abs(live.drives()[0] - before) < 1.0
+        live.send("X5000")
+        live.until(lambda: live.position() == 5000)
+        live.send("X-300")
+        live.until(lambda: live.position() == -300)
+        live.until(lambda: abs(live.drives()[0] - before + 300) < 1.0)
+        live.send("DRIVE OFF X")
+        live.until(lambda: not live.is_enabled())
+
+
+def test_python_that_holds_its_lock_stops_no_frame_and_no_move() -> None:
+    held = ctypes.PyDLL(None).usleep
+    with live_on_bus(machine(more=PATIENT)) as live:
+        live.switch_on()
+        live.send("X20000")
+        live.until(lambda: live.position() > 1000)
+        sent, there = live.bus.cycles, live.drives()[0]
+        held(400_000)
+        assert live.bus.cycles > sent
+        assert live.drives()[0] > there + 1000
+        live.until(lambda: live.position() == 20000)
+
+
+def test_frames_that_are_lost_stop_all_drives_and_drive_res_brings_the_bus_up_again() -> None:
+    with live_on_bus(machine(more="lost_frames = 100\nlate_s = 10.0\n")) as live:
+        live.switch_on()
+        live.drives("cable-out 0")
+        live.until(lambda: "no frame comes back" in live.bus.alarm)
+        live.until(lambda: bool(live.flags() & af4.DRIVE_FAULT) and not live.is_enabled())
+        live.drives("cable-in")
+        live.send("DRIVE RES X")
+        live.until(lambda: not live.bus.alarm)
+        live.until(lambda: not live.flags() & af4.DRIVE_RESET_REQUEST)
+        live.until(lambda: live.bus.drives[0].drive.state is State.DISABLED)
+        live.switch_on()
+
+
+def test_at_the_end_drives_are_switched_off_at_rest_without_a_fault() -> None:
+    with live_on_bus(machine(more=PATIENT)) as live:
+        live.switch_on()
+        live.send("X100000")
+        live.until(lambda: live.position() > 1000)
+        assert "ENABLED" in live.states()[0]
+        live.card.close()
+        (state,) = live.states()
+        assert " DISABLED at" in state
+        there = live.made.memory.I[axes.secondary_setpoint[0]]
+        assert 1000 < there < 100_000
+        assert abs(live.position() - there) < 50
+        (at_rest,) = live.drives()
+        time.sleep(0.05)
+        assert live.drives() == [pytest.approx(at_rest, abs=1.0)]
+
+
+@pytest.mark.parametrize("is_forced", [False, True])
+def test_contacts_of_the_image_are_inputs_and_outputs_of_the_card(is_forced: bool) -> None:
+    made = Controller(world="examples/gantry/machine.toml")
+    rows = made.memory.I
+    memory = ExchangeMemory()
+    b = memory.rows
+    b[at.ACTIVE], b[at.IMAGE_AT], b[at.OUTPUTS_SIZE] = 1, 26, 2
+    b[at.OPERATING], b[at.FRESH], b[at.STATUS_AT] = 8, 1, 40
+    b[at.INPUTS], b[at.OUTPUTS] = 2, 2
+    slot, stuck_mask = 0, 1 << 4
+    word = input_words.level[slot] + 0
+    flag_word, _ = flag_place(0)
+    output_word, output_mask = flag_place(33)
+    contacts = [
+        (2, 3, flag_word, 1 << 4, slot),
+        (3, 0, flag_word, 1 << 5, slot),
+        (0, 7, output_word, output_mask, 0),
+        (1, 0, output_word, output_mask << 1, 0),
+    ]
+    for number, contact in enumerate(contacts):
+        first = at.FIRST_CONTACT + at.CONTACT_ROWS * number
+        for offset, value in enumerate(contact):
+            b[first + offset] = value
+    rows[input_words.stuck[slot]] = stuck_mask if is_forced else 0
+    rows[flag_word] = 1 << 5
+    memory.back[28], memory.back[29], memory.back[40] = 1 << 3, 0, 8
+    bus_take(made.memory.F, rows, b, memory.numbers, memory.back, 1)
+    assert rows[word] & 0x30 == 1 << 4
+    assert rows[flag_word] & 0x30 == (0 if is_forced else 1 << 4)
+    assert b[at.ALARM] == 0
+    rows[output_word] = output_mask
+    memory.out[at.BASES], memory.out[at.BASES + 1] = 1, 1
+    bus_give(made.memory.F, rows, made.memory.S, b, memory.numbers, memory.out)
+    assert bytes(memory.out[26:28]) == bytes([0x81, 0])
+    memory.back[40] = 2
+    bus_take(made.memory.F, rows, b, memory.numbers, memory.back, 2)
+    assert b[at.ALARM] == at.ALARM_LEFT
+
+
+def test_a_drive_that_reports_a_fault_stops_its_axis() -> None:
+    with live_on_bus(machine(axes=2, more=PATIENT)) as live:
+        live.switch_on()
+        live.send("DRIVE ON Y")
+        live.until(lambda: live.is_enabled(1))
+        live.drives("drive-fault 0")
+        live.until(lambda: bool(live.flags(0) & af4.DRIVE_FAULT) and not live.is_enabled(0))
+        assert live.is_enabled(1)
+        live.until(lambda: bool(live.bus.drives[0].alarm))
+        assert "fault" in live.bus.drives[0].alarm or "operation" in live.bus.drives[0].alarm
+
+
+def test_a_position_that_jumps_stops_its_axis_within_the_loop() -> None:
+    with live_on_bus(machine(more=PATIENT)) as live:
+        live.switch_on()
+        live.drives("encoder-jump 0 1000000")
+        live.until(lambda: "its position jumped by" in live.bus.drives[0].alarm)
+        live.until(lambda: bool(live.flags() & af4.DRIVE_FAULT) and not live.is_enabled())
