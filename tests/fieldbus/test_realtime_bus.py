@@ -31,6 +31,7 @@ ROOT = Path(__file__).parents[2]
 PATIENCE_S = 60.0
 PERIOD_S = 0.004  # on a busy computer an emulated segment has to answer in half of it
 bus_take, bus_give = pick(at.bus_take), pick(at.bus_give)
+clock_steer = pick(at.clock_steer)
 PATIENT = "lost_frames = 500\nlate_s = 10.0\n"
 
 pytestmark = [
@@ -244,6 +245,30 @@ def test_contacts_of_the_image_are_inputs_and_outputs_of_the_card(is_forced: boo
     memory.back[40] = 2
     bus_take(made.memory.F, rows, b, memory.numbers, memory.back, 2)
     assert b[at.ALARM] == at.ALARM_LEFT
+
+
+def test_periods_follow_the_clock_of_the_first_device() -> None:
+    """From any phase, and with a clock that gains 50 us a second, to the middle of a cycle."""
+    numbers = ExchangeMemory().numbers
+    cycle, start = 1_000_000, 800_000_000_000_000_123
+    for first in (0, 1, cycle // 2, cycle - 1):
+        due, shifts = float(first), []
+        for _ in range(2000):
+            clock_steer(numbers, start + int(due * 1.00005), cycle)
+            shifts.append(numbers[at.STEER_NS])
+            due += cycle + numbers[at.STEER_NS]
+        assert max(abs(shift) for shift in shifts) <= cycle / 1000
+        assert abs(numbers[at.PHASE_NS]) < 1000.0
+        assert abs(numbers[at.STEER_NS] + 50.0) < 2.0
+
+
+@pytest.mark.parametrize("reference", [5_000_000, 5_000_001, 5_999_999, 5_500_000])
+def test_the_phase_of_a_frame_is_counted_from_the_middle_between_two_sync0(reference: int) -> None:
+    numbers = ExchangeMemory().numbers
+    clock_steer(numbers, reference, 1_000_000)
+    phase = reference - 5_500_000
+    assert numbers[at.PHASE_NS] == phase
+    assert numbers[at.STEER_NS] == max(-1000.0, min(1000.0, -phase / 16))
 
 
 def test_a_drive_that_reports_a_fault_stops_its_axis() -> None:

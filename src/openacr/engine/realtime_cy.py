@@ -24,7 +24,7 @@ from openacr.engine.loop_cy import (
     TRACE_FULL,
     engine_run,
 )
-from openacr.fieldbus.machine.exchange_cy import bus_exchange, bus_give, bus_take
+from openacr.fieldbus.machine.exchange_cy import STEER_NS, bus_exchange, bus_give, bus_take
 from openacr.map import numbers as at
 from openacr.map.numbers import MEMORY_BYTES
 from openacr.map.rows import axes, engine, kernel, scheduler, system
@@ -275,6 +275,7 @@ def realtime_run(
     """Live one tick a period until all is at rest after the end was asked for."""
     due: int = now_ns()
     while H[STATE] != ENDED and H[END] != AT_ONCE:
+        due += int(BN[STEER_NS])
         due = realtime_due(N, due, int(1e9 * F[system.period_s] + 0.5), now_ns())
         wait_until_ns(due)
         woken: int = now_ns()

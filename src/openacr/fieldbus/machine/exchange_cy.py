@@ -16,7 +16,7 @@ from openacr.map.words import af4
 from openacr.plant.physics.drive_cy import converter_volts
 from openacr.views import F32, F64, I32, U8
 
-__all__ = ["bus_exchange", "bus_give", "bus_take"]
+__all__ = ["bus_exchange", "bus_give", "bus_take", "clock_steer"]
 
 # Rows of B; the writer in brackets.
 ACTIVE = 0  # 1: frames are exchanged [Python]
@@ -43,6 +43,7 @@ BASE = 22  # which image is valid [Python]
 FRESH = 23  # 1: a frame came back whole and is to be taken [loop]
 GOOD = 24  # counts frames that came back whole [loop]
 SENT = 25  # counts frames, the index of the datagrams [loop]
+CLOCK_AT = 26  # of the time of the first device that has a clock, in the frame; 0 without
 FIRST_DRIVE = 32
 DRIVE_ROWS = 16
 FIRST_CONTACT = 288  # inputs, then outputs
@@ -79,6 +80,9 @@ LATEST_NS = 2  # exchange
 CYCLES = 3
 BAD_CYCLES = 4
 WORST_RETURN_NS = 5
+CYCLE_NS = 6
+STEER_NS = 7  # by which the next period is longer, to follow the clock of the devices
+PHASE_NS = 8  # how far the frame is from the middle between two SYNC0
 FIRST_NUMBERS = 16
 DRIVE_NUMBERS = 8
 N_ROWS = 144
@@ -103,6 +107,8 @@ ALARM_LEFT = 4
 FAILED_JUMP = 1
 FAILED_STATE = 2
 
+STEER_GAIN = 0.0625
+STEER_PART = 0.001  # of a cycle, at most
 QUICK_STOP = 2
 DISABLE_VOLTAGE = 0
 STATE_MASK = 111
@@ -131,9 +137,27 @@ def put(X: U8, at: int, size: int, value: int) -> None:
         rest = rest >> 8
 
 
+def clock_steer(N: F64, reference: int, cycle: int) -> None:
+    """Let frames pass the first device in the middle between two SYNC0.
+
+    SYNC0 comes at whole cycles of its clock; `reference` is its time at the frame [ns].
+    """
+    turns: int = int(float(reference) / float(cycle))  # one too many or too few at most
+    phase: int = reference - turns * cycle
+    if phase < 0:
+        phase += cycle
+    elif phase >= cycle:
+        phase -= cycle
+    error: float = float(phase) - 0.5 * float(cycle)
+    most: float = STEER_PART * float(cycle)
+    N[PHASE_NS] = error
+    N[STEER_NS] = max(-most, min(most, -STEER_GAIN * error))
+
+
 def bus_exchange(B: I32, N: F64, X: U8, Y: U8, now: int) -> None:
     """Send the outputs and wait for what comes back, at most RETURN_NS; no state is touched."""
     B[FRESH] = 0
+    N[STEER_NS] = 0.0
     B[WAIT_TK] = B[WAIT_TK] - 1
     if B[ACTIVE] == 0 or B[WAIT_TK] > 0:
         return
@@ -157,6 +181,10 @@ def bus_exchange(B: I32, N: F64, X: U8, Y: U8, now: int) -> None:
         B[BAD] = 0
         B[FRESH] = 1
         B[GOOD] = (B[GOOD] + 1) & 1073741823
+        if B[CLOCK_AT]:
+            low: int = long_of_image(Y, B[CLOCK_AT]) & 4294967295
+            high: int = long_of_image(Y, B[CLOCK_AT] + 4)
+            clock_steer(N, (high << 32) | low, int(N[CYCLE_NS]))
         return
     N[BAD_CYCLES] += 1.0
     B[BAD] = B[BAD] + 1

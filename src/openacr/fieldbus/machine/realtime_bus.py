@@ -156,9 +156,13 @@ class RealtimeBus:
     def ended(self) -> str:
         """What a server says at the end."""
         worst_us = 1e-3 * self.memory.numbers[at.WORST_RETURN_NS]
+        phase_us = 1e-3 * abs(self.memory.numbers[at.PHASE_NS])
+        has_clock = self.memory.rows[at.CLOCK_AT] > 0
+        place = f", the last was {phase_us:.0f} us from the middle between two SYNC0"
+        clock = place if has_clock else ""
         return (
             f"bus {self._link.name}: {counted(self.cycles, 'cycle')}, {self.bad_cycles} lost or"
-            f" wrong; a frame took at most {worst_us:.0f} us"
+            f" wrong; a frame took at most {worst_us:.0f} us{clock}"
         )
 
     def close(self) -> None:
@@ -309,6 +313,8 @@ class RealtimeBus:
             rows[at.INDEX_AT + number] = start + 1
         rows[at.IMAGE_AT] = starts[0] + DATAGRAM.size
         rows[at.COUNTER_AT] = starts[0] + DATAGRAM.size + len(datagrams[0].data)
+        rows[at.CLOCK_AT] = starts[2] + DATAGRAM.size if len(starts) > 2 else 0
+        self.memory.numbers[at.CYCLE_NS] = round(1e9 * self._bus.cycle * self._period_s)
         rows[at.COUNTER] = master.counter
         rows[at.STATUS_AT] = starts[1] + DATAGRAM.size
         rows[at.FORBIDDEN] = master.forbidden
