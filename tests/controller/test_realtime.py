@@ -320,6 +320,20 @@ def test_missed_periods_are_made_up_by_shorter_ones_none_at_once() -> None:
     assert kept[loop.LOST_NS] == 0.0
 
 
+def test_a_period_is_missed_once_it_is_over() -> None:
+    kept = numbers()
+    assert due_after(kept, 10 * MS, MS, 12 * MS) == 12 * MS - MS // 32
+    assert kept[loop.MISSED] == 1.0
+
+
+def test_no_more_time_is_made_up_than_was_missed() -> None:
+    period, kept = 1_000_001, numbers()
+    due = due_after(kept, 0, period, 3 * period)
+    for _ in range(70):
+        due = due_after(kept, due, period, due)
+    assert due == (3 + 70) * period - 2 * period
+
+
 def test_time_that_cannot_be_made_up_is_lost_and_counted() -> None:
     kept = numbers()
     assert due_after(kept, 0, MS, 300 * MS) == 300 * MS
