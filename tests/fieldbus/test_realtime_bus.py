@@ -15,14 +15,11 @@ from tests.fieldbus.test_drives_on_a_card import RAMP, machine
 
 from openacr import compiled
 from openacr.channels import StreamKind
-from openacr.compiled import pick
 from openacr.controller import Controller
 from openacr.fieldbus.cia402.states import State
 from openacr.fieldbus.machine import exchange_cy as at
-from openacr.fieldbus.machine.exchange_memory import ExchangeMemory
 from openacr.fieldbus.machine.realtime_bus import RealtimeBus
-from openacr.map.memory import flag_place
-from openacr.map.rows import axes, input_words
+from openacr.map.rows import axes
 from openacr.map.words import af4
 from openacr.plant.describe.load import parse_world
 from openacr.plant.describe.real_world import real_world
@@ -30,8 +27,6 @@ from openacr.plant.describe.real_world import real_world
 ROOT = Path(__file__).parents[2]
 PATIENCE_S = 60.0
 PERIOD_S = 0.004  # on a busy computer an emulated segment has to answer in half of it
-bus_take, bus_give = pick(at.bus_take), pick(at.bus_give)
-clock_steer = pick(at.clock_steer)
 PATIENT = "lost_frames = 500\nlate_s = 10.0\n"
 
 pytestmark = [
@@ -206,69 +201,6 @@ def test_at_the_end_drives_are_switched_off_at_rest_without_a_fault() -> None:
         (at_rest,) = live.drives()
         time.sleep(0.05)
         assert live.drives() == [pytest.approx(at_rest, abs=1.0)]
-
-
-@pytest.mark.parametrize("is_forced", [False, True])
-def test_contacts_of_the_image_are_inputs_and_outputs_of_the_card(is_forced: bool) -> None:
-    made = Controller(world="examples/gantry/machine.toml")
-    rows = made.memory.I
-    memory = ExchangeMemory()
-    b = memory.rows
-    b[at.ACTIVE], b[at.IMAGE_AT], b[at.OUTPUTS_SIZE] = 1, 26, 2
-    b[at.OPERATING], b[at.FRESH], b[at.STATUS_AT] = 8, 1, 40
-    b[at.INPUTS], b[at.OUTPUTS] = 2, 2
-    slot, stuck_mask = 0, 1 << 4
-    word = input_words.level[slot] + 0
-    flag_word, _ = flag_place(0)
-    output_word, output_mask = flag_place(33)
-    contacts = [
-        (2, 3, flag_word, 1 << 4, slot),
-        (3, 0, flag_word, 1 << 5, slot),
-        (0, 7, output_word, output_mask, 0),
-        (1, 0, output_word, output_mask << 1, 0),
-    ]
-    for number, contact in enumerate(contacts):
-        first = at.FIRST_CONTACT + at.CONTACT_ROWS * number
-        for offset, value in enumerate(contact):
-            b[first + offset] = value
-    rows[input_words.stuck[slot]] = stuck_mask if is_forced else 0
-    rows[flag_word] = 1 << 5
-    memory.back[28], memory.back[29], memory.back[40] = 1 << 3, 0, 8
-    bus_take(made.memory.F, rows, b, memory.numbers, memory.back, 1)
-    assert rows[word] & 0x30 == 1 << 4
-    assert rows[flag_word] & 0x30 == (0 if is_forced else 1 << 4)
-    assert b[at.ALARM] == 0
-    rows[output_word] = output_mask
-    memory.out[at.BASES], memory.out[at.BASES + 1] = 1, 1
-    bus_give(made.memory.F, rows, made.memory.S, b, memory.numbers, memory.out)
-    assert bytes(memory.out[26:28]) == bytes([0x81, 0])
-    memory.back[40] = 2
-    bus_take(made.memory.F, rows, b, memory.numbers, memory.back, 2)
-    assert b[at.ALARM] == at.ALARM_LEFT
-
-
-def test_periods_follow_the_clock_of_the_first_device() -> None:
-    """From any phase, and with a clock that gains 50 us a second, to the middle of a cycle."""
-    numbers = ExchangeMemory().numbers
-    cycle, start = 1_000_000, 800_000_000_000_000_123
-    for first in (0, 1, cycle // 2, cycle - 1):
-        due, shifts = float(first), []
-        for _ in range(2000):
-            clock_steer(numbers, start + int(due * 1.00005), cycle)
-            shifts.append(numbers[at.STEER_NS])
-            due += cycle + numbers[at.STEER_NS]
-        assert max(abs(shift) for shift in shifts) <= cycle / 1000
-        assert abs(numbers[at.PHASE_NS]) < 1000.0
-        assert abs(numbers[at.STEER_NS] + 50.0) < 2.0
-
-
-@pytest.mark.parametrize("reference", [5_000_000, 5_000_001, 5_999_999, 5_500_000])
-def test_the_phase_of_a_frame_is_counted_from_the_middle_between_two_sync0(reference: int) -> None:
-    numbers = ExchangeMemory().numbers
-    clock_steer(numbers, reference, 1_000_000)
-    phase = reference - 5_500_000
-    assert numbers[at.PHASE_NS] == phase
-    assert numbers[at.STEER_NS] == max(-1000.0, min(1000.0, -phase / 16))
 
 
 def test_a_drive_that_reports_a_fault_stops_its_axis() -> None:
