@@ -1,11 +1,11 @@
 """`openacr list` and `openacr check`: controller files as a card would read them."""
 
 import json
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from msgspec.structs import asdict
 
 from openacr.cli.live.online import Plc, Program
 from openacr.errors import UserError

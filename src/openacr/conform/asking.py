@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import fields, is_dataclass
 
 from openacr.basic.commands.character_io import Print
 from openacr.basic.language import nodes
@@ -90,9 +89,6 @@ def _bar_of_line(case: Case, step: Step, text: str) -> str:
 def _parts(node: object) -> Iterator[object]:
     """A node of a tree and all in it."""
     yield node
-    if isinstance(node, tuple):
-        for each in node:
+    if not isinstance(node, Command | Function):
+        for each in nodes.parts(node):
             yield from _parts(each)
-    elif is_dataclass(node) and not isinstance(node, Command | Function | type):
-        for each in fields(node):
-            yield from _parts(getattr(node, each.name))

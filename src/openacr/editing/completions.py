@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 from itertools import islice
 from typing import NamedTuple
 
+from msgspec import Struct
+
 from openacr.editing.document import Span
 from openacr.editing.marks import Kind
 from openacr.editing.texts import short
@@ -19,8 +21,7 @@ _RECORDS: dict[Kind, _Rows] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Item:
+class Item(Struct, frozen=True):
     """A proposal: what is shown, what is written, and the row that says what it is."""
 
     label: str

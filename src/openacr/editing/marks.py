@@ -4,6 +4,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import Enum, auto
 
+from msgspec import Struct
+
 
 class Kind(Enum):
     """The kind of a part of a line."""
@@ -32,8 +34,7 @@ class Kind(Enum):
 SYMBOLS = frozenset((Kind.ALIAS, Kind.LABEL, Kind.ROUTINE, Kind.NAMED, Kind.AXIS))
 
 
-@dataclass(frozen=True, slots=True)
-class Mark:
+class Mark(Struct, frozen=True):
     """A part of a line: columns from 0, the last one excluded.
 
     `name` is what identifies it among its kind, `number` that of a parameter or flag; `row` is
@@ -55,8 +56,7 @@ class Mark:
         return self.place if self.place != (0, 0) else (self.start, self.end)
 
 
-@dataclass(frozen=True, slots=True)
-class Symbol:
+class Symbol(Struct, frozen=True):
     """What a name stands for, so that equal names of different programs are different."""
 
     kind: Kind

@@ -1,8 +1,9 @@
 """Findings of an editor's text, what changes it, and places where a name stands."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
+
+from msgspec import Struct
 
 from openacr.editing.document import Edit, Span
 
@@ -21,8 +22,7 @@ class Fix(NamedTuple):
     edit: Edit
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(Struct, frozen=True):
     """What is wrong at a place; a warning is something that is accepted."""
 
     span: Span

@@ -1,10 +1,9 @@
 """Positions in a text."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
+class Span(Struct, frozen=True):
     """A span of one line: `line` and `column` count from 1, `length` in characters."""
 
     line: int

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
+from msgspec import Struct
+
 from openacr.errors import CardError
 from openacr.map.hidden.plc import INSTRUCTIONS
 from openacr.messages import PLC_ERROR, PLC_TOO_LONG
@@ -23,8 +25,7 @@ class PlcCompileError(CardError):
         self.line = line
 
 
-@dataclass(frozen=True, slots=True)
-class Preload:
+class Preload(Struct, frozen=True):
     """A preload RUN writes to a timer or counter."""
 
     operand: Operand

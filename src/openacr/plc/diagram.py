@@ -11,6 +11,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from msgspec import Struct
+
 from openacr.plc import scan_cy as scan
 from openacr.plc.instructions import Operand, output_flag
 from openacr.plc.ladder import Element, Gate, Node, Parallel, Rung, Series, rungs
@@ -29,8 +31,7 @@ KINDS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Symbol:
+class Symbol(Struct, frozen=True):
     """One element on the grid.
 
     `flag` is the flag it reads, writes or, of a timer, counter or latch, puts out; None for NOT.
@@ -51,8 +52,7 @@ class Symbol:
     reset_row: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Wire:
+class Wire(Struct, frozen=True):
     """A straight wire between two points of the grid; columns count boundaries."""
 
     net: int

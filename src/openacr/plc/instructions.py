@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from enum import Enum
+
+from msgspec import Struct
 
 from openacr.map.rows import plcs
 from openacr.plc import scan_cy as scan
@@ -30,8 +31,7 @@ class Operand(Enum):
         return self in (Operand.TIMER, Operand.COUNTER)
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Instruction:
+class Instruction(Struct, frozen=True, eq=False):
     """One instruction; `operation` is its number in the scan, None for no operation.
 
     `takes` is the count of saved results it uses up; `is_output`: the next LD begins a rung.

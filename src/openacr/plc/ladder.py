@@ -13,6 +13,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from msgspec import Struct
+
 from openacr.plc import scan_cy as scan
 from openacr.plc.compile import compile_plc
 from openacr.plc.instructions import END, ENDP
@@ -24,30 +26,26 @@ _COILS = {scan.OP_OUT: "({})", scan.OP_SET: "(S {})", scan.OP_CLEAR: "(R {})"}
 _GATE_INPUT = {scan.OP_COUNTER: "C", scan.OP_LATCH: "S"}
 
 
-@dataclass(frozen=True, slots=True)
-class Element:
+class Element(Struct, frozen=True):
     """One contact, output or box, and the instruction it was drawn from."""
 
     text: str
     step: Step
 
 
-@dataclass(frozen=True, slots=True)
-class Series:
+class Series(Struct, frozen=True):
     """Elements in series."""
 
     parts: tuple[Node, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Parallel:
+class Parallel(Struct, frozen=True):
     """Elements in parallel."""
 
     branches: tuple[Node, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Gate:
+class Gate(Struct, frozen=True):
     """A box with two inputs: a counter or a latch."""
 
     text: str

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
+
+from msgspec import Struct
 
 from openacr.errors import CardError
 from openacr.lang.lexer import Token, TokenKind
@@ -48,8 +49,7 @@ class Names(Protocol):
         """Whether the word is an AcroBASIC command."""
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(Struct, frozen=True):
     """One instruction with its operand: a flag, or the number of a timer, counter or latch."""
 
     instruction: Instruction
@@ -63,8 +63,7 @@ class Step:
         return f"{self.instruction.name} {self.written}".rstrip()
 
 
-@dataclass(frozen=True, slots=True)
-class PlcLine:
+class PlcLine(Struct, frozen=True):
     """The instructions of one line; `spelled` is the line as LIST shows it."""
 
     steps: tuple[Step, ...]

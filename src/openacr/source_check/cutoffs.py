@@ -3,6 +3,8 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
+from msgspec import Struct
+
 from openacr.basic.language.grammar.axes import AxisItem
 from openacr.basic.language.loader import FileLine
 from openacr.basic.language.nodes import Block, Number, Statement
@@ -15,8 +17,7 @@ HIGHEST_PART = 0.1
 WARNING = "LOPASS above a tenth of the servo rate"
 
 
-@dataclass(frozen=True, slots=True)
-class _Cutoff:
+class _Cutoff(Struct, frozen=True):
     """A cut-off as written, and where."""
 
     line: FileLine

@@ -1,15 +1,15 @@
 """One fault of a file: where, what the card would say, and what may help."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from openacr.basic.language.loader import FileLine
 from openacr.lang.lexer import column_in
 from openacr.lang.source import Span
 
 
-@dataclass(frozen=True, slots=True)
-class Fault:
+class Fault(Struct, frozen=True):
     """A fault and its place; a warning is something the card accepts."""
 
     path: str

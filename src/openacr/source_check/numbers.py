@@ -2,9 +2,10 @@
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import fields, is_dataclass
 from functools import cache
 from itertools import pairwise
+
+from msgspec import Struct
 
 from openacr.basic.language.cursor import StatementError
 from openacr.basic.language.grammar.flags import BitItem
@@ -19,6 +20,7 @@ from openacr.basic.language.nodes import (
     Parameter,
     Prefix,
     Statement,
+    parts,
     resolved,
 )
 from openacr.basic.language.registry import Command, Function
@@ -116,14 +118,12 @@ def _what_there_is(model: Model, word: str) -> str:
 
 def _nodes(item: object) -> Iterator[object]:
     """A tree and all that is written in it; an alias was judged where it is defined."""
-    if isinstance(item, tuple):
+    if isinstance(item, tuple | Struct) and not isinstance(
+        item, Command | Function | Alias | Statement
+    ):
         yield item
-        for part in item:
+        for part in parts(item):
             yield from _nodes(part)
-    elif is_dataclass(item) and not isinstance(item, Command | Function | Alias | Statement):
-        yield item
-        for field in fields(item):
-            yield from _nodes(getattr(item, field.name))
 
 
 def _place(found: list[Token], statement: Statement, number: int) -> Span:

@@ -9,6 +9,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
+from msgspec import Struct
+
 from openacr.basic import commands as _registered  # noqa: F401 - fills the registry
 from openacr.basic.channels.entry import split_at_level
 from openacr.basic.commands.card_setup import CONFIG_NOTICE
@@ -58,8 +60,7 @@ _MOVES = re.compile(r"\s*(?:\d+\s+)?[A-Z]\s*[-+/.(\d]", re.IGNORECASE)
 _LEVEL_WORDS = {"SYS": Level.SYS, "PROG": Level.PROG, "PLC": Level.PLC}
 
 
-@dataclass(frozen=True, slots=True)
-class Immediate:
+class Immediate(Struct, frozen=True):
     """A line executed at once, or what follows the level in it."""
 
     line: FileLine
@@ -296,14 +297,21 @@ class Reader:
                 self._report(finding)
             for finding in undimensioned(text, number, self.sizes, self.aliases):
                 self._report(finding)
-            for finding in after_moves(text.in_order(), self._tree_of):
+            trees: dict[int, tuple[Block, ...]] = {}  # several questions need the same one
+
+            def tree_of(line: TextLine) -> tuple[Block, ...]:
+                if line.number not in trees:
+                    trees[line.number] = Parser(list(line.tokens), line.scope).line().blocks
+                return trees[line.number]
+
+            for finding in after_moves(text.in_order(), tree_of):
                 self._report(finding)
             for line in text.in_order():
                 if NAMED.search(line.place.text):
-                    self._advise(line.place, level, number, self._tree_of(line))
+                    self._advise(line.place, level, number, tree_of(line))
                 is_doubtful = numbers.is_doubtful(line.place.text, self.model)
                 if line.outline.is_judged or is_doubtful:
-                    self._judge(line.place, line.tokens, self._tree_of(line))
+                    self._judge(line.place, line.tokens, tree_of(line))
         elif not text.lost:
             self._check_rungs(text)
 
@@ -328,10 +336,6 @@ class Reader:
         axes = self.axes.get(number, {}) if level is Level.PROG else {}
         for finding in self.advice.note(line, level, number, blocks, axes):
             self._report(finding)
-
-    @staticmethod
-    def _tree_of(line: TextLine) -> tuple[Block, ...]:
-        return Parser(list(line.tokens), line.scope).line().blocks
 
     def _warn(self, line: FileLine, blocks: tuple[Block, ...]) -> None:
         """Warn of what a real card would refuse, and of what no modelled card can do."""

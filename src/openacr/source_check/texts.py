@@ -4,6 +4,8 @@ import re
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from msgspec import Struct
+
 from openacr.basic.language.loader import FileLine
 from openacr.basic.language.parser import LONGEST_LABEL
 from openacr.basic.language.scope import Scope
@@ -18,8 +20,7 @@ HIDDEN_STEP = 10
 _LABEL = re.compile(r"[ \t]*_[ \t]*([A-Za-z0-9]+)")
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(Struct, frozen=True):
     """What is wrong in a line of a text: an error of the card, or a warning with its text."""
 
     line: FileLine

@@ -6,8 +6,9 @@ Bit 0 of the ADC state control parameter (P6917) is the scanner running. The cha
 of four bits each (P6918, P6919), the resolution and the number of scanned inputs hidden rows.
 """
 
-from dataclasses import dataclass
 from functools import partial
+
+from msgspec import Struct
 
 from openacr.basic.commands.value_commands import check_number
 from openacr.basic.language import registry
@@ -68,8 +69,7 @@ def adc_max(run: Run, channels: int | None) -> None:
         run.card.memory.I[kernel.adc_channels] = channels
 
 
-@dataclass(frozen=True, slots=True)
-class Channels:
+class Channels(Struct, frozen=True):
     """The word with the channels of all inputs, four bits each; all ones is ground."""
 
     word: int

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
+
+from msgspec import Struct
 
 from openacr.basic.channels.devices import Key
 from openacr.basic.commands import strings
@@ -26,8 +27,7 @@ if TYPE_CHECKING:
     from openacr.basic.language.parser import Parser
 
 
-@dataclass(frozen=True, slots=True)
-class InputItem:
+class InputItem(Struct, frozen=True):
     """INPUT as written: `;` directly after the word, device, prompt, variables."""
 
     keeps_line: bool

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.basic.language.grammar import (
     Command,
@@ -44,8 +45,7 @@ _SERIAL_FIELDS = re.compile(r"(\d*)\s*(?:,\s*([NOEnoe]?)\s*(?:,\s*([5-8]?)\s*(?:
 # PRINT
 
 
-@dataclass(frozen=True, slots=True)
-class Picture:
+class Picture(Struct, frozen=True):
     """USING: the format of the next number."""
 
     text: Expr
@@ -54,8 +54,7 @@ class Picture:
 PrintItem = Picture | Expr | str  # a separator is its character
 
 
-@dataclass(frozen=True, slots=True)
-class Print:
+class Print(Struct, frozen=True):
     """PRINT as written: the device, None for the terminal, and the items."""
 
     device: int | None = None

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.basic.commands.global_objects import adcs, dacs, encoder_count
 from openacr.basic.commands.value_commands import ObjectValue, check_number, object_values
@@ -84,8 +85,7 @@ object_values(
 )  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class Channels:
+class Channels(Struct, frozen=True):
     """Two channels of one kind."""
 
     word: str

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from openacr.basic.language.grammar import Form, Lvalue
 from openacr.basic.language.nodes import Expr, Statement, is_text
@@ -46,8 +47,7 @@ for _name, _code, _summary in (
     function(_name, code=_code, summary=_summary)
 
 
-@dataclass(frozen=True, slots=True)
-class Assigned:
+class Assigned(Struct, frozen=True):
     """`target = value` as it was read."""
 
     target: Expr

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
+
+from msgspec import Struct
 
 from openacr.basic.commands.follower_forms import LAST_CAPTURE_MODE, needs_long
 from openacr.basic.commands.interpolation import room
@@ -103,8 +104,7 @@ def _need_rest(run: Run, axes: Iterable[Axis]) -> None:
 # capture
 
 
-@dataclass(frozen=True, slots=True)
-class Capture:
+class Capture(Struct, frozen=True):
     """`mode {Pnnnn}` as written; no mode is OFF."""
 
     mode: Expr | None = None

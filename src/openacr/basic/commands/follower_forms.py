@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
+
+from msgspec import Struct
 
 from openacr.basic.language.grammar import (
     Axis,
@@ -32,8 +33,7 @@ LAST_CAPTURE_REGISTER = 15  # of encoders that have a marker and inputs
 CaptureRead: TypeAlias = "tuple[Expr, tuple[Expr, bool] | None, Expr | None]"
 
 
-@dataclass(frozen=True, slots=True)
-class Passing:
+class Passing(Struct, frozen=True):
     """A parameter passing a setpoint, upwards or `below`; a timeout of 0 never expires."""
 
     parameter: int
@@ -42,8 +42,7 @@ class Passing:
     timeout_s: float
 
 
-@dataclass(frozen=True, slots=True)
-class Captured:
+class Captured(Struct, frozen=True):
     """The edge of a capture mode; `copy_to` is a parameter, 0 none.
 
     `register` is the encoder whose marker and inputs are watched, None that of the source.
@@ -54,8 +53,7 @@ class Captured:
     register: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Segment:
+class Segment(Struct, frozen=True):
     """One segment of a table."""
 
     number: int

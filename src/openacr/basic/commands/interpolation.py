@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from functools import partial
 from typing import TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from openacr.basic.language import registry
 from openacr.basic.language.grammar import AxisTarget, AxisTargets, Bit, BitState
@@ -20,8 +22,7 @@ REF = "PG Interpolation"
 command = partial(registry.command, group=GROUP, ref=REF)
 
 
-@dataclass(frozen=True, slots=True)
-class MoveOptions:
+class MoveOptions(Struct, frozen=True):
     """Options of the move of a block: ended by a flag (INT), replacing the current move (TRJ).
 
     `knot` and `weight` belong to a point of a curve, `family` is the curve type of a knot if

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.basic.commands import targets
 from openacr.basic.commands.character_io import Channel, channel_name
@@ -32,8 +33,7 @@ _LOCAL = _ARRAYS | _SCALARS | {"$V", "MBUF"}
 _INDEXED = frozenset(("PROG", "PLC")) | _STREAMS
 
 
-@dataclass(frozen=True, slots=True)
-class Dimension:
+class Dimension(Struct, frozen=True):
     """What is to be dimensioned: the word, the number of the object, the sizes."""
 
     word: str

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.basic.language import registry
 from openacr.basic.language.aliases import Aliases, read_target
@@ -85,8 +86,7 @@ def stream(run: Run) -> None:
 # aliases
 
 
-@dataclass(frozen=True, slots=True)
-class Definition:
+class Definition(Struct, frozen=True):
     """#DEFINE as written; without target its line is shown."""
 
     name: str

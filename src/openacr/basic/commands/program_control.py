@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.basic.commands import targets
 from openacr.basic.language.grammar import Form, Int, Object, ObjectRef, Target
@@ -160,8 +161,7 @@ def new(run: Run, target: ObjectRef | None) -> None:
 # LIST
 
 
-@dataclass(frozen=True, slots=True)
-class Range:
+class Range(Struct, frozen=True):
     """Lines from `first` to `last`; None is open."""
 
     first: Expr | None

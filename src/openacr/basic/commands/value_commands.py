@@ -8,8 +8,9 @@ follow from the kind of the row.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import Any
+
+from msgspec import Struct
 
 from openacr.basic.language.grammar import Axis, AxisPairs, AxisValue, AxisValues, Num
 from openacr.basic.language.number_format import NumberKind, number_text
@@ -23,8 +24,7 @@ from openacr.motion.axis.settings import Place, Setting
 from openacr.motion.card import Card
 
 
-@dataclass(frozen=True, slots=True)
-class Value:
+class Value(Struct, frozen=True):
     """A command of one number per axis or master."""
 
     words: str
@@ -48,8 +48,7 @@ class Value:
             self.then(card, number)
 
 
-@dataclass(frozen=True, slots=True)
-class Band:
+class Band(Struct, frozen=True):
     """A command of two numbers per axis: `v` means plus v and minus -v."""
 
     words: str
@@ -71,8 +70,7 @@ class Band:
         self.plus.write(card, number, plus)
 
 
-@dataclass(frozen=True, slots=True)
-class ObjectValue:
+class ObjectValue(Struct, frozen=True):
     """A command of one number per numbered object, e.g. `DAC # GAIN`."""
 
     words: str

@@ -8,8 +8,9 @@ flag is set, and the program stops before its next line.
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
+
+from msgspec import Struct
 
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.errors import CardError
@@ -37,8 +38,7 @@ class Plcs(Protocol):
         """HALT: outputs stay."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Hold:
+class _Hold(Struct, frozen=True):
     """The flags of pause or block mode."""
 
     control: int

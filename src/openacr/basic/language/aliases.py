@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from openacr.basic.language.nodes import Expr, Flag, Number, resolved
 from openacr.basic.language.registry import keywords
@@ -20,8 +21,7 @@ LONGEST_ALIAS = 24
 _NONE: Mapping[str, Any] = {}
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Written:
+class Written(Struct, frozen=True, eq=False):
     """The target of an alias as it is listed, and what the aliases in it stood for."""
 
     text: str

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.basic.language import registry
 from openacr.basic.language.grammar import Form
@@ -20,8 +21,7 @@ if TYPE_CHECKING:
     from openacr.basic.language.parser import Parser
 
 
-@dataclass(frozen=True, slots=True)
-class Conditional:
+class Conditional(Struct, frozen=True):
     """The rest of the line after THEN."""
 
     blocks: tuple[Block, ...]

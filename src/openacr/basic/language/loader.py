@@ -11,6 +11,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import lru_cache
 
+from msgspec import Struct
+
 from openacr.lang.lexer import LINE_LIMIT
 from openacr.lang.shape import shape, shapes
 
@@ -39,8 +41,7 @@ _MOVE = re.compile(r"\s*([A-Za-z]{1,4})\s*[-+/(\d.\u2013\u2014\u2212]")
 _DEFAULT_AXIS_NAMES = frozenset("XYZABCUVW")
 
 
-@dataclass(frozen=True, slots=True)
-class FileText:
+class FileText(Struct, frozen=True):
     """A file as it is: its path and its lines."""
 
     path: str
@@ -69,8 +70,7 @@ class FileLine:
         return self.number, column
 
 
-@dataclass(frozen=True, slots=True)
-class _Scan:
+class _Scan(Struct, frozen=True):
     """What a reader of files needs to know about a line; lines of one shape are alike.
 
     `code` is the line without its remark, its strings blanked.
@@ -94,8 +94,7 @@ class _Scan:
         return self.is_string_open or self.open_parentheses > 0 or is_input
 
 
-@dataclass(frozen=True, slots=True)
-class _Role:
+class _Role(Struct, frozen=True):
     """What a line is for; lines of one shape have the same role."""
 
     is_open: bool

@@ -6,9 +6,12 @@ compares by content and can be pickled.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterator
 from enum import Enum, IntEnum
 from typing import TYPE_CHECKING, TypeAlias
+
+from msgspec import Struct
+from msgspec.structs import force_setattr
 
 if TYPE_CHECKING:
     from openacr.basic.language.registry import Command, Function
@@ -48,44 +51,38 @@ class Op(Enum):
     XNOR = "XNOR"
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
+class Number(Struct, frozen=True):
     """A literal: an int is a LONG constant, a float anything else."""
 
     value: int | float
 
 
-@dataclass(frozen=True, slots=True)
-class String:
+class String(Struct, frozen=True):
     """A string literal."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Parameter:
+class Parameter(Struct, frozen=True):
     """`Pn` or `P(expr)`: a system parameter or a global variable."""
 
     index: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Flag:
+class Flag(Struct, frozen=True):
     """`BITn` or `BIT(expr)`."""
 
     index: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Local:
+class Local(Struct, frozen=True):
     """`LVn`, `SVn`, `DVn`."""
 
     kind: LocalKind
     index: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Element:
+class Element(Struct, frozen=True):
     """`LAn(i)`, `SAn(i)`, `DAn(i)`."""
 
     kind: LocalKind
@@ -93,54 +90,48 @@ class Element:
     index: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class StringLocal:
+class StringLocal(Struct, frozen=True):
     """`$Vn`."""
 
     index: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class StringElement:
+class StringElement(Struct, frozen=True):
     """`$An(i)`."""
 
     array: Expr
     index: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Alias:
+class Alias(Struct, frozen=True):
     """A word given by #DEFINE, with what it stood for when the line was read."""
 
     name: str
     target: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Unary:
+class Unary(Struct, frozen=True):
     """`-x`, `+x`, `NOT x`."""
 
     op: Op
     operand: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Binary:
+class Binary(Struct, frozen=True):
     """`left op right`."""
 
     op: Op
     left: Expr
     right: Expr
-    joins_text: bool = field(init=False, repr=False, compare=False)
+    joins_text: bool = False  # whatever is given: it follows from the operands
 
     def __post_init__(self) -> None:
         """Ask each operand once: asked anew at every level, a long sum would take minutes."""
         joins = self.op is Op.PLUS and (is_text(self.left) or is_text(self.right))
-        object.__setattr__(self, "joins_text", joins)
+        force_setattr(self, "joins_text", joins)
 
 
-@dataclass(frozen=True, slots=True)
-class Apply:
+class Apply(Struct, frozen=True):
     """A function with its arguments."""
 
     function: Function
@@ -164,6 +155,15 @@ Expr: TypeAlias = (
 Target: TypeAlias = Parameter | Flag | Local | Element | StringLocal | StringElement
 
 
+def parts(node: object) -> Iterator[object]:
+    """What a node, or a tuple of them, directly consists of; nothing of anything else."""
+    if isinstance(node, tuple):
+        yield from node
+    elif isinstance(node, Struct):
+        for name in node.__struct_fields__:
+            yield getattr(node, name)
+
+
 def is_text(node: Expr) -> bool:
     """Whether the value of an expression is a string."""
     match node:
@@ -183,24 +183,21 @@ def resolved(node: Expr) -> Expr:
     return node.target if isinstance(node, Alias) else node
 
 
-@dataclass(frozen=True, slots=True)
-class AxisRef:
+class AxisRef(Struct, frozen=True):
     """An axis as it was written: a name of the program, or `AXISn` with its number."""
 
     name: str
     number: Expr | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Prefix:
+class Prefix(Struct, frozen=True):
     """`AXISn` or `MASTERm` in front of a command."""
 
     word: str
     number: Expr
 
 
-@dataclass(frozen=True, slots=True)
-class Statement:
+class Statement(Struct, frozen=True):
     """One command with its arguments, as its grammar read them."""
 
     command: Command
@@ -216,8 +213,7 @@ class Statement:
         return is_alone and not (self.indices or self.prefix or self.command.is_switch)
 
 
-@dataclass(frozen=True, slots=True)
-class Move:
+class Move(Struct, frozen=True):
     """All targets of one block: they form one coordinated move, issued at the block end."""
 
     parts: tuple[Statement, ...]
@@ -227,8 +223,7 @@ class Move:
 Block: TypeAlias = tuple["Statement | Move", ...]
 
 
-@dataclass(frozen=True, slots=True)
-class LineTree:
+class LineTree(Struct, frozen=True):
     """One line: its label if it has one, and the blocks between colons."""
 
     label: str | None = None

@@ -8,9 +8,10 @@ decides between plain and exponent form: an FP32 0.0001 (stored 9.9999997e-05) p
 import math
 import re
 import struct
-from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Context, Decimal
 from enum import Enum
+
+from msgspec import Struct
 
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
@@ -103,8 +104,7 @@ def _not_finite(value: float) -> str:
     return "INF" if value > 0 else "-INF"
 
 
-@dataclass(frozen=True, slots=True)
-class UsingFormat:
+class UsingFormat(Struct, frozen=True):
     """A PRINT USING picture: width in characters, decimals, and how the rest is filled."""
 
     width: int

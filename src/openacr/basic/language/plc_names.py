@@ -1,15 +1,15 @@
 """What the words of AcroBASIC and the aliases of a card mean in a PLC."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from openacr.basic.language import registry
 from openacr.basic.language.aliases import whole_number
 from openacr.basic.language.nodes import Expr
 
 
-@dataclass(frozen=True, slots=True)
-class PlcNames:
+class PlcNames(Struct, frozen=True):
     """The names a line of a PLC may use."""
 
     aliases: Mapping[str, Expr]

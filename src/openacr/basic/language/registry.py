@@ -13,6 +13,8 @@ from enum import Flag, auto
 from functools import lru_cache
 from typing import Any, TypeVar
 
+from msgspec import Struct
+
 from openacr.basic.language.form import Form
 from openacr.models import Feature
 
@@ -51,8 +53,7 @@ PROGRAM = Use.PROGRAM
 BOTH = Use.BOTH
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Command:
+class Command(Struct, frozen=True, eq=False):
     """One command of the language."""
 
     words: tuple[str, ...]
@@ -104,8 +105,7 @@ class Command:
         return find, (self.name,)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Function:
+class Function(Struct, frozen=True, eq=False):
     """One function of expressions; `code` is its number in the VM, else `apply` computes it.
 
     `takes` has one letter per argument: n number, s string, e either; `p` alone is a number

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+
+from msgspec import Struct, field
 
 from openacr.basic.language.nodes import Expr
 from openacr.basic.language.registry import Level
@@ -13,8 +14,7 @@ from openacr.models import Feature
 _NAME_PARTS = frozenset((TokenKind.WORD, TokenKind.NUMBER))
 
 
-@dataclass(frozen=True, slots=True)
-class Scope:
+class Scope(Struct, frozen=True):
     """What a line may refer to: the level, the program's axes and all aliases.
 
     `stored` lines belong to a program, others are executed at once. Commands that need what the

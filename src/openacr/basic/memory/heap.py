@@ -6,8 +6,9 @@ rows each time, so a restored snapshot needs nothing else. DIM is rare, programs
 
 from array import array
 from collections.abc import Iterator
-from dataclasses import dataclass
 from operator import attrgetter
+
+from msgspec import Struct
 
 from openacr.basic.memory.memory_cost import (
     DOUBLE_ARRAY,
@@ -29,8 +30,7 @@ _FIRST = at.HEAP_BYTE_BASE // WORD_BYTES
 _END = _FIRST + at.HEAP_BYTES // WORD_BYTES
 
 
-@dataclass(frozen=True, slots=True)
-class ScalarType:
+class ScalarType(Struct, frozen=True):
     """LV, SV or DV: its rows, its cost and the 32-bit words one of them takes."""
 
     name: str
@@ -40,8 +40,7 @@ class ScalarType:
     words: int
 
 
-@dataclass(frozen=True, slots=True)
-class ArrayType:
+class ArrayType(Struct, frozen=True):
     """LA, SA or DA: the rows of its table of references, cost and words per element."""
 
     name: str
@@ -63,8 +62,7 @@ ARRAYS = (
 )
 
 
-@dataclass(frozen=True, slots=True, order=True)
-class _Block:
+class _Block(Struct, frozen=True, order=True):
     """A used block of the heap, in words."""
 
     start: int

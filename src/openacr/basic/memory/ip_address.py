@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from openacr.errors import CardError
 from openacr.messages import INVALID_ARGUMENT
@@ -11,8 +11,7 @@ _PRIVATE = ((10, 8), (172 << 4 | 1, 12), (192 << 8 | 168, 16))  # network, its b
 _CLASSES = ((128, "A", 8), (192, "B", 16), (224, "C", 24))  # first octet below, name, bits
 
 
-@dataclass(frozen=True, slots=True)
-class IpAddress:
+class IpAddress(Struct, frozen=True):
     """An address, or a mask."""
 
     octets: tuple[int, int, int, int]

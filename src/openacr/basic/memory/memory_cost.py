@@ -1,6 +1,6 @@
 """What everything costs in bytes of user memory: one row each."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from openacr.lang.lexer import Token, TokenKind
 
@@ -9,8 +9,7 @@ AUTOMATIC_SHARE_BYTES = 65536
 STREAM_BYTES = 256
 
 
-@dataclass(frozen=True, slots=True)
-class Cost:
+class Cost(Struct, frozen=True):
     """Bytes of `count` equal things: a fixed part and a part for each."""
 
     each: int

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from openacr.motion.card import Card
 
@@ -16,8 +17,7 @@ if TYPE_CHECKING:
 SAME_VALUE = {"MULT": "ENC # MULT", "F": "VEL", "AXIS # OFF": "AXIS # ON"}
 
 
-@dataclass(frozen=True, slots=True)
-class Saved:
+class Saved(Struct, frozen=True):
     """What belongs to one command, as plain data."""
 
     words: str

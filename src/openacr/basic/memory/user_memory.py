@@ -8,12 +8,11 @@ as the bytes of their view (little-endian 32-bit words).
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import fields, is_dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from msgspec import Struct
 
-from openacr.basic.language.nodes import AxisRef
+from openacr.basic.language.nodes import AxisRef, parts
 from openacr.basic.language.parser import Parser
 from openacr.basic.language.registry import Command, Level
 from openacr.basic.memory.heap import ARRAYS, SCALARS, ArrayType
@@ -160,12 +159,9 @@ def _axis_names(node: Any) -> Iterator[str]:
     """The names of axes a line uses."""
     if isinstance(node, AxisRef) and node.number is None:
         yield node.name
-    elif isinstance(node, tuple):
-        for each in node:
+    elif not isinstance(node, Command):
+        for each in parts(node):
             yield from _axis_names(each)
-    elif is_dataclass(node) and not isinstance(node, Command):
-        for field in fields(node):
-            yield from _axis_names(getattr(node, field.name))
 
 
 # putting back

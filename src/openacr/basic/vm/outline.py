@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from msgspec import Struct
+
 from openacr.basic.language.flow_forms import Conditional
 from openacr.basic.language.nodes import Block, LineTree, Statement
 from openacr.basic.vm import flow_cy as flow
@@ -29,8 +31,7 @@ _JUDGED = frozenset(("LOPASS", "PERIOD", "TOL", "EPLC"))
 STORED_KINDS = frozenset(("P", "LV", "SV", "DV", "LA", "SA", "DA", "$V", "$A"))
 
 
-@dataclass(frozen=True, slots=True)
-class FlowEvent:
+class FlowEvent(Struct, frozen=True):
     """A word that opens, divides, leaves or closes a level, and which token it is."""
 
     word: str
@@ -44,8 +45,7 @@ class OpenLevel(Level):
     token: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Outline:
+class Outline(Struct, frozen=True):
     """The outline of a line; `fault` is what the compiler says about its expressions."""
 
     events: tuple[FlowEvent, ...] = ()

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, Protocol
 
+from msgspec import Struct
+
 from openacr.basic.language.grammar.values import Axis
 from openacr.basic.language.nodes import AxisRef, Expr, Number, Prefix, Statement
 from openacr.basic.language.registry import Level
@@ -42,8 +44,7 @@ class Show(IntEnum):
     MOVE_PENDING = pf.MOVE_PENDING
 
 
-@dataclass(frozen=True, slots=True)
-class Wait:
+class Wait(Struct, frozen=True):
     """Why a statement is not finished yet.
 
     `operand` is the row, `value` what it is compared with. With `retry` the statement is

@@ -1,8 +1,9 @@
 """Where the programs of a card read and write parameters, flags, aliases and labels."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from enum import StrEnum
+
+from msgspec import Struct
 
 from openacr.editing.controller.marks import marks_of
 from openacr.editing.marks import Kind, Mark
@@ -20,8 +21,7 @@ class Access(StrEnum):
     DEFINES = "defines"
 
 
-@dataclass(frozen=True, slots=True)
-class Use:
+class Use(Struct, frozen=True):
     """A place at which a line of a program names something.
 
     `name` is P10, BIT516, an alias, or a label with its program, `PROG3 more`; `column` from 0.

@@ -1,9 +1,10 @@
 """What a line of a controller file means for the lines around it, known from its text alone."""
 
 import re
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
+
+from msgspec import Struct
 
 from openacr.basic.language.registry import Level
 from openacr.lang.shape import shape
@@ -21,8 +22,7 @@ _LEVELS = {"SYS": Level.SYS, "PROG": Level.PROG, "PLC": Level.PLC}
 _OPENING, _CLOSING = frozenset(("IF", "FOR", "WHILE")), frozenset(("NEXT", "ENDIF", "WEND"))
 
 
-@dataclass(frozen=True, slots=True)
-class Facts:
+class Facts(Struct, frozen=True):
     """What one line says."""
 
     level: tuple[Level, int] | None = None

@@ -4,6 +4,8 @@ from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from msgspec import Struct
+
 from openacr.basic.language.registry import Level
 from openacr.editing.controller.facts import NOTHING, Facts, facts_of
 from openacr.editing.document import Document
@@ -12,8 +14,7 @@ from openacr.project import Place, place_of
 _LEVELS = {Place.SETUP: Level.SYS, Place.PROGRAM: Level.PROG, Place.PLC: Level.PLC}
 
 
-@dataclass(frozen=True, slots=True)
-class Section:
+class Section(Struct, frozen=True):
     """Lines of one level: from the first one up to the last one, which is excluded."""
 
     first: int

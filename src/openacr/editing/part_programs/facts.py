@@ -1,8 +1,9 @@
 """What a line of a part program means for the lines around it, known from its text alone."""
 
 import re
-from dataclasses import dataclass
 from functools import lru_cache
+
+from msgspec import Struct
 
 from openacr.editing.part_programs.marks import routine_name
 
@@ -14,8 +15,7 @@ _OPENS = frozenset(("SUB", "IF", "REPEAT", "DO"))
 _CLOSES = frozenset(("ENDSUB", "ENDIF", "ENDREPEAT", "ENDWHILE"))
 
 
-@dataclass(frozen=True, slots=True)
-class Facts:
+class Facts(Struct, frozen=True):
     """What one line says; `kind` is what its O-word does."""
 
     label: str = ""

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct
 
 from openacr.basic.language.form import Form
 from openacr.basic.language.grammar.forms import Group, Num, Pair
@@ -17,8 +18,7 @@ if TYPE_CHECKING:
     from openacr.basic.vm.run import Run
 
 
-@dataclass(frozen=True, slots=True)
-class AxisItem:
+class AxisItem(Struct, frozen=True):
     """An axis as written, with the argument that follows it."""
 
     axis: AxisRef
@@ -128,8 +128,7 @@ class Axes(AxisList):
     """`axis...` without values; the handler gets a tuple of `Axis`."""
 
 
-@dataclass(frozen=True, slots=True)
-class TargetItem:
+class TargetItem(Struct, frozen=True):
     """A target as written."""
 
     axis: AxisRef

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.basic.language.form import Form
 from openacr.basic.language.grammar.values import BitState, SignedParameter
@@ -18,8 +19,7 @@ if TYPE_CHECKING:
     from openacr.basic.vm.run import Run
 
 
-@dataclass(frozen=True, slots=True)
-class BitItem:
+class BitItem(Struct, frozen=True):
     """A flag number as written."""
 
     number: Expr

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True)
-class Axis:
+class Axis(Struct, frozen=True):
     """An axis by number, with the name it was called by (for reports)."""
 
     number: int
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class AxisValue:
+class AxisValue(Struct, frozen=True):
     """An axis with the values given for it; none at all is a query."""
 
     axis: Axis
@@ -31,8 +29,7 @@ class AxisValue:
         return self.values[0]
 
 
-@dataclass(frozen=True, slots=True)
-class AxisTarget:
+class AxisTarget(Struct, frozen=True):
     """A target of a coordinated move."""
 
     axis: Axis
@@ -45,24 +42,21 @@ class AxisTarget:
         return self.values[0]
 
 
-@dataclass(frozen=True, slots=True)
-class BitState:
+class BitState(Struct, frozen=True):
     """A flag, and whether it is meant set or (written with a minus) clear."""
 
     number: int
     clear: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class SignedParameter:
+class SignedParameter(Struct, frozen=True):
     """A parameter, and whether it was written with a minus."""
 
     number: int
     negative: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class ObjectRef:
+class ObjectRef(Struct, frozen=True):
     """A word with a number: ENC 0, PROG 3; number -1 where the word needs none (ALL, NONE)."""
 
     word: str

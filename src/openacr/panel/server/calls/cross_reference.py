@@ -2,8 +2,8 @@
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict
 
+from msgspec.structs import asdict
 from starlette.concurrency import run_in_threadpool
 
 from openacr.client.effects import Op
