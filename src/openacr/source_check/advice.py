@@ -19,7 +19,8 @@ OUTPUTS = range(32, 64)
 SHARED = range(8, 16)  # the programs that share one time slice
 LONGEST_STOP_S = 60.0
 WHOLE = frozenset(("DZL", "DZU", "FFVC"))  # commands whose values are whole pulses
-NAMED = re.compile(r"SET|CLR|BIT|DWL|INH|JOG|DZ|FFVC", re.IGNORECASE)  # in all they are about
+NAMED = WHOLE | {"DWL", "INH", "JOG"}  # in all that single statements add up to
+SWITCHES = frozenset(("SET", "CLR", "BIT"))
 _REMARK = re.compile(r"\s*(?:\d+\s*)?(?:REM\b|')", re.IGNORECASE)
 
 AT_ONCE = "an output right after a move is set when the move begins"
@@ -32,27 +33,23 @@ def after_moves(
     lines: Iterable[TextLine], read: Callable[[TextLine], tuple[Block, ...]]
 ) -> Iterator[Finding]:
     """Warn of outputs that are switched directly after a move, as if that had ended."""
-    before: TextLine | None = None
+    is_after_move = False
     for line in lines:
-        if line.outline.is_empty or _REMARK.match(line.place.text):
+        known = line.outline
+        if known.is_empty or _REMARK.match(line.place.text):
             continue
-        if NAMED.search(line.place.text):
-            is_move = before is not None and _ends_with_move(read(before))
+        if known.words & SWITCHES and (is_after_move or known.moves):
+            is_move = is_after_move
             for statement in _in_order(read(line)):
                 if is_move and isinstance(statement, Statement) and _switches_output(statement):
                     span = Span(1, statement.column, len(statement.command.name))
                     yield Finding(line.place, None, span, AT_ONCE, WAIT)
                 is_move = isinstance(statement, Move)
-        before = line
+        is_after_move = known.ends_with_move
 
 
 def _in_order(blocks: tuple[Block, ...]) -> list[object]:
     return [statement for block in blocks for statement in block]
-
-
-def _ends_with_move(blocks: tuple[Block, ...]) -> bool:
-    found = _in_order(blocks)
-    return bool(found) and isinstance(found[-1], Move)
 
 
 def _switches_output(statement: Statement) -> bool:

@@ -307,7 +307,7 @@ class Reader:
             for finding in after_moves(text.in_order(), tree_of):
                 self._report(finding)
             for line in text.in_order():
-                if NAMED.search(line.place.text):
+                if line.outline.words & NAMED:
                     self._advise(line.place, level, number, tree_of(line))
                 is_doubtful = numbers.is_doubtful(line.place.text, self.model)
                 if line.outline.is_judged or is_doubtful:

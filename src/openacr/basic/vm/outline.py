@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from msgspec import Struct
 
 from openacr.basic.language.flow_forms import Conditional
-from openacr.basic.language.nodes import Block, LineTree, Statement
+from openacr.basic.language.nodes import Block, LineTree, Move, Statement
 from openacr.basic.vm import flow_cy as flow
 from openacr.basic.vm.compiler import Emitter
 from openacr.basic.vm.levels import STRUCTURE, CompileError, Level, Levels
@@ -56,6 +56,9 @@ class Outline(Struct, frozen=True):
     is_judged: bool = False  # holds a LOPASS, a PERIOD, LOOK TOL or EPLC
     stored_kinds: frozenset[str] = frozenset()  # of the variables used
     fault: CompileError | None = None
+    words: frozenset[str] = frozenset()  # all words of the line
+    moves: bool = False  # holds a move
+    ends_with_move: bool = False
 
     @property
     def has_structure(self) -> bool:
@@ -65,7 +68,8 @@ class Outline(Struct, frozen=True):
 
 def outline(found: list[Token], line: LineTree, aliases: Mapping[str, str]) -> Outline:
     """The outline of a line that was read; `aliases` says of which kind named variables are."""
-    words = {token.value for token in found if token.kind is TokenKind.WORD}
+    words = frozenset(str(each.value) for each in found if each.kind is TokenKind.WORD)
+    statements = [statement for block in line.blocks for statement in block]
     named = {aliases[token.text] for token in found if token.text in aliases}
     return Outline(
         tuple(_events(line.blocks, {token.column: place for place, token in enumerate(found)})),
@@ -74,8 +78,11 @@ def outline(found: list[Token], line: LineTree, aliases: Mapping[str, str]) -> O
         bool(words & _JUMPS),
         "DIM" in words,
         bool(words & _JUDGED),
-        frozenset(str(word) for word in words & STORED_KINDS) | named,
+        (words & STORED_KINDS) | named,
         _fault(line),
+        words,
+        any(isinstance(each, Move) for each in statements),
+        bool(statements) and isinstance(statements[-1], Move),
     )
 
 
