@@ -4,9 +4,12 @@ from pathlib import Path
 
 import pytest
 
+from openacr.basic.memory.memory_cost import line_bytes
 from openacr.controller import Controller
 from openacr.controller.loading import LoadError
 from openacr.errors import SourceError, UserError
+from openacr.lang.lexer import tokens
+from openacr.lang.shape import shape
 from openacr.project import Place, find_project
 from openacr.source_check import check, check_text, listed, listing, meant, read
 from openacr.source_check.hints import NO_ALIASES
@@ -458,6 +461,29 @@ def test_a_program_file_alone_has_the_memory_that_the_set_up_gives_it(tmp_path: 
     (tmp_path / "prog9.8k").write_text("PROGRAM\nP0=1\nENDP\n")
     found = [(each.line, each.message, each.hint) for each in check(tmp_path / "prog9.8k")]
     assert found == [(1, "Out of memory", "PROG9 has no memory yet: DIM PROG9(100) at SYS")]
+
+
+@pytest.mark.parametrize(
+    ("line", "other"),
+    [
+        ("P0=1", "P0=123456789"),
+        ("P0=0.5", "P0=0.123456789"),
+        ('PRINT "a"', 'PRINT "abc"'),
+        ("SET 32 REM on", "SET 32 REM the lamp is on"),
+        ("_a1", "_a123"),
+    ],
+)
+def test_lines_of_one_shape_take_what_each_of_them_takes(
+    tmp_path: Path, line: str, other: str
+) -> None:
+    assert shape(line) == shape(other)
+    lines = ["PROGRAM", line, other, line, "ENDP"]
+    whole = sum(line_bytes(tokens(each)) for each in lines)
+    (tmp_path / "prog9.8k").write_text("".join(f"{each}\n" for each in lines))
+    for room in (whole, whole - 1):
+        (tmp_path / "setup.8k").write_text(f"SYS\nDIM P(1)\nDIM PROG9({room})\n")
+        found = [each.line for each in check(tmp_path) if each.message == "Out of memory"]
+        assert found == ([] if room == whole else [5])
 
 
 def test_a_text_with_a_lost_line_is_not_counted(tmp_path: Path) -> None:

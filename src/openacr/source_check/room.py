@@ -15,7 +15,7 @@ from openacr.basic.commands.memory_control import (
 from openacr.basic.language.grammar import ObjectRef
 from openacr.basic.language.nodes import Block, Statement
 from openacr.basic.language.registry import Level
-from openacr.basic.memory.memory_cost import PLC_INSTRUCTION, line_bytes
+from openacr.basic.memory.memory_cost import PLC_INSTRUCTION, is_alike, line_bytes
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.program_store import OWNERS
 from openacr.basic.memory.storage import Storage
@@ -42,6 +42,7 @@ class Room:
     is_known: bool = True
     is_complete: bool = False  # what gives programs their memory has been read
     _names: set[str] = field(default_factory=set)  # of aliases
+    _alike: dict[str, int] = field(default_factory=dict)  # bytes of all lines of a shape
 
     def note(self, level: Level, number: int, blocks: Iterable[Block]) -> CardError | None:
         """Execute the DIM and CLEAR commands of a line; what the card says against one."""
@@ -110,9 +111,9 @@ class Room:
             return
         used = 0
         for line in lines:
-            cost = _bytes(line)
+            cost = self._bytes(line)
             if used + cost > free:
-                whole = sum(map(_bytes, lines))
+                whole = sum(map(self._bytes, lines))
                 hint = f"the text takes {whole} bytes, there is room for {free}"
                 if not self.storage.size(owner):
                     name = f"{level.name}{number}"
@@ -121,6 +122,21 @@ class Room:
                 break
             used += cost
         self.storage.set_code_bytes(owner, used)
+
+    def _bytes(self, line: TextLine) -> int:
+        """What the card stores of a line."""
+        if line.rung is not None:
+            return PLC_INSTRUCTION.bytes(line.rung.count)
+        if line.outline.is_empty:
+            return 0
+        shape = line.place.shape
+        known = self._alike.get(shape)
+        if known is None:
+            tokens = list(line.tokens)
+            known = line_bytes(tokens)
+            if shape and is_alike(tokens):
+                self._alike[shape] = known
+        return known
 
 
 def owners(level: Level, number: int, target: object) -> Iterable[int]:
@@ -148,13 +164,6 @@ def _named(target: Any) -> ObjectRef | None:
 def _ample(size: int) -> int:
     """A size for a text that may grow, in whole hundreds."""
     return -(-2 * size // 100) * 100
-
-
-def _bytes(line: TextLine) -> int:
-    """What the card stores of a line."""
-    if line.rung is not None:
-        return PLC_INSTRUCTION.bytes(line.rung.count)
-    return 0 if line.outline.is_empty else line_bytes(list(line.tokens))
 
 
 def _most_bytes(line: TextLine) -> int:

@@ -42,6 +42,7 @@ STRING_HEADER = 4
 PLC_INSTRUCTION = Cost(8)
 
 _FREE_OPERATORS = frozenset("():;,#")
+_WITH_TEXT = frozenset((TokenKind.STRING, TokenKind.LABEL, TokenKind.REMARK))
 
 
 def string_bytes(length: int) -> int:
@@ -52,6 +53,11 @@ def string_bytes(length: int) -> int:
 def line_bytes(tokens: list[Token]) -> int:
     """A stored line: its number, then its tokens; separators and parentheses are free."""
     return LINE_NUMBER.each + sum(map(_token_bytes, tokens))
+
+
+def is_alike(tokens: list[Token]) -> bool:
+    """Whether all lines of this shape take as much: no text or float that may be longer."""
+    return not any(isinstance(token.value, float) or token.kind in _WITH_TEXT for token in tokens)
 
 
 def _token_bytes(token: Token) -> int:
