@@ -488,6 +488,14 @@ def test_settings_that_are_hardly_meant_are_warned_of(
     assert text is None or text in shown.stdout
 
 
+@pytest.mark.parametrize("word", ["DZL", "DZU", "FFVC"])
+def test_whole_pulses_are_looked_for_in_stored_programs_too(tmp_path: Path, word: str) -> None:
+    found = faults(tmp_path, f"AXIS0 {word} 3", f"AXIS0 {word} 2.5")
+    assert [text.split(": ", 1)[1] for text in found] == [
+        f"warning: {word} is in whole pulses: 2.5 is 2"
+    ]
+
+
 def test_the_axis_of_a_name_and_of_a_number_is_the_same(tmp_path: Path) -> None:
     found = faults(tmp_path, "JOG VEL X35", "AXIS0 JOG DEC 0.1")
     assert [text.split(" (")[0] for text in found] == [

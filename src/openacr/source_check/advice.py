@@ -19,7 +19,8 @@ OUTPUTS = range(32, 64)
 SHARED = range(8, 16)  # the programs that share one time slice
 LONGEST_STOP_S = 60.0
 WHOLE = frozenset(("DZL", "DZU", "FFVC"))  # commands whose values are whole pulses
-NAMED = WHOLE | {"DWL", "INH", "JOG"}  # in all that single statements add up to
+WAITS = frozenset(("DWL", "INH"))
+JOGS = frozenset(("VEL", "DEC"))  # of JOG
 SWITCHES = frozenset(("SET", "CLR", "BIT"))
 _REMARK = re.compile(r"\s*(?:\d+\s*)?(?:REM\b|')", re.IGNORECASE)
 
@@ -27,6 +28,12 @@ AT_ONCE = "an output right after a move is set when the move begins"
 WAIT = "moves are buffered; INH -516 before it waits for their end (master m: 516 + 32m)"
 ALL_WAIT = "programs 8 to 15 share a time slice: while it waits, so do the others"
 OWN_SLICE = "programs 0 to 7 have a slice each"
+
+
+def is_noted(words: frozenset[str], number: int) -> bool:
+    """Whether a line with these words, of this program, may be one of which `Advice` takes note."""
+    is_wait = number in SHARED and words & WAITS
+    return bool(is_wait or words & WHOLE or ("JOG" in words and words & JOGS))
 
 
 def after_moves(

@@ -35,7 +35,7 @@ from openacr.plc.compile import PlcCompileError, compile_plc
 from openacr.plc.reader import read_line
 from openacr.project import PROGRAM_COUNT, Place, SourceFile
 from openacr.source_check import numbers
-from openacr.source_check.advice import NAMED, Advice, after_moves
+from openacr.source_check.advice import Advice, after_moves, is_noted
 from openacr.source_check.cutoffs import Cutoffs, statements
 from openacr.source_check.faults import Fault, place_of
 from openacr.source_check.hints import hint_for
@@ -307,7 +307,7 @@ class Reader:
             for finding in after_moves(text.in_order(), tree_of):
                 self._report(finding)
             for line in text.in_order():
-                if line.outline.words & NAMED:
+                if is_noted(line.outline.words, number):
                     self._advise(line.place, level, number, tree_of(line))
                 is_doubtful = numbers.is_doubtful(line.place.text, self.model)
                 if line.outline.is_judged or is_doubtful:
