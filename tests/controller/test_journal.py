@@ -4,11 +4,10 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from msgspec.structs import replace as replace_world
+from msgspec.structs import replace
 from tests.controller.hosts import Host, at_axes, connected, store
 
 from openacr.channels import StreamKind
@@ -26,7 +25,7 @@ from openacr.protocol.events import ControlKey
 CURTAIN = DeviceTable(
     kind="light-curtain", inputs={"clear": 31}, settings={"response_s": 0.0}, period_s=0.0005
 )
-WITH_A_NODE = replace_world(
+WITH_A_NODE = replace(
     default_world(), canopen=Canopen(node=(Node(id=1, analog_inputs=1),)), device=(CURTAIN,)
 )
 

@@ -1,7 +1,8 @@
 """Results of a run as plain data: events, axes, and the values chosen for recording."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from msgspec import Struct
 
 from openacr.errors import UserError
 
@@ -10,8 +11,7 @@ if TYPE_CHECKING:
     from openacr.map.memory import Memory
 
 
-@dataclass(frozen=True, slots=True)
-class Event:
+class Event(Struct, frozen=True):
     """One thing that happened."""
 
     time_s: float
@@ -23,8 +23,7 @@ class Event:
         return f"{self.time_s:.4f} s: {self.text}"
 
 
-@dataclass(frozen=True, slots=True)
-class AxisReport:
+class AxisReport(Struct, frozen=True):
     """One axis at the end of a run, and the extremes it reached."""
 
     number: int
@@ -35,8 +34,7 @@ class AxisReport:
     peak_following_error_u: float
 
 
-@dataclass(frozen=True, slots=True)
-class Watched:
+class Watched(Struct, frozen=True):
     """One recorded value: its column in a trace, its title in a picture."""
 
     column: str  # P12290, BIT516

@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 from difflib import SequenceMatcher
 from typing import TypeAlias
 
+from msgspec import Struct
+
 from openacr.basic.language.registry import Command
 from openacr.client.backup import NOT_READABLE, NOT_UNDERSTOOD, SETUP_FILE
 from openacr.client.listing import meaning
@@ -67,8 +69,7 @@ class Contents:
         return {found[1]: found[2] for found in map(_SLAVE.fullmatch, values) if found}
 
 
-@dataclass(frozen=True, slots=True)
-class Difference:
+class Difference(Struct, frozen=True):
     """A setting with two values; None: one of them is not there."""
 
     key: str
@@ -77,8 +78,7 @@ class Difference:
     second: str | None
 
 
-@dataclass(frozen=True, slots=True)
-class Change:
+class Change(Struct, frozen=True):
     """Lines of a program that differ, in the place of each other."""
 
     program: str

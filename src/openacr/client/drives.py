@@ -5,7 +5,8 @@ real one. What an encoder reports counts for the axis of the same number.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from openacr.map.numbers import W_MISC_CONTROL_1
 from openacr.map.rows import axes
@@ -44,8 +45,7 @@ LIMITS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Drive:
+class Drive(Struct, frozen=True):
     """One axis as it was read; lengths in its units, the output in V.
 
     `has_io`: its enable output is used; without it an axis that was never switched off is driven.

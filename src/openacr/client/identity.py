@@ -1,7 +1,8 @@
 """What a card says about itself: model, firmware, options; only queries are sent."""
 
 import re
-from dataclasses import dataclass, field
+
+from msgspec import Struct, field
 
 from openacr.client import Card
 from openacr.client.errors import ClientError, ConnectionLostError, RefusedError
@@ -22,8 +23,7 @@ VERSION = re.compile(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Identity:
+class Identity(Struct, frozen=True):
     """A card as its answers describe it."""
 
     address: str

@@ -9,6 +9,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from msgspec import Struct
+
 from openacr.errors import CardError
 from openacr.lang.lexer import TokenKind, tokens
 
@@ -22,8 +24,7 @@ _MISPRINT = re.compile(r"PROGRAM\s*\d*\s*(_.*)", re.IGNORECASE)
 _LEVEL_OR_NEW = re.compile(r"\s*(?:REM.*|'.*|(?:(?:SYS|PROG|PLC|NEW)\s*\d*\s*))", re.IGNORECASE)
 
 
-@dataclass(frozen=True, slots=True)
-class Sent:
+class Sent(Struct, frozen=True):
     """A stored line and the line of the file it came from."""
 
     text: str

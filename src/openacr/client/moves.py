@@ -9,8 +9,10 @@ accepts moves at once, and they never delay other requests on the same connectio
 """
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import islice
+
+from msgspec.structs import replace
 
 from openacr.client import values
 from openacr.client.effects import Op, Pause

@@ -1,14 +1,13 @@
 """Options of the communication with a card, and its time-outs."""
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from openacr.channels import EchoMode
 
 SLOWEST_BYTES_PER_S = 1024  # assumed lowest rate: a long reply extends the deadline
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Options:
+class Options(Struct, frozen=True, kw_only=True):
     """Options of the communication with a card.
 
     `timeout_s`: longest silence while waiting for a reply (None: unlimited, and no deadline).
@@ -25,8 +24,7 @@ class Options:
     uses_packets: bool = True
 
 
-@dataclass(frozen=True, slots=True)
-class Patience:
+class Patience(Struct, frozen=True):
     """Limits of a reply: longest silence, and the time by which it must be complete."""
 
     silence_s: float | None

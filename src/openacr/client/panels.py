@@ -4,31 +4,28 @@
 list here.
 """
 
-from dataclasses import dataclass
+from msgspec import Struct
 
 from openacr.client.names import full_names
 from openacr.errors import UserError
 from openacr.map import Flag, Parameter
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Struct, frozen=True):
     """A parameter or flag of every object of a panel; `{object}` in its name is the object's."""
 
     name: str
     column: str = ""  # of `openacr monitor`; empty: not among its columns
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(Struct, frozen=True):
     """Rows under a heading."""
 
     title: str
     rows: tuple[Row, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class StatusPanel:
+class StatusPanel(Struct, frozen=True):
     """Objects side by side, and what is to be seen of each."""
 
     name: str

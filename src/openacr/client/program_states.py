@@ -1,7 +1,8 @@
 """What the programs and PLCs of a card do, by their flags and line numbers."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from openacr.client.requests import Level
 from openacr.client.values import Number
@@ -22,8 +23,7 @@ _DOES = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class ProgramState:
+class ProgramState(Struct, frozen=True):
     """A program or PLC: its flags, and of a program the line that it executed last."""
 
     level: Level

@@ -1,8 +1,9 @@
 """Requests of a host to one stream of a card, and their answers."""
 
 import re
-from dataclasses import dataclass
 from typing import Self, TypeAlias
+
+from msgspec import Struct
 
 from openacr.protocol.events import ControlKey
 from openacr.protocol.packets import Packet
@@ -11,8 +12,7 @@ _PROMPT = re.compile(r"(SYS|P|PLC)(\d*)>")
 _GO = re.compile(r"\s*(SYS|PROG|PLC)\s*(\d*)\s*", re.IGNORECASE)
 
 
-@dataclass(frozen=True, slots=True)
-class Level:
+class Level(Struct, frozen=True):
     """The level of a stream: the system, a program or a PLC."""
 
     word: str = "SYS"
@@ -49,8 +49,7 @@ class Level:
 SYS = Level()
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(Struct, frozen=True):
     """A line of text; `is_query`: it changes nothing, so it may be sent again."""
 
     text: str
@@ -60,8 +59,7 @@ class Line:
         return self.text
 
 
-@dataclass(frozen=True, slots=True)
-class Ask:
+class Ask(Struct, frozen=True):
     """Packets that the card answers, sent together and answered in order."""
 
     packets: tuple[Packet, ...]
@@ -71,8 +69,7 @@ class Ask:
         return ", ".join(map(str, self.packets))
 
 
-@dataclass(frozen=True, slots=True)
-class Press:
+class Press(Struct, frozen=True):
     """Ctrl-X, Ctrl-Y or Ctrl-Z: acts at once and is not answered."""
 
     key: ControlKey
@@ -82,8 +79,7 @@ class Press:
         return self.key.name.replace("_", "-").title()
 
 
-@dataclass(frozen=True, slots=True)
-class Follow:
+class Follow(Struct, frozen=True):
     """LISTEN or LRUN: follow the output of a program until it ends or ESC is sent."""
 
     text: str
@@ -93,8 +89,7 @@ class Follow:
         return self.text
 
 
-@dataclass(frozen=True, slots=True)
-class Leave:
+class Leave(Struct, frozen=True):
     """ESC: stop listening; the prompt returns."""
 
     is_query: bool = False
@@ -103,8 +98,7 @@ class Leave:
         return "ESC"
 
 
-@dataclass(frozen=True, slots=True)
-class Align:
+class Align(Struct, frozen=True):
     """Bring the stream from any state to the SYS level and a known ECHO mode."""
 
     is_query: bool = True
@@ -116,8 +110,7 @@ class Align:
 Request: TypeAlias = Line | Ask | Press | Follow | Leave | Align
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
+class Answer(Struct, frozen=True):
     """The answer to a completed request: lines of text or packet data."""
 
     lines: tuple[str, ...] = ()
@@ -126,8 +119,7 @@ class Answer:
     raw: bytes = b""  # the bytes of a garbled answer
 
 
-@dataclass(frozen=True, slots=True)
-class Heard:
+class Heard(Struct, frozen=True):
     """Text printed by a followed program."""
 
     text: str

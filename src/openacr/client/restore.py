@@ -7,8 +7,9 @@ of the card are read; if it still refuses a line, they are restored.
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 from openacr.basic.language import registry
 from openacr.basic.language.registry import Command
@@ -67,8 +68,7 @@ def _put_back(talk: Talk, former: dict[str, str], failure: BaseException) -> Op[
 # --- what the card knows ------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class _Setting:
+class _Setting(Struct, frozen=True):
     """A line of a backup that sets a value, and the query for the value."""
 
     row: Command

@@ -16,7 +16,8 @@ look to the next.
 """
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from openacr.client.card import Card
 from openacr.client.errors import RefusedError
@@ -44,8 +45,7 @@ def _flag(word: int, mask: int) -> int:
     return (word - FLAG_WORD_BASE) * BITS_PER_WORD + (mask & 0xFFFFFFFF).bit_length() - 1
 
 
-@dataclass(frozen=True, slots=True)
-class _Seen:
+class _Seen(Struct, frozen=True):
     """What one look has read."""
 
     masters: list[int]

@@ -2,9 +2,10 @@
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from hashlib import blake2b
 from typing import NamedTuple
+
+from msgspec import Struct
 
 from openacr.client.effects import Op
 from openacr.client.errors import (
@@ -30,8 +31,7 @@ class Room(NamedTuple):
     free: int
 
 
-@dataclass(frozen=True, slots=True)
-class ListedLine:
+class ListedLine(Struct, frozen=True):
     """A line of a listing under its number, which the card may not print."""
 
     number: int

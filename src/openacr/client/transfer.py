@@ -5,6 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from msgspec import Struct
+
 from openacr.basic.language.loader import FileLine, file_lines
 from openacr.basic.memory.program_store import opens_capture
 from openacr.channels import EchoMode
@@ -24,8 +26,7 @@ _IS_NUMBERED = re.compile(r"\s*\d")
 _UNSENDABLE = str.maketrans("", "", "\x0c\x1a\x1b")  # page and file ends, captured keys
 
 
-@dataclass(frozen=True, slots=True)
-class Remark:
+class Remark(Struct, frozen=True):
     """The card's output for a line it accepted: a report, not a known error."""
 
     line: int

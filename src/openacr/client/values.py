@@ -3,9 +3,10 @@
 import re
 import struct
 from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from openacr.client.effects import Op
 from openacr.client.errors import RefusedError
@@ -84,8 +85,7 @@ def read_many(talk: Talk, whats: Iterable[What]) -> Op[list[Number]]:
     return [found[number] for number in numbers]
 
 
-@dataclass(frozen=True, slots=True)
-class _Part:
+class _Part(Struct, frozen=True):
     """Packets sent together, with the parameters they return."""
 
     packets: tuple[DataRequest, ...]

@@ -9,12 +9,11 @@ from __future__ import annotations
 
 from base64 import b64decode
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import msgspec
-from msgspec import Meta
+from msgspec import Meta, Struct
 
 from openacr.controller import snapshot as snapshots
 from openacr.controller import snapshot_file
@@ -52,8 +51,7 @@ class Header(msgspec.Struct, frozen=True):
     fingerprint: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Journal:
+class Journal(Struct, frozen=True):
     """A journal as read from a file; `is_whole`: it was closed and is not truncated."""
 
     header: Header

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from msgspec import Struct
+
 from openacr.basic.channels.session import Session
 from openacr.basic.execute.system import System
 from openacr.basic.language.loader import file_lines, long_lived_objects
@@ -29,8 +31,7 @@ class LoadError(SourceError):
         self.errors = tuple(errors)
 
 
-@dataclass(frozen=True, slots=True)
-class EmptyStart:
+class EmptyStart(Struct, frozen=True):
     """The first start of a program or PLC without lines: nothing runs, silently."""
 
     tick: int  # as `lived_tk`

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import Struct
 
 from openacr.controller.controller import Controller
 from openacr.controller.journal import Journal
@@ -12,8 +13,7 @@ from openacr.errors import StoreError
 from openacr.journal.entries import JournalEntry
 
 
-@dataclass(frozen=True, slots=True)
-class Difference:
+class Difference(Struct, frozen=True):
     """A digest of the journal that differs from that of the replayed card."""
 
     tick: int

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, overload
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from openacr.controller.pages import table
@@ -21,8 +21,7 @@ EXTREMES = ("axis", "lowest [units]", "highest [units]", "peak velocity [units/s
             "peak following error [units]")  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class AxisTrace:
+class AxisTrace(Struct, frozen=True):
     """One axis over time, in its programming units."""
 
     commanded_u: Reals
@@ -31,8 +30,7 @@ class AxisTrace:
     following_error_u: Reals  # commanded minus actual position
 
 
-@dataclass(frozen=True, slots=True)
-class Trace:
+class Trace(Struct, frozen=True):
     """A recording: time, onboard inputs and outputs as bit masks, every axis.
 
     `values` has a column for each additionally chosen value, shape (rows, chosen).

@@ -1,8 +1,9 @@
 """Access to a card's values from Python: `card.p[12288]`, `card.bit[516]`, `card.axis(0)`."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Self
+
+from msgspec import Struct
 
 from openacr.map.memory import Memory
 from openacr.map.rows import axes
@@ -78,8 +79,7 @@ class AxisView:
         return self._card.memory.I[axes.following_error[self.number]]
 
 
-@dataclass(frozen=True, slots=True)
-class AxisStatistics:
+class AxisStatistics(Struct, frozen=True):
     """Totals of an axis since power-up, in its units."""
 
     position_u: float

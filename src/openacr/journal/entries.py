@@ -30,13 +30,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Container, Iterable, Iterator
-from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple, TypeAlias, TypeVar
 
 import msgspec
-from msgspec import Meta
+from msgspec import Meta, Struct
 
 from openacr.channels import StreamKind
 from openacr.errors import StoreError, reason
@@ -68,8 +67,7 @@ class Entered(StrEnum):
     END = "end"
 
 
-@dataclass(frozen=True, slots=True)
-class JournalEntry:
+class JournalEntry(Struct, frozen=True):
     """One event at a card, `tick` ticks into its life or into the session.
 
     `number` is the stream, input, axis, device, parameter, flag or key. `text` holds bytes (one

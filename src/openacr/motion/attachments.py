@@ -7,7 +7,7 @@ names exist only here.
 from dataclasses import dataclass, field
 from typing import Annotated, TypeAlias
 
-from msgspec import Meta
+from msgspec import Meta, Struct
 
 _Number: TypeAlias = Annotated[int, Meta(ge=0, le=15)]  # of a program, master, slave or axis
 AttachmentsState: TypeAlias = tuple[
@@ -16,8 +16,7 @@ AttachmentsState: TypeAlias = tuple[
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class Slave:
+class Slave(Struct, frozen=True):
     """One slave of a program's master."""
 
     number: int

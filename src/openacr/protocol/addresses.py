@@ -12,7 +12,8 @@ Real addresses differ from card to card, so hosts query them. This card answers 
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from openacr.errors import MapError
 from openacr.map import numbers as at
@@ -36,8 +37,7 @@ _HEAP_WORDS = at.HEAP_BYTES // 4
 _FP64_WORDS = 2
 
 
-@dataclass(frozen=True, slots=True)
-class _Rows:
+class _Rows(Struct, frozen=True):
     """The storage rows that describe one kind of variables of a program."""
 
     base: tuple[int, ...]

@@ -5,15 +5,13 @@ over the network as well: there it counts as padding when it directly follows in
 segment and is the last byte of it; `terminal` decides that.
 """
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from openacr.protocol.host import Host
 from openacr.protocol.packet import U16, Packet, register
 
 
-@dataclass(frozen=True, slots=True)
-class _OneFlag(Packet):
+class _OneFlag(Packet, frozen=True):
     """Holds the number of a flag."""
 
     DPCB_PADDING: ClassVar[int] = 1
@@ -25,8 +23,7 @@ class _OneFlag(Packet):
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class SetBit(_OneFlag):
+class SetBit(_OneFlag, frozen=True):
     """Set a flag, not queued; the card sends nothing back."""
 
     HEADER: ClassVar[bytes] = b"\x1c"
@@ -38,8 +35,7 @@ class SetBit(_OneFlag):
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class ClearBit(_OneFlag):
+class ClearBit(_OneFlag, frozen=True):
     """Clear a flag, not queued; the card sends nothing back."""
 
     HEADER: ClassVar[bytes] = b"\x1d"

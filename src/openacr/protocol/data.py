@@ -4,9 +4,10 @@ The parameter of a mask bit follows from the numbering of the map, not from a li
 each group starts at 256 * code, and the next mask bit is the next object (or word).
 """
 
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import ClassVar
+
+from msgspec import Struct
 
 from openacr.protocol.host import Host, PacketError, value_of
 from openacr.protocol.packet import U8, Packet, register
@@ -15,8 +16,7 @@ FIELDS = 8
 UPPER_HALF = 0x80  # index bit: objects 8 to 15 of the groups with a stride of 16
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(Struct, frozen=True):
     """One group code: how index and mask bit become a parameter number."""
 
     code: int
@@ -60,8 +60,7 @@ GROUPS |= {0x21: GROUPS[0x28], 0x31: GROUPS[0x38]}
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class DataRequest(Packet):
+class DataRequest(Packet, frozen=True):
     """Read up to eight parameters; answered at any time, also while commands wait."""
 
     HEADER: ClassVar[bytes] = b"\x00"

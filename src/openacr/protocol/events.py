@@ -1,8 +1,9 @@
 """Events that a stream of a card decodes from received bytes."""
 
-from dataclasses import dataclass
 from enum import Enum, IntEnum
 from typing import Final, TypeAlias
+
+from msgspec import Struct
 
 from openacr.protocol.packets import Packet
 
@@ -15,39 +16,33 @@ class ControlKey(IntEnum):
     CTRL_Z = 0x1A  # as Ctrl-X, then drives off
 
 
-@dataclass(frozen=True, slots=True)
-class ReceivedLine:
+class ReceivedLine(Struct, frozen=True):
     """A complete line for the command interpreter, without its end."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class LineTooLong:
+class LineTooLong(Struct, frozen=True):
     """A line of more than 255 characters ended; it was discarded."""
 
 
-@dataclass(frozen=True, slots=True)
-class Typed:
+class Typed(Struct, frozen=True):
     """One byte for the program or device that currently reads the stream."""
 
     byte: int
 
 
-@dataclass(frozen=True, slots=True)
-class Control:
+class Control(Struct, frozen=True):
     """Ctrl-X, Ctrl-Y or Ctrl-Z."""
 
     code: ControlKey
 
 
-@dataclass(frozen=True, slots=True)
-class Escape:
+class Escape(Struct, frozen=True):
     """ESC while listening or passing through: end it, send CR LF and one prompt."""
 
 
-@dataclass(frozen=True, slots=True)
-class Received:
+class Received(Struct, frozen=True):
     """A complete binary packet."""
 
     packet: Packet

@@ -6,7 +6,6 @@ the other codes advance one. The data always travel as four bytes per value.
 
 import struct
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import IntEnum
 from typing import ClassVar, Self
 
@@ -74,8 +73,7 @@ def _words(host: Host, address: int, count: int) -> Sequence[int]:
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class Peek(Packet):
+class Peek(Packet, frozen=True):
     """Read `count` values from an address on."""
 
     HEADER: ClassVar[bytes] = b"\x00\x90"
@@ -101,8 +99,7 @@ class Peek(Packet):
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class Poke(Packet):
+class Poke(Packet, frozen=True):
     """Write values from an address on; the card sends nothing back."""
 
     HEADER: ClassVar[bytes] = b"\x00\x91"
@@ -175,8 +172,7 @@ class Poke(Packet):
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class VariableAddress(Packet):
+class VariableAddress(Packet, frozen=True):
     """Query the address of the local variables of one kind; 0: the program has none."""
 
     HEADER: ClassVar[bytes] = b"\x00\x92"
@@ -193,8 +189,7 @@ class VariableAddress(Packet):
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class MaskMemory(Packet):
+class MaskMemory(Packet, frozen=True):
     """Clear the bits of `nand_mask`, then set those of `or_mask`, in a word of memory."""
 
     # The layout prints BYTE for the three fields (erratum); the example has four bytes each.

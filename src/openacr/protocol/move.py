@@ -13,7 +13,6 @@ leaves reserved. Only openacr cards accept it.
 
 import struct
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import ClassVar, Self
 
 from openacr.protocol.bits import ClearBit, SetBit
@@ -49,8 +48,7 @@ NO_TARGET = 1e-9  # no real target is as small as this
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class Move(Packet):
+class Move(Packet, frozen=True):
     """One move of a master; the card sends nothing back.
 
     `targets` holds (slave, value) in rising order: control points for NURBs and splines.

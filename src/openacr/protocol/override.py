@@ -13,7 +13,6 @@ cases: not an override, so it is refused and those two bytes are read again (`be
 
 import struct
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import ClassVar, Self
 
 from openacr.protocol.host import Host, PacketError, finite
@@ -25,8 +24,7 @@ MASK_16_AT, MASK_16_BYTES = 2, 2
 LEAST_OVERRIDE, LARGEST_OVERRIDE = 1e-4, 1e4  # besides 0
 
 
-@dataclass(frozen=True, slots=True)
-class Override(Packet):
+class Override(Packet, frozen=True):
     """Mask of masters 0-7, mask of masters 0-15, value."""
 
     masters_0_7: U8
@@ -50,8 +48,7 @@ class Override(Packet):
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class FeedrateOverride(Override):
+class FeedrateOverride(Override, frozen=True):
     """FOV: set the feedrate override of the selected masters at once."""
 
     HEADER: ClassVar[bytes] = b"\x07"
@@ -63,8 +60,7 @@ class FeedrateOverride(Override):
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class RapidOverride(Override):
+class RapidOverride(Override, frozen=True):
     """ROV: set the rapid feedrate override of the selected masters at once."""
 
     HEADER: ClassVar[bytes] = b"\x1f"

@@ -1,18 +1,17 @@
 """Common parts of all binary packets: fields, header table, replies and hex explanation.
 
-A packet is a frozen dataclass whose annotations are its wire layout; `act` is its effect on
+A packet is a frozen struct whose annotations are its wire layout; `act` is its effect on
 the card. Decoding, encoding, the length of an incomplete packet and the explanation of a hex
 dump are derived from the annotations, so a new packet is one class in one file.
 Every reply of the card is the request repeated, followed by four-byte words (UG2 ch. 6).
 """
 
 import struct
-from abc import ABC, abstractmethod
+from abc import ABCMeta, abstractmethod
 from collections.abc import Iterable, Sequence
-from dataclasses import fields
 from typing import Annotated, ClassVar, Self, TypeVar, get_type_hints
 
-from msgspec import Struct
+from msgspec import Struct, StructMeta
 
 from openacr.protocol.host import Host, PacketError
 
@@ -49,10 +48,13 @@ class Part(Struct, frozen=True):
         return f"{self.data.hex(' ').upper():<24}{self.name} = {self.value}"
 
 
-class Packet(ABC):
+class PacketMeta(StructMeta, ABCMeta):
+    """Structs with abstract methods."""
+
+
+class Packet(Struct, metaclass=PacketMeta, frozen=True):
     """Base of all packets a host can send."""
 
-    __slots__ = ()
     HEADER: ClassVar[bytes]
     DPCB_PADDING: ClassVar[int] = 0  # zero bytes that follow it on a DPCB
 
@@ -124,9 +126,9 @@ def wires(packet: type[Packet]) -> tuple[tuple[str, Wire], ...]:
     if packet not in _WIRES:
         hints = get_type_hints(packet, include_extras=True)
         _WIRES[packet] = tuple(
-            (field.name, mark)
-            for field in fields(packet)  # type: ignore[arg-type]
-            for mark in getattr(hints[field.name], "__metadata__", ())
+            (name, mark)
+            for name in packet.__struct_fields__
+            for mark in getattr(hints[name], "__metadata__", ())
             if isinstance(mark, Wire)
         )
     return _WIRES[packet]

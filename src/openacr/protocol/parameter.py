@@ -1,14 +1,12 @@
 """Packets that read, write and mask one parameter by its number (UG2 ch. 6)."""
 
-from dataclasses import dataclass
 from typing import ClassVar
 
 from openacr.protocol.host import Host, PacketError, finite, long_value_of, masked, value_of
 from openacr.protocol.packet import F32, I32, U16, U32, Packet, register
 
 
-@dataclass(frozen=True, slots=True)
-class _OneParameter(Packet):
+class _OneParameter(Packet, frozen=True):
     """A packet that begins with the number of a parameter."""
 
     parameter: U16
@@ -19,8 +17,7 @@ class _OneParameter(Packet):
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class GetLong(_OneParameter):
+class GetLong(_OneParameter, frozen=True):
     """Read one parameter as a 32-bit integer."""
 
     HEADER: ClassVar[bytes] = b"\x00\x88"
@@ -35,8 +32,7 @@ class GetLong(_OneParameter):
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class SetLong(_OneParameter):
+class SetLong(_OneParameter, frozen=True):
     """Write one parameter as a 32-bit integer; the card sends nothing back."""
 
     HEADER: ClassVar[bytes] = b"\x00\x89"
@@ -49,8 +45,7 @@ class SetLong(_OneParameter):
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class GetIeee(_OneParameter):
+class GetIeee(_OneParameter, frozen=True):
     """Read one parameter as an IEEE single."""
 
     HEADER: ClassVar[bytes] = b"\x00\x8a"
@@ -65,8 +60,7 @@ class GetIeee(_OneParameter):
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class SetIeee(_OneParameter):
+class SetIeee(_OneParameter, frozen=True):
     """Write one parameter as an IEEE single; the card sends nothing back."""
 
     HEADER: ClassVar[bytes] = b"\x00\x8b"
@@ -79,8 +73,7 @@ class SetIeee(_OneParameter):
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class ParameterAddress(_OneParameter):
+class ParameterAddress(_OneParameter, frozen=True):
     """Query the memory address of a parameter; 0: there is no such parameter."""
 
     HEADER: ClassVar[bytes] = b"\x00\x93"
@@ -95,8 +88,7 @@ class ParameterAddress(_OneParameter):
 
 
 @register
-@dataclass(frozen=True, slots=True)
-class MaskParameter(_OneParameter):
+class MaskParameter(_OneParameter, frozen=True):
     """Clear the bits of `nand_mask`, then set those of `or_mask`, in a LONG parameter."""
 
     # The printed example starts with 00 94 (erratum); the layout and the later guide have 95.

@@ -12,6 +12,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Self, TypeAlias
 
+from msgspec import Struct
+
 STATUS_PORT = 5003
 GROUPS, WORDS = 10, 8
 _REQUEST = struct.Struct(">II")
@@ -25,8 +27,7 @@ LIFE_S = 60.0
 Endpoint: TypeAlias = tuple[str, int] | tuple[str, int, int, int]  # of IPv4, IPv6
 
 
-@dataclass(frozen=True, slots=True)
-class StatusRequest:
+class StatusRequest(Struct, frozen=True):
     """A request to send the status at an interval in milliseconds, or to stop."""
 
     is_on: bool
@@ -45,8 +46,7 @@ class StatusRequest:
         return _REQUEST.pack(int(self.is_on), self.interval_ms)
 
 
-@dataclass(frozen=True, slots=True)
-class FastStatus:
+class FastStatus(Struct, frozen=True):
     """The eight words of each of the ten groups."""
 
     words: tuple[int, ...] = (0,) * (GROUPS * WORDS)

@@ -1,7 +1,8 @@
 """The course of a run: play what is due, let the card live until the next moment, and the end."""
 
-from dataclasses import dataclass
 from enum import Enum
+
+from msgspec import Struct
 
 from openacr.errors import MapError, UserError
 from openacr.map import flag
@@ -26,8 +27,7 @@ class Stop(Enum):
     INTERRUPT = "interrupt"
 
 
-@dataclass(frozen=True, slots=True)
-class Until:
+class Until(Struct, frozen=True):
     """When a run ends before its time: a flag has a state, or nothing happens any more."""
 
     bit: int | None = None

@@ -1,16 +1,14 @@
 """Judge one expectation: compare the expected with the actual value."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
-from msgspec import UNSET
+from msgspec import UNSET, Struct
 
 from openacr.scenario.schema import Condition, Expectation
 from openacr.scenario.world import World
 
 
-@dataclass(frozen=True, slots=True)
-class Verdict:
+class Verdict(Struct, frozen=True):
     """The result of one expectation."""
 
     name: str

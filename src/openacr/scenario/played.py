@@ -1,9 +1,10 @@
 """A card on which scenarios are played, and the world they see."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import partial
 from math import nan
+
+from msgspec import Struct
 
 from openacr.basic.language.lister import Lister
 from openacr.channels import StreamKind
@@ -20,8 +21,7 @@ from openacr.scenario.world import Surroundings
 _KINDS = {"COM": StreamKind.SERIAL, "DPC": StreamKind.DPCB}
 
 
-@dataclass(frozen=True, slots=True)
-class Failure:
+class Failure(Struct, frozen=True):
     """The error that ended a program: its text, and the line as it is listed."""
 
     error: str

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass
 
 from msgspec import UNSET, Struct
 from msgspec.structs import fields
@@ -64,8 +63,7 @@ _COMPANIONS = {
 _ANY_SUBJECT = {"name", "time_s", "when", "after", "delay_s"}
 
 
-@dataclass(frozen=True, slots=True)
-class Problem:
+class Problem(Struct, frozen=True):
     """One contradiction: its place, its text, and what is allowed."""
 
     steps: tuple[Step, ...]

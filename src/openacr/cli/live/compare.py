@@ -1,11 +1,11 @@
 """`openacr compare`: what two cards, projects or backups have different."""
 
 from collections.abc import Iterator
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from msgspec import to_builtins
 
 from openacr.cli.live.online import BAUD, FAILED, PATIENCE_S, Baud, Silence, connected, progress_bar
 from openacr.errors import UserError
@@ -148,7 +148,7 @@ def _record(
             letter: {"name": side.name, "version": side.version}
             for letter, side in zip(("first", "second"), sides, strict=True)
         },
-        "settings": [asdict(each) for each in settings],
-        "programs": [asdict(each) for each in lines],
+        "settings": [to_builtins(each) for each in settings],
+        "programs": [to_builtins(each) for each in lines],
         "not_compared": gaps,
     }

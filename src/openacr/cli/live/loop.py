@@ -1,10 +1,10 @@
 """`openacr loop`: the servo loop of the axes of a card, from their offsets to their outputs."""
 
 import json
-from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from msgspec import Struct, to_builtins
 
 from openacr.cli.live.monitor import AXES, axes_on
 from openacr.cli.live.online import BAUD, SILENCE_S, Baud, Silence, Target, connected
@@ -49,8 +49,7 @@ LABELS = max(map(len, NAMES))
 GAP = 2
 
 
-@dataclass(frozen=True, slots=True)
-class Loop:
+class Loop(Struct, frozen=True):
     """One axis: what is asked of it [pulses], its gains, and what it puts out [V]."""
 
     axis: int
@@ -75,7 +74,7 @@ def loop(
     with connected(target, baud, silence) as card:
         found = [read_loop(card, number) for number in axis or axes_on(card)]
     if as_json:
-        typer.echo(json.dumps([asdict(one) for one in found]))
+        typer.echo(json.dumps([to_builtins(one) for one in found]))
         return
     from rich.console import Console
 

@@ -2,10 +2,10 @@
 
 import json
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from msgspec import Struct, to_builtins
 
 from openacr.cli.live.online import BAUD, SILENCE_S, Baud, Silence, Target
 from openacr.models import Feature
@@ -15,8 +15,7 @@ if TYPE_CHECKING:
     from openacr.models import Model
 
 
-@dataclass(frozen=True, slots=True)
-class Verdict:
+class Verdict(Struct, frozen=True):
     """One part of this software, and whether it works with a card."""
 
     what: str
@@ -106,7 +105,7 @@ def _record(found: "Identity", verdicts: list[Verdict]) -> dict[str, Any]:
         "axes": None if model is None else model.connected_axes,
         "masters": None if model is None else model.masters,
         "options": found.options,
-        "works": [asdict(verdict) for verdict in verdicts],
+        "works": [to_builtins(verdict) for verdict in verdicts],
     }
 
 

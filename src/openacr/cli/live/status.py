@@ -2,10 +2,10 @@
 
 import json
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from msgspec import Struct, to_builtins
 
 from openacr.cli.live.monitor import axes_on
 from openacr.cli.live.online import BAUD, SILENCE_S, Baud, Silence, Target, connected
@@ -20,8 +20,7 @@ BUS_STATE = canopen_rows.bus_state
 SIDES = (("positive", 0), ("negative", 1))
 
 
-@dataclass(frozen=True, slots=True)
-class Limit:
+class Limit(Struct, frozen=True):
     """A limit switch: its input, and what the card makes of it."""
 
     side: str
@@ -32,8 +31,7 @@ class Limit:
     is_latched: bool
 
 
-@dataclass(frozen=True, slots=True)
-class AxisStatus:
+class AxisStatus(Struct, frozen=True):
     """What is to be known of an axis that does not move."""
 
     axis: int
@@ -46,8 +44,7 @@ class AxisStatus:
     no_output: str  # why, empty while nothing cuts the output
 
 
-@dataclass(frozen=True, slots=True)
-class Status:
+class Status(Struct, frozen=True):
     """All of it."""
 
     power: str
@@ -70,7 +67,7 @@ def status(
     with connected(target, baud, silence) as card:
         found = read_status(card)
     if as_json:
-        typer.echo(json.dumps(asdict(found)))
+        typer.echo(json.dumps(to_builtins(found)))
         return
     for line in _lines(found):
         typer.echo(line)

@@ -15,9 +15,10 @@ their parts in `openacr.map.numbers`:
 """
 
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass, field
 from enum import Enum, auto
 from math import inf
+
+from msgspec import Struct, field
 
 Field = str | tuple[str, int]
 Range = tuple[float, float]  # lowest and highest value of a row
@@ -40,8 +41,7 @@ SWITCH: Range = (0, 1)
 ROWS_I, ROWS_F = 700_000, 350_000
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HiddenBlock:
+class HiddenBlock(Struct, frozen=True, kw_only=True):
     """`count` records of named numbers; a field `(name, size)` is an array.
 
     `ranges` belong to every row that the card uses as an index, a size or a divisor without asking:

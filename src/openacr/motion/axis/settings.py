@@ -7,8 +7,9 @@ stored in the unit of their command, the kernel converts.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import isfinite
+
+from msgspec import Struct
 
 from openacr.errors import CardError
 from openacr.map.block import Kind
@@ -50,8 +51,7 @@ def multiplier(value: float) -> bool:
     return value in MULTIPLIERS
 
 
-@dataclass(frozen=True, slots=True)
-class Setting:
+class Setting(Struct, frozen=True):
     """One number per object, in a row of the view of its kind."""
 
     kind: Kind
@@ -107,8 +107,7 @@ def long(row: tuple[int, ...], allows: _Allowed = anything) -> Setting:
 # end-of-travel limits: the mode of HLIM and SLIM is two flags
 
 
-@dataclass(frozen=True, slots=True)
-class LimitEnables:
+class LimitEnables(Struct, frozen=True):
     """The enable flags of the limits of one kind."""
 
     positive: int

@@ -7,17 +7,17 @@ the homogeneous points (w p, w).
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from math import inf, sqrt
 from typing import TypeAlias
+
+from msgspec import Struct
 
 Vector: TypeAlias = Sequence[float]
 SAMPLES = 16
 
 
-@dataclass(frozen=True, slots=True)
-class Bezier:
+class Bezier(Struct, frozen=True):
     """A rational Bezier curve: its poles and their weights."""
 
     poles: tuple[tuple[float, ...], ...]

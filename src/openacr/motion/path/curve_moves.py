@@ -6,8 +6,10 @@ the highest speed of the piece, so that no axis brakes harder in a feedhold than
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from math import cbrt, sqrt
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from openacr.compiled import pick
 from openacr.kernel.path import bezier_cy
@@ -30,8 +32,7 @@ SAMPLES = 16
 _bezier_speed = pick(bezier_cy.bezier_speed)
 
 
-@dataclass(frozen=True, slots=True)
-class Pace:
+class Pace(Struct, frozen=True):
     """How a piece is run through: with the profile of the master or, timed, at a rate."""
 
     rate: float = 0.0  # of the path per second; 0: not timed

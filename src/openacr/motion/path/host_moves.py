@@ -6,7 +6,8 @@ ones, ramps at the end and marks are the move's own.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+
+from msgspec import Struct, field
 
 from openacr.errors import CardError
 from openacr.kernel.path.lookahead_cy import look_record
@@ -42,8 +43,7 @@ from openacr.motion.path.records import SlaveMove, append
 LONGEST_COUNT = 2**31 - 1
 
 
-@dataclass(frozen=True, slots=True)
-class Arc:
+class Arc(Struct, frozen=True):
     """A circle of two slaves round a centre in pulses, stretched along its axes."""
 
     slaves: tuple[int, int]
@@ -53,8 +53,7 @@ class Arc:
     radius_scale: tuple[float, float] = (1.0, 1.0)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HostMove:
+class HostMove(Struct, frozen=True, kw_only=True):
     """One move of a master as a packet describes it."""
 
     master: int
@@ -86,8 +85,7 @@ class HostMove:
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class HostPoint:
+class HostPoint(Struct, frozen=True, kw_only=True):
     """A point of SPLINE or NURB of a master as a packet describes it."""
 
     master: int

@@ -1,9 +1,10 @@
 """What a coordinated move is to do, in units and absolute angles, before it is a record."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import IntEnum
 from typing import TypeAlias
+
+from msgspec import Struct
 
 from openacr.kernel.path import curve_cy
 
@@ -15,8 +16,7 @@ class Direction(IntEnum):
     COUNTER_CLOCKWISE = curve_cy.CURVE_CCW
 
 
-@dataclass(frozen=True, slots=True)
-class Target:
+class Target(Struct, frozen=True):
     """Where one axis of a move goes: to `value_u`, or by `value_u` if incremental."""
 
     axis: int
@@ -24,8 +24,7 @@ class Target:
     incremental: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Sine:
+class Sine(Struct, frozen=True):
     """One axis on a part of a sine wave, to `target_u`."""
 
     axis: int
@@ -35,8 +34,7 @@ class Sine:
     amplitude_u: float
 
 
-@dataclass(frozen=True, slots=True)
-class Circle:
+class Circle(Struct, frozen=True):
     """Two axes round a centre; the same place again is a full turn."""
 
     axes: tuple[int, int]
@@ -46,8 +44,7 @@ class Circle:
     radius_scale: tuple[float, float] = (1.0, 1.0)
 
 
-@dataclass(frozen=True, slots=True)
-class SpaceArc:
+class SpaceArc(Struct, frozen=True):
     """Three axes on the circle through where they are, a mid point and a target."""
 
     axes: tuple[int, int, int]
@@ -55,8 +52,7 @@ class SpaceArc:
     mid_u: tuple[float, float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class Piece:
+class Piece(Struct, frozen=True):
     """Slaves on a piece of SPLINE or NURB, in pulses; it takes `span` or, if 0, its length."""
 
     slaves: tuple[int, ...]
@@ -66,8 +62,7 @@ class Piece:
     span: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class FlagState:
+class FlagState(Struct, frozen=True):
     """A flag in the state that is waited for."""
 
     number: int

@@ -1,7 +1,8 @@
 """Write the record of a move into the ring of its master."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+
+from msgspec import Struct
 
 from openacr.compiled import pick
 from openacr.errors import CardError
@@ -36,8 +37,7 @@ _CLEARED = (
 _move_shape = pick(path_cy.move_shape)
 
 
-@dataclass(frozen=True, slots=True)
-class SlaveMove:
+class SlaveMove(Struct, frozen=True):
     """The displacement of one slave; a relative one keeps it wherever the move begins.
 
     A weightless one does not count for the length of the path.

@@ -13,9 +13,10 @@ of them.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import partial
 from math import cos, radians, sin
+
+from msgspec.structs import replace
 
 from openacr.errors import CardError
 from openacr.map.rows import axes as axis_rows

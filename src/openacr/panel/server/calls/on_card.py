@@ -3,10 +3,9 @@
 import asyncio
 from collections.abc import Sequence
 from concurrent.futures import Future
-from dataclasses import asdict
 from typing import Annotated, TypeVar
 
-from msgspec import Meta
+from msgspec import Meta, to_builtins
 from starlette.concurrency import run_in_threadpool
 
 from openacr.client import Level
@@ -128,7 +127,7 @@ async def card_drives(call: Call) -> object:
         names = {each.axis: each.name for each in reversed(installation.attached)}
         return [
             {
-                **asdict(drive),
+                **to_builtins(drive),
                 "name": own.get(drive.axis, f"AXIS{drive.axis}"),
                 "title": own.get(drive.axis, f"{names[drive.axis]} (AXIS{drive.axis})"),
                 "is_homed": settings.is_homed(drive.axis)
@@ -163,7 +162,7 @@ async def card_surroundings(call: Call) -> object:
 
 
 def _listed(lines: Sequence[ListedLine]) -> dict[str, object]:
-    return {"lines": [asdict(line) for line in lines]}
+    return {"lines": [to_builtins(line) for line in lines]}
 
 
 @endpoint("GET", "/card/ladder", query=OfPlc)
@@ -194,6 +193,6 @@ def ladder(lines: Sequence[ListedLine]) -> tuple[list[dict[str, object]], str]:
             if found is not None:
                 read.append((number, found))
         number = 0
-        return [asdict(picture) for picture in pictures(read)], ""
+        return [to_builtins(picture) for picture in pictures(read)], ""
     except CardError as error:
         return [], f"line {number}: {error}" if number else str(error)

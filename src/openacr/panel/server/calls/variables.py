@@ -1,10 +1,9 @@
 """What a program works with: variables, the parameters and flags in its text, its flow stack."""
 
 from collections.abc import Sequence
-from dataclasses import asdict
 from typing import Annotated
 
-from msgspec import Meta
+from msgspec import Meta, to_builtins
 from starlette.concurrency import run_in_threadpool
 
 from openacr.client.program_variables import dimensioned, variables
@@ -41,10 +40,14 @@ async def card_variables(call: Call) -> object:
         if card is None:
             return {"state": "", "levels": [], "why": NO_STACK}
         state = state_of(card, number) if is_running(card, number) else ""
-        return {"state": state, "levels": list(map(asdict, levels_of(card, number))), "why": ""}
+        return {
+            "state": state,
+            "levels": list(map(to_builtins, levels_of(card, number))),
+            "why": "",
+        }
 
     place = await call.panel.ask(read)
-    return {"name": f"PROG{number}", "variables": list(map(asdict, found)), **place}
+    return {"name": f"PROG{number}", "variables": list(map(to_builtins, found)), **place}
 
 
 class Locals(OfProgram, frozen=True, kw_only=True):
