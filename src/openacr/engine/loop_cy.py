@@ -7,6 +7,7 @@ the same point of the same tick.
 """
 
 from openacr.basic.vm.scheduler_cy import EXECUTED, scheduler_step
+from openacr.engine.alone_cy import CALM, LATER, alone, alone_begin, alone_end
 from openacr.engine.change_log_cy import WORDS, changes_note
 from openacr.engine.quiet_cy import (
     IN_FULL,
@@ -113,7 +114,15 @@ def engine_run(
     F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64, seen: I32, log: I32
 ) -> int:
     """Run until the requested ticks are done or Python is needed; return the reason."""
+    reason: int = ticks_run(F, I, S, code, nums, trace, seen, log)
+    alone_end(F, I, S)
+    return reason
+
+
+def ticks_run(F: F64, I: I32, S: F32, code: I32, nums: F64, trace: F64, seen: I32, log: I32) -> int:
+    """Run as `engine_run`; what the interrupt has left out remains to be shown."""
     quiet_stir(seen)  # the caller may have changed anything
+    calm: int = 0
     axes: int = I[kernel.axes]
     while True:
         number: int = I[system.tick_high] * 2147483648 + I[system.tick_low]
@@ -138,6 +147,7 @@ def engine_run(
                 return THREAD + thread - 1
             if I[engine.in_tick] == EXECUTED:
                 quiet_stir(seen)
+                calm = 0
             I[engine.in_tick] = 0
             if log[WORDS] and seen[LEFT_OUT] == 0:
                 changes_note(I, log)
@@ -162,6 +172,10 @@ def engine_run(
             return TRACE_FULL
         I[engine.ticks_left] -= 1
         I[engine.statements] = 0
+        calm += 1
+        if calm == CALM and not alone(I):
+            calm = -LATER
+        alone_begin(F, I, S, calm)
         trial: int = IN_FULL
         if seen[WAIT] > 0:
             seen[WAIT] -= 1

@@ -26,7 +26,7 @@ from openacr.kernel.followers.offset_cy import (
     locks_couple,
     wheel_step,
 )
-from openacr.kernel.jog.jog_cy import jog_step
+from openacr.kernel.jog.jog_cy import JOG_IDLE, jog_numbers_show, jog_step
 from openacr.kernel.path.master_cy import master_busy, master_step
 from openacr.kernel.path.sync_cy import sync_step
 from openacr.kernel.sources.clock_cy import clock_step
@@ -60,16 +60,19 @@ OFFSETS_ACTIVE = af1.JOG_ACTIVE | af1.GEAR_ACTIVE | af1.CAM_ACTIVATE | af1.BALLS
 def axis_changing(I: I32, n: int) -> bool:
     """Whether the shown positions of axis n may change although its setpoint rests.
 
-    Parts can cancel each other out; at rest a refresh with every slow scan is enough.
+    Parts can cancel each other out.
     """
     m: int = I[axes.master[n]]
-    if I[af1.word[n]] & OFFSETS_ACTIVE or I[system.slow_phase] == 0:
+    if I[af1.word[n]] & OFFSETS_ACTIVE:
         return True
     return m >= 0 and I[mf1.word[m]] & mf1.IN_MOTION != 0
 
 
 def axis_advance(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) -> None:
-    """Jog and all offsets of axis n, and its setpoint sums."""
+    """Jog and all offsets of axis n, and its setpoint sums.
+
+    Positions are shown while they may change and once more; at rest with every slow scan.
+    """
     dt_s: float = period_s
     used: bool = followers_used(I, n) != 0
     if used:
@@ -80,8 +83,26 @@ def axis_advance(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float
     jog_step(F, I, S, n, dt_s)
     if used:
         followers_step(F, I, S, n, period_s, rate_hz)
-    if axis_setpoints(F, S, n, rate_hz) or used or axis_changing(I, n):
+    changing: bool = axis_setpoints(F, S, n, rate_hz) or used or axis_changing(I, n)
+    if changing and I[kernel.unread]:
+        I[axes.show_due[n]] = 1
+        I[kernel.shows_due] = 1
+    elif changing or I[axes.changing[n]] or I[system.slow_phase] == 0:
         axis_show(F, I, n)
+    I[axes.changing[n]] = 1 if changing else 0
+
+
+def shows_settle(F: F64, I: I32, S: F32) -> None:
+    """Show what axes have put off while nothing read it."""
+    if not I[kernel.shows_due]:
+        return
+    I[kernel.shows_due] = 0
+    for n in range(axes.COUNT):
+        if I[axes.show_due[n]]:
+            I[axes.show_due[n]] = 0
+            axis_show(F, I, n)
+            if I[axes.jog_mode[n]] != JOG_IDLE:
+                jog_numbers_show(F, I, S, n)
 
 
 def locked_advance(
@@ -137,8 +158,9 @@ def inputs_read(F: F64, I: I32, S: F32, period_s: float, rate_hz: float) -> None
         encoder_links_step(I, rate_hz)
     for n in range(I[kernel.axes]):
         if I[axes.on[n]]:
-            written: bool = axis_take_written(F, I, n)
-            feedback_step(F, I, S, n, written, rate_hz)
+            if not I[kernel.untouched]:
+                axis_take_written(F, I, n)
+            feedback_step(F, I, S, n, rate_hz)
 
 
 def sources_read(F: F64, I: I32, S: F32, period_s: float) -> None:

@@ -8,7 +8,7 @@ that differs from what was last shown was written by a program or host and repla
 """
 
 from openacr.cmath import fabs
-from openacr.kernel.words_cy import round32, wrap32
+from openacr.kernel.words_cy import round32
 from openacr.map.rows import axes, followers, kernel, masters, tables
 from openacr.map.words import af5
 from openacr.views import F32, F64, I32
@@ -212,11 +212,10 @@ def axis_show(F: F64, I: I32, n: int) -> None:
     I[axes.secondary_setpoint[n]] = round32(F[axes.ssp_cnt[n]])
 
 
-def axis_take_written(F: F64, I: I32, n: int) -> bool:
-    """Take over what was written into the shown positions; True if the actual one was.
+def axis_take_written(F: F64, I: I32, n: int) -> None:
+    """Take over what was written into the shown positions.
 
-    The encoder itself belongs to the feedback step, which sets it to a written actual
-    position.
+    The actual one belongs to the feedback step, which sets the encoder to what was written.
     """
     joint_cnt: float = F[axes.position_cnt[n]] + F[axes.kinematics_cnt[n]]
     if I[axes.current_position[n]] != I[axes.shown_current[n]]:
@@ -237,7 +236,6 @@ def axis_take_written(F: F64, I: I32, n: int) -> bool:
         F[axes.cam_cnt[n]] = I[axes.cam_offset[n]]
     if I[axes.ballscrew_offset[n]] != I[axes.shown_ballscrew[n]]:
         F[axes.ballscrew_cnt[n]] = I[axes.ballscrew_offset[n]]
-    return wrap32(I[axes.actual_position[n]]) != I[axes.shown_actual[n]]
 
 
 def axis_keep_joint(F: F64, I: I32, n: int, joint_cnt: float) -> None:

@@ -13,7 +13,7 @@ of axis n are inputs 24, 16, 8 and 0 plus n mod 8.
 
 from openacr.cmath import floor, rint
 from openacr.kernel.axis.feedback_cy import ENCODER_COUNT, FROM_ENCODER, MODELLED, feedback_set
-from openacr.kernel.words_cy import wrap32
+from openacr.kernel.words_cy import round32, wrap32
 from openacr.map.kinds_cy import store_long
 from openacr.map.numbers import FLAG_WORD_BASE, W_INPUTS, W_MISC_OUTPUTS
 from openacr.map.rows import axes, bus_motors, encoders, kernel, motors, plant
@@ -67,6 +67,8 @@ def capture_found(F: F64, I: I32, n: int, position_cnt: int) -> None:
     word2: int = af2.word[n]
     if I[word2] & af2.DONT_USE_CAPTURE_REGISTER:
         position_cnt = I[axes.primary_setpoint[n]]
+        if I[axes.show_due[n]]:
+            position_cnt = round32(F[axes.psp_cnt[n]])
     I[axes.hardware_capture[n]] = position_cnt
     F[axes.capture_cnt[n]] = position_cnt
     copy: int = I[axes.capture_copy[n]]

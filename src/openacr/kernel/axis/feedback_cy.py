@@ -272,13 +272,12 @@ def ideal_step(F: F64, I: I32, n: int, e: int, rate_hz: float) -> None:
         encoder_wrap(I, e)
 
 
-def feedback_step(F: F64, I: I32, S: F32, n: int, written: bool, rate_hz: float) -> None:
+def feedback_step(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
     """Bring the actual position of axis n up to date.
 
-    `written` says that it was written since the last tick: the feedback is then set to
-    that value first.
+    If it was written since the last tick, the feedback is set to that value.
     """
-    if written:
+    if I[axes.actual_position[n]] != I[axes.shown_actual[n]]:
         feedback_set(F, I, S, n, I[axes.actual_position[n]])
     else:
         I[axes.actual_position[n]] = feedback_read(F, I, S, n, rate_hz)

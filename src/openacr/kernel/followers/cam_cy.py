@@ -35,7 +35,7 @@ from openacr.kernel.sources.source_cy import (
     trigger_step,
 )
 from openacr.map.numbers import HEAP_BYTE_BASE, HEAP_BYTES
-from openacr.map.rows import axes, cams, sources, storage, tables, triggers
+from openacr.map.rows import axes, cams, kernel, sources, storage, tables, triggers
 from openacr.map.words import af1, af2, af4
 from openacr.views import F32, F64, I32
 
@@ -86,19 +86,44 @@ def segment_header(I: I32, b: int, k: int) -> int:
 
 
 def table_ready(F: F64, I: I32, b: int) -> bool:
-    """Whether table b is complete; finds its length, first and last value."""
+    """Whether table b is complete."""
+    return table_found(F, I, b) != 0
+
+
+def table_found(F: F64, I: I32, b: int) -> int:
+    """Header of the last array of table b, with its length, first and last value.
+
+    0 if the table is not complete. While nothing is written, a table remains what it was.
+    """
+    if I[tables.header[b]]:
+        return I[tables.header[b]]
+    found: int = table_search(F, I, b)
+    if I[kernel.untouched]:
+        I[tables.header[b]] = found
+    return found
+
+
+def table_search(F: F64, I: I32, b: int) -> int:
+    """Look at all arrays of table b; see `table_found`."""
     segments: int = min(I[tables.segments[b]], tables.ARRAY_SIZE)
     total_cnt: float = 0.0
+    header: int = 0
     for k in range(segments):
-        header: int = segment_header(I, b, k)
+        header = segment_header(I, b, k)
         if header == 0 or I[header] < 2 or F[tables.length_cnt[b] + k] <= 0.0:
-            return False
+            return 0
         if k == 0:
             F[tables.first_cnt[b]] = I[header + 1]
         F[tables.last_cnt[b]] = I[header + I[header]]
         total_cnt += F[tables.length_cnt[b] + k]
     F[tables.total_cnt[b]] = total_cnt
-    return total_cnt > 0.0
+    return header if total_cnt > 0.0 else 0
+
+
+def tables_forget(I: I32) -> None:
+    """Let all tables be looked at anew."""
+    for b in range(tables.COUNT):
+        I[tables.header[b]] = 0
 
 
 def table_value(F: F64, I: I32, b: int, u_cnt: float) -> float:
@@ -108,7 +133,9 @@ def table_value(F: F64, I: I32, b: int, u_cnt: float) -> float:
     while k < last and u_cnt >= F[tables.length_cnt[b] + k]:
         u_cnt -= F[tables.length_cnt[b] + k]
         k += 1
-    header: int = segment_header(I, b, k)
+    header: int = I[tables.header[b]]
+    if header == 0 or k < last:
+        header = segment_header(I, b, k)
     intervals: int = I[header] - 1
     place: float = u_cnt * intervals / F[tables.length_cnt[b] + k]
     place = max(0.0, min(place, float(intervals)))

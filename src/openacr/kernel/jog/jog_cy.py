@@ -22,7 +22,7 @@ from openacr.kernel.jog.jogplan_cy import (
 from openacr.kernel.profile.profile_cy import profile_advance, profile_reset, profile_stop
 from openacr.kernel.profile.ramps_cy import STOPPING
 from openacr.kernel.sources.source_cy import FROM_CLOCK, USE_JOG, USES
-from openacr.map.rows import axes, masters, profiles, sources
+from openacr.map.rows import axes, kernel, masters, profiles, sources
 from openacr.map.words import af1, af4, af6
 from openacr.views import F32, F64, I32
 
@@ -172,6 +172,8 @@ def jog_follow(F: F64, I: I32, S: F32, n: int) -> None:
             return
         if I[profiles.kind[JOG_PROFILE + n]] == STOPPING:
             return
+        if I[kernel.untouched]:  # so are the settings, and every plan is made with them
+            return
         planned_cps: float = F[profiles.target_velocity[JOG_PROFILE + n]]
         if jog_speed(F, I, S, n) == planned_cps:
             return
@@ -227,18 +229,24 @@ def jog_finish_target(F: F64, I: I32, n: int) -> None:
     jog_rest(F, I, n)
 
 
+def jog_numbers_show(F: F64, I: I32, S: F32, n: int) -> None:
+    """Publish speed and acceleration of the jog profiler."""
+    sign: int = I[axes.jog_sign[n]]
+    units: float = 1.0 / axis_scale(S, n)
+    S[axes.current_jog_veloc[n]] = sign * F[profiles.velocity[JOG_PROFILE + n]] * units
+    S[axes.current_jog_accel[n]] = sign * F[profiles.accel[JOG_PROFILE + n]] * units
+
+
 def jog_show(F: F64, I: I32, S: F32, n: int) -> None:
     """Publish speed, acceleration and flags of the jog profiler."""
-    sign: int = I[axes.jog_sign[n]]
-    velocity_cps: float = sign * F[profiles.velocity[JOG_PROFILE + n]]
-    units: float = 1.0 / axis_scale(S, n)
-    S[axes.current_jog_veloc[n]] = velocity_cps * units
-    S[axes.current_jog_accel[n]] = sign * F[profiles.accel[JOG_PROFILE + n]] * units
+    if I[axes.jog_mode[n]] == JOG_IDLE or not I[kernel.unread]:
+        jog_numbers_show(F, I, S, n)
+    velocity_cps: float = F[profiles.velocity[JOG_PROFILE + n]]
     word: int = af1.word[n]
     flags: int = I[word] & ~JOG_STATES
     if I[axes.jog_mode[n]] != JOG_IDLE:
         flags |= af1.JOG_ACTIVE
-        if velocity_cps * units < 0.0:
+        if I[axes.jog_sign[n]] * velocity_cps * axis_sense(S, n) < 0.0:
             flags |= af1.JOG_DIRECTION
         if I[profiles.kind[JOG_PROFILE + n]] == STOPPING:
             flags |= af1.JOG_STOPPING

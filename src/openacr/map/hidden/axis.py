@@ -132,11 +132,14 @@ AXIS = HiddenBlock(
         "shown_jog",
         "shown_cam",
         "shown_ballscrew",
+        "changing",  # the shown positions could change in the latest tick
+        "show_due",  # they have been put off until they are read
     ),
     ranges={
         "master": (-1, 15),
         "slave": (0, SLAVES - 1),
         "capture_copy": (0, 40959),
+        "show_due": (0, 0),
         "drive_motor": (-1, 15),
         "window_index": (0, 63),
         "window_count": (0, 64),

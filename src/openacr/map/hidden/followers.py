@@ -64,11 +64,13 @@ TABLE = HiddenBlock(
     ints=(
         "segments",
         "running",
+        "header",  # of its last array while nothing is written (kernel.untouched), else 0
         ("program", SEGMENTS),  # owner of the array
         ("array", SEGMENTS),  # its number + 1, 0 not given
     ),
     ranges={
         "segments": (0, SEGMENTS),
+        "header": (0, 0),
         "program": (0, 15),
         "array": (0, 1 << 20),
     },

@@ -26,6 +26,10 @@ KERNEL = HiddenBlock(
         "missing_dacs",
         "missing_steppers",
         "missing_adcs",
+        # What may be left out of the present tick (engine/alone_cy.py); 0 between calls.
+        "untouched",  # nothing but the interrupt has written since the tick before
+        "unread",  # nothing will read what this tick shows
+        "shows_due",  # some axes have put off what they show
     ),
     ranges={
         "millisecond_phase": (-10, 10),
@@ -35,6 +39,9 @@ KERNEL = HiddenBlock(
         "slow_ticks": (1, 1 << 24),
         "fast_group": (0, 255),
         "moves_waiting": (0, 0xFFFF),
+        "untouched": (0, 0),
+        "unread": (0, 0),
+        "shows_due": (0, 0),
         "kinematics": (0, 0xFFFF),
     },
 )

@@ -7,5 +7,5 @@ REALS_SIZE = 1
 reals = 210247
 before_s = 210247
 INTS_SIZE = 1
-ints = 463183
-fitted = 463183
+ints = 463250
+fitted = 463250

@@ -14,5 +14,5 @@ damping_per_s = tuple(range(187072, 187424, 22))
 speed_cps = tuple(range(187073, 187425, 22))
 accel = tuple(range(187081, 187433, 22))
 INTS_SIZE = 1
-ints = tuple(range(440910, 440926))
-points = tuple(range(440910, 440926))
+ints = tuple(range(440945, 440961))
+points = tuple(range(440945, 440961))
