@@ -15,7 +15,7 @@ few ticks save, so it is done once for a row of ticks without a statement or a c
 """
 
 from openacr.kernel.followers.cam_cy import tables_forget
-from openacr.kernel.sources.source_cy import DISARMED, FROM_PARAMETER
+from openacr.kernel.sources.source_cy import DISARMED, FROM_PARAMETER, taps_settle
 from openacr.kernel.tick_cy import shows_settle
 from openacr.map.numbers import W_FSTAT, W_MISC_CONTROL_1, W_MISC_OUTPUTS
 from openacr.map.rows import (
@@ -92,3 +92,4 @@ def alone_end(F: F64, I: I32, S: F32) -> None:
         I[kernel.unread] = 0
         shows_settle(F, I, S)
         tables_forget(I)
+        taps_settle(F, I, S)

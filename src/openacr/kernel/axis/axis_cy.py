@@ -82,16 +82,26 @@ def soft_limit_crossed(F: F64, S: F32, n: int, flags: int, side: int) -> bool:
     return side * axis_sense(S, n) * beyond_cnt > ROUNDING_CNT
 
 
-def axis_sum(F: F64, n: int) -> None:
-    """Form primary and secondary setpoint from their parts."""
-    psp_cnt: float = (
+def axis_primary(F: F64, n: int) -> float:
+    """Primary setpoint of axis n from its parts."""
+    return (
         (F[axes.position_cnt[n]] + F[axes.kinematics_cnt[n]])
         + F[axes.gear_cnt[n]]
         + F[axes.jog_cnt[n]]
         + F[axes.cam_cnt[n]]
     )
+
+
+def axis_secondary(F: F64, n: int, psp_cnt: float) -> float:
+    """Secondary setpoint of axis n from the primary one."""
+    return psp_cnt + F[axes.ballscrew_cnt[n]] + F[axes.backlash_cnt[n]]
+
+
+def axis_sum(F: F64, n: int) -> None:
+    """Form primary and secondary setpoint from their parts."""
+    psp_cnt: float = axis_primary(F, n)
     F[axes.psp_cnt[n]] = psp_cnt
-    F[axes.ssp_cnt[n]] = psp_cnt + F[axes.ballscrew_cnt[n]] + F[axes.backlash_cnt[n]]
+    F[axes.ssp_cnt[n]] = axis_secondary(F, n, psp_cnt)
 
 
 def axis_offsets(F: F64, n: int) -> float:
@@ -115,22 +125,23 @@ def axis_jog_set(F: F64, I: I32, n: int, offset_cnt: float) -> None:
 
 def axis_setpoints(F: F64, S: F32, n: int, rate_hz: float) -> bool:
     """Setpoint sums of this tick and their differences; True if the primary one has moved."""
-    psp_old_cnt: float = F[axes.psp_cnt[n]]
-    F[axes.ssp_old_cnt[n]] = F[axes.ssp_cnt[n]]
-    axis_sum(F, n)
-    moved_cnt: float = F[axes.psp_cnt[n]] - psp_old_cnt
+    psp_cnt: float = axis_primary(F, n)
+    ssp_cnt: float = axis_secondary(F, n, psp_cnt)
+    ssp_old_cnt: float = F[axes.ssp_cnt[n]]
+    moved_cnt: float = psp_cnt - F[axes.psp_cnt[n]]
+    F[axes.psp_cnt[n]] = psp_cnt
+    F[axes.ssp_cnt[n]] = ssp_cnt
+    F[axes.ssp_old_cnt[n]] = ssp_old_cnt
     velocity_cps: float = moved_cnt * rate_hz
     S[axes.velocity[n]] = velocity_cps
     S[axes.acceleration[n]] = (velocity_cps - F[axes.psp_velocity_cps[n]]) * rate_hz
     F[axes.psp_velocity_cps[n]] = velocity_cps
-    velocity_cps = (F[axes.ssp_cnt[n]] - F[axes.ssp_old_cnt[n]]) * rate_hz
+    F[axes.travel_cnt[n]] += fabs(moved_cnt)
+    F[axes.peak_velocity_cps[n]] = max(F[axes.peak_velocity_cps[n]], fabs(velocity_cps))
+    velocity_cps = (ssp_cnt - ssp_old_cnt) * rate_hz
     velocity_cps += F[axes.cam_smoothing_cps[n]]
     F[axes.ssp_accel_cps2[n]] = (velocity_cps - F[axes.ssp_velocity_cps[n]]) * rate_hz
     F[axes.ssp_velocity_cps[n]] = velocity_cps
-    F[axes.travel_cnt[n]] += fabs(moved_cnt)
-    F[axes.peak_velocity_cps[n]] = max(
-        F[axes.peak_velocity_cps[n]], fabs(F[axes.psp_velocity_cps[n]])
-    )
     return moved_cnt != 0.0
 
 

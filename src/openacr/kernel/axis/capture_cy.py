@@ -199,7 +199,7 @@ def capture_axis(F: F64, I: I32, n: int, mode: int) -> None:
 
 def capture_step(F: F64, I: I32) -> None:
     """Captures of this tick, and the software capture of all axes on BIT113."""
-    for n in range(axes.COUNT):
+    for n in range(I[kernel.axes]):
         mode: int = I[axes.capture_mode[n]]
         if mode >= 0:
             capture_axis(F, I, n, mode)

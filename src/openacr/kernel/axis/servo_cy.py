@@ -44,6 +44,7 @@ B1 = 2
 A1 = 3
 A0 = 4
 CUTOFF_SLACK_CPS = 0.001  # differences of large positions are that far from a constant speed
+LARGEST = 1.7976931348623157e308  # number of 64 bits
 TINY = 1e-30  # filter states below this are 0: denormal numbers are very slow
 
 
@@ -124,9 +125,9 @@ def derivative(F: F64, I: I32, S: F32, n: int, error_cnt: float, rate_hz: float)
     ticks: int = 1
     if S[axes.derivative_width[n]] > 0.0:
         ticks = int(rint(max(1.0, min(S[axes.derivative_width[n]] * rate_hz, 1e6))))
-    I[axes.derivative_ticks[n]] += 1
-    if I[axes.derivative_ticks[n]] >= ticks:
-        I[axes.derivative_ticks[n]] = 0
+    counted: int = I[axes.derivative_ticks[n]] + 1
+    I[axes.derivative_ticks[n]] = 0 if counted >= ticks else counted
+    if counted >= ticks:
         slope_cps: float = (error_cnt - F[axes.error_old_cnt[n]]) * rate_hz
         if ticks > 1:
             slope_cps = slope_cps / ticks
@@ -230,7 +231,7 @@ def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) 
     F[axes.peak_error_cnt[n]] = max(F[axes.peak_error_cnt[n]], fabs(error_cnt))
     idle_step(F, n, period_s)
     output_v: float = 0.0
-    I[axes.clipped[n]] = 0
+    clipped: int = 0
     if servo_closed(I, n):
         total_v: float = servo_sum(F, I, S, n, error_cnt, period_s, rate_hz)
         S[axes.summation_point[n]] = total_v
@@ -240,11 +241,12 @@ def servo_step(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float) 
         S[axes.filter_output_signal[n]] = total_v
         output_v = min(total_v, S[axes.plus_torque_limit[n]])
         output_v = max(output_v, S[axes.minus_torque_limit[n]])
-        I[axes.clipped[n]] = 1 if output_v != total_v else 0
+        clipped = 1 if output_v != total_v else 0
+        if not fabs(output_v) <= LARGEST:  # a gain or limit that is no number
+            output_v = 0.0
     else:
         F[axes.error_old_cnt[n]] = error_cnt
-    if output_v - output_v != 0.0:  # a gain or limit that is no number
-        output_v = 0.0
+    I[axes.clipped[n]] = clipped
     S[axes.output_signal[n]] = output_v
     k: int = I[axes.signal_index[n]]
     if I[axes.signal_source[n]] == TO_DAC:

@@ -178,6 +178,13 @@ def cam_smooth(F: F64, I: I32, n: int, moved_cnt: float, rate_hz: float) -> None
     """The feed-forward sees the cam's speed averaged over CAM Velocity Smooth samples."""
     size: int = I[cams.window_size[n]]
     place: int = I[cams.window_index[n]]
+    if size == 1:  # nothing to average
+        I[cams.window_count[n]] = 1
+        F[cams.sum_cnt[n]] = 0.0 + moved_cnt
+        F[cams.window_cnt[n]] = moved_cnt
+        I[cams.window_index[n]] = 0
+        F[axes.cam_smoothing_cps[n]] = (F[cams.sum_cnt[n]] - moved_cnt) * rate_hz
+        return
     if I[cams.window_count[n]] < size:
         I[cams.window_count[n]] += 1
     else:
@@ -288,7 +295,8 @@ def cam_step(F: F64, I: I32, S: F32, n: int, rate_hz: float) -> None:
     armed: int = I[triggers.kind[n * TRIGGERS + CAM_ON]] | I[cams.pon[n]]
     if not running and not wanted and not armed:
         return
-    if I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST or not table_ready(F, I, n):
+    is_ready: bool = I[tables.header[n]] != 0 or table_ready(F, I, n)
+    if I[af4.word[n]] & af4.KILL_ALL_MOTION_REQUEST or not is_ready:
         cam_halt(F, I, n)
         return
     if not wanted:

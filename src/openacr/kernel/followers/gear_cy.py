@@ -106,7 +106,9 @@ def gear_run(F: F64, I: I32, S: F32, n: int, delta_cnt: float, dt_s: float) -> N
     word: int = af1.word[n]
     on: bool = I[word] & af1.GEAR_ACTIVATE != 0
     goal: float = F[gears.ratio[n]] if on else 0.0
-    mean: float = gear_ramp(F, n, goal, dt_s, I[word] & af1.GEAR_LOCK != 0)
+    mean: float = F[gears.ratio_now[n]]
+    if mean != goal:
+        mean = gear_ramp(F, n, goal, dt_s, I[word] & af1.GEAR_LOCK != 0)
     step_cnt: float = 0.0
     if F[gears.ppu[n]] != 0.0:
         step_cnt = delta_cnt / F[gears.ppu[n]] * axis_scale(S, n)

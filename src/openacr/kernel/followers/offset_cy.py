@@ -16,6 +16,7 @@ unit for unit; the difference of the two following errors drives the outputs tog
 from openacr.cmath import fabs, trunc
 from openacr.kernel.axis.axis_cy import (
     ROUNDING_CNT,
+    axis_primary,
     axis_scale,
     axis_target_changed,
     limit_bars,
@@ -310,12 +311,10 @@ def followers_step(F: F64, I: I32, S: F32, n: int, dt_s: float, rate_hz: float) 
         cam_step(F, I, S, n, rate_hz)
         if I[filters.on[n]]:
             filter_step(F, I, S, n)
-        psp_cnt: float = F[axes.position_cnt[n]] + F[axes.kinematics_cnt[n]]
-        psp_cnt = psp_cnt + F[axes.gear_cnt[n]] + F[axes.jog_cnt[n]] + F[axes.cam_cnt[n]]
         if backlash_used(F, I, n):
-            backlash_step(F, I, S, n, psp_cnt, dt_s)
+            backlash_step(F, I, S, n, axis_primary(F, n), dt_s)
         if I[af1.word[n]] & af1.BALLSCREW_ACTIVATE or I[tables.running[BALLSCREW_TABLES + n]]:
-            ballscrew_step(F, I, S, n, psp_cnt)
+            ballscrew_step(F, I, S, n, axis_primary(F, n))
     if I[af2.word[n]] & af2.DIR_LIMIT_ACTIVATE:
         direction_step(F, I, S, n)
     if S[axes.rpm_factor[n]] > 0.0:

@@ -41,6 +41,8 @@ from openacr.map.numbers import KIND_FP32, KIND_FP64, KIND_LONG, USER_BASE, W_IN
 from openacr.map.rows import (
     axes,
     encoders,
+    followers,
+    kernel,
     limiters,
     motors,
     ratchets,
@@ -72,6 +74,7 @@ USE_FILTER = 3
 USE_WHEEL = 4
 USE_JOG = 5
 USES = 6
+TAPS_KNOWN = 64  # beyond the bits of the taps of an axis
 RATCHET_TAPS = 96
 LIMITER_TAPS = 104
 SWITCH_TAPS = 112
@@ -180,11 +183,42 @@ def source_follow(F: F64, I: I32, S: F32, t: int) -> None:
 
 
 def sources_follow(F: F64, I: I32, S: F32, n: int) -> None:
-    """All taps of axis n; one without a source has moved nothing (`source_prime`)."""
-    for t in range(n * USES, n * USES + USES):
-        kind: int = I[sources.kind[t]]
-        if kind != FROM_NONE and kind != FROM_SELF:
+    """All taps of axis n that have a source: the others have moved nothing (`source_prime`)."""
+    taps: int = I[followers.taps[n]]
+    if taps == 0:
+        taps = taps_found(I, n)
+        if I[kernel.untouched]:
+            I[followers.taps[n]] = taps
+    taps = taps & (TAPS_KNOWN - 1)
+    t: int = n * USES
+    while taps:
+        if taps & 1:
             source_follow(F, I, S, t)
+        taps = taps >> 1
+        t += 1
+
+
+def taps_found(I: I32, n: int) -> int:
+    """The taps of axis n that have a source, a bit each, and TAPS_KNOWN.
+
+    That of a jog by the clock is read by nothing: while nothing is written it may wait.
+    """
+    taps: int = TAPS_KNOWN
+    for use in range(USES):
+        kind: int = I[sources.kind[n * USES + use]]
+        waits: bool = use == USE_JOG and kind == FROM_CLOCK and I[kernel.untouched] != 0
+        if kind != FROM_NONE and kind != FROM_SELF and not waits:
+            taps |= 1 << use
+    return taps
+
+
+def taps_settle(F: F64, I: I32, S: F32) -> None:
+    """Let all taps be looked at anew, and those of jogs by the clock come up to date."""
+    for n in range(followers.COUNT):
+        if I[followers.taps[n]]:
+            I[followers.taps[n]] = 0
+            if I[sources.kind[n * USES + USE_JOG]] == FROM_CLOCK:
+                source_follow(F, I, S, n * USES + USE_JOG)
 
 
 def source_parameter(I: I32, t: int) -> int:

@@ -113,9 +113,11 @@ FOLLOWER = HiddenBlock(
     ints=(
         "live",  # sources are followed
         "leader",  # axis it is locked to + 1
+        "taps",  # that have a source, while nothing is written (kernel.untouched), else 0
     ),
     ranges={
         "leader": (0, 16),
+        "taps": (0, 0),
     },
 )
 

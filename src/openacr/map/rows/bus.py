@@ -7,5 +7,5 @@ REALS_SIZE = 1
 reals = 210247
 before_s = 210247
 INTS_SIZE = 1
-ints = 463250
-fitted = 463250
+ints = 463266
+fitted = 463266

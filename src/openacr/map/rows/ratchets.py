@@ -7,4 +7,4 @@ COUNT = 8
 reals = tuple(range(209892, 209908, 2))
 output_cnt = tuple(range(209892, 209908, 2))
 backlog_cnt = tuple(range(209893, 209909, 2))
-mode = tuple(range(462647, 462655))
+mode = tuple(range(462663, 462671))
