@@ -26,7 +26,7 @@ from openacr.kernel.followers.offset_cy import (
     locks_couple,
     wheel_step,
 )
-from openacr.kernel.jog.jog_cy import JOG_IDLE, jog_numbers_show, jog_step
+from openacr.kernel.jog.jog_cy import JOG_IDLE, jog_idle, jog_numbers_show, jog_step
 from openacr.kernel.path.master_cy import master_busy, master_step
 from openacr.kernel.path.sync_cy import sync_step
 from openacr.kernel.sources.clock_cy import clock_step
@@ -80,7 +80,8 @@ def axis_advance(F: F64, I: I32, S: F32, n: int, period_s: float, rate_hz: float
             wheel_step(F, I, S, n)
         if I[followers.live[n]]:
             dt_s = jog_time(F, I, n, period_s)
-    jog_step(F, I, S, n, dt_s)
+    if not jog_idle(I, n):
+        jog_step(F, I, S, n, dt_s)
     if used:
         followers_step(F, I, S, n, period_s, rate_hz)
     changing: bool = axis_setpoints(F, S, n, rate_hz) or used or axis_changing(I, n)

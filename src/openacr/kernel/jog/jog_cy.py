@@ -259,6 +259,13 @@ def jog_show(F: F64, I: I32, S: F32, n: int) -> None:
     I[word] = flags
 
 
+def jog_idle(I: I32, n: int) -> bool:
+    """Whether axis n has no jog and no flag of it, nor a request for one."""
+    if I[axes.jog_mode[n]] != JOG_IDLE or I[af6.word[n]] & af6.JOG_HOME_REQUEST:
+        return False
+    return I[af1.word[n]] & (JOG_WANTED | JOG_STATES) == 0
+
+
 def jog_step(F: F64, I: I32, S: F32, n: int, dt_s: float) -> None:
     """Advance the jog profiler of axis n by `dt_s` seconds."""
     jog_stop_request(F, I, S, n)

@@ -165,6 +165,12 @@ def source_prime(F: F64, I: I32, S: F32, t: int) -> None:
 def source_follow(F: F64, I: I32, S: F32, t: int) -> None:
     """Take the change of the source of tap t in this tick."""
     kind: int = I[sources.kind[t]]
+    k: int = I[sources.index[t]]
+    if kind == FROM_COUNTER and 0 <= k < ENCODER_COUNT:
+        now: float = encoder_count(I, k)
+        F[sources.delta[t]] = round32(now - F[sources.old[t]])
+        F[sources.old[t]] = now
+        return
     if kind == FROM_NONE or kind == FROM_SELF:
         F[sources.delta[t]] = 0.0
         return
@@ -172,10 +178,10 @@ def source_follow(F: F64, I: I32, S: F32, t: int) -> None:
         F[sources.old[t]] = F[system.time_s] * PULSES_PER_S
         F[sources.delta[t]] = F[system.period_s] * PULSES_PER_S
         return
-    value: float = source_count(F, I, S, kind, I[sources.index[t]])
+    value: float = source_count(F, I, S, kind, k)
     delta: float = value - F[sources.old[t]]
-    if source_wraps(I, kind, I[sources.index[t]]):
-        delta = wrap32(round32(delta))
+    if source_wraps(I, kind, k):
+        delta = round32(delta)
     elif not fabs(delta) < LARGEST_DELTA:
         delta = 0.0
     F[sources.old[t]] = value

@@ -65,12 +65,12 @@ def converter_volts(S: F32, dac: int, step: float) -> float:
     output: float = S[at.DAC_BASE + dac * at.DAC_STRIDE + at.DAC_DAC_OUTPUT]
     wanted: float = output * DAC_COUNTS_PER_VOLT
     counts: float = 0.0
-    if wanted > FULL_SCALE_DAC:
-        counts = FULL_SCALE_DAC
-    elif wanted < -FULL_SCALE_DAC:
-        counts = -FULL_SCALE_DAC
-    elif wanted == wanted:
+    if fabs(wanted) <= FULL_SCALE_DAC:
         counts = wanted
+    elif wanted > 0.0:
+        counts = FULL_SCALE_DAC
+    elif wanted < 0.0:
+        counts = -FULL_SCALE_DAC
     if step != 1.0:
         counts = _coarse_dac(counts, step)
     # Adding 1.5 * 2**52 pushes the fraction out of a double: rint() without a call.

@@ -103,10 +103,8 @@ def _motor_tick(F: F64, I: I32, S: F32, n: int, dt: float) -> int:
         stepper_motor(F, I, n, ready, dt)
     elif kind == BUS_DRIVE:
         bus_motor(F, I, n)
-    elif is_compliant(F, n):
-        _compliant_motor(F, I, S, n, ready, dt)
     else:
-        _analog_motor(F, I, S, n, ready, dt)
+        _driven_motor(F, I, S, n, ready, dt)
     _hard_stops(F, f)
     position = F[f + at.PLF_POSITION_CNT]
     # floor() without a call; no position is beyond the range of an integer
@@ -134,24 +132,26 @@ def _analog_motor(F: F64, I: I32, S: F32, n: int, ready: int, dt: float) -> None
         drive_volts(F, I, S, f, i)
     if kind == EXACT_DRIVE:
         exact_motor(F, I, n, ready)
-    elif kind == TORQUE_DRIVE or kind == PHASE_DRIVE:
+    elif kind == IDEAL_DRIVE or (kind == VELOCITY_DRIVE and ready != 0):
+        limit: float = NO_ACCEL_LIMIT
+        if kind == VELOCITY_DRIVE:
+            limit = F[f + at.PLF_PEAK_ACCEL]
+        velocity_drive(F, f, ready * F[f + at.PLF_VOLTS], limit, dt)
+    else:  # a velocity drive that is not ready lets its motor coast
         torque_drive(F, f, ready, dt)
-    elif kind == IDEAL_DRIVE:
-        velocity_drive(F, f, ready * F[f + at.PLF_VOLTS], NO_ACCEL_LIMIT, dt)
-    elif ready != 0:
-        velocity_drive(F, f, F[f + at.PLF_VOLTS], F[f + at.PLF_PEAK_ACCEL], dt)
-    else:
-        torque_drive(F, f, 0, dt)
 
 
-def _compliant_motor(F: F64, I: I32, S: F32, n: int, ready: int, dt: float) -> None:
-    """Advance the centre of motor and load, and the motor about it."""
+def _driven_motor(F: F64, I: I32, S: F32, n: int, ready: int, dt: float) -> None:
+    """Advance a motor; on an elastic shaft the centre of motor and load, and the motor about it."""
     f: int = at.PLF_BASE + n * at.PLF_STRIDE
+    compliant: bool = is_compliant(F, n)
     velocity: float = F[f + at.PLF_VELOCITY_CPS]
-    F[f + at.PLF_POSITION_CNT] -= flexion(F, n)
+    if compliant:
+        F[f + at.PLF_POSITION_CNT] -= flexion(F, n)
     _analog_motor(F, I, S, n, ready, dt)
-    flex(F, n, ready, velocity, dt)
-    F[f + at.PLF_POSITION_CNT] += flexion(F, n)
+    if compliant:
+        flex(F, n, ready, velocity, dt)
+        F[f + at.PLF_POSITION_CNT] += flexion(F, n)
 
 
 def _hard_stops(F: F64, f: int) -> None:
