@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from tests import warm
+from tests.network.talk import axis
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
@@ -152,8 +153,10 @@ def test_a_card_ends_with_the_process_that_reads_its_reports(served: Served) -> 
 
 
 def test_what_is_real_can_be_on_several_buses_and_all_of_it_is_named_before_consent() -> None:
-    sentences = list(what_can_happen(parse_world(CAN + MACHINE), "eth1"))
+    drive = '[[drive]]\naxis = 1\ntype = "aries"\nserial = "/dev/ttyUSB0"\n'
+    sentences = list(what_can_happen(parse_world(CAN + MACHINE + axis(1) + drive), "eth1"))
     assert sentences == [
         "Drives on eth1 can be enabled and axes X can move.",
         "CANopen nodes on can7 can switch their outputs.",
+        "The drive of axis 1 on /dev/ttyUSB0 can be set and commanded.",
     ]

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from openacr.controller import Controller
     from openacr.fieldbus.machine.in_memory import EmulatedLink
     from openacr.fieldbus.machine.real_machine import RealMachine
+    from openacr.io.drive_line import DriveLine
     from openacr.io.ethercat_link import RawLink
     from openacr.plant.describe.network_schema import Canopen
     from openacr.plant.describe.schema import World
@@ -85,6 +86,9 @@ def what_can_happen(world: "World", interface: str) -> Iterator[str]:
         yield f"Drives on {interface} can be enabled and axes {names} can move."
     if world.canopen is not None and world.canopen.interface is not None:
         yield f"CANopen nodes on {_can_name(world.canopen)} can switch their outputs."
+    for drive in world.drive:
+        if drive.serial is not None:
+            yield f"The drive of axis {drive.axis} on {drive.serial} can be set and commanded."
 
 
 def _can_name(canopen: "Canopen") -> str:
@@ -103,7 +107,7 @@ class Served:
         is_real: bool,
         is_reported: bool,
     ) -> None:
-        self._parts: list[ServedBus | ServedCan] = []
+        self._parts: list[ServedBus | ServedCan | ServedDrives] = []
         try:
             if world.bus is not None:
                 self._parts.append(
@@ -111,6 +115,8 @@ class Served:
                 )
             if world.canopen is not None and world.canopen.interface is not None:
                 self._parts.append(ServedCan(card, world.canopen, is_real=is_real))
+            if any(drive.serial for drive in world.drive):
+                self._parts.append(ServedDrives(card, world, is_real=is_real))
         except BaseException:
             self.close()
             raise
@@ -150,6 +156,38 @@ class ServedCan:
         """Reset the nodes that were started, and close the bus."""
         self._nodes.close()
         self._link.close()
+
+
+class ServedDrives:
+    """The drives on serial lines of a served card; a port is opened when it is first talked to."""
+
+    def __init__(self, card: "Controller", world: "World", *, is_real: bool) -> None:
+        from openacr.fieldbus.drivetalk.real_drives import RealDrives
+        from openacr.io.drive_line import DriveLine
+
+        self._card, self._is_real = card, is_real
+        self._ports: list[DriveLine] = []
+        self._drives = RealDrives(world.drive, self._port)
+        if is_real:
+            self._drives.allow()
+
+    def _port(self, path: str) -> "DriveLine":
+        from openacr.io.drive_line import DriveLine
+
+        self._ports.append(DriveLine(path))
+        return self._ports[-1]
+
+    def begin(self) -> None:
+        """Let Drive Talk go to the real drives."""
+        self._card.networks.connect_drives(self._drives)
+        state = "all commands are sent" if self._is_real else "read only"
+        names = ", ".join(port.path for port in self._ports)
+        typer.echo(f"Drive Talk {names}: {state}", err=True)
+
+    def close(self) -> None:
+        """Close the ports."""
+        for port in self._ports:
+            port.close()
 
 
 class ServedBus:

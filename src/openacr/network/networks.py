@@ -10,6 +10,7 @@ from openacr.network.canopen import master as canopen
 from openacr.network.canopen import startup
 from openacr.network.canopen.nodes import Nodes
 from openacr.network.drivetalk import service as drivetalk
+from openacr.network.drivetalk.real import RealDrives
 
 
 class Networks:
@@ -22,6 +23,7 @@ class Networks:
         self._memory = memory
         self._deliver = deliver
         self.canopen = canopen.made(memory)
+        self._drives: RealDrives | None = None
 
     def power_up(self) -> None:
         """Initialize after switching the card on."""
@@ -33,10 +35,14 @@ class Networks:
         self.canopen.buses = (*self.canopen.buses, nodes)
         self._set_due()
 
+    def connect_drives(self, drives: RealDrives) -> None:
+        """Talk to these drives instead of modelled ones."""
+        self._drives = drives
+
     def attend(self) -> None:
         """Perform all actions that are due."""
         canopen.attend(self.canopen)
-        drivetalk.attend(self._memory, self._deliver)
+        drivetalk.attend(self._memory, self._deliver, self._drives)
         self._set_due()
 
     def _set_due(self) -> None:

@@ -12,6 +12,7 @@ from openacr.map import numbers as at
 from openacr.map.memory import Memory
 from openacr.map.rows import drive_talk, drive_talk_lines, networks
 from openacr.map.words import dtcf, dtsf
+from openacr.network.drivetalk.real import RealDrives
 from openacr.network.wake_cy import DRIVE_REQUESTS
 
 PORTS = ("LPT1", "COM1", "COM2", "", "STREAM3", "STREAM4", "STREAM5")
@@ -24,8 +25,8 @@ AT_ONCE_TK = 1.0
 class TalkLine:
     """The line of one port."""
 
-    def __init__(self, memory: Memory, port: int) -> None:
-        self.memory, self.port = memory, port
+    def __init__(self, memory: Memory, port: int, real: RealDrives | None = None) -> None:
+        self.memory, self.port, self.real = memory, port, real
 
     def get(self, row: tuple[int, ...]) -> int:
         """Read a row of the line."""
@@ -82,9 +83,9 @@ class TalkLine:
             self.memory.I[place] = ord(character)
 
 
-def lines(memory: Memory) -> list[TalkLine]:
-    """The lines of all ports."""
-    return [TalkLine(memory, port) for port in range(drive_talk_lines.COUNT)]
+def lines(memory: Memory, real: RealDrives | None = None) -> list[TalkLine]:
+    """The lines of all ports, some of whose drives may be real."""
+    return [TalkLine(memory, port, real) for port in range(drive_talk_lines.COUNT)]
 
 
 def line_of(memory: Memory, axis: int) -> int | None:

@@ -13,6 +13,7 @@ from openacr.map.memory import Memory
 from openacr.map.rows import bus_drives, drive_talk, drive_talk_axes, drive_talk_lines, networks
 from openacr.map.words import dtcf, dtsf
 from openacr.network.drivetalk.lines import TalkLine, line_of, lines, pending
+from openacr.network.drivetalk.real import RealDrives
 from openacr.network.drivetalk.requests import ARIES_TYPE, Exchange, address, exchanges
 from openacr.network.times import later_tk, tick_of
 from openacr.plant.bus import aries, rs485
@@ -22,13 +23,16 @@ TIMEOUT_MS = 1000.0
 THINKING_MS = 2.0
 LOOK_MS = 50.0
 PASSED_ON = -1  # instead of a request: a line a terminal has typed
+WAITING = -1  # instead of a number of answers: a real drive is listened to
+POLL_MS = 1.0
+NO_ANSWER: list[str] = []
 
 Deliver = Callable[[int, str], None]  # channel, text
 
 
-def attend(memory: Memory, deliver: Deliver) -> None:
+def attend(memory: Memory, deliver: Deliver, real: RealDrives | None = None) -> None:
     """Do everything that is due on all lines."""
-    for line in lines(memory):
+    for line in lines(memory, real):
         _address_all(line)
         if line.is_open:
             _serve(line, deliver)
@@ -68,6 +72,8 @@ def _serve(line: TalkLine, deliver: Deliver) -> None:
     """Finish the exchange in progress if it is over, then begin the next one."""
     if line.due_tk and line.due_tk <= tick_of(line.memory):
         line.due_tk = 0.0
+        if line.get(drive_talk_lines.answers) == WAITING and not _receive(line):
+            return
         _finish(line, deliver)
     while not line.due_tk and _begin(line):
         pass
@@ -132,21 +138,51 @@ def _pass_on(line: TalkLine) -> bool:
 # exchanges
 
 
-def _send(line: TalkLine, text: str, axis: int | None = None) -> None:
-    """Send a line and note what comes back, and when all of it has come."""
+def _send(line: TalkLine, text: str, alone: int | None = None) -> None:
+    """Send a line; of a modelled drive what comes back is known, and when all of it has come.
+
+    `alone`: on the connector of that axis.
+    """
     baud, bits = max(line.get(drive_talk_lines.baud), 1), line.get(drive_talk_lines.character_bits)
-    answers = rs485.exchange(line.memory, line.port, baud, bits, text, axis)
+    if line.real is not None and line.real.begin(
+        line.port, _axis(line), text, baud=baud, bits=bits, alone=alone is not None
+    ):
+        line.put(drive_talk_lines.answers, WAITING)
+        line.due_tk = later_tk(line.memory, POLL_MS)
+        return
+    answers = rs485.exchange(line.memory, line.port, baud, bits, text, alone)
+    length = _take(line, answers)
+    on_the_line_ms = 1000.0 * bits * (len(text) + 1 + length) / baud
+    line.due_tk = later_tk(line.memory, on_the_line_ms + THINKING_MS if answers else TIMEOUT_MS)
+
+
+def _receive(line: TalkLine) -> bool:
+    """Look for the answer of a real drive; False while it is waited for."""
+    answers = NO_ANSWER if line.real is None else line.real.answers(_axis(line))
+    if answers is None:
+        line.due_tk = later_tk(line.memory, POLL_MS)
+        return False
+    _take(line, answers)
+    return True
+
+
+def _take(line: TalkLine, answers: list[str]) -> int:
+    """Keep what has been answered; how long the text of the one drive is that has."""
     answer = answers[0] if len(answers) == 1 else ""
     line.put(drive_talk_lines.answers, len(answers))
     line.put_text(drive_talk_lines.answer, drive_talk_lines.length, answer)
-    on_the_line_ms = 1000.0 * bits * (len(text) + 1 + len(answer)) / baud
-    line.due_tk = later_tk(line.memory, on_the_line_ms + THINKING_MS if answers else TIMEOUT_MS)
+    return len(answer)
+
+
+def _axis(line: TalkLine) -> int:
+    """The axis whose drive is being talked to."""
+    is_passed_on = line.get(drive_talk_lines.request) == PASSED_ON
+    return line.get(drive_talk_lines.talks_to if is_passed_on else drive_talk_lines.axis)
 
 
 def _finish(line: TalkLine, deliver: Deliver) -> None:
     """Use the answer, or report why there is none."""
-    is_passed_on = line.get(drive_talk_lines.request) == PASSED_ON
-    axis = line.get(drive_talk_lines.talks_to if is_passed_on else drive_talk_lines.axis)
+    is_passed_on, axis = line.get(drive_talk_lines.request) == PASSED_ON, _axis(line)
     text = line.text(drive_talk_lines.answer, drive_talk_lines.length)
     is_answered = _judge(line, axis)
     if is_passed_on:

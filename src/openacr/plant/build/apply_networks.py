@@ -8,8 +8,8 @@ from openacr.plant.bus import bus
 from openacr.plant.bus import terminals
 from openacr.plant.describe.counts import position_of
 from openacr.plant.describe.network_schema import (
+    PORTS,
     Coupler,
-    DrivePort,
     Fault,
     FaultKind,
     Health,
@@ -29,7 +29,6 @@ TROUBLES = {
     FaultKind.SOFTWARE_OVERFLOW: bus.Trouble.SOFTWARE_OVERFLOW,
     FaultKind.HARDWARE_OVERFLOW: bus.Trouble.HARDWARE_OVERFLOW,
 }
-PORTS = {DrivePort.COM1: 1, DrivePort.COM2: 2}
 REALS = (
     every(bus_drives.reals, bus_drives.REALS_SIZE),
     every(bus_nodes.reals, bus_nodes.REALS_SIZE),

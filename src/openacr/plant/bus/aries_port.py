@@ -31,6 +31,12 @@ def split_address(line: str) -> tuple[int | None, str]:
     return (int(match[1]), match[2]) if match else (None, line)
 
 
+def only_reads(line: str) -> bool:
+    """Whether a line changes nothing of the drive that gets it."""
+    commands = [part.strip().upper() for part in split_address(line)[1].split(":")]
+    return all(not command or command in _READERS or command in _TEXTS for command in commands)
+
+
 def answer(drive: Drive, line: str) -> str:
     """The drive's answer to the commands of a line, which has no address in front."""
     aries.notice_errors(drive)

@@ -10,6 +10,7 @@ from openacr.plant.describe.network_schema import (
     NODES,
     SIGNALS,
     Canopen,
+    DrivePort,
     Fault,
     FaultKind,
     Node,
@@ -160,6 +161,7 @@ def _signal(path: Path, signal: Signal, world: World) -> Iterator[Complaint]:
 def drive_faults(world: World) -> Iterator[Complaint]:
     """Yield the contradictions in `[[drive]]`."""
     axes, taken = {axis.number: axis.drive for axis in world.axis}, set[int]()
+    leads_to: dict[str, DrivePort] = {}
     for place, drive in enumerate(world.drive):
         path: Path = ("drive", place)
         if drive.axis not in axes:
@@ -171,6 +173,11 @@ def drive_faults(world: World) -> Iterator[Complaint]:
         if drive.axis in taken:
             yield Complaint((*path, "axis"), f"two drives talk for axis {drive.axis}")
         taken.add(drive.axis)
+        if drive.serial is not None:
+            port = leads_to.setdefault(drive.serial, drive.port)
+            if port != drive.port:
+                text = f"{drive.serial} is {drive.port} for axis {drive.axis}, {port} for another"
+                yield Complaint((*path, "port"), text, "a line belongs to one port of the card")
         lost_s = float("inf") if drive.lost_s is None else drive.lost_s
         if drive.back_s is not None and drive.back_s <= lost_s:
             text = f"the drive is back at {drive.back_s:g} s, but not lost before"

@@ -152,6 +152,9 @@ class DrivePort(StrEnum):
     COM2 = "COM2"
 
 
+PORTS = {DrivePort.COM1: 1, DrivePort.COM2: 2}  # as the card numbers its ports
+
+
 class Baud(IntEnum):
     """Speeds of a serial line."""
 
@@ -164,11 +167,15 @@ class Baud(IntEnum):
 
 
 class TalkingDrive(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """The serial port of the drive of an axis; what it drives is defined at the axis."""
+    """The serial port of the drive of an axis; what it drives is defined at the axis.
+
+    With `serial`, a serial port of the computer, `serve` talks to a real drive.
+    """
 
     axis: DriveAxis
     type: DriveType
     port: DrivePort = DrivePort.COM2
+    serial: Name | None = None
     baud: Baud = Baud.B9600
     address: Address = 0
     revision: Revision = "2.00"

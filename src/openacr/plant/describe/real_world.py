@@ -18,6 +18,7 @@ def real_world(world: World) -> World:
     their places empty.
     """
     nodes = nodes_inputs(world)
+    on_bus = {axis.number for axis in world.axis if axis.bus}
     real = {number for _, number, _ in bus_inputs(world)} | nodes
     analogs = {number for _, number, _ in bus_adcs(world)}
     axes = tuple(_on_the_bus(axis) if axis.bus else _without(axis, real) for axis in world.axis)
@@ -42,12 +43,16 @@ def real_world(world: World) -> World:
             ),
         ),
         canopen=world.canopen and _modelled(world.canopen),
+        drive=tuple(
+            drive for drive in world.drive if drive.serial is None and drive.axis not in on_bus
+        ),
     )
 
 
 def is_real(world: World) -> bool:
     """Whether anything of the machine is on a bus of the computer."""
-    return world.bus is not None or bool(world.canopen and world.canopen.interface)
+    has_node = world.canopen is not None and world.canopen.interface is not None
+    return world.bus is not None or has_node or any(drive.serial for drive in world.drive)
 
 
 def _modelled(canopen: Canopen) -> Canopen:

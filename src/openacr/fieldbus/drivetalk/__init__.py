@@ -1,0 +1,1 @@
+"""Drive Talk to Aries drives on serial lines of the computer."""
