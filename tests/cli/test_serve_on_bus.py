@@ -1,7 +1,10 @@
 """`openacr serve` of a machine on a bus, as far as no network is needed: what is refused before."""
 
 import json
+import os
+import pty
 import subprocess
+import tty
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -9,11 +12,11 @@ from typing import Any
 
 import pytest
 from tests import warm
-from tests.network.talk import axis
+from tests.network.talk import Bench, axis, control
 from typer.testing import CliRunner
 
 from openacr.cli.main import app
-from openacr.cli.serve_on_bus import what_can_happen
+from openacr.cli.serve_on_bus import Served, what_can_happen
 from openacr.client import Card
 from openacr.plant.describe.load import parse_world
 
@@ -84,7 +87,7 @@ def test_an_interface_that_does_not_exist_is_named(project: Path) -> None:
     assert "no-such-if" in result.output
 
 
-class Served:
+class Process:
     """A card on an emulated bus in a process of its own."""
 
     def __init__(self, project: Path, *options: str) -> None:
@@ -115,8 +118,8 @@ class Served:
 
 
 @pytest.fixture
-def served(project: Path) -> Iterator[Served]:
-    one = Served(project, "--real")
+def served(project: Path) -> Iterator[Process]:
+    one = Process(project, "--real")
     try:
         yield one
     finally:
@@ -129,7 +132,7 @@ def served(project: Path) -> Iterator[Served]:
 
 
 def test_an_emulated_bus_needs_no_interface_and_no_question_and_is_reported(
-    served: Served,
+    served: Process,
 ) -> None:
     address = served.line("listening ascii=").split()[0]
     report = served.report_where(lambda one: one["counters"]["sent"] > 100)
@@ -145,7 +148,7 @@ def test_an_emulated_bus_needs_no_interface_and_no_question_and_is_reported(
     served.report_where(lambda one: one["counters"]["sent"] < before)
 
 
-def test_a_card_ends_with_the_process_that_reads_its_reports(served: Served) -> None:
+def test_a_card_ends_with_the_process_that_reads_its_reports(served: Process) -> None:
     served.line("bus ")
     assert served.process.stdin is not None
     served.process.stdin.close()
@@ -160,3 +163,32 @@ def test_what_is_real_can_be_on_several_buses_and_all_of_it_is_named_before_cons
         "CANopen nodes on can7 can switch their outputs.",
         "The drive of axis 1 on /dev/ttyUSB0 can be set and commanded.",
     ]
+
+
+@pytest.mark.parametrize(("is_real", "state"), [(True, "all commands are sent"), (False, "read")])
+def test_served_drives_are_talked_to_until_the_end(
+    is_real: bool, state: str, tmp_path: Path, caplog: pytest.LogCaptureFixture,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    path = tmp_path / "drive"
+    text = axis(0) + f'[[drive]]\naxis = 0\ntype = "aries"\nserial = "{path}"\n'
+    bench = Bench(axes=1)
+    served = Served(bench.card, parse_world(text), "", is_real=is_real, is_reported=False)
+    served.begin()
+    assert f"Drive Talk {path}: {state}" in capsys.readouterr().err
+    bench.open(0)
+    far, theirs = pty.openpty()
+    tty.setraw(theirs)
+    path.symlink_to(os.ttyname(theirs))
+    os.set_blocking(far, False)
+    bench.card.bit[control(0, 2)] = True  # send the configuration
+    bench.card.advance(seconds=0.1)
+    served.close()
+    os.close(theirs)
+    try:
+        heard = os.read(far, 100)
+    except OSError:
+        heard = b""
+    os.close(far)
+    assert heard == (b"1_DMODE0\r" if is_real else b"")
+    assert ("was not sent" in caplog.text) is not is_real

@@ -84,6 +84,26 @@ def test_a_flood_is_bounded_and_what_was_lost_is_counted_once(
         assert link.trouble() == Trouble()
 
 
+def test_a_flood_of_others_takes_no_room_where_only_some_are_listened_to(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(can_link, "MOST_WAITING", 10)
+    with pair("others") as (link, other):
+        link.listen({0x183, 0x703})
+        for number in range(25):
+            other.send(message(0x100 + number))
+        other.send(message(0x703))
+        assert taken(link, 1) == [Frame(0x703)]
+        assert link.trouble() == Trouble()
+        assert link.reopen() == ""  # still only those
+        other.send(message(0x100))
+        other.send(message(0x183))
+        assert taken(link, 1) == [Frame(0x183)]
+        link.listen(None)
+        other.send(message(0x100))
+        assert taken(link, 1) == [Frame(0x100)]
+
+
 @pytest.mark.parametrize(
     ("kind", "detail", "seen"),
     [
@@ -125,6 +145,9 @@ class Broken:
 
     def recv(self, wait_s: float) -> None:
         raise OSError(19, "No such device")
+
+    def set_filters(self, filters: object) -> None:
+        """Nothing is left out by it."""
 
     def send(self, sent: Any, timeout: float) -> None:
         raise can.CanOperationError("transmit buffer full")

@@ -7,6 +7,7 @@ import logging
 import threading
 import time
 from collections import deque
+from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
 from openacr.errors import UserError, reason
@@ -48,6 +49,7 @@ class CanLink:
         self._waiting: deque[Frame] = deque()
         self._lost, self._is_overrun, self._errors = 0, False, 0
         self._failure = ""
+        self._heard: Collection[int] | None = None
         self._lock = threading.Lock()
         self._bus: can.BusABC | None = None
         self._reader: threading.Thread | None = None
@@ -76,6 +78,13 @@ class CanLink:
             frames = list(self._waiting)
             self._waiting.clear()
         return frames
+
+    def listen(self, identifiers: Collection[int] | None) -> None:
+        """Leave out frames with other identifiers, so that they cost nothing; None: take all."""
+        self._heard = identifiers
+        if self._bus is not None:
+            with contextlib.suppress(self._can.CanError, OSError):  # then all are taken
+                self._bus.set_filters(_filters(identifiers))
 
     def trouble(self) -> Trouble:
         """What has gone wrong since the last call."""
@@ -112,6 +121,7 @@ class CanLink:
             self._waiting.clear()
             self._lost, self._is_overrun, self._errors, self._failure = 0, False, 0, ""
         self._bus = bus
+        self.listen(self._heard)
         self._reader = threading.Thread(
             target=self._read, args=(bus,), name=f"CAN {self.name}", daemon=True
         )
@@ -175,6 +185,12 @@ def options_of(interface: str, channel: str | None) -> dict[str, Any]:
         if separator and port.isdigit() and "." in group:
             options |= {"channel": group, "port": int(port)}
     return options
+
+
+def _filters(identifiers: Collection[int] | None) -> Any:
+    if identifiers is None:
+        return None
+    return [{"can_id": each, "can_mask": 0x7FF, "extended": False} for each in identifiers]
 
 
 def _said(failure: Exception) -> str:

@@ -1,6 +1,6 @@
 """A card with real nodes: emulated ones on a bus in this process; time is the card's own."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 from tests.network.rig import NODE_ID, START, STATE
 
@@ -29,7 +29,7 @@ class Wire:
         self.sent.append(frame)
         for each in self.passed_on(frame):
             for link in self.links:
-                if link is not sender:
+                if link is not sender and (link.heard is None or each.id in link.heard):
                     link.waiting.append(each)
 
 
@@ -44,6 +44,7 @@ class WireLink:
         self.now = Trouble()
         self.reopening = ""
         self.takes = True
+        self.heard: Collection[int] | None = None
         wire.links.append(self)
 
     def send(self, frame: Frame) -> bool:
@@ -54,6 +55,9 @@ class WireLink:
     def take(self) -> list[Frame]:
         taken, self.waiting = self.waiting, []
         return taken
+
+    def listen(self, identifiers: Collection[int] | None) -> None:
+        self.heard = identifiers
 
     def trouble(self) -> Trouble:
         now, self.now = self.now, Trouble(errors=self.now.errors, failure=self.now.failure)

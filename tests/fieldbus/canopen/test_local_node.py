@@ -1,5 +1,7 @@
 """The card's network with nodes of python-canopen, over buses of python-can."""
 
+import os
+import shutil
 import subprocess
 import sys
 import time
@@ -107,6 +109,31 @@ def test_a_wrong_node_of_others_is_refused(caplog: pytest.LogCaptureFixture) -> 
     with local("drive", 3, device_type=402), on_bus("virtual", "drive") as paced:
         assert paced.start(3) == 5
     assert "it is no I/O node" in caplog.text
+
+
+@pytest.fixture
+def vcan() -> Iterator[str]:
+    name = f"vc{os.getpid()}"
+    made = shutil.which("ip") and subprocess.run(
+        ["ip", "link", "add", name, "type", "vcan"], capture_output=True, check=False
+    )
+    if not made or made.returncode:
+        pytest.skip("vcan interfaces need root and a kernel that has them")
+    try:
+        subprocess.run(["ip", "link", "set", name, "up"], check=True)
+        yield name
+    finally:
+        subprocess.run(["ip", "link", "delete", name], check=False)
+
+
+def test_a_can_interface_of_linux_carries_it(vcan: str) -> None:
+    with on_bus("socketcan", vcan) as paced:
+        far = LocalIo(can.Bus(interface="socketcan", channel=vcan), 3)
+        try:
+            assert paced.start(3) == 2
+            exchanges(paced)
+        finally:
+            far.close()
 
 
 def test_a_node_in_another_process_is_reached_and_missed_when_that_is_killed() -> None:

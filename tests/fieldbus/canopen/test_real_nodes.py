@@ -9,6 +9,7 @@ from tests.network.rig import (
     HW_OVERFLOW,
     NODE_FAILURE,
     OPERATIONAL,
+    RESET,
     STATE,
     SW_OVERFLOW,
     fault,
@@ -264,6 +265,29 @@ def test_frames_of_others_and_wrong_ones_change_nothing() -> None:
     on.card.advance(seconds=1.0)
     assert [on.card.p[number] for number in range(33024, 33031)] == before
     assert on.card.p[STATE] == 2
+
+
+def test_a_running_network_listens_to_its_nodes_alone_and_a_start_to_all() -> None:
+    on = OnCan(PANEL + node(4, digital_inputs=8))
+    assert on.start(3, 4) == 2
+    assert on.link.heard == {0x83, 0x583, 0x703, 0x183, 0x283, 0x84, 0x584, 0x704, 0x184}
+    assert on.start(4) == 2
+    assert on.link.heard == {0x84, 0x584, 0x704, 0x184}
+    on.card.bit[RESET] = True
+    on.card.advance(seconds=0.1)
+    assert on.link.heard is None
+
+
+def test_a_card_that_is_restarted_starts_its_nodes_anew() -> None:
+    on = OnCan(PANEL)
+    assert on.start(3) == 2
+    on.card.send("SYS\rREBOOT\r")
+    on.card.advance(seconds=0.3)
+    assert on.card.p[STATE] == 1
+    assert on.start(3) == 2
+    on.level(1, True)
+    on.card.advance(seconds=0.1)
+    assert on.card.bit[DI[0] + 1]
 
 
 def test_an_emergency_is_said_once(caplog: pytest.LogCaptureFixture) -> None:

@@ -1,5 +1,6 @@
 """Frames of CANopen (CiA 301): which identifier means what, and the commands to all nodes."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Protocol
@@ -73,6 +74,9 @@ class Link(Protocol):
 
     def take(self) -> list[Frame]:
         """All frames that have arrived since the last call, the oldest first."""
+
+    def listen(self, identifiers: Collection[int] | None) -> None:
+        """Leave out frames with other identifiers, where the bus can; None: take all."""
 
     def trouble(self) -> Trouble:
         """What has gone wrong since the last call."""

@@ -138,12 +138,12 @@ class RealNodes:
 
     def reset(self) -> None:
         """Reset all nodes of the bus."""
-        self._nodes.clear()
+        self._forget()
         self._send(nmt(Nmt.RESET))
 
     def stop(self) -> None:
         """Make all nodes of the bus pre-operational."""
-        self._nodes.clear()
+        self._forget()
         self._free = iter(range(Cob.FREE, Cob.FREE_LAST + 1))
         self._sent = self._refused = 0
         if not self._is_at_rate():
@@ -153,6 +153,10 @@ class RealNodes:
             )  # fmt: skip
             return
         self._send(nmt(Nmt.PRE_OPERATIONAL))
+
+    def _forget(self) -> None:
+        self._nodes.clear()
+        self._link.listen(None)
 
     def _is_at_rate(self) -> bool:
         return self._master.get(network_master.bit_rate) == self._link.bit_rate
@@ -196,10 +200,19 @@ class RealNodes:
         """Make a node operational, and read its inputs once."""
         node = self._nodes[slave]
         node.is_running, node.heard_s = True, self._link.now_s()
+        self._link.listen(set(self._identifiers()))
         self._send(nmt(Nmt.START, node.id))
         if node.io is not None and node.io.found.digital_input_bytes:
             script = read_inputs(node.io.found.digital_input_bytes)
             node.first = Talk(node.id, script, self._send, self._link.now_s())
+
+    def _identifiers(self) -> Iterator[int]:
+        """Those of frames that nodes send to the card."""
+        for node in self._nodes.values():
+            for base in (Cob.EMERGENCY, Cob.SDO_ANSWER, Cob.HEALTH):
+                yield base + node.id
+            if node.io is not None:
+                yield from node.io.inputs
 
     def answers(self, slave: int) -> bool:
         """A node is served until it is found dead."""
