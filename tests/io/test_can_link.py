@@ -176,6 +176,40 @@ def test_an_interface_that_is_gone_is_noticed_and_can_come_back(
         assert link.send(Frame(0x80)) and other.recv(LIMIT_S).arbitration_id == 0x80
 
 
+class Deaf(Broken):
+    """A bus that takes frames; reading fails but for some times."""
+
+    def __init__(self, readable: int = 0, each: int = 0) -> None:
+        self._readable, self._each, self._reads = readable, each, 0
+
+    def recv(self, wait_s: float) -> None:
+        self._reads += 1
+        if self._readable and self._reads % self._each == 0:
+            self._readable -= 1
+            return
+        super().recv(wait_s)
+
+    def send(self, sent: Any, timeout: float) -> None:
+        """It is taken."""
+
+
+def test_a_bus_that_cannot_be_read_takes_no_frames(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(can, "Bus", lambda **_: Deaf())
+    link = CanLink("virtual", "deaf", 125)
+    until(lambda: bool(link.trouble().failure))
+    assert not link.send(Frame(0x80))
+    link.close()
+
+
+def test_failures_are_counted_in_a_row(monkeypatch: pytest.MonkeyPatch) -> None:
+    bus = Deaf(readable=5, each=10)
+    monkeypatch.setattr(can, "Bus", lambda **_: bus)
+    link = CanLink("virtual", "deaf", 125)
+    until(lambda: bool(link.trouble().failure))
+    assert bus._reads == 60  # nine failures and a success, five times, then ten
+    link.close()
+
+
 def test_what_cannot_be_opened_is_named() -> None:
     with pytest.raises(UserError, match=r"^CAN can7: .*no-such-thing"):
         CanLink("no-such-thing", "can7", 125)

@@ -17,7 +17,8 @@ from tests.network.rig import (
 )
 
 from openacr.fieldbus.canopen.frames import Cob, Frame, Trouble
-from openacr.map.rows import bus_nodes
+from openacr.fieldbus.canopen.io_node import Kind
+from openacr.map.rows import bus_nodes, network_slaves
 
 PANEL = node(3, digital_inputs=12, digital_outputs=12, analog_inputs=2, analog_outputs=2)
 BIG = node(3, digital_inputs=200, digital_outputs=130, analog_inputs=18, analog_outputs=17)
@@ -129,19 +130,149 @@ def test_two_nodes_with_one_id_are_noticed(caplog: pytest.LogCaptureFixture) -> 
     assert "more than one node answers for id 3" in caplog.text
 
 
-def test_a_repeated_or_late_answer_is_no_second_node() -> None:
+@pytest.mark.parametrize(("times", "state"), [(3, 2), (4, 5)])
+def test_a_repeated_or_late_answer_is_no_second_node(times: int, state: int) -> None:
     on = OnCan(PANEL)
-    repeated = iter([True] * 3)
+    repeated = iter([True] * times)
     answers: list[Frame] = []
 
     def twice(frame: Frame) -> list[Frame]:
         if frame.id != Cob.SDO_ANSWER + 3:
             return [frame]
         answers.append(frame)
-        return [frame, answers[0]] if len(answers) % 9 == 8 and next(repeated, False) else [frame]
+        return [frame, answers[0]] if len(answers) % 5 == 4 and next(repeated, False) else [frame]
 
     on.wire.passed_on = twice
+    assert on.start(3) == state
+
+
+def test_an_abort_of_another_object_ends_nothing() -> None:
+    on = OnCan(PANEL)
+    abort = Frame(Cob.SDO_ANSWER + 3, bytes.fromhex("8000200000000206"))
+    answers = [0]
+
+    def also(frame: Frame) -> list[Frame]:
+        answers[0] += frame.id == abort.id
+        return [abort, frame] if frame.id == abort.id and answers[0] in (1, 7) else [frame]
+
+    on.wire.passed_on = also
     assert on.start(3) == 2
+
+
+def test_a_node_that_answers_everything_slowly_is_given_up(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    on = OnCan(PANEL)
+    late: list[tuple[float, Frame]] = []
+
+    class Slow:
+        def attend(self) -> None:
+            while late and late[0][0] <= on.card.time_s:
+                on.link.waiting.append(late.pop(0)[1])
+
+    def slowly(frame: Frame) -> list[Frame]:
+        if frame.id != Cob.SDO_ANSWER + 3:
+            return [frame]
+        late.append((on.card.time_s + 0.45, frame))
+        return []
+
+    on.wire.passed_on = slowly
+    on.far.append(Slow())  # type: ignore[arg-type]
+    begin_s = on.card.time_s
+    assert on.start(3) == 5
+    assert 10.0 < on.card.time_s - begin_s < 10.1
+    assert "node 3: it has not answered everything in 10 s" in caplog.text
+
+
+def test_a_node_is_set_up_whatever_it_was_set_to_before() -> None:
+    on = OnCan(PANEL)
+    values = on.far[0].nodes[0].objects.values
+    delivered = dict(values)
+    values[0x1A00, 1] = (0x60000208).to_bytes(4, "little")  # the second byte twice
+    values[0x1801, 1] = (0x283 | 1 << 30 | 1 << 31).to_bytes(4, "little")
+    values[0x1801, 2] = b"\xff"
+    values[0x1400, 2] = b"\xff"
+    assert on.start(3) == 2
+    assert values[0x1A00, 1] == delivered[0x1A00, 1]
+    assert values[0x1801, 1] == (0x283 | 1 << 30).to_bytes(4, "little")
+    assert (values[0x1801, 2], values[0x1400, 2]) == (b"\1", b"\1")
+
+
+def test_a_node_with_more_than_a_card_takes_is_state_4() -> None:
+    on = OnCan(PANEL)
+    on.far[0].nodes[0].objects._counts[Kind.DIGITAL_INPUTS] = 200
+    assert on.start(3) == 4
+
+
+def test_times_that_a_node_cannot_hold_are_the_longest() -> None:
+    on = OnCan(PANEL)
+    assert on.start(3, cycle_ms=20_000) == 2
+    values = on.far[0].nodes[0].objects.values
+    assert values[0x1017, 0] == b"\xff\xff"
+    assert values[0x1016, 1] == (5 << 16 | 65535).to_bytes(4, "little")
+
+
+def test_an_input_that_changes_while_inputs_are_read_keeps_its_new_level() -> None:
+    on = OnCan(PANEL)
+    on.level(0, True)
+    changed = [False]
+
+    def change(frame: Frame) -> list[Frame]:
+        if frame.id == Cob.SDO_ANSWER + 3 and frame.data[1:4] == b"\x00\x60\x01" and not changed[0]:
+            changed[0] = True
+            return [frame, Frame(Cob.INPUTS + 3, b"\0\2")]
+        return [] if frame.id == Cob.INPUTS + 3 else [frame]
+
+    on.wire.passed_on = change
+    assert on.start(3) == 2
+    on.card.advance(seconds=0.2)
+    assert changed[0]
+    assert [n for n in range(12) if on.card.bit[DI[0] + n]] == [9]
+
+
+def test_a_slave_that_was_modelled_before_is_not_looked_for_in_rows() -> None:
+    on = OnCan(node(7, modelled=True, digital_inputs=8) + PANEL, far=PANEL)
+    assert on.start(7) == 2
+    assert on.start(3) == 2
+    assert on.card.memory.I[network_slaves.words[0]] == 0
+
+
+def test_a_node_that_never_reports_health_is_dead_in_the_first_period(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    on = OnCan(PANEL)
+    on.wire.passed_on = lambda frame: [] if frame.id == Cob.HEALTH + 3 else [frame]
+    assert on.start(3) == 2
+    assert on.card.until(NODE_FAILURE, timeout_s=0.21)
+    assert "node 3: it reports no health" in caplog.text
+
+
+def test_the_master_reports_health_only_while_it_serves_nodes() -> None:
+    on = OnCan(PANEL, far="")
+    assert on.start(3) == 5
+    on.wire.sent.clear()
+    on.card.advance(seconds=1.0)
+    assert on.wire.sent == []
+
+
+def test_one_frame_that_is_not_taken_is_counted_once() -> None:
+    on = OnCan(PANEL)
+    assert on.start(3) == 2
+    on.link.takes = False
+    on.card.advance(seconds=0.02)
+    on.link.takes = True
+    on.card.advance(seconds=5.0)
+    assert on.card.p[STATE] == 2
+
+
+def test_a_controller_that_is_off_is_opened_anew_at_the_next_start() -> None:
+    on = OnCan(PANEL)
+    assert on.start(3) == 2
+    on.link.now = Trouble(errors=256)
+    on.card.advance(seconds=0.05)
+    assert on.card.p[STATE] == 10
+    assert on.start(3) == 2
+    assert on.link.now.errors == 0
 
 
 @pytest.mark.parametrize("health", ["heartbeat", "guarding"])
@@ -297,6 +428,10 @@ def test_an_emergency_is_said_once(caplog: pytest.LogCaptureFixture) -> None:
         on.wire.carry(Frame(0x83, bytes.fromhex("3081110000000000")))
     on.card.advance(seconds=0.1)
     assert caplog.text.count("node 3: it reports emergency 0x8130") == 1
+    on.wire.carry(Frame(0x83, bytes(8)))  # its end
+    on.wire.carry(Frame(0x83, bytes.fromhex("3081110000000000")))
+    on.card.advance(seconds=0.1)
+    assert caplog.text.count("it reports emergency") == 2
 
 
 def test_at_the_end_the_nodes_begin_anew_with_their_outputs_off() -> None:

@@ -23,6 +23,8 @@ from openacr.plant.describe.real_world import real_world
 
 AUTO, GET, SEND, ERRORL, DATA = range(5)
 
+PAUSE, PAUSE_S = ord("|"), 0.2  # in what a wire says
+
 
 class Wire:
     """A serial line whose far end is the drives of another machine; answers take 3 ms."""
@@ -50,9 +52,11 @@ class Wire:
             back = "".join(answers).encode()
         else:
             back = self.said(text)
-        self._coming = [
-            (self.now_s() + 0.003 + 0.001 * n, back[n : n + 1]) for n in range(len(back))
-        ]
+        at_s, self._coming = self.now_s() + 0.003, []
+        for byte in back:
+            at_s += PAUSE_S if byte == PAUSE else 0.001
+            if byte != PAUSE:
+                self._coming.append((at_s, bytes((byte,))))
 
     def take(self) -> bytes:
         if self.failure:
@@ -120,6 +124,8 @@ def test_a_terminal_talks_to_a_real_drive() -> None:
         lambda text: f"> {text}\r\n*7\r\n> ".encode(),  # a prompt
         lambda text: b"*7\r",
         lambda text: b"*7",  # without an end
+        lambda text: b"*|7\r\n",  # with a pause
+        lambda text: f"{text}\r\n|*7\r\n".encode(),
     ],
 )
 def test_echo_prompt_and_line_ends_of_a_drive_do_not_matter(said: Callable[[str], bytes]) -> None:
@@ -130,7 +136,7 @@ def test_echo_prompt_and_line_ends_of_a_drive_do_not_matter(said: Callable[[str]
     assert [bench.card.p[28674 + n] for n in range(6)] == [7] * 6
     assert bench.troubles() == []
     bench.type("DTALK X")
-    assert bench.say("TPE", 0.5) == "*7"
+    assert bench.say("TPE", 0.6) == "*7"
 
 
 def test_a_drive_that_only_echoes_what_is_written_has_taken_it() -> None:
@@ -192,6 +198,11 @@ def test_a_port_that_is_gone_is_said_once_and_no_drive_answers(
     wire.failure = "gone again"
     assert bench.card.until(control(0, GET), is_=False, timeout_s=2.0)
     assert "gone again" in caplog.text and LOST in bench.troubles()
+    wire.failure = ""
+    bench.request(0, GET)
+    wire.failure = "gone again"
+    bench.request(0, GET)
+    assert caplog.text.count("gone again") == 2, "it had answered in between"
 
 
 def test_wrong_settings_of_a_program_reach_no_drive() -> None:

@@ -69,6 +69,7 @@ class _Node:
     is_running: bool = False
     digital: bytearray = field(default_factory=lambda: bytearray(64))
     analog: list[int] = field(default_factory=lambda: [0] * 32)
+    sent: set[int] = field(default_factory=set)  # digital inputs, in bytes
     has_digital: bool = False  # something new
     has_analog: bool = False
     state: int | None = None  # as it has reported it last
@@ -305,7 +306,7 @@ class RealNodes:
         if node is not None and self._hear_node(frame, node, now_s):
             return
         for each in nodes.values():
-            if each.is_running and each.io is not None and frame.id in each.io.inputs:
+            if each.io is not None and frame.id in each.io.inputs:
                 _take_inputs(each, each.io.inputs[frame.id], frame.data)
 
     def _hear_node(self, frame: Frame, node: _Node, now_s: float) -> bool:
@@ -330,9 +331,10 @@ class RealNodes:
         elif node.first is not None:
             node.first.hear(data, now_s)
             if node.first.is_over:
-                if node.first.result is not None and not node.has_digital:
-                    node.digital[: len(node.first.result)] = node.first.result
-                    node.has_digital = True
+                for place, value in enumerate(node.first.result or b""):
+                    if place not in node.sent:  # what it has sent is newer
+                        node.digital[place] = value
+                        node.has_digital = True
                 node.first = None
 
     def _report(self, now_s: float) -> None:
@@ -366,6 +368,7 @@ def _take_inputs(node: _Node, part: Part, data: bytes) -> None:
     if part.kind is Kind.DIGITAL_INPUTS:
         fresh = data[: part.count]
         node.digital[part.first : part.first + len(fresh)] = fresh
+        node.sent.update(range(part.first, part.first + len(fresh)))
         node.has_digital = True
     else:
         for place in range(min(part.count, len(data) // 2)):
