@@ -30,6 +30,15 @@ def test_a_drive_in_motion_shows_mode_target_and_position() -> None:
     assert 0 < drive["target"] - drive["actual"] < 200
 
 
+def test_a_drive_that_is_not_heard_shows_no_state() -> None:
+    made = moving()
+    lose(made, 1)
+    made.card.advance(1)
+    assert made.machine.report()["drives"][0]["state"] == ""
+    made.card.advance(1)
+    assert made.machine.report()["drives"][0]["state"] == "OPERATING"
+
+
 def test_a_fault_is_shown_with_its_code_and_meaning() -> None:
     made = moving()
     made.drive().fault(0x8611)

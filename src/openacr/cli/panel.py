@@ -17,6 +17,7 @@ from openacr.errors import OpenacrError, UserError
 if TYPE_CHECKING:
     from openacr.bridge.process import BridgeProcess
     from openacr.panel.control.machine.installation import Installation
+    from openacr.panel.machine.project import OnBus
     from openacr.panel.server.panel import Panel
     from openacr.panel.server.web import PanelServer
 
@@ -61,6 +62,18 @@ def panel(
         Path | None,
         typer.Option("--bridge", metavar="FILE", help="Bridge file: values for other systems."),
     ] = None,
+    bus: Annotated[
+        str | None,
+        typer.Option(
+            metavar="IFACE",
+            help="Open the bus of the project at this interface; emulated: in memory.",
+        ),
+    ] = None,
+    is_real: Annotated[
+        bool,
+        typer.Option("--real", help="Open the bus and let its drives be enabled; asks first."),
+    ] = False,
+    is_sure: Annotated[bool, typer.Option("--yes", help="Do not ask.")] = False,
     set_password: Annotated[
         str | None,
         typer.Option(
@@ -76,7 +89,8 @@ def panel(
     are held, not a program. Ctrl-C brings the machine to rest and ends the server.
     """
     _require_packages()
-    installation = _installation(machine, store, programs)
+    opened = _bus(machine, bus, is_real=is_real, is_sure=is_sure)
+    installation = _installation(machine, store, programs, opened)
     installation.is_agreed |= is_agreed
     if set_password is None:
         print("starting the panel ...", file=sys.stderr, flush=True)
@@ -100,7 +114,24 @@ def _require_packages() -> None:
         raise UserError(MISSING) from None
 
 
-def _installation(machine: str | None, store: Path | None, programs: Path | None) -> "Installation":
+def _bus(machine: str | None, bus: str | None, *, is_real: bool, is_sure: bool) -> "OnBus | None":
+    """The bus that is opened, once the operator has agreed to real drives."""
+    from openacr.cli.serve_on_bus import agreed, world_on_bus
+    from openacr.panel.machine.project import OnBus
+
+    if bus is None and not is_real:
+        return None
+    if machine is None or not Path(machine).is_dir():
+        raise UserError("--bus and --real need a project: its machine.toml describes the bus")
+    world = world_on_bus(Path(machine), bus)
+    if not agreed(world, bus, 1.0, is_real=is_real, is_sure=is_sure):
+        return None
+    return OnBus(bus, is_real)
+
+
+def _installation(
+    machine: str | None, store: Path | None, programs: Path | None, bus: "OnBus | None" = None
+) -> "Installation":
     import platformdirs
 
     from openacr.client.links import wire_to
@@ -121,7 +152,7 @@ def _installation(machine: str | None, store: Path | None, programs: Path | None
         wire_to(machine)  # what is no address is refused before anything is opened
         ensure(folder)
         return Installation.at(machine, open_to_write(store), folder)
-    return of_project(Path(machine), store=store, programs=programs, otherwise=folder)
+    return of_project(Path(machine), store=store, programs=programs, otherwise=folder, bus=bus)
 
 
 def _require_link(machine: str) -> None:

@@ -47,7 +47,7 @@ def world_on_bus(path: Path | None, bus: str | None) -> "World | None":
             raise UserError(f"--bus {bus}: the project has no machine.toml with [bus]")
     if world is None or not is_real(world):
         return None
-    if bus == EMULATED:
+    if (bus or world.bus.interface) == EMULATED:
         from openacr.fieldbus.machine.in_memory import with_positions
 
         return with_positions(world)

@@ -284,15 +284,15 @@ class AxisDrive:
         counts = (self._counts or 0) + _wrapped(latched - (self._counts or 0))
         return (counts - self._zero) / self._scale + MIDDLE
 
-    def report(self, sent: bytearray) -> DriveReport:
-        """How the drive is, by what was sent last and what came back."""
+    def report(self, sent: bytearray, *, is_heard: bool) -> DriveReport:
+        """How the drive is, by what was sent last and what came back; `is_heard`: just now."""
         code = self._error.get(self._image) if self._image else 0
         n = self.owner
         return {
             "axis": self.axis.label,
             "number": self.axis.number,
             "position": self.position,
-            "state": self.drive.state.name if self.drive.state and self._image else "",
+            "state": self.drive.state.name if self.drive.state and is_heard else "",
             "mode": self._mode.get(self._image) if self._image else 0,
             "actual": self._counts or 0,
             "target": self._target.get(sent),

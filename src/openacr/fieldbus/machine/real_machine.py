@@ -90,6 +90,7 @@ class RealMachine:
 
     def report(self) -> BusReport:
         """The state of the bus, its devices and drives."""
+        is_heard = not self._bad and self._latest_s is not None
         return {
             "interface": self._link.name,
             "is_real": self.may_enable,
@@ -98,7 +99,9 @@ class RealMachine:
             "cycle_s": self._bus.cycle * self._period_s,
             "counters": self.counters.copy(),
             "devices": [each.copy() for each in self._states],
-            "drives": [drive.report(self._master.image) for drive in self.drives],
+            "drives": [
+                drive.report(self._master.image, is_heard=is_heard) for drive in self.drives
+            ],
         }
 
     def attend(self, tick: int) -> int:

@@ -1,6 +1,7 @@
 """Imports every module of commands: the table is complete then."""
 
 from openacr.panel.commands import (  # noqa: F401
+    bus,
     debugging,
     drives,
     memory,

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 from openacr.client import Card, Options
 from openacr.client.card_axes import attached
@@ -24,6 +24,21 @@ from openacr.sysvar import Store
 if TYPE_CHECKING:
     from openacr.controller import Controller
 
+
+class Bus(Protocol):
+    """The bus of the machine, as its card reports it."""
+
+    @property
+    def report(self) -> dict[str, Any] | None:
+        """Its newest state (`fieldbus/machine/report.py`); None while it is not known."""
+
+    def reset_counters(self) -> None:
+        """Let the counters of frames begin at 0."""
+
+    def close(self) -> None:
+        """End the card."""
+
+
 Say = Callable[[str], None]
 Make = Callable[[Card, Store, Say], MillSession]
 
@@ -41,6 +56,7 @@ class Installation:
     history: History | None = None  # of a card in this process
     sample: str = ""  # program that is loaded at the start
     project: Path | None = None  # the folder whose programs the card began with
+    bus: Bus | None = None  # of a card that the panel has started
     is_agreed: bool = False  # that AcroMill sets the card up
     lacks: str = field(default="", init=False)  # why the session of the card is not set up
     attached: list[Attached] = field(default_factory=list, init=False)  # axes of the card
@@ -154,3 +170,5 @@ class Installation:
             self.store.close()
         if self.controller is not None:
             self.controller.close()
+        if self.bus is not None:
+            self.bus.close()

@@ -144,6 +144,16 @@ async def card_drives(call: Call) -> object:
     return {"drives": await call.panel.ask(read)}
 
 
+@endpoint("GET", "/card/bus")
+async def card_bus(call: Call) -> object:
+    """The bus of the machine with its devices, drives and counters.
+
+    `report` is null while it is not known, `is_open` false where the panel has opened none.
+    """
+    bus = call.panel.installation.bus
+    return {"is_open": bus is not None, "report": None if bus is None else bus.report}
+
+
 @endpoint("GET", "/card/listing", query=OfProgram)
 async def card_listing(call: Call) -> object:
     """The text of a program or PLC as the card lists it, each line with its number."""

@@ -61,6 +61,7 @@ export const PANES = {
     role: "operate",
     load: modulePane(() => import("./panes/drives.js")),
   },
+  bus: { title: { en: "Bus", de: "Bus" }, load: modulePane(() => import("./panes/bus.js")) },
   gain: {
     title: { en: "Gains", de: "Verst\u00e4rkungen" },
     role: "service",
