@@ -6,6 +6,7 @@ import pytest
 from tests.bridge.bench import LIMIT_S, until
 from tests.io.served import serving
 from tests.panel.bench import Served
+from tests.panel.bus_in_memory import BusInMemory
 from tests.proxy import Proxy
 
 from openacr.bridge.card_feed import CardFeed
@@ -59,6 +60,17 @@ def test_a_panel_gives_its_snapshot_its_facts_and_chosen_values(quiet_panel: Ser
     assert found["X.actual"] == snapshot.actual[0]
     assert found["user.gain"] == pytest.approx(0.0024414, rel=1e-3)
     assert found["user.lamp"] is False
+
+
+def test_the_bus_of_a_panel_is_that_of_its_card(quiet_panel: Served) -> None:
+    feed = StationFeed(quiet_panel.panel.control)
+    assert feed.newest().bus is None
+    quiet_panel.station.installation.bus = bus = BusInMemory()
+    found = feed.newest().bus
+    assert found is not None
+    assert found["counters"]["sent"] == bus.rig.machine.cycles
+    bus.is_known = False
+    assert feed.newest().bus is None
 
 
 def test_a_machine_that_is_set_up_again_has_its_new_axes_and_units(quiet_panel: Served) -> None:

@@ -34,6 +34,8 @@ def test_every_value_of_a_running_machine_is_read() -> None:
         "path_speed": 2.0, "feed": 2.0, "feed_override": 80.0, "rapid_override": 100.0,
         "spindle_speed": 900.0, "spindle_override": 100.0, "spindle_on": True, "flood": False,
         "mist": False, "dry_run": False, "single_block": False, "barred": False,
+        "bus_stopped": None, "bus_alarm": None, "bus_frames_sent": None, "bus_frames_lost": None,
+        "bus_frames_wrong": None, "bus_frames_late": None,
         "message": "DOOR / COOLANT LOW", "alarms": (Alarm(34, "X: drive is off", "REFUSE"),),
         "X.actual": 1.5, "X.commanded": 1.0, "X.following_error": 0.5, "X.work": 11.0,
         "X.to_go": 0.0, "X.homed": True, "X.jogging": False,
@@ -43,6 +45,17 @@ def test_every_value_of_a_running_machine_is_read() -> None:
         "C.to_go": 2.0, "C.homed": True, "C.jogging": False,
         "user.pulses": 400.0, "user.gate": True,
     }  # fmt: skip
+
+
+def test_a_bus_has_its_counts_of_frames_and_why_it_is_stopped() -> None:
+    counters = {"sent": 1000, "lost": 3, "wrong": 2, "late": 7}
+    found = values(replace(RUNNING, bus={"alarm": "a device has left OP", "counters": counters}))
+    assert {key: value for key, value in found.items() if key.startswith("bus")} == {
+        "bus_stopped": True, "bus_alarm": "a device has left OP", "bus_frames_sent": 1000,
+        "bus_frames_lost": 3, "bus_frames_wrong": 2, "bus_frames_late": 7,
+    }  # fmt: skip
+    found = values(replace(RUNNING, bus={"alarm": "", "counters": counters}))
+    assert (found["bus_stopped"], found["bus_alarm"]) == (False, "")
 
 
 def test_lengths_of_a_machine_in_inches_are_in_millimetres_but_degrees_stay() -> None:

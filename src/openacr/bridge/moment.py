@@ -35,6 +35,7 @@ class Moment:
     run: Snapshot | None = None
     facts: Facts = field(default_factory=dict)
     tools: tuple[Tool, ...] | None = None  # of the tool table
+    bus: Mapping[str, Any] | None = None  # its report, where the card has one that is open
     watched: Mapping[int, float] = field(default_factory=dict)  # parameters of the card by number
 
     def fact(self, name: str, *keys: str) -> Any:

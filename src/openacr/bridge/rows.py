@@ -5,10 +5,11 @@ which standard type MTConnect and OPC UA know it. Lengths are in mm, speeds in m
 degrees, whatever the unit of the machine.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from math import isnan
+from typing import Any
 
 from openacr.bridge.moment import S_PER_MIN, Moment
 from openacr.bridge.tools import CuttingTool, cutting_tools
@@ -196,6 +197,15 @@ def _messages(moment: Moment, _axis: int) -> Value:
     return " / ".join(str(each["text"]) for each in shown)
 
 
+def _bus(value: Callable[[Mapping[str, Any]], Value]) -> Callable[[Moment, int], Value]:
+    """A value of the bus of the machine: not known where none is open."""
+    return lambda moment, _axis: None if moment.bus is None else value(moment.bus)
+
+
+def _frames(name: str) -> Callable[[Moment, int], Value]:
+    return _bus(lambda bus: int(bus["counters"][name]))
+
+
 def _program(moment: Moment, _axis: int) -> Value:
     """The loaded program; empty where a reachable machine has loaded no program."""
     if moment.lost or moment.fact("program") is None:
@@ -252,6 +262,13 @@ ROWS = (
     Row("single_block", "single block", S, _light(Light.SINGLE)),
     Row("barred", "alarms bar the start", S, _light(Light.BARRED)),
     Row("message", "messages that are shown", T, _messages, standard=Standard("MESSAGE")),
+    Row("bus_stopped", "all drives on the bus are stopped", S,
+        _bus(lambda bus: bool(bus["alarm"]))),
+    Row("bus_alarm", "why all drives on the bus are stopped", T, _bus(lambda bus: bus["alarm"])),
+    Row("bus_frames_sent", "frames sent on the bus", C, _frames("sent")),
+    Row("bus_frames_lost", "frames of the bus that were lost", C, _frames("lost")),
+    Row("bus_frames_wrong", "frames of the bus with a wrong working counter", C, _frames("wrong")),
+    Row("bus_frames_late", "frames sent late on the bus", C, _frames("late")),
     Row("alarms", "active alarms", Kind.ALARMS, _alarms, standard=Standard("SYSTEM")),
 )  # fmt: skip
 

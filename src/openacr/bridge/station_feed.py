@@ -69,6 +69,7 @@ class StationFeed:
             run=run,
             facts=station.facts.reported,
             tools=self._tools,
+            bus=None if (bus := station.installation.bus) is None else bus.report,
             watched=self._watched,
         )
 
