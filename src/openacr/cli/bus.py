@@ -15,8 +15,11 @@ from openacr.wording import counted
 
 if TYPE_CHECKING:
     from openacr.fieldbus.ethercat.master.device import Device
+    from openacr.fieldbus.ethercat.master.esi import Described
     from openacr.fieldbus.ethercat.master.sdo import Objects
+    from openacr.fieldbus.ethercat.wire.sii import Pdo
 
+NO_SYNC = 0xFF
 Interface = Annotated[
     str,
     typer.Argument(
@@ -59,26 +62,42 @@ def scan_bus(
         typer.Option(metavar="FILE", help="Write a machine.toml of what was found: a new file."),
     ] = None,
     bit_rate: BitRate = None,
+    esi: Annotated[
+        list[Path] | None,
+        typer.Option(
+            metavar="FILE", help="Description by the maker (ESI): names and PDOs; repeatable."
+        ),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """List the devices of an EtherCAT bus in the order of the cable, or the nodes of a CAN bus.
 
     Nothing is switched on: devices are only asked. --write makes a first machine.toml, an axis for
-    each drive, inputs and outputs for each terminal, an entry for each I/O node of CANopen.
+    each drive, inputs and outputs for each terminal, an entry for each I/O node of CANopen. With --esi
+    each device is listed with its PDOs and their objects, and one that is not described is refused with
+    the objects it names itself.
     """
+    from openacr.fieldbus.ethercat.master.esi import read_esi
     from openacr.fieldbus.machine.written import machine_file
 
     if write is not None and write.exists():
         raise UserError(f"{write}: there is such a file already; give a new name")
     if _is_can(interface, bit_rate):
+        if esi:
+            raise UserError("--esi describes devices of EtherCAT: a CAN bus has none")
         bus_can.scan(interface, bit_rate, write, as_json=as_json)
         return
+    files = [device for path in esi or () for device in read_esi(path)]
     with _devices(interface) as devices:
         if as_json:
             typer.echo(json.dumps([_record(device) for device in devices], indent=2))
         else:
             for device in devices:
                 typer.echo(_line(device))
+                for line in _explained(device, files) if esi else ():
+                    typer.echo(line)
+        if esi:
+            _need_described(devices, files)
         if write is not None:
             try:
                 write.write_text(machine_file(interface, devices), "utf-8", newline="\n")
@@ -226,6 +245,43 @@ def _line(device: "Device") -> str:
         f" vendor 0x{who.vendor:X} product 0x{who.product:X} revision 0x{who.revision:X}"
         f" serial {who.serial} alias {device.alias}{_branch(device)}"
     )
+
+
+def _explained(device: "Device", files: "list[Described]") -> "Iterator[str]":
+    """The name of a device by its maker, and its PDOs; else those that it names itself."""
+    from openacr.fieldbus.ethercat.master.esi import described
+
+    one = described(device.description.identity, files)
+    if one is not None:
+        revision = device.description.identity.revision
+        note = "" if one.who.revision == revision else f", as of revision 0x{one.who.revision:X}"
+        yield f"   {one.maker} {one.name}{note}"
+    found = one or device.description
+    for what, pdos in (("outputs", found.receive), ("inputs", found.transmit)):
+        for pdo in pdos:
+            used = "" if pdo.sync == NO_SYNC else ", assigned"
+            yield f"   {what} 0x{pdo.index:04X} {pdo.name}{used}: {_objects_of(pdo)}"
+
+
+def _objects_of(pdo: "Pdo") -> str:
+    return ", ".join(
+        f"0x{one.index:04X}:{one.subindex} {one.name} ({one.bits} bits)".replace("  ", " ")
+        for one in pdo.entries
+        if one.index
+    )
+
+
+def _need_described(devices: "list[Device]", files: "list[Described]") -> None:
+    from openacr.fieldbus.ethercat.master.esi import described
+
+    unknown = [one for one in devices if described(one.description.identity, files) is None]
+    if unknown:
+        names = ", ".join(
+            f"{one.label} (vendor 0x{one.description.identity.vendor:X}"
+            f" product 0x{one.description.identity.product:X})"
+            for one in unknown
+        )
+        raise UserError(f"{names}: not in the ESI files; the objects above are its own account")
 
 
 def _branch(device: "Device") -> str:
