@@ -73,9 +73,9 @@ def scan_bus(
     """List the devices of an EtherCAT bus in the order of the cable, or the nodes of a CAN bus.
 
     Nothing is switched on: devices are only asked. --write makes a first machine.toml, an axis for
-    each drive, inputs and outputs for each terminal, an entry for each I/O node of CANopen. With --esi
-    each device is listed with its PDOs and their objects, and one that is not described is refused with
-    the objects it names itself.
+    each drive, inputs and outputs for each terminal, an entry for each I/O node of CANopen. With
+    --esi each device is listed with its PDOs and their objects, and one that is not described is
+    refused with the objects it names itself.
     """
     from openacr.fieldbus.ethercat.master.esi import read_esi
     from openacr.fieldbus.machine.written import machine_file

@@ -203,7 +203,7 @@ class RealMachine:
         except BusError as failure:
             self._revival = None
             log.error("the bus %s stays stopped: %s", self._link.name, failure)
-            self._alarm = str(failure)  # what is in the way now
+            self._alarm = str(failure)  # the newest cause
             self._stop(self._alarm)
             return
         self._revival = None

@@ -25,7 +25,7 @@ class Described:
 
 
 def read_esi(path: Path) -> list[Described]:
-    """The devices of a file; UserError if it cannot be read, or is none of these files."""
+    """The devices of a file; UserError if it cannot be read or is another file."""
     try:
         if path.stat().st_size > MOST_BYTES:
             raise UserError(f"{path}: more than {MOST_BYTES} bytes are no description of devices")
