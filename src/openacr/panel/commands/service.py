@@ -15,6 +15,7 @@ from openacr.mill.manual.profile import parse
 from openacr.mill.session import MillSession
 from openacr.panel.commands.registry import Args, command
 from openacr.panel.control.engineer.captures import Captures
+from openacr.panel.control.engineer.gain_sets import GainSets
 from openacr.panel.control.engineer.scope import (
     CHANNELS,
     LEAST_SAMPLES,
@@ -293,6 +294,8 @@ def gain(
     session: MillSession,
     installation: Installation,
     settings: StoredSettings,
+    gain_sets: GainSets,
+    now_s: float,
     *,
     axis: str,
     gain: str,
@@ -308,7 +311,10 @@ def gain(
         raise UserError(f"{gain}: gains are {', '.join(names)}")
     cells, cell = installation.store, known(GAINS[place][index])
     checked(cell, value, cells.is_metric, cells.letter_of(cell))
+    gain_sets.look(session, index, now_s)  # what others have changed is not of this change
     session.machine.type([f"AXIS{index} {GAIN_WORDS[place]} {number_text(value)}"])
+    gain_sets.expect(index)
+    gain_sets.look(session, index, now_s)
     if is_stored:
         settings.store_at_rest(cell.number, value)
     return {"value": value, "is_stored": cells.read(cell.number) == value}

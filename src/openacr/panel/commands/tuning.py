@@ -5,10 +5,12 @@ from typing import Annotated
 
 from msgspec import Meta
 
+from openacr.errors import UserError
 from openacr.mill.card.setup import GAIN_WORDS
 from openacr.mill.config.settings import GAINS
 from openacr.mill.session import MillSession
 from openacr.panel.commands.registry import command
+from openacr.panel.control.engineer.gain_sets import GainSets
 from openacr.panel.control.engineer.tuning import Tuning
 from openacr.panel.control.machine.installation import Installation
 from openacr.panel.control.machine.link import Link
@@ -40,9 +42,58 @@ def tune_gains(session: MillSession, installation: Installation, *, axis: str) -
     index = installation.axis(axis)
     values = session.machine.read_rows([row[index] for row in tuned.GAINS.values()])
     return {
-        known(_cell(word, index)).name: float(f"{value:.{FP32_DIGITS}g}")
+        _title(word, index): float(f"{value:.{FP32_DIGITS}g}")
         for word, value in zip(tuned.GAINS, values, strict=True)
     }
+
+
+@command("tune.sets", Role.SERVICE, needs_control=False)
+def tune_sets(
+    session: MillSession,
+    installation: Installation,
+    tuning: Tuning,
+    gain_sets: GainSets,
+    now_s: float,
+    *,
+    axis: str,
+) -> dict[str, object]:
+    """The gains that an axis has had since the panel began, set by set; which is in force.
+
+    The card is asked: what another host has changed is a set `elsewhere`. Each says what it has
+    changed of the one before it, and its age in s. `gains` are those in force, by their names on
+    the SERVO page.
+    """
+    index = installation.axis(axis)
+    if tuning.moved_axis != index:  # what is tried may be taken back
+        gain_sets.look(session, index, now_s)
+    return gain_sets.data(index, now_s, lambda word: _title(word, index))
+
+
+@command("tune.back", Role.SERVICE)
+def tune_back(
+    session: MillSession,
+    installation: Installation,
+    tuning: Tuning,
+    gain_sets: GainSets,
+    settings: StoredSettings,
+    now_s: float,
+    *,
+    axis: str,
+    number: int,
+    store: bool = False,
+) -> dict[str, object]:
+    """Set all gains and filters of an axis as a set of `tune.sets` has them."""
+    index = installation.axis(axis, is_stored=store)
+    if tuning.moved_axis == index:
+        raise UserError(f"axis {axis} is measured: wait until it rests, or STOP")
+    if store:
+        gain_sets.require_kept(index, number)
+    changed = gain_sets.set_again(session, index, number, now_s)
+    if store:
+        cells = installation.store
+        for cell, value in _cells(cells, index, changed).items():
+            settings.store_at_rest(cell, value)
+    return gain_sets.data(index, now_s, lambda word: _title(word, index))
 
 
 @command("tune.measure", Role.SERVICE, is_motion=True, en="MEASURE", de="MESSEN")
@@ -97,6 +148,8 @@ def tune_apply(
     link: Link,
     tuning: Tuning,
     settings: StoredSettings,
+    gain_sets: GainSets,
+    now_s: float,
     *,
     axis: str,
     store: bool = False,
@@ -106,6 +159,7 @@ def tune_apply(
     if store:
         tuning.require_kept(index)
     cells = _cells(link.installation.store, index, tuning.proposed(index)) if store else {}
+    gain_sets.look(link.required, index, now_s)
     applying = tuning.apply(client, index)
 
     def done(found: dict[str, object]) -> dict[str, object]:
@@ -115,6 +169,11 @@ def tune_apply(
 
     answer_with(order, applying, done)
     return LATER
+
+
+def _title(word: str, axis: int) -> str:
+    """How the SERVO page names a gain; a filter has its word."""
+    return known(_cell(word, axis)).name if word in tuned.GAINS else word
 
 
 def _cells(store: Store, axis: int, gains: dict[str, float]) -> dict[int, float]:

@@ -16,6 +16,7 @@ from openacr.mill.card.alarms import CONTROL_FAILED, AlarmError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.panel.control.engineer.captures import Captures
 from openacr.panel.control.engineer.drives import Drives
+from openacr.panel.control.engineer.gain_sets import GainSets
 from openacr.panel.control.engineer.on_card import OnCard
 from openacr.panel.control.engineer.records import Records
 from openacr.panel.control.engineer.scope import Samples
@@ -69,7 +70,8 @@ class Station:
         self.people = People()
         self.jobs = Jobs()
         self.ticks = Ticks()
-        self.tuning = Tuning(installation, self.jobs, self.screens.tell)
+        self.gain_sets = GainSets()
+        self.tuning = Tuning(installation, self.jobs, self.screens.tell, self.gain_sets)
         self.card_jogs = CardJogs(self.link)
         self.interlocks = Interlocks(self.link, self.tuning, self.card_jogs)
         self.settings = StoredSettings(self.link, self.interlocks, self.screens)

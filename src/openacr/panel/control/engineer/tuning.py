@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 from openacr.errors import UserError
 from openacr.mill.session import MillSession
 from openacr.panel.control.engineer.conversations import Aside
+from openacr.panel.control.engineer.gain_sets import GainSets
 from openacr.panel.control.jobs import Jobs
 from openacr.panel.control.machine.installation import Installation
 from openacr.panel.work.tuning import Advised, Data, advised, stepped
@@ -36,11 +37,16 @@ class Tuning:
     """The axis that is measured, and what was proposed for each."""
 
     def __init__(
-        self, installation: Installation, jobs: Jobs, tell: Callable[[Data], None]
+        self,
+        installation: Installation,
+        jobs: Jobs,
+        tell: Callable[[Data], None],
+        sets: GainSets,
     ) -> None:
         self._aside = Aside(installation)
         self._jobs = jobs
         self._tell = tell
+        self._sets = sets
         self._advice: dict[int, Advised] = {}  # of the present session
         self._client: int | None = None  # who has the axis moved
         self._axis = 0
@@ -136,6 +142,8 @@ class Tuning:
             if (error := done.exception()) is not None:
                 answer.set_exception(error)
             else:
+                if change.gains:
+                    self._sets.expect(axis)
                 self._jobs.compute(computed, work, done.result(), *args)
 
         def computed(done: "Future[T]") -> None:

@@ -21,6 +21,7 @@ from openacr.panel.server.calls import (  # noqa: F401
     session,
     texts,
     timeline,
+    tunings,
     variables,
     world,
 )
