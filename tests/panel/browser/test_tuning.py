@@ -6,9 +6,17 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import BrowserContext, Page, expect
+from playwright.sync_api import Browser, BrowserContext, Locator, Page, Route, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import open_page, picture
+from tests.panel.browser.conftest import (
+    READY,
+    give,
+    let_through,
+    open_page,
+    picture,
+    until,
+    until_model,
+)
 from tests.panel.browser.test_bench import open_pane
 from tests.panel.browser.test_screens import AXE, AXE_RUN
 
@@ -29,6 +37,22 @@ def page(context: BrowserContext, served: Served) -> Page:
     return opened
 
 
+INSIDE = """(bottom) => [...document.querySelectorAll('.tune-chart canvas')]
+  .every((each) => each.getBoundingClientRect().bottom <= bottom + 1)"""
+
+
+def in_force(page: Page) -> Locator:
+    """The set of gains that is in force, in the list of changes."""
+    return page.locator(".tune-changes [aria-current=true]")
+
+
+def open_pane_again(page: Page) -> None:
+    page.wait_for_function(READY)
+    until_model(page, "model.hello.value.client")
+    page.locator(".bench-tab-text", has_text="Tuning").click()
+    expect(page.locator("[data-gain='P Gain'] input.field")).not_to_have_value("")
+
+
 def gain(station: Station, parameter: int = P_GAIN) -> float:
     return float(station.link.machine.card.read(parameter))
 
@@ -46,7 +70,7 @@ def test_nothing_moves_or_changes_before_it_is_confirmed(page: Page, served: Ser
     dialog.get_by_role("button", name="MEASURE").click()
     expect(page.locator(".tune-chart canvas")).to_have_count(5)
     expect(page.locator("#prompt")).to_contain_text("Axis X is measured; nothing has been set")
-    rows = page.locator(".tune-table tbody tr")
+    rows = page.locator(".tune-side .tune-table tbody tr")
     expect(rows.filter(has_text="Crossover")).to_contain_text("30")
     assert served.call(gain) == before
     page.evaluate(AXE.read_text())
@@ -59,40 +83,46 @@ def test_proposed_gains_are_set_when_confirmed_and_taken_back_by_undo(
     before = served.call(gain)
     page.get_by_role("button", name="SET THESE GAINS").click()
     page.get_by_role("dialog").get_by_role("button", name="SET THESE GAINS").click()
-    expect(page.locator(".tune-chart canvas")).to_have_count(6)
+    expect(page.locator(".tune-chart canvas")).to_have_count(7)
     after = served.call(gain)
     assert after != before
     expect(page.locator(".tune-changes li", has_text="P Gain")).to_have_count(1)
     page.get_by_role("button", name="AS AT THE START").click()
-    expect(page.locator("#prompt")).to_contain_text("as they were at the start")
-    assert served.call(gain) == pytest.approx(before, rel=1e-6)
+    expect(page.locator("#prompt")).to_contain_text("The gains are those of")
+    expect(in_force(page)).to_contain_text("as they were found")
+    assert served.call(gain) == before
 
 
 def test_a_step_is_drawn_over_the_one_before(page: Page) -> None:
     page.locator("[data-pane=tune]").get_by_role("button", name="STEP", exact=True).click()
     page.get_by_role("dialog").get_by_role("button", name="STEP", exact=True).click()
     expect(page.locator("#prompt")).to_contain_text("Axis X: overshoot")
-    step = page.get_by_role("img", name="Step, pulses")  # the one before was that of the new gains
-    expect(step).to_have_count(1)
-    for label in ("setpoint", "measured", "predicted", "before"):
-        expect(step.locator(".u-series", has_text=label)).to_have_count(1)
+    # the one before was that of the new gains
+    shown = "Step, pulses: setpoint, measured, predicted, before"
+    expect(page.locator("[data-chart='Step, pulses']")).to_have_attribute("aria-label", shown)
+
+
+def press(page: Page, name: str, served: Served, parameter: int) -> float:
+    """Move the slider of a gain by one step; the value it has then."""
+    now = in_force(page).get_attribute("data-set")
+    page.locator(f"[data-gain='{name}']").get_by_role("slider").press("ArrowRight")
+    expect(in_force(page)).not_to_have_attribute("data-set", now or "")
+    return served.call(partial(gain, parameter=parameter))
 
 
 def test_a_slider_acts_at_once_and_undo_and_redo_go_back_and_forth(
     page: Page, served: Served
 ) -> None:
     before = served.call(partial(gain, parameter=D_GAIN))
-    row = page.locator("[data-gain='D Gain']")
-    changes = page.locator(".tune-changes li")
-    count = changes.count()
-    row.get_by_role("slider").press("ArrowRight")
-    expect(changes).to_have_count(count + 1)
-    wanted = float(f"{before * 10**0.01:.4g}")
-    assert served.call(partial(gain, parameter=D_GAIN)) == pytest.approx(wanted, rel=1e-3)
-    for word, value, left in (("UNDO", before, count), ("REDO", wanted, count + 1)):
+    wanted = press(page, "D Gain", served, D_GAIN)
+    assert wanted == pytest.approx(float(f"{before * 10**0.01:.4g}"), rel=1e-3)
+    count = page.locator(".tune-changes li").count()
+    for word, value in (("UNDO", before), ("REDO", wanted)):
+        number = in_force(page).get_attribute("data-set")
         page.get_by_role("button", name=word, exact=True).click()
-        expect(changes).to_have_count(left)
-        assert served.call(partial(gain, parameter=D_GAIN)) == pytest.approx(value, rel=1e-3)
+        expect(in_force(page)).not_to_have_attribute("data-set", number or "")
+        assert served.call(partial(gain, parameter=D_GAIN)) == value
+    expect(page.locator(".tune-changes li")).to_have_count(count)  # none is lost
     assert page.complaints == []  # type: ignore[attr-defined]
 
 
@@ -100,24 +130,180 @@ def test_any_earlier_set_of_gains_comes_back_with_one_press_and_redo_goes_forwar
     page: Page, served: Served
 ) -> None:
     changes = page.locator(".tune-changes li")
-    count = changes.count()
     values: list[float] = []
+    numbers: list[str] = []
     for name, parameter in (("P Gain", P_GAIN), ("D Gain", D_GAIN), ("P Gain", P_GAIN)):
-        page.locator(f"[data-gain='{name}']").get_by_role("slider").press("ArrowRight")
-        expect(changes).to_have_count(count + len(values) + 1)
-        values.append(served.call(partial(gain, parameter=parameter)))
-    expect(changes.last.locator("time")).not_to_have_text("")
-    expect(changes.last.get_by_role("button")).to_have_count(0)  # it counts now
-    changes.nth(count).get_by_role("button").click()
-    expect(changes).to_have_count(count + 1)
-    expect(page.locator("#prompt")).to_contain_text("The gains are as they were then")
-    assert served.call(gain) == pytest.approx(values[0], rel=1e-6)
-    assert served.call(partial(gain, parameter=D_GAIN)) != pytest.approx(values[1], rel=1e-3)
-    for _ in range(2):
+        values.append(press(page, name, served, parameter))
+        numbers.append(in_force(page).get_attribute("data-set") or "")
+    expect(in_force(page).locator("time")).not_to_have_text("")
+    expect(in_force(page).get_by_role("button")).to_have_count(0)
+    page.locator(f".tune-changes [data-set='{numbers[0]}']").get_by_role("button").click()
+    expect(in_force(page)).to_have_attribute("data-set", numbers[0])
+    expect(page.locator("#prompt")).to_contain_text("The gains are those of")
+    assert served.call(gain) == values[0]
+    assert served.call(partial(gain, parameter=D_GAIN)) != values[1]
+    for number in numbers[1:]:
         page.get_by_role("button", name="REDO", exact=True).click()
-    expect(changes).to_have_count(count + 3)
-    assert served.call(gain) == pytest.approx(values[2], rel=1e-6)
-    assert served.call(partial(gain, parameter=D_GAIN)) == pytest.approx(values[1], rel=1e-6)
+        expect(in_force(page)).to_have_attribute("data-set", number)
+    assert served.call(gain) == values[2]
+    assert served.call(partial(gain, parameter=D_GAIN)) == values[1]
+    assert changes.count() >= len(numbers)
+
+
+def test_what_another_host_changes_is_signed_and_the_fields_follow(
+    page: Page, served: Served
+) -> None:
+    served.call(lambda station: station.link.machine.card.command("AXIS0 PGAIN 0.0031"))
+    expect(in_force(page)).to_contain_text("changed elsewhere")
+    expect(page.locator("[data-gain='P Gain'] input.field")).to_have_value("0.0031")
+    page.get_by_role("button", name="UNDO", exact=True).click()
+    expect(page.locator("[data-gain='P Gain'] input.field")).not_to_have_value("0.0031")
+    assert served.call(gain) != pytest.approx(0.0031)
+
+
+def keep_as(page: Page, name: str) -> None:
+    page.get_by_role("button", name="KEEP AS").click()
+    dialog = page.get_by_role("dialog", name="KEEP AS")
+    dialog.get_by_role("textbox").fill(name)
+    dialog.get_by_role("button", name="OK").click()
+    expect(page.locator(f"[data-kept='{name}'] input")).to_be_checked()
+
+
+def curves(page: Page, title: str) -> str:
+    return page.locator(f"[data-chart='{title}']").get_attribute("aria-label") or ""
+
+
+def test_kept_measurements_are_drawn_over_the_present_one_and_compared_in_a_table(
+    page: Page, served: Served
+) -> None:
+    keep_as(page, "soft")
+    keep_as(page, "as found")
+    for title in ("Magnitude, dB", "Phase, degrees", "Coherence", "Predicted steps, pulses"):
+        assert curves(page, title).endswith("soft, as found")
+    inks = [
+        page.locator(f"[data-kept='{name}'] .tune-ink").evaluate("e => e.style.background")
+        for name in ("soft", "as found")
+    ]
+    assert len(set(inks)) == 2
+    expect(page.locator(".tune-legend .tune-name", has_text="as found")).to_have_count(1)
+    page.get_by_role("radio", name="TABLE").click()
+    table = page.locator(".tune-compared table")
+    expect(table.locator("thead th")).to_have_text(["", "present", "proposed", "soft", "as found"])
+    for row in (
+        "PGAIN",
+        "Gain margin",
+        "Phase margin",
+        "Bandwidth",
+        "Overshoot",
+        "Settling",
+        "RMS",
+    ):
+        cells = table.locator("tbody tr", has_text=row).locator("td")
+        expect(cells).to_have_count(4)
+        assert cells.nth(0).inner_text() == cells.nth(2).inner_text() != ""
+    page.get_by_role("radio", name=re.compile("CHARTS|BODE")).click()
+    page.locator("[data-kept='soft'] input").uncheck()
+    expect(
+        page.locator("[data-chart='Magnitude, dB'][aria-label$='proposed, as found']")
+    ).to_have_count(1)
+
+
+def test_a_kept_measurement_is_renamed_exported_read_again_and_deleted_after_a_question(
+    page: Page, tmp_path: Path
+) -> None:
+    page.get_by_role("button", name="Rename as found").click()
+    page.get_by_role("dialog").get_by_role("textbox").fill("first")
+    page.keyboard.press("Enter")
+    expect(page.locator("[data-kept=first] input")).to_be_checked()
+    with page.expect_download() as saved:
+        page.get_by_role("link", name="Export first").click()
+    file = tmp_path / saved.value.suggested_filename
+    assert file.name == "first.json"
+    saved.value.save_as(file)
+    page.get_by_role("button", name="Delete first").click()
+    dialog = page.get_by_role("dialog", name="Delete first")
+    expect(dialog).to_contain_text("It cannot be brought back")
+    dialog.get_by_role("button", name="CANCEL").click()
+    expect(page.locator("[data-kept=first]")).to_have_count(1)
+    page.get_by_role("button", name="Delete first").click()
+    dialog.get_by_role("button", name="DELETE").click()
+    expect(page.locator("[data-kept=first]")).to_have_count(0)
+    page.get_by_label("OPEN FILE").set_input_files(file)
+    expect(page.locator("[data-kept=first] input")).to_be_checked()
+    other = tmp_path / "other.json"
+    other.write_text("{}")
+    page.get_by_label("OPEN FILE").set_input_files(other)
+    expect(page.locator("#prompt")).to_contain_text("other.json is no kept measurement")
+
+
+def test_on_a_slow_link_the_last_choice_counts(page: Page) -> None:
+    page.reload()
+    open_pane_again(page)
+    held: list[Route] = []
+    page.route("**/api/tunings/file*", lambda route: held.append(route))
+    box = page.locator("[data-kept=first] input")
+    box.check()
+    until(page, lambda: held)
+    box.uncheck()
+    page.locator("[data-kept=soft] input").check()
+    until(page, lambda: len(held) == 2)
+    for each in reversed(held):
+        let_through(page, each)
+    page.unroute("**/api/tunings/file*")
+    expect(page.locator("[data-chart='Magnitude, dB'][aria-label$=': soft']")).to_have_count(1)
+    expect(box).not_to_be_checked()
+    assert page.complaints == []  # type: ignore[attr-defined]
+
+
+def test_all_charts_are_beside_each_other_without_scrolling_and_by_tabs_where_it_is_narrow(
+    page: Page, browser: Browser, served: Served, pictures: Path
+) -> None:
+    give(page, "control.release")
+    with browser.new_context(viewport={"width": 1366, "height": 768}) as context:
+        wide = open_page(context, f"{served.url}/bench")
+        until_model(wide, "model.hello.value.client")
+        wide.get_by_role("button", name="TUNE", exact=True).click()
+        tune = wide.locator("[data-pane=tune]")
+        tune.get_by_role("textbox", name="Time, s").fill("0.3")
+        for key, said in (("MEASURE", "is measured"), ("STEP", "overshoot")):
+            tune.get_by_role("button", name=key, exact=True).click()
+            wide.get_by_role("dialog").get_by_role("button", name=key, exact=True).click()
+            expect(wide.locator("#prompt")).to_contain_text(said)
+        expect(wide.locator("[data-chart='Step, pulses']")).to_have_count(1)
+        all_charts_are_seen(wide, pictures)
+    give(page, "control.take")
+
+
+def all_charts_are_seen(page: Page, pictures: Path) -> None:
+    view = page.locator(".tune-view.is-wide")
+    expect(view).to_have_count(1)
+    expect(page.get_by_role("radio", name="CHARTS")).to_be_checked()
+    parts = [page.locator(f"[data-part={name}]") for name in ("bode", "step", "simulation")]
+
+    def are_beside() -> bool:
+        boxes = [part.bounding_box() for part in parts]
+        if not all(boxes):
+            return False
+        edges = [(box["x"], box["x"] + box["width"], box["y"]) for box in boxes if box]
+        return (
+            edges[0][1] <= edges[1][0]
+            and edges[1][1] <= edges[2][0]
+            and len({y for *_, y in edges}) == 1
+        )
+
+    until(page, are_beside)
+    low = "e => e.scrollHeight <= e.clientHeight && e.getBoundingClientRect().bottom"
+    bottom = view.evaluate(low)
+    assert bottom
+    until(page, lambda: page.evaluate(INSIDE, bottom))
+    picture(page, pictures / "tuning-wide.png")
+    page.set_viewport_size({"width": 1024, "height": 768})
+    expect(page.get_by_role("radio", name="BODE")).to_be_checked()
+    expect(parts[1]).to_be_hidden()
+    page.get_by_role("radio", name="STEP").click()
+    expect(parts[1]).to_be_visible()
+    expect(parts[0]).to_be_hidden()
+    assert page.complaints == []  # type: ignore[attr-defined]
 
 
 def elastic(station: Station) -> None:
@@ -148,7 +334,7 @@ def test_a_resonance_is_shown_and_a_notch_is_asked_for_with_the_gains(
     found = re.match(r"Resonance: ([\d.]+) Hz", shown.inner_text())
     assert found is not None
     assert float(found[1]) == pytest.approx(RESONANCE_HZ, rel=0.02)
-    rows = page.locator(".tune-table tbody tr")
+    rows = page.locator(".tune-side .tune-table tbody tr")
     notch = rows.filter(has_text="NOTCH, Hz").locator("td").last.inner_text()
     assert float(notch) == pytest.approx(RESONANCE_HZ, rel=0.02)
     expect(rows.filter(has_text="Load swings")).to_have_count(1)

@@ -10,6 +10,8 @@ import {
   spanAt,
   toggled,
 } from "../../../src/openacr/panel/web/js/bench/lane_list.js";
+import { freeName, inksOf, INKS, keptOf, ofFile } from "../../../src/openacr/panel/web/js/bench/tuning/kept_data.js";
+import { neighbours } from "../../../src/openacr/panel/web/js/bench/tuning/sets_list.js";
 import {
   keyed,
   neighbour,
@@ -281,4 +283,55 @@ test("a camera fits points beside the keys and knows which ones it shows", () =>
     ].map(shows),
     [false, false, false, false],
   );
+});
+
+test("UNDO leads to what was in force before, REDO to the latest that followed, and none is lost", () => {
+  const sets = [
+    { number: 1, before: 0 },
+    { number: 2, before: 1 },
+    { number: 3, before: 2 },
+    { number: 4, before: 1 },
+  ];
+  assert.deepEqual(neighbours({ current: 4, sets }), { undo: 1, redo: 0, start: 1 });
+  assert.deepEqual(neighbours({ current: 1, sets }), { undo: 0, redo: 4, start: 0 });
+  assert.deepEqual(neighbours({ current: 2, sets }), { undo: 1, redo: 3, start: 1 });
+  assert.deepEqual(neighbours({ current: 3, sets: [sets[0], sets[2]] }), { undo: 0, redo: 0, start: 1 }); // 2 is dropped
+  assert.deepEqual(neighbours({ current: 0, sets: [] }), { undo: 0, redo: 0, start: 0 });
+});
+
+test("a kept measurement keeps its colour while it is shown, and another one gets a free one", () => {
+  const first = inksOf([7, 3], new Map());
+  assert.deepEqual(
+    [...first],
+    [
+      [7, INKS[0]],
+      [3, INKS[1]],
+    ],
+  );
+  const next = inksOf([3, 9], first);
+  assert.deepEqual([next.get(3), next.get(9), next.size], [INKS[1], INKS[0], 2]);
+  assert.equal(inksOf([1, 2, 3, 4, 5, 6, 7], new Map()).size, INKS.length);
+});
+
+test("a measurement is kept with a step only where that was made with the same gains", () => {
+  const curve = { time_s: [0], setpoint_cnt: [1], actual_cnt: [1], output_v: [2] };
+  const loop = { gains: { PGAIN: 1 }, filters: null, margins: {}, figures: {}, rms_error_cnt: 2, step: curve };
+  const bode = { frequency_hz: [1], present: {}, measured: {}, motor: {}, proposed: {} };
+  const found = { present: loop, proposed: loop, bode, time_s: 1, amplitude_cnt: 100, band_hz: [2, 60] };
+  const trial = { figures: { rise_s: 1 }, measured: curve, predicted: null, set: 4 };
+  const kept = keptOf(found, { axis: "X", at: "now", set: 4, trial });
+  const bare = { time_s: [0], setpoint_cnt: [1], actual_cnt: [1] };
+  assert.deepEqual(kept.trial, { figures: { rise_s: 1 }, measured: bare });
+  assert.deepEqual(kept.present.step, bare);
+  assert.deepEqual(Object.keys(kept.bode), ["frequency_hz", "present", "measured"]);
+  assert.equal(keptOf(found, { axis: "X", at: "now", set: 5, trial }).trial, null);
+  assert.equal(keptOf(found, { axis: "X", at: "now", set: 4, trial: null }).trial, null);
+});
+
+test("a file is a kept measurement or none, and its name gets a number where it is taken", () => {
+  assert.deepEqual(ofFile('{"name": "a", "tuning": {"axis": "X"}, "more": 1}'), { name: "a", tuning: { axis: "X" } });
+  for (const text of ["{}", "", "[1]", '{"name": "a"}', '{"tuning": {}, "name": 3}', "null"])
+    assert.equal(ofFile(text), null);
+  assert.equal(freeName("a", ["b"]), "a");
+  assert.equal(freeName("a", ["a", "a (2)"]), "a (3)");
 });

@@ -27,16 +27,16 @@ export const JOBS = Object.freeze({
   },
   tune: {
     title: { en: "TUNE", de: "EINSTEL\u00adLEN" },
-    largest: "scope",
+    largest: "tune",
     parts: /** @type {Part[]} */ ([
       {
-        share: 36,
+        share: 24,
         parts: [
-          { share: 55, panes: ["tune", "gain", "servo"] },
-          { share: 45, panes: ["jog", "watch", "alarms"] },
+          { share: 55, panes: ["jog", "watch", "alarms"] },
+          { share: 45, panes: ["gain", "servo"] },
         ],
       },
-      { share: 64, panes: ["scope"] },
+      { share: 76, panes: ["tune", "scope"] },
     ]),
   },
   watch: {

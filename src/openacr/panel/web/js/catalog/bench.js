@@ -249,7 +249,6 @@ const TUNING = {
   "tune.undo": { en: "UNDO", de: "ZUR\u00dcCK" },
   "tune.redo": { en: "REDO", de: "WIEDER" },
   "tune.start": { en: "AS AT THE START", de: "WIE AM ANFANG" },
-  "tune.started": { en: "The gains are as they were at the start", de: "Die Werte sind wie am Anfang" },
   "tune.slider": { en: "{gain}, slider", de: "{gain}, Schieber" },
   "tune.zero": { en: "0: type a value", de: "0: Wert eintippen" },
 };

@@ -7,7 +7,10 @@ import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
 import { confirm } from "../../frame/dialog.js";
 import { mayMove } from "../../motion/actions.js";
-import { chart, drawTuning } from "../tuning/charts.js";
+import { drawTuning } from "../tuning/charts.js";
+import { columnsOf, factsOf, filterText, GAINS, inMs, shown, tableOf, worseOf } from "../tuning/figures.js";
+import { keptMeasurements } from "../tuning/kept.js";
+import { keptOf } from "../tuning/kept_data.js";
 import { gainSliders } from "../tuning/sliders.js";
 
 const TEXTS = {
@@ -15,11 +18,6 @@ const TEXTS = {
   lowest: { en: "Lowest frequency, Hz", de: "Tiefste Frequenz, Hz" },
   highest: { en: "Highest frequency, Hz", de: "H\u00f6chste Frequenz, Hz" },
   time: { en: "Time, s (empty: what fits)", de: "Dauer, s (leer: was passt)" },
-  swept: { en: "Measured for {time} s", de: "{time} s lang gemessen" },
-  worse: {
-    en: "Worse than with the present gains: {name} {after} instead of {before}",
-    de: "Schlechter als mit den jetzigen Werten: {name} {after} statt {before}",
-  },
   margin: { en: "Phase margin, degrees", de: "Phasenreserve, Grad" },
   wanted: { en: "Crossover, Hz (empty: the highest)", de: "Durchtritt, Hz (leer: der h\u00f6chste)" },
   integral: { en: "with IGAIN", de: "mit IGAIN" },
@@ -36,43 +34,24 @@ const TEXTS = {
   done: { en: "Axis {axis} is measured; nothing has been set", de: "Achse {axis} ist gemessen; nichts wurde gesetzt" },
   nothing: { en: "Nothing is proposed: {why}", de: "Nichts wird vorgeschlagen: {why}" },
   applied: { en: "Axis {axis} has the proposed gains", de: "Achse {axis} hat die vorgeschlagenen Werte" },
-  facts: {
-    en: "Motor: {accel} pulses/s\u00b2 per V, rate {rate} /s, friction {friction} V, offset {offset} V, delay {delay} servo periods",
-    de: "Motor: {accel} Pulse/s\u00b2 je V, Rate {rate} /s, Reibung {friction} V, Versatz {offset} V, Verzug {delay} Servotakte",
-  },
-  sure: {
-    en: "{error} % of the response is unexplained, coherence {coherence}",
-    de: "{error} % der Antwort sind nicht erkl\u00e4rt, Koh\u00e4renz {coherence}",
-  },
-  unsure: {
-    en: "Not sure: {error} % of the response is unexplained, coherence {coherence}",
-    de: "Nicht sicher: {error} % der Antwort sind nicht erkl\u00e4rt, Koh\u00e4renz {coherence}",
-  },
-  limited: { en: "Faster is barred: {why}", de: "Schneller geht es nicht: {why}" },
-  crossover: { en: "Crossover, Hz", de: "Durchtritt, Hz" },
-  gainMargin: { en: "Gain margin, dB", de: "Amplitudenreserve, dB" },
-  bandwidth: { en: "Bandwidth, Hz", de: "Bandbreite, Hz" },
-  resonance: {
-    en: "Resonance: {hz} Hz \u00b1 {spread}, antiresonance {anti} Hz, damping {damping}, load {ratio} of the motor",
-    de: "Resonanz: {hz} Hz \u00b1 {spread}, Antiresonanz {anti} Hz, D\u00e4mpfung {damping}, Last das {ratio}-fache des Motors",
-  },
-  rigid: { en: "Resonance: {why}", de: "Resonanz: {why}" },
-  notch: { en: "NOTCH, Hz", de: "NOTCH, Hz" },
-  width: { en: "NOTCH width, Hz", de: "NOTCH, Breite, Hz" },
-  lopass: { en: "LOPASS, Hz", de: "LOPASS, Hz" },
-  swing: { en: "Load swings after a step, pulses", de: "Last schwingt nach einem Sprung, Pulse" },
-  overshoot: { en: "Overshoot of a step, %", de: "\u00dcberschwingen eines Sprungs, %" },
-  predicted: { en: "predicted", de: "vorhergesagt" },
   stepText: {
     en: "Axis {axis} moves now: by {amplitude} pulses and back, at once. Is it free to move? STOP ends it.",
     de: "Achse {axis} bewegt sich jetzt: um {amplitude} Pulse und zur\u00fcck, auf einmal. Ist ihr Weg frei? STOP beendet es.",
   },
-  former: { en: "before", de: "zuvor" },
   stepped: {
     en: "Axis {axis}: overshoot {overshoot} %, rise {rise} ms, settling {settling} ms",
     de: "Achse {axis}: \u00dcberschwingen {overshoot} %, Anstieg {rise} ms, Einschwingen {settling} ms",
   },
-  trial: { en: "Step, pulses", de: "Sprung, Pulse" },
+  charts: { en: "CHARTS", de: "DIAGRAMME" },
+  bode: { en: "BODE", de: "BODE" },
+  step: { en: "STEP", de: "SPRUNG" },
+  simulation: { en: "SIMULATION", de: "SIMULATION" },
+  table: { en: "TABLE", de: "TABELLE" },
+  view: { en: "View", de: "Ansicht" },
+  noTable: {
+    en: "MEASURE an axis, or show kept measurements: the table compares them.",
+    de: "Eine Achse MESSEN oder aufbewahrte Messungen zeigen: Die Tabelle vergleicht sie.",
+  },
 };
 
 const FIELDS = /** @type {const} */ ([
@@ -84,7 +63,9 @@ const FIELDS = /** @type {const} */ ([
   ["bandwidth_hz", TEXTS.wanted, ""],
 ]);
 const LONGEST_S = 1.5; // of a sweep without a given time
-const GAINS = ["PGAIN", "IGAIN", "ILIMIT", "DGAIN", "FFVEL", "FFACC"];
+const CHARTS = /** @type {const} */ (["bode", "step", "simulation"]);
+const VIEWS = /** @type {const} */ (["charts", ...CHARTS, "table"]);
+const WIDE = 660; // pixels in which all charts have their place beside each other
 
 /**
  * @param {HTMLElement} host
@@ -93,7 +74,6 @@ const GAINS = ["PGAIN", "IGAIN", "ILIMIT", "DGAIN", "FFVEL", "FFACC"];
 export async function mount(host, { head, kept, keep }) {
   const endings = new Endings();
   const drawn = new Endings();
-  const tried = new Endings();
   const all = await cardAxes(); // before there is a key that moves one
   const axes = h("div.row.wrap", { role: "radiogroup", ariaLabel: t("form.axis") });
   const fields = FIELDS.map(([name, text, value]) =>
@@ -112,8 +92,14 @@ export async function mount(host, { head, kept, keep }) {
   const apply = keyOf("tune.apply", () => void onApply(), ".danger", { disabled: true });
   const state = h("p.hint", { role: "status" });
   const facts = h("div.stack", {});
-  const charts = h("div.tune-charts", {});
   const sliders = h("div.stack.tune-sliders", {});
+  const keptHost = h("div.stack.tune-measurements", {});
+  const tabs = h("div.row.wrap.tune-tabs", { role: "radiogroup", ariaLabel: t(TEXTS.view) });
+  const legend = h("div.tune-legend", {});
+  const columns = CHARTS.map((name) => h("section.tune-column", { ariaLabel: t(TEXTS[name]), data: { part: name } }));
+  const [bode, made, simulation] = columns;
+  const compared = h("div.tune-compared.scroll", { tabIndex: 0, data: { part: "table" } });
+  const view = h("div.tune-view", {}, tabs, legend, h("div.tune-charts", {}, ...columns), compared);
   head.append(axes, measure, step, apply);
   host.append(
     h(
@@ -127,19 +113,23 @@ export async function mount(host, { head, kept, keep }) {
         h("label.check", {}, store, t("gain.store")),
         state,
         facts,
+        keptHost,
         sliders,
       ),
-      h("div.scroll.tune-view", { tabIndex: 0 }, charts),
+      view,
     ),
   );
   let axis = all[0];
   /** @type {any} */
   let found = null;
-  /** @type {{ reload: () => Promise<void> } | null} */
+  /** @type {import("../tuning/sets.js").GainSets | null} */
   let gains = null;
-  /** @type {any} */
-  let former = null; // step
+  /** @type {{ made: any, former: any, set: number } | null} */
+  let trial = null;
+  let measuredAt = { at: "", set: 0 };
+  let shownView = kept.view ?? "bode";
   let isMoving = false;
+  const measurements = keptMeasurements(keptHost, present, draw, endings);
 
   /** @param {import("../../core/card_axes.js").CardAxis} chosen */
   async function choose(chosen) {
@@ -155,20 +145,65 @@ export async function mount(host, { head, kept, keep }) {
         ),
       ),
     );
+    trial = null;
     show(null);
-    former = null;
-    gains = await gainSliders(sliders, chosen, () => store.checked && chosen.isMachines);
+    gains?.end();
+    gains = null;
+    const shownSets = await gainSliders(sliders, chosen, () => store.checked && chosen.isMachines);
+    if (axis === chosen) gains = shownSets;
+    else shownSets.end(); // another axis was chosen meanwhile
+  }
+
+  /** The present measurement as it is kept; null without one. */
+  function present() {
+    if (!found) return null;
+    return keptOf(found, { axis: axis.name, ...measuredAt, trial: trial && { ...trial.made, set: trial.set } });
+  }
+
+  /** @param {string} name */
+  function look(name) {
+    shownView = name;
+    args();
+    drawTabs();
+  }
+
+  /** The keys of the views; where all charts fit beside each other, one key is for all of them. */
+  function drawTabs() {
+    const isWide = view.clientWidth >= WIDE;
+    const now = shownView === "table" ? "table" : isWide ? "charts" : shownView === "charts" ? "bode" : shownView;
+    view.dataset.view = now;
+    view.classList.toggle("is-wide", isWide);
+    fill(
+      tabs,
+      ...VIEWS.filter((name) => name === "table" || (name === "charts") === isWide).map((name) =>
+        h(
+          "button.key",
+          { type: "button", role: "radio", ariaChecked: String(name === now), onclick: () => look(name) },
+          t(TEXTS[name]),
+        ),
+      ),
+    );
+  }
+
+  /** Draw measurement, step and what is kept. */
+  function draw() {
+    drawn.end();
+    const over = measurements.shown();
+    drawn.add(drawTuning({ bode, step: made, simulation, legend }, found, trial, over));
+    const loops = [
+      ...columnsOf(found),
+      ...over.map(({ name, ink, tuning }) => ({ title: name, ink, loop: tuning.present, about: tuning })),
+    ];
+    fill(compared, loops.length ? tableOf(loops) : h("p.hint", {}, t(TEXTS.noTable)));
   }
 
   /** @param {any} advice */
   function show(advice) {
     found = advice;
-    drawn.end();
-    tried.end();
-    fill(charts);
     apply.disabled = !advice?.proposed;
-    fill(facts, ...(advice ? [table(advice)] : []));
-    if (advice) drawn.add(drawTuning(charts, advice));
+    measurements.mayKeep(Boolean(advice));
+    fill(facts, ...(advice ? factsOf(advice) : []));
+    draw();
   }
 
   /** The fields as arguments; an empty one is left out. */
@@ -179,7 +214,7 @@ export async function mount(host, { head, kept, keep }) {
       const text = field.value.trim().replace(",", ".");
       if (text) given[field.dataset.field ?? ""] = Number(text);
     }
-    keep(Object.fromEntries(fields.map((field) => [field.dataset.field, field.value])));
+    keep({ ...Object.fromEntries(fields.map((field) => [field.dataset.field, field.value])), view: shownView });
     return given;
   }
 
@@ -209,7 +244,9 @@ export async function mount(host, { head, kept, keep }) {
     });
     if (!mayMove() || !(await confirm(t("tune.measure"), text, t("tune.measure")))) return;
     const advice = await moved("tune.measure", given);
+    await gains?.refresh();
     if (!advice) return;
+    measuredAt = { at: new Date().toISOString(), set: gains?.current() ?? 0 };
     show(advice);
     report(advice.refusal ? t(TEXTS.nothing, { why: advice.refusal }) : t(TEXTS.done, { axis: axis.name }));
   }
@@ -220,7 +257,7 @@ export async function mount(host, { head, kept, keep }) {
     if (!mayMove() || !(await confirm(t("tune.step"), text, t("tune.step")))) return;
     const answer = await moved("tune.step", { axis: axis.name, amplitude });
     if (!answer) return;
-    drawStep(answer);
+    await drawStep(answer);
     const { overshoot_percent: overshoot, rise_s: rise, settling_s: settling } = answer.figures;
     report(
       t(TEXTS.stepped, { axis: axis.name, overshoot: shown(overshoot), rise: inMs(rise), settling: inMs(settling) }),
@@ -231,22 +268,10 @@ export async function mount(host, { head, kept, keep }) {
    * Draw a step that the axis has made, and the one before it.
    * @param {any} answer
    */
-  function drawStep({ measured, predicted }) {
-    tried.end();
-    const curves = [
-      { label: t("tune.setpoint"), ink: "setpoint", x: measured.time_s, y: measured.setpoint_cnt },
-      { label: t("tune.measured"), ink: "measured", x: measured.time_s, y: measured.actual_cnt },
-      predicted && {
-        label: t(TEXTS.predicted),
-        ink: "modelled",
-        x: predicted.time_s,
-        y: predicted.actual_cnt,
-        dash: [4, 3],
-      },
-      former && { label: t(TEXTS.former), ink: "present", x: former.time_s, y: former.actual_cnt, dash: [6, 3] },
-    ];
-    tried.add(chart(charts, t(TEXTS.trial), "s", curves.filter(Boolean)));
-    former = measured;
+  async function drawStep(answer) {
+    await gains?.refresh();
+    trial = { made: answer, former: trial?.made.measured ?? null, set: gains?.current() ?? 0 };
+    draw();
   }
 
   async function onApply() {
@@ -255,21 +280,23 @@ export async function mount(host, { head, kept, keep }) {
       axis: axis.name,
       overshoot: shown(overshoot),
       gains:
-        GAINS.map((word) => `${word} ${shown(found.proposed.gains[word])}`).join(", ") + filterText(found.proposed),
+        GAINS.filter((word) => found.proposed.gains[word] || found.present.gains[word])
+          .map((word) => `${word} ${shown(found.proposed.gains[word])}`)
+          .join(", ") + filterText(found.proposed),
     });
     const worse = worseOf(found).map(([, said]) => said);
     const question = [...worse, text].join("\n\n");
     if (!mayMove() || !(await confirm(t("tune.apply"), question, t("tune.apply")))) return;
     const answer = await moved("tune.apply", { axis: axis.name, store: store.checked && axis.isMachines });
-    await gains?.reload();
+    await gains?.refresh();
     if (!answer) return;
-    drawStep(answer);
+    await drawStep(answer);
     report(t(TEXTS.applied, { axis: axis.name }));
   }
 
   endings.add(
     () => drawn.end(),
-    () => tried.end(),
+    () => gains?.end(),
     () => {
       // The pane that watches the motion has gone.
       if (isMoving && link.isOpen.value) void link.command("stop.hold").catch(() => {});
@@ -279,153 +306,14 @@ export async function mount(host, { head, kept, keep }) {
         setText(state, t(TEXTS.reading, { done: progress.done, count: progress.count }));
     }),
   );
-  await choose(axis);
-  return () => endings.end();
-}
-
-/**
- * Motor, certainty, gains and margins: present and proposed side by side.
- * @param {any} advice
- */
-function table(advice) {
-  const loops = [advice.present, advice.proposed].filter(Boolean);
-  const { motor } = advice;
-  const rows = [
-    ...GAINS.map((word) => [word, (/** @type {any} */ loop) => shown(loop.gains[word])]),
-    ...filterRows(loops),
-    [t(TEXTS.crossover), (/** @type {any} */ loop) => shown(loop.margins.crossover_hz)],
-    [t(TEXTS.margin), (/** @type {any} */ loop) => shown(loop.margins.phase_deg)],
-    [t(TEXTS.gainMargin), (/** @type {any} */ loop) => shown(loop.margins.gain_db)],
-    [t(TEXTS.bandwidth), (/** @type {any} */ loop) => shown(loop.margins.bandwidth_hz)],
-    [t(TEXTS.overshoot), (/** @type {any} */ loop) => shown(loop.figures.overshoot_percent)],
-    ...(advice.resonance.resonance_hz === null
-      ? []
-      : [[t(TEXTS.swing), (/** @type {any} */ loop) => shown(loop.figures.vibration_cnt)]]),
-  ];
-  return h(
-    "div.stack",
-    {},
-    h(
-      "p.tune-motor",
-      {},
-      t(TEXTS.facts, {
-        accel: shown(motor.accel_per_volt),
-        rate: shown(motor.rate_per_s),
-        friction: shown(motor.coulomb_accel / motor.accel_per_volt),
-        offset: shown(motor.offset_v),
-        delay: shown(motor.delay_tk),
-      }),
-    ),
-    h("p.tune-resonance", {}, resonance(advice.resonance)),
-    h(
-      "p",
-      { className: advice.is_sure ? "hint" : "notice" },
-      t(advice.is_sure ? TEXTS.sure : TEXTS.unsure, {
-        error: shown(advice.error_percent),
-        coherence: shown(advice.coherence),
-      }),
-    ),
-    ...worseOf(advice).map(([name, said]) => h("p.notice", { data: { worse: name } }, said)),
-    advice.time_s < LONGEST_S ? h("p.hint", {}, t(TEXTS.swept, { time: advice.time_s })) : null,
-    advice.refusal || advice.limited_by
-      ? h("p.hint", {}, advice.refusal || t(TEXTS.limited, { why: advice.limited_by }))
-      : null,
-    h(
-      "table.grid.tune-table",
-      {},
-      h(
-        "thead",
-        {},
-        h(
-          "tr",
-          {},
-          h("th", {}),
-          ...loops.map((_loop, n) => h("th.number", {}, t(n ? "tune.proposed" : "tune.present"))),
-        ),
-      ),
-      h(
-        "tbody",
-        {},
-        ...rows.map(([name, cell]) =>
-          h(
-            "tr",
-            {},
-            h("th", { scope: "row" }, /** @type {string} */ (name)),
-            ...loops.map((loop) => h("td.number", {}, /** @type {(loop: any) => string} */ (cell)(loop))),
-          ),
-        ),
-      ),
-    ),
+  const sizes = new ResizeObserver(drawTabs);
+  sizes.observe(view);
+  document.documentElement.addEventListener("theme", draw);
+  endings.add(
+    () => sizes.disconnect(),
+    () => document.documentElement.removeEventListener("theme", draw),
   );
-}
-
-/**
- * What is predicted to become worse with the proposed gains: the name of each figure, and the sentence.
- * @param {any} advice
- * @returns {[string, string][]}
- */
-function worseOf(advice) {
-  return Object.entries(advice.worse).map(([name, [before, after]]) => [
-    name,
-    t(TEXTS.worse, {
-      name: t(/** @type {any} */ (`tune.worse.${name}`)),
-      before: name.endsWith("_s") ? inMs(before) : shown(before),
-      after: name.endsWith("_s") ? inMs(after) : shown(after),
-    }),
-  ]);
-}
-
-/**
- * The resonance that was found, or up to where there is none.
- * @param {any} found
- */
-function resonance({
-  resonance_hz: hz,
-  antiresonance_hz: anti,
-  damping_ratio: damping,
-  inertia_ratio: ratio,
-  deviations,
-  reason,
-}) {
-  if (hz === null) return t(TEXTS.rigid, { why: reason });
-  return t(TEXTS.resonance, {
-    hz: shown(hz),
-    spread: Number(deviations.resonance_hz.toPrecision(1)),
-    anti: shown(anti),
-    damping: Number(damping.toPrecision(2)),
-    ratio: Number(ratio.toPrecision(2)),
-  });
-}
-
-/**
- * Rows of the filters, where one of the loops has any.
- * @param {any[]} loops
- * @returns {any[]}
- */
-function filterRows(loops) {
-  const words = /** @type {const} */ ([
-    [TEXTS.lopass, "lopass_hz"],
-    [TEXTS.notch, "notch_hz"],
-    [TEXTS.width, "notch_width_hz"],
-  ]);
-  return words
-    .filter(([, key]) => loops.some((loop) => loop.filters?.[key]))
-    .map(([text, key]) => [t(text), (/** @type {any} */ loop) => shown(loop.filters?.[key] ?? null)]);
-}
-
-/** The filters of a loop as they are written in a question. @param {any} loop */
-function filterText({ filters }) {
-  if (!filters) return "";
-  const notch = filters.notch_hz ? `, NOTCH (${shown(filters.notch_hz)},${shown(filters.notch_width_hz)})` : "";
-  return `${filters.lopass_hz ? `, LOPASS ${shown(filters.lopass_hz)}` : ""}${notch}`;
-}
-
-/** @param {number | null} seconds */
-function inMs(seconds) {
-  return shown(seconds === null ? null : 1000 * seconds);
-}
-
-/** @param {number | null} value */
-function shown(value) {
-  return value === null ? "\u2013" : String(Number(value.toPrecision(4)));
+  drawTabs();
+  await Promise.all([choose(axis), measurements.read()]);
+  return () => endings.end();
 }
