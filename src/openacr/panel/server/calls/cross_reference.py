@@ -48,8 +48,9 @@ def table(
 ) -> list[dict[str, object]]:
     """The names with their uses, as the screens show them."""
     lines = {name: [(line.number, line.text) for line in found] for name, found in texts.items()}
+    order = {program: place for place, program in enumerate(lines)}
     named: dict[str, list[Use]] = {}
-    for use in uses(lines, aliases):
+    for use in sorted(uses(lines, aliases), key=lambda each: (order[each.program], each.line)):
         named.setdefault(use.name, []).append(use)
     return [
         {

@@ -17,9 +17,11 @@ import { want } from "../wanted.js";
  * @property {(items: Item[]) => void} list show places below the text
  * @property {(...content: Node[]) => void} showBeside show something beside the text
  *
+ * @property {() => string} level of the program that is open; empty for a file
+ *
  * @param {Pane} pane
  */
-export function nameActions({ asked, editor, list, showBeside }) {
+export function nameActions({ level, asked, editor, list, showBeside }) {
   async function definition() {
     const answer = await asked("definitions");
     if (answer?.places.length) editor().goTo(answer.places[0].span);
@@ -37,7 +39,8 @@ export function nameActions({ asked, editor, list, showBeside }) {
       column,
     );
     if (!answer.places.length && !name) refuse(t("texts.noname"));
-    if (name) want("uses", name);
+    const isOwn = level() && /^[LSD$][VA]\d+$/i.test(name); // a variable or array of this program
+    if (name) want("uses", isOwn ? `${level()} ${name}` : name);
     list(answer.places.map((/** @type {any} */ each) => ({ ...each, kind: "use" })));
   }
 

@@ -89,7 +89,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     },
     apply: (edits) => editor.apply(edits),
   });
-  const actions = nameActions({ asked, editor: () => editor, list, showBeside });
+  const actions = nameActions({ level: () => opened.level, asked, editor: () => editor, list, showBeside });
   const debug = debugPart({
     level: () => opened.level,
     editor: () => editor,

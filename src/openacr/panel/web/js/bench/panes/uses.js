@@ -9,7 +9,7 @@ import { fullName } from "../../frame/card_value.js";
 import { takeWanted, want } from "../wanted.js";
 
 const TEXTS = {
-  find: { en: "P10, BIT516, a name or words", de: "P10, BIT516, ein Name oder W\u00f6rter" },
+  find: { en: "P10, BIT516, LV0, a name or words", de: "P10, BIT516, LV0, ein Name oder W\u00f6rter" },
   read: { en: "READ", de: "LESEN" },
   none: { en: "No program on the card names it", de: "Kein Programm der Karte nennt es" },
   count: { en: "{count} {count|name|names}", de: "{count} {count|Name|Namen}" },
@@ -92,7 +92,7 @@ export async function mount(host, { head, kept, keep }) {
  * @param {string} find
  */
 function fits({ name, item, target }, find) {
-  const exact = /^(P|BIT)?\d+$/i.exec(find);
+  const exact = /^(?:PROG\d+ )?(P|BIT|[LSD$][VA])?\d+$/i.exec(find);
   const own = [name, name.replace(/^\S+ /, ""), target].map((each) => each.toUpperCase());
   if (exact) return exact[1] ? own.includes(find.toUpperCase()) : own.some((each) => each.replace(/^\D+/, "") === find);
   const known = [name, target, item ? `${fullName(item)} ${item.section}` : ""].join(" ").toUpperCase();
@@ -104,7 +104,7 @@ function fits({ name, item, target }, find) {
 
 /** @param {Name} name */
 function sectionOf({ name, item, target, uses }) {
-  const isValue = item !== null || /^(P|BIT)\d+$/.test(name);
+  const isValue = item !== null || /(^|\s)(P|BIT|[LSD$][VA])\d+$/.test(name);
   const isWritten = uses.some(({ access }) => access === "writes");
   return h(
     "section.use",
