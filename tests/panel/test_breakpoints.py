@@ -123,6 +123,120 @@ def test_a_held_program_holds_its_motion_along_the_path_and_continues_it(
     hand.until(lambda: axis.commanded_cnt == 3000)
 
 
+# --- PLCs -----------------------------------------------------------------------------
+
+LADDER = "10 LD 130\n20 AND 131\n30 OUT 132\n40 LD 133\n50 OUT 134\n60 LD 135\n70 OUT 136\n"
+RUNNING, FIRST_SCAN = 1536, 1537  # flags of PLC0
+
+
+@pytest.fixture
+def scanning(hand: HandStation) -> HandStation:
+    """PLC0 runs, with a breakpoint at the coils of 132 and 134; FIRST_SCAN is over."""
+    card(hand).send("SYS\rDIM PLC0(2000)\r")
+    sent(hand, LADDER, plc=0)
+    hand.do("break.set", plc=0, line=30)
+    hand.do("break.set", plc=0, line=50)
+    hand.do("card.run", plc=0)
+    hand.run(0.05)
+    assert (card(hand).bit[RUNNING], fact(hand)["held"]) == (True, [])
+    return hand
+
+
+def held_plc(hand: HandStation) -> list[tuple[int, int]]:
+    return [(each["plc"], each["line"]) for each in fact(hand)["held"]]
+
+
+def test_a_plc_is_held_after_the_scan_that_changes_a_coil_and_goes_on_as_it_was(
+    scanning: HandStation,
+) -> None:
+    hand, bits = scanning, card(scanning).bit
+    bits[135] = True  # of a coil without a breakpoint
+    hand.run(0.05)
+    assert (bits[136], fact(hand)["held"]) == (True, [])
+    bits[133] = True
+    hand.until(lambda: held_plc(hand) == [(0, 50)])
+    assert (bits[134], bits[RUNNING]) == (True, False)
+    bits[130] = bits[131] = True
+    hand.run(0.1)
+    assert not bits[132]  # no scan
+    first = fact(hand)["held"][0]["hit"]
+    hand.do("card.go", plc=0)
+    hand.until(lambda: held_plc(hand) == [(0, 30)])
+    assert fact(hand)["held"][0]["hit"] == first + 1
+    assert bits[132]
+    hand.do("card.go", plc=0)
+    assert not bits[FIRST_SCAN]
+    hand.run(0.05)
+    assert (bits[RUNNING], fact(hand)["held"]) == (True, [])
+    bits[130] = False
+    hand.until(lambda: held_plc(hand) == [(0, 30)])
+    assert not bits[132]
+    hand.do("break.clear", plc=0, line=30)
+    assert held_plc(hand) == [(0, 30)]
+    hand.do("card.go", plc=0)
+    bits[130] = True
+    hand.run(0.1)
+    assert (bits[132], fact(hand)["held"]) == (True, [])
+
+
+def test_the_condition_of_a_plc_is_asked_then_and_a_halted_plc_is_not_held(
+    scanning: HandStation,
+) -> None:
+    hand, bits = scanning, card(scanning).bit
+    hand.do("break.set", plc=0, line=30, condition="BIT133 = 0")
+    assert fact(hand)["breakpoints"] == [
+        {"plc": 0, "line": 30, "condition": "BIT133 = 0"}, {"plc": 0, "line": 50, "condition": ""},
+    ]  # fmt: skip
+    hand.do("break.clear", plc=0, line=50)
+    bits[133] = bits[130] = bits[131] = True
+    hand.run(0.05)
+    assert (bits[132], bits[RUNNING]) == (True, True)
+    bits[133] = bits[131] = False
+    hand.until(lambda: held_plc(hand) == [(0, 30)])
+    bits[132] = True  # by another program, while the PLC is held
+    hand.run(0.05)
+    assert held_plc(hand) == [(0, 30)]
+    first = fact(hand)["held"][0]["hit"]
+    hand.do("card.run", plc=0)  # anew: its scan takes the flag back
+    hand.until(lambda: held_plc(hand) == [(0, 30)] and fact(hand)["held"][0]["hit"] == first + 1)
+    assert not bits[132]
+
+
+def test_a_plc_with_another_text_is_no_longer_held_and_its_new_coils_are_watched(
+    scanning: HandStation,
+) -> None:
+    hand, bits = scanning, card(scanning).bit
+    bits[133] = True
+    hand.until(lambda: held_plc(hand) == [(0, 50)])
+    sent(hand, LADDER.replace("OUT 134", "OUT 140"), plc=0)
+    hand.until(lambda: fact(hand)["held"] == [])
+    assert "PLC0 is not held at a breakpoint: RUN starts it" in str(hand.refused("card.go", plc=0))
+    bits[133] = False
+    hand.do("card.run", plc=0)
+    hand.run(0.1)
+    assert fact(hand)["held"] == []
+    bits[133] = True
+    hand.until(lambda: held_plc(hand) == [(0, 50)])
+    assert bits[140]
+
+
+def test_what_a_plc_cannot_do_is_refused_with_the_reason(scanning: HandStation) -> None:
+    hand = scanning
+    assert "PLC0 line 20: no coil of a PLC on this line" in str(
+        hand.refused("break.set", plc=0, line=20)
+    )
+    assert "it has no steps, only GO ON" in str(hand.refused("card.go", plc=0, how="over"))
+    assert "name" in str(hand.refused("break.set", line=20))
+    many = "".join(f"{n} LD 200 OUT {300 + n}\n" for n in range(1, 66))
+    card(hand).send("SYS\rDIM PLC1(9000)\r")
+    sent(hand, many, plc=1)
+    for line in range(1, 63):
+        hand.do("break.set", plc=1, line=line)
+    assert "64 breakpoints are set" in str(hand.refused("break.set", plc=1, line=63))
+    hand.do("break.clear", plc=1)
+    assert [each["line"] for each in fact(hand)["breakpoints"]] == [30, 50]
+
+
 def test_lines_without_a_statement_unknown_lines_and_programs_of_the_machine_are_refused(
     hand: HandStation,
 ) -> None:

@@ -9,6 +9,7 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, Route, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import (
+    give,
     hold_answers,
     open_page,
     picture,
@@ -395,6 +396,66 @@ def test_a_breakpoint_holds_the_program_before_its_line_and_keys_let_it_step(
     bar.get_by_role("button", name="GO ON").click()
     expect(held).to_have_count(0)
     on_card(served, "HALT PROG3")
+
+
+def test_a_breakpoint_that_is_set_before_the_lines_of_the_card_are_known_waits_for_them(
+    page: Page,
+) -> None:
+    held: list[Route] = []
+
+    def hold(route: Route) -> None:
+        is_asked = (route.request.post_data_json or {}).get("ask") == "stored"
+        held.append(route) if is_asked else route.continue_()
+
+    page.route("**/api/text", hold)
+    key(page, "READ").click()
+    until(page, lambda: held)
+    expect(lines(page).nth(3)).to_have_text(" LV0 = LV0+1")
+    pane(page).locator(".cm-lineNumbers .cm-gutterElement").get_by_text("4", exact=True).click()
+    page.unroute("**/api/text")  # which lets the question through
+    expect(lines(page).nth(3)).to_have_class(re.compile("cm-line-break"))
+    give(page, "break.clear")
+    expect(pane(page).locator(".cm-line-break")).to_have_count(0)
+
+
+def test_a_plc_is_held_after_the_scan_that_changes_a_coil_of_its_line(
+    page: Page, served: Served
+) -> None:
+    bar = pane(page).get_by_role("toolbar", name="Breakpoints and steps")
+    gutter = pane(page).locator(".cm-lineNumbers .cm-gutterElement")
+    on_card(served, "DIM PLC0(2000)", "CLR 200")
+    text = "10 LD 200\n20 OUT 201\n"
+    served.call(lambda station: station.link.machine.card.download(text, to=Level.plc(0)))
+    page.reload()  # the list has the PLC now
+    until_model(page, "model.hello.value.client")
+    pane(page).get_by_label("Program or file").select_option("PLC0")
+    expect(lines(page)).to_contain_text(["10 LD 200", "20 OUT 201"])
+    expect(pane(page).locator(".text-foot")).to_contain_text("PLC0 · halted")
+    on_card(served, "RUN PLC0")
+    gutter.get_by_text("1", exact=True).click()
+    expect(page.locator("#prompt")).to_contain_text("PLC0 line 10: no coil of a PLC on this line")
+    gutter.get_by_text("2", exact=True).click()
+    expect(pane(page).locator(".cm-line-break")).to_contain_text("20 OUT 201")
+    expect(bar.get_by_role("button", name="GO ON")).to_be_disabled()
+    on_card(served, "SET 200")
+    held = pane(page).locator(".cm-line-held")
+    expect(held).to_have_attribute("data-mark", "PLC0")
+    expect(page.locator("#prompt")).to_contain_text(
+        "PLC0 is held: its scan has changed a coil of line 20"
+    )
+    expect(bar.get_by_role("button", name="STEP OVER")).to_be_disabled()
+    bar.get_by_role("button", name="BREAKPOINTS: 1").click()
+    listed_there = page.get_by_role("dialog", name="Breakpoints")
+    expect(listed_there).to_contain_text("PLC0 line 20")
+    page.keyboard.press("Escape")
+    lines(page).nth(0).click()
+    page.keyboard.press("F5")
+    expect(held).to_have_count(0)
+    expect(pane(page).locator(".text-foot")).to_contain_text("PLC0 · running")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("F9")
+    expect(pane(page).locator(".cm-line-break")).to_have_count(0)
+    on_card(served, "HALT PLC0")
 
 
 def test_where_a_name_is_used_is_shown_over_all_programs_and_leads_to_the_line(

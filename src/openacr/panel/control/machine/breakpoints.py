@@ -3,6 +3,7 @@
 The card stops before the line and gets PAUSE of the program there, which holds its motion by a
 feedhold. PAUSE alone would let the program run until the path rests, so its mode is set with it.
 Everything else runs on, RESUME releases the program, and the history has both as inputs.
+Those of PLCs are in `plc_stops.py`.
 """
 
 from collections.abc import Callable
@@ -11,21 +12,24 @@ from typing import Any
 
 from openacr.controller import Controller
 from openacr.debugger import questions
-from openacr.debugger.breakpoints import LineBreakpoint
-from openacr.debugger.calls import is_running, name_of
+from openacr.debugger.breakpoints import MASTERS, LineBreakpoint
+from openacr.debugger.calls import PROGRAMS, is_running, name_of
 from openacr.debugger.line_stops import LineStops
 from openacr.debugger.stops import Reason
+from openacr.engine.watches import WATCHES, Watch
 from openacr.errors import UserError
 from openacr.map import numbers as at
 from openacr.map.words import pf
+from openacr.panel.control.machine.plc_stops import PlcStops
 
 MOST = 64
+MOST_COILS = WATCHES - PROGRAMS - MASTERS  # ends of programs and kills are watched, too
 MODE_FLAG = 32 * (pf.word[0] - at.FLAG_WORD_BASE) + pf.PAUSE_MODE.bit_length() - 1  # of PROG0
 
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """Before which line a program is held, and why; `hits` counts the holds."""
+    """Before which line a program is held (a PLC: after a change), and why; `hits` counts."""
 
     line: int
     reason: str
@@ -40,6 +44,8 @@ class Breakpoints:
         self._card, self._is_live = card, is_live
         self.on_note: Callable[[str], None] = lambda _text: None  # a condition that fails
         self._stops = LineStops(card, lambda text: self.on_note(text.strip()))
+        self.on_watches: Callable[[], None] = lambda: None  # other coils are to be watched
+        self._plcs = PlcStops(card, self._stops.conditions)
         self._reached: dict[int, tuple[int, Reason]] = {}  # by program, within the present tick
         self._held: dict[int, Held] = {}
         self._hits = 0
@@ -47,28 +53,41 @@ class Breakpoints:
     # --- what stops -------------------------------------------------------------------
 
     def set(self, program: int, line: int, condition: str = "") -> None:
-        """Hold a program before a line, if a condition is not 0; UserError without a statement."""
+        """Hold a program before a line, if a condition is not 0; UserError without a statement.
+
+        A PLC (16-23) is held after a scan that changes a coil of the line.
+        """
+        places, rungs = self._stops.lines, self._plcs.lines
+        if (program, line) not in {*places, *rungs} and len(places) + len(rungs) >= MOST:
+            raise UserError(f"{MOST} breakpoints are set: remove one first")
+        if program >= PROGRAMS:
+            self._plcs.set(program, line, condition.strip(), MOST_COILS)
+            self.on_watches()
+            return
         stored = self._card.system.programs.lines(program)
         if not any(each.number == line and any(each.tree.blocks) for each in stored):
             raise UserError(
                 f"{name_of(program)} line {line}: nothing is executed there; a breakpoint belongs"
                 " to a line with a statement, not to a label or remark alone"
             )
-        places = self._stops.lines
-        if (program, line) not in places and len(places) >= MOST:
-            raise UserError(f"{MOST} breakpoints are set: remove one first")
         places[program, line] = LineBreakpoint(program, line, condition.strip())
         self.arm()
 
     def clear(self, program: int | None = None, line: int | None = None) -> None:
         """Remove the breakpoint of a line, all of a program, or all there are."""
-        kept = [
-            each
-            for each in self._stops.lines.values()
-            if program not in (None, each.program) or line not in (None, each.line)
-        ]
-        self._stops.set_lines(kept)
+
+        def is_kept(each: LineBreakpoint) -> bool:
+            return program not in (None, each.program) or line not in (None, each.line)
+
+        self._stops.set_lines(filter(is_kept, self._stops.lines.values()))
+        plcs = self._plcs.lines
+        self._plcs.lines = {place: each for place, each in plcs.items() if is_kept(each)}
+        self.on_watches()
         self.arm()
+
+    def go_on(self, plc: int) -> None:
+        """Let a PLC (16-23) that is held scan on; UserError for any other."""
+        self._plcs.go_on(plc)
 
     def step(self, program: int, *, into: bool, out: bool) -> None:
         """Hold a program again before its next line; the caller lets it go on. UserError."""
@@ -99,6 +118,16 @@ class Breakpoints:
             self._reached[program] = line, stop.reason
         return stop is not None
 
+    def watches(self) -> list[Watch]:
+        """The coils of PLCs that the engine watches; `fired` gets the places of this list."""
+        return self._plcs.watches()
+
+    def fired(self, places: list[int]) -> None:
+        """Coils have changed in this tick: hold their PLCs."""
+        for plc, line in (self._plcs.hold(places) if self._is_live() else {}).items():
+            self._hits += 1
+            self._held[plc] = Held(line, Reason.BREAKPOINT.value, self._hits)
+
     def attend(self) -> None:
         """The card has stopped: hold the program whose line was reached."""
         for program, (line, reason) in self._reached.items():
@@ -117,21 +146,29 @@ class Breakpoints:
         """All breakpoints, and the programs that are held, for the screens."""
         for program in [each for each in self._stops.steps if not is_running(self._card, each)]:
             self.unstep(program)  # it has ended
+        if self._plcs.is_stale:
+            self.on_watches()
         return {
             "breakpoints": [
-                {"program": each.program, "line": each.line, "condition": each.condition}
-                for _, each in sorted(self._stops.lines.items())
+                {**_named(owner), "line": line, "condition": each.condition}
+                for (owner, line), each in sorted({**self._stops.lines, **self._plcs.lines}.items())
             ],
             "held": [
-                {"program": program, "line": held.line, "why": held.reason, "hit": held.hits}
+                {**_named(program), "line": held.line, "why": held.reason, "hit": held.hits}
                 for program, held in sorted(self._held.items())
                 if self._is_held(program, held)
             ],
         }
 
     def _is_held(self, program: int, held: Held) -> bool:
+        if program >= PROGRAMS:
+            return self._plcs.is_held(program)
         return (
             is_running(self._card, program)
             and bool(self._card.memory.I[pf.word[program]] & pf.PAUSE_MODE)
             and self._card.executor.threads.next_line(program) == held.line
         )
+
+
+def _named(owner: int) -> dict[str, int]:
+    return {"program": owner} if owner < PROGRAMS else {"plc": owner - PROGRAMS}

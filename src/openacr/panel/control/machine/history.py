@@ -20,6 +20,7 @@ from openacr.timeline import Bookmark, Bookmarks, Branch, Course, Kind, Timeline
 
 MOST_BYTES = 1 << 27  # of memory, for an hour of a machine that is used and some branches
 MOST_BRANCHES = 16
+OWN = PROGRAMS + MASTERS  # watches of the history; those of breakpoints follow
 COARSE_S = 0.5  # of moments as the screens get them while time passes
 AWAY = "the card is at a moment of its history without the panel: OPERATE of the timeline goes on"
 STILL = "the time of the card is still: RUN of the timeline lets it go on"
@@ -43,6 +44,7 @@ class History:
         self.unmarked: frozenset[int] = frozenset()  # programs of the panel, whose ends count not
         self._size = (-1, 0)  # tick, bytes
         self.breakpoints = Breakpoints(card, lambda: not (self.is_away or self.timeline.is_past))
+        self.breakpoints.on_watches = self.arm
         self.arm()
 
     # --- the card as links see it -----------------------------------------------------
@@ -134,16 +136,19 @@ class History:
     def arm(self) -> None:
         """Have every tick seen in which a program ends or motion is killed, and breakpoints."""
         watches = [running_watch(program) for program in range(PROGRAMS)]
-        self.card.watch(watches + [kill_watch(master) for master in range(MASTERS)])
+        watches += [kill_watch(master) for master in range(MASTERS)]
+        self.card.watch(watches + self.breakpoints.watches())
         self.breakpoints.arm()
 
     def attend(self) -> None:
         """An event has ended `advance`: hold a program at its breakpoint, set bookmarks."""
         self.breakpoints.attend()
-        for place in self.card.take_fired():
+        fired = self.card.take_fired()
+        self.breakpoints.fired([place - OWN for place in fired if place >= OWN])
+        for place in fired:
             if place < PROGRAMS:
                 self._mark_end(place)
-            elif self._is_killed(place - PROGRAMS):
+            elif place < OWN and self._is_killed(place - PROGRAMS):
                 self.mark(Kind.ALARM, f"the motion of MASTER{place - PROGRAMS} is killed")
 
     def _mark_end(self, program: int) -> None:

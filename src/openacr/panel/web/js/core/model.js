@@ -14,8 +14,9 @@ import { Signal } from "./signal.js";
  */
 
 /**
- * @typedef {{ why_not: string, breakpoints: { program: number, line: number, condition: string }[],
- *   held: { program: number, line: number, why: string, hit: number }[] }} Breakpoints
+ * @typedef {{ program?: number, plc?: number, line: number }} CodePlace of a program, or of a PLC
+ * @typedef {{ why_not: string, breakpoints: (CodePlace & { condition: string })[],
+ *   held: (CodePlace & { why: string, hit: number })[] }} Breakpoints
  *
  * @typedef {{ number: number, name: string, parent: number | null, fork: number | null, first: number,
  *   last: number | null }} TimeBranch

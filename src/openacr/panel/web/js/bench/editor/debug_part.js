@@ -4,6 +4,7 @@ import { fill, h } from "../../core/dom.js";
 import { keyOf, relabel } from "../../core/keys.js";
 import { t } from "../../core/texts.js";
 import { ask, askText } from "../../frame/dialog.js";
+import { which } from "./card_text.js";
 
 const TEXTS = {
   keys: { en: "Breakpoints and steps", de: "Haltepunkte und Schritte" },
@@ -18,14 +19,18 @@ const TEXTS = {
     de: "Kein Haltepunkt ist gesetzt. Ein Druck auf eine Zeilennummer setzt einen (F9), die rechte Taste fragt nach seiner Bedingung (Umschalt-F9).",
   },
   about: {
-    en: "A program is held before the line, as by PAUSE: its moves slow down on their path and continue with it. Jogs, gears, cams, PLCs and other programs run on.",
-    de: "Das Programm h\u00e4lt vor der Zeile wie mit PAUSE: Seine Bewegungen kommen auf ihrer Bahn zum Stillstand und laufen mit ihm weiter. Tippbetrieb, Getriebe, Kurven, SPS und andere Programme laufen weiter.",
+    en: "A program is held before the line, as by PAUSE: its moves slow down on their path and continue with it. Jogs, gears, cams, PLCs and other programs run on. A PLC is held after the scan that changes a coil of the line: it scans no more, its outputs stay as they are, its timers run on.",
+    de: "Das Programm h\u00e4lt vor der Zeile wie mit PAUSE: Seine Bewegungen kommen auf ihrer Bahn zum Stillstand und laufen mit ihm weiter. Tippbetrieb, Getriebe, Kurven, SPS und andere Programme laufen weiter. Eine SPS h\u00e4lt nach dem Zyklus, der eine Spule der Zeile \u00e4ndert: Sie wird nicht mehr bearbeitet, ihre Ausg\u00e4nge bleiben, wie sie sind, ihre Zeitglieder laufen weiter.",
   },
   remove: { en: "REMOVE", de: "ENTFERNEN" },
   clear: { en: "REMOVE ALL", de: "ALLE ENTFERNEN" },
   line: { en: "{name} line {line}", de: "{name} Zeile {line}" },
   condition: { en: "Hold where this is not 0", de: "Halten, wenn dies nicht 0 ist" },
   held: { en: "{name} is held before line {line}", de: "{name} h\u00e4lt vor Zeile {line}" },
+  changed: {
+    en: "{name} is held: its scan has changed a coil of line {line}",
+    de: "{name} h\u00e4lt: Ihr Zyklus hat eine Spule der Zeile {line} ge\u00e4ndert",
+  },
   unknown: {
     en: "The card has another text here, or none: DOWNLOAD or READ first",
     de: "Die Karte hat hier einen anderen Text oder keinen: erst SENDEN oder LESEN",
@@ -40,65 +45,66 @@ const GO_KEYS = [
   ["into", TEXTS.into, "F11"],
   ["out", TEXTS.out, "Shift-F11"],
 ];
-const numberOf = (/** @type {string} */ name) => (name.startsWith("PROG") ? Number(name.slice(4)) : -1);
+/** PROG3 or PLC0. @param {import("../../core/model.js").CodePlace} place */
+const nameOf = ({ program, plc }) => (plc === undefined ? `PROG${program}` : `PLC${plc}`);
+const isPlc = (/** @type {string} */ name) => name.startsWith("PLC");
 let reported = 0; // the last hold that was said, by any editor
 
 /**
  * @typedef {import("../../edit/line_marks.js").StoredLines} StoredLines
  *
- * @param {{ level: () => string, stored: () => StoredLines | null, state: (level: string) => string,
+ * @param {{ level: () => string, stored: () => StoredLines | null, known: () => Promise<StoredLines | null>, state: (level: string) => string,
  *   editor: () => ReturnType<typeof import("../../edit/controller_editor.js").createControllerEditor>,
  *   drawMarks: () => void }} pane
  */
-export function debugPart({ level, stored, state, editor, drawMarks }) {
+export function debugPart({ level, stored, known, state, editor, drawMarks }) {
   const listKey = keyOf(TEXTS.list, () => void showList());
   const goKeys = GO_KEYS.map(([how, label, title]) => keyOf(label, () => void go(how), "", { title }));
   const bar = h("div.row.text-debug", { hidden: true, role: "toolbar", ariaLabel: t(TEXTS.keys) }, ...goKeys, listKey);
   const held = () => model.breakpoints.value.held;
-  const isHeld = (/** @type {string} */ name) => held().some((each) => `PROG${each.program}` === name);
+  const isHeld = (/** @type {string} */ name) => held().some((each) => nameOf(each) === name);
 
-  /** The program that the keys act on: the one that is open, else one of the text that is held. */
+  /** The program that the keys act on: the one that is open, else one of the text that is held; empty without one. */
   function program() {
-    if (numberOf(level()) >= 0) return numberOf(level());
-    return held().find((each) => stored()?.at(`PROG${each.program}`, each.line) !== null)?.program ?? -1;
+    const found = level() ? null : held().find((each) => stored()?.at(nameOf(each), each.line) !== null);
+    return found ? nameOf(found) : level();
   }
 
   /** @param {"on" | "over" | "into" | "out"} how */
   async function go(how) {
-    if (program() < 0) refuse(t(TEXTS.noprogram));
-    else await give("card.go", { program: program(), how });
+    if (!program()) refuse(t(TEXTS.noprogram));
+    else await give("card.go", { ...which(program()), how });
   }
 
   /** @param {number} line of the text, from 1 */
-  function placeAt(line) {
+  async function placeAt(line) {
     const { why_not } = model.breakpoints.value;
-    const place = stored()?.numberAt(editor().doc(), line);
-    if (why_not || !place || numberOf(place.name) < 0) {
+    const place = (await known())?.numberAt(editor().doc(), line);
+    if (why_not || !place) {
       refuse(why_not || t(TEXTS.unknown));
       return null;
     }
-    return { name: place.name, program: numberOf(place.name), line: place.number };
+    return { name: place.name, line: place.number };
   }
 
-  const setAt = (/** @type {{ program: number, line: number }} */ place) =>
-    model.breakpoints.value.breakpoints.find((each) => each.program === place.program && each.line === place.line);
+  const setAt = (/** @type {{ name: string, line: number }} */ place) =>
+    model.breakpoints.value.breakpoints.find((each) => nameOf(each) === place.name && each.line === place.line);
 
   /** @param {number} line of the text, from 1 */
   async function toggle(line) {
-    const place = placeAt(line);
+    const place = await placeAt(line);
     if (!place) return;
-    const at = { program: place.program, line: place.line };
-    await give(setAt(place) ? "break.clear" : "break.set", at);
+    await give(setAt(place) ? "break.clear" : "break.set", { ...which(place.name), line: place.line });
   }
 
   /** @param {number} line of the text, from 1 */
   async function askCondition(line) {
-    const place = placeAt(line);
+    const place = await placeAt(line);
     if (!place) return;
     const title = t(TEXTS.line, place);
     const condition = await askText(title, t(TEXTS.condition), setAt(place)?.condition ?? "");
     editor().focus();
-    if (condition) await give("break.set", { program: place.program, line: place.line, condition });
+    if (condition) await give("break.set", { ...which(place.name), line: place.line, condition });
   }
 
   async function showList() {
@@ -114,11 +120,11 @@ export function debugPart({ level, stored, state, editor, drawMarks }) {
             h(
               "span.grow",
               {},
-              t(TEXTS.line, { name: `PROG${each.program}`, line: each.line }),
+              t(TEXTS.line, { name: nameOf(each), line: each.line }),
               each.condition ? h("span.mono", {}, `  ${each.condition}`) : "",
             ),
-            keyOf(TEXTS.remove, () => give("break.clear", { program: each.program, line: each.line }), "", {
-              ariaLabel: `${t(TEXTS.remove)} ${t(TEXTS.line, { name: `PROG${each.program}`, line: each.line })}`,
+            keyOf(TEXTS.remove, () => give("break.clear", { ...which(nameOf(each)), line: each.line }), "", {
+              ariaLabel: `${t(TEXTS.remove)} ${t(TEXTS.line, { name: nameOf(each), line: each.line })}`,
             }),
           ),
         ),
@@ -140,11 +146,12 @@ export function debugPart({ level, stored, state, editor, drawMarks }) {
 
   /** Say a new hold once, and bring its line into view. */
   function follow() {
-    for (const { program: number, line, hit } of held()) {
-      if (hit <= reported) continue;
-      reported = hit;
-      report(t(TEXTS.held, { name: `PROG${number}`, line }));
-      const at = stored()?.at(`PROG${number}`, line);
+    for (const each of held()) {
+      if (each.hit <= reported) continue;
+      reported = each.hit;
+      const [name, line] = [nameOf(each), each.line];
+      report(t(isPlc(name) ? TEXTS.changed : TEXTS.held, { name, line }));
+      const at = stored()?.at(name, line);
       if (at !== null && at !== undefined) editor().see(at);
     }
   }
@@ -175,24 +182,24 @@ export function debugPart({ level, stored, state, editor, drawMarks }) {
       /** @type {import("../../edit/line_marks.js").LineMark[]} */
       const found = [];
       const { breakpoints } = model.breakpoints.value;
-      for (const { program: number, line, condition } of breakpoints) {
-        const at = stored()?.at(`PROG${number}`, line) ?? null;
-        if (at !== null) found.push({ at, kind: "break", text: condition });
+      for (const each of breakpoints) {
+        const at = stored()?.at(nameOf(each), each.line) ?? null;
+        if (at !== null) found.push({ at, kind: "break", text: each.condition });
       }
-      for (const { program: number, line } of held()) {
-        const at = stored()?.at(`PROG${number}`, line) ?? null;
-        if (at !== null) found.push({ at, kind: "held", text: `PROG${number}` });
+      for (const each of held()) {
+        const at = stored()?.at(nameOf(each), each.line) ?? null;
+        if (at !== null) found.push({ at, kind: "held", text: nameOf(each) });
       }
       return found;
     },
     draw() {
       const { breakpoints, why_not } = model.breakpoints.value;
-      bar.hidden = Boolean(why_not) || level().startsWith("PLC") || !(breakpoints.length || held().length);
+      bar.hidden = Boolean(why_not) || !(breakpoints.length || held().length);
       relabel(listKey, TEXTS.list, { count: breakpoints.length });
-      const name = program() < 0 ? "" : `PROG${program()}`;
+      const name = program();
       const isOff =
         !name || !model.may("service") || !(isHeld(name) || ["paused", "waits for STEP"].includes(state(name)));
-      for (const each of goKeys) each.disabled = isOff;
+      for (const [n, each] of goKeys.entries()) each.disabled = isOff || (n > 0 && isPlc(name)); // a scan has no steps
     },
     /** Follow the breakpoints of the card; returns the function that ends it. */
     watch() {

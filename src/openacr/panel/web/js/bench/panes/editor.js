@@ -94,6 +94,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     level: () => opened.level,
     editor: () => editor,
     stored: () => stored,
+    known: async () => stored ?? (opened.isCards && !isChanged() ? storedOf(opened.level) : null),
     state: (level) => stateOf(level)?.state ?? "",
     drawMarks: () => editor && drawMarks(),
   });
