@@ -441,6 +441,14 @@ def test_the_level_of_the_trigger_is_dragged_and_acts_at_once(page: Page, served
     level = float(page.get_by_label("Trigger level", exact=True).input_value())
     assert level == pytest.approx(3.0, abs=0.05)
     until(page, lambda: served.call(trigger_level), lambda found: found == level)
+    for key, by in (("ArrowDown", -0.1), ("Shift+ArrowUp", 1.0), ("ArrowUp", 0.1)):
+        page.locator("[data-view=time]").press(key)
+        level = float(f"{level + by:.4g}")
+        until(page, lambda: served.call(trigger_level), level.__eq__)
+    fill(page, {"Trigger level": "3"})
+    press(page, "START")
+    until(page, lambda: served.call(trigger_level), (3.0).__eq__)
+    expect(status(page)).to_contain_text("WAITING")
     served.call(lambda station: station.link.machine.card.pause(0.1))
     served.call(partial(write, value=2.9))
     served.call(lambda station: station.link.machine.card.pause(0.1))
@@ -701,6 +709,46 @@ def test_a_part_with_too_many_samples_says_why_nothing_is_computed(
     fill(page, {"M source": ""})
     expect(page.locator("[data-cursors]")).to_have_text("")
     page.complaints.clear()  # type: ignore[attr-defined]
+
+
+def test_a_cursor_is_moved_by_keys_and_says_what_is_there(page: Page) -> None:
+    strip = page.locator(".scope-overview")
+    strip.focus()
+    for _ in range(14):
+        page.keyboard.press("+")
+    page.keyboard.press("Home")
+    until(page, lambda: page.evaluate(RECORD)["times"], lambda found: 4 < len(found) < 60)
+    press(page, "CURSORS")
+    (first, last), width = page.evaluate(RECORD)["x"], last_width(page)
+    step = max(100.0, (last - first) / width)
+    cursors = [page.get_by_role("slider", name=f"Cursor t{n}") for n in (1, 2)]
+    times = [first + share * (last - first) for share in (0.25, 0.75)]
+    cursors[0].focus()
+    for key, by in (
+        ("ArrowRight", 1),
+        ("ArrowRight", 1),
+        ("ArrowLeft", -1),
+        ("Shift+ArrowRight", 10),
+    ):
+        cursors[0].press(key)
+        times[0] = min(last, times[0] + by * step)
+        expect(page.locator("[data-cursors]")).to_contain_text(f"t1 {times[0]:g} ms")
+    page.keyboard.press("Tab")
+    expect(cursors[1]).to_be_focused()
+    cursors[1].press("ArrowLeft")
+    times[1] -= step
+    expect(page.locator("[data-cursors]")).to_contain_text(f"t2 {times[1]:g} ms")
+    clock = 100 * int(np.floor(times[1] / 100.0 + 0.5))
+    said = f"{times[1]:g} ms: CH1 {clock} ms, CH2 0"
+    expect(cursors[1]).to_have_attribute("aria-valuetext", said)
+    expect(page.locator("[data-trace=CH1] td").nth(1)).to_have_text(str(clock))
+    press(page, "CURSORS")
+    expect(cursors[1]).to_be_hidden()
+
+
+def last_width(page: Page) -> float:
+    """Pixels of the plot."""
+    return float(page.evaluate("document.querySelector('[data-view=time] .u-over').clientWidth"))
 
 
 def test_the_end_of_a_record_that_grows_stays_on_the_screen_until_it_is_moved(

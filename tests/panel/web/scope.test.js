@@ -1,6 +1,7 @@
 // The arithmetic of the scope: measures, scales, zoom, spectrum, maths channel.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { steppedBy } from "../../../src/openacr/panel/web/js/scope/cursors.js";
 import { ExpressionError } from "../../../src/openacr/panel/web/js/core/expression.js";
 import { computed, derivative, integral } from "../../../src/openacr/panel/web/js/scope/maths.js";
 import { deviation, measured } from "../../../src/openacr/panel/web/js/scope/measures.js";
@@ -299,4 +300,16 @@ test("the part in the overview is moved in its middle, resized at its edges, and
     [99, 105].map((x) => at(x, [100, 106])),
     [0, 1],
   ); // a narrow one has both edges
+});
+
+test("a cursor is moved by a sample or by a pixel, whatever is more, with Shift by ten, within the screen", () => {
+  const screen = { min: 0, max: 100, pixels: 1000, sample: 0.5 };
+  const moved = (key, time, more = {}, shiftKey = false) => steppedBy({ key, shiftKey }, time, { ...screen, ...more });
+  assert.equal(moved("ArrowRight", 10), 10.5);
+  assert.equal(moved("ArrowLeft", 10), 9.5);
+  assert.equal(moved("ArrowRight", 10, { pixels: 50 }), 12);
+  assert.equal(moved("ArrowRight", 10, {}, true), 15);
+  assert.equal(moved("ArrowLeft", 3, {}, true), 0);
+  assert.equal(moved("ArrowRight", 99.9), 100);
+  assert.equal(moved("ArrowUp", 10), null);
 });

@@ -1,18 +1,60 @@
-// Two cursors over the screen of the scope: they are dragged, or set as times.
+// Two cursors over the screen of the scope: they are dragged, moved by keys, or set as times.
+import { h } from "../core/dom.js";
+import { t } from "../core/texts.js";
+
+const TEXTS = {
+  cursor: {
+    en: "Cursor t{n}: arrow keys move it, up and down the level of the trigger",
+    de: "Cursor t{n}: Pfeiltasten verschieben ihn, auf und ab den Pegel des Triggers",
+  },
+};
 
 /**
  * @typedef {import("../core/signal.js").Signal<[number, number] | null>} Cursors times in ms, null while they are off
  */
 
 /**
- * The plugin of uPlot that draws cursors and has them dragged.
- * @param {Cursors} cursors
+ * Where a key moves a cursor: by a sample, or by a pixel where that is more; with Shift by ten of them. Null for any
+ * other key.
+ * @param {{ key: string, shiftKey: boolean }} event
+ * @param {number} time ms
+ * @param {{ min: number, max: number, pixels: number, sample: number }} screen times in ms
  */
-export function cursorPlugin(cursors) {
+export function steppedBy({ key, shiftKey }, time, { min, max, pixels, sample }) {
+  const by = /** @type {Record<string, number>} */ ({ ArrowLeft: -1, ArrowRight: 1 })[key];
+  if (!by) return null;
+  const step = Math.max(sample, (max - min) / Math.max(1, pixels));
+  return Math.max(min, Math.min(max, Number((time + by * (shiftKey ? 10 : 1) * step).toPrecision(12))));
+}
+
+/**
+ * The plugin of uPlot that draws cursors and has them dragged, or moved by keys.
+ * @param {Cursors} cursors
+ * @param {{ sample: () => number, textAt: (cursor: number) => string, raise: (event: KeyboardEvent) => void }} asked ms from one
+ *   sample to the next, what is at a cursor in words, a key for the level of the trigger
+ */
+export function cursorPlugin(cursors, { sample, textAt, raise }) {
+  const handles = [0, 1].map((n) =>
+    h("div.scope-cursor", { tabIndex: 0, hidden: true, role: "slider", ariaLabel: t(TEXTS.cursor, { n: n + 1 }) }),
+  );
   return {
     hooks: {
       /** @param {any} plot */
       init(plot) {
+        plot.over.append(...handles);
+        handles.forEach((each, n) =>
+          each.addEventListener("keydown", (/** @type {KeyboardEvent} */ event) => {
+            const both = cursors.value;
+            const { min, max } = plot.scales.x;
+            const screen = { min, max, pixels: plot.over.clientWidth, sample: sample() };
+            const time = both && steppedBy(event, both[n], screen);
+            if (time !== null && both) {
+              cursors.set(n ? [both[0], time] : [time, both[1]]);
+              event.preventDefault();
+              event.stopPropagation();
+            } else raise(event);
+          }),
+        );
         let held = -1;
         const time = (/** @type {PointerEvent} */ event) =>
           plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x");
@@ -35,6 +77,15 @@ export function cursorPlugin(cursors) {
       },
       /** @param {any} plot */
       draw(plot) {
+        handles.forEach((each, n) => {
+          each.hidden = !cursors.value;
+          if (!cursors.value) return;
+          const { min, max } = plot.scales.x;
+          each.style.left = `${plot.valToPos(Math.max(min, Math.min(max, cursors.value[n])), "x")}px`;
+          [each.ariaValueMin, each.ariaValueMax] = [min, max].map(String);
+          each.ariaValueNow = String(cursors.value[n]);
+          each.ariaValueText = textAt(n);
+        });
         if (!cursors.value) return;
         const { ctx, bbox } = plot;
         ctx.save();

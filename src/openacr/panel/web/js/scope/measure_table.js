@@ -35,6 +35,23 @@ export function distanceText([t1, t2]) {
 }
 
 /**
+ * What is at a cursor, in words: its time and the value of each trace.
+ * @param {import("./channels.js").Channel[]} traces
+ * @param {{ period: number, begin: number }} time s between two samples, s of the first one
+ * @param {number} at ms
+ * @param {Record<string, number | null>} [known] values by place, where the server has computed them
+ */
+export function cursorText(traces, { period, begin }, at, known) {
+  const place = Math.round((at / 1000 - begin) / period);
+  const values = traces.map(({ label, unit, format, values: all }, n) => {
+    const value = known ? known[n] : all[place];
+    const isThere = value !== null && value !== undefined && Number.isFinite(value);
+    return `${label} ${isThere ? numberText(value, format) : "\u2013"} ${unit}`.trim();
+  });
+  return `${Number(at.toPrecision(6))} ms: ${values.join(", ")}`;
+}
+
+/**
  * Fill the table; without cursors the measures are those of the whole screen.
  * @param {HTMLTableElement} table
  * @param {import("./channels.js").Channel[]} traces

@@ -10,7 +10,7 @@ import { Channels, CHANNELS, fullLabel } from "../../scope/channels.js";
 import { cursorPlugin } from "../../scope/cursors.js";
 import { exportAs } from "../../scope/export.js";
 import { LongRecord } from "../../scope/long_record.js";
-import { distanceText, samplesAt, showMeasures } from "../../scope/measure_table.js";
+import { cursorText, distanceText, samplesAt, showMeasures } from "../../scope/measure_table.js";
 import { createOverview } from "../../scope/overview.js";
 import { panningPlugin } from "../../scope/panning.js";
 import { moved, Recording } from "../../scope/recording.js";
@@ -19,6 +19,7 @@ import { axesOf, DIVISIONS } from "../../scope/scales.js";
 import { createScreen } from "../../scope/screen.js";
 import { createSpectrum, showPeaks } from "../../scope/spectrum_view.js";
 import { Settings } from "../../scope/settings.js";
+import { shownOf } from "../../scope/shown.js";
 import { recordText, stateOf, stateText } from "../../scope/state.js";
 import { triggerPlugin } from "../../scope/trigger_mark.js";
 import { within, zoomed } from "../../scope/view.js";
@@ -38,14 +39,15 @@ const TEXTS = {
     de: "{count} Messwerte sind auf dem Schirm: M, XY und FFT werden aus höchstens {most} berechnet, {seconds} s",
   },
   zoomLabel: {
-    en: "Screen of the scope: + and - zoom a record at rest, arrow keys pan it, 0 shows its sweep",
-    de: "Schirm des Scope: + und - vergrößern oder verkleinern eine ruhende Aufzeichnung, Pfeiltasten verschieben sie, 0 zeigt ihre Ablenkung",
+    en: "Screen of the scope: + and - zoom a record at rest, left and right pan it, 0 shows its sweep, up and down move the level of the trigger",
+    de: "Schirm des Scope: + und - vergrößern oder verkleinern eine ruhende Aufzeichnung, links und rechts verschieben sie, 0 zeigt ihre Ablenkung, auf und ab bewegen den Pegel des Triggers",
   },
 };
 
 const VIEWS = /** @type {const} */ (["time", "xy", "spectrum"]);
 const SLOW_S = 0.5; // a sweep of this time and more is also drawn while it comes
 const KEYS = /** @type {Record<string, number>} */ ({ "+": 1, "-": -1 }); // zoom
+const LEVELS = /** @type {Record<string, number>} */ ({ ArrowUp: 0.1, ArrowDown: -0.1 }); // divisions
 const PANS = /** @type {Record<string, number>} */ ({ ArrowLeft: -1, ArrowRight: 1 }); // divisions
 
 /**
@@ -64,6 +66,8 @@ export async function mount(host, { head, kept: layout, keep }) {
   let view = "time";
   /** The part of a record at rest that is shown, null: its sweep. @type {import("../../scope/view.js").View | null} */
   let part = null;
+  /** What was drawn last. @type {import("../../scope/reference.js").Kept & { step: number }} */
+  let drawn = { traces: [], period: 1, start: 0, from: 0, step: 1 };
   const changed = () => {
     keep({ channels: channels.kept(), ...settings.kept(), isFull: side.hidden });
     showRecord();
@@ -123,7 +127,11 @@ export async function mount(host, { head, kept: layout, keep }) {
     ),
   );
   const panning = panningPlugin({ isAsked: () => isAtRest() && !cursors.value, zoom, pan, reset });
-  const screen = createScreen(hosts[0], endings, [triggerPlugin(mark, moveLevel), cursorPlugin(cursors), panning]);
+  const screen = createScreen(hosts[0], endings, [
+    triggerPlugin(mark, moveLevel),
+    cursorPlugin(cursors, { sample: () => 1000 * drawn.period, textAt, raise }),
+    panning,
+  ]);
   const xy = createXy(hosts[1], endings, fullLabel);
   const spectra = createSpectrum(hosts[2], endings);
   channels.sources();
@@ -140,39 +148,8 @@ export async function mount(host, { head, kept: layout, keep }) {
     return recording.count > 0 && ["stopped", "taken"].includes(stateNow());
   }
 
-  /**
-   * The part of the record that is shown: its traces, ms of the first sample and of the left edge, ms of a division.
-   */
   function shownNow() {
-    if (settings.isRecord) {
-      const { channels: curves, ...frame } = long.curves();
-      const known = channels.traces(curves, frame.period);
-      return { ...frame, traces: long.isEnvelope ? known.filter(({ label }) => label !== "M") : known };
-    }
-    const period = recording.period;
-    const ms = 1000 * period;
-    let shown = recording.window();
-    if (part && ms) {
-      const [from, to] = [part.from, part.from + DIVISIONS * part.step].map(
-        (each) => Math.round(each / ms) + shown.zero,
-      );
-      const first = Math.max(recording.kept[0], from - 1);
-      shown = {
-        ...shown,
-        first,
-        channels: shown.channels.map((_each, channel) =>
-          recording.part(channel, first, Math.min(recording.kept[1], to + 2)),
-        ),
-      };
-    }
-    const start = (shown.first - shown.zero) * ms;
-    return {
-      traces: channels.traces(shown.channels, period),
-      start,
-      period,
-      from: part?.from ?? start,
-      step: part?.step ?? settings.sweepMs,
-    };
+    return shownOf({ settings, long, channels, recording }, part);
   }
 
   /** What has come of the next sweep, where it takes its time. */
@@ -188,7 +165,8 @@ export async function mount(host, { head, kept: layout, keep }) {
     channels.hasLanes = settings.fields.flags.value === "lanes";
     channels.isShared = settings.fields.axes.value === "unit";
     zooming.hidden = view !== "time" || !isAtRest();
-    const { traces: present, ...frame } = shownNow();
+    drawn = shownNow();
+    const { traces: present, ...frame } = drawn;
     const { start, period } = frame;
     const length = present[0]?.values.length ?? 0;
     const at = (/** @type {Channel[]} */ traces, /** @type {number} */ begin) =>
@@ -321,11 +299,35 @@ export async function mount(host, { head, kept: layout, keep }) {
   /** @param {KeyboardEvent} event */
   function zoomByKey(event) {
     const { from, step } = shownNow();
+    if (raise(event)) return;
     if (event.key in KEYS) zoom(KEYS[event.key] > 0, from + (DIVISIONS / 2) * step);
     else if (event.key in PANS) pan(PANS[event.key] * step);
     else if (event.key === "0") reset();
     else return;
     event.preventDefault();
+  }
+
+  /** A key that moves the level of the trigger: a tenth of a division, with Shift a whole one. @param {KeyboardEvent} event */
+  function raise(event) {
+    const by = LEVELS[event.key];
+    const shown = by ? mark() : null;
+    if (!by || !shown) return false;
+    event.preventDefault();
+    event.stopPropagation();
+    moveLevel(shown.level + by * (event.shiftKey ? 10 : 1), true);
+    return true;
+  }
+
+  /** @param {number} n */
+  function textAt(n) {
+    const at = cursors.value?.[n] ?? 0;
+    const time = { period: drawn.period, begin: drawn.start / 1000 };
+    return cursorText(
+      drawn.traces,
+      time,
+      at,
+      settings.isRecord && long.isEnvelope ? (long.found?.at[n] ?? {}) : undefined,
+    );
   }
 
   /** The trigger that is set, on the screen. */
