@@ -513,6 +513,74 @@ def test_another_branch_is_compared_at_the_ticks_of_the_record(page: Page, serve
     expect(cells.last).to_have_text("\u2013")
 
 
+def kept_row(page: Page, name: str) -> Locator:
+    return page.get_by_role("dialog").locator(f"[data-kept='{name}']")
+
+
+def test_setups_and_references_are_kept_under_names_and_shared_by_browsers(
+    page: Page, served: Served, context: BrowserContext
+) -> None:
+    served.call(partial(write, value=3.0))
+    fill(page, {"CH1 source": "P7", "CH2 source": "", "CH3 source": "", "CH8 source": "",
+                "CH1 units/div": "0.5", "M source": "2*CH1", "Sampling, ms": "1"})  # fmt: skip
+    page.get_by_label("Trigger", exact=True).select_option("roll")
+    press(page, "START")
+    expect(page.locator("[data-trace=M] td").first).to_have_text("6")
+    press(page, "STOP SCOPE")
+    expect(status(page)).to_contain_text("Stopped at")
+    press(page, "SET-UPS")
+    dialog = page.get_by_role("dialog", name="SET-UPS")
+    expect(dialog).to_contain_text("Nothing is kept yet")
+    for kind, name in (("SET-UP", "Z axis"), ("REFERENCE", "at three")):
+        dialog.get_by_role("button", name=f"KEEP {kind} AS").click()
+        page.get_by_role("textbox", name="Name").fill(name)
+        page.keyboard.press("Enter")
+        expect(page.locator("#prompt")).to_contain_text(f"{name} is kept")
+    expect(dialog.get_by_role("listitem")).to_have_count(2)
+    page.keyboard.press("Escape")
+    fill(page, {"CH1 source": "P6", "CH1 units/div": "4", "M source": ""})
+    page.get_by_label("Trigger", exact=True).select_option("free")
+
+    other = open_page(context, f"{served.url}/bench")
+    show_scope(other)
+    fill(other, {"CH4 source": "P1"})
+    press(other, "SET-UPS")
+    kept_row(other, "setup Z axis").get_by_role("button", name="Z axis").first.click()
+    expect(other.locator("#prompt")).to_contain_text("set-up Z axis is taken")
+    shown = {name: other.get_by_label(name, exact=True).input_value() for name in
+             ("CH1 source", "CH1 units/div", "CH4 source", "M source", "Trigger")}  # fmt: skip
+    assert list(shown.values()) == ["P7", "0.5", "", "2*CH1", "roll"]
+    served.call(partial(write, value=4.25))
+    press(other, "START")
+    expect(other.locator("[data-trace=CH1] td").first).to_have_text("4.25")
+    press(other, "SET-UPS")
+    kept_row(other, "reference at three").get_by_role("button", name="at three").first.click()
+    expect(other.locator("[data-trace=CH1] td").last).to_have_text("1.25")
+    expect(other.locator("[data-trace=M] td").last).to_have_text("2.5")
+    press(other, "STOP SCOPE")
+    other.close()
+
+    press(page, "SET-UPS")
+    with page.expect_download() as saved:
+        kept_row(page, "setup Z axis").get_by_role("link", name="FILE").click()
+    text = saved.value.path().read_bytes()
+    assert saved.value.suggested_filename == "Z axis.setup.json"
+    files = dialog.locator("input[type=file]")
+    files.set_input_files({"name": "notes.json", "mimeType": "text/plain", "buffer": b"{1}"})
+    expect(page.locator("#prompt")).to_contain_text("notes is no set-up of the scope: JSON is")
+    files.set_input_files({"name": "copy.setup.json", "mimeType": "text/plain", "buffer": text})
+    expect(kept_row(page, "setup copy")).to_be_visible()
+    kept_row(page, "setup copy").get_by_role("button", name="DELETE").click()
+    page.get_by_role("dialog", name="DELETE").get_by_role("button", name="DELETE").click()
+    expect(kept_row(page, "setup copy")).to_have_count(0)
+    kept_row(page, "setup Z axis").get_by_role("button", name="RENAME").click()
+    page.get_by_role("textbox", name="Name").fill("X axis")
+    page.keyboard.press("Enter")
+    expect(kept_row(page, "setup X axis")).to_be_visible()
+    page.keyboard.press("Escape")
+    page.complaints.clear()  # type: ignore[attr-defined]
+
+
 def test_xy_and_spectrum_are_views_of_the_same_record(page: Page) -> None:
     press(page, "XY")
     expect(page.locator("[data-view=xy] canvas")).to_be_visible()

@@ -80,7 +80,7 @@ test("every text that a module has for itself is said there", () => {
     const isNamed = (own) => isChosen && (all.match(new RegExp(String.raw`\b${own}\b`, "g")) ?? []).length > 1;
     for (const [, own] of source.matchAll(OWN)) {
       const isUsed =
-        ["title", "label", "help"].includes(own) ||
+        ["title", "label", "help", "past"].includes(own) ||
         new RegExp(String.raw`\bTEXTS\.${own}\b`).test(source) ||
         isNamed(own);
       assert.ok(isUsed, `${name}: ${own}`);

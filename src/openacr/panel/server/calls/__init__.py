@@ -18,6 +18,7 @@ from openacr.panel.server.calls import (  # noqa: F401
     project,
     record,
     scope,
+    scope_files,
     session,
     texts,
     timeline,

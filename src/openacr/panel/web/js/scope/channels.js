@@ -57,6 +57,20 @@ export class Channels {
     );
   }
 
+  /** Show other fields. @param {Partial<Kept>[]} kept */
+  set(kept) {
+    this.rows.forEach((row, n) => {
+      const values = kept[n] ?? {};
+      row.source.value = values.source ?? "";
+      row.scale.value = values.scale ?? "1";
+      row.offset.value = values.offset ?? "0";
+      row.unit.value = values.unit ?? "";
+      row.color.value = values.color ?? COLORS[n] ?? MATHS_COLOR;
+      row.format.value = FORMATS.find((each) => each === values.format) ?? FORMATS[0];
+    });
+    this.title();
+  }
+
   /** The element of all rows. */
   element() {
     const heads = ["source", "color", "scale", "offset", "unit", "format"].map((each) =>

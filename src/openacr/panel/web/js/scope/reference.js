@@ -39,14 +39,14 @@ export class Reference {
   }
 
   /**
-   * The reference over a long record: what was at the left edge of the screen is at another time.
+   * The reference with what was at the left edge of the screen at a time, at the times of the points of the screen.
    * @param {number} begin ms
    * @param {{ start: number, period: number }} times of the points of the screen
    * @param {number} length
-   * @param {boolean} isEnvelope
+   * @param {boolean} [isEnvelope]
    * @returns {Channel[]}
    */
-  over(begin, times, length, isEnvelope) {
+  over(begin, times, length, isEnvelope = false) {
     const { traces = [], period = 1, start = 0, from = 0 } = this.kept ?? {};
     return traces.map((each) => ({
       ...each,

@@ -7,6 +7,7 @@ import { numberField, numberOf, selectField } from "./fields.js";
 import { DIVISIONS } from "./scales.js";
 import { WINDOWS } from "./spectrum.js";
 
+const TEXTS = { unknown: { en: "{name} has no {value}", de: "{name}: {value} gibt es nicht" } };
 const SLOPES = /** @type {Record<string, number>} */ ({ rising: 1, falling: -1, either: 0 });
 const MODES = ["free", "roll", "auto", "normal", "single", "record"];
 
@@ -54,6 +55,18 @@ export class Settings {
 
   kept() {
     return { settings: Object.fromEntries(Object.entries(this.fields).map(([name, field]) => [name, field.value])) };
+  }
+
+  /**
+   * Show other values; Error for one that a setting does not have, before anything is changed.
+   * @param {Record<string, string>} values
+   */
+  set(values) {
+    const known = Object.entries(this.fields).filter(([name]) => name in values);
+    for (const [name, field] of known)
+      if (field instanceof HTMLSelectElement && ![...field.options].some(({ value }) => value === values[name]))
+        throw new Error(t(TEXTS.unknown, { name: field.ariaLabel ?? name, value: values[name] }));
+    for (const [name, field] of known) field.value = values[name];
   }
 
   element() {

@@ -9,6 +9,7 @@ import { BRANCH, ofBranch } from "../../scope/branch.js";
 import { Channels, CHANNELS, fullLabel } from "../../scope/channels.js";
 import { cursorPlugin } from "../../scope/cursors.js";
 import { exportAs } from "../../scope/export.js";
+import { chooseKept, KEPT } from "../../scope/kept_dialog.js";
 import { LongRecord } from "../../scope/long_record.js";
 import { cursorText, distanceText, samplesAt, showMeasures } from "../../scope/measure_table.js";
 import { createOverview } from "../../scope/overview.js";
@@ -110,6 +111,7 @@ export async function mount(host, { head, kept: layout, keep }) {
     cursorKey,
     reference.key,
     keyOf(BRANCH, () => void ofBranch(recording, channels).then((found) => found && reference.set(found), refuse)),
+    keyOf(KEPT, () => void chooseKept(keeping).catch(refuse)),
     sideKey,
     keyOf("scope.export", choose),
   );
@@ -174,12 +176,10 @@ export async function mount(host, { head, kept: layout, keep }) {
         ...each,
         values: moved(each.values, Math.round((begin - start) / (1000 * period)), length),
       }));
-    const { kept } = reference;
+    const begin = cursors.value ? Math.min(...cursors.value) : frame.from;
     const other = settings.isRecord
-      ? reference.over(cursors.value ? Math.min(...cursors.value) : frame.from, frame, length, long.isEnvelope)
-      : kept
-        ? at(kept.traces, kept.start)
-        : [];
+      ? reference.over(begin, frame, length, long.isEnvelope)
+      : reference.over(reference.kept?.from ?? 0, frame, length);
     if (view === "time") {
       const next = settings.isRecord ? { traces: [], start } : coming();
       const named = other.map((each) => ({ ...each, label: `${each.label} ${t(SHORT)}`, isReference: true }));
@@ -234,6 +234,20 @@ export async function mount(host, { head, kept: layout, keep }) {
         .catch(refuse);
     long.ask();
   }
+
+  /** What is kept under a name, and how it is taken. @type {import("../../scope/kept_dialog.js").Shown} */
+  const keeping = {
+    setup: () => ({ channels: channels.kept(), ...settings.kept() }),
+    reference: () => reference.kept ?? shownNow(),
+    take: {
+      setup: (found) => {
+        settings.set(found.settings);
+        channels.set(found.channels);
+        void channels.nameUnits().then(changed, refuse);
+      },
+      reference: (found) => reference.set(found),
+    },
+  };
 
   /** Have every sample of the part, where something is computed of them. */
   function compute() {
