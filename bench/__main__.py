@@ -37,6 +37,7 @@ ORDER = (
     "scope",
     "ladder",
     "panel_graphics",
+    "panel_scope",
     "bridge",
 )
 

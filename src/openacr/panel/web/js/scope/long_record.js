@@ -172,18 +172,27 @@ export class LongRecord {
     const isWhole = this.isComputed && this.size <= MOST.computed;
     const margin = isWhole && 3 * this.size > MOST.screen ? 0 : MARGIN;
     const ends = [at(from - margin * span), at(from + (1 + margin) * span) + 1];
-    const shown = await this.columns(ends[0], ends[1], 1 + 2 * margin, isWhole);
+    const [shown, found] = await Promise.all([
+      this.columns(ends[0], ends[1], 1 + 2 * margin, isWhole),
+      this.measures().catch(() => null), // of a part that was dropped meanwhile: asked again below
+    ]);
     if (!shown) return;
-    [this.shown, this.ends] = [shown, shown.ends];
+    const isLonger = shown.ends.join() !== this.ends.join();
+    [this.shown, this.ends, this.found] = [shown, shown.ends, found];
     if (this.isFollowing && this.state.running)
       this.view = within({ from: Math.max(this.times[0], this.times[1] - span), step }, this.times);
-    this.changed();
+    this.changed(); // one picture for both answers: it is what costs
+    if (!isLonger && this.whole) return;
     this.whole = (await this.columns(...this.ends, 0.5)) ?? this.whole;
-    const [first, last] = this.part();
-    const cursors = (this.cursors ?? []).map((time) => Math.max(0, Math.round(time / this.ms))).join(",");
-    this.found =
-      last > first ? await get("record/measures", { number: this.state.number, first, last, at: cursors }) : null;
+    if (!found) this.found = await this.measures();
     this.changed();
+  }
+
+  /** Measures of the part and values at the cursors; null where nothing of it is known yet. @returns {Promise<Found | null>} */
+  async measures() {
+    const [first, last] = this.part();
+    const at = (this.cursors ?? []).map((time) => Math.max(0, Math.round(time / this.ms))).join(",");
+    return last > first ? get("record/measures", { number: this.state.number, first, last, at }) : null;
   }
 
   /**
