@@ -1,6 +1,5 @@
 """Every packet of the manual byte for byte, with its errata."""
 
-from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any, ClassVar
 
@@ -107,8 +106,7 @@ def test_a_packet_is_one_class_with_what_it_does(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(packet_module, "PACKETS", dict(PACKETS))
 
     @packet_module.register
-    @dataclass(frozen=True, slots=True)
-    class Toggle(Packet):
+    class Toggle(Packet, frozen=True):
         HEADER: ClassVar[bytes] = b"\x00\x96"
         bit: packet_module.U16
 
@@ -127,8 +125,7 @@ def test_a_packet_is_one_class_with_what_it_does(monkeypatch: pytest.MonkeyPatch
 
 
 def test_a_packet_that_does_nothing_cannot_be_made() -> None:
-    @dataclass(frozen=True, slots=True)
-    class Nothing(Packet):
+    class Nothing(Packet, frozen=True):
         HEADER: ClassVar[bytes] = b"\x00\x97"
 
     with pytest.raises(TypeError, match="act"):

@@ -47,7 +47,7 @@ def world_on_bus(path: Path | None, bus: str | None) -> "World | None":
             raise UserError(f"--bus {bus}: the project has no machine.toml with [bus]")
     if world is None or not is_real(world):
         return None
-    if (bus or world.bus.interface) == EMULATED:
+    if EMULATED in (bus, world.bus and world.bus.interface):
         from openacr.fieldbus.machine.in_memory import with_positions
 
         return with_positions(world)

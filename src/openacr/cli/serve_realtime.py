@@ -34,7 +34,7 @@ def agreed_realtime(
 
 def served_in_real_time(world: "World | None", bus: str | None, *, is_reported: bool) -> None:
     """UserError for what the real-time loop does not serve."""
-    if is_reported or bus == EMULATED:
+    if is_reported or EMULATED in (bus, world and world.bus and world.bus.interface):
         option = "--report-bus" if is_reported else f"--bus {EMULATED}"
         raise UserError(f"{option} is not there with --realtime")
     if world is None:
