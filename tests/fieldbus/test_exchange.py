@@ -94,6 +94,18 @@ def test_a_wrong_working_counter_is_as_bad_as_a_lost_frame(frames: Frames) -> No
 
 
 @linux
+def test_the_first_reason_of_an_alarm_stays_and_a_lost_frame_steers_nothing(frames: Frames) -> None:
+    for _ in range(3):
+        frames.memory.numbers[at.STEER_NS] = 500.0
+        frames.exchange(comes_back=False)
+        assert frames.memory.numbers[at.STEER_NS] == 0.0
+    frames.memory.out[COUNTER] = 2
+    for _ in range(3):
+        frames.exchange()
+    assert frames.memory.rows[at.ALARM] == at.ALARM_LOST
+
+
+@linux
 def test_a_frame_goes_out_once_in_the_periods_of_a_cycle(frames: Frames) -> None:
     b = frames.memory.rows
     b[at.CYCLE_TK] = 3
@@ -175,6 +187,30 @@ def test_the_first_position_is_zero_and_later_ones_pass_the_ends_of_32_bits() ->
     assert one.reported == -8.5
 
 
+def test_a_bus_that_is_brought_up_again_keeps_its_zero() -> None:
+    one = OneDrive()
+    one.take(1000)
+    one.memory.rows[D + at.IS_KNOWN] = 0
+    one.take(1800)
+    assert one.reported == 100.5
+
+
+def test_python_names_the_image_that_is_valid() -> None:
+    one = OneDrive()
+    one.take(0)
+    one.memory.out[at.BASES + at.FRAME_ROOM] = 7
+    one.memory.rows[at.BASE] = 1
+    assert one.give()[0] == 7
+
+
+def test_bits_beside_the_state_are_no_state() -> None:
+    one = OneDrive()
+    one.take(0)
+    one.make_ready()
+    one.take(0, status=IN_OPERATION | 0x1690)
+    assert not one.is_killed()
+
+
 def test_a_target_is_where_the_drive_is_until_it_is_ready_and_the_axis_is_enabled() -> None:
     one = OneDrive()
     rows, numbers = one.made.memory.I, one.made.memory.F
@@ -207,6 +243,8 @@ def test_a_position_that_moves_faster_than_may_be_stops_its_axis(by: int, fails:
     if fails:
         assert one.memory.rows[D + at.JUMP_CNT] == by
         assert one.give()[0] == at.QUICK_STOP
+        one.take(0)
+        assert one.memory.rows[D + at.JUMP_CNT] == by
 
 
 @pytest.mark.parametrize("is_ready", [False, True])
@@ -231,6 +269,13 @@ def test_a_device_that_leaves_op_stops_all(bus: int, alarm: int) -> None:
     assert one.memory.rows[at.ALARM] == alarm
     assert one.is_killed() == (alarm != 0)
     assert one.give()[0] == (at.QUICK_STOP if alarm else ENABLE)
+
+
+def test_an_alarm_kills_no_axis_whose_drive_does_not_follow() -> None:
+    one = OneDrive()
+    one.take(0, bus=4)
+    assert one.memory.rows[at.ALARM] == at.ALARM_LEFT
+    assert not one.is_killed()
 
 
 @pytest.mark.parametrize(
