@@ -182,6 +182,21 @@ def test_a_function_that_is_listed_so_has_an_entrance_without_the_lock_of_python
     assert locked[0].strip() == "g(cython.cast(cython.p_char, cython.address(F[0])))"
 
 
+def test_a_function_of_c_gets_a_pointer_also_where_views_are_checked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = (
+        "from openacr.csystem import frame_exchange\nfrom openacr.views import U8\n"
+        "def f(X: U8, Y: U8, n: int) -> int:\n"
+        "    return frame_exchange(n, X, X[0], Y, n, n, n)\n"
+    )
+    joined(tmp_path, monkeypatch, source)
+    assert "frame_exchange(n, X, " in unity_source()
+    text = unity_source(checked=True)
+    assert "frame_exchange(n, cython.address(X[0]), " in text
+    assert ", cython.address(Y[0]), n, n, n)" in text
+
+
 def test_every_compiled_source_is_joined_after_those_it_imports() -> None:
     files = unity.source_files()
     names = [path.name for path in unity.joining_order(files)]

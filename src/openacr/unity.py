@@ -36,6 +36,7 @@ from openacr.unity_c import (
     Inline,
     Qualified,
     UnityError,
+    address_views,
     compiled_function,
     entrance,
     is_docstring,
@@ -141,6 +142,8 @@ def unity_source(*, checked: bool = False) -> str:
         for function in functions.values():
             pass_one_pointer(function, places)
     for function in functions.values():
+        if checked:
+            address_views(function, libraries["openacr.csystem"])
         blocks.append(ast.unparse(compiled_function(function, checked=checked)))
     blocks.extend(entrances)
     return re.sub(r"\b_wide_(\d+)\b", r"\1LL", "\n\n".join(blocks)) + "\n"

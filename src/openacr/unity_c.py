@@ -2,7 +2,7 @@
 
 import ast
 import copy
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from itertools import pairwise
 
 SCALARS = {"float": "cython.double", "int": "cython.longlong", "bool": "cython.bint"}
@@ -194,6 +194,23 @@ def pass_one_pointer(function: ast.FunctionDef, places: dict[str, list[int]]) ->
     function.args.args = [ast.arg("M", ast.Name("M")), *others]
     lines = [f"{v}: {STATE[v]} = cython.cast(cython.p_{VIEWS[STATE[v]]}, M)" for v in views]
     function.body = [*ast.parse("\n".join(lines)).body, *function.body]
+
+
+def address_views(function: ast.FunctionDef, outside: Collection[str]) -> None:
+    """Let functions of C get pointers where views are bounds-checked."""
+    views = {
+        a.arg
+        for a in function.args.args
+        if isinstance(a.annotation, ast.Name) and a.annotation.id in VIEWS
+    }
+    for call in ast.walk(function):
+        if isinstance(call, ast.Call) and ast.unparse(call.func) in outside:
+            call.args = [
+                ast.parse(f"cython.address({a.id}[0])", mode="eval").body
+                if isinstance(a, ast.Name) and a.id in views
+                else a
+                for a in call.args
+            ]
 
 
 def compiled_function(function: ast.FunctionDef, *, checked: bool) -> ast.FunctionDef:
