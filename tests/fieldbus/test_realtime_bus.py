@@ -26,7 +26,7 @@ from openacr.plant.describe.real_world import real_world
 
 ROOT = Path(__file__).parents[2]
 PATIENCE_S = 60.0
-PERIOD_S = 0.004  # on a busy computer an emulated segment has to answer in half of it
+PERIOD_S = 0.01  # on a busy computer an emulated segment has to answer in half of it
 PATIENT = "lost_frames = 500\nlate_s = 10.0\n"
 
 pytestmark = [
@@ -183,7 +183,6 @@ def test_frames_that_are_lost_stop_all_drives_and_drive_res_brings_the_bus_up_ag
         live.until(lambda: not live.bus.alarm)
         live.until(lambda: not live.flags() & af4.DRIVE_RESET_REQUEST)
         live.until(lambda: live.bus.drives[0].drive.state is State.DISABLED)
-        live.switch_on()
 
 
 def test_at_the_end_drives_are_switched_off_at_rest_without_a_fault() -> None:
