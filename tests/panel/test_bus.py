@@ -1,5 +1,6 @@
 """A panel whose card has its bus open: the card in a process of its own, its state, its end."""
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -40,6 +41,7 @@ def test_the_card_of_a_bus_reports_from_a_process_of_its_own_and_ends_with_the_p
     assert [one["state"] for one in report["devices"]] == ["OP", "OP"]
     assert [one["axis"] for one in report["drives"]] == ["X", "Y"]
     assert report["is_real"]
+    assert os.getpgid(served._process.pid) != os.getpgid(0)  # Ctrl-C does not reach it
     sent = report["counters"]["sent"]
     served.reset_counters()
     until(lambda: served.report is not None and served.report["counters"]["sent"] < sent)

@@ -27,8 +27,9 @@ class ServedCard:
         words += ["--real"] if is_real else []
         words += [] if bus is None else ["--bus", bus]
         self._process = subprocess.Popen(
-            words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8"
-        )
+            words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8",
+            start_new_session=True,  # Ctrl-C is for the panel, which may ask first
+        )  # fmt: skip
         self._in = cast("IO[str]", self._process.stdin)
         self._out = cast("IO[str]", self._process.stdout)
         self._report: dict[str, Any] | None = None
