@@ -94,7 +94,7 @@ def scanned(monkeypatch: pytest.MonkeyPatch) -> None:
     def found(_interface: str) -> Iterator[list[Device]]:
         yield scan(Port(SegmentLink(segment_of(drives_world(1), digital=1))))
 
-    monkeypatch.setattr(bus, "_devices", found)
+    monkeypatch.setattr(bus, "open_bus", found)
 
 
 @pytest.mark.usefixtures("scanned")

@@ -88,7 +88,7 @@ def scan_bus(
         bus_can.scan(interface, bit_rate, write, as_json=as_json)
         return
     files = [device for path in esi or () for device in read_esi(path)]
-    with _devices(interface) as devices:
+    with open_bus(interface) as devices:
         if as_json:
             typer.echo(json.dumps([_record(device) for device in devices], indent=2))
         else:
@@ -113,7 +113,7 @@ def show_states(interface: Interface, bit_rate: BitRate = None, as_json: AsJson 
     if _is_can(interface, bit_rate):
         bus_can.show_states(interface, bit_rate, as_json=as_json)
         return
-    with _devices(interface) as devices:
+    with open_bus(interface) as devices:
         found = [(device, *device.state()) for device in devices]
     if as_json:
         rows = [
@@ -191,7 +191,8 @@ def _is_can(interface: str, bit_rate: int | None) -> bool:
 
 
 @contextmanager
-def _devices(interface: str) -> "Iterator[list[Device]]":
+def open_bus(interface: str) -> "Iterator[list[Device]]":
+    """The devices at a network interface, until the end; UserError if there are none."""
     from openacr.fieldbus.ethercat.master.device import scan
     from openacr.fieldbus.ethercat.master.port import Port
     from openacr.io.ethercat_link import RawLink
@@ -210,7 +211,7 @@ def _objects(interface: str, position: int) -> "Iterator[Objects]":
     from openacr.fieldbus.ethercat.master.sdo import Objects
     from openacr.fieldbus.ethercat.wire.registers import State
 
-    with _devices(interface) as devices:
+    with open_bus(interface) as devices:
         if position >= len(devices):
             raise UserError(f"position {position}: the bus has {len(devices)}, counted from 0")
         device = devices[position]

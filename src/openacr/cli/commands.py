@@ -42,6 +42,7 @@ COMMANDS: dict[str, Entry | Family] = {
             "emulate": Entry("bus_emulate", "emulate_bus"),
             "scan": Entry("bus", "scan_bus"),
             "state": Entry("bus", "show_states"),
+            "watch": Entry("bus_watch", "watch_bus"),
             "sdo": Family(
                 "Objects of a device.",
                 {

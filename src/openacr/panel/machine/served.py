@@ -15,7 +15,7 @@ from typing import IO, Any, cast
 from openacr.errors import UserError
 
 LISTENING, BUS = "listening ascii=", "bus "
-END_S = 10.0  # that the process takes to leave
+END_S = 30.0  # that the process takes to leave
 
 
 class ServedCard:

@@ -59,9 +59,13 @@ class Device:
 
     def state_now(self) -> tuple[State, int] | None:
         """The same, asked once; None if it does not answer."""
-        asked = by_station(Command.FPRD, self.station, Register.AL_STATUS, bytes(6))
-        back = self.port.once([asked])
-        return _state(back[0].data) if back and back[0].counter == 1 else None
+        data = self.registers_now(Register.AL_STATUS, 6)
+        return None if data is None else _state(data)
+
+    def registers_now(self, register: int, size: int) -> bytes | None:
+        """Registers, asked once; None if it does not answer."""
+        back = self.port.once([by_station(Command.FPRD, self.station, register, bytes(size))])
+        return back[0].data if back and back[0].counter == 1 else None
 
     def request(self, state: State) -> None:
         """Ask for a state; an error is acknowledged first."""
