@@ -39,18 +39,26 @@ const TEXTS = {
   actual: { en: "Position, counts", de: "Position, Inkremente" },
   target: { en: "Target", de: "Sollwert" },
   gone: { en: "does not answer", de: "antwortet nicht" },
+  notReady: { en: "not ready to switch on", de: "nicht einschaltbereit" },
+  disabled: { en: "switch on disabled", de: "Einschaltsperre" },
+  ready: { en: "ready to switch on", de: "einschaltbereit" },
+  switchedOn: { en: "switched on", de: "eingeschaltet" },
+  operating: { en: "operation enabled", de: "Betrieb freigegeben" },
+  quickStop: { en: "quick stop", de: "Schnellhalt" },
+  reacting: { en: "reacts to a fault", de: "reagiert auf eine Störung" },
+  fault: { en: "fault", de: "Störung" },
   notMapped: { en: "not known", de: "nicht bekannt" },
 };
-/** @type {Record<string, { en: string, de: string }>} */
+/** States of CiA 402 by their names at the server. @type {Record<string, import("../../core/texts.js").Said>} */
 const STATES = {
-  NOT_READY: { en: "not ready to switch on", de: "nicht einschaltbereit" },
-  DISABLED: { en: "switch on disabled", de: "Einschaltsperre" },
-  READY: { en: "ready to switch on", de: "einschaltbereit" },
-  SWITCHED_ON: { en: "switched on", de: "eingeschaltet" },
-  OPERATING: { en: "operation enabled", de: "Betrieb freigegeben" },
-  QUICK_STOP: { en: "quick stop", de: "Schnellhalt" },
-  REACTING: { en: "reacts to a fault", de: "reagiert auf eine Störung" },
-  FAULT: { en: "fault", de: "Störung" },
+  NOT_READY: TEXTS.notReady,
+  DISABLED: TEXTS.disabled,
+  READY: TEXTS.ready,
+  SWITCHED_ON: TEXTS.switchedOn,
+  OPERATING: TEXTS.operating,
+  QUICK_STOP: TEXTS.quickStop,
+  REACTING: TEXTS.reacting,
+  FAULT: TEXTS.fault,
 };
 /** Error codes of drives (0x603F) as the server groups them, in German. @type {Record<number, string>} */
 const FAULTS = {
