@@ -157,7 +157,7 @@ export async function mount(host, { head }) {
     if (!isOpen) return;
     const known = found instanceof Error ? null : /** @type {Report | null} */ (found.report);
     all.hidden = key.hidden = !known;
-    state.classList.toggle("refusal", !known || !!known.alarm);
+    state.classList.toggle("refusal", found instanceof Error || !!known?.alarm || (!known && found.is_open));
     if (known) draw(known);
     else setText(state, found instanceof Error ? found.message : t(found.is_open ? TEXTS.unknown : TEXTS.closed));
     timer = setTimeout(look, EVERY_MS);
