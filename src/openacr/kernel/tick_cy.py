@@ -7,7 +7,12 @@ outputs computed here act on it during the next one.
 from openacr.kernel.axis.analog_cy import analog_step
 from openacr.kernel.axis.axis_cy import axis_setpoints, axis_show, axis_take_written
 from openacr.kernel.axis.capture_cy import capture_step
-from openacr.kernel.axis.drive_cy import drive_step, encoder_faults, motion_enable_step
+from openacr.kernel.axis.drive_cy import (
+    drive_resting,
+    drive_step,
+    encoder_faults,
+    motion_enable_step,
+)
 from openacr.kernel.axis.feedback_cy import (
     encoder_filters_step,
     encoder_links_step,
@@ -166,9 +171,10 @@ def inputs_read(F: F64, I: I32, S: F32, period_s: float, rate_hz: float) -> None
 
 def sources_read(F: F64, I: I32, S: F32, period_s: float) -> None:
     """Captures and clocks, then what gears, cams and objects take their pulses from."""
-    for n in range(I[kernel.axes]):
-        if I[followers.live[n]]:
-            triggers_watch(F, I, S, n)
+    if not I[kernel.untouched]:  # else no trigger is armed
+        for n in range(I[kernel.axes]):
+            if I[followers.live[n]]:
+                triggers_watch(F, I, S, n)
     capture_step(F, I)
     clock_step(F, I, period_s)
     if I[objects.live]:
@@ -184,7 +190,8 @@ def axes_guard(F: F64, I: I32, S: F32, period_s: float) -> None:
     faults: int = encoder_faults(I)
     for n in range(I[kernel.axes]):
         if I[axes.on[n]]:
-            drive_step(I, n, period_s, faults)
+            if not drive_resting(I, n, faults):
+                drive_step(I, n, period_s)
             limits_step(F, I, S, n)
 
 

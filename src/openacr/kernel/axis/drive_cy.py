@@ -125,7 +125,10 @@ def drive_wiring(I: I32, n: int) -> None:
 
 
 def drive_resting(I: I32, n: int, faults: int) -> bool:
-    """Whether nothing about the drive of axis n has changed since its last step."""
+    """Whether nothing about the drive of axis n has changed since its last step.
+
+    `faults` of encoders as `encoder_faults` has found them.
+    """
     flags: int = I[af4.word[n]]
     k: int = I[axes.position_index[n]]
     if flags != I[axes.drive_seen[n]] or I[axes.enable_ticks[n]] or k != I[axes.drive_wired[n]]:
@@ -150,11 +153,9 @@ def on_bus(I: I32, n: int) -> bool:
     return k >= 0 and I[motors.kind[k]] == BUS_MOTOR
 
 
-def drive_step(I: I32, n: int, period_s: float, faults: int) -> None:
-    """Follow the drive flags of axis n; `faults` of encoders as `encoder_faults` has found them."""
+def drive_step(I: I32, n: int, period_s: float) -> None:
+    """Follow the drive flags of axis n, unless its drive rests (`drive_resting`)."""
     word: int = af4.word[n]
-    if drive_resting(I, n, faults):
-        return
     drive_request(I, n)
     if I[axes.enable_ticks[n]] > 0 and not on_bus(I, n):
         I[axes.enable_ticks[n]] -= 1

@@ -294,9 +294,10 @@ def followers_used(I: I32, n: int) -> int:
 
     The settings are 32-bit floats; any that is not 0 has bits set.
     """
+    if I[followers.live[n]]:
+        return 1
     return (
-        I[followers.live[n]]
-        | I[axes.backlash_setting[n]]
+        I[axes.backlash_setting[n]]
         | I[axes.rpm_factor[n]]
         | (I[af2.word[n]] & af2.DIR_LIMIT_ACTIVATE)
     )

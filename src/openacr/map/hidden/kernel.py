@@ -27,7 +27,7 @@ KERNEL = HiddenBlock(
         "missing_steppers",
         "missing_adcs",
         # What may be left out of the present tick (engine/alone_cy.py); 0 between calls.
-        "untouched",  # nothing but the interrupt has written since the tick before
+        "untouched",  # nothing else has written since the tick before, and no trigger is armed
         "unread",  # nothing will read what this tick shows
         "shows_due",  # some axes have put off what they show
     ),
