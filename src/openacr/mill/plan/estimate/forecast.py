@@ -24,7 +24,9 @@ from openacr.mill.plan.moves.planning import MODES, PASSES, CornerRules, put
 if TYPE_CHECKING:
     from openacr.mill.config.settings import Settings
     from openacr.mill.plan.moves.encoding import Job, Motion
+    from openacr.views import F64
 
+MOST_PACES = 4096
 _moves = pick(core.forecast_moves)
 _add = pick(core.forecast_add)
 _release = pick(core.forecast_release)
@@ -61,6 +63,7 @@ class Forecast(Timing):
         super().__init__(settings, begin, is_dry=is_dry, rounds=rounds)
         self._desk = desk
         self._files: list[str] = []
+        self._known: dict[c.Pace, F64] = {}
         self._dwell_s = 0.0
         self._J, self._X = integers(core.J_FLAGS + MOST_ROWS), doubles(core.X_SIZE)
         self._Q, self._B = doubles(core.QUEUE * row.Q_SIZE), doubles(core.QUEUE)
@@ -115,12 +118,7 @@ class Forecast(Timing):
         J[row.J_UNHOMED] = self._desk.unhomed if self._desk else 0
         paces = doubles(len(moves.paces) * core.PACE)
         for k, pace in enumerate(moves.paces):
-            mode = c.PathMode.EXACT if pace.is_confirmed else pace.mode
-            at = k * core.PACE
-            paces[at + core.PACE_UPS] = self._encoder.line_speed(pace)
-            paces[at + core.PACE_MODE] = MODES.get(mode, PASSES)
-            paces[at + core.PACE_CORNER_U] = self._encoder.tolerance(pace)
-            paces[at + core.PACE_WANTED_UPS] = pace.feed_upm / S_PER_MIN
+            paces[k * core.PACE : (k + 1) * core.PACE] = self._known.get(pace) or self._pace(pace)
         X = self._X
         X[row.X_BEGIN_U : row.X_BEGIN_U + row.AXES] = array("d", self._position)
         J[core.J_ROWS] = count
@@ -130,6 +128,18 @@ class Forecast(Timing):
                 begin = moves.end_of(k - 1) if k else self._position
                 self._desk.read(self._encoder.job(moves.entry(k), begin))
         self._position = moves.end_of(count - 1)
+
+    def _pace(self, pace: c.Pace) -> F64:
+        """The row of a pace, remembered while there is room: most programs have few."""
+        found = doubles(core.PACE)
+        found[core.PACE_UPS] = self._encoder.line_speed(pace)
+        mode = c.PathMode.EXACT if pace.is_confirmed else pace.mode
+        found[core.PACE_MODE] = MODES.get(mode, PASSES)
+        found[core.PACE_CORNER_U] = self._encoder.tolerance(pace)
+        found[core.PACE_WANTED_UPS] = pace.feed_upm / S_PER_MIN
+        if len(self._known) < MOST_PACES:
+            self._known[pace] = found
+        return found
 
     def _move(self, job: Job) -> None:
         """Plan a move that is a job already."""
