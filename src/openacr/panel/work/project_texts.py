@@ -92,7 +92,7 @@ def store(root: Path, name: str, text: str, version: str) -> ProjectText:
         raise ChangedError(f"{own.name} of the project was changed since it was read")
     lines = _lines(data)
     whole = [*lines[: place.first], *text.rstrip("\n").split("\n"), *(lines[place.last :] or [""])]
-    _write(own, ("\r\n" if b"\r\n" in data else "\n").join(whole))
+    write(own, ("\r\n" if b"\r\n" in data else "\n").join(whole))
     return text_of(root, name, ())
 
 
@@ -135,7 +135,7 @@ def _order(name: str) -> tuple[str, int]:
     return level.word, level.number
 
 
-def _write(path: Path, text: str) -> None:
+def write(path: Path, text: str) -> None:
     """Write a text, whole or not at all."""
     partial = path.with_name(f".{path.name}.partial")
     try:

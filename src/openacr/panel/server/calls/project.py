@@ -8,15 +8,18 @@ from typing import Annotated
 from msgspec import Meta
 
 from openacr.client import Level
+from openacr.client.backup import backup
 from openacr.client.effects import Op
 from openacr.client.stored import ListedLine, listing, rooms
 from openacr.client.talk import Talk
 from openacr.errors import UserError
+from openacr.mill.card.setup import lines
 from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Body, Call, endpoint
 from openacr.panel.server.calls.on_card import OfProgram, talked
 from openacr.panel.server.panel import Panel
+from openacr.panel.work import project_setup as project_set_up
 from openacr.panel.work.project_texts import State, beside, states, store, text_of
 
 MOST_TEXT = 2_000_000  # characters
@@ -28,6 +31,12 @@ class Stored(Body, frozen=True):
 
     name: Annotated[str, Meta(pattern="^(PROG(\\d|1[0-5])|PLC[0-7])$")]
     text: Annotated[str, Meta(min_length=1, max_length=MOST_TEXT)]
+    version: Annotated[str, Meta(max_length=40)]
+
+
+class SetUp(Body, frozen=True):
+    """The version of the set-up file that was read."""
+
     version: Annotated[str, Meta(max_length=40)]
 
 
@@ -76,6 +85,52 @@ async def store_project_text(call: Call) -> object:
     stored = await call.panel.checks.run(store, _root(call), body.name, body.text, body.version)
     call.panel.control.call(lambda station: station.on_card.programs.texts_changed(body.name))
     return {"file": stored.file, "version": stored.version}
+
+
+@endpoint("GET", "/project/setup")
+async def project_setup(call: Call) -> object:
+    """The set-up of the card beside that of the project: memory, attachments, aliases, settings.
+
+    Each row has the line of the set-up file (0: none), the value of the project and that of the
+    card (null: not there); `by` is machine where it is what AcroMill sets for its machine. The card
+    is asked for more than a thousand values: this takes seconds.
+    """
+    root = _root(call)
+    reading = await _reading(call.panel)
+    rows = await call.panel.checks.run(project_set_up.compared, root, reading)
+    return {
+        "version": project_set_up.version(root),
+        "differs": sum(not row.by for row in rows),
+        "rows": rows,
+        "not_compared": project_set_up.not_compared(reading),
+    }
+
+
+@endpoint("POST", "/project/setup", Role.SERVICE, body=SetUp)
+async def store_project_setup(call: Call) -> object:
+    """Store what differs into the set-up file of the project; the card is left as it is.
+
+    `conflict` where the file has changed since.
+    """
+    body: SetUp = call.body
+    reading = await _reading(call.panel)
+    rows = await call.panel.checks.run(project_set_up.store, _root(call), reading, body.version)
+    return {"lines": len(rows)}
+
+
+async def _reading(panel: Panel) -> project_set_up.Reading:
+    """What the card reports of its set-up, and what AcroMill has set of it."""
+
+    def ours(station: Station) -> tuple[str, str, tuple[str, ...]]:
+        session = station.link.required
+        if not session.is_set_up:
+            return "", "", ()
+        settings = session.runner.settings
+        own = Level.program(settings.watchdog_program)
+        return str(own), f"PROG{settings.master}", tuple(lines(settings))
+
+    known = await panel.ask(ours)
+    return project_set_up.Reading(await talked(panel, backup), *known)
 
 
 async def differences(panel: Panel) -> list[str]:
