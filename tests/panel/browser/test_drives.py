@@ -1,7 +1,9 @@
 """Panes for any axis of the card, on the gantry: its Z belongs to a program of the card alone."""
 
+import re
 import shutil
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -214,8 +216,8 @@ def test_the_project_is_compared_with_the_card_and_goes_to_both_sides(
     row.get_by_role("button", name="COMPARE PROG1").click()
     expect(pane.locator("table.compared tr.is-different", has_text="DWL 7")).to_have_count(1)
     picture(page, pictures / "project.png")
-    row.get_by_role("button", name="SAVE INTO PROJECT PROG1").click()
-    dialog = page.get_by_role("dialog", name="SAVE INTO PROJECT")
+    row.get_by_role("button", name="UPLOAD PROG1").click()
+    dialog = page.get_by_role("dialog", name="UPLOAD")
     expect(dialog).to_contain_text("PROG1: 10 lines")
     dialog.get_by_role("button", name="CANCEL").click()
     assert (folder / "prog1.8k").read_text() == before
@@ -226,7 +228,78 @@ def test_the_project_is_compared_with_the_card_and_goes_to_both_sides(
     expect(row.locator("[data-state=equal]")).to_have_text("equal")
     expect(sign).to_be_hidden()
     served.call(change)
-    row.get_by_role("button", name="SAVE INTO PROJECT PROG1").click()
-    page.get_by_role("dialog").get_by_role("button", name="SAVE INTO PROJECT").click()
+    row.get_by_role("button", name="UPLOAD PROG1").click()
+    page.get_by_role("dialog").get_by_role("button", name="INTO THE FOLDER").click()
     expect(row.locator("[data-state=equal]")).to_have_text("equal")
     assert "DWL 7" in (folder / "prog1.8k").read_text()
+
+
+def typed(served: Served, line: str) -> None:
+    served.call(lambda station: station.link.machine.card.command(line))
+
+
+def test_the_set_up_is_compared_setting_by_setting_and_goes_into_the_folder_with_one_question(
+    page: Page, served: Served, folder: Path, pictures: Path
+) -> None:
+    page.evaluate("import('/js/bench/workspace.js').then((each) => each.openPane('project'))")
+    pane = page.locator("[data-pane=project]")
+    head = pane.locator("xpath=..")
+    state = pane.locator("[data-part=setup-state]")
+    sign = page.get_by_role("button", name="≠ PROJECT")
+    head.get_by_role("button", name="READ", exact=True).click()
+    expect(state).to_have_text("The set-up is equal")
+    expect(pane).to_contain_text("Not compared, as the card does not tell it: network address")
+    expect(sign).to_be_hidden()
+    typed(served, "AXIS2 DGAIN 3e-5")
+
+    def change(station: Station) -> None:
+        station.link.machine.card.download("PROGRAM\nDWL 8\nENDP\n", to=Level.program(1))
+        station.on_card.programs.texts_changed("PROG1")
+
+    served.call(change)
+    head.get_by_role("button", name="READ", exact=True).click()
+    expect(state).to_have_text("1 setting differs")
+    expect(sign).to_have_attribute("title", re.compile("PROG1, set-up \\(1 setting\\)"))
+    row = pane.locator("[data-setting='AXIS2 DGAIN']")
+    expect(row).to_contain_text("3E-05")
+    before = (folder / "setup.8k").read_text()
+    number = int(row.locator("td").first.inner_text())
+    assert before.splitlines()[number - 1].startswith("AXIS2 DGAIN")
+    expect(pane.locator("tr[data-name=PROG1] [data-state=differs]")).to_have_text("differs")
+    picture(page, pictures / "project-setup.png")
+    head.get_by_role("button", name="UPLOAD ALL").click()
+    dialog = page.get_by_role("dialog", name="UPLOAD")
+    expect(dialog.locator("li")).to_have_text([re.compile("PROG1: "), "setup.8k: 1 line"])
+    dialog.get_by_role("button", name="CANCEL").click()
+    assert (folder / "setup.8k").read_text() == before
+    head.get_by_role("button", name="UPLOAD ALL").click()
+    page.get_by_role("dialog").get_by_role("button", name="INTO THE FOLDER").click()
+    expect(state).to_have_text("The set-up is equal")
+    expect(sign).to_be_hidden()
+    after = (folder / "setup.8k").read_text().splitlines()
+    assert [
+        n for n, (a, b) in enumerate(zip(before.splitlines(), after, strict=True), 1) if a != b
+    ] == [number]
+    assert "DWL 8" in (folder / "prog1.8k").read_text()
+
+
+def store(station: Station, lines: str) -> None:
+    station.link.machine.card.download(lines, to=Level.program(1))
+
+
+def test_the_text_of_the_card_goes_into_the_editor_and_the_folder_stays(
+    page: Page, served: Served, folder: Path
+) -> None:
+    before = (folder / "prog1.8k").read_text()
+    for text in ("DWL 9", "DWL 4"):
+        lines = f"PROGRAM\n{text}\nENDP\n"
+        served.call(partial(store, lines=lines))
+        page.evaluate("import('/js/bench/workspace.js').then((each) => each.openPane('project'))")
+        pane = page.locator("[data-pane=project]")
+        pane.locator("xpath=..").get_by_role("button", name="READ", exact=True).click()
+        pane.locator("tr[data-name=PROG1]").get_by_role("button", name="UPLOAD PROG1").click()
+        dialog = page.get_by_role("dialog", name="UPLOAD")
+        expect(dialog).to_contain_text("PROG1: ")
+        dialog.get_by_role("button", name="INTO THE EDITOR").click()
+        expect(page.locator("[data-pane=editor] .cm-line", has_text=text)).to_have_count(1)
+    assert (folder / "prog1.8k").read_text() == before

@@ -2,8 +2,8 @@
 import { Signal } from "../core/signal.js";
 import { openPane } from "./workspace.js";
 
-/** By pane: what it has not taken yet, e.g. ["P12288"]; of the editor ["PROG3", "120"], of the cross reference
- * ["speed"]. */
+/** By pane: what it has not taken yet, e.g. ["P12288"]; of the editor ["PROG3", "120"], or
+ * ["PROG3", "", "read"] to read it anew, of the cross reference ["speed"]. */
 const WANTED = {
   watch: new Signal(/** @type {string[]} */ ([])),
   scope: new Signal(/** @type {string[]} */ ([])),

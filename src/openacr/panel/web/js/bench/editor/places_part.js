@@ -12,8 +12,8 @@ import { takeWanted } from "../wanted.js";
  * @returns {() => void} ends it
  */
 export function followPlaces({ opened, stored, editor, choice, chooseLevel }) {
-  async function show(/** @type {string} */ level, /** @type {number} */ number) {
-    if (opened().level !== level) {
+  async function show(/** @type {string} */ level, /** @type {number} */ number, isRead = false) {
+    if (opened().level !== level || isRead) {
       choice.value = level;
       await chooseLevel();
     }
@@ -23,5 +23,8 @@ export function followPlaces({ opened, stored, editor, choice, chooseLevel }) {
     const line = editor().doc().lineAt(at).number - 1;
     editor().goTo([line, 0, line, 0]);
   }
-  return takeWanted("editor", ([level = "", line]) => void show(level, Number(line)).catch(refuse));
+  return takeWanted(
+    "editor",
+    ([level = "", line, read]) => void show(level, Number(line), read === "read").catch(refuse),
+  );
 }

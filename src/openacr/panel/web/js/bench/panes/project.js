@@ -9,7 +9,10 @@ import { ask } from "../../frame/dialog.js";
 import { textOf } from "../../screens/programs.js";
 import { hasProject, inProject, toCard, toProject, which } from "../editor/card_text.js";
 import { comparison } from "../editor/compare.js";
+import { setupDiffers, setupPart } from "../project_setup.js";
+import { want } from "../wanted.js";
 
+const SETUP = "setup.8k";
 const TEXTS = {
   none: {
     en: "This card has no project. `openacr panel FOLDER` opens one: its programs are then compared with those of the card.",
@@ -23,9 +26,15 @@ const TEXTS = {
   project: { en: "only in the project", de: "nur im Projekt" },
   beside: { en: "COMPARE", de: "VERGLEICHEN" },
   download: { en: "DOWNLOAD", de: "LADEN" },
-  save: { en: "SAVE INTO PROJECT", de: "INS PROJEKT SPEICHERN" },
+  upload: { en: "UPLOAD", de: "HOLEN" },
   downloadAll: { en: "DOWNLOAD ALL", de: "ALLE LADEN" },
-  saveAll: { en: "SAVE ALL", de: "ALLE SPEICHERN" },
+  uploadAll: { en: "UPLOAD ALL", de: "ALLE HOLEN" },
+  toEditor: { en: "INTO THE EDITOR", de: "IN DEN EDITOR" },
+  toFolder: { en: "INTO THE FOLDER", de: "IN DEN ORDNER" },
+  editorText: {
+    en: "INTO THE EDITOR opens the text of the card there, and asks where that would lose changes; the folder stays as it is.",
+    de: "IN DEN EDITOR öffnet dort den Text der Karte und fragt, wo das Änderungen kosten würde; der Ordner bleibt, wie er ist.",
+  },
   folder: { en: "In the project", de: "Im Projekt" },
   lostCard: {
     en: "The card gets the texts of the project. What is lost on the card:",
@@ -55,6 +64,7 @@ export async function mount(host, { head }) {
   }
   const table = h("tbody", {});
   const seen = h("div.stack", {});
+  const setup = setupPart(endings);
   /** @type {Text[]} */
   let texts = [];
   const all = {
@@ -66,16 +76,21 @@ export async function mount(host, { head }) {
           texts.filter(({ state }) => isOther(state, "card")),
         ),
     ),
-    save: keyOf(
-      TEXTS.saveAll,
+    upload: keyOf(
+      TEXTS.uploadAll,
       () =>
         void toSide(
           "project",
           texts.filter(({ state }) => isOther(state, "project")),
+          true,
         ),
     ),
   };
-  head.append(all.download, all.save);
+  head.append(
+    keyOf("programs.read", () => void Promise.all([read(), setup.read()])),
+    all.download,
+    all.upload,
+  );
   host.append(
     h(
       "div.grow.scroll",
@@ -87,6 +102,7 @@ export async function mount(host, { head }) {
         table,
       ),
       seen,
+      setup.element,
     ),
   );
   const newest = latest(endings);
@@ -95,12 +111,14 @@ export async function mount(host, { head }) {
     const found = await newest(get("project")).catch((error) => void refuse(error));
     if (!found) return;
     texts = found.texts;
-    for (const [key, side] of /** @type {const} */ ([
-      [all.download, "card"],
-      [all.save, "project"],
-    ]))
-      key.disabled = !model.may("service") || !texts.some(({ state }) => isOther(state, side));
+    drawKeys();
     fill(table, ...texts.map(rowOf));
+  }
+
+  function drawKeys() {
+    const may = model.may("service");
+    all.download.disabled = !may || !texts.some(({ state }) => isOther(state, "card"));
+    all.upload.disabled = !may || !(setup.differs() || texts.some(({ state }) => isOther(state, "project")));
   }
 
   /** @param {Text} text */
@@ -121,7 +139,7 @@ export async function mount(host, { head }) {
           {},
           state === "equal" ? "" : key(TEXTS.beside, () => void compare(name)),
           isOther(state, "card") ? key(TEXTS.download, () => void toSide("card", [text])) : "",
-          isOther(state, "project") ? key(TEXTS.save, () => void toSide("project", [text])) : "",
+          isOther(state, "project") ? key(TEXTS.upload, () => void toSide("project", [text])) : "",
         ),
       ),
     );
@@ -141,43 +159,62 @@ export async function mount(host, { head }) {
    * Have texts of one side replaced by those of the other, once it was said what is lost.
    * @param {"card" | "project"} side that is changed
    * @param {Text[]} wanted
+   * @param {boolean} [isAll] with the set-up
    */
-  async function toSide(side, wanted) {
+  async function toSide(side, wanted, isAll = false) {
     const done = [];
+    const withSetup = isAll && setup.differs() > 0;
+    const names = [...wanted.map(({ name }) => name), ...(withSetup ? [SETUP] : [])];
     try {
       const lost = await Promise.all(wanted.map(({ name }) => lines(name, side)));
-      const title = t(side === "card" ? TEXTS.download : TEXTS.save);
-      const isSure = await ask({
-        title,
-        body: [
-          h("p", {}, t(side === "card" ? TEXTS.lostCard : TEXTS.lostFolder)),
-          h(
-            "ul",
-            {},
-            ...lost.map(([name, count]) => h("li", {}, t(count ? TEXTS.loses : TEXTS.nothing, { name, count }))),
-          ),
-        ],
-        choices: [
-          { text: t("key.cancel"), value: null },
-          { text: title, kind: "danger", value: true },
-        ],
-      });
-      if (!isSure) return;
+      if (withSetup) lost.push([SETUP, setup.lost()]);
+      const chosen = await ask(question(side, lost, isAll));
+      if (!chosen) return;
+      if (chosen === "editor") return want("editor", wanted[0].name, "", "read");
       for (const { name } of wanted) {
         await (side === "card" ? download(name) : save(name));
         done.push(name);
       }
+      if (withSetup) {
+        await setup.store();
+        done.push(SETUP);
+      }
     } catch (error) {
       refuse(error);
     }
-    if (done.length === wanted.length)
-      report(t(side === "card" ? TEXTS.sent : TEXTS.saved, { names: done.join(", ") }));
+    if (done.length === names.length) report(t(side === "card" ? TEXTS.sent : TEXTS.saved, { names: done.join(", ") }));
     fill(seen);
     await read();
   }
 
+  endings.add(setupDiffers.watch(drawKeys));
+  void setup.read();
   endings.add(model.texts.watch(() => void read()));
   return () => endings.end();
+}
+
+/**
+ * The question before texts are replaced: what is lost.
+ * @param {"card" | "project"} side that is changed
+ * @param {[string, number][]} lost names, and how many lines of each
+ * @param {boolean} isAll
+ */
+function question(side, lost, isAll) {
+  const isUpload = side === "project";
+  const hasEditor = isUpload && !isAll;
+  return {
+    title: t(isUpload ? TEXTS.upload : TEXTS.download),
+    body: [
+      h("p", {}, t(isUpload ? TEXTS.lostFolder : TEXTS.lostCard)),
+      h("ul", {}, ...lost.map(([name, count]) => h("li", {}, t(count ? TEXTS.loses : TEXTS.nothing, { name, count })))),
+      hasEditor ? h("p", {}, t(TEXTS.editorText)) : "",
+    ],
+    choices: /** @type {import("../../frame/dialog.js").Choice[]} */ ([
+      { text: t("key.cancel"), value: null },
+      ...(hasEditor ? [{ text: t(TEXTS.toEditor), value: "editor" }] : []),
+      { text: t(isUpload ? TEXTS.toFolder : TEXTS.download), kind: "danger", value: "side" },
+    ]),
+  };
 }
 
 /**
