@@ -500,8 +500,9 @@ def test_a_plc_comes_as_a_ladder_or_with_the_reason_why_not(
         level=Level.plc(0),
     )
     found = web.get("/api/card/ladder", params={"plc": 0}).json()
-    assert found["rungs"] == []
-    assert found["why"].startswith("line 10: ")
+    (rung,) = found["rungs"]
+    assert [(each["text"], each["flag"]) for each in rung["symbols"]] == [("door", 5), ("40", 40)]
+    assert (found["why"], found["names"]) == ("", {"5": "door"})
     assert found["lines"][0] == {"number": 10, "text": "LD door"}
 
 

@@ -12,6 +12,7 @@ from openacr.client.errors import (
     ChangedError,
     ClientError,
     DownloadError,
+    RefusedError,
     VerificationError,
 )
 from openacr.client.listing import HIDDEN_STEP, is_free_form, plain
@@ -21,6 +22,7 @@ from openacr.client.transfer import ENDS_TEXT, Report, download, upload
 from openacr.errors import UserError
 
 _ROOM = re.compile(r"DIM (PROG|PLC)(\d+)\((\d+)\)")
+_ALIAS = re.compile(r"#DEFINE\s+(\S+)\s+(.+)")
 _NUMBERED = re.compile(r"\s*(\d+)\s(.*)", re.DOTALL)
 
 
@@ -130,3 +132,12 @@ def clear(talk: Talk, level: Level) -> Op[None]:
     home = talk.level
     yield from talk.order("NEW", at=level)
     yield from talk.go(home)
+
+
+def aliases(talk: Talk) -> Op[dict[str, str]]:
+    """What the names of #DEFINE stand for, of a card without memory for them nothing."""
+    try:
+        defined = yield from talk.query("DEF", at=SYS)
+    except RefusedError:
+        return {}
+    return {each[1]: each[2].strip() for line in defined if (each := _ALIAS.match(line))}

@@ -456,6 +456,14 @@ def test_a_plc_is_held_after_the_scan_that_changes_a_coil_of_its_line(
     page.keyboard.press("F9")
     expect(pane(page).locator(".cm-line-break")).to_have_count(0)
     on_card(served, "HALT PLC0")
+    show_pane(page, "plc")
+    contact = page.locator("[data-pane=plc] .symbol").first
+    contact.focus()
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("menu", name="BIT200")).to_be_visible()
+    page.keyboard.press("Escape")
+    expect(contact).to_be_focused()
+    page.get_by_role("button", name="CLOSE PANE").click()
 
 
 def test_where_a_name_is_used_is_shown_over_all_programs_and_leads_to_the_line(

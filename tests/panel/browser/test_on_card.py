@@ -308,6 +308,42 @@ def test_what_a_flag_of_the_card_means_is_written_under_its_contact(
     stored(served, Level.plc(0), "NEW\n" + LADDER)
 
 
+def test_an_alias_names_its_flag_and_the_keyboard_reaches_every_contact(
+    page: Page, served: Served
+) -> None:
+    for line in ("DIM DEF(10)", "#DEFINE gripper BIT131", "#DEFINE count 128"):
+        on_card(served, line)
+    text = "NEW\n10 LD 128\n20 AND 769\n30 OUT 131\n40 LD gripper\n50 OUT 132\n"
+    stored(served, Level.plc(0), text)
+    page.click("#display-tab-plc")
+    for plc in ("PLC2", "PLC0"):  # read anew
+        page.get_by_role("combobox", name="PLC").select_option(plc)
+        expect(page.locator(".rung")).to_have_count(2 if plc == "PLC0" else 0)
+    expect(symbol(page, 0, 2).locator("text.small")).to_have_text("gripper")
+    expect(symbol(page, 1, 0).locator("text")).to_have_text(["gripper", "BIT 131"])
+    expect(symbol(page, 0, 0).locator("text.small")).to_have_count(0)  # count is no flag
+    about = page.locator(".ladder-about")
+    expect(about).to_be_hidden()
+    page.locator(".ladder").focus()
+    page.keyboard.press("Tab")
+    expect(symbol(page, 0, 0)).to_be_focused()
+    set_bit(served, 128, True)
+    expect(about).to_have_text("BIT 128: on")
+    for key, rung, n in (
+        ("ArrowLeft", 0, 0), ("ArrowRight", 0, 1), ("ArrowRight", 0, 2), ("ArrowRight", 0, 2),
+        ("ArrowLeft", 0, 1), ("ArrowLeft", 0, 0), ("ArrowDown", 1, 0), ("ArrowRight", 1, 1),
+        ("ArrowLeft", 1, 0), ("ArrowUp", 0, 0),
+    ):  # fmt: skip
+        page.keyboard.press(key)
+        expect(symbol(page, rung, n), key).to_be_focused()
+    page.keyboard.press("ArrowRight")
+    page.get_by_role("button", name="READ").dispatch_event("click")  # redrawn, the focus stays
+    expect(symbol(page, 0, 1)).to_be_focused()
+    expect(about).to_have_text(re.compile("^BIT 769 AXIS0 Not Excess Error: "))
+    set_bit(served, 128, False)
+    stored(served, Level.plc(0), "NEW\n" + LADDER)
+
+
 def test_a_plc_that_is_no_ladder_is_shown_as_text_with_the_reason(page: Page) -> None:
     page.click("#display-tab-plc")
     page.get_by_role("combobox", name="PLC").select_option("PLC1")

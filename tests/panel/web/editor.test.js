@@ -1,6 +1,7 @@
-// The editor of the workspace: the values beside lines.
+// The editor of the workspace: the values beside lines; the keyboard in ladders.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { neighbourOf } from "../../../src/openacr/panel/web/js/draw/ladder_keys.js";
 import { parted, saidOf } from "../../../src/openacr/panel/web/js/bench/editor/line_texts.js";
 
 /** @type {(program: string, ...names: (string | [string, string])[]) => any} */
@@ -31,4 +32,30 @@ test("a line shows each value by its name, the tooltip what the name stands for"
   assert.equal(long?.text, `$V0 = '${"x".repeat(22)}…`);
   assert.equal(long?.all, `$V0 = '${"x".repeat(30)}'`);
   assert.equal(saidOf(line("PROG3"), valueOf), null);
+});
+
+test("arrow keys go along a rung, and up and down to the nearest symbol", () => {
+  const at = (/** @type {number} */ x, /** @type {number} */ y, /** @type {number} */ rung) => ({ x, y, rung });
+  // two contacts and a coil, a branch below the first contact; then a rung of two
+  const symbols = [at(50, 30, 0), at(150, 30, 0), at(250, 30, 0), at(50, 100, 0), at(50, 170, 1), at(150, 170, 1)];
+  const to = (/** @type {number} */ from, /** @type {string} */ key) => neighbourOf(symbols, from, `Arrow${key}`);
+  assert.deepEqual(
+    [0, 1, 2].map((n) => to(n, "Right")),
+    [1, 2, 2],
+  );
+  assert.deepEqual(
+    [0, 1, 2].map((n) => to(n, "Left")),
+    [0, 0, 1],
+  );
+  assert.deepEqual(
+    [0, 3, 4].map((n) => to(n, "Down")),
+    [3, 4, 4],
+  );
+  assert.deepEqual(
+    [5, 4, 3, 0].map((n) => to(n, "Up")),
+    [3, 3, 0, 0],
+  );
+  assert.equal(to(5, "Right"), 5);
+  assert.equal(to(4, "Left"), 4);
+  assert.equal(neighbourOf([], 0, "ArrowLeft"), 0);
 });

@@ -7,9 +7,7 @@ from msgspec.structs import asdict
 from starlette.concurrency import run_in_threadpool
 
 from openacr.client.effects import Op
-from openacr.client.errors import RefusedError
-from openacr.client.requests import SYS
-from openacr.client.stored import ListedLine, listing, rooms
+from openacr.client.stored import ListedLine, aliases, listing, rooms
 from openacr.client.talk import Talk
 from openacr.editing.controller.cross_reference import Use, uses
 from openacr.map import Flag, Parameter, flags, parameters
@@ -17,7 +15,6 @@ from openacr.panel.server.api import Call, endpoint
 from openacr.panel.server.calls.card import data_of
 from openacr.panel.server.calls.on_card import talked
 
-_ALIAS = re.compile(r"#DEFINE\s+(\S+)\s+(.+)")
 _NUMBERED = re.compile(r"(P|BIT)(\d+)")
 
 
@@ -27,36 +24,31 @@ async def card_uses(call: Call) -> object:
 
     `item` is what the card itself says of a parameter or flag; `target` what an alias stands for.
     """
-    texts, aliases = await talked(call.panel, _read)
-    return {"names": await run_in_threadpool(table, texts, aliases)}
+    texts, targets = await talked(call.panel, _read)
+    return {"names": await run_in_threadpool(table, texts, targets)}
 
 
 def _read(talk: Talk) -> Op[tuple[dict[str, list[ListedLine]], dict[str, str]]]:
     found = {}
     for level in (yield from rooms(talk)):
         found[str(level)] = yield from listing(talk, level)
-    try:
-        defined = yield from talk.query("DEF", at=SYS)
-    except RefusedError:  # it has no memory for aliases
-        defined = ()
-    aliases = {each[1]: each[2].strip() for line in defined if (each := _ALIAS.match(line))}
-    return found, aliases
+    return found, (yield from aliases(talk))
 
 
 def table(
-    texts: Mapping[str, Iterable[ListedLine]], aliases: Mapping[str, str]
+    texts: Mapping[str, Iterable[ListedLine]], targets: Mapping[str, str]
 ) -> list[dict[str, object]]:
     """The names with their uses, as the screens show them."""
     lines = {name: [(line.number, line.text) for line in found] for name, found in texts.items()}
     order = {program: place for place, program in enumerate(lines)}
     named: dict[str, list[Use]] = {}
-    for use in sorted(uses(lines, aliases), key=lambda each: (order[each.program], each.line)):
+    for use in sorted(uses(lines, targets), key=lambda each: (order[each.program], each.line)):
         named.setdefault(use.name, []).append(use)
     return [
         {
             "name": name,
             "item": _item(name),
-            "target": aliases.get(name, ""),
+            "target": targets.get(name, ""),
             "uses": [asdict(each) for each in named[name]],
         }
         for name in sorted(named, key=_order)

@@ -1,7 +1,8 @@
 """Programs and PLCs of the card: a list with states, listings, the ladder of a PLC."""
 
 import asyncio
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 from typing import Annotated, TypeVar
 
@@ -12,8 +13,10 @@ from openacr.client import Level
 from openacr.client.backup import surroundings
 from openacr.client.card_axes import attached
 from openacr.client.drives import BARS, said
+from openacr.client.effects import Op
 from openacr.client.program_states import PLCS, PROGRAMS
-from openacr.client.stored import ListedLine, Room, listing, rooms, version_of
+from openacr.client.stored import ListedLine, Room, aliases, listing, rooms, version_of
+from openacr.client.talk import Talk
 from openacr.errors import CardError
 from openacr.lang.lexer import tokens
 from openacr.panel.commands.programs import level_of, owner_of
@@ -27,6 +30,7 @@ from openacr.plc.reader import PlcLine, read_line
 from openacr.timeline import Course
 
 T = TypeVar("T")
+_NUMBER = re.compile(r"(BIT\s*)?(\d+)", re.IGNORECASE)
 
 
 class OfPlc(Query, frozen=True):
@@ -47,11 +51,16 @@ class OfProgram(Query, frozen=True):
         return level_of(self.program, self.plc)
 
 
-class _NoAliases:
-    """A card does not list its aliases: what is written with one is not known here."""
+class _Aliases:
+    """The aliases of the card in the lines of a PLC: what #DEFINE gives a flag or number."""
+
+    def __init__(self, targets: Mapping[str, str]) -> None:
+        found = {name: _NUMBER.fullmatch(text) for name, text in targets.items()}
+        self.numbers = {name: int(each[2]) for name, each in found.items() if each}
+        self.flags = {int(each[2]): name for name, each in found.items() if each and each[1]}
 
     def number(self, name: str) -> int | None:
-        return None
+        return self.numbers.get(name)
 
     def is_command(self, word: str) -> bool:
         return False
@@ -181,25 +190,35 @@ async def card_ladder(call: Call) -> object:
 
     Net 0 is the left rail; a symbol passes power from `source` (a counter or latch: `reset`) to
     `sink`. Where it cannot be drawn, `rungs` is empty and `why` says so; the text is always there.
+    `names` has the aliases of flags by their numbers.
     """
     query: OfPlc = call.query
     level = Level.plc(query.plc)
-    lines = await talked(call.panel, lambda talk: listing(talk, level))
+
+    def read(talk: Talk) -> Op[tuple[list[ListedLine], dict[str, str]]]:
+        lines = yield from listing(talk, level)
+        return lines, (yield from aliases(talk))
+
+    lines, targets = await talked(call.panel, read)
 
     def drawn() -> object:
-        rungs, why = ladder(lines)
-        return {"name": str(level), **_listed(lines), "rungs": rungs, "why": why}
+        rungs, why = ladder(lines, targets)
+        names = {str(flag): name for flag, name in _Aliases(targets).flags.items()}
+        return {"name": str(level), **_listed(lines), "rungs": rungs, "why": why, "names": names}
 
     return await run_in_threadpool(drawn)
 
 
-def ladder(lines: Sequence[ListedLine]) -> tuple[list[dict[str, object]], str]:
-    """The rungs of a listing, and why there are no rungs."""
+def ladder(
+    lines: Sequence[ListedLine], targets: Mapping[str, str]
+) -> tuple[list[dict[str, object]], str]:
+    """The rungs of a listing, and why there are no rungs; `targets` has what aliases stand for."""
+    names = _Aliases(targets)
     read: list[tuple[int, PlcLine]] = []
     number = 0
     try:
         for number, text in ((line.number, line.text) for line in lines):
-            found = read_line(tokens(text), _NoAliases())
+            found = read_line(tokens(text), names)
             if found is not None:
                 read.append((number, found))
         number = 0

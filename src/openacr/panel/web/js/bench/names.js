@@ -152,7 +152,7 @@ function showMenu(id, event) {
   const close = () => {
     ends.abort();
     menu.remove();
-    if (before instanceof HTMLElement) before.focus();
+    if (before instanceof HTMLElement || before instanceof SVGElement) before.focus();
   };
   const items = actsOn(id).map(({ label, does }) =>
     h(

@@ -66,7 +66,7 @@ export function fill(element, ...children) {
 
 /** What an element is, whatever it shows at the moment. @param {Element | null} element */
 function nameOf(element) {
-  if (!(element instanceof HTMLElement)) return "";
+  if (!(element instanceof HTMLElement || element instanceof SVGElement)) return "";
   const data = element.dataset.name ?? element.dataset.item;
   return data || element.id || element.ariaLabel || element.textContent || "";
 }

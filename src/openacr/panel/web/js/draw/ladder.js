@@ -68,14 +68,20 @@ export function drawRung(rung, nameOf) {
       line(wire.net, [atColumn(wire.column), atRow(wire.row), atColumn(wire.to_column), atRow(wire.to_row)]),
     ),
     ...rung.symbols.flatMap((symbol) => {
-      const [body, title] = [svg("g", { class: `symbol ${symbol.kind}` }), svg("title", {})];
+      const [body, title] = [svg("g", { class: `symbol ${symbol.kind}`, tabindex: -1, role: "img" }), svg("title", {})];
       if (symbol.flag !== null) body.dataset.item = `BIT${symbol.flag}`;
       body.append(title, ...shapeOf(symbol), ...textsOf(symbol, nameOf));
       symbols.push({ symbol, body, title });
       return [...stubsOf(symbol, line), body];
     }),
   ];
-  const picture = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img", class: "rung-picture" });
+  const picture = svg("svg", {
+    width,
+    height,
+    viewBox: `0 0 ${width} ${height}`,
+    role: "group",
+    class: "rung-picture",
+  });
   picture.append(...parts);
   const element = h(
     "figure.rung",
@@ -97,7 +103,9 @@ export function drawRung(rung, nameOf) {
         const isOn =
           symbol.kind === "contact" ? isClosed(symbol, stateOf) : symbol.flag !== null && stateOf(symbol.flag) === true;
         body.classList.toggle("is-on", isOn);
-        setText(title, describe(symbol, stateOf, nameOf));
+        const said = describe(symbol, stateOf, nameOf);
+        setText(title, said);
+        body.setAttribute("aria-label", said);
         const count = body.querySelector(".count");
         if (count && symbol.number !== null) setText(count, countOf(symbol.kind, symbol.number));
       }
@@ -173,7 +181,8 @@ function shapeOf(symbol) {
 function textsOf(symbol, nameOf) {
   if (symbol.flag === null || symbol.number !== null) return [];
   const [x, y] = [atColumn(symbol.column) + WIDE / 2, atRow(symbol.row)];
-  const name = nameOf(symbol.flag);
+  const meant = nameOf(symbol.flag);
+  const name = meant === symbol.text ? `BIT ${symbol.flag}` : meant; // it is written with its alias
   return [
     textAt(x, y - 18, symbol.text, "flag"),
     ...linesOf(name).map((line, n) => textAt(x, y + 24 + LINE * n, line, "small")),

@@ -9,6 +9,7 @@ import { Endings } from "../core/signal.js";
 import { t } from "../core/texts.js";
 import { needValues } from "../core/values.js";
 import { drawRung } from "../draw/ladder.js";
+import { walkLadder } from "../draw/ladder_keys.js";
 import { fullName } from "./card_value.js";
 
 const COUNT = 8;
@@ -35,6 +36,13 @@ export async function plcTab(panel, endings) {
   );
   const listKey = keyOf("plc.listing", () => toggleList());
   const ladder = h("div.ladder.scroll", { tabIndex: 0, role: "region", ariaLabel: t("plc.ladder") });
+  const about = h("p.hint.ladder-about", { hidden: true });
+  /** The symbol that had the focus last. @type {SVGElement | null} */
+  let chosen = null;
+  const tell = () => {
+    about.hidden = !chosen?.isConnected;
+    setText(about, chosen?.getAttribute("aria-label") ?? "");
+  };
   const list = h("pre.plc-list.mono.scroll", { tabIndex: 0, role: "region", ariaLabel: t("plc.listing") });
   panel.append(
     h(
@@ -46,7 +54,12 @@ export async function plcTab(panel, endings) {
       keyOf("plc.read", () => choose(plc)),
     ),
     h("div.plc-view.grow", {}, ladder, list),
+    about,
   );
+  walkLadder(ladder, (symbol) => {
+    chosen = symbol;
+    tell();
+  });
   const names = namesOf();
   const newest = latest(endings);
 
@@ -87,6 +100,8 @@ export async function plcTab(panel, endings) {
         ? drawn.map((each) => each.element)
         : [h("p.notice", {}, lines.length ? t("plc.notdrawn", { why: why || t("plc.norung") }) : t("plc.empty"))]),
     );
+    ladder.querySelector(".symbol")?.setAttribute("tabindex", "0");
+    tell();
     showList(lines.length > 0 && (hasList || !drawn.length));
     const symbols = rungs.flatMap((rung) => rung.symbols);
     const flags = symbols.flatMap((symbol) => symbol.flag ?? []);
@@ -106,6 +121,7 @@ export async function plcTab(panel, endings) {
           isRunning === true,
           (kind, number) => countOf(values, kind, number),
         );
+      tell();
       if (wasRunning === false && isRunning) void choose(plc); // another text may have been started
       wasRunning = isRunning;
     };
@@ -126,14 +142,16 @@ export async function plcTab(panel, endings) {
 }
 
 /**
- * A ladder with what its flags mean: the names of inputs and outputs, else those of the card.
+ * A ladder with what its flags mean: their aliases, else the names of inputs and outputs, else those of the card.
  * @param {Promise<{ lines: { number: number, text: string }[], rungs: import("../draw/ladder.js").Rung[],
- *   why: string }>} reading
+ *   why: string, names: Record<string, string> }>} reading
  * @param {Promise<Map<number, string>>} names
  * @returns {Promise<[any, Map<number, string>]>}
  */
 async function meant(reading, names) {
-  const [ladder, named] = await Promise.all([reading, names]);
+  const [ladder, places] = await Promise.all([reading, names]);
+  const named = new Map(places);
+  for (const [flag, alias] of Object.entries(ladder.names)) named.set(Number(flag), alias);
   const flags = new Set(
     ladder.rungs
       .flatMap((rung) => rung.symbols)
