@@ -1,9 +1,13 @@
 """A line between two ends that can be frozen in one direction, cut, mended and reset."""
 
+import math
 import socket
 import struct
 import threading
+import time
+from collections.abc import Iterator
 from contextlib import suppress
+from queue import SimpleQueue
 
 from openacr.closing import Closing
 
@@ -22,6 +26,7 @@ class Proxy(Closing):
         self._pairs: list[tuple[socket.socket, socket.socket]] = []
         self._changes = threading.Lock()  # of the pairs: they are made in the thread
         self._is_cut = self._is_over = False
+        self._late_s, self._bytes_per_s = 0.0, math.inf
         self.passed = 0  # bytes, in both directions
         threading.Thread(target=self._accept, daemon=True).start()
 
@@ -70,12 +75,36 @@ class Proxy(Closing):
 
     def _copy(self, source: socket.socket, sink: socket.socket, flows: threading.Event) -> None:
         with suppress(OSError):
-            while data := source.recv(65536):
+            for data in self._pieces(source):
                 flows.wait()
                 sink.sendall(data)
                 self.passed += len(data)
         with suppress(OSError):
             sink.shutdown(socket.SHUT_WR)
+
+    def _pieces(self, source: socket.socket) -> Iterator[bytes]:
+        """What comes from an end; on a slow line each piece later, and one after the other."""
+        if not self._late_s:
+            yield from iter(lambda: source.recv(65536), b"")
+            return
+        coming: SimpleQueue[tuple[float, bytes]] = SimpleQueue()
+        threading.Thread(target=self._read, args=(source, coming), daemon=True).start()
+        free_s = 0.0
+        while (piece := coming.get())[1]:
+            due_s, data = piece
+            free_s = max(free_s, due_s) + len(data) / self._bytes_per_s
+            time.sleep(max(0.0, free_s - time.monotonic()))
+            yield data
+
+    def _read(self, source: socket.socket, coming: "SimpleQueue[tuple[float, bytes]]") -> None:
+        with suppress(OSError):
+            while data := source.recv(4096):
+                coming.put((time.monotonic() + self._late_s, data))
+        coming.put((0.0, b""))
+
+    def slow(self, late_s: float, bytes_per_s: float) -> None:
+        """Connections that are made from now on are slow in both directions."""
+        self._late_s, self._bytes_per_s = late_s, bytes_per_s
 
     def freeze_up(self) -> None:
         """Nothing more reaches the far end."""

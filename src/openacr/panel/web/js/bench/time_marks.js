@@ -11,6 +11,7 @@ const TEXTS = {
 
 /** @param {{ seconds: (tick: number) => string }} asked */
 export function createMarks({ seconds }) {
+  let isAsking = false;
   const marks = h("div.time-marks.scroll", { role: "group", tabIndex: 0, ariaLabel: t(TEXTS.marks) });
   const text = h("input.field.grow", { ariaLabel: t(TEXTS.markText), placeholder: t(TEXTS.markText), maxLength: 80 });
   const marking = h(
@@ -18,8 +19,13 @@ export function createMarks({ seconds }) {
     {
       onsubmit: (/** @type {Event} */ event) => {
         event.preventDefault();
-        void give("timeline.mark", { text: text.value.trim() }).then((done) => {
-          if (done) text.value = "";
+        const typed = text.value.trim();
+        if (!typed && isAsking) return; // pressed twice on a slow link
+        text.value = "";
+        isAsking = true;
+        void give("timeline.mark", { text: typed }).then((done) => {
+          isAsking = false;
+          if (!done && !text.value) text.value = typed;
         });
       },
     },

@@ -2,6 +2,7 @@
 import { readHead } from "./frames.js";
 import { Signal } from "./signal.js";
 
+const LATE_MS = 150; // an answer that takes longer is waited for visibly
 const SILENT_MS = 1000; // before the server has named its limits
 const AGAIN_MS = [100, 300, 1000, 2000];
 
@@ -34,6 +35,9 @@ export class Link {
     this.socket = null;
     /** @type {Map<number, { done: (result: any) => void, fail: (error: Error) => void }>} */
     this.waiting = new Map();
+    /** Commands that were not answered at once. @type {Set<number>} */
+    this.late = new Set();
+    this.isLate = new Signal(false); // a command waits for its answer
     /** @type {Map<string, Topic>} */
     this.topics = new Map();
     this.lastId = 0;
@@ -92,6 +96,7 @@ export class Link {
     this.isOpen.set(false);
     for (const each of this.waiting.values()) each.fail(lostError());
     this.waiting.clear();
+    this.settle();
     if (code === 4401) window.location.assign("/login");
     else if (!this.isEnded && code !== 4403)
       setTimeout(() => this.open(), AGAIN_MS[Math.min(this.tries++, AGAIN_MS.length - 1)]);
@@ -121,6 +126,7 @@ export class Link {
     }
     const call = this.waiting.get(message.id);
     this.waiting.delete(message.id);
+    this.settle(message.id);
     if (message.ok) call?.done(message.result ?? {});
     else call?.fail(new CommandError(message.error));
   }
@@ -136,7 +142,22 @@ export class Link {
     return new Promise((done, fail) => {
       if (!this.send({ id, cmd, args })) fail(lostError());
       else this.waiting.set(id, { done, fail });
+      setTimeout(() => {
+        if (!this.waiting.has(id)) return;
+        this.late.add(id);
+        this.isLate.set(true);
+      }, LATE_MS);
     });
+  }
+
+  /**
+   * A command waits no more; without a number: all of them.
+   * @param {number} [id]
+   */
+  settle(id) {
+    if (id === undefined) this.late.clear();
+    else this.late.delete(id);
+    if (this.isLate.value !== this.late.size > 0) this.isLate.set(this.late.size > 0);
   }
 
   /**

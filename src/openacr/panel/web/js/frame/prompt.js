@@ -1,14 +1,18 @@
 // The prompt line: what program and machine print, refusals, and questions to the operator.
-import { give, model, prompt } from "../core/app.js";
+import { give, link, model, prompt } from "../core/app.js";
 import { byId, fill, h } from "../core/dom.js";
 import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { mayMove } from "../motion/actions.js";
 import { askNumber } from "./number_pad.js";
 
+const TEXTS = { waiting: { en: "waiting for the answer \u2026", de: "wartet auf die Antwort \u2026" } };
+
 export function startPrompt() {
   const line = byId("prompt");
   line.ariaLabel = t("prompt.label");
+  line.dataset.waiting = t(TEXTS.waiting);
+  link.isLate.watch((isLate) => line.classList.toggle("is-waiting", isLate));
   const draw = () => {
     const { state, asking, tool_wanted: toolWanted, reason } = model.state.value;
     const { found, holds, moving, next } = model.stopped.value;
