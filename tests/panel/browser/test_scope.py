@@ -597,6 +597,24 @@ def test_xy_and_spectrum_are_views_of_the_same_record(page: Page) -> None:
     assert page.complaints == []  # type: ignore[attr-defined]
 
 
+INK = """() => {
+  const canvas = document.querySelector('[data-view=time] canvas');
+  const { data } = canvas.getContext('2d').getImageData(0, 0, 40, canvas.height);
+  let sum = 0, count = 0;
+  for (let n = 0; n < data.length; n += 4) if (data[n + 3] > 200) { sum += data[n]; count++; }
+  return count ? sum / count : -1;
+}"""  # red of the labels beside the plot
+
+
+def test_a_record_at_rest_is_drawn_again_in_the_colours_of_another_theme(page: Page) -> None:
+    page.emulate_media(color_scheme="light")
+    until(page, lambda: page.evaluate(INK), lambda found: 0 <= found < 100)
+    page.emulate_media(color_scheme="dark")
+    until(page, lambda: page.evaluate(INK), lambda found: found > 150)
+    page.emulate_media(color_scheme="light")
+    until(page, lambda: page.evaluate(INK), lambda found: 0 <= found < 100)
+
+
 def test_numbers_of_a_channel_are_shown_whole_and_the_plot_has_room(page: Page) -> None:
     for size, least in (
         ((1366, 768), (530, 170)), ((1920, 1080), (780, 400)), ((390, 844), (250, 120)),

@@ -1,4 +1,5 @@
 // A picture of a tool path: ground, path and chosen line on three canvases, the tool as an element.
+import { onTheme } from "../core/theme.js";
 import { h } from "../core/dom.js";
 import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
@@ -140,12 +141,11 @@ export async function createPicture(host, endings, { clicked = () => {}, hasTool
     else paint();
   });
   sizes.observe(area);
-  const themed = () => repaint();
-  document.documentElement.addEventListener("theme", themed);
+  const themed = onTheme(() => repaint());
   endings.add(
     () => sizes.disconnect(),
     () => painter.close(),
-    () => document.documentElement.removeEventListener("theme", themed),
+    themed,
   );
 
   return {

@@ -1,6 +1,7 @@
 // The whole record below the plot, with the part that is shown: it is dragged, resized at its edges, moved by keys.
 import { h } from "../core/dom.js";
 import { t } from "../core/texts.js";
+import { onTheme } from "../core/theme.js";
 import { DIVISIONS, extremes, HALF } from "./scales.js";
 
 const TEXTS = {
@@ -45,7 +46,7 @@ export function createOverview(record, colors, endings) {
   });
   const sizes = new ResizeObserver(() => draw());
   sizes.observe(canvas);
-  endings.add(() => sizes.disconnect());
+  endings.add(onTheme(draw), () => sizes.disconnect());
   /** @type {{ what: 0 | 1 | "window" | "jump", time: number, from: number, to: number } | null} */
   let held = null;
 

@@ -2,6 +2,7 @@
 import { plain } from "../core/format.js";
 import { Signal } from "../core/signal.js";
 import { t } from "../core/texts.js";
+import { onTheme } from "../core/theme.js";
 import { uPlot } from "../../vendor/uplot.js";
 import { DIVISIONS, gridOf, HALF, labelsOf, valuesOf } from "./scales.js";
 
@@ -126,6 +127,7 @@ export function createScreen(chart, endings, plugins = []) {
   );
   sizes.observe(chart);
   endings.add(
+    onTheme(() => plot.redraw(false)),
     () => sizes.disconnect(),
     () => plot.destroy(),
   );

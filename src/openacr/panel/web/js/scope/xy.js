@@ -1,4 +1,5 @@
 // One trace over another with the scales of both: the path of two axes, force over position.
+import { onTheme } from "../core/theme.js";
 import { DIVISIONS, HALF } from "./scales.js";
 
 const LETTERS = 12; // pixels
@@ -28,7 +29,10 @@ export function createXy(host, endings, nameOf) {
   let both = [];
   const sizes = new ResizeObserver(() => paint());
   sizes.observe(host);
-  endings.add(() => sizes.disconnect());
+  endings.add(
+    onTheme(() => paint()),
+    () => sizes.disconnect(),
+  );
 
   function paint() {
     const style = getComputedStyle(host);
