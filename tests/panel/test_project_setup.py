@@ -13,7 +13,9 @@ from tests.panel.bench import Served
 from openacr.client import Card
 from openacr.client.errors import ChangedError
 from openacr.controller import Controller
+from openacr.panel.control.operator.card_jogs import CardJogs
 from openacr.panel.machine.project import of_project
+from openacr.panel.server.calls import project
 from openacr.panel.work.project_setup import (
     Reading,
     SetupRow,
@@ -159,3 +161,18 @@ def test_the_panel_compares_and_stores_the_set_up_of_its_project(
     assert asked(served).json()["differs"] == 0
     again = asked(served, "POST", json={"version": found["version"]})
     assert (again.status_code, again.json()["error"]["code"]) == (409, "conflict")
+
+
+def test_the_set_up_is_read_once_no_axis_is_jogged(
+    served: Served, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """While one is, the card has the speed of that jog; a jog without end is a sentence."""
+    jogs = [True, True, False]
+    monkeypatch.setattr(CardJogs, "are_active", property(lambda _: jogs.pop(0) if jogs else False))
+    assert asked(served).json()["differs"] == 0
+    assert jogs == []
+    monkeypatch.setattr(CardJogs, "are_active", property(lambda _: True))
+    monkeypatch.setattr(project, "MOST_WAIT_S", 0.3)
+    for method, more in (("GET", {}), ("POST", {"json": {"version": "1"}})):
+        answer = asked(served, method, **more)
+        assert "READ when it rests" in answer.text

@@ -1,5 +1,7 @@
 """The project of the card: which programs differ from it, their texts, another text stored."""
 
+import asyncio
+import time
 from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
@@ -23,6 +25,7 @@ from openacr.panel.work import project_setup as project_set_up
 from openacr.panel.work.project_texts import State, beside, states, store, text_of
 
 MOST_TEXT = 2_000_000  # characters
+MOST_WAIT_S, LOOK_S = 30.0, 0.1  # for the end of a jog
 Listings = dict[str, list[ListedLine]]
 
 
@@ -130,7 +133,17 @@ async def _reading(panel: Panel) -> project_set_up.Reading:
         return str(own), f"PROG{settings.master}", tuple(lines(settings))
 
     known = await panel.ask(ours)
+    await _at_rest(panel)
     return project_set_up.Reading(await talked(panel, backup), *known)
+
+
+async def _at_rest(panel: Panel) -> None:
+    """Wait until no axis is jogged here: while it is, the card has the speed of that jog set."""
+    until_s = time.monotonic() + MOST_WAIT_S
+    while await panel.ask(lambda station: station.card_jogs.are_active):
+        if time.monotonic() > until_s:
+            raise UserError("an axis is jogged, with a speed of its own: READ when it rests")
+        await asyncio.sleep(LOOK_S)
 
 
 async def differences(panel: Panel) -> list[str]:
