@@ -82,8 +82,8 @@ def test_a_bus_that_does_not_come_up_is_an_error_of_the_start(project: Path) -> 
     [
         (["--real"], "--bus and --real need a project"),
         (["127.0.0.1:1", "--real"], "--bus and --real need a project"),
-        (["{project}", "--real"], "--real lets drives be enabled: say --yes"),
-        (["{plain}", "--real"], "--real: no drive is on a bus"),
+        (["{project}", "--real"], "--real lets drives be enabled and outputs switched: say --yes"),
+        (["{plain}", "--real"], "--real: nothing of machine.toml is on a bus"),
         (["{plain}", "--bus", "eth1"], "the project has no machine.toml with [bus]"),
     ],
 )

@@ -73,7 +73,7 @@ def row_of_z(page: Page) -> Locator:
 def test_z_moves_while_its_key_is_held_with_the_speed_of_the_pane(
     page: Page, served: Served, pictures: Path
 ) -> None:
-    type_line(served, "DRIVE ON Z", "JOG ACC Z100", "JOG DEC Z100")
+    type_line(served, "DRIVE ON Z")
     open_pane(page, "Jog")
     row = row_of_z(page)
     plus = row.get_by_role("button", name="Z (AXIS2) plus")

@@ -103,18 +103,28 @@ def put(page: Page, line: int, text: str) -> None:
     page.keyboard.insert_text(text)
 
 
-@pytest.mark.parametrize(("chosen", "shown"), [("", "PROG0 · halted"), ("PROG3", "PROG3 · halted")])
-def test_the_editor_begins_with_the_first_program_or_the_one_chosen_in_another_pane(
-    browser: Browser, page: Page, served: Served, chosen: str, shown: str
+def test_the_editor_begins_with_the_program_that_the_list_shows(
+    browser: Browser, page: Page, served: Served
 ) -> None:
-    stored(served, COUNTING)
     context = browser.new_context()
     fresh = open_page(context, f"{served.url}/bench")
     until_model(fresh, "model.hello.value.client")
-    fresh.evaluate(f"import('/js/core/programs.js').then((it) => it.chosenProgram.set('{chosen}'))")
     show_pane(fresh, "editor")
-    expect(pane(fresh).locator(".text-foot .hint")).to_contain_text(shown)
+    expect(pane(fresh).locator(".text-foot .hint")).to_contain_text("PROG0 · halted")
     context.close()
+
+
+def test_the_first_program_is_the_one_chosen_or_one_with_a_text_or_with_room(page: Page) -> None:
+    found = page.evaluate("""() =>
+    import('/js/bench/editor/card_text.js').then(({ firstLevel }) => {
+      const of = (name, used, bytes, owner = '') => ({ name, used, bytes, owner });
+      const machines = of('PROG0', 9, 99, 'mill');
+      const some = [machines, of('PROG1', 0, 0), of('PROG2', 0, 99), of('PROG3', 9, 99)];
+      return [[some, undefined, ''], [some.slice(0, 3), undefined, ''], [some, undefined, 'PROG2'],
+        [some, 'PROG0', 'PROG2'], [some, '', 'PROG2'], [some, 'PROG1', 'PROG2']
+      ].map((each) => firstLevel(...each));
+    })""")
+    assert found == ["PROG3", "PROG2", "PROG2", "PROG0", "", ""]
 
 
 def test_a_mistake_is_marked_listed_and_mended_while_typing(page: Page) -> None:

@@ -39,6 +39,7 @@ SAYS = {
     "tune": "nothing is measured",
     "scope": "of the time when they were taken",
     "wizard": "answers for files",
+    "bus": "the bus of the present",
     "alarms": "not of the moment",
 }
 

@@ -145,4 +145,4 @@ def test_an_answer_that_is_waited_for_is_seen_at_the_prompt(page: Page) -> None:
     assert "waiting for the answer" in prompt.evaluate(sign)
     release_answers(page)
     expect(prompt).not_to_have_class(re.compile("is-waiting"))
-    assert prompt.evaluate(sign) == "none"
+    until(page, lambda: prompt.evaluate(sign) == "none")

@@ -61,7 +61,14 @@ export const PANES = {
     role: "operate",
     load: modulePane(() => import("./panes/drives.js")),
   },
-  bus: { title: { en: "Bus", de: "Bus" }, load: modulePane(() => import("./panes/bus.js")) },
+  bus: {
+    title: { en: "Bus", de: "Bus" },
+    past: {
+      en: "A card with a bus has no timeline: this is the bus of the present.",
+      de: "Eine Karte mit Bus hat keine Zeitachse: Das ist der Bus von jetzt.",
+    },
+    load: modulePane(() => import("./panes/bus.js")),
+  },
   gain: {
     title: { en: "Gains", de: "Verst\u00e4rkungen" },
     role: "service",
