@@ -567,8 +567,8 @@ def test_setups_and_references_are_kept_under_names_and_shared_by_browsers(
     assert saved.value.suggested_filename == "Z axis.setup.json"
     files = dialog.locator("input[type=file]")
     files.set_input_files({"name": "notes.json", "mimeType": "text/plain", "buffer": b"{1}"})
-    expect(page.locator("#prompt")).to_contain_text("notes is no set-up of the scope: JSON is")
-    files.set_input_files({"name": "copy.setup.json", "mimeType": "text/plain", "buffer": text})
+    expect(page.locator("#prompt")).to_contain_text("notes is no set-up: JSON is")
+    files.set_input_files({"name": "copy.setup (1).json", "mimeType": "text/plain", "buffer": text})
     expect(kept_row(page, "setup copy")).to_be_visible()
     kept_row(page, "setup copy").get_by_role("button", name="DELETE").click()
     page.get_by_role("dialog", name="DELETE").get_by_role("button", name="DELETE").click()

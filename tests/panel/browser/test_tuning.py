@@ -179,7 +179,7 @@ def test_kept_measurements_are_drawn_over_the_present_one_and_compared_in_a_tabl
     keep_as(page, "soft")
     keep_as(page, "as found")
     for title in ("Magnitude, dB", "Phase, degrees", "Coherence", "Predicted steps, pulses"):
-        assert curves(page, title).endswith("soft, as found")
+        assert curves(page, title).endswith("as found, soft")
     inks = [
         page.locator(f"[data-kept='{name}'] .tune-ink").evaluate("e => e.style.background")
         for name in ("soft", "as found")
@@ -188,7 +188,7 @@ def test_kept_measurements_are_drawn_over_the_present_one_and_compared_in_a_tabl
     expect(page.locator(".tune-legend .tune-name", has_text="as found")).to_have_count(1)
     page.get_by_role("radio", name="TABLE").click()
     table = page.locator(".tune-compared table")
-    expect(table.locator("thead th")).to_have_text(["", "present", "proposed", "soft", "as found"])
+    expect(table.locator("thead th")).to_have_text(["", "present", "proposed", "as found", "soft"])
     for row in (
         "PGAIN",
         "Gain margin",
@@ -211,36 +211,51 @@ def test_kept_measurements_are_drawn_over_the_present_one_and_compared_in_a_tabl
 def test_a_kept_measurement_is_renamed_exported_read_again_and_deleted_after_a_question(
     page: Page, tmp_path: Path
 ) -> None:
-    page.get_by_role("button", name="Rename as found").click()
+    ink = page.locator("[data-kept='as found'] .tune-ink").get_attribute("style")
+    page.get_by_role("button", name="RENAME measurement as found").click()
     page.get_by_role("dialog").get_by_role("textbox").fill("first")
     page.keyboard.press("Enter")
     expect(page.locator("[data-kept=first] input")).to_be_checked()
+    expect(page.locator("[data-kept=first] .tune-ink")).to_have_attribute("style", ink or "")
     with page.expect_download() as saved:
-        page.get_by_role("link", name="Export first").click()
+        page.get_by_role("link", name="FILE measurement first").click()
     file = tmp_path / saved.value.suggested_filename
-    assert file.name == "first.json"
+    assert file.name == "first.tuning.json"
     saved.value.save_as(file)
-    page.get_by_role("button", name="Delete first").click()
-    dialog = page.get_by_role("dialog", name="Delete first")
-    expect(dialog).to_contain_text("It cannot be brought back")
+    page.get_by_role("button", name="DELETE measurement first").click()
+    dialog = page.get_by_role("dialog", name="DELETE")
+    expect(dialog).to_contain_text("measurement first? It cannot be brought back")
     dialog.get_by_role("button", name="CANCEL").click()
     expect(page.locator("[data-kept=first]")).to_have_count(1)
-    page.get_by_role("button", name="Delete first").click()
+    page.get_by_role("button", name="DELETE measurement first").click()
     dialog.get_by_role("button", name="DELETE").click()
     expect(page.locator("[data-kept=first]")).to_have_count(0)
-    page.get_by_label("OPEN FILE").set_input_files(file)
+    page.get_by_label("IMPORT").set_input_files(file)
     expect(page.locator("[data-kept=first] input")).to_be_checked()
+    answers: list[str] = []
+    page.on("response", lambda answer: answers.append(answer.url))
+    for key in ("CANCEL", "REPLACE"):
+        page.get_by_label("IMPORT").set_input_files(file)
+        asked = page.get_by_role("dialog", name="REPLACE")
+        expect(asked).to_contain_text("first is there already")
+        asked.get_by_role("button", name=key).click()
+        expect(asked).to_have_count(0)
+    until(page, lambda: any("replace=true" in url for url in answers))
+    assert sum("replace=true" in url for url in answers) == 1
     other = tmp_path / "other.json"
     other.write_text("{}")
-    page.get_by_label("OPEN FILE").set_input_files(other)
-    expect(page.locator("#prompt")).to_contain_text("other.json is no kept measurement")
+    page.get_by_label("IMPORT").set_input_files(other)
+    expect(page.locator("#prompt")).to_contain_text(
+        "other is no measurement: Object missing required field"
+    )
+    page.complaints.clear()  # type: ignore[attr-defined]
 
 
 def test_on_a_slow_link_the_last_choice_counts(page: Page) -> None:
     page.reload()
     open_pane_again(page)
     held: list[Route] = []
-    page.route("**/api/tunings/file*", lambda route: held.append(route))
+    page.route("**/api/kept/file*", lambda route: held.append(route))
     box = page.locator("[data-kept=first] input")
     box.check()
     until(page, lambda: held)
@@ -249,7 +264,7 @@ def test_on_a_slow_link_the_last_choice_counts(page: Page) -> None:
     until(page, lambda: len(held) == 2)
     for each in reversed(held):
         let_through(page, each)
-    page.unroute("**/api/tunings/file*")
+    page.unroute("**/api/kept/file*")
     expect(page.locator("[data-chart='Magnitude, dB'][aria-label$=': soft']")).to_have_count(1)
     expect(box).not_to_be_checked()
     assert page.complaints == []  # type: ignore[attr-defined]
@@ -327,7 +342,7 @@ def test_a_resonance_is_shown_and_a_notch_is_asked_for_with_the_gains(
     page.get_by_role("textbox", name="Highest frequency").fill("500")
     page.get_by_role("textbox", name="Crossover").fill("")
     page.get_by_role("textbox", name="Time, s").fill("0.6")
-    page.get_by_role("button", name="MEASURE").click()
+    page.get_by_role("button", name="MEASURE", exact=True).click()
     page.get_by_role("dialog").get_by_role("button", name="MEASURE").click()
     shown = page.locator(".tune-resonance")
     expect(shown).to_contain_text("antiresonance", timeout=60_000)

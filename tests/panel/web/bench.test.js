@@ -10,7 +10,7 @@ import {
   spanAt,
   toggled,
 } from "../../../src/openacr/panel/web/js/bench/lane_list.js";
-import { freeName, inksOf, INKS, keptOf, ofFile } from "../../../src/openacr/panel/web/js/bench/tuning/kept_data.js";
+import { freeName, inksOf, INKS, keptOf } from "../../../src/openacr/panel/web/js/bench/tuning/kept_data.js";
 import { neighbours } from "../../../src/openacr/panel/web/js/bench/tuning/sets_list.js";
 import {
   keyed,
@@ -300,17 +300,17 @@ test("UNDO leads to what was in force before, REDO to the latest that followed, 
 });
 
 test("a kept measurement keeps its colour while it is shown, and another one gets a free one", () => {
-  const first = inksOf([7, 3], new Map());
+  const first = inksOf(["b", "a"], new Map());
   assert.deepEqual(
     [...first],
     [
-      [7, INKS[0]],
-      [3, INKS[1]],
+      ["b", INKS[0]],
+      ["a", INKS[1]],
     ],
   );
-  const next = inksOf([3, 9], first);
-  assert.deepEqual([next.get(3), next.get(9), next.size], [INKS[1], INKS[0], 2]);
-  assert.equal(inksOf([1, 2, 3, 4, 5, 6, 7], new Map()).size, INKS.length);
+  const next = inksOf(["a", "c"], first);
+  assert.deepEqual([next.get("a"), next.get("c"), next.size], [INKS[1], INKS[0], 2]);
+  assert.equal(inksOf([..."abcdefg"], new Map()).size, INKS.length);
 });
 
 test("a measurement is kept with a step only where that was made with the same gains", () => {
@@ -328,10 +328,7 @@ test("a measurement is kept with a step only where that was made with the same g
   assert.equal(keptOf(found, { axis: "X", at: "now", set: 4, trial: null }).trial, null);
 });
 
-test("a file is a kept measurement or none, and its name gets a number where it is taken", () => {
-  assert.deepEqual(ofFile('{"name": "a", "tuning": {"axis": "X"}, "more": 1}'), { name: "a", tuning: { axis: "X" } });
-  for (const text of ["{}", "", "[1]", '{"name": "a"}', '{"tuning": {}, "name": 3}', "null"])
-    assert.equal(ofFile(text), null);
-  assert.equal(freeName("a", ["b"]), "a");
-  assert.equal(freeName("a", ["a", "a (2)"]), "a (3)");
+test("a measurement is proposed a name of its axis that is free", () => {
+  assert.equal(freeName("X", ["Y 1"]), "X 1");
+  assert.equal(freeName("X", ["X 1", "X 2", "X 4"]), "X 3");
 });

@@ -50,7 +50,7 @@ const TEXTS = {
   view: { en: "View", de: "Ansicht" },
   noTable: {
     en: "MEASURE an axis, or show kept measurements: the table compares them.",
-    de: "Eine Achse MESSEN oder aufbewahrte Messungen zeigen: Die Tabelle vergleicht sie.",
+    de: "Eine Achse MESSEN oder abgelegte Messungen zeigen: Die Tabelle vergleicht sie.",
   },
 };
 

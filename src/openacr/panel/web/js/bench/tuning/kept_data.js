@@ -8,7 +8,6 @@
  * @typedef {{ figures: Record<string, number | null>, measured: Curve }} Trial
  * @typedef {{ axis: string, at: string, time_s: number, amplitude_cnt: number, band_hz: number[], present: Loop,
  *   bode: { frequency_hz: number[], present: Response, measured: Response }, trial: Trial | null }} Tuning
- * @typedef {{ number: number, name: string, tuning: Tuning }} Kept
  */
 
 /** Colours of kept measurements, each apart from those of the present one. */
@@ -44,40 +43,26 @@ export function keptOf(found, { axis, at, set, trial }) {
 
 /**
  * The colours of what is shown: one keeps its own as long as it is, another gets the first that is free.
- * @param {readonly number[]} shown numbers of kept measurements
- * @param {Map<number, string>} before
- * @returns {Map<number, string>} without those for which no colour is left
+ * @param {readonly string[]} shown names of kept measurements
+ * @param {Map<string, string>} before
+ * @returns {Map<string, string>} without those for which no colour is left
  */
 export function inksOf(shown, before) {
-  const found = new Map([...before].filter(([number]) => shown.includes(number)));
-  for (const number of shown) {
+  const found = new Map([...before].filter(([name]) => shown.includes(name)));
+  for (const name of shown) {
     const free = INKS.find((ink) => ![...found.values()].includes(ink));
-    if (!found.has(number) && free) found.set(number, free);
+    if (!found.has(name) && free) found.set(name, free);
   }
   return found;
 }
 
 /**
- * The kept measurement of a file that was exported; null where it is none.
- * @param {string} text
- * @returns {{ name: string, tuning: Tuning } | null}
- */
-export function ofFile(text) {
-  try {
-    const found = JSON.parse(text);
-    return typeof found?.name === "string" && found.tuning ? { name: found.name, tuning: found.tuning } : null;
-  } catch {
-    return null;
-  }
-}
-
-/**
- * A name that is not taken: the wanted one, else with a number.
- * @param {string} wanted
+ * A name for a measurement of an axis that is not taken: the axis with a number.
+ * @param {string} axis
  * @param {readonly string[]} taken
  */
-export function freeName(wanted, taken) {
-  let name = wanted;
-  for (let n = 2; taken.includes(name); n++) name = `${wanted} (${n})`;
-  return name;
+export function freeName(axis, taken) {
+  let n = 1;
+  while (taken.includes(`${axis} ${n}`)) n++;
+  return `${axis} ${n}`;
 }
