@@ -167,7 +167,7 @@ def test_only_the_stamps_of_files_and_alarms_read_the_date() -> None:
         for path in source.rglob("*.py")
         if dated.search(path.read_text(encoding="utf-8"))
     }
-    panel = {"panel/files.py", "panel/server/calls/journals.py"}
+    panel = {"panel/files.py", "panel/server/kept.py", "panel/server/calls/journals.py"}
     kernel = {"fieldbus/ethercat/emulated/port.py"}  # the kernel stamps frames with the date
     stamps = {"cli/run/journals.py", "mill/card/alarms.py", "bridge/clock.py"}
     assert found == stamps | panel | kernel
