@@ -12,6 +12,7 @@ from openacr.controller import Controller
 from openacr.engine import change_log_cy
 from openacr.engine import realtime_cy as loop
 from openacr.engine.changes_cy import ENTRY
+from openacr.fieldbus.machine import exchange_cy
 from openacr.fieldbus.machine.exchange_memory import ExchangeMemory
 from openacr.map.numbers import HEAP_BYTE_BASE
 from openacr.map.rows import axes, kernel, masters, scheduler, threads
@@ -85,6 +86,25 @@ def test_a_step_is_a_tick_and_leaves_the_sequence_even() -> None:
         live.step()
         assert (live.tick, live.rows[loop.SEQUENCE]) == (before + n, 2 * n)
     assert live.numbers[loop.CYCLES] == 4.0
+
+
+def test_figures_begin_at_0_once_when_python_asks_and_settings_stay() -> None:
+    live = Stepped(at_axes().card, silence_tk=100)
+    n, bus = live.numbers, live.bus.numbers
+    live.step(3)
+    figures = (loop.LOST_NS, loop.MISSED, loop.WORST_WAKE_NS, loop.WORST_WORK_NS)
+    bins = (loop.WAKE, loop.WAKE + loop.BINS - 1, loop.WORK, loop.WORK + loop.BINS - 1)
+    for row in (*figures, loop.WORST_TAKE_NS, *bins):
+        n[row] = 5.0
+    bus[exchange_cy.SENT_FRAMES] = 6.0
+    silence_s, n[loop.OWED_NS], n[loop.MADE_UP] = n[loop.SILENCE_S], 3.0, 1.0
+    live.rows[loop.FROM_ZERO] += 1
+    live.step()
+    assert [n[row] for row in (*figures, loop.WORST_TAKE_NS, *bins)] == [0.0] * 9
+    assert (n[loop.CYCLES], bus[exchange_cy.SENT_FRAMES]) == (1.0, 0.0)
+    assert (n[loop.SILENCE_S], n[loop.OWED_NS], n[loop.MADE_UP]) == (silence_s, 3.0, 1.0)
+    live.step()
+    assert n[loop.CYCLES] == 2.0
 
 
 def test_one_list_is_taken_over_a_period_in_their_order_also_around_the_end_of_the_queue() -> None:

@@ -68,7 +68,7 @@ def test_a_frame_that_comes_back_is_counted_and_each_has_the_next_index(frames: 
         assert (b[at.GOOD], b[at.FRESH], b[at.BAD], b[at.ALARM]) == (k, 1, 0, 0)
         indexes.append((frames.memory.back[17], frames.memory.back[63]))
     assert indexes == [((k - 1) % 255 + 1,) * 2 for k in range(1, 258)]
-    assert (n[at.CYCLES], n[at.BAD_CYCLES]) == (257.0, 0.0)
+    assert (n[at.SENT_FRAMES], n[at.MISSING_FRAMES], n[at.WRONG_FRAMES]) == (257.0, 0.0, 0.0)
 
 
 @linux
@@ -79,7 +79,8 @@ def test_more_lost_frames_in_a_row_than_may_be_are_an_alarm(frames: Frames) -> N
         assert (b[at.BAD], b[at.ALARM], b[at.FRESH]) == (bad, 0, int(comes_back))
     frames.exchange(comes_back=False)
     assert b[at.ALARM] == at.ALARM_LOST
-    assert frames.memory.numbers[at.BAD_CYCLES] == 5.0
+    n = frames.memory.numbers
+    assert (n[at.SENT_FRAMES], n[at.MISSING_FRAMES], n[at.WRONG_FRAMES]) == (6.0, 5.0, 0.0)
 
 
 @linux
@@ -91,6 +92,8 @@ def test_a_wrong_working_counter_is_as_bad_as_a_lost_frame(frames: Frames) -> No
         assert (b[at.FRESH], b[at.ALARM]) == (0, 0)
     frames.exchange()
     assert b[at.ALARM] == at.ALARM_COUNTER
+    n = frames.memory.numbers
+    assert (n[at.SENT_FRAMES], n[at.MISSING_FRAMES], n[at.WRONG_FRAMES]) == (3.0, 0.0, 3.0)
 
 
 @linux
@@ -127,6 +130,50 @@ def test_no_exchange_for_too_long_is_an_alarm(frames: Frames) -> None:
     n[at.LATEST_NS] = now_ns() - 1.1e9
     frames.exchange()
     assert b[at.ALARM] == at.ALARM_LATE
+
+
+@linux
+def test_a_frame_more_than_half_a_cycle_late_is_counted(frames: Frames) -> None:
+    n = frames.memory.numbers
+    n[at.CYCLE_NS] = 1e12
+    for passed, late in ((0.0, 0.0), (1.4e12, 0.0), (1.6e12, 1.0), (1.6e12, 2.0)):
+        n[at.LATEST_NS] = now_ns() - passed if passed else 0.0
+        frames.exchange()
+        assert n[at.LATE_FRAMES] == late
+
+
+@linux
+def test_each_frame_asks_the_next_device_for_its_state(frames: Frames) -> None:
+    b, x = frames.memory.rows, frames.memory.out
+    ask_at = 90
+    b[at.FRAME_SIZE], b[at.ASK_AT], b[at.STATION], b[at.DEVICES] = 120, ask_at, 0x1000, 3
+    x[ask_at + 10 : ask_at + 16] = bytes([0x14, 0x01, 0, 0, 0x1B, 0x02])
+    x[ask_at + 16] = 1
+    seen = []
+    for _ in range(4):
+        frames.exchange()
+        seen.append(int.from_bytes(frames.memory.back[ask_at + 2 : ask_at + 4], "little"))
+    assert seen == [0x1001, 0x1002, 0x1000, 0x1001]
+    shown = list(b[at.FIRST_DEVICE : at.FIRST_DEVICE + 8])
+    assert shown == [0x114, 0x21B, 0x114, 0x21B, 0x114, 0x21B, 0, 0]
+    x[ask_at + 16] = 0  # no device has answered
+    frames.exchange()
+    assert list(b[at.FIRST_DEVICE + 2 : at.FIRST_DEVICE + 6]) == [0x114, 0x21B, 0, 0]
+    x[ask_at + 16] = 1
+    frames.exchange(comes_back=False)
+    assert list(b[at.FIRST_DEVICE : at.FIRST_DEVICE + 4]) == [0, 0, 0x114, 0x21B]
+
+
+@linux
+def test_counters_begin_at_0_and_nothing_else_changes(frames: Frames) -> None:
+    n = frames.memory.numbers
+    frames.exchange(comes_back=False)
+    n[at.PHASE_NS], n[at.LATE_FRAMES], n[at.WRONG_FRAMES] = 7.0, 4.0, 5.0
+    kept = list(n[at.WORST_RETURN_NS + 1 :]), list(n[: at.SENT_FRAMES])
+    assert n[at.WORST_RETURN_NS] > 0.0
+    pick(at.counters_begin)(n)
+    assert list(n[at.SENT_FRAMES : at.WORST_RETURN_NS + 1]) == [0.0] * 5
+    assert (list(n[at.WORST_RETURN_NS + 1 :]), list(n[: at.SENT_FRAMES])) == kept
 
 
 class OneDrive:

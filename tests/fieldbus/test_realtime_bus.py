@@ -1,6 +1,7 @@
 """Drives on a bus whose frames the real-time loop exchanges; the segment is a process beside."""
 
 import ctypes
+import json
 import select
 import socket
 import subprocess
@@ -11,14 +12,19 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from tests.fieldbus.bus_rig import SegmentLink
 from tests.fieldbus.test_drives_on_a_card import RAMP, machine
 
 from openacr import compiled
 from openacr.channels import StreamKind
 from openacr.controller import Controller
 from openacr.fieldbus.cia402.states import State
+from openacr.fieldbus.ethercat.emulated.build import segment_of
+from openacr.fieldbus.ethercat.wire.registers import ERROR
+from openacr.fieldbus.ethercat.wire.registers import State as DeviceState
 from openacr.fieldbus.machine import exchange_cy as at
 from openacr.fieldbus.machine.realtime_bus import RealtimeBus
+from openacr.fieldbus.machine.report import BusReport, LoopReport, TimesReport
 from openacr.map.rows import axes
 from openacr.map.words import af4
 from openacr.plant.describe.load import parse_world
@@ -26,8 +32,8 @@ from openacr.plant.describe.real_world import real_world
 
 ROOT = Path(__file__).parents[2]
 PATIENCE_S = 60.0
-PERIOD_S = 0.01  # on a busy computer an emulated segment has to answer in half of it
-PATIENT = "lost_frames = 500\nlate_s = 10.0\n"
+PERIOD_S = 0.002  # on a busy computer an emulated segment has to answer in half of it
+PATIENT = "lost_frames = 500\nlate_s = 10.0\nenable_s = 10.0\n"
 
 pytestmark = [
     pytest.mark.skipif(sys.platform != "linux", reason="the loop is for Linux"),
@@ -59,6 +65,9 @@ class PairLink:
 
     def pause(self, seconds: float) -> None:
         time.sleep(seconds)
+
+    def close(self) -> None:
+        """Its sockets are closed by who made them."""
 
 
 class LiveOnBus:
@@ -119,7 +128,8 @@ class LiveOnBus:
 
 
 @contextmanager
-def live_on_bus(text: str, digital: int = 0) -> Iterator[LiveOnBus]:
+def segment_beside(text: str, digital: int = 0) -> Iterator[tuple[PairLink, socket.socket]]:
+    """An emulated segment in a process of its own: a link to it, and a socket for commands."""
     frames, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM)
     commands, their_commands = socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM)
     numbers = [theirs.fileno(), their_commands.fileno()]
@@ -132,16 +142,22 @@ def live_on_bus(text: str, digital: int = 0) -> Iterator[LiveOnBus]:
         process.stdin.close()
         assert commands.recv(64) == b"ready"
         try:
-            live = LiveOnBus(text, PairLink(frames), commands)
-            try:
-                yield live
-            finally:
-                live.card.close()
-                live.made.close()
+            yield PairLink(frames), commands
         finally:
             process.kill()
             for each in (frames, theirs, commands, their_commands):
                 each.close()
+
+
+@contextmanager
+def live_on_bus(text: str, digital: int = 0) -> Iterator[LiveOnBus]:
+    with segment_beside(text, digital) as (link, commands):
+        live = LiveOnBus(text, link, commands)
+        try:
+            yield live
+        finally:
+            live.card.close()
+            live.made.close()
 
 
 def test_enabling_moves_nothing_and_a_move_arrives_to_the_count() -> None:
@@ -172,8 +188,16 @@ def test_python_that_holds_its_lock_stops_no_frame_and_no_move() -> None:
         live.until(lambda: live.position() == 20000)
 
 
+def test_who_only_asks_for_the_status_however_often_keeps_no_drive_from_being_led() -> None:
+    with live_on_bus(machine(more=PATIENT)) as live:
+        before = live.bus.memory.rows[at.GOOD]
+        live.until(lambda: live.bus.memory.rows[at.GOOD] > before + 5)
+        live.send("DRIVE ON X")
+        live.until(lambda: bool(live.card.fast_status()) and live.is_enabled())
+
+
 def test_frames_that_are_lost_stop_all_drives_and_drive_res_brings_the_bus_up_again() -> None:
-    with live_on_bus(machine(more="lost_frames = 100\nlate_s = 10.0\n")) as live:
+    with live_on_bus(machine(more=PATIENT.replace("500", "100"))) as live:
         live.switch_on()
         live.drives("cable-out 0")
         live.until(lambda: "no frame comes back" in live.bus.alarm)
@@ -220,3 +244,68 @@ def test_a_position_that_jumps_stops_its_axis_within_the_loop() -> None:
         live.drives("encoder-jump 0 1000000")
         live.until(lambda: "its position jumped by" in live.bus.drives[0].alarm)
         live.until(lambda: bool(live.flags() & af4.DRIVE_FAULT) and not live.is_enabled())
+
+
+def states(report: BusReport) -> list[str]:
+    return [one["state"] for one in report["devices"]]
+
+
+def test_a_bus_in_real_time_reports_devices_drives_counters_and_the_figures_of_its_loop() -> None:
+    with live_on_bus(machine(axes=2, more=PATIENT), digital=1) as live:
+        live.switch_on()
+        live.until(lambda: states(live.card.report()) == ["OP", "OP", "PREOP"])
+        live.until(lambda: live.card.report()["drives"][0]["state"] == "OPERATING")
+        report = json.loads(json.dumps(live.card.report()))
+        assert (report["interface"], report["is_real"], report["alarm"]) == ("pair", True, "")
+        assert (report["cycle_s"], report["loop"]["period_s"]) == (PERIOD_S, PERIOD_S)
+        assert [one["name"] for one in report["devices"]] == ["drive", "drive", "digital"]
+        shown = [(one["axis"], one["mode"], one["is_enabled"]) for one in report["drives"]]
+        assert shown == [("X", 8, True), ("Y", 8, False)]
+        assert 0 < report["counters"]["sent"] <= report["loop"]["cycles"] + 1
+        late = report["loop"]["late"]
+        assert 0.0 < late["median_s"] <= late["most_s"] <= late["worst_s"]
+        live.send("X5000")
+        live.until(lambda: live.position() == 5000)
+        live.until(lambda: live.card.report()["drives"][0]["target"] == 5000)
+        live.drives("power-off 2")
+        live.until(lambda: states(live.card.report())[2] == "")
+
+
+def test_counters_and_figures_of_a_loop_begin_at_0_when_they_are_reset() -> None:
+    with live_on_bus(machine(more=PATIENT)) as live:
+        live.until(lambda: live.card.report()["counters"]["sent"] > 20)
+        before = live.card.report()
+        live.card.reset_counters()
+        live.until(lambda: live.card.report()["counters"]["sent"] < before["counters"]["sent"])
+        loop = live.card.report()["loop"]
+        assert loop is not None
+        assert loop["cycles"] < 20
+
+
+class InMemory(SegmentLink):
+    """A link for a bus whose loop does not live."""
+
+    def fileno(self) -> int:
+        return -1
+
+
+def test_what_a_device_has_answered_is_shown_with_its_error_in_words() -> None:
+    text = machine(axes=2)
+    world = real_world(parse_world(text))
+    made = Controller(world.card.board, world=world)
+    link = InMemory(segment_of(parse_world(text), digital=1))
+    bus = RealtimeBus(made.card, world, link, is_real=False)
+    bus.connect()
+    times = TimesReport(median_s=1e-6, most_s=2e-6, worst_s=3e-6)
+    loop = LoopReport(period_s=0.0005, cycles=7, missed=0, lost_s=0.0, late=times, computing=times)
+    report = bus.report(loop)
+    assert states(report) == ["OP", "OP", "PREOP"]
+    assert (report["is_real"], report["loop"], report["drives"][1]["state"]) == (False, loop, "")
+    heard = at.FIRST_DEVICE + at.DEVICE_ROWS
+    bus.memory.rows[heard + at.AL_STATUS] = DeviceState.SAFEOP | ERROR
+    bus.memory.rows[heard + at.AL_CODE] = 0x1B
+    bus.memory.rows[heard + at.DEVICE_ROWS + at.AL_STATUS] = 0
+    _, second, third = bus.report(loop)["devices"]
+    assert (second["state"], second["code"]) == ("SAFEOP", 0x1B)
+    assert second["text"] == "sync manager watchdog"
+    assert (third["state"], third["code"], third["text"]) == ("", 0, "")

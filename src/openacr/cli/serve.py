@@ -18,7 +18,7 @@ from openacr.cli.serve_realtime import (
     RealtimeOptions,
     agreed_realtime,
     in_real_time,
-    served_in_real_time,
+    not_in_real_time,
 )
 from openacr.cli.signals import stop_on_signals
 from openacr.errors import StoreError, UserError
@@ -118,8 +118,10 @@ def serve(
     guests = admitted(host, allow, is_open=insecure)
     world = world_on_bus(project, bus)
     agreed_realtime(is_on=is_real_time, core=core, silence_s=silence, speed=speed)
-    if is_real_time:
-        served_in_real_time(world, bus, is_reported=is_reported)
+    if is_reported and (world is None or world.bus is None):
+        raise UserError("--report-bus: the bus of the project is not opened, or it has none")
+    if is_real_time and (why := not_in_real_time(world, bus)):
+        raise UserError(f"--realtime: {why}; leave the option out")
     interface = agreed(world, bus, speed, is_real=is_real, is_sure=is_sure)
     card = _load(project, data, world)
     try:
@@ -135,7 +137,7 @@ def serve(
             is_status_wanted=status_port is not None,
         )
         if is_real_time:
-            options = RealtimeOptions(core, silence, world, interface, is_real)
+            options = RealtimeOptions(core, silence, world, interface, is_real, is_reported)
             with in_real_time(card, options) as live:
                 asyncio.run(serve_card(live.card, ports, speed, guests, live.begin))
         elif world is None:

@@ -1,9 +1,5 @@
 """What is real of a served card: whether it is opened, who agrees, how it begins and ends."""
 
-import asyncio
-import json
-import os
-import signal
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from openacr.cli.bus_report import Reporting
 from openacr.errors import UserError
 from openacr.wording import counted
 
@@ -27,8 +24,6 @@ if TYPE_CHECKING:
 
 NO_BUS = "none"
 EMULATED = "emulated"
-REPORT_S = 0.25
-MOST_TYPED = 4096
 
 
 def world_on_bus(path: Path | None, bus: str | None) -> "World | None":
@@ -206,7 +201,7 @@ class ServedBus:
         self._is_real, self._is_reported = is_real, is_reported
         self._link = _link(card, world, interface)
         self._machine: RealMachine | None = None
-        self._reporting: asyncio.Task[None] | None = None
+        self._reporting: Reporting | None = None
 
     def begin(self) -> None:
         """Bring the bus up and let the card attend it; BusError if it is not as described."""
@@ -221,28 +216,12 @@ class ServedBus:
         drives = counted(len(machine.drives), "drive")
         typer.echo(f"bus {self._link.name}: {drives}, {state}", err=True)
         if self._is_reported:
-            loop = asyncio.get_running_loop()
-            self._reporting = loop.create_task(self._report(machine))
-            loop.add_reader(sys.stdin.fileno(), self._hear, machine)
-
-    async def _report(self, machine: "RealMachine") -> None:
-        while True:
-            print(f"bus {json.dumps(machine.report())}", flush=True)
-            await asyncio.sleep(REPORT_S)
-
-    def _hear(self, machine: "RealMachine") -> None:
-        """A line of the process that started the card; without one the card ends as by Ctrl-C."""
-        words = os.read(sys.stdin.fileno(), MOST_TYPED)
-        if b"reset" in words:
-            machine.reset_counters()
-        if not words:
-            asyncio.get_running_loop().remove_reader(sys.stdin.fileno())
-            os.kill(os.getpid(), signal.SIGTERM)
+            self._reporting = Reporting(machine)
 
     def close(self) -> None:
         """Bring all devices into INIT and close the interface."""
         if self._reporting is not None:
-            self._reporting.cancel()
+            self._reporting.end()
         if self._machine is not None:
             self._machine.close()
             cycles = counted(self._machine.cycles, "cycle")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from openacr.cli.bus_report import Reporting
 from openacr.cli.serve_on_bus import EMULATED
 from openacr.errors import UserError
 
@@ -32,17 +33,29 @@ def agreed_realtime(
         raise UserError(f"--speed {speed:g}: a card with --realtime runs in real time, 1.0")
 
 
-def served_in_real_time(world: "World | None", bus: str | None, *, is_reported: bool) -> None:
-    """UserError for what the real-time loop does not serve."""
-    if is_reported or EMULATED in (bus, world and world.bus and world.bus.interface):
-        option = "--report-bus" if is_reported else f"--bus {EMULATED}"
-        raise UserError(f"{option} is not there with --realtime")
+def not_in_real_time(world: "World | None", bus: str | None) -> str:
+    """Why the real-time loop does not serve a machine; "" if it does."""
+    if EMULATED in (bus, world and world.bus and world.bus.interface):
+        return f"the devices of --bus {EMULATED} live in the time of the card"
     if world is None:
-        return
+        return ""
     if world.canopen is not None and world.canopen.interface is not None:
-        raise UserError("--realtime: real CANopen nodes are served without it only")
+        return "real CANopen nodes are worked on by Python"
     if any(drive.serial for drive in world.drive):
-        raise UserError("--realtime: drives on serial ports are served without it only")
+        return "drives on serial ports are worked on by Python"
+    return ""
+
+
+def missing_for_real_time(world: "World", bus: str | None) -> str:
+    """Why a machine is not served in real time on this computer; "" if it can be."""
+    from openacr.compiled import is_compiled
+    from openacr.controller.realtime_card import SHORTEST_S
+
+    if sys.platform != "linux" or not is_compiled:
+        return "the loop needs Linux and the compiled core (docs/installation.md)"
+    if world.card.period_s < SHORTEST_S:
+        return f"the loop takes servo periods of {1e6 * SHORTEST_S:g} us and more"
+    return not_in_real_time(world, bus)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +67,7 @@ class RealtimeOptions:
     world: "World | None"
     interface: str
     is_real: bool
+    is_reported: bool
 
 
 class ServedInRealTime:
@@ -69,6 +83,8 @@ class ServedInRealTime:
         self._rights = RealtimeRights(options.core)
         self._bus: RealtimeBus | None = None
         self._link: RawLink | None = None
+        self._is_reported = options.is_reported
+        self._reporting: Reporting | None = None
         if options.world is not None:
             self._link = RawLink(options.interface)
             world = real_world(options.world)
@@ -81,9 +97,11 @@ class ServedInRealTime:
         self.card.start(self._rights.take)
         if self._bus is not None:
             typer.echo(self._bus.began(), err=True)
+        if self._is_reported:
+            self._reporting = Reporting(self.card)
         for sentence in self._rights.missing:
             typer.secho(f"warning: {sentence}", fg=typer.colors.YELLOW, err=True)
-        if sys.stderr.isatty():
+        if sys.stderr.isatty() and not self._is_reported:
             self._line = asyncio.get_running_loop().create_task(self._follow())
 
     async def _follow(self) -> None:
@@ -93,12 +111,14 @@ class ServedInRealTime:
 
     def close(self) -> None:
         """Bring all axes to rest, end the loop and say how it has kept time."""
+        if self._reporting is not None:
+            self._reporting.end()
         self.card.close()
         self._rights.give_back()
         if self._bus is not None and self._link is not None:
             typer.echo(self._bus.ended(), err=True)
             self._link.close()
-        start = "\r\x1b[K" if sys.stderr.isatty() else ""
+        start = "\r\x1b[K" if sys.stderr.isatty() and not self._is_reported else ""
         typer.echo(f"{start}real time: {self.card.figures()}", err=True)
 
 

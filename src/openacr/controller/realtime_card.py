@@ -31,6 +31,7 @@ from openacr.views import F64
 
 if TYPE_CHECKING:
     from openacr.fieldbus.machine.realtime_bus import RealtimeBus
+    from openacr.fieldbus.machine.report import BusReport
 
 log = logging.getLogger(__name__)
 
@@ -93,6 +94,16 @@ class RealtimeCard(HandlerLists):
     def figures(self) -> RealtimeFigures:
         """How well time has been kept so far."""
         return self._loop.figures(self._card.period_s)
+
+    def report(self) -> BusReport:
+        """The state of the bus with the figures of the loop; UserError without a bus."""
+        if self._bus is None:
+            raise UserError("the card has no bus")
+        return self._bus.report(self.figures().report())
+
+    def reset_counters(self) -> None:
+        """Let the figures of the loop and the counters of the bus begin at 0."""
+        self._loop.begin_figures()
 
     @property
     def is_alive(self) -> bool:
@@ -213,6 +224,7 @@ class RealtimeCard(HandlerLists):
     @contextmanager
     def _work(self) -> Iterator[None]:
         self.see()
+        self._looked_s = time.monotonic()  # who only sees, however often, leads no drive
         yield
         if self._bus is not None:
             self._bus.look()  # a drive that is to be enabled is held before the loop learns of it
@@ -226,7 +238,6 @@ class RealtimeCard(HandlerLists):
         for each in self._pending:
             each.take(self._memory)
         self._before = self._memory.snapshot()
-        self._looked_s = time.monotonic()
 
     def _commit(self) -> None:
         if self._memory.renewals != self._renewals:  # another card: nothing is left of this one

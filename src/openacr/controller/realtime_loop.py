@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from openacr.compiled import is_compiled, pick
 from openacr.engine import change_log_cy, quiet_cy
@@ -17,6 +18,9 @@ from openacr.fieldbus.machine.exchange_memory import ExchangeMemory
 from openacr.map.memory import Memory
 from openacr.map.numbers import HEAP_BYTE_BASE, MEMORY_BYTES
 from openacr.views import F64, I32
+
+if TYPE_CHECKING:
+    from openacr.fieldbus.machine.report import LoopReport, TimesReport
 
 CODE_WORDS = 1 << 21  # room for what all programs are compiled to
 CODE_NUMBERS = 1 << 19
@@ -54,6 +58,10 @@ class Times:
             f" {1e6 * self.worst_s:.0f} us (worst)"
         )
 
+    def report(self) -> TimesReport:
+        """The same as plain data."""
+        return {"median_s": self.median_s, "most_s": self.most_s, "worst_s": self.worst_s}
+
 
 @dataclass(frozen=True, slots=True)
 class RealtimeFigures:
@@ -72,6 +80,17 @@ class RealtimeFigures:
             f"period {1e3 * self.period_s:g} ms: {self.cycles} cycles, {self.missed} missed"
             f" ({self.lost_s:.3g} s not made up); late by {self.wake}; computing {self.work}"
         )
+
+    def report(self) -> LoopReport:
+        """The same as plain data."""
+        return {
+            "period_s": self.period_s,
+            "cycles": self.cycles,
+            "missed": self.missed,
+            "lost_s": self.lost_s,
+            "late": self.wake.report(),
+            "computing": self.work.report(),
+        }
 
 
 class RealtimeLoop:
@@ -200,7 +219,7 @@ class RealtimeLoop:
             self._thread.join(REST_S)
 
     def figures(self, period_s: float) -> RealtimeFigures:
-        """The figures so far."""
+        """The figures since they began at 0."""
         n = self._numbers
         return RealtimeFigures(
             period_s,
@@ -211,6 +230,10 @@ class RealtimeLoop:
             self._times(loop.WORK, n[loop.WORST_WORK_NS]),
             1e-9 * n[loop.WORST_TAKE_NS],
         )
+
+    def begin_figures(self) -> None:
+        """Let the figures, and the counters of the bus, begin at 0 with the next period."""
+        self._rows[loop.FROM_ZERO] = (self._rows[loop.FROM_ZERO] + 1) & loop.WRAP
 
     def _times(self, first: int, worst_ns: float) -> Times:
         counts = self._numbers[first : first + loop.BINS].tolist()

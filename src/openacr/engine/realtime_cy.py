@@ -24,7 +24,13 @@ from openacr.engine.loop_cy import (
     TRACE_FULL,
     engine_run,
 )
-from openacr.fieldbus.machine.exchange_cy import STEER_NS, bus_exchange, bus_give, bus_take
+from openacr.fieldbus.machine.exchange_cy import (
+    STEER_NS,
+    bus_exchange,
+    bus_give,
+    bus_take,
+    counters_begin,
+)
 from openacr.map import numbers as at
 from openacr.map.numbers import MEMORY_BYTES
 from openacr.map.rows import axes, engine, kernel, scheduler, system
@@ -46,6 +52,7 @@ CODE = 7  # which of the two buffers of compiled programs is valid [loop]
 PASSED = 8  # what the loop has passed over, bits [loop]
 IS_SILENT = 9  # 1 while programs get no slices [loop]
 RESTING = 10  # ticks at rest while the loop ends [loop]
+FROM_ZERO = 11  # how often all figures were to begin at 0 [Python]
 ASKED = 12  # how often each of these four was wanted [loop]
 ASKED_REQUESTS = 12
 ASKED_ROOM = 13
@@ -54,7 +61,8 @@ ASKED_DEVICES = 15
 LISTS = 16  # from here on 3 rows for each list: first entry, count, code buffer plus 1
 LIST_ROWS = 3
 QUEUE = 64
-H_ROWS = 208
+BEGUN = 208  # how often they have begun at 0 [loop]
+H_ROWS = 209
 WRAP = 1073741823  # counts begin anew after this one; even and odd stay what they are
 
 # Rows of N, doubles: settings of Python, then figures of the loop.
@@ -115,6 +123,18 @@ def realtime_due(N: F64, due: int, period: int, now: int) -> int:
         following -= cut
     N[OWED_NS] = float(owed)
     return following
+
+
+def figures_begin(H: I32, N: F64, BN: F64) -> None:
+    """Let all figures of the loop and of the bus begin at 0, if Python has asked for it."""
+    if H[BEGUN] == H[FROM_ZERO]:
+        return
+    H[BEGUN] = H[FROM_ZERO]
+    for k in range(LOST_NS, WORST_TAKE_NS + 1):
+        N[k] = 0.0
+    for k in range(WAKE, N_ROWS):
+        N[k] = 0.0
+    counters_begin(BN)
 
 
 def realtime_sequence(H: I32) -> int:
@@ -239,6 +259,7 @@ def realtime_step(
 ) -> None:  # fmt: skip
     """All that is done in one period but to wait for its beginning, and for the frame of a bus."""
     sequence_step(H)
+    figures_begin(H, N, BN)
     bus_take(F, I, B, BN, Y, now_ns())
     if H[TAKEN] != H[GIVEN]:
         fence()

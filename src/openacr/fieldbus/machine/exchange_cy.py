@@ -16,7 +16,7 @@ from openacr.map.words import af4
 from openacr.plant.physics.drive_cy import converter_volts
 from openacr.views import F32, F64, I32, U8
 
-__all__ = ["bus_exchange", "bus_give", "bus_take", "clock_steer"]
+__all__ = ["bus_exchange", "bus_give", "bus_take", "clock_steer", "counters_begin"]
 
 # Rows of B; the writer in brackets.
 ACTIVE = 0  # 1: frames are exchanged [Python]
@@ -30,7 +30,9 @@ STATUS_AT = 7  # of the joint state of all devices, in the frame
 FORBIDDEN = 8  # bits of a joint state that is not operation
 OPERATING = 9  # bit that it has
 DATAGRAMS = 10
-INDEX_AT = 11  # of each datagram (3 rows), in the frame
+DEVICES = 11  # that are asked for their states, one in each frame; 0: none is
+ASKED = 12  # which was asked last [loop]
+ASK_AT = 13  # of the datagram that asks, in the frame
 CYCLE_TK = 14
 WAIT_TK = 15  # [loop]
 LOST_FRAMES = 16  # in a row that may be lost
@@ -44,12 +46,17 @@ FRESH = 23  # 1: a frame came back whole and is to be taken [loop]
 GOOD = 24  # counts frames that came back whole [loop]
 SENT = 25  # counts frames, the index of the datagrams [loop]
 CLOCK_AT = 26  # of the time of the first device that has a clock, in the frame; 0 without
+INDEX_AT = 27  # of each datagram (4 rows), in the frame
+STATION = 31  # of the first device
 FIRST_DRIVE = 32
 DRIVE_ROWS = 16
 FIRST_CONTACT = 288  # inputs, then outputs
 CONTACT_ROWS = 5
 MOST_CONTACTS = 1024
-B_ROWS = 5408
+FIRST_DEVICE = 5408
+DEVICE_ROWS = 2
+MOST_DEVICES = 1024
+B_ROWS = 7456
 
 # Rows of a drive.
 OWNER = 0  # axis, -1 without one [Python]
@@ -73,16 +80,22 @@ WORD = 2
 MASK = 3
 SLOT = 4
 
+# Rows of a device, as the loop has heard it last.
+AL_STATUS = 0  # 0 while it does not answer
+AL_CODE = 1
+
 # Rows of N.
 RETURN_NS = 0  # a frame may take
 LATE_NS = 1  # between two exchanges
 LATEST_NS = 2  # exchange
-CYCLES = 3
-BAD_CYCLES = 4
-WORST_RETURN_NS = 5
-CYCLE_NS = 6
-STEER_NS = 7  # by which the next period is longer, to follow the clock of the devices
-PHASE_NS = 8  # how far the frame is from the middle between two SYNC0
+CYCLE_NS = 3
+STEER_NS = 4  # by which the next period is longer, to follow the clock of the devices
+PHASE_NS = 5  # how far the frame is from the middle between two SYNC0
+SENT_FRAMES = 6  # counters, until they begin anew
+MISSING_FRAMES = 7
+WRONG_FRAMES = 8  # that came back with a wrong working counter
+LATE_FRAMES = 9  # that went out late after the last one that came back
+WORST_RETURN_NS = 10
 FIRST_NUMBERS = 16
 DRIVE_NUMBERS = 8
 N_ROWS = 144
@@ -93,6 +106,12 @@ ZERO = 1  # counts that are the card's count at power-up
 SCALE = 2  # counts for a raw count of the card
 PER_VOLT = 3
 FASTEST_CPS = 4
+
+POSITION_AT = 2  # of a datagram: the address of its device
+HEADER = 10
+ASK_SIZE = 6  # bytes that a device answers, from its AL status on
+CODE_AT = 4  # in them
+LATE_CYCLES = 1.5  # of a late frame
 
 # Images in X.
 FRAME_ROOM = 1536
@@ -154,6 +173,27 @@ def clock_steer(N: F64, reference: int, cycle: int) -> None:
     N[STEER_NS] = max(-most, min(most, -STEER_GAIN * error))
 
 
+def counters_begin(N: F64) -> None:
+    """Let the counters begin at 0."""
+    for k in range(SENT_FRAMES, WORST_RETURN_NS + 1):
+        N[k] = 0.0
+
+
+def device_ask(B: I32, X: U8) -> None:
+    """Address the next device with the datagram that asks for a state."""
+    B[ASKED] = B[ASKED] + 1 if B[ASKED] + 1 < B[DEVICES] else 0
+    put(X, B[ASK_AT] + POSITION_AT, 2, B[STATION] + B[ASKED])
+
+
+def device_note(B: I32, Y: U8, is_back: bool) -> None:
+    """What the device that was asked has answered."""
+    r: int = FIRST_DEVICE + DEVICE_ROWS * B[ASKED]
+    answer: int = B[ASK_AT] + HEADER
+    is_heard: bool = is_back and word_of(Y, answer + ASK_SIZE) == 1
+    B[r + AL_CODE] = word_of(Y, answer + CODE_AT) if is_heard else 0
+    B[r + AL_STATUS] = word_of(Y, answer) if is_heard else 0
+
+
 def bus_exchange(B: I32, N: F64, X: U8, Y: U8, now: int) -> None:
     """Send the outputs and wait for what comes back, at most RETURN_NS; no state is touched."""
     B[FRESH] = 0
@@ -165,8 +205,13 @@ def bus_exchange(B: I32, N: F64, X: U8, Y: U8, now: int) -> None:
     B[SENT] = B[SENT] + 1 if B[SENT] < 255 else 1
     for k in range(B[DATAGRAMS]):
         X[B[INDEX_AT + k]] = B[SENT]
-    N[CYCLES] += 1.0
-    if N[LATEST_NS] > 0.0 and float(now) - N[LATEST_NS] > N[LATE_NS]:
+    if B[DEVICES]:
+        device_ask(B, X)
+    N[SENT_FRAMES] += 1.0
+    passed: float = float(now) - N[LATEST_NS] if N[LATEST_NS] > 0.0 else 0.0
+    if passed > LATE_CYCLES * N[CYCLE_NS]:
+        N[LATE_FRAMES] += 1.0
+    if passed > N[LATE_NS]:
         bus_alarm(B, ALARM_LATE)
     size: int = frame_exchange(
         B[SOCKET], X, B[FRAME_SIZE], Y, FRAME_ROOM, B[INDEX_AT], now + int(N[RETURN_NS])
@@ -176,6 +221,8 @@ def bus_exchange(B: I32, N: F64, X: U8, Y: U8, now: int) -> None:
     for k in range(B[DATAGRAMS]):
         at: int = B[INDEX_AT + k]
         is_back = is_back and Y[at] == X[at] and Y[at - 1] == X[at - 1]
+    if B[DEVICES]:
+        device_note(B, Y, is_back)
     is_whole: bool = is_back and word_of(Y, B[COUNTER_AT]) == B[COUNTER]
     if is_whole:
         B[BAD] = 0
@@ -186,7 +233,10 @@ def bus_exchange(B: I32, N: F64, X: U8, Y: U8, now: int) -> None:
             high: int = long_of_image(Y, B[CLOCK_AT] + 4)
             clock_steer(N, (high << 32) | low, int(N[CYCLE_NS]))
         return
-    N[BAD_CYCLES] += 1.0
+    if is_back:
+        N[WRONG_FRAMES] += 1.0
+    else:
+        N[MISSING_FRAMES] += 1.0
     B[BAD] = B[BAD] + 1
     if B[BAD] > B[LOST_FRAMES]:
         bus_alarm(B, ALARM_COUNTER if is_back else ALARM_LOST)

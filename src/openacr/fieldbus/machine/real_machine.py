@@ -19,11 +19,10 @@ import logging
 
 from openacr.fieldbus.ethercat.master.master import Member
 from openacr.fieldbus.ethercat.master.port import BusError, Link
-from openacr.fieldbus.ethercat.wire.registers import al_text
 from openacr.fieldbus.machine.axis_drive import AxisDrive
 from openacr.fieldbus.machine.bringing_up import Brought, bring_up
 from openacr.fieldbus.machine.in_parts import InParts
-from openacr.fieldbus.machine.report import BusReport, Counters, DeviceReport
+from openacr.fieldbus.machine.report import BusReport, Counters, devices_of, note_state
 from openacr.fieldbus.machine.terminal import RealTerminal
 from openacr.motion.card import Card
 from openacr.plant.describe.bus_schema import Bus
@@ -46,13 +45,12 @@ class RealMachine:
         self._alarm = ""
         self.may_enable = False
         self.counters: Counters = _none()
-        self._states: list[DeviceReport] = []
         self._looked_s = link.now_s()
         self._next_device = 0
         self._period_s = card.clock.period_s
         brought = bring_up(link, world, self._period_s)
         self._master = brought.master
-        self._list_devices()
+        self._states = devices_of(self._master)
         self.drives = [
             AxisDrive(card, axis, axis.bus, brought.drives[axis.number])
             for axis in world.axis
@@ -102,6 +100,7 @@ class RealMachine:
             "drives": [
                 drive.report(self._master.image, is_heard=is_heard) for drive in self.drives
             ],
+            "loop": None,
         }
 
     def attend(self, tick: int) -> int:
@@ -163,25 +162,8 @@ class RealMachine:
     def _look(self) -> None:
         """Ask the next device for its state."""
         self._next_device = (self._next_device + 1) % len(self._states)
-        shown, device = self._states[self._next_device], self._master.devices[self._next_device]
-        found = device.state_now()
-        state, code = ("", 0) if found is None else (found[0].name, found[1])
-        shown["state"], shown["code"] = state, code
-        shown["text"] = al_text(code) if code else ""
-
-    def _list_devices(self) -> None:
-        """All devices, which have just been brought into their states."""
-        self._states = [
-            {
-                "position": device.position,
-                "name": device.description.name or device.description.order,
-                "state": "OP" if device in self._master.members_devices else "PREOP",
-                "code": 0,
-                "text": "",
-            }
-            for device in self._master.devices
-        ]
-        self._next_device = 0
+        device = self._master.devices[self._next_device]
+        note_state(self._states[self._next_device], device.state_now())
 
     def _stop(self, text: str) -> None:
         if not self._alarm:
@@ -209,7 +191,7 @@ class RealMachine:
         self._revival = None
         self._master = brought.master
         self._master.port.link = self._link  # from now on in one part
-        self._list_devices()
+        self._states, self._next_device = devices_of(self._master), 0
         for drive in self.drives:
             drive.connect(brought.drives[drive.axis.number])
             drive.alarm = ""

@@ -10,34 +10,32 @@ import math
 import time
 from typing import Protocol
 
-from openacr.fieldbus.cia402.objects import (
-    ACTUAL_POSITION,
-    CONTROL_WORD,
-    DIGITAL_INPUTS,
-    MODES,
-    STATUS_WORD,
-)
+from openacr.fieldbus.cia402.objects import DIGITAL_INPUTS
 from openacr.fieldbus.cia402.states import DISABLE_VOLTAGE
+from openacr.fieldbus.ethercat.master.device import state_of
 from openacr.fieldbus.ethercat.master.mapping import Signal
-from openacr.fieldbus.ethercat.master.master import Master, Member
+from openacr.fieldbus.ethercat.master.master import Master
 from openacr.fieldbus.ethercat.master.port import BusError, Link
-from openacr.fieldbus.ethercat.wire.frames import DATAGRAM, FIRST, HEADER_SIZE, pack
-from openacr.fieldbus.ethercat.wire.registers import State
 from openacr.fieldbus.machine import exchange_cy as at
-from openacr.fieldbus.machine.axis_drive import AxisDrive
 from openacr.fieldbus.machine.bringing_up import Brought, bring_up
+from openacr.fieldbus.machine.exchange_layout import ExchangeLayout, numbers_at
 from openacr.fieldbus.machine.exchange_memory import ExchangeMemory
-from openacr.map.rows import axes
+from openacr.fieldbus.machine.realtime_drive import RealtimeDrive
+from openacr.fieldbus.machine.report import (
+    BusReport,
+    Counters,
+    DeviceReport,
+    LoopReport,
+    devices_of,
+    note_state,
+)
 from openacr.motion.card import Card
-from openacr.plant import inputs
-from openacr.plant.describe.bus_schema import INPUT_BITS, Bus, CyclicMode
+from openacr.plant.describe.bus_schema import INPUT_BITS, Bus
 from openacr.plant.describe.schema import Axis, World
-from openacr.views import F64
 from openacr.wording import counted
 
 log = logging.getLogger(__name__)
 
-HOLD_TK = 20_000  # enabling waits that long for the next look at most
 OFF_CYCLES = 5  # that switch the drives off at the end
 RETURN_PART = 0.5  # of a period, that a frame may take
 ALARMS = {
@@ -53,54 +51,6 @@ class SocketLink(Link, Protocol):
 
     def fileno(self) -> int:
         """Number of its socket."""
-
-
-class RealtimeDrive(AxisDrive):
-    """A drive whose positions and contacts the loop takes."""
-
-    def connect_again(self, member: Member, now_s: float) -> None:
-        """Use the drive after its bus has been brought up again; what it reports is reset."""
-        self.connect(member)
-        self.alarm = ""
-        self._reset_s = now_s
-        self.drive.reset()
-
-    def follow(self, numbers: F64, first: int) -> None:
-        """Where the loop keeps its counts."""
-        self._numbers, self._first = numbers, first
-
-    def _take_position(self, actual: int, passed_s: float) -> None:
-        zero = self._numbers[self._first + at.ZERO]
-        if not math.isnan(zero):
-            self._zero = round(zero)
-            self._counts = round(self._numbers[self._first + at.COUNTS])
-
-    def _take_contacts(self, level: int) -> None:
-        """The loop has done it."""
-
-    def _hold(self, n: int) -> None:
-        super()._hold(n)
-        self.memory.I[axes.enable_ticks[n]] = HOLD_TK
-
-    def _take_over(self, n: int) -> None:
-        super()._take_over(n)
-        if self._is_ready:
-            self.memory.I[axes.enable_ticks[n]] = 1
-
-    @property
-    def is_ready(self) -> bool:
-        """Whether it is to follow the setpoint."""
-        return self._is_ready
-
-    @property
-    def scale(self) -> float:
-        """Counts of the drive for a raw count of the card."""
-        return self._scale
-
-    @property
-    def fastest_cps(self) -> float:
-        """Counts a second beyond which a move is a jump."""
-        return self._fastest_cps
 
 
 class RealtimeBus:
@@ -130,7 +80,7 @@ class RealtimeBus:
                     drive.may_enable = self._is_real
                     self.drives.append(drive)
             for place in range(len(self.drives)):
-                self.memory.numbers[self._numbers_at(place) + at.ZERO] = math.nan
+                self.memory.numbers[numbers_at(place) + at.ZERO] = math.nan
         else:
             for drive in self.drives:
                 drive.connect_again(brought.drives[drive.axis.number], self._link.now_s())
@@ -138,14 +88,53 @@ class RealtimeBus:
         self._lay_out(brought, on_bus)
 
     @property
+    def counters(self) -> Counters:
+        """Frames by what became of them, since the loop has let the counters begin at 0."""
+        numbers = self.memory.numbers
+        return {
+            "sent": int(numbers[at.SENT_FRAMES]),
+            "lost": int(numbers[at.MISSING_FRAMES]),
+            "wrong": int(numbers[at.WRONG_FRAMES]),
+            "late": int(numbers[at.LATE_FRAMES]),
+        }
+
+    @property
     def cycles(self) -> int:
         """Exchanges so far."""
-        return int(self.memory.numbers[at.CYCLES])
+        return self.counters["sent"]
 
     @property
     def bad_cycles(self) -> int:
         """Those of them that were lost, damaged or not whole."""
-        return int(self.memory.numbers[at.BAD_CYCLES])
+        return self.counters["lost"] + self.counters["wrong"]
+
+    def report(self, loop: LoopReport) -> BusReport:
+        """The state of the bus, its devices and drives, beside the figures of its loop."""
+        rows = self.memory.rows
+        first = rows[at.IMAGE_AT]
+        sent = bytearray(self.memory.out[first : first + len(self._image)])
+        is_heard = not rows[at.BAD] and self.memory.numbers[at.LATEST_NS] > 0.0
+        return {
+            "interface": self._link.name,
+            "is_real": self._is_real,
+            "is_coming_up": False,  # Python does nothing else meanwhile
+            "alarm": self.alarm,
+            "cycle_s": self._bus.cycle * self._period_s,
+            "counters": self.counters,
+            "devices": self._seen_devices(),
+            "drives": [drive.report(sent, is_heard=is_heard) for drive in self.drives],
+            "loop": loop,
+        }
+
+    def _seen_devices(self) -> list[DeviceReport]:
+        """The devices with their states, as the loop has heard them last."""
+        rows = self.memory.rows
+        found = [] if self._master is None else devices_of(self._master)
+        for place, shown in enumerate(found):
+            r = at.FIRST_DEVICE + at.DEVICE_ROWS * place
+            status = rows[r + at.AL_STATUS]
+            note_state(shown, state_of(status, rows[r + at.AL_CODE]) if status else None)
+        return found
 
     def began(self) -> str:
         """What a server says once the bus is up."""
@@ -250,45 +239,29 @@ class RealtimeBus:
             return
         self.alarm = ""
 
-    # --- rows of the loop ---------------------------------------------------------------
-
-    @staticmethod
-    def _numbers_at(place: int) -> int:
-        return at.FIRST_NUMBERS + at.DRIVE_NUMBERS * place
-
     def _lay_out(self, brought: Brought, on_bus: list[Axis]) -> None:
         """Describe frame, drives and contacts to the loop, and let it exchange."""
         rows, numbers, master = self.memory.rows, self.memory.numbers, brought.master
+        layout = ExchangeLayout(self.memory)
         self._image = bytearray(master.image)
-        self._lay_out_frame(master)
+        layout.frame(master, self._link.fileno(), self._bus.cycle * self._period_s)
         contacts_in: list[tuple[int, int]] = []  # flag, and bit of the image
         outputs: list[tuple[int, int]] = []
         for place, (axis, drive) in enumerate(zip(on_bus, self.drives, strict=True)):
             member = brought.drives[axis.number]
-            self._lay_out_drive(place, drive, member)
+            layout.drive(place, drive, member)
             if drive.table.inputs:
                 first = 8 * Signal.of(DIGITAL_INPUTS, member.inputs, member.inputs_at).at
                 contacts_in += [(f, first + INPUT_BITS[n]) for n, f in drive.table.inputs.items()]
         for table, member in zip(self._bus.terminal, brought.terminals, strict=True):
+            ins, outs = member.inputs.contacts, member.outputs.contacts
             for found, number, bits, first, count in (
-                (
-                    contacts_in,
-                    table.inputs_from,
-                    member.inputs.contacts,
-                    member.inputs_at,
-                    table.inputs,
-                ),
-                (
-                    outputs,
-                    table.outputs_from,
-                    member.outputs.contacts,
-                    member.outputs_at,
-                    table.outputs,
-                ),
+                (contacts_in, table.inputs_from, ins, member.inputs_at, table.inputs),
+                (outputs, table.outputs_from, outs, member.outputs_at, table.outputs),
             ):
                 if number is not None:
                     found += [(number + k, 8 * first + bit) for k, bit in enumerate(bits[:count])]
-        self._lay_out_contacts(contacts_in, outputs)
+        layout.contacts(self._card.memory, contacts_in, outputs)
         numbers[at.LATE_NS] = 1e9 * self._bus.late_s
         numbers[at.LATEST_NS] = 0.0
         numbers[at.RETURN_NS] = 1e9 * RETURN_PART * self._period_s
@@ -296,66 +269,3 @@ class RealtimeBus:
         rows[at.LOST_FRAMES], rows[at.BAD], rows[at.ALARM] = self._bus.lost_frames, 0, 0
         self._hand_over()
         rows[at.ACTIVE] = 1
-
-    def _lay_out_frame(self, master: Master) -> None:
-        rows = self.memory.rows
-        datagrams = master.datagrams()
-        frame = pack(datagrams)
-        self.memory.out[: len(frame)] = frame
-        place = FIRST
-        starts = []
-        for datagram in datagrams:
-            starts.append(place)
-            place += HEADER_SIZE + len(datagram.data) + 2
-        rows[at.SOCKET], rows[at.FRAME_SIZE] = self._link.fileno(), len(frame)
-        rows[at.DATAGRAMS] = len(datagrams)
-        for number, start in enumerate(starts):
-            rows[at.INDEX_AT + number] = start + 1
-        rows[at.IMAGE_AT] = starts[0] + DATAGRAM.size
-        rows[at.COUNTER_AT] = starts[0] + DATAGRAM.size + len(datagrams[0].data)
-        rows[at.CLOCK_AT] = starts[2] + DATAGRAM.size if len(starts) > 2 else 0
-        self.memory.numbers[at.CYCLE_NS] = round(1e9 * self._bus.cycle * self._period_s)
-        rows[at.COUNTER] = master.counter
-        rows[at.STATUS_AT] = starts[1] + DATAGRAM.size
-        rows[at.FORBIDDEN] = master.forbidden
-        rows[at.OPERATING] = State.OP
-        rows[at.OUTPUTS_SIZE] = sum(member.outputs.size for member in master.members)
-
-    def _lay_out_drive(self, place: int, drive: RealtimeDrive, member: Member) -> None:
-        rows, numbers = self.memory.rows, self.memory.numbers
-        r, f = at.FIRST_DRIVE + at.DRIVE_ROWS * place, self._numbers_at(place)
-        target = Signal.of(MODES[drive.table.mode].target, member.outputs, member.outputs_at)
-        rows[r + at.READY] = rows[r + at.FAILED] = rows[r + at.IS_KNOWN] = 0
-        rows[r + at.CONTROL_AT] = Signal.of(CONTROL_WORD, member.outputs, member.outputs_at).at
-        rows[r + at.TARGET_AT], rows[r + at.TARGET_SIZE] = target.at, target.form.size
-        rows[r + at.STATE_AT] = Signal.of(STATUS_WORD, member.inputs, member.inputs_at).at
-        rows[r + at.ACTUAL_AT] = Signal.of(ACTUAL_POSITION, member.inputs, member.inputs_at).at
-        rows[r + at.IS_POSITION] = int(drive.table.mode is CyclicMode.CSP)
-        rows[r + at.MOTOR] = drive.axis.number
-        numbers[f + at.SCALE] = drive.scale
-        numbers[f + at.PER_VOLT] = math.copysign(drive.table.per_volt or 0.0, drive.scale)
-        numbers[f + at.FASTEST_CPS] = drive.fastest_cps
-        drive.follow(numbers, f)
-        rows[at.DRIVES] = place + 1
-
-    def _lay_out_contacts(
-        self, contacts: list[tuple[int, int]], outputs: list[tuple[int, int]]
-    ) -> None:
-        memory, rows = self._card.memory, self.memory.rows
-        found = []
-        for flag, bit in contacts:
-            slot = inputs.driven_slot(memory, flag)
-            if slot is not None:
-                found.append((bit // 8, bit % 8, *inputs.input_place(flag), slot))
-        rows[at.INPUTS] = len(found)
-        found += [(bit // 8, bit % 8, *inputs.output_place(flag), 0) for flag, bit in outputs]
-        rows[at.OUTPUTS] = len(outputs)
-        if len(found) > at.MOST_CONTACTS:
-            raise BusError(
-                f"{len(found)} contacts on the bus: the real-time loop has room for"
-                f" {at.MOST_CONTACTS}"
-            )
-        for number, contact in enumerate(found):
-            first = at.FIRST_CONTACT + at.CONTACT_ROWS * number
-            for offset, value in enumerate(contact):
-                rows[first + offset] = value

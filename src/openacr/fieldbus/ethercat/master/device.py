@@ -90,10 +90,14 @@ class Device:
 
 
 def _state(data: bytes) -> tuple[State, int]:
-    status = int.from_bytes(data[:2], "little")
-    code = int.from_bytes(data[4:6], "little") if status & ERROR else 0
+    return state_of(int.from_bytes(data[:2], "little"), int.from_bytes(data[4:6], "little"))
+
+
+def state_of(status: int, code: int) -> tuple[State, int]:
+    """A state by its two registers, and the code of its error: 0 without one."""
     shown = status & STATE_MASK  # other values are no states
-    return State(shown) if shown in tuple(State) else State.INIT, code
+    state = State(shown) if shown in tuple(State) else State.INIT
+    return state, code if status & ERROR else 0
 
 
 def count(port: Port) -> int:
