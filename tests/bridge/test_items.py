@@ -35,7 +35,8 @@ def test_every_value_of_a_running_machine_is_read() -> None:
         "spindle_speed": 900.0, "spindle_override": 100.0, "spindle_on": True, "flood": False,
         "mist": False, "dry_run": False, "single_block": False, "barred": False,
         "bus_stopped": None, "bus_alarm": None, "bus_frames_sent": None, "bus_frames_lost": None,
-        "bus_frames_wrong": None, "bus_frames_late": None,
+        "bus_frames_wrong": None, "bus_frames_late": None, "loop_cycles": None, "loop_missed": None,
+        "loop_late_us": None, "loop_worst_late_us": None, "loop_worst_work_us": None,
         "message": "DOOR / COOLANT LOW", "alarms": (Alarm(34, "X: drive is off", "REFUSE"),),
         "X.actual": 1.5, "X.commanded": 1.0, "X.following_error": 0.5, "X.work": 11.0,
         "X.to_go": 0.0, "X.homed": True, "X.jogging": False,
@@ -56,6 +57,20 @@ def test_a_bus_has_its_counts_of_frames_and_why_it_is_stopped() -> None:
     }  # fmt: skip
     found = values(replace(RUNNING, bus={"alarm": "", "counters": counters}))
     assert (found["bus_stopped"], found["bus_alarm"]) == (False, "")
+
+
+def test_the_loop_of_a_bus_has_its_figures_where_it_is_one_in_real_time() -> None:
+    bus = {"alarm": "", "counters": {"sent": 0, "lost": 0, "wrong": 0, "late": 0}}
+    late = {"median_s": 1e-6, "most_s": 12e-6, "worst_s": 250e-6}
+    computing = {"median_s": 2e-6, "most_s": 3e-6, "worst_s": 40e-6}
+    loop = {"cycles": 5000, "missed": 0, "late": late, "computing": computing}
+    found = values(replace(RUNNING, bus=bus | {"loop": loop}))
+    assert {key: value for key, value in found.items() if key.startswith("loop")} == {
+        "loop_cycles": 5000, "loop_missed": 0, "loop_late_us": pytest.approx(12.0),
+        "loop_worst_late_us": pytest.approx(250.0), "loop_worst_work_us": pytest.approx(40.0),
+    }  # fmt: skip
+    found = values(replace(RUNNING, bus=bus | {"loop": None}))
+    assert {found[name] for name in found if name.startswith("loop")} == {None}
 
 
 def test_lengths_of_a_machine_in_inches_are_in_millimetres_but_degrees_stay() -> None:

@@ -186,6 +186,8 @@ def test_the_current_state_has_every_value_once(agent: str) -> None:
         "bus_stopped": "UNAVAILABLE", "bus_alarm": "UNAVAILABLE",
         "bus_frames_sent": "UNAVAILABLE", "bus_frames_lost": "UNAVAILABLE",
         "bus_frames_wrong": "UNAVAILABLE", "bus_frames_late": "UNAVAILABLE",
+        "loop_cycles": "UNAVAILABLE", "loop_missed": "UNAVAILABLE", "loop_late_us": "UNAVAILABLE",
+        "loop_worst_late_us": "UNAVAILABLE", "loop_worst_work_us": "UNAVAILABLE",
         "message": "DOOR / COOLANT LOW", "alarms": "X: drive is off",
         "X_actual": "1.5", "X_commanded": "1", "X_following_error": "0.5", "X_work": "11",
         "X_to_go": "0", "X_homed": "ON", "X_jogging": "OFF",

@@ -206,6 +206,18 @@ def _frames(name: str) -> Callable[[Moment, int], Value]:
     return _bus(lambda bus: int(bus["counters"][name]))
 
 
+def _loop(*names: str, scale: float = 1.0) -> Callable[[Moment, int], Value]:
+    """A figure of the real-time loop of the bus: not known where the card has none."""
+
+    def read(bus: Mapping[str, Any]) -> Value:
+        found: Any = bus.get("loop")
+        for name in names if found is not None else ():
+            found = found[name]
+        return None if found is None else found if scale == 1.0 else scale * found
+
+    return _bus(read)
+
+
 def _program(moment: Moment, _axis: int) -> Value:
     """The loaded program; empty where a reachable machine has loaded no program."""
     if moment.lost or moment.fact("program") is None:
@@ -269,6 +281,14 @@ ROWS = (
     Row("bus_frames_lost", "frames of the bus that were lost", C, _frames("lost")),
     Row("bus_frames_wrong", "frames of the bus with a wrong working counter", C, _frames("wrong")),
     Row("bus_frames_late", "frames sent late on the bus", C, _frames("late")),
+    Row("loop_cycles", "ticks of the real-time loop", C, _loop("cycles")),
+    Row("loop_missed", "periods in which the real-time loop began no tick", C, _loop("missed")),
+    Row("loop_late_us", "lateness that 99.99 % of the ticks of the loop keep, microseconds", N,
+        _loop("late", "most_s", scale=1e6)),
+    Row("loop_worst_late_us", "worst lateness of a tick of the loop, microseconds", N,
+        _loop("late", "worst_s", scale=1e6)),
+    Row("loop_worst_work_us", "longest computation of a tick of the loop, microseconds", N,
+        _loop("computing", "worst_s", scale=1e6)),
     Row("alarms", "active alarms", Kind.ALARMS, _alarms, standard=Standard("SYSTEM")),
 )  # fmt: skip
 
