@@ -38,10 +38,11 @@ class BusInMemory:
         self.rig = OnBus(MACHINE, is_real=is_real, digital=1)
         self.rig.card.advance(400)
         self.is_known = True
+        self.loop: dict[str, Any] | None = None  # figures of a real-time loop
 
     @property
     def report(self) -> dict[str, Any] | None:
-        return dict(self.rig.machine.report()) if self.is_known else None
+        return {**self.rig.machine.report(), "loop": self.loop} if self.is_known else None
 
     def reset_counters(self) -> None:
         self.rig.machine.reset_counters()

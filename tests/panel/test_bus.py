@@ -1,6 +1,7 @@
 """A panel whose card has its bus open: the card in a process of its own, its state, its end."""
 
 import os
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,7 +11,9 @@ from tests.panel.bench import HandStation
 from tests.panel.bus_in_memory import MACHINE, BusInMemory
 from typer.testing import CliRunner
 
+from openacr import compiled
 from openacr.cli.main import app
+from openacr.cli.panel import _bus as opened_bus
 from openacr.errors import UserError
 from openacr.panel.machine import embedded
 from openacr.panel.machine.project import OnBus, of_project
@@ -75,6 +78,27 @@ def test_a_panel_opens_the_card_of_a_project_with_its_bus(project: Path, tmp_pat
 def test_a_bus_that_does_not_come_up_is_an_error_of_the_start(project: Path) -> None:
     with pytest.raises(UserError, match="has not started: the lines above say why"):
         ServedCard(project, "no-such-if", is_real=False)
+
+
+def test_a_card_in_real_time_is_asked_for_and_what_bars_it_is_seen(
+    project: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(UserError, match="has not started"):
+        ServedCard(project, "emulated", is_real=False, is_real_time=True)
+    assert "--realtime: the devices of --bus emulated live in the time" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(("bus", "why"), [(None, ""), ("emulated", "not served in real time: ")])
+def test_the_bus_of_a_panel_is_in_real_time_or_a_sentence_says_why_not(
+    project: Path, bus: str | None, why: str, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    monkeypatch.setattr(compiled, "is_compiled", True)
+    monkeypatch.setattr(sys, "platform", "linux")
+    found = opened_bus(str(project), bus, is_real=True, is_sure=True)
+    assert found == OnBus(bus, is_real=True, is_real_time=not why)
+    said = capsys.readouterr().err
+    assert said == "" if not why else why in said
 
 
 @pytest.mark.parametrize(

@@ -117,6 +117,7 @@ def _require_packages() -> None:
 def _bus(machine: str | None, bus: str | None, *, is_real: bool, is_sure: bool) -> "OnBus | None":
     """The bus that is opened, once the operator has agreed to real drives."""
     from openacr.cli.serve_on_bus import agreed, world_on_bus
+    from openacr.cli.serve_realtime import missing_for_real_time
     from openacr.panel.machine.project import OnBus
 
     if bus is None and not is_real:
@@ -124,9 +125,12 @@ def _bus(machine: str | None, bus: str | None, *, is_real: bool, is_sure: bool) 
     if machine is None or not Path(machine).is_dir():
         raise UserError("--bus and --real need a project: its machine.toml describes the bus")
     world = world_on_bus(Path(machine), bus)
-    if not agreed(world, bus, 1.0, is_real=is_real, is_sure=is_sure):
+    if not agreed(world, bus, 1.0, is_real=is_real, is_sure=is_sure) or world is None:
         return None
-    return OnBus(bus, is_real)
+    why = missing_for_real_time(world, bus)
+    if why:
+        typer.echo(f"the bus is not served in real time: {why}", err=True)
+    return OnBus(bus, is_real, is_real_time=not why)
 
 
 def _installation(

@@ -41,7 +41,8 @@ def test_a_drive_is_seen_through_enabling_motion_fault_and_reset_of_the_counters
     open_pane(page, "Bus")
     pane = page.locator("[data-pane=bus]")
     expect(pane.get_by_role("status")).to_have_text("The bus works")
-    expect(pane).to_contain_text("emulated \u00b7 cycle 1.0 ms")
+    expect(pane).to_contain_text("emulated \u00b7 cycle 1.0 ms \u00b7 not in real time: Python")
+    expect(counter(page, "cycles")).to_be_hidden()
     for place, name, state in (
         ("0", "drive", "OP"),
         ("1", "drive", "OP"),
@@ -86,6 +87,26 @@ def test_a_panel_without_a_bus_says_how_one_is_opened_and_a_silent_one_is_named(
     served.panel.installation.bus = None
 
 
+LOOP = {
+    "period_s": 0.0005, "cycles": 120000, "missed": 3, "lost_s": 0.0015,
+    "late": {"median_s": 4.4e-6, "most_s": 61e-6, "worst_s": 812e-6},
+    "computing": {"median_s": 2e-6, "most_s": 9e-6, "worst_s": 24e-6},
+}  # fmt: skip
+
+
+def test_the_figures_of_a_real_time_loop_are_shown(
+    page: Page, bus: BusInMemory, pictures: Path
+) -> None:
+    bus.loop = LOOP
+    open_pane(page, "Bus")
+    expect(counter(page, "cycles")).to_have_text("120000")
+    expect(counter(page, "missed")).to_have_text("3")
+    expect(counter(page, "late-by")).to_have_text("median 4, 99.99 % 61, worst 812")
+    expect(counter(page, "computing")).to_have_text("median 2, 99.99 % 9, worst 24")
+    expect(page.locator("[data-pane=bus]")).not_to_contain_text("not in real time")
+    picture(page, pictures / "bus-loop.png")
+
+
 def test_the_pane_is_in_german_with_the_faults_of_drives(
     page: Page, served: Served, bus: BusInMemory, pictures: Path
 ) -> None:
@@ -94,6 +115,7 @@ def test_the_pane_is_in_german_with_the_faults_of_drives(
     bus.rig.card.advance(400)
     bus.rig.segment.power(1, False)
     bus.rig.card.advance(400)
+    bus.loop = LOOP
     page.evaluate("localStorage.setItem('openacr.panel.language', 'de')")
     page.goto(f"{served.url}/bench")
     until_model(page, "model.hello.value.client")
@@ -102,5 +124,7 @@ def test_the_pane_is_in_german_with_the_faults_of_drives(
     expect(row(page, "X")).to_contain_text("0x8611 Schleppfehler")
     expect(row(page, "X")).to_contain_text("nicht bekannt")
     expect(row(page, "1")).to_contain_text("antwortet nicht")
+    expect(page.locator("[data-pane=bus]")).to_contain_text("Echtzeitschleife")
+    expect(counter(page, "late-by")).to_have_text("Median 4, 99,99 % 61, größte 812")
     picture(page, pictures / "bus-de.png")
     page.evaluate("localStorage.removeItem('openacr.panel.language')")

@@ -15,10 +15,11 @@ from openacr.sysvar.location import open_to_write
 
 @dataclass(frozen=True, slots=True)
 class OnBus:
-    """That the bus of a machine is opened: at which interface, and whether drives are enabled."""
+    """That the bus of a machine is opened: at which interface, and how."""
 
     interface: str | None = None  # None: as the file says
     is_real: bool = False
+    is_real_time: bool = False  # its frames are exchanged by the compiled loop
 
 
 def of_project(
@@ -41,7 +42,9 @@ def of_project(
     name = project.resolve().name
     try:
         if bus is not None:
-            card = ServedCard(project, bus.interface, is_real=bus.is_real)
+            card = ServedCard(
+                project, bus.interface, is_real=bus.is_real, is_real_time=bus.is_real_time
+            )
             return Installation(
                 "project", name, card.address, cells, folder, OwnTime(),
                 project=project, bus=card, is_agreed=True,

@@ -21,10 +21,13 @@ END_S = 30.0  # that the process takes to leave
 class ServedCard:
     """The process of a card; UserError if it does not come to listen, which it has explained."""
 
-    def __init__(self, project: Path, bus: str | None, *, is_real: bool) -> None:
+    def __init__(
+        self, project: Path, bus: str | None, *, is_real: bool, is_real_time: bool = False
+    ) -> None:
         words = [sys.executable, "-m", "openacr", "serve", str(project), "--report-bus"]
         words += ["--ascii-port", "0", "--binary-port", "0", "--no-journal", "--yes"]
         words += ["--real"] if is_real else []
+        words += ["--realtime"] if is_real_time else []
         words += [] if bus is None else ["--bus", bus]
         self._process = subprocess.Popen(
             words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8",

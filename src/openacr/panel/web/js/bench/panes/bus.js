@@ -30,6 +30,19 @@ const TEXTS = {
   lost: { en: "lost", de: "verloren" },
   wrong: { en: "working counter wrong", de: "Working Counter falsch" },
   late: { en: "late", de: "verspätet" },
+  loop: { en: "Real-time loop", de: "Echtzeitschleife" },
+  noLoop: {
+    en: "not in real time: Python exchanges the frames",
+    de: "nicht in Echtzeit: Python tauscht die Telegramme aus",
+  },
+  cycles: { en: "cycles", de: "Takte" },
+  missed: { en: "missed", de: "ausgelassen" },
+  lateBy: { en: "late, \u00b5s", de: "Verspätung, \u00b5s" },
+  computing: { en: "computing, \u00b5s", de: "Rechenzeit, \u00b5s" },
+  times: {
+    en: "median {median}, 99.99 % {most}, worst {worst}",
+    de: "Median {median}, 99,99 % {most}, größte {worst}",
+  },
   wereReset: { en: "The counters begin at 0", de: "Die Zähler beginnen bei 0" },
   place: { en: "Place", de: "Platz" },
   name: { en: "Name", de: "Name" },
@@ -122,7 +135,10 @@ const EVERY_MS = 250; // from an answer to the next question
  * @typedef {{ axis: string, position: number, state: string, mode: number, actual: number, target: number,
  *   is_enabled: boolean, code: number, group: number, text: string, alarm: string }} Drive
  * @typedef {{ interface: string, is_real: boolean, is_coming_up: boolean, alarm: string, cycle_s: number,
- *   counters: Record<"sent" | "lost" | "wrong" | "late", number>, devices: Device[], drives: Drive[] }} Report
+ *   counters: Record<"sent" | "lost" | "wrong" | "late", number>, devices: Device[], drives: Drive[],
+ *   loop: Loop | null }} Report
+ * @typedef {{ median_s: number, most_s: number, worst_s: number }} Times
+ * @typedef {{ period_s: number, cycles: number, missed: number, late: Times, computing: Times }} Loop
  */
 
 /**
@@ -134,6 +150,7 @@ export async function mount(host, { head }) {
   const state = h("p", { role: "status" });
   const about = h("p.quiet", {});
   const counters = h("dl.row.wrap", { ariaLabel: t(TEXTS.counters) });
+  const loop = h("dl.row.wrap", { ariaLabel: t(TEXTS.loop) });
   const devices = table(TEXTS.devices, [TEXTS.place, TEXTS.name, TEXTS.state, TEXTS.error]);
   const drives = table(TEXTS.drives, [
     "form.axis",
@@ -145,7 +162,7 @@ export async function mount(host, { head }) {
     TEXTS.error,
   ]);
   const key = keyOf("bus.reset", async () => (await give("bus.reset")) && say(t(TEXTS.wereReset)));
-  const all = h("div", {}, about, counters, drives.element, devices.element);
+  const all = h("div", {}, about, counters, loop, drives.element, devices.element);
   head.append(key);
   host.append(h("div.grow.scroll", { tabIndex: 0 }, state, all));
   let isOpen = true;
@@ -169,19 +186,11 @@ export async function mount(host, { head }) {
     setText(state, bus.is_coming_up ? t(TEXTS.comingUp) : why ? t(TEXTS.stopped, { why }) : t(TEXTS.fine));
     const notes = [bus.interface, t(TEXTS.cycle, { ms: (bus.cycle_s * 1000).toFixed(1) })];
     if (!bus.is_real) notes.push(t(TEXTS.readOnly));
+    if (!bus.loop) notes.push(t(TEXTS.noLoop));
     setText(about, notes.join(" \u00b7 "));
     const names = /** @type {const} */ (["sent", "lost", "wrong", "late"]);
-    fill(
-      counters,
-      ...names.map((name) =>
-        h(
-          "div.row",
-          { data: { counter: name } },
-          h("dt", {}, t(TEXTS[name])),
-          h("dd.mono", {}, `${bus.counters[name]}`),
-        ),
-      ),
-    );
+    fill(counters, ...names.map((name) => figure(name, TEXTS[name], `${bus.counters[name]}`)));
+    fill(loop, ...(bus.loop ? figuresOf(bus.loop) : []));
     devices.show(
       bus.devices.map((one) => ({
         key: `${one.position}`,
@@ -212,6 +221,36 @@ export async function mount(host, { head }) {
   });
   await look();
   return () => endings.end();
+}
+
+/**
+ * A figure with its name.
+ * @param {string} counter
+ * @param {import("../../core/texts.js").Said} name
+ * @param {string} value
+ */
+function figure(counter, name, value) {
+  return h("div.row", { data: { counter } }, h("dt", {}, t(name)), h("dd.mono", {}, value));
+}
+
+/**
+ * How the real-time loop has kept time.
+ * @param {Loop} loop
+ */
+function figuresOf(loop) {
+  return [
+    h("div.row", {}, h("dt", {}, t(TEXTS.loop))),
+    figure("cycles", TEXTS.cycles, `${loop.cycles}`),
+    figure("missed", TEXTS.missed, `${loop.missed}`),
+    figure("late-by", TEXTS.lateBy, timesOf(loop.late)),
+    figure("computing", TEXTS.computing, timesOf(loop.computing)),
+  ];
+}
+
+/** @param {Times} times */
+function timesOf({ median_s, most_s, worst_s }) {
+  const [median, most, worst] = [median_s, most_s, worst_s].map((s) => (1e6 * s).toFixed(0));
+  return t(TEXTS.times, { median, most, worst });
 }
 
 /**
