@@ -35,7 +35,7 @@ const TEXTS = {
     en: "not in real time: Python exchanges the frames",
     de: "nicht in Echtzeit: Python tauscht die Telegramme aus",
   },
-  cycles: { en: "cycles", de: "Takte" },
+  cycles: { en: "real-time loop: cycles", de: "Echtzeitschleife: Takte" },
   missed: { en: "missed", de: "ausgelassen" },
   lateBy: { en: "late, \u00b5s", de: "Verspätung, \u00b5s" },
   computing: { en: "computing, \u00b5s", de: "Rechenzeit, \u00b5s" },
@@ -239,7 +239,6 @@ function figure(counter, name, value) {
  */
 function figuresOf(loop) {
   return [
-    h("div.row", {}, h("dt", {}, t(TEXTS.loop))),
     figure("cycles", TEXTS.cycles, `${loop.cycles}`),
     figure("missed", TEXTS.missed, `${loop.missed}`),
     figure("late-by", TEXTS.lateBy, timesOf(loop.late)),
