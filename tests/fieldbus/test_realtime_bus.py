@@ -140,6 +140,7 @@ def segment_beside(text: str, digital: int = 0) -> Iterator[tuple[PairLink, sock
         assert process.stdin is not None
         process.stdin.write(text)
         process.stdin.close()
+        commands.settimeout(PATIENCE_S)  # the process may have ended
         assert commands.recv(64) == b"ready"
         try:
             yield PairLink(frames), commands
