@@ -187,3 +187,12 @@ def test_a_beginning_of_no_packet_is_forgotten() -> None:
 
 def test_the_ports_are_those_hosts_connect_to() -> None:
     assert (ASCII_PORT, BINARY_PORT) == (5002, 5006)
+
+
+@pytest.mark.parametrize(("wire", "packet"), EXAMPLES, ids=[text for text, _ in EXAMPLES])
+def test_what_asks_for_parameters_is_known_by_its_four_bytes(wire: str, packet: Packet) -> None:
+    data = bytes.fromhex(wire)
+    is_asked = isinstance(packet, DataRequest | GetLong | GetIeee | ParameterAddress)
+    assert packets.request(data[:4]) == (packet if is_asked else None)
+    assert packets.request(data[:3]) is None
+    assert packet.encode() == data

@@ -325,10 +325,10 @@ class Streams:
 
 def _work(event: Event) -> int:
     """The work an event may cause."""
-    if isinstance(event, ReceivedLine):
-        return LINE_WORK + CHARACTER_WORK * len(event.text)
     if isinstance(event, Received):
         return PACKET_WORK + VALUE_WORK * event.packet.value_count()
+    if isinstance(event, ReceivedLine):
+        return LINE_WORK + CHARACTER_WORK * len(event.text)
     if isinstance(event, Control):
         return KEY_WORK
     return LINE_WORK if isinstance(event, LineTooLong) else 0

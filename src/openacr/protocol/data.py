@@ -10,7 +10,7 @@ from typing import ClassVar
 from msgspec import Struct
 
 from openacr.protocol.host import Host, PacketError, value_of
-from openacr.protocol.packet import U8, Packet, register
+from openacr.protocol.packet import U8, Request, register
 
 FIELDS = 8
 UPPER_HALF = 0x80  # index bit: objects 8 to 15 of the groups with a stride of 16
@@ -60,7 +60,7 @@ GROUPS |= {0x21: GROUPS[0x28], 0x31: GROUPS[0x38]}
 
 
 @register
-class DataRequest(Packet, frozen=True):
+class DataRequest(Request, frozen=True):
     """Read up to eight parameters; answered at any time, also while commands wait."""
 
     HEADER: ClassVar[bytes] = b"\x00"
@@ -72,10 +72,6 @@ class DataRequest(Packet, frozen=True):
         """One word per set bit of the mask."""
         return self.mask.bit_count()
 
-    def encode(self) -> bytes:
-        """The bytes a host sends, before any MODE conversion."""
-        return _encoded(self)
-
     def act(self, host: Host) -> bytes:
         """Read the parameters; 0 where there is none."""
         return self.reply([value_of(host, number) for number in _numbers(self)])
@@ -83,12 +79,6 @@ class DataRequest(Packet, frozen=True):
     def parameters(self) -> tuple[int, ...]:
         """The requested parameter numbers, lowest mask bit first."""
         return _numbers(self)
-
-
-# Hosts send the same requests thousands of times a second.
-@lru_cache(maxsize=4096)
-def _encoded(request: DataRequest) -> bytes:
-    return Packet.encode(request)
 
 
 @lru_cache(maxsize=4096)

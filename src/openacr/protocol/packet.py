@@ -9,6 +9,7 @@ Every reply of the card is the request repeated, followed by four-byte words (UG
 import struct
 from abc import ABCMeta, abstractmethod
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from typing import Annotated, ClassVar, Self, TypeVar, get_type_hints
 
 from msgspec import Struct, StructMeta
@@ -118,6 +119,22 @@ class Packet(Struct, metaclass=PacketMeta, frozen=True):
         return parts
 
 
+class Request(Packet, frozen=True):
+    """Base of the packets that ask for parameters; their fields are whole numbers.
+
+    Hosts send the same ones thousands of times a second.
+    """
+
+    def encode(self) -> bytes:
+        """The bytes a host sends, before any MODE conversion."""
+        return _encoded(self)
+
+
+@lru_cache(maxsize=4096)
+def _encoded(request: Request) -> bytes:
+    return Packet.encode(request)
+
+
 _WIRES: dict[type[Packet], tuple[tuple[str, Wire], ...]] = {}
 
 
@@ -155,14 +172,17 @@ def _form(packet: type[Packet]) -> _Form:
     return form
 
 
+_pack_long, _pack_ieee = struct.Struct("<I").pack, struct.Struct("<f").pack
+
+
 def pack_word(value: int | float) -> bytes:
     """One reply word: an integer wraps to 32 bits, a float saturates to IEEE infinity."""
     if isinstance(value, int):
-        return struct.pack("<I", value & 0xFFFFFFFF)
+        return _pack_long(value & 0xFFFFFFFF)
     try:
-        return struct.pack("<f", value)
+        return _pack_ieee(value)
     except OverflowError:
-        return struct.pack("<f", float("inf") if value > 0 else float("-inf"))
+        return _pack_ieee(float("inf") if value > 0 else float("-inf"))
 
 
 PACKETS: dict[bytes, type[Packet]] = {}

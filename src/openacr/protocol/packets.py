@@ -3,22 +3,27 @@
 Importing this module loads the header table.
 """
 
+from functools import lru_cache
+
 from openacr.protocol import bits, data, memory, move, override, parameter  # noqa: F401
 from openacr.protocol.host import PacketError
-from openacr.protocol.packet import PACKETS, Packet, Part, packet_class
+from openacr.protocol.packet import PACKETS, Packet, Part, Request, packet_class
 
 __all__ = [
     "HEADER_IDS",
     "PACKETS",
+    "REQUEST_BYTES",
     "Packet",
     "PacketError",
     "Part",
     "decode",
     "dpcb_padding",
     "explain",
+    "request",
     "total_length",
 ]
 
+REQUEST_BYTES = 4  # of the packets that ask for parameters
 HEADER_IDS = frozenset(header[0] for header in PACKETS)  # bytes that begin a packet
 
 
@@ -36,6 +41,15 @@ def dpcb_padding(prefix: bytes) -> int:
 def decode(packet: bytes) -> Packet:
     """The packet in exactly these bytes (after any MODE conversion)."""
     return _known(packet).decode(packet)
+
+
+@lru_cache(maxsize=4096)  # hosts send the same ones thousands of times a second
+def request(head: bytes) -> Packet | None:
+    """The packet that asks for parameters and is just these bytes; None if they are not one."""
+    found = packet_class(head)
+    if found is None or not issubclass(found, Request):
+        return None
+    return found.decode(head) if found.total_length(head) == len(head) else None
 
 
 def _known(prefix: bytes) -> type[Packet]:

@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from openacr.protocol.host import Host, PacketError, finite, long_value_of, masked, value_of
-from openacr.protocol.packet import F32, I32, U16, U32, Packet, register
+from openacr.protocol.packet import F32, I32, U16, U32, Packet, Request, register
 
 
 class _OneParameter(Packet, frozen=True):
@@ -17,7 +17,7 @@ class _OneParameter(Packet, frozen=True):
 
 
 @register
-class GetLong(_OneParameter, frozen=True):
+class GetLong(_OneParameter, Request, frozen=True):
     """Read one parameter as a 32-bit integer."""
 
     HEADER: ClassVar[bytes] = b"\x00\x88"
@@ -45,7 +45,7 @@ class SetLong(_OneParameter, frozen=True):
 
 
 @register
-class GetIeee(_OneParameter, frozen=True):
+class GetIeee(_OneParameter, Request, frozen=True):
     """Read one parameter as an IEEE single."""
 
     HEADER: ClassVar[bytes] = b"\x00\x8a"
@@ -73,7 +73,7 @@ class SetIeee(_OneParameter, frozen=True):
 
 
 @register
-class ParameterAddress(_OneParameter, frozen=True):
+class ParameterAddress(_OneParameter, Request, frozen=True):
     """Query the memory address of a parameter; 0: there is no such parameter."""
 
     HEADER: ClassVar[bytes] = b"\x00\x93"

@@ -50,7 +50,14 @@ from openacr.protocol.framing import PacketReader, ReaderState
 from openacr.protocol.move import Move, unpadded
 from openacr.protocol.output import Output, OutputState
 from openacr.protocol.override import Override, belongs_to_next
-from openacr.protocol.packets import HEADER_IDS, Packet, PacketError, decode
+from openacr.protocol.packets import (
+    HEADER_IDS,
+    REQUEST_BYTES,
+    Packet,
+    PacketError,
+    decode,
+    request,
+)
 from openacr.protocol.segment import Segment
 from openacr.protocol.typed_line import TypedLine, bytes_of, text_of
 
@@ -249,6 +256,10 @@ class Terminal:
                 if documented is not None:
                     self._skip(segment, len(segment.rest))
                     return Received(decode(documented))
+            asked = request(segment.data[segment.at - 1 : segment.at + REQUEST_BYTES - 1])
+            if asked is not None:
+                self._skip(segment, REQUEST_BYTES - 1)
+                return Received(asked)
             whole = self._reader.whole_packet(segment.data, segment.at - 1)
             if whole:
                 return self._packet_at_once(whole, segment)
@@ -386,7 +397,7 @@ class Terminal:
         self.output.text(data)
 
     def send_packet(self, packet: bytes) -> None:
-        """Queue a reply packet, in a write of its own and converted by MODE."""
+        """Queue a reply packet, converted by MODE."""
         self.output.packet(encode_packet(packet, self.mode))
 
     def data_to_send(self) -> bytes:
