@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from tests.controller.hosts import X_AND_Y, Host
 
@@ -72,6 +73,24 @@ def test_time_that_is_lived_through_again_takes_no_keyframe_but_where_they_were_
     timeline.seek(timeline.branch.last)
     timeline.advance(every_tk)
     assert timeline.branch.keyframes[-1].tick == before[-1] + every_tk
+
+
+def test_what_differs_from_an_image_makes_the_present_one_of_it() -> None:
+    card = moving()
+    first = card.image()
+    place = parameter_place(card.memory, 0)
+    assert place is not None
+    card.watch([Watch(*place, bound=1.5), Watch(*place, mask=7)])
+    card.record()
+    for _ in range(2):
+        card.advance(1001)
+        places, values = card.differences(np.frombuffer(first, np.uint64))
+        changed = bytearray(first)
+        np.frombuffer(changed, np.uint64)[places] = values
+        assert changed == card.image()
+        assert len(places) == len(set(places.tolist())) > 10
+        card.announce_lines(1, lambda _program, _line: True)
+    assert card.within
 
 
 def test_inputs_come_again_on_the_path_forward(timeline: Timeline) -> None:

@@ -27,7 +27,15 @@ from openacr.controller.surroundings import Surroundings, needs_axis
 from openacr.controller.trace import Trace
 from openacr.controller.views import AxisStatistics, AxisView
 from openacr.engine.samples import Sample
-from openacr.engine.watches import Watch, give_orders, state_image, take_orders
+from openacr.engine.watches import (
+    Places,
+    Watch,
+    Words,
+    give_orders,
+    state_differences,
+    state_image,
+    take_orders,
+)
 from openacr.errors import CardError, SourceError, StoreError, UserError
 from openacr.journal.entries import Entered, JournalEntry
 from openacr.lang.characters import as_typed
@@ -543,6 +551,14 @@ class Controller:
         if self.within:
             raise StoreError("a card within a tick has no snapshot: complete the tick first")
         return snapshots.take(self)
+
+    def differences(self, image: Words) -> tuple[Places, Words]:
+        """The words of 64 bits of `image` that are not as in another one: places and values."""
+        return state_differences(self.memory, image)
+
+    def beside(self) -> snapshots.Beside:
+        """The part of a snapshot outside the memory map."""
+        return snapshots.take_beside(self)
 
     def restore(self, snapshot: snapshots.Snapshot) -> None:
         """Return to a snapshot of this card, or of one with the same model and world.

@@ -130,8 +130,8 @@ class EngineRun:
         if self.within:
             self._pass_line()
         while True:
-            step = self._parts.inputs.flush(min(ticks, LONGEST_RUN_TK))
             before = self._clock.lived_tk
+            step = self._parts.inputs.flush(min(ticks, LONGEST_RUN_TK), before)
             self._set_engine(engine.ticks_left, step)
             if self._parts.streams.is_overdue:
                 self._set_engine(engine.stop, 1)
@@ -141,11 +141,12 @@ class EngineRun:
             reason = self._run()
             if self._late is not None:
                 self._late.see()
-            ticks -= self._clock.lived_tk - before
+            now_tk = self._clock.lived_tk
+            ticks -= now_tk - before
             if reason == _LINE:
                 self.within = self.next_statement
                 return reason
-            self._parts.inputs.mark_if_due()
+            self._parts.inputs.mark_if_due(now_tk)
             if reason != loop_cy.DONE or ticks <= 0:
                 self._parts.nonvolatile.battery.follow_in_time()
                 return reason

@@ -57,16 +57,16 @@ class InputLog:
         if self.file is not None:
             self.file.note(entry)
 
-    def flush(self, ticks: int) -> int:
+    def flush(self, ticks: int, now_tk: int) -> int:
         """Write the recorded entries; returns `ticks`, at most those to the next digest."""
         if self.file is None:
             return ticks
         self.file.flush()
-        return min(ticks, self.file.next_tk - self._clock.lived_tk)
+        return min(ticks, self.file.next_tk - now_tk)
 
-    def mark_if_due(self) -> None:
+    def mark_if_due(self, now_tk: int) -> None:
         """Write a digest to the file if it is due."""
-        if self.file is not None and self._clock.lived_tk >= self.file.next_tk:
+        if self.file is not None and now_tk >= self.file.next_tk:
             self.file.mark()
 
     def close(self) -> None:

@@ -76,14 +76,19 @@ def take(card: WholeCard) -> Snapshot:
         world_print(card.world),
         LAYOUT,
         card.image(),  # a copy of its own: another one of it would take 40 times as long
-        Beside(
-            language_state.take(card.system, card.executor),
-            card.streams.state(),
-            card.streams.moves.state(),
-            card.devices.state(),
-            card.nonvolatile.state(),
-            card.clock.before_tk,
-        ),
+        take_beside(card),
+    )
+
+
+def take_beside(card: WholeCard) -> Beside:
+    """The state of a card outside the memory map."""
+    return Beside(
+        language_state.take(card.system, card.executor),
+        card.streams.state(),
+        card.streams.moves.state(),
+        card.devices.state(),
+        card.nonvolatile.state(),
+        card.clock.before_tk,
     )
 
 

@@ -3,6 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
+from functools import cache
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
 
 from openacr.compiled import pick
 from openacr.engine import watch_cy
@@ -25,6 +30,9 @@ _IN_TICK = engine.in_tick
 _PROGRESS = (_IN_TICK, engine.line_announced, engine.statements)
 
 _watch_fired = pick(watch_cy.watch_fired)
+
+Places: TypeAlias = npt.NDArray[np.uint32]
+Words: TypeAlias = npt.NDArray[np.uint64]
 
 
 class Watched(Enum):
@@ -94,6 +102,35 @@ def state_image(memory: Memory) -> bytearray:
     rows[_IN_TICK] = in_tick
     image[8 * _BOUNDS.start : 8 * _BOUNDS.stop] = bytes(8 * (_BOUNDS.stop - _BOUNDS.start))
     return image
+
+
+def state_differences(memory: Memory, image: Words) -> tuple[Places, Words]:
+    """The words of 64 bits of `state_image` that are others in `image`: their places and values.
+
+    Nothing of the size of the state is copied for it.
+    """
+    present = np.frombuffer(memory.I, np.uint64)
+    differ = present != image
+    own, kept_bits = _words_of_process()
+    differ[own] = False
+    places = np.flatnonzero(differ)
+    own_values = present[own] & kept_bits
+    others = own_values != image[own]
+    values = np.concatenate((present[places], own_values[others]))
+    return np.concatenate((places, own[others])).astype(np.uint32), values
+
+
+@cache
+def _words_of_process() -> tuple[npt.NDArray[np.intp], Words]:
+    """The words of 64 bits that belong to this process, and their bits that do not."""
+    bits = np.full(at.MEMORY_BYTES // 8, -1, np.int64)
+    rows = bits.view(np.int32)
+    for places in _OF_PROCESS:
+        rows[places] = 0
+    rows[_IN_TICK] = -1
+    bits[_BOUNDS] = 0
+    own = np.flatnonzero(bits != -1)
+    return own, bits[own].view(np.uint64)
 
 
 def take_orders(memory: Memory) -> Orders:

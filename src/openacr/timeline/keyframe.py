@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
-
 import msgspec
 import numpy as np
-import numpy.typing as npt
 
+from openacr.controller.controller import Controller
 from openacr.controller.snapshot import Beside, Snapshot
-
-_WORD = np.dtype("<u8")
-Words: TypeAlias = npt.NDArray[np.uint64]
+from openacr.engine.watches import Words
 
 
 class Base:
@@ -19,7 +15,7 @@ class Base:
 
     def __init__(self, snapshot: Snapshot) -> None:
         self.snapshot = snapshot
-        self.words: Words = np.frombuffer(snapshot.rows, _WORD)
+        self.words: Words = np.frombuffer(snapshot.rows, np.uint64)
         self.latest = snapshot.beside
 
     def shared(self, beside: Beside) -> tuple[Beside, int]:
@@ -33,21 +29,17 @@ class Base:
 class Keyframe:
     """The state of a card at the end of a tick, as the words that differ from the base."""
 
-    def __init__(self, base: Base, snapshot: Snapshot, tick: int, entered: int) -> None:
+    def __init__(self, base: Base, card: Controller, entered: int) -> None:
         self._base = base
-        words: Words = np.frombuffer(snapshot.rows, _WORD)
-        self._places = np.flatnonzero(words != base.words).astype(np.uint32)
-        self._values: Words = words[self._places]
-        self._beside, beside_bytes = base.shared(snapshot.beside)
-        self.tick = tick
+        self._places, self._values = card.differences(base.words)
+        self._beside, beside_bytes = base.shared(card.beside())
+        self.tick = card.lived_tk
         self.entered = entered  # inputs before it, counted from the beginning of the timeline
         self.size_bytes = self._places.nbytes + self._values.nbytes + beside_bytes
 
     @property
     def snapshot(self) -> Snapshot:
-        """The snapshot it was made of."""
-        words = self._base.words.copy()
-        words[self._places] = self._values
-        return msgspec.structs.replace(
-            self._base.snapshot, rows=words.tobytes(), beside=self._beside
-        )
+        """The whole state."""
+        rows = bytearray(self._base.snapshot.rows)
+        np.frombuffer(rows, np.uint64)[self._places] = self._values
+        return msgspec.structs.replace(self._base.snapshot, rows=rows, beside=self._beside)

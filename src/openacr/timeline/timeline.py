@@ -48,9 +48,8 @@ class Timeline:
         self._player = Player(card)
         self._every_tk = max(1, round(keyframe_every_s / card.period_s))
         self._most_bytes = most_bytes
-        snapshot = card.snapshot()
-        self._base = Base(snapshot)
-        first = Keyframe(self._base, snapshot, card.lived_tk, 0)
+        self._base = Base(card.snapshot())
+        first = Keyframe(self._base, card, 0)
         self.branches = Branches([Branch(0, Moment(card.lived_tk), [first])])
         self.branch = self.branches[0]  # the present one
         self._entered = 0  # inputs up to now
@@ -264,11 +263,12 @@ class Timeline:
 
     def note(self, entry: JournalEntry) -> None:
         """Note an input at the present moment; in the past it begins another branch."""
-        if self.is_past:
+        now = self.now
+        if self._knows_inputs or now.order < self.branch.last.order:
             self.fork()
         self.branch.note(entry)
         self._entered += 1
-        self._reach()
+        self.branch.last = now
 
     def fork(self) -> None:
         """Begin another branch at the present moment: what followed stays on the one before."""
@@ -287,7 +287,7 @@ class Timeline:
         if tick < self.next_tk:
             return
         self.next_tk = tick + self._every_tk
-        self.branch.put(Keyframe(self._base, self.card.snapshot(), tick, self._entered))
+        self.branch.put(Keyframe(self._base, self.card, self._entered))
         self.branches.shorten(self._most_bytes)
 
     def close(self) -> None:
