@@ -1,6 +1,7 @@
 """Lines of one shape are read alike."""
 
-from hypothesis import given, settings
+import pytest
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from openacr.lang.lexer import LexError, TokenKind, tokens
@@ -32,6 +33,7 @@ def kinds(line: str) -> list[tuple[TokenKind, object]] | str:
 
 @settings(max_examples=500)
 @given(LINES)
+@example("#2147483648")  # a float, and #999999999 is not
 def test_a_line_and_its_shape_have_the_same_tokens(line: str) -> None:
     assert kinds(line) == kinds(shape(line))
 
@@ -39,6 +41,14 @@ def test_a_line_and_its_shape_have_the_same_tokens(line: str) -> None:
 @given(st.lists(LINES))
 def test_many_shapes_are_found_at_once(lines: list[str]) -> None:
     assert shapes(lines) == [shape(line) for line in lines]
+
+
+@pytest.mark.parametrize("place", [0, 199, 200, 401])
+def test_a_line_that_is_its_own_shape_leaves_those_of_others_alone(place: int) -> None:
+    lines = [f"X {number}" for number in range(402)]
+    lines[place] = "REM 20 °C"
+    assert shapes(lines) == ["REM 20 °C" if at == place else "X 0" for at in range(402)]
+    assert shapes([]) == []
 
 
 def test_numbers_strings_and_remarks_make_no_difference() -> None:

@@ -24,7 +24,9 @@ _REMARK = re.compile(r"[Rr](?<![\w$].)[Ee][Mm](?![A-Za-z$])[^\n]+")
 _COMMENT = re.compile(r"'[^\n]+")
 _DIGITS = re.compile(r"\d(?<!#.)\d{0,8}")
 _LONG_RUN = "00"  # all that longer runs can become
+_LONG_AFTER_NUMBER_SIGN = re.compile(r"#\d{10}")  # its first digit is kept, nine blanked
 _FAR_EXPONENT = re.compile(r"[eE](?<=[\d.].)[+-]?\d{3}")
+_TOGETHER = 200  # lines of one pass: in a thread, others wait a millisecond for it at most
 _REM_AS_NAME = re.compile(r"[_OoBb][ \t]+[Rr][Ee][Mm]")  # after `_`, GOTO or GOSUB
 
 
@@ -41,14 +43,17 @@ def remark(line: str) -> str:
 
 
 def shapes(lines: Sequence[str]) -> list[str]:
-    """The shapes of many lines, found in a few passes over all of them."""
-    if not lines:
-        return []
-    text = "\n".join(lines)
-    blanked = _blanked(text)
-    if _is_regular(text, blanked, max(map(len, lines))):
-        return blanked.split("\n")
-    return [shape(line) for line in lines]
+    """The shapes of many lines, found in a few passes over a part of them at a time."""
+    found: list[str] = []
+    for first in range(0, len(lines), _TOGETHER):
+        part = lines[first : first + _TOGETHER]
+        text = "\n".join(part)
+        blanked = _blanked(text)
+        if _is_regular(text, blanked, max(map(len, part))):
+            found += blanked.split("\n")
+        else:
+            found += map(shape, part)
+    return found
 
 
 def _is_regular(text: str, blanked: str, longest: int | None = None) -> bool:
@@ -56,6 +61,8 @@ def _is_regular(text: str, blanked: str, longest: int | None = None) -> bool:
     if length > LINE_LIMIT or not text.isascii() or _LONG_RUN in blanked:
         return False
     if "&" in text or "# " in blanked or "#\t" in blanked:
+        return False
+    if "#" in text and _LONG_AFTER_NUMBER_SIGN.search(text):
         return False
     return _FAR_EXPONENT.search(text) is None and _REM_AS_NAME.search(blanked) is None
 
