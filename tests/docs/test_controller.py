@@ -12,9 +12,9 @@ TEXT = (ROOT / "docs" / "controller.md").read_text(encoding="utf-8")
 PIECES = re.findall(r"^```python\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)
 # What serves streams and journals uses these; a program that embeds a card does not need them.
 OF_SERVERS = {
-    "accepts_input", "close_stream", "fast_status", "has_stream", "image", "load", "open_stream",
-    "receive", "replying", "take_output", "take_over", "type_lines", "console", "is_journalled",
-    "recorder", "owns_console",
+    "accepts_input", "beside", "close_stream", "differences", "fast_status", "has_stream", "image",
+    "load", "open_stream", "receive", "replying", "take_output", "take_over", "type_lines",
+    "console", "is_journalled", "recorder", "owns_console",
 }  # fmt: skip
 
 
