@@ -23,6 +23,16 @@ def started(speed: float = 1.0) -> Pacer:
     return pacer
 
 
+@pytest.mark.parametrize("keeps_time", [False, True])
+def test_a_lag_is_warned_of_unless_the_card_keeps_time_itself(
+    keeps_time: bool, caplog: pytest.LogCaptureFixture
+) -> None:
+    pacer = Pacer(PERIOD_S, keeps_time=keeps_time)
+    pacer.start(100.0)
+    assert pacer.due_tk(101.0 + MAX_LAG_S) == 1
+    assert ("cannot keep real time" in caplog.text) is not keeps_time
+
+
 def advance_all(pacer: Pacer, now_s: float) -> int:
     total = 0
     while due := pacer.due_tk(now_s):

@@ -139,7 +139,9 @@ def serve(
         if is_real_time:
             options = RealtimeOptions(core, silence, world, interface, is_real, is_reported)
             with in_real_time(card, options) as live:
-                asyncio.run(serve_card(live.card, ports, speed, guests, live.begin))
+                asyncio.run(
+                    serve_card(live.card, ports, speed, guests, live.begin, keeps_time=True)
+                )
         elif world is None:
             asyncio.run(serve_card(card, ports, speed, guests))
         else:
@@ -218,10 +220,13 @@ async def serve_card(
     speed: float = 1.0,
     guests: "Guests | None" = None,
     begin: Callable[[], None] | None = None,
+    *,
+    keeps_time: bool = False,
 ) -> None:
     """Serve until SIGTERM, SIGHUP or Ctrl-C; prints one line when everything listens.
 
-    `begin` is called last of all before the first tick.
+    `begin` is called last of all before the first tick. A card that `keeps_time` has a loop of its
+    own for that.
     """
     from openacr.channels import StreamKind
     from openacr.io.serial_port import LineSettings
@@ -229,7 +234,7 @@ async def serve_card(
 
     stop = asyncio.Event()
     stop_on_signals(stop.set)
-    server = CardServer(card, speed=speed, allowed=guests)
+    server = CardServer(card, speed=speed, allowed=guests, keeps_time=keeps_time)
     try:
         terminal = await server.listen(StreamKind.TERMINAL, ports.host, ports.ascii)
         packets = await server.listen(StreamKind.PACKETS, ports.host, ports.binary)

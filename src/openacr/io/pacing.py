@@ -62,13 +62,17 @@ class _Errors:
 
 
 class Pacer:
-    """Relates ticks of a card to seconds of a clock, `speed` times as fast as real."""
+    """Relates ticks of a card to seconds of a clock, `speed` times as fast as real.
 
-    def __init__(self, period_s: float, speed: float = 1.0) -> None:
+    A lag that is given up is warned of, unless the card `keeps_time` by itself.
+    """
+
+    def __init__(self, period_s: float, speed: float = 1.0, *, keeps_time: bool = False) -> None:
         if not (math.isfinite(speed) and speed > 0):
             raise UserError(f"speed {speed} is not above 0 (1.0 is real time)")
         self.tick_s = period_s / speed  # wall-clock time of one tick
         self.speed = speed
+        self._keeps_time = keeps_time
         self._start_s = 0.0
         self._ticks = 0
         self._lost_s = 0.0
@@ -94,7 +98,7 @@ class Pacer:
 
     def _give_up(self, lag_s: float) -> None:
         """Forget a lag that cannot be caught up, keeping one tick due."""
-        if not self._lost_s:
+        if not self._lost_s and not self._keeps_time:
             log.warning("the card is %.2f s late and cannot keep real time", lag_s)
         self._start_s += lag_s - self.tick_s
         self._lost_s += lag_s - self.tick_s

@@ -93,11 +93,16 @@ class CardServer:
     """One card, its listening ports and its peers."""
 
     def __init__(
-        self, card: CardHost, *, speed: float = 1.0, allowed: Guests | None = None
+        self,
+        card: CardHost,
+        *,
+        speed: float = 1.0,
+        allowed: Guests | None = None,
+        keeps_time: bool = False,
     ) -> None:
         self._card = card
         self.allowed = allowed or Guests()
-        self._pacer = Pacer(card.period_s, speed)
+        self._pacer = Pacer(card.period_s, speed, keeps_time=keeps_time)
         self._peers: list[Peer] = []
         self._listeners: list[asyncio.Server] = []
         self._status: StatusPort | None = None
