@@ -55,6 +55,8 @@ test("the shown part stays within the history", () => {
   assert.deepEqual(within([0, 5000], [10, 1000]), [10, 1000]);
   assert.deepEqual(zoomed([0, 1600], true, 400, [0, 1600]), [150, 1150]);
   assert.deepEqual(zoomed([0, 1000], false, 1000, [0, 1600]), [0, 1600]);
+  for (let end = 40; end < 400; end++)
+    assert.deepEqual(zoomed(zoomed([0, end], true, end / 3, [0, end]), false, end / 3, [0, end]), [0, end]);
   assert.deepEqual(zoomed([100, 120], true, 110, [0, 1600]), [100, 120]);
   assert.deepEqual(zoomed([100, 105], true, 102, [0, 1600]), [100, 105]);
   assert.deepEqual([placeOf(150, [100, 200]), placeOf(7, [7, 7])], [50, 0]);

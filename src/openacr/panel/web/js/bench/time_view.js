@@ -28,6 +28,8 @@ export function within([first, last], whole) {
 export function zoomed([first, last], isFiner, at, whole) {
   const wanted = (last - first) * (isFiner ? 1 / FACTOR : FACTOR);
   const length = Math.max(Math.min(FINEST, last - first), wanted);
+  // Ends are whole ticks: what only they keep from being the whole is the whole.
+  if (!isFiner && wanted + FACTOR >= whole[1] - whole[0]) return whole;
   const share = last > first ? (at - first) / (last - first) : 0;
   return within([at - share * length, at + (1 - share) * length], whole);
 }
