@@ -137,7 +137,8 @@ def test_memory_does_not_grow_with_what_hosts_send() -> None:
         gc.collect()
         return sys.getallocatedblocks()
 
-    work()
+    for _ in range(8):  # what is kept of packets has a bound, and comes to it
+        work()
     before = work()
     assert work() - before < 1000
 

@@ -130,7 +130,7 @@ class Request(Packet, frozen=True):
         return _encoded(self)
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=1024)
 def _encoded(request: Request) -> bytes:
     return Packet.encode(request)
 

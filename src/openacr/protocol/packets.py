@@ -43,7 +43,7 @@ def decode(packet: bytes) -> Packet:
     return _known(packet).decode(packet)
 
 
-@lru_cache(maxsize=4096)  # hosts send the same ones thousands of times a second
+@lru_cache(maxsize=1024)  # hosts send the same ones thousands of times a second
 def request(head: bytes) -> Packet | None:
     """The packet that asks for parameters and is just these bytes; None if they are not one."""
     found = packet_class(head)
