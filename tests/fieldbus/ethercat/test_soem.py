@@ -27,9 +27,17 @@ class Soem:
 
     def scan(self) -> list[Any]:
         self.until(lambda: self.master.config_init() > 0, "slaves are found")
-        for slave in self.master.slaves:
-            slave.set_watchdog("processdata", WATCHDOG_MS)
+        self.until(self._watched, "the watchdogs of all slaves are set")
         return list(self.master.slaves)
+
+    def _watched(self) -> bool:
+        """SOEM waits 2 ms for a frame, which a busy computer may miss."""
+        try:
+            for slave in self.master.slaves:
+                slave.set_watchdog("processdata", WATCHDOG_MS)
+        except pysoem.WkcError:
+            return False
+        return True
 
     def to_op(self, clock_ns: int = 0) -> None:
         self.master.config_map()
