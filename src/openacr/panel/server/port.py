@@ -2,11 +2,14 @@
 
 import asyncio
 import socket
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from functools import partial
 from itertools import count
+from typing import Any
 
 import uvicorn
+from websockets.exceptions import InvalidState
 
 from openacr.io.listening import bound_socket
 
@@ -36,6 +39,8 @@ class QuietServer(uvicorn.Server):
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         """Close everything; only connections that are still open are given time."""
         if self.server_state.connections or self.server_state.tasks:
+            for connection in self.server_state.connections:
+                vars(connection)["shutdown"] = partial(_shut, connection, connection.shutdown)
             await super().shutdown(sockets)
             return
         for listening in (*self.servers, *(sockets or ())):
@@ -46,6 +51,14 @@ class QuietServer(uvicorn.Server):
     def capture_signals(self) -> Iterator[None]:
         """Handle no signals: uvicorn would raise them again after its end."""
         yield
+
+
+def _shut(connection: Any, shutdown: Callable[[], None]) -> None:
+    """Shut a connection down; that a WebSocket is just closing is no error, as uvicorn has it."""
+    try:
+        shutdown()
+    except InvalidState:
+        connection.transport.close()
 
 
 def bound(address: str, port: int, option: str) -> socket.socket:
