@@ -277,6 +277,19 @@ def test_a_target_is_where_the_drive_is_until_it_is_ready_and_the_axis_is_enable
     assert one.give() == (ENABLE, 1000)  # what Python says
 
 
+@pytest.mark.parametrize(("by", "fails"), [(2016, False), (2017, True)])
+def test_a_drive_may_travel_for_a_cycle_between_two_frames_however_near_they_are(
+    by: int, fails: bool
+) -> None:
+    """A frame on time soon after a late one: its target is that of a whole cycle later."""
+    one = OneDrive()
+    one.memory.numbers[at.CYCLE_NS] = 2.0 * MS
+    one.take(0)
+    one.make_ready()
+    one.take(by)
+    assert one.is_killed() == fails
+
+
 @pytest.mark.parametrize(
     ("by", "fails"), [(1016, False), (1017, True), (-1016, False), (-1017, True)]
 )

@@ -287,7 +287,8 @@ def drive_take(F: F64, I: I32, B: I32, N: F64, Y: U8, d: int, now: int) -> None:
     counts: int = int(N[f + COUNTS])
     moved: int = (actual - counts) & 4294967295
     moved = moved - 4294967296 if moved >= 2147483648 else moved
-    passed_s: float = 1e-9 * (float(now) - N[LATEST_NS])
+    # A drive travels for a cycle between two frames, however soon one follows a late one.
+    passed_s: float = 1e-9 * max(float(now) - N[LATEST_NS], N[CYCLE_NS])
     N[f + COUNTS] = float(counts + moved)
     F[bus_motors.reported_cnt[B[r + MOTOR]]] = (N[f + COUNTS] - N[f + ZERO]) / N[f + SCALE] + MIDDLE
     if B[r + READY] == 0 or B[r + FAILED]:

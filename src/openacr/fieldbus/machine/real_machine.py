@@ -155,7 +155,8 @@ class RealMachine:
         if not back.are_operating:
             self._stop("a device has left OP")
         for drive in self.drives:
-            drive.take(back.image, now_s, passed_s)
+            # One travels for a cycle between two frames, however soon one follows a late one.
+            drive.take(back.image, now_s, max(passed_s, cycle_s))
         for terminal in self._terminals:
             terminal.take(back.image)
 
