@@ -14,6 +14,7 @@ class CardJogs:
     def __init__(self, link: Link) -> None:
         self._link = link
         self._jogs: dict[int, AxisJog] = {}
+        self.begun = 0  # jogs so far
 
     @property
     def are_active(self) -> bool:
@@ -37,6 +38,7 @@ class CardJogs:
             there[0].master if there else None,
             tuple(sorted({each.program for each in there if each.program is not None})),
         )
+        self.begun += 1
         self._jogs[axis] = AxisJog(
             session.card, jogged, direction, speed_ups, session.machine.now_s, distance_u=distance_u
         )

@@ -133,17 +133,21 @@ async def _reading(panel: Panel) -> project_set_up.Reading:
         return str(own), f"PROG{settings.master}", tuple(lines(settings))
 
     known = await panel.ask(ours)
-    await _at_rest(panel)
-    return project_set_up.Reading(await talked(panel, backup), *known)
-
-
-async def _at_rest(panel: Panel) -> None:
-    """Wait until no axis is jogged here: while it is, the card has the speed of that jog set."""
     until_s = time.monotonic() + MOST_WAIT_S
+    while True:  # while an axis is jogged here, the card has the speed of that jog set
+        begun = await _at_rest(panel, until_s)
+        found = await talked(panel, backup)
+        if begun == await panel.ask(lambda station: station.card_jogs.begun):
+            return project_set_up.Reading(found, *known)
+
+
+async def _at_rest(panel: Panel, until_s: float) -> int:
+    """Wait until no axis is jogged here; how many jogs there were."""
     while await panel.ask(lambda station: station.card_jogs.are_active):
         if time.monotonic() > until_s:
             raise UserError("an axis is jogged, with a speed of its own: READ when it rests")
         await asyncio.sleep(LOOK_S)
+    return await panel.ask(lambda station: station.card_jogs.begun)
 
 
 async def differences(panel: Panel) -> list[str]:

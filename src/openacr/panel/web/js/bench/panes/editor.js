@@ -162,10 +162,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     stored = null;
     refused = null;
     drawnMarks = "";
-    if (editor) {
-      editor.close();
-      keep({ level: now.level });
-    }
+    if (editor) editor.close();
     values.seen([]);
     editor = createControllerEditor(code, {
       ...now,
@@ -328,13 +325,18 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   async function chooseLevel() {
     const level = choice.value;
     if (!(await mayDrop())) choice.value = opened.level;
-    else await open(level ? fromCard(level) : NEW_FILE);
+    else {
+      keep({ level });
+      await open(level ? fromCard(level) : NEW_FILE);
+    }
   }
 
   async function chooseFile() {
     const [file] = input.files ?? [];
     input.value = "";
-    if (file && (await mayDrop())) await open(fromFile(file));
+    if (!file || !(await mayDrop())) return;
+    keep({ level: "" });
+    await open(fromFile(file));
   }
 
   function save() {
@@ -451,7 +453,8 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
   const { programs } = await get("card/programs");
   fill(choice, ...levelOptions(programs));
   choice.value = firstLevel(programs, kept.level, chosenProgram.value);
-  if (choice.value && (kept.level || !isChanged())) await chooseLevel();
+  if (choice.value && (kept.level || !isChanged()))
+    await open(fromCard(choice.value)); // no choice: it is not kept
   else choice.value = opened.level;
   endings.add(followPlaces({ opened: () => opened, stored: storedOf, editor: () => editor, choice, chooseLevel }));
   return () => endings.end();
