@@ -192,7 +192,7 @@ def _is_can(interface: str, bit_rate: int | None) -> bool:
 
 @contextmanager
 def open_bus(interface: str) -> "Iterator[list[Device]]":
-    """The devices at a network interface, until the end; UserError if there are none."""
+    """The devices at a network interface, until the end; UserError where no device answers."""
     from openacr.fieldbus.ethercat.master.device import scan
     from openacr.fieldbus.ethercat.master.port import Port
     from openacr.io.ethercat_link import RawLink

@@ -294,7 +294,7 @@ def test_a_node_that_is_pulled_is_dead_within_two_health_periods_and_comes_back(
     assert "node 3: it reports no health" in caplog.text
     on.level(2, True, node=1)
     card.advance(seconds=0.1)
-    assert card.bit[DI[1] + 2], "the other node goes on"
+    assert card.bit[DI[1] + 2], "the other node continues"
     card.advance(seconds=4.1 - card.time_s)
     assert card.p[STATE] == 7, "only a start brings it back"
     assert on.start(3, 4) == 2

@@ -21,7 +21,7 @@ test("what lines name comes from parameters, flags and the variables of their pr
   assert.equal(parted([many]).locals.PROG0.length, 60);
 });
 
-test("a line shows each value by its name, the tooltip what the name stands for", () => {
+test("a line shows each value by its name, the tooltip what each name means", () => {
   const values = /** @type {Record<string, string>} */ ({ "PROG3 P0": "2.5", "PROG3 $V0": `'${"x".repeat(30)}'` });
   const valueOf = (/** @type {string} */ program, /** @type {string} */ name) => values[`${program} ${name}`];
   assert.deepEqual(saidOf(line("PROG3", ["speed", "P0"], "LV0"), valueOf), {

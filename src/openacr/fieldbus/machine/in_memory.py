@@ -16,7 +16,7 @@ from openacr.fieldbus.ethercat.emulated.terminals import Analog, Digital
 from openacr.plant.describe.bus_schema import Bus, BusDriveTable, CyclicMode, Direction, Terminal
 from openacr.plant.describe.schema import Axis, World
 
-EMULATED = "emulated"  # the name that stands for it in the place of an interface
+EMULATED = "emulated"  # its name in the place of an interface
 FRAME_NS = 1000
 _UNCHECKED = {
     "alias": None, "serial": None, "vendor": None, "product": None, "revision": None,

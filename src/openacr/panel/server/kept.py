@@ -21,7 +21,7 @@ _CHANGES = Lock()  # browsers may change them at the same time
 
 
 class KeptFiles:
-    """The files of one kind below a folder; without a folder there are none, and none is stored."""
+    """The files of one kind below a folder; without a folder nothing is listed or stored."""
 
     def __init__(self, root: Path | None, word: KindWord) -> None:
         self._word, self._kind = word, KINDS[word]

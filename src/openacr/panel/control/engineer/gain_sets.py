@@ -151,7 +151,7 @@ class GainSets:
         return found
 
     def _add(self, axis: int, new: GainSet, current: GainSet | None) -> GainSet:
-        """Add a set; a change of a gain that goes on with the last one takes its place."""
+        """Add a set; a further change of the same gain takes the place of the last one."""
         sets = self._sets[axis]
         new = replace(new, changed=_changed(current, new))
         former = self._carried_on(axis, new, current)
@@ -170,7 +170,7 @@ class GainSets:
         return new
 
     def _carried_on(self, axis: int, new: GainSet, current: GainSet | None) -> GainSet | None:
-        """The set before the last one where a new set only goes on with what that has changed."""
+        """The set before the last one where a new set only continues what that has changed."""
         sets = self._sets[axis]
         if current is None or current is not sets[-1]:
             return None

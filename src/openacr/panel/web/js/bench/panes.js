@@ -51,7 +51,7 @@ export const PANES = {
     title: "jog.title",
     role: "operate",
     past: {
-      en: "At a moment of the past no axis is moved: OPERATE FROM HERE of Timeline goes on from it.",
+      en: "At a moment of the past no axis is moved: OPERATE FROM HERE of Timeline continues from it.",
       de: "An einem Zeitpunkt der Vergangenheit wird keine Achse bewegt: VON HIER BEDIENEN der Zeitachse macht dort weiter.",
     },
     load: modulePane(() => import("./panes/jog.js")),

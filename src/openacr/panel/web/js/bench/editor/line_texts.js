@@ -33,7 +33,7 @@ export function parted(lines) {
 }
 
 /**
- * A line's values as they are shown, and all of them with the names of the card; null where there are none.
+ * A line's values as they are shown, and all of them with the names of the card; null without any.
  * @param {Named} named
  * @param {ValueOf} valueOf
  */
