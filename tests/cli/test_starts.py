@@ -33,3 +33,40 @@ def test_the_check_of_a_part_program_makes_hardly_any_dataclass(tmp_path: Path) 
     program = tmp_path / "SHORT.NC"
     program.write_text("G0 X1\nM2\n")
     assert _dataclasses_of(tmp_path, "mill", "check", str(program)) <= 10
+
+
+# What is registered first is called last.
+FROZEN = """
+import atexit, gc, sys
+atexit.register(lambda: print(gc.get_freeze_count(), len(gc.get_objects()), file=sys.stderr))
+from openacr.cli.main import main
+main(sys.argv[1:])
+"""
+
+
+def test_the_end_of_a_command_looks_for_no_garbage() -> None:
+    command = [sys.executable, "-c", FROZEN, "packet", "--help"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    kept, searched = map(int, done.stderr.split())
+    assert kept > 10_000 > 100 * searched
+
+
+COLLECTED = """
+import gc, sys
+runs = []
+gc.callbacks.append(lambda *_: runs.append(1) if "openacr.cli.main" in sys.modules else None)
+from openacr.cli.main import main
+try:
+    main(sys.argv[1:])
+finally:
+    print(len(runs), file=sys.stderr)
+"""
+
+
+def test_what_a_command_imports_is_not_searched_for_garbage(tmp_path: Path) -> None:
+    program = tmp_path / "SHORT.NC"
+    program.write_text("G0 X1\nM2\n")
+    environment = {**os.environ, "OPENACR_STORE": str(tmp_path / "sysvar.db")}
+    command = [sys.executable, "-c", COLLECTED, "mill", "check", str(program)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
+    assert done.stderr.splitlines()[-1] == "0"

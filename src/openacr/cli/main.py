@@ -4,6 +4,7 @@ A sub-command is imported when it is used, so that `openacr --help` and tab comp
 answer at once.
 """
 
+import atexit
 import gc
 import os
 import sys
@@ -23,7 +24,6 @@ from openacr.lang.characters import shown
 
 BAD_INPUT = 2
 INTERRUPTED = 130
-MANY_OBJECTS = 250_000
 
 
 HELP_OPTIONS = ["-h", "--help"]
@@ -196,7 +196,7 @@ def openacr(
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line; Ctrl-C ends it without a trace."""
-    gc.set_threshold(MANY_OBJECTS, 20, 20)  # what is imported stays: nothing to collect yet
+    atexit.register(gc.freeze)  # the memory goes with the process: its end searches no garbage
     _open_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         # Program output may hold characters that the terminal cannot show.
