@@ -4,7 +4,7 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, TypeVar
 
-from openacr.panel.work.pool import Pool
+from openacr.panel.work.processes import process
 
 T = TypeVar("T")
 KILLED = "the process that computed this was ended from outside, or lacked memory: try again"
@@ -16,7 +16,7 @@ class Jobs:
     def __init__(self) -> None:
         self._threads = ThreadPoolExecutor(1, "panel job")
         self._waiting = ThreadPoolExecutor(1, "panel computation")  # for the process
-        self._process = Pool(killed=KILLED)
+        self._process = process(killed=KILLED)
         self._open: list[tuple[Future[Any], Callable[[Future[Any]], None]]] = []
 
     def begin(self, work: Callable[[], T], done: "Callable[[Future[T]], None]") -> None:

@@ -21,7 +21,7 @@ from openacr.panel.server.paths import Paths
 from openacr.panel.server.receptions import Receptions
 from openacr.panel.server.stocks import Stocks
 from openacr.panel.wire.hub import Hub
-from openacr.panel.work.pool import Pool
+from openacr.panel.work.processes import process
 
 ENDS = "the server ends"
 T = TypeVar("T")
@@ -54,8 +54,8 @@ class Panel:
         self.control = control(self.station)
         self.hub = Hub(self.station, self.control.now_s)
         self.accounts = Accounts(file_of(installation.store.path), installation.store)
-        self.checks, self.histories = Pool(), Pool()
-        self.texts = Pool(nicer=0)  # short answers while a text is typed
+        self.checks, self.histories = process(), process()
+        self.texts = process(nicer=0)  # short answers while a text is typed
         self.paths = Paths(installation, self.control)
         self.stocks = Stocks(installation)
         self.receptions = Receptions()

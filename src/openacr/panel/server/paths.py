@@ -14,10 +14,11 @@ from openacr.panel.control.operator.loaded import version_of
 from openacr.panel.control.thread import ControlThread
 from openacr.panel.forms.catalogue import STARTS
 from openacr.panel.work.paths import MARK, Found, read_file
-from openacr.panel.work.pool import Pool, result_of
+from openacr.panel.work.processes import process
 from openacr.sysvar import Store
 from openacr.sysvar.schema import CARD_VARIABLES
 from openacr.sysvar.tabs import CELLS, COMPATIBILITY, CONTROL, DISPLAY, GENERAL, SPEEDS
+from openacr.workers.background import result_of
 
 KEPT = 6
 # Cells a path depends on: P parameters, zeros, offsets, radii, the codes that programs begin
@@ -56,7 +57,7 @@ class Paths:
 
     def __init__(self, installation: Installation, control: ControlThread) -> None:
         self._installation, self._control = installation, control
-        self._pool = Pool()
+        self._pool = process()
         self._kept: OrderedDict[str, _Path] = OrderedDict()
 
     async def of(self, file: Path, dialect: str = "") -> tuple[str, Found | None]:

@@ -8,9 +8,10 @@ from openacr.errors import UserError
 from openacr.panel.control.machine.installation import Installation
 from openacr.panel.control.operator.loaded import version_of
 from openacr.panel.server.paths import stamp
-from openacr.panel.work.pool import Pool, result_of
+from openacr.panel.work.processes import process
 from openacr.panel.work.stock import stock_of
 from openacr.sysvar.tabs import TOOL
+from openacr.workers.background import result_of
 
 
 @dataclass(slots=True)
@@ -25,7 +26,7 @@ class Stocks:
 
     def __init__(self, installation: Installation) -> None:
         self._installation = installation
-        self._pool = Pool()
+        self._pool = process()
         self._tag = ""
         self._task: asyncio.Task[bytes] | None = None
 

@@ -30,8 +30,8 @@ from openacr.cnc.loading.load import load
 from openacr.mill.config.dialects import choose
 from openacr.mill.config.folders import folders_of
 from openacr.mill.plan.pictures.removal import Removal, Report, removal
-from openacr.panel.work.pool import report
 from openacr.sysvar import Store
+from openacr.workers.background import report
 
 MARK = b"OAS1"
 HEAD = struct.Struct("<4sIII5fIII")

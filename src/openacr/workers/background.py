@@ -1,4 +1,8 @@
-"""Processes that compute for the screens, of low priority: programs read, motors identified."""
+"""A process that computes beside a server, of low priority: its answers do not wait for it.
+
+It is started by its first work, ends with its server, and another one takes its place when it dies
+or is closed.
+"""
 
 import asyncio
 import multiprocessing
@@ -18,13 +22,7 @@ from openacr.workers.parent import follow_parent
 
 T = TypeVar("T")
 NICER = 5
-# Importing what reads programs takes half a second: on Linux each is forked from one that has.
-METHOD = "forkserver" if sys.platform == "linux" else "spawn"
-_starts: Any = multiprocessing.get_context(METHOD)
-if METHOD == "forkserver":
-    _starts.set_forkserver_preload(["openacr.panel.work.paths"])
 ENDED = "the computation was ended: another took its place, or the server ends"
-KILLED = "the program is too big for the memory of this computer, or its reading was killed"
 
 _share: Any = None  # in the process: how far its present work is, 0 to 1
 
@@ -35,6 +33,8 @@ def _begin(share: Any, nicer: int) -> None:
     follow_parent()
     with suppress(AttributeError, OSError):
         os.nice(nicer)
+    with suppress(OSError):  # a server may speak a protocol there
+        os.dup2(2, 1)
 
 
 def report(share: float) -> None:
@@ -43,17 +43,26 @@ def report(share: float) -> None:
         _share.value = share
 
 
+def _starts(preload: str) -> Any:
+    """How processes are started: on Linux forked from one that has imported `preload`, if any."""
+    if not preload or sys.platform != "linux":
+        return multiprocessing.get_context("spawn")
+    context: Any = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload([preload])
+    return context
+
+
 class _Context(BaseContext):
     """Starts processes and notes them: an executor does not say which are its own."""
 
-    _name = METHOD
-
-    def __init__(self) -> None:
+    def __init__(self, preload: str) -> None:
         super().__init__()
+        self._starts = _starts(preload)
+        self._name = self._starts.get_start_method()
         self.started: list[BaseProcess] = []
 
     def Process(self, *args: Any, **options: Any) -> BaseProcess:
-        process: BaseProcess = _starts.Process(*args, **options)
+        process: BaseProcess = self._starts.Process(*args, **options)
         self.started.append(process)
         return process
 
@@ -61,8 +70,8 @@ class _Context(BaseContext):
 class _Worker:
     """One process from its start to its end."""
 
-    def __init__(self, share: Any, nicer: int) -> None:
-        self._context = _Context()
+    def __init__(self, context: _Context, share: Any, nicer: int) -> None:
+        self._context = context
         self._executor = ProcessPoolExecutor(
             1, mp_context=self._context, initializer=_begin, initargs=(share, nicer)
         )
@@ -90,16 +99,20 @@ class _Worker:
         self._is_closed = True
         self._executor.shutdown(wait=False, cancel_futures=True)
         for process in self._context.started:
-            process.terminate()
+            process.kill()  # also one that is stopped, which does not heed a request to end
 
 
-class Pool:
+class Background:
     """One process; it is started by its first work, and again after it was killed."""
 
-    def __init__(self, nicer: int = NICER, killed: str = KILLED) -> None:
-        """`nicer`: how much lower its priority is than that of the server; `killed`: its error."""
-        self._nicer, self._killed = nicer, killed
-        self._share = _Context().Value("d", 0.0, lock=False)
+    def __init__(self, killed: str, nicer: int = NICER, preload: str = "") -> None:
+        """`killed`: the error of work whose process dies; `nicer`: how much lower its priority is.
+
+        `preload`: a module that takes long to import; on Linux every process is forked from one
+        that has imported it, so that the second one starts soon.
+        """
+        self._nicer, self._killed, self._preload = nicer, killed, preload
+        self._share = _Context(preload).Value("d", 0.0, lock=False)
         self._worker: _Worker | None = None
         self._takes_work = True
         self._changes = threading.Lock()  # of the two above
@@ -123,7 +136,7 @@ class Pool:
             if self._worker is not None and not self._worker.is_lost:
                 with suppress(BrokenProcessPool):  # killed while it was idle
                     return self._worker.submit(work, args, self._killed)
-            self._worker = _Worker(self._share, self._nicer)
+            self._worker = _Worker(_Context(self._preload), self._share, self._nicer)
             return self._worker.submit(work, args, self._killed)
 
     @property
