@@ -9,8 +9,6 @@ from enum import Flag
 
 from msgspec import Struct
 
-SYSTEM_MEMORY_BYTES = 1 << 20
-
 
 class Feature(Flag):
     """What commands need and some models lack."""
@@ -58,7 +56,6 @@ class Model(Struct, frozen=True, kw_only=True):
     has_battery: bool = False  # keeps programs and variables without power
     has_canopen: bool = False
     lacks: Feature = Feature.NONE
-    system_memory_bytes: int = SYSTEM_MEMORY_BYTES
     firmware: str = "1.18.06"
     update: int = 15
 

@@ -6,7 +6,7 @@ import pytest
 from tests.mill.planned import planned_shop
 
 from openacr.mill.config.settings import Settings
-from openacr.mill.plan.curves.curve_packets import CurvePackets, line_rate
+from openacr.mill.plan.curves.curve_packets import CurvePackets
 from openacr.protocol.move import Move
 
 HEADER, MASTER_0_NURB, X_Y_Z = 0x04, 0x40, 0x07
@@ -70,10 +70,6 @@ def test_far_away_a_float_is_no_nearer_than_the_pulses(x: float, is_float: bool)
 def test_it_decodes_to_what_it_was() -> None:
     packet = packets().point([1.5, 2.25, -0.125], 100.0)
     assert Move.decode(packet.encode()) == packet
-
-
-def test_the_bytes_per_second_of_three_axes() -> None:
-    assert line_rate(Settings(planned_shop().store)) == 6250.0
 
 
 def test_the_set_up_of_a_machine_prepares_its_card_for_curves() -> None:

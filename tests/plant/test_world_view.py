@@ -7,9 +7,7 @@ import pytest
 from openacr.controller import Controller
 from openacr.errors import UserError
 from openacr.plant.describe.load import parse_world
-from openacr.plant.describe.schema import Contact
 from openacr.plant.world.fault_kinds import MachineFault
-from openacr.plant.world.world_view import is_active
 
 MACHINE = """
 [[axis]]
@@ -198,9 +196,3 @@ def test_a_device_shows_its_commands_and_signals(card: Controller) -> None:
     (gripper,) = card.world_view.now().devices
     assert gripper.commands == {"close": True, "part": True}
     assert gripper.signals == {"opened": False, "closed": False, "gripped": True}
-
-
-@pytest.mark.parametrize("is_on", [False, True])
-def test_a_closed_contact_is_active_while_its_input_is_off(is_on: bool) -> None:
-    assert is_active(Contact.OPEN, is_on) is is_on
-    assert is_active(Contact.CLOSED, is_on) is not is_on

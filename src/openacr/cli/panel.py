@@ -1,7 +1,6 @@
 """`openacr panel`: AcroMill's screens in a browser."""
 
 import asyncio
-import logging
 import socket
 import sys
 import webbrowser
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
     from openacr.panel.server.panel import Panel
     from openacr.panel.server.web import PanelServer
 
-log = logging.getLogger(__name__)
 PORT = 5080
 LOOK_S = 30.0  # for what differs from the project, at the end
 MISSING = "the panel needs more packages: pip install 'openacr[panel]'"

@@ -1,7 +1,6 @@
 """`openacr record`: a session of hosts with a card, recorded between them."""
 
 import asyncio
-import logging
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
@@ -19,9 +18,6 @@ if TYPE_CHECKING:
     from openacr.io.proxy import Proxy
     from openacr.io.recorded_session import SessionRecorder
     from openacr.io.server import Guests
-
-
-log = logging.getLogger(__name__)
 
 
 class Session(NamedTuple):

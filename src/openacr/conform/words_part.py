@@ -20,8 +20,6 @@ from openacr.conform.stage import Stage
 from openacr.errors import UserError
 from openacr.sysvar import SettingError
 
-AXES = "XYZABCUV"
-
 
 @word("store WHAT = RESULT", ANSWERS)
 def write_cell(stage: Stage, step: Step, name: str, text: str) -> None:

@@ -10,13 +10,11 @@ from openacr.basic.vm.flow_cy import FLOW_FOR, FLOW_GOSUB, FLOW_IF, FLOW_WHILE
 from openacr.basic.vm.scheduler_cy import THREAD_HELD, THREAD_IDLE, THREAD_READY, THREAD_WAITING
 from openacr.client.program_states import held_by
 from openacr.controller.controller import Controller
-from openacr.map.rows import plcs
 from openacr.map.rows import programs as program_rows
 from openacr.map.rows import threads as thread_rows
 from openacr.map.words import pf
 
 PROGRAMS = program_rows.COUNT
-PLCS = plcs.COUNT
 
 _STATES = {
     THREAD_IDLE: "ended",

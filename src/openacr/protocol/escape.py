@@ -67,10 +67,3 @@ class Decoder:
         value = byte | 0x80 if self.high else byte
         self.prefixed = self.high = False
         return value
-
-
-def decode(data: bytes, mode: BinaryMode) -> bytes:
-    """Decode the received data bytes of a transfer (without header byte)."""
-    decoder = Decoder(mode)
-    decoded = (decoder.feed(byte) for byte in data)
-    return bytes(byte for byte in decoded if byte is not None)

@@ -10,7 +10,6 @@ from openacr.map.words import af1, mf1, pf
 from openacr.scenario.schema import State
 
 PROGRAMS = range(programs.COUNT)
-AXES = range(axis_rows.COUNT)
 MASTERS = range(master_rows.COUNT)
 
 # Looked at in this order: a paused program is also running.

@@ -11,7 +11,6 @@ from openacr.basic.language.grammar import Axes, Axis, ObjectRef
 from openacr.basic.language.registry import BY_OBJECT
 from openacr.basic.vm.run import Run
 from openacr.kernel.sources.source_cy import USE_JOG, USE_WHEEL
-from openacr.map import block
 from openacr.map.rows import hand_wheels
 from openacr.motion.axis.settings import fp64, not_negative, not_zero
 from openacr.motion.followers import gear, objects
@@ -19,7 +18,6 @@ from openacr.motion.followers import gear, objects
 GROUP = "Setpoint Control"
 REF = "PG Setpoint Control"
 command = partial(registry.command, group=GROUP, ref=REF)
-FP64 = block.Kind.FP64
 
 axis_values(
     (

@@ -152,7 +152,6 @@ Expr: TypeAlias = (
     | Binary
     | Apply
 )
-Target: TypeAlias = Parameter | Flag | Local | Element | StringLocal | StringElement
 
 
 def parts(node: object) -> Iterator[object]:

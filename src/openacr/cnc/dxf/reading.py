@@ -15,7 +15,6 @@ from openacr.errors import UserError
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
 
-INCH, MM = 1, 4
 SURVEY_FOOT_IN = 1200.0 / 3937.0 / 0.0254  # of the United States, by its definition in metres
 # $INSUNITS: unit of the drawing, whether it is metric, and what one of it is in inches or
 # millimetres. Gigametres and what is longer (17 to 20) are of no machine.

@@ -14,7 +14,6 @@ from openacr.cnc.program.program import Node, Nodes, Program
 from openacr.cnc.reading.findings import CodeError
 
 DEEPEST = 10
-FIRST_CYCLE_LABEL = 70_000
 
 
 class Level(Enum):

@@ -13,7 +13,6 @@ from typing import Protocol
 from openacr.cnc.reading.findings import BlockError, Finding
 
 WINDOW = 1 << 20
-LINE_END = b"\n"
 CONTROL_Z = b"\x1a"
 MARK = b"\xef\xbb\xbf"  # byte order mark
 DROPPED = {0: None, 127: None}

@@ -29,7 +29,6 @@ INVERSE_TIME, PER_MINUTE = 93, 94
 INCH, METRIC = 20, 21
 NO_CYCLE = 80
 SYSTEMS = ("G53", "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")  # by number
-POWER_UP_DISTANCE = CONTROL.power_up_incremental_or_absolute
 START_CHOSEN = GENERAL.start_set_chosen
 COMPATIBILITY = tabs.COMPATIBILITY.compatibility
 
@@ -134,10 +133,6 @@ def _feed(cells: Cells) -> float:
 def store_unit(cells: Cells) -> int:
     """G20 or G21, as the unit of the machine (Default Units) is."""
     return METRIC if cells.read(DEFAULT_UNIT) else INCH
-
-
-def _work(cells: Cells) -> int:
-    return max(0, int(cells.read(GENERAL.start_work_system)) - 53)
 
 
 def _path(cells: Cells) -> int:

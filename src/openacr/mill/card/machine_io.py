@@ -8,7 +8,6 @@ from openacr.mill.card.driver import CardState, MachineDriver
 from openacr.mill.config.settings import Settings
 
 FIRST_OUTPUT, END_OUTPUTS = 32, 64
-INPUTS, OUTPUTS = range(FIRST_OUTPUT), range(FIRST_OUTPUT, END_OUTPUTS)  # of most cards
 FIRST_EXPANSION, EXPANSION_FLAGS = 256, 64  # of each module: 32 inputs, then 32 outputs
 
 

@@ -25,7 +25,6 @@ from openacr.panel.roles import Role
 
 Do = Callable[..., object]
 D = TypeVar("D", bound=Do)
-LANGUAGES = ("en", "de")  # of the screens
 LONGEST_WAIT_S = 0.5  # a command that moves axes is not carried out later than this
 # What a command may need beside the parts of the station, which have their own names.
 NEEDS: dict[str, Callable[[Station, Order], object]] = {

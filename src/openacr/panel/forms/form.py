@@ -6,8 +6,7 @@ from typing import NamedTuple
 
 from openacr.panel.roles import Role
 from openacr.sysvar import Store
-from openacr.sysvar.lookup import known
-from openacr.sysvar.schema import AXES, Parameter, Tab
+from openacr.sysvar.schema import AXES, Tab
 from openacr.sysvar.tabs import AXIS
 
 
@@ -97,8 +96,3 @@ def _cells(tab: Tab, hidden: frozenset[int], *, axis: int | None) -> Iterator[in
             continue
         if of_axis == axis and (axis is None or row.is_per_axis):
             yield number
-
-
-def parameters(cells: Sequence[int]) -> list[Parameter]:
-    """The descriptions of cells."""
-    return [known(cell) for cell in cells]

@@ -2,7 +2,6 @@
 
 import asyncio
 import json
-import logging
 from contextlib import suppress
 from typing import Any
 
@@ -15,8 +14,7 @@ from openacr.panel.wire.described import LEAST_HZ, MOST_HZ
 from openacr.panel.wire.frames import Topic
 from openacr.panel.wire.hub import Browser
 
-log = logging.getLogger(__name__)
-LOG_IN, ENDS, SLOW = 4401, 1012, 4408
+LOG_IN, SLOW = 4401, 4408
 SLOW_S = 10.0
 WATCHED = (Topic.FLAGS, Topic.WATCH, Topic.WORLD)
 WORDS = ("programs",)  # topics whose news are events

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 from openacr.map.memory import Memory
 from openacr.map.rows import motors
@@ -10,7 +9,7 @@ from openacr.plant import inputs
 from openacr.plant.describe.check import sources
 from openacr.plant.describe.counts import position_of
 from openacr.plant.describe.links import Link, links_of, subject_of
-from openacr.plant.describe.schema import Axis, Contact, Switch, World, switches
+from openacr.plant.describe.schema import Axis, Switch, World, switches
 from openacr.plant.devices.device import Value
 from openacr.plant.inputs import InputState
 from openacr.plant.world import faults
@@ -106,11 +105,6 @@ class WorldView:
     def _position_u(self, number: int) -> float:
         count = self._memory.F[motors.position_cnt[number]]
         return position_of(self.axis(number), count)
-
-
-def is_active(contact: Contact | Literal["open", "closed"], is_on: bool) -> bool:
-    """Whether a switch with this contact is active while its input has a level."""
-    return is_on is not (contact == Contact.CLOSED)
 
 
 def _sources(world: World) -> Iterator[Source]:

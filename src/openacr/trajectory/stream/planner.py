@@ -30,7 +30,6 @@ PERIOD_S = 0.003
 NEARLY = 0.999  # of the jerk on straight lines: what rounding may take
 MOST_POINTS = 1024  # of one take
 FIRST = 3.0  # look-ahead distances of a smooth chain that are known when it begins
-NEAR = 30.0  # tolerances around a corner within which the deviation of an overlap is examined
 _overlap_time = pick(overlap_cy.overlap_time)
 
 

@@ -17,7 +17,6 @@ class DriveState(IntEnum):
 
 
 SWITCH_ON, VOLTAGE, NO_QUICK_STOP, ENABLE, RESET, HALT = 0x01, 0x02, 0x04, 0x08, 0x80, 0x100
-_FULL = SWITCH_ON | VOLTAGE | NO_QUICK_STOP
 
 
 class Wish(IntEnum):

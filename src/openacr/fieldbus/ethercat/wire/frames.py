@@ -57,9 +57,6 @@ class Command(IntEnum):
     FRMW = 14
 
 
-LOGICAL = (Command.LRD, Command.LWR, Command.LRW)
-
-
 @dataclass(slots=True)
 class Datagram:
     """One datagram: `position` and `offset` are the two words of its address.

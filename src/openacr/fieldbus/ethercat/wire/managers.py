@@ -17,8 +17,7 @@ WATCHED = 0x40  # its writes feed the watchdog
 FULL = 0x08  # of status, in mailbox mode
 ENABLED = 0x01  # of activate
 REPEAT = 0x02  # of activate: the master asks for its last mail again
-REPEATED = 0x02  # of pdi: the slave's answer to REPEAT
-CONTROL_PLACE, STATUS_PLACE, ACTIVATE_PLACE, PDI_PLACE = 4, 5, 6, 7  # within its registers
+STATUS_PLACE, ACTIVATE_PLACE, PDI_PLACE = 5, 6, 7  # within its registers
 
 # Control bytes that are usual.
 MAILBOX_OUT_CONTROL = 0x26

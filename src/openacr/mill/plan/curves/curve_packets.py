@@ -12,7 +12,7 @@ pulses, whichever is nearer: a float has 24 bits, so from 2^23 pulses on the pul
 
 from collections.abc import Iterator, Sequence
 
-from openacr.mill.config.curves import PERIOD_S, RANK
+from openacr.mill.config.curves import RANK
 from openacr.mill.config.settings import Settings
 from openacr.protocol.move import Move
 from openacr.protocol.move_codes import Code0, Code1, Code3
@@ -82,12 +82,3 @@ class CurvePackets:
         is_far = max(map(abs, counts)) >= FINEST_CNT
         for (axis, _), value, nearest in zip(self._axes, place_u, whole, strict=True):
             yield axis, nearest if is_whole or is_far else float(value)
-
-
-def line_rate(settings: Settings) -> float:
-    """Bytes per second of a curve on the link."""
-    packets = CurvePackets(settings)
-    point = [0.5 / axis.pulses_per_unit for axis in settings.axes]
-    for _ in range(COUNTED):
-        packet = packets.point(point, 1.0)
-    return len(packet.encode()) / PERIOD_S

@@ -9,7 +9,7 @@ from openacr.cnc.reading.text import Text, decoded
 
 STEP = 64  # lines between two known offsets
 CHUNK = 1 << 20
-CR, LF = 13, 10
+LF = 10
 LONGEST = 400  # characters of a line as it is listed
 
 
