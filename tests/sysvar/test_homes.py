@@ -59,7 +59,6 @@ def test_tab_t_starts_at_100000_plus_50000_t() -> None:
 def test_a_range_of_the_map(first: int, last: int, host: Host, writer: Writer) -> None:
     for n in (first, (first + last) // 2, last):
         assert (home_of(n).host, home_of(n).writer) == (host, writer)
-        assert home_of(n).is_persistent == (host is Host.STORE)
 
 
 @pytest.mark.parametrize("n", [-1, 20_488, 99_999, 100_007, 250_015, 150_010, 1_003_425, 10**12])

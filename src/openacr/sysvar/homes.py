@@ -50,7 +50,6 @@ class Home(Struct, frozen=True):
     last: int
     use: str
     host: Host
-    is_persistent: bool
     writer: Writer
 
     @property
@@ -78,15 +77,15 @@ class Home(Struct, frozen=True):
 
 
 def _card(numbers: range, use: str, writer: Writer) -> Home:
-    return Home(numbers[0], numbers[-1], use, Host.CARD, is_persistent=False, writer=writer)
+    return Home(numbers[0], numbers[-1], use, Host.CARD, writer)
 
 
 def _store(first: int, last: int, use: str, writer: Writer = Writer.PROGRAM) -> Home:
-    return Home(first, last, use, Host.STORE, is_persistent=True, writer=writer)
+    return Home(first, last, use, Host.STORE, writer)
 
 
 def _nothing(first: int, last: int) -> Home:
-    return Home(first, last, "none", Host.NONE, is_persistent=False, writer=Writer.NONE)
+    return Home(first, last, "none", Host.NONE, Writer.NONE)
 
 
 LAST_SYSTEM = 1_003_424
@@ -135,7 +134,7 @@ HOMES = (
     _card(INTERNAL_VARIABLES, "reserved internal", Writer.WARNED),
     _card(FRONT_END_VARIABLES, "reserved internal", Writer.NONE),
     *_cells(),
-    Home(CARD_PARAMETERS[0], CARD_PARAMETERS[-1], "card parameters", Host.LIVE, False, Writer.CARD),
+    Home(CARD_PARAMETERS[0], CARD_PARAMETERS[-1], "card parameters", Host.LIVE, Writer.CARD),
     _nothing(CARD_PARAMETERS.stop, FIRST_SYSTEM - 1),
     _store(FIRST_SYSTEM, LAST_SYSTEM, "system parameters", Writer.SERVICE),
     _nothing(LAST_SYSTEM + 1, BEYOND),

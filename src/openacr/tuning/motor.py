@@ -57,13 +57,6 @@ class Motor:
         centre = (b1 * z + b2) / ((z - 1.0) * (z - pole))
         return (centre + self._flexion(z, period_s)) * delay
 
-    def load_response(self, z: Complexes, period_s: float) -> Complexes:
-        """Counts of the load of a volt at z, beside those of `response`; rigid: the same."""
-        if self.shaft is None:
-            return self.response(z, period_s)
-        turned = 1.0 + 1.0 / self.shaft.inertia_ratio
-        return self.response(z, period_s) - turned * self._flexion(z, period_s)
-
     def fraction(self, period_s: float) -> tuple[Reals, Reals]:
         """Numerator and denominator of `response` in 1/z, lowest power first."""
         b1, b2, pole = self.coefficients(period_s)

@@ -1,50 +1,25 @@
 """The progress bar of a run: simulated time, speed and running programs, on a terminal only."""
 
 import sys
-from types import TracebackType
-from typing import TYPE_CHECKING, Protocol, Self, TextIO
+from typing import TYPE_CHECKING, Self, TextIO
+
+from openacr.closing import Closing
 
 if TYPE_CHECKING:
     from rich.progress import Progress
 
 
-class Bar(Protocol):
-    """Something that shows how far a run has come."""
+class Bar(Closing):
+    """How far a run has come; this one shows nothing, as files and pipes want."""
 
-    def __enter__(self) -> Self:
-        """Begin to show."""
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Clear the line."""
 
     def show(self, time_s: float, speed: float, programs: list[int]) -> None:
         """Show the simulated time, the speed and the running programs."""
 
 
-class NoBar:
-    """Shows nothing: output goes to a file or pipe, or quiet was asked for."""
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        return None
-
-    def show(self, time_s: float, speed: float, programs: list[int]) -> None:
-        """Show nothing."""
-
-
-class TerminalBar:
+class TerminalBar(Bar):
     """A progress bar on the terminal of standard error, below what the programs print."""
 
     def __init__(self, total_s: float | None) -> None:
@@ -56,12 +31,8 @@ class TerminalBar:
         self._progress.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
+        """Clear the line."""
         self._progress.stop()
 
     def show(self, time_s: float, speed: float, programs: list[int]) -> None:
@@ -81,7 +52,7 @@ def bar_for(stream: TextIO, total_s: float | None, *, is_wanted: bool) -> Bar:
     """Give a bar for a terminal, and nothing for a file or pipe."""
     if is_wanted and stream.isatty():
         return TerminalBar(total_s)
-    return NoBar()
+    return Bar()
 
 
 def _progress() -> "Progress":

@@ -34,11 +34,6 @@ class Kind(Enum):
     ANALOG_INPUTS = (0x6401, 16, CHANNELS)
     ANALOG_OUTPUTS = (0x6411, 16, CHANNELS)
 
-    @property
-    def is_analog(self) -> bool:
-        """Whether values are counts of a converter."""
-        return self in (Kind.ANALOG_INPUTS, Kind.ANALOG_OUTPUTS)
-
 
 @dataclass(frozen=True, slots=True)
 class Part:

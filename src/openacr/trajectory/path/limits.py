@@ -91,21 +91,16 @@ class Limits:
             min(
                 feed_ups,
                 tool_ups / tool if tool else math.inf,
-                _least(self.velocity_ups, direction),
+                most(self.velocity_ups, direction),
             ),
-            _least(self.acceleration_ups2, direction),
-            _least(self.jerks(period_s), direction),
+            most(self.acceleration_ups2, direction),
+            most(self.jerks(period_s), direction),
         )
-
-
-def _least(limits: Sequence[float], direction: Sequence[float]) -> float:
-    """The largest multiple of a direction within the limits of all axes."""
-    return min(
-        (limit / abs(part) for limit, part in zip(limits, direction, strict=True) if part),
-        default=UNLIMITED,
-    )
 
 
 def most(limits: Sequence[float], direction: Sequence[float]) -> float:
     """The largest multiple of any vector within the limits of all axes."""
-    return _least(limits, direction)
+    return min(
+        (limit / abs(part) for limit, part in zip(limits, direction, strict=True) if part),
+        default=UNLIMITED,
+    )

@@ -179,7 +179,7 @@ class TrajectoryPlanner:
                 return False
             if chain.is_straight:
                 self._begin(chain, self._straight(chain, after))
-                self._finish(chain, after)
+                self._finish(chain)
                 return True
             first_u = FIRST * self._look_u(chain.pieces[0])
             if not chain.is_closed and chain.length_u < first_u:
@@ -216,7 +216,7 @@ class TrajectoryPlanner:
             self._is_new = False
         if course.is_complete:
             self._growing = None
-            self._finish(chain, after)
+            self._finish(chain)
         return True
 
     def _look_u(self, piece: Piece) -> float:
@@ -249,7 +249,7 @@ class TrajectoryPlanner:
             member.held_s = math.inf
         self._stream.add(member)
 
-    def _finish(self, chain: Chain, after: Chain | None) -> None:
+    def _finish(self, chain: Chain) -> None:
         """The whole course of a chain is in the stream."""
         self._chains.popleft()
         self._base_u += chain.length_u

@@ -88,11 +88,6 @@ class Clock:
             yield self._next_ns
             self._next_ns += cycle
 
-    @property
-    def is_due_ns(self) -> int | None:
-        """The next SYNC0 in time of the system; None while there is none."""
-        return self._next_ns if self.cycle_ns else None
-
     def _get(self, register: int, size: int) -> bytearray:
         return self._registers[register : register + size]
 

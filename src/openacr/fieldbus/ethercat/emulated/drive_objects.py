@@ -49,7 +49,6 @@ class DriveObjects:
 
     def __init__(self, dictionary: Dictionary, motor: Motor, modes: tuple[int, ...]) -> None:
         self._motor = motor
-        self._modes = modes
         counts = motor.axis.counts or 1
         add = dictionary.add
 

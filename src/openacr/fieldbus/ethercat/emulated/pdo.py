@@ -110,7 +110,7 @@ class Mapping:
         count = Entry("Number of entries", DataType.UNSIGNED8, access, len(indexes))
         padded = indexes + [0] * (MOST_ASSIGNED - len(indexes))
         entries = [
-            Entry(f"PDO {n}", DataType.UNSIGNED16, access, index, check=self._only_while(count))
+            Entry(f"PDO {n}", DataType.UNSIGNED16, access, index, check=_NeedsZero(count))
             for n, index in enumerate(padded, 1)
         ]
         count.check = lambda value: self._check_assigned(int(value), entries)
@@ -123,14 +123,11 @@ class Mapping:
         places = len(pdo.entries) if pdo.is_fixed else MOST_MAPPED
         values = [entry.mapping for entry in pdo.entries]
         entries = [
-            Entry(f"Object {n}", DataType.UNSIGNED32, access, value, check=self._only_while(count))
+            Entry(f"Object {n}", DataType.UNSIGNED32, access, value, check=_NeedsZero(count))
             for n, value in enumerate(values + [0] * (places - len(values)), 1)
         ]
         count.check = lambda value: self._check_mapped(int(value), entries)
         self.dictionary.add_record(pdo.index, pdo.name, entries, count)
-
-    def _only_while(self, count: Entry) -> "_NeedsZero":
-        return _NeedsZero(count)
 
     def _check_mapped(self, count: int, entries: list[Entry]) -> None:
         if count > len(entries):

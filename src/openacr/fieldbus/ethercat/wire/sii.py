@@ -6,7 +6,7 @@ from enum import IntEnum
 from struct import Struct
 
 from openacr.fieldbus.ethercat.wire.frames import WireError
-from openacr.fieldbus.ethercat.wire.managers import SyncManager, SyncUse
+from openacr.fieldbus.ethercat.wire.managers import SyncUse
 
 _HEAD = Struct("<4HH4xH")  # PDI control and configuration, alias, checksum
 _IDENTITY = Struct("<4I")
@@ -103,11 +103,6 @@ class DefaultSync:
     control: int
     use: int
     enabled: bool = True
-
-    @property
-    def registers(self) -> SyncManager:
-        """What is written to its registers."""
-        return SyncManager(self.start, self.size, self.control, activate=int(self.enabled))
 
 
 @dataclass(frozen=True, slots=True)
