@@ -156,7 +156,6 @@ def test_with_json_unusable_input_is_an_object_on_standard_output(
     words: tuple[str, ...], error: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "s.db"))
     assert openacr("sysvar", "set", "P100000=1")[0] in (0, 2)
     code, out, err = openacr(*words, "--json")
     record = json.loads(out)

@@ -79,9 +79,8 @@ def test_what_answers_at_once_imports_nothing_heavy(
         "except SystemExit as end: print(end.code or 0, file=sys.stderr)\n"
         f"print(sorted({heavy} & set(sys.modules)), file=sys.stderr)\n"
     )
-    environment = {**os.environ, "OPENACR_STORE": str(tmp_path / "sysvar.db")}
     result = subprocess.run(
-        [sys.executable, "-c", code], check=True, capture_output=True, cwd=tmp_path, env=environment
+        [sys.executable, "-c", code], check=True, capture_output=True, cwd=tmp_path
     )
     assert result.stderr.decode().splitlines() == ["0", "[]"]
 
@@ -155,7 +154,6 @@ def test_a_slip_gets_a_suggestion() -> None:
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """An empty folder with the programs `-part.nc`, `-h.nc` and `--part.nc`, and a store."""
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
     monkeypatch.chdir(tmp_path)
     for name in ("-part.nc", "-h.nc", "--part.nc"):
         (tmp_path / name).write_text("F10 G1 X1\nM2\n")

@@ -12,12 +12,6 @@ from openacr.sysvar import Store
 TABLE = "X0E.00325\nX1E.00175\nX2E-.00250\n"
 
 
-@pytest.fixture(autouse=True)
-def own_store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
-    return tmp_path / "sysvar.db"
-
-
 def ballscrew(*words: object) -> tuple[int, str]:
     result = CliRunner().invoke(app, ["mill", "ballscrew", *map(str, words)])
     return result.exit_code, result.output

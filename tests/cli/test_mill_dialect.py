@@ -19,11 +19,9 @@ BY_SIGNS = (
 
 
 @pytest.fixture
-def store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    path = tmp_path / "sysvar.db"
-    monkeypatch.setenv("OPENACR_STORE", str(path))
-    return path
+def store(own_store: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(own_store.parent)
+    return own_store
 
 
 def mill(*words: str) -> Result:

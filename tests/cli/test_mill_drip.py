@@ -23,11 +23,6 @@ from openacr.mill.session import MillSession
 PROGRAM = b"G90 F6000\nG1 X1\nY1\nX0\nM2\n"
 
 
-@pytest.fixture(autouse=True)
-def own_store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
-
-
 @pytest.fixture
 def line() -> Iterator[tuple[int, str]]:
     """A sender's end, and the port at the other."""

@@ -14,7 +14,6 @@ from openacr.sysvar import Store
 @pytest.fixture
 def square(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A drawing of a square and two holes, in a folder with a store."""
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "s.db"))
     document = ezdxf.new("R2010")  # type: ignore[attr-defined]
     document.header["$INSUNITS"] = 1
     document.modelspace().add_lwpolyline([(0, 0), (2, 0), (2, 2), (0, 2)], close=True)
@@ -43,7 +42,7 @@ def test_path_or_drill_pattern_can_be_chosen_and_success_is_said(square: Path) -
 
 
 def test_settings_come_from_the_store_and_options_go_before_them(square: Path) -> None:
-    with Store(square.parent / "s.db") as store:
+    with Store(square.parent / "sysvar.db") as store:
         store.write(250_120, 0.75)
     run(str(square))
     assert "G0 Z0.75" in square.with_suffix(".TXT").read_text()
@@ -73,7 +72,7 @@ def test_the_depth_of_a_path_is_an_option_and_a_cut_at_the_surface_is_said(squar
 
 
 def test_the_depth_is_in_the_unit_of_the_store(square: Path) -> None:
-    with Store(square.parent / "s.db") as store:
+    with Store(square.parent / "sysvar.db") as store:
         store.write(250_001, 1)
     run(str(square), "--cut-z", "-2.54")
     assert "G1 Z-0.1\n" in square.with_suffix(".TXT").read_text()

@@ -18,11 +18,6 @@ M2
 """
 
 
-@pytest.fixture(autouse=True)
-def own_store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
-
-
 def listed(folder: Path, text: str) -> tuple[int, list[str]]:
     file = folder / "PART.NC"
     file.write_text(text)

@@ -12,7 +12,6 @@ READERS = ("check", "time", "list", "plot", "run")
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
     monkeypatch.chdir(tmp_path)
     (tmp_path / "FOLDER").mkdir()
     (tmp_path / "OK.NC").write_text("G1 X1 F10\nM2\n")

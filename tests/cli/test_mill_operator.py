@@ -11,11 +11,6 @@ from openacr.client import Card
 from openacr.controller import Controller
 
 
-@pytest.fixture(autouse=True)
-def own_store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
-
-
 def mill(*words: object) -> tuple[int, str]:
     result = CliRunner().invoke(app, ["mill", *map(str, words)])
     return result.exit_code, result.output

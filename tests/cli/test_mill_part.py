@@ -11,13 +11,6 @@ from openacr.cli.mill.part import complete_part
 from openacr.sysvar import Store
 
 
-@pytest.fixture(autouse=True)
-def path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    path = tmp_path / "s.db"
-    monkeypatch.setenv("OPENACR_STORE", str(path))
-    return path
-
-
 def run(*arguments: str) -> Result:
     return CliRunner().invoke(app, ["mill", "part", *arguments], env={"COLUMNS": "100"})
 
@@ -50,16 +43,16 @@ def test_a_program_is_printed_or_written_with_the_wanted_sizes(tmp_path: Path) -
     assert json.loads(run("rectangle", "--json").output)["values"]["P200"] == 4.0
 
 
-def test_the_unit_is_that_of_the_start_unless_one_is_given(path: Path) -> None:
+def test_the_unit_is_that_of_the_start_unless_one_is_given(own_store: Path) -> None:
     assert "\nG20\n" in run("circle").output
     assert "\nG21\n" in run("circle", "--unit", "mm").output
-    with Store(path) as store:
+    with Store(own_store) as store:
         store.write(850_030, 21)
     assert "P200=76.2 ; Diameter" in run("circle").output
 
 
-def test_the_tool_comes_from_the_store(path: Path) -> None:
-    with Store(path) as store:
+def test_the_tool_comes_from_the_store(own_store: Path) -> None:
+    with Store(own_store) as store:
         store.write(1004, 0.25)
     output = run("circle", "--tool", "4").output
     assert "\nD4\n" in output

@@ -40,11 +40,6 @@ M2
 """
 
 
-@pytest.fixture(autouse=True)
-def own_store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
-
-
 @pytest.fixture
 def part(tmp_path: Path) -> Path:
     file = tmp_path / "PART.NC"

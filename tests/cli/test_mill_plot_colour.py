@@ -24,8 +24,7 @@ LIMITS = ("650000=6000", "650007=1000", "650008=1000")
 
 
 @pytest.fixture(autouse=True)
-def own_store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
+def stored(own_store: Path) -> None:
     chosen("250001=1", *LIMITS)
 
 

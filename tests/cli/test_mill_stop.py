@@ -16,11 +16,9 @@ AT_REST = "the machine is at rest at X   0.0000 Y   0.0000 Z   0.0000 inch;"
 
 
 @pytest.fixture
-def card(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Controller:
+def card(own_store: Path, monkeypatch: pytest.MonkeyPatch) -> Controller:
     """A card of --host, whatever is named there, with an emergency stop."""
-    path = tmp_path / "sysvar.db"
-    monkeypatch.setenv("OPENACR_STORE", str(path))
-    with Store(path) as store:
+    with Store(own_store) as store:
         store.write(400_004, ESTOP_INPUT)
     controller, opened = Controller(), Card.open
     monkeypatch.setattr(Card, "open", lambda _host, *rest: opened(controller, *rest))

@@ -159,9 +159,8 @@ def test_without_an_operator_a_stop_ends_the_program(wires: tuple[TextIO, TextIO
 
 
 @pytest.fixture
-def card(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Controller:
+def card(monkeypatch: pytest.MonkeyPatch) -> Controller:
     """A card of --host, whatever is named there."""
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
     controller, real = Controller(), MillSession.real
     monkeypatch.setattr(MillSession, "real", lambda _host, *rest: real(controller, *rest))
     return controller
@@ -183,9 +182,9 @@ def test_a_killed_card_is_acknowledged_before_anything_runs(card: Controller) ->
 
 
 def test_acknowledge_names_an_alarm_that_stays_once_and_those_it_has_cleared(
-    card: Controller,
+    card: Controller, own_store: Path
 ) -> None:
-    with Store(Path(os.environ["OPENACR_STORE"])) as store:
+    with Store(own_store) as store:
         store.write(ESTOP, 4)
     card.set_input(4, True)
     assert mill("acknowledge") == (1, "alarm 10: Emergency stop\n")
@@ -225,14 +224,14 @@ def test_a_homing_that_fails_says_that_no_axis_is_homed(
     assert (code, "homed: none\n" in text, "alarm 14" in text) == (1, True, True)
 
 
-def test_a_homing_without_axes_to_home_says_so(card: Controller) -> None:
-    with Store(Path(os.environ["OPENACR_STORE"])) as store:
+def test_a_homing_without_axes_to_home_says_so(card: Controller, own_store: Path) -> None:
+    with Store(own_store) as store:
         store.write(300_009, 0)
     assert mill("home", "--axes", "X") == (0, "homed: no axis has a priority\n")
 
 
-def test_mdi_reads_the_dialect_of_the_store(card: Controller) -> None:
-    with Store(Path(os.environ["OPENACR_STORE"])) as store:
+def test_mdi_reads_the_dialect_of_the_store(card: Controller, own_store: Path) -> None:
+    with Store(own_store) as store:
         store.write(700_005, 1)
     code, text = mill("mdi", "#<depth>=[1+1]", "G4 P0.1")
     assert (code, "error" in text) == (0, False)
@@ -245,9 +244,9 @@ FLOOD = 800_010
 
 
 @pytest.fixture
-def part(tmp_path: Path, card: Controller) -> str:
+def part(tmp_path: Path, own_store: Path, card: Controller) -> str:
     """A program that cuts at Z-1, and a machine whose tool is at depth, 3 inches away."""
-    with Store(Path(os.environ["OPENACR_STORE"])) as store:
+    with Store(own_store) as store:
         for axis in range(3):
             store.write(200_007 + 1000 * axis, 0)
         store.write(SPINDLE_CW, 40)

@@ -22,11 +22,6 @@ M30
 """
 
 
-@pytest.fixture(autouse=True)
-def own_store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
-
-
 @pytest.fixture
 def file(tmp_path: Path) -> str:
     path = tmp_path / "PART.NC"

@@ -17,7 +17,6 @@ from openacr.sysvar import Store
 @pytest.fixture
 def store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
     Path("a.nc").write_text("G21 F600 G0 X10\nG1 X60.8 A90\nM2\n")
     with Store(tmp_path / "sysvar.db") as cells:
         cells.write(203_012, 1.0)

@@ -13,11 +13,9 @@ from openacr.sysvar import Store
 
 
 @pytest.fixture(autouse=True)
-def card(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Controller:
+def card(own_store: Path, monkeypatch: pytest.MonkeyPatch) -> Controller:
     """A card of --host, whatever is named there; its axes need no homing."""
-    path = tmp_path / "sysvar.db"
-    monkeypatch.setenv("OPENACR_STORE", str(path))
-    with Store(path) as store:
+    with Store(own_store) as store:
         for axis in range(3):
             store.write(200_007 + 1000 * axis, 0)
     controller, real = Controller(), MillSession.real

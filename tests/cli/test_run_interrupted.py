@@ -108,9 +108,6 @@ def test_a_run_without_streams_runs(streams: tuple[int, ...], tmp_path: Path) ->
     assert code in (0, 1)
 
 
-def test_mdi_without_input_has_no_blocks_to_run(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
+def test_mdi_without_input_has_no_blocks_to_run() -> None:
     code, err = _closed((0,), "mill", "mdi")
     assert (code, err) == (0, "")

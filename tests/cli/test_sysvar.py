@@ -11,33 +11,25 @@ from openacr.cli.sysvar.read import complete_name
 from openacr.sysvar import Store
 
 
-@pytest.fixture
-def path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The store the commands work on."""
-    path = tmp_path / "s.db"
-    monkeypatch.setenv("OPENACR_STORE", str(path))
-    return path
-
-
 def run(*arguments: str) -> Result:
     return CliRunner().invoke(app, ["sysvar", *arguments], env={"COLUMNS": "100"})
 
 
 @pytest.mark.req("MILL-P-100000-1003424")
-def test_a_parameter_changed_by_its_name_is_readable_through_its_number(path: Path) -> None:
+def test_a_parameter_changed_by_its_name_is_readable_through_its_number(own_store: Path) -> None:
     result = run("set", "cut speed=12.5", "Block Skip=7", "p2001=-1.25", "machine type=MILL 2")
     assert result.exit_code == 0, result.output
     assert "P650002 Cut Speed = 12.5 in/min" in result.output
-    with Store(path) as store:
+    with Store(own_store) as store:
         assert [store.read(n) for n in (650_002, 400_000, 2001)] == [12.5, 7, -1.25]
         assert store.read_text(250_119) == "MILL 2"
     assert "P650002 Cut Speed = 12.5 in/min" in run("get", "650002").output
 
 
-def test_a_name_that_begins_with_a_dash_is_taken_as_it_is_written(path: Path) -> None:
+def test_a_name_that_begins_with_a_dash_is_taken_as_it_is_written(own_store: Path) -> None:
     result = run("set", "-soft limit x=-1", "--unit", "inch")
     assert (result.exit_code, "P200001 -Soft Limit (axis 0) = -1 in" in result.output) == (0, True)
-    with Store(path) as store:
+    with Store(own_store) as store:
         assert store.read(200_001) == -1.0
     assert "P200001 -Soft Limit (axis 0) = -1 in" in run("get", "-soft limit x").output
     wrong = run("set", "cut speed=3", "--unti", "mm")
@@ -45,7 +37,7 @@ def test_a_name_that_begins_with_a_dash_is_taken_as_it_is_written(path: Path) ->
     assert "--unti" in wrong.output
 
 
-def test_get_explains_one_parameter_and_tabulates_several(path: Path) -> None:
+def test_get_explains_one_parameter_and_tabulates_several() -> None:
     output = run("get", "P650002").output
     assert "P650002 Cut Speed = 10 in/min" in output
     assert (
@@ -56,7 +48,7 @@ def test_get_explains_one_parameter_and_tabulates_several(path: Path) -> None:
     assert "-1 (disable)" in output
 
 
-def test_get_explains_each_of_several_that_are_named_one_by_one(path: Path) -> None:
+def test_get_explains_each_of_several_that_are_named_one_by_one() -> None:
     output = run("get", "cut speed", "P400000").output
     assert "P650002 Cut Speed = 10 in/min" in output
     assert output.count("; takes ") == 2
@@ -64,10 +56,10 @@ def test_get_explains_each_of_several_that_are_named_one_by_one(path: Path) -> N
 
 @pytest.mark.req("MILL-SYS-UNITSWITCH")
 def test_lengths_are_shown_and_read_in_the_wanted_unit_and_kept_in_the_default_one(
-    path: Path,
+    own_store: Path,
 ) -> None:
     run("set", "cut speed=300", "epsilon for compensation=0.0508", "--unit", "mm")
-    with Store(path) as store:
+    with Store(own_store) as store:
         assert store.read(650_002) == pytest.approx(300 / 25.4)
         assert store.read(250_101) == pytest.approx(0.002)
     output = run("get", "P650002", "--unit", "mm").output
@@ -75,7 +67,7 @@ def test_lengths_are_shown_and_read_in_the_wanted_unit_and_kept_in_the_default_o
     assert "default 254 mm/min, typically 254; takes a number above 0 up to 254" in output
     assert "takes a number above 0 up to 25400000 [mm/min]" in output
     run("set", "jog feedrate a=360", "jog feedrate x=254", "--unit", "mm")
-    with Store(path) as store:
+    with Store(own_store) as store:
         assert [store.read(n) for n in (353_000, 350_000)] == [360.0, 10.0]
     assert "Cut Speed = 11.811023622 in/min" in run("get", "P650002").output
     run("set", "default units=mm")
@@ -83,7 +75,7 @@ def test_lengths_are_shown_and_read_in_the_wanted_unit_and_kept_in_the_default_o
     assert "Jog Feedrate (axis 3) = 360 deg/min" in run("get", "jog feedrate a").output
 
 
-def test_json_holds_every_field(path: Path) -> None:
+def test_json_holds_every_field() -> None:
     (record,) = json.loads(run("get", "axis 1 dac polarity", "--json").output)
     assert (record["number"], record["axis"], record["value"]) == (201_005, 1, 0.0)
     assert record["choices"] == {"0": "pos", "1": "neg"}
@@ -91,7 +83,7 @@ def test_json_holds_every_field(path: Path) -> None:
     assert (record["value"], record["unit"]) == (6.35, "mm")
 
 
-def test_list_shows_what_was_changed_and_whole_tabs(path: Path) -> None:
+def test_list_shows_what_was_changed_and_whole_tabs() -> None:
     assert "all parameters have their defaults" in run("list").output
     run("set", "trial speed=50", "P2007=1")
     output = run("list").output
@@ -102,11 +94,11 @@ def test_list_shows_what_was_changed_and_whole_tabs(path: Path) -> None:
     assert len(json.loads(run("list", "OFFSETS", "--json").output)) > 2000
 
 
-def test_one_refused_value_stores_none_of_them(path: Path) -> None:
+def test_one_refused_value_stores_none_of_them(own_store: Path) -> None:
     result = run("set", "trial speed=50", "cut speed=-1")
     assert result.exit_code == 2
     assert "error: P650002 Cut Speed cannot be -1: a number above 0" in result.output
-    with Store(path) as store:
+    with Store(own_store) as store:
         assert store.read(650_001) == 100.0
 
 
@@ -124,24 +116,24 @@ def test_one_refused_value_stores_none_of_them(path: Path) -> None:
         (["import", "missing.toml"], "missing.toml: cannot be read"),
     ],
 )
-def test_slips_are_explained(path: Path, arguments: list[str], words: str) -> None:
+def test_slips_are_explained(arguments: list[str], words: str) -> None:
     result = run(*arguments)
     assert result.exit_code == 2
     assert words in result.output
 
 
-def test_a_store_can_be_named(path: Path, tmp_path: Path) -> None:
+def test_a_store_can_be_named(tmp_path: Path) -> None:
     other = tmp_path / "other" / "mill.db"
     run("set", "P150=4", "--store", str(other))
     assert "P150 Global 150 = 4" in run("get", "P150", "--store", str(other)).output
     assert "P150 Global 150 = 0" in run("get", "P150").output
 
 
-def test_looking_makes_no_file(path: Path, tmp_path: Path) -> None:
+def test_looking_makes_no_file(own_store: Path, tmp_path: Path) -> None:
     assert "Cut Speed = 10 in/min" in run("get", "cut speed").output
     assert "all parameters have their defaults" in run("list").output
     assert 'unit = "inch"' in run("export").output
-    assert not path.exists()
+    assert not own_store.exists()
     result = run("get", "cut speed", "--store", str(tmp_path / "slip.db"))
     assert result.exit_code == 2
     assert "slip.db does not exist" in result.output
@@ -178,7 +170,7 @@ def test_an_export_gives_an_equal_store(is_metric: bool, tmp_path: Path) -> None
 
 
 def test_an_import_into_a_store_of_another_unit_converts_lengths(
-    path: Path, tmp_path: Path
+    own_store: Path, tmp_path: Path
 ) -> None:
     run("set", "P150=1")
     file = tmp_path / "m.toml"
@@ -187,7 +179,7 @@ def test_an_import_into_a_store_of_another_unit_converts_lengths(
         'P203000 = 90\nP250010 = 45\n"default graphics" = false\n'
     )
     assert run("import", str(file)).output.startswith("5 settings stored")
-    with Store(path) as store:
+    with Store(own_store) as store:
         values = [store.read(n) for n in (650_002, 200_006, 203_000, 250_010, 250_002, 250_001)]
     assert values == [10.0, 25_400.0, 90.0, 45.0, 0.0, 0.0]
 
@@ -204,17 +196,19 @@ def test_an_import_into_a_store_of_another_unit_converts_lengths(
         ("P200002 = false\n", "has to be above the -Soft Limit"),
     ],
 )
-def test_a_bad_import_changes_nothing(path: Path, tmp_path: Path, text: str, words: str) -> None:
+def test_a_bad_import_changes_nothing(
+    own_store: Path, tmp_path: Path, text: str, words: str
+) -> None:
     file = tmp_path / "bad.toml"
     file.write_text(f"{text}P150 = 3\n" if "layout" not in text else text)
     result = run("import", str(file))
     assert result.exit_code == 2
     assert words in result.output
-    with Store(path) as store:
+    with Store(own_store) as store:
         assert store.read(150) == 0.0
 
 
-def test_an_export_can_hold_everything(path: Path) -> None:
+def test_an_export_can_hold_everything() -> None:
     text = run("export", "--all").output
     assert "P650002 = 10.0  # Cut Speed [in/min]" in text
     assert "P250003 = 2  # I/J Inversion = absolute" in text
@@ -225,14 +219,14 @@ def test_an_export_can_hold_everything(path: Path) -> None:
 
 
 @pytest.mark.req("MILL-SYS-PASSWORD-HASH")
-def test_a_password_is_neither_stored_nor_shown_in_clear_text(path: Path) -> None:
+def test_a_password_is_neither_stored_nor_shown_in_clear_text(own_store: Path) -> None:
     assert run("password", "--new", "s3cret!").exit_code == 0
     shown = run("get", "P100004").output + run("get", "P100004", "--json").output
     assert "= set" in shown
     assert "s3cret!" not in shown
-    files = [each for each in path.parent.iterdir() if each.is_file()]
+    files = [each for each in own_store.parent.iterdir() if each.is_file()]
     assert not any(b"s3cret!" in each.read_bytes() for each in files)
-    with Store(path) as store:
+    with Store(own_store) as store:
         assert store.read_text(100_004) not in run("export", "--all").output
 
 
@@ -243,14 +237,14 @@ def test_without_a_terminal_a_new_password_has_to_be_given() -> None:
 
 
 @pytest.mark.req("MILL-SYS-PASSWORD")
-def test_system_parameters_are_changed_with_the_right_password_only(path: Path) -> None:
+def test_system_parameters_are_changed_with_the_right_password_only(own_store: Path) -> None:
     assert run("set", "P650002=11").exit_code == 0  # none is asked yet
     run("password", "--new", "s3cret!")
     refused = run("set", "P650002=12")
     assert refused.exit_code == 2
     assert "protected: give --password, or OPENACR_PASSWORD" in refused.output
     assert "wrong service password" in run("set", "P650002=12", "--password", "secret").output
-    with Store(path) as store:
+    with Store(own_store) as store:
         assert store.read(650_002) == 11.0
     assert run("set", "P2001=1").exit_code == 0  # offsets are the operator's
     assert run("set", "P650002=12", "--password", "s3cret!").exit_code == 0
@@ -260,11 +254,11 @@ def test_system_parameters_are_changed_with_the_right_password_only(path: Path) 
 
 
 @pytest.mark.req("MILL-M-CUSTOM")
-def test_the_folder_of_m_codes_of_the_user_is_chosen_by_the_service(path: Path) -> None:
-    folder = path.parent / "own"
+def test_the_folder_of_m_codes_of_the_user_is_chosen_by_the_service(own_store: Path) -> None:
+    folder = own_store.parent / "own"
     folder.mkdir()
     (folder / "M300.TXT").write_text("G91 G1 X1 F10\nG90\nRET\n")
-    part = path.parent / "P.NC"
+    part = own_store.parent / "P.NC"
     part.write_text("M300\nM2\n")
 
     def checked() -> Result:

@@ -94,9 +94,8 @@ def test_curves_of_a_run_are_read_and_zoomed_together(page: Page, tmp_path: Path
 
 
 def test_a_tool_path_is_stepped_through_and_its_kinds_are_switched_off(
-    page: Page, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    page: Page, tmp_path: Path
 ) -> None:
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
     part, target = tmp_path / "PART.NC", tmp_path / "part.html"
     part.write_text(PART)
     assert CliRunner().invoke(app, ["mill", "plot", str(part), str(target)]).exit_code == 0
@@ -121,9 +120,8 @@ def test_a_tool_path_is_stepped_through_and_its_kinds_are_switched_off(
 
 
 def test_the_page_of_a_verified_folder_lists_programs_by_their_result(
-    page: Page, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    page: Page, tmp_path: Path
 ) -> None:
-    monkeypatch.setenv("OPENACR_STORE", str(tmp_path / "sysvar.db"))
     shop = tmp_path / "shop"
     shop.mkdir()
     (shop / "good.nc").write_text("G20\n" + PART)
