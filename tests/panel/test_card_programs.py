@@ -503,6 +503,9 @@ def test_a_plc_comes_as_a_ladder_or_with_the_reason_why_not(
     (rung,) = found["rungs"]
     assert [(each["text"], each["flag"]) for each in rung["symbols"]] == [("door", 5), ("40", 40)]
     assert (found["why"], found["names"]) == ("", {"5": "door"})
+    by_session(panel, "#DEFINE speed P 12290", "#DEFINE many 7", "#DEFINE gate BIT5")
+    named = {"P12290": "speed", "BIT5": "gate"}
+    assert web.get("/api/card/aliases").json() == {"aliases": named}
     assert found["lines"][0] == {"number": 10, "text": "LD door"}
 
 

@@ -9,6 +9,9 @@ import httpx
 import numpy as np
 import pytest
 from tests.controller.hosts import X_AND_Y, connected
+from tests.network.rig import DI, DO, node
+from tests.network.rig import running as running_nodes
+from tests.network.rig import start as start_network
 from tests.panel.bench import LIMIT_S, HandStation, Served
 
 from openacr.client import Level
@@ -20,6 +23,7 @@ from openacr.controller.replay import Replay
 from openacr.debugger.calls import is_running
 from openacr.errors import UserError
 from openacr.journal.entries import Entered, JournalEntry
+from openacr.map.rows import axes
 from openacr.map.words import af1, mf1
 from openacr.panel.control.engineer.conversations import answer_of
 from openacr.panel.control.engineer.scope import Samples
@@ -30,14 +34,14 @@ from openacr.panel.control.machine.history import AWAY, MOST_BRANCHES, STILL, Hi
 from openacr.panel.control.machine.lanes import (
     MOST_CHANGES,
     PART_CHANGES,
-    SETPOINTS,
-    WORDS,
     Course,
+    Logged,
     arrivals,
 )
 from openacr.panel.control.station import Station
 from openacr.panel.control.times import Times, step_move
 from openacr.protocol.events import ControlKey
+from openacr.sysvar.tabs import OFFSETS
 from openacr.timeline import Kind
 
 LINES = ("10 P0=P0+1", "20 DWL 0.01", "30 GOTO 10")
@@ -442,7 +446,7 @@ def test_lanes_have_the_ticks_in_which_axes_moved_and_programs_ran(hand: HandSta
 
     def commanded_cnt(tick: int) -> float:
         hand.do("timeline.seek", tick=tick)
-        return history(hand).card.memory.F[SETPOINTS[1]]
+        return history(hand).card.memory.F[axes.psp_cnt[1]]
 
     card = history(hand).card
     for tick, runs in zip(program, (True, False), strict=True):
@@ -504,13 +508,48 @@ def test_inputs_and_outputs_have_lanes_where_they_changed_and_drives_where_they_
     assert (found["output", 31].on_tk, found["output", 31].changes) == (10, 2)
 
 
+@pytest.mark.parametrize("mapping", [0, 1])
+def test_lines_of_expansion_boards_and_of_nodes_have_lanes_where_they_changed(mapping: int) -> None:
+    card = running_nodes(node(1, digital_inputs=12, digital_outputs=40), 1)
+    card.p[32771] = mapping  # 1: the first word of the node is that of board 0
+    assert start_network(card) == 2
+    own = History(card)
+    begin = own.lived_tk
+    card.set_input(DI[0] + 11, True)
+    card.bit[DO[0] + 39] = True
+    card.bit[320 + 1], card.bit[480 + 31] = True, True  # an input of board 1, an output of board 3
+    own.advance(round(0.2 / card.period_s))
+    found = {(each.kind, each.flag): each for each in own.lanes.of(0).lanes(begin, own.lived_tk)}
+    lines = {place for place in found if place[0] in ("input", "output")}
+    assert lines == {
+        ("input", 256 + 11 if mapping else DI[0] + 11),
+        ("output", DO[0] + 39),
+        ("input", 321),
+        ("output", 511),
+    }
+    assert found["output", DO[0] + 39].number == DO[0] + 39
+    assert found["output", 511].spans == [(begin + 1, own.lived_tk)]
+
+
+def test_no_more_words_are_compared_than_a_card_has() -> None:
+    small, large = (Logged.of(Controller(model)) for model in ("ACR9000", "ACR8020"))
+    assert (len(small.setpoints), len(large.setpoints)) == (8, 16)
+    assert len(small.words) == 8 + 16 + 8 + 8 + 2 + 8
+    assert len(large.words) == 16 + 16 + 8 + 16 + 2 + 8
+    nodes = Logged.of(running_nodes(node(1, digital_inputs=12, digital_outputs=40), 1))
+    assert len(nodes.words) == len(small.words) + 4 + 8  # in each of four places a word, and two
+
+
+LOGGED = Logged(2, [])
+
+
 def noted(values: list[tuple[int, int]], word: int = MOVED) -> Changes:
     ticks, states = np.array(values).T
     return Changes(ticks, np.full(len(ticks), word), states)
 
 
 def course(*values: tuple[int, int], end: int) -> Course:
-    own = Course(0, np.zeros(len(WORDS) + 1, np.int64))
+    own = Course(LOGGED, 0, np.zeros(len(LOGGED.words) + 1, np.int64))
     own.note(noted(list(values)), end)
     return own
 
@@ -804,6 +843,37 @@ def test_samples_differences_and_a_journal_come_over_http(quiet_panel: Served) -
             assert answer.json()["error"]["text"] == text
         kept = get("/journal", branch=1)
         assert kept.content.startswith(b"openacr journal 1\n")
+    futures.shutdown()
+
+
+def test_lanes_of_lines_have_the_alias_else_the_name_of_the_machine(quiet_panel: Served) -> None:
+    def change(station: Station) -> int:
+        history = station.times.history
+        store = station.installation.store
+        store.write_text(OFFSETS.output_name[36], "COOLANT")
+        store.write_text(OFFSETS.input_name[257], "DOOR")
+        history.card.send("SYS\rDIM DEF(10)\r#DEFINE lamp BIT37\r#DEFINE valve BIT 290\rPROG0\r")
+        for flag in (36, 37, 257, 258, 290):
+            history.card.bit[flag] = True
+        history.advance(10)
+        return history.lived_tk
+
+    tick = quiet_panel.call(change)
+    futures = ThreadPoolExecutor(1)
+    url = f"{quiet_panel.url}/api/timeline/lanes"
+    query = {"branch": 0, "first": 0, "last": tick}
+    asked = futures.submit(httpx.get, url, params=query, timeout=LIMIT_S)
+    while not wait((asked,), 0.005).done:
+        quiet_panel.step(0.002)
+    drawn = {each["flag"]: each for each in asked.result().json()["lanes"]}
+    found = {flag: (drawn[flag]["name"], drawn[flag]["card"]) for flag in (36, 37, 257, 258, 290)}
+    assert found == {
+        36: ("COOLANT", "OUT 36"),
+        37: ("lamp", "OUT 37"),
+        257: ("DOOR", "XIO 0 INP 01"),
+        258: ("XIO 0 INP 02", ""),
+        290: ("valve", "XIO 0 OUT 34"),
+    }
     futures.shutdown()
 
 

@@ -1,7 +1,7 @@
 """Resolve a parameter or flag given by number, by name, or by object and name."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import TypeAlias
 
@@ -9,6 +9,7 @@ from openacr.errors import MapError, UserError
 from openacr.map import Flag, Parameter, find_flag, find_parameter, flags, parameters
 
 What: TypeAlias = int | str
+_ITEM = re.compile(r"(BIT|P)\s*(\d+)", re.IGNORECASE)
 
 
 def parameter_number(what: What) -> int:
@@ -78,3 +79,12 @@ def _full_names(records: Iterable[Parameter] | Iterable[Flag]) -> dict[str, int]
         several |= {name} & found.keys()
         found[name] = record.number
     return {name: number for name, number in found.items() if name not in several}
+
+
+def item_names(targets: Mapping[str, str]) -> dict[str, str]:
+    """The aliases of flags and parameters by these: BIT36, P12290; `targets`: what each stands for.
+
+    Of several aliases the last one that was defined.
+    """
+    found = ((name, _ITEM.fullmatch(text)) for name, text in targets.items())
+    return {f"{each[1].upper()}{int(each[2])}": name for name, each in found if each}

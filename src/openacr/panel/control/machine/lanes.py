@@ -5,8 +5,8 @@ keeps them as arrays. What is on in a lane, and for how long, is computed from t
 never change: any thread may do it.
 """
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,75 +15,93 @@ from openacr.controller import Controller
 from openacr.controller.changes import MOVED, Changes, Integers
 from openacr.journal.entries import JournalEntry
 from openacr.map import numbers as at
-from openacr.map.rows import axes
-from openacr.map.words import af4, mf1, pf, plf
+from openacr.map.rows import axes, network_slaves
+from openacr.map.words import af4, candi, cando, mf1, pf, plf
 
 MOST_CHANGES = 200_000  # of one branch, 16 bytes each; of more, the oldest are forgotten
 TOGETHER, PART_CHANGES = 256, 10_000  # parts that are joined, and their changes
 NEAR = 1000  # part of what is shown in which two spans are one
 ALL = -1
-SETPOINTS = list(axes.psp_cnt)
-AXES = range(len(SETPOINTS))
+AXES = range(len(axes.psp_cnt))
 BITS = 32
+BOARDS = 4  # expansion boards, an input and an output word each
 
 
 class Kind(NamedTuple):
-    """Lanes of one kind: their words with the mask of what is on, or all flags of one word."""
+    """Lanes of one kind: their words with the mask of what is on, or all flags of the words."""
 
     name: str
     words: Sequence[int]
-    mask: int = ALL  # ALL: a lane for each flag of the one word
+    mask: int = ALL  # ALL: a lane for each flag
 
 
-KINDS = (
-    Kind("master", mf1.word, mf1.IN_MOTION),
-    Kind("hold", mf1.word, mf1.IN_FEEDHOLD),
-    Kind("program", pf.word, pf.PROGRAM_RUNNING),
-    Kind("pause", pf.word, pf.PAUSE_MODE),
-    Kind("plc", plf.word, plf.PLC_RUNNING),
-    Kind("drive", af4.word, af4.DRIVE_ENABLED),
-    Kind("kill", af4.word, af4.KILL_ALL_MOTION_REQUEST),
-    Kind("input", (at.W_INPUTS,)),
-    Kind("output", (at.W_OUTPUTS,)),
-)
-_MASKS: dict[int, int] = {}
-for _kind in KINDS:
-    for _word in _kind.words:
-        _MASKS[_word] = _MASKS.get(_word, 0) | _kind.mask
-WORDS = list(_MASKS.items())  # places with masks, as they are logged
-_INDEX = {word: index for index, word in enumerate(_MASKS)}
+def kinds(card: Controller) -> Iterator[Kind]:
+    """The kinds of lanes that a card can have, with the words that it has."""
+    model, world = card.model, card.world
+    masters, drives = mf1.word[: model.masters], af4.word[: model.axes]
+    programs = pf.word[: model.programs]
+    yield Kind("master", masters, mf1.IN_MOTION)
+    yield Kind("hold", masters, mf1.IN_FEEDHOLD)
+    yield Kind("program", programs, pf.PROGRAM_RUNNING)
+    yield Kind("pause", programs, pf.PAUSE_MODE)
+    yield Kind("plc", plf.word[: model.plcs], plf.PLC_RUNNING)
+    yield Kind("drive", drives, af4.DRIVE_ENABLED)
+    yield Kind("kill", drives, af4.KILL_ALL_MOTION_REQUEST)
+    boards = [at.XIOI_WORD + at.XIOI_WORD_STRIDE * board for board in range(BOARDS)]
+    nodes = () if world.canopen is None else world.canopen.node
+    node_inputs = _of_nodes(candi.word, max((node.digital_inputs for node in nodes), default=0))
+    node_outputs = _of_nodes(cando.word, max((node.digital_outputs for node in nodes), default=0))
+    yield Kind("input", (at.W_INPUTS, *boards, *node_inputs))
+    yield Kind("output", (at.W_OUTPUTS, *(word + 1 for word in boards), *node_outputs))
+
+
+def _of_nodes(words: Sequence[int], most: int) -> Iterator[int]:
+    """The words of the nodes of a network, in any place of which a node has `most` bits."""
+    for node in range(0, len(words), network_slaves.SENT_SIZE):
+        yield from words[node : node + -(-most // BITS)]
 
 
 class Place(NamedTuple):
-    """Where the state of a lane is: a logged word, or MOVED, and the bits that are on."""
+    """Where the state of a lane is: a logged word, or MOVED, and the bits that are on.
+
+    A lane of a flag has the number of the flag, one on the board that of its line.
+    """
 
     kind: str
     number: int
     word: int
     mask: int
-
-    @property
-    def flag(self) -> int | None:
-        """Its flag of the card; None where it is not one."""
-        if self.word == MOVED:
-            return None
-        bit = (self.mask & -self.mask).bit_length() - 1
-        return (WORDS[self.word][0] - at.FLAG_WORD_BASE) * BITS + bit
+    flag: int | None  # of the card; None where it is not one
 
 
-def _places() -> Iterable[Place]:
-    for number in AXES:
-        yield Place("axis", number, MOVED, 1 << number)
-    for kind in KINDS:
-        for number, word in enumerate(kind.words):
-            if kind.mask != ALL:
-                yield Place(kind.name, number, _INDEX[word], kind.mask)
-                continue
-            for bit in range(BITS):
-                yield Place(kind.name, bit, _INDEX[word], 1 << bit)
+class Logged:
+    """What of a card is logged: words with masks, and where the states of the lanes are."""
 
+    def __init__(self, axis_count: int, own: Iterable[Kind]) -> None:
+        chosen = list(own)
+        masks: dict[int, int] = {}
+        for kind in chosen:
+            for word in kind.words:
+                masks[word] = masks.get(word, 0) | kind.mask
+        self.words = list(masks.items())
+        self.setpoints = list(axes.psp_cnt[:axis_count])
+        index = {word: number for number, word in enumerate(masks)}
+        self.places = [Place("axis", n, MOVED, 1 << n, None) for n in range(axis_count)]
+        for kind in chosen:
+            for number, word in enumerate(kind.words):
+                first = (word - at.FLAG_WORD_BASE) * BITS
+                if kind.mask != ALL:
+                    flag = first + (kind.mask & -kind.mask).bit_length() - 1
+                    self.places.append(Place(kind.name, number, index[word], kind.mask, flag))
+                    continue
+                for bit in range(BITS):
+                    line = first + bit if number else bit
+                    self.places.append(Place(kind.name, line, index[word], 1 << bit, first + bit))
 
-PLACES = tuple(_places())
+    @classmethod
+    def of(cls, card: Controller) -> "Logged":
+        """That of a card."""
+        return cls(card.model.axes, kinds(card))
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +120,7 @@ class Lane:
 class Course:
     """The changes of one branch, and what was on before the first of them."""
 
+    logged: Logged
     first: int
     base: Integers  # values of the words, then of MOVED
     parts: list[Changes] = field(default_factory=list)
@@ -139,7 +158,7 @@ class Course:
         """What was known at a tick; the arrays are shared."""
         parts = [part.until(tick) for part in [*self.parts, *self.loose]]
         kept = [part for part in parts if len(part.ticks)]
-        return Course(self.first, self.base, kept, [], min(self.end, tick))
+        return Course(self.logged, self.first, self.base, kept, [], min(self.end, tick))
 
     @property
     def size_bytes(self) -> int:
@@ -148,7 +167,7 @@ class Course:
 
     def copied(self) -> "Course":
         """As it is now, for another thread."""
-        return Course(self.first, self.base, list(self.parts), list(self.loose), self.end)
+        return replace(self, parts=list(self.parts), loose=list(self.loose))
 
     def lanes(
         self, first: int, last: int, hidden: frozenset[int] = frozenset(), near: int | None = None
@@ -165,7 +184,7 @@ class Course:
         begin, end = max(first, self.first), min(last, self.end)
         found = []
         of_word: dict[int, tuple[Integers, Integers]] = {}
-        for place in PLACES:
+        for place in self.logged.places:
             if place.word not in of_word:
                 low, high = np.searchsorted(words, [place.word, place.word + 1])
                 chosen = order[low:high]
@@ -242,13 +261,14 @@ class Lanes:
     def __init__(self, card: Controller) -> None:
         self._card = card
         self._courses: dict[int, Course] = {}
-        card.log_changes(WORDS, SETPOINTS)
+        self._logged = Logged.of(card)
+        card.log_changes(self._logged.words, self._logged.setpoints)
         self._courses[0] = self._begun()
 
     def _begun(self) -> Course:
         tick = self._card.lived_tk
         base: Any = np.array([*self._card.logged(), 0], np.int64)
-        return Course(tick, base, end=tick)
+        return Course(self._logged, tick, base, end=tick)
 
     def look(self, branch: int) -> None:
         """Keep what was noted since the last look, if it is new."""

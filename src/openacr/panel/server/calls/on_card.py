@@ -14,6 +14,7 @@ from openacr.client.backup import surroundings
 from openacr.client.card_axes import attached
 from openacr.client.drives import BARS, said
 from openacr.client.effects import Op
+from openacr.client.names import item_names
 from openacr.client.program_states import PLCS, PROGRAMS
 from openacr.client.stored import ListedLine, Room, aliases, listing, rooms, version_of
 from openacr.client.talk import Talk
@@ -182,6 +183,12 @@ async def card_surroundings(call: Call) -> object:
 
 def _listed(lines: Sequence[ListedLine]) -> dict[str, object]:
     return {"lines": [to_builtins(line) for line in lines]}
+
+
+@endpoint("GET", "/card/aliases")
+async def card_aliases(call: Call) -> object:
+    """What #DEFINE calls flags and parameters: the alias of BIT36, P12290."""
+    return {"aliases": item_names(await talked(call.panel, aliases))}
 
 
 @endpoint("GET", "/card/ladder", query=OfPlc)

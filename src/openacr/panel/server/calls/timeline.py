@@ -1,7 +1,7 @@
 """The timeline: samples and differences of branches, by living through them in a process."""
 
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Annotated, NamedTuple
@@ -11,19 +11,21 @@ from starlette.background import BackgroundTask
 from starlette.concurrency import run_in_threadpool
 from starlette.responses import FileResponse
 
-from openacr.client.names import named
+from openacr.client.names import item_names, named
 from openacr.errors import UserError
 from openacr.journal.entries import Entered, JournalEntry
-from openacr.map import Flag, parameters
+from openacr.map import Flag, flags, parameters
 from openacr.map.memory import flag_place
 from openacr.panel.control.engineer.sampling import row_of, value_in
 from openacr.panel.control.engineer.scope import name_of
 from openacr.panel.control.machine.blocks import Block, part_lanes
-from openacr.panel.control.machine.lanes import AXES, NEAR, arrivals
+from openacr.panel.control.machine.lanes import AXES, NEAR, Lane, arrivals
 from openacr.panel.control.machine.lanes import Course as Happened
 from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Call, Query, endpoint
+from openacr.sysvar import Store
+from openacr.sysvar.tabs import OFFSETS
 from openacr.timeline import Course
 from openacr.timeline.details import change_of, details, line_of
 
@@ -40,9 +42,8 @@ NAMES = {
     "program": "PROG{}",
     "pause": "PROG{}",
     "plc": "PLC{}",
-    "input": "IN {}",
-    "output": "OUT {}",
 }
+LINES = {"input": OFFSETS.input_name, "output": OFFSETS.output_name}  # names of a machine
 Number = Annotated[int, Meta(ge=0, lt=1 << 31)]
 Tick = Annotated[int, Meta(ge=0, lt=1 << 62)]
 
@@ -140,7 +141,9 @@ async def lanes(call: Call) -> object:
         branch = history.timeline.branches.named(query.branch)
         came = branch.between(query.first, query.last)
         blocks = history.blocks.between(query.branch, query.first, query.last)
-        return history.lanes.of(query.branch), Seen(history.unmarked, came, blocks, names)
+        aliases = {n: at.text for n, at in history.card.system.aliases.nodes.written.items()}
+        seen = Seen(history.unmarked, came, blocks, names, aliases, station.installation.store)
+        return history.lanes.of(query.branch), seen
 
     return await run_in_threadpool(_lanes, query, *await call.panel.ask(look))
 
@@ -152,11 +155,32 @@ class Seen(NamedTuple):
     came: list[JournalEntry]
     blocks: list[Block]
     names: list[str]  # of axes
+    aliases: Mapping[str, str]  # with what they stand for
+    store: Store
+
+
+def _named(lane: Lane, seen: Seen, aliases: Mapping[str, str]) -> dict[str, str]:
+    """The name of a lane, and what the card calls it where that is another name.
+
+    An input or output has its alias, else the name that the machine gives it.
+    """
+    if lane.flag is None or lane.kind not in LINES:
+        axis = seen.names[lane.number % len(AXES)]
+        return {"name": NAMES.get(lane.kind, axis).format(lane.number), "card": ""}
+    flag = flags()[lane.flag]
+    board = f"XIO {flag.index} " if flag.object.startswith("XIO") else ""
+    own = LINES[lane.kind]
+    name = aliases.get(f"BIT{flag.number}") or (
+        seen.store.read_text(own[flag.number]) if flag.number < len(own) else ""
+    )
+    card = f"{board}{flag.name}"
+    return {"name": name or card, "card": card if name else ""}
 
 
 def _lanes(query: Interval, course: Happened, seen: Seen) -> dict[str, object]:
     """The lanes as they are sent."""
     near = (query.last - query.first) // NEAR
+    aliases = item_names(seen.aliases)
     found = course.lanes(query.first, query.last, seen.hidden)
     parts = part_lanes(seen.blocks, query.first, query.last, course.end, near)
     heard = arrivals(
@@ -172,9 +196,7 @@ def _lanes(query: Interval, course: Happened, seen: Seen) -> dict[str, object]:
                 {
                     "kind": each.kind,
                     "number": each.number,
-                    "name": NAMES.get(each.kind, seen.names[each.number % len(AXES)]).format(
-                        each.flag if each.kind == "output" else each.number
-                    ),
+                    **_named(each, seen, aliases),
                     "flag": each.flag,
                     "spans": each.spans,
                     "on": each.on_tk,

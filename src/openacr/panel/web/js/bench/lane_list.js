@@ -3,7 +3,7 @@
 
 /**
  * @typedef {[number, number]} Span first tick, and the one after the last
- * @typedef {{ id: string, kind: string, name: string, spans: Span[], on: number, changes: number, flag?: number | null,
+ * @typedef {{ id: string, kind: string, name: string, card?: string, spans: Span[], on: number, changes: number, flag?: number | null,
  *   packets?: number, lines?: number, slices?: [number, number][] }} Lane
  * @typedef {{ folded?: string[], pinned?: string[], order?: string[], filter?: string }} Arrangement
  * @typedef {{ group: string, count: number, isFolded: boolean }} Heading
@@ -55,7 +55,9 @@ export function lanesOf({ lanes, hosts }) {
  */
 export function arranged(lanes, { folded = [], pinned = [], order = [], filter = "" }, labelOf) {
   const words = filter.toLowerCase().split(/\s+/).filter(Boolean);
-  const chosen = lanes.filter((lane) => words.every((word) => labelOf(lane).toLowerCase().includes(word)));
+  const chosen = lanes.filter((lane) =>
+    words.every((word) => `${labelOf(lane)} ${lane.card ?? ""}`.toLowerCase().includes(word)),
+  );
   const place = (/** @type {Lane} */ lane) => (order.includes(lane.id) ? order.indexOf(lane.id) : order.length);
   return Object.keys(GROUPS).flatMap((group) => {
     const own =

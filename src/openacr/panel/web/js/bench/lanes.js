@@ -142,7 +142,7 @@ export function createLanes({ seek, zoom, pan, select, seconds, kept, keep }) {
         style: `height: ${height}px`,
         data: { lane: lane.id, name: lane.id, spans: String(lane.spans.length) },
         ariaPressed: String(isPinned),
-        title: t(TEXTS.pin, { name: label }),
+        title: t(TEXTS.pin, { name: lane.card ? `${label} (${lane.card})` : label }),
         onclick: () => arrange({ pinned: toggled(kept.pinned ?? [], lane.id) }),
         onkeydown: (/** @type {KeyboardEvent} */ event) => {
           if (!event.altKey || !event.key.startsWith("Arrow")) return;
