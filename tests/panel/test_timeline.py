@@ -36,8 +36,8 @@ from openacr.panel.control.machine.lanes import (
     PART_CHANGES,
     Course,
     Logged,
-    arrivals,
 )
+from openacr.panel.control.machine.traffic import MOST, Sent, arrived, traffic
 from openacr.panel.control.station import Station
 from openacr.panel.control.times import Times, step_move
 from openacr.protocol.events import ControlKey
@@ -592,16 +592,77 @@ def test_of_too_many_changes_the_oldest_are_forgotten_and_what_was_on_then_is_kn
     assert own.size_bytes < 24 * kept + 24
 
 
-def test_arrivals_are_packets_and_lines_of_each_stream() -> None:
+def test_traffic_is_packets_and_lines_of_each_stream() -> None:
     came = [
         JournalEntry(10, Entered.BYTES, 2, "X1\rY2\r"),
         JournalEntry(12, Entered.BYTES, 2, "\0\x02\r\r"),
         JournalEntry(11, Entered.BYTES, 5, "V"),
         JournalEntry(40, Entered.BYTES, 2, "Z\r"),
     ]
-    first, second = arrivals(came, 2)
+    first, second = traffic(arrived(came), 2)
     assert first == (2, [(10, 13), (40, 41)], 1, 3, 12)
     assert second == (5, [(11, 12)], 0, 0, 1)
+
+
+def sums(own: History, branch: int, first: int = 0) -> list[tuple[int, ...]]:
+    """Stream, packets, lines and bytes of what the card has sent on a branch."""
+    found = traffic(own.sent.between(branch, first, 1 << 40), 0)
+    return [(each.stream, each.packets, each.lines, each.size_bytes) for each in found]
+
+
+def test_what_the_card_sends_is_known_to_the_tick_and_once_however_often_it_is_lived_through() -> (
+    None
+):
+    host = connected(*X_AND_Y)
+    own = History(host.card)
+    stream = host.stream
+    host.type("PROG1", "10 DWL 0.1", '20 PRINT "five"', "PROG0")
+    begin = own.lived_tk
+    before = sums(own, 0)
+    own.receive(stream, b"PROG1\rLRUN\r")
+    own.advance(3000)
+    host.heard()
+    own.receive(stream, bytes.fromhex("00 88 01 10"))
+    ((_stream, _packets, lines, size),) = before or [(stream, 0, 0, 0)]
+    known = sums(own, 0)
+    ((at, packets, more, longer),) = known
+    assert (at, packets) == (stream, 1)
+    assert more - lines >= 3  # echoes of two lines, what PRINT says
+    assert longer > size
+    (first, *_rest, last) = own.sent.between(0, begin, own.lived_tk).ticks.tolist()
+    assert (first, last) == (begin, begin + 3000)
+    printed = own.sent.between(0, begin + 1, begin + 2999)
+    program = own.lanes.of(0).lanes(begin, own.lived_tk)[0]
+    assert (program.kind, program.spans) == ("program", [(begin + 1, printed.ticks[0])])
+    assert printed.sizes.tolist() == [len("five\r\n"), len("P01>")]
+    end = own.lived_tk
+    own.timeline.seek(begin + 10)
+    own.advance(end - own.lived_tk)
+    own.advance(0)
+    assert sums(own, 0) == known
+    own.timeline.seek(begin + 10)
+    own.receive(stream, b"VER\r")  # begins a branch, without what followed
+    assert own.timeline.branch.number == 1
+    ((_at, packets, lines, _size),) = sums(own, 1, begin + 10)
+    assert (packets, lines) == (0, 1)  # its echo: the stream follows the program
+    kept = own.sent.between(1, begin, begin + 9).sizes.tolist()
+    assert kept == own.sent.between(0, begin, begin + 9).sizes.tolist() != []
+    assert sums(own, 0) == known
+    own.timeline.switch(0)
+    own.forget(1)
+    assert (sums(own, 1), sums(own, 0)) == ([], known)
+
+
+def test_of_too_much_that_was_sent_the_older_half_is_forgotten() -> None:
+    sent = Sent()
+    for tick in range(MOST + 1):
+        sent.note(0, tick, 1, b"a", False)
+    ticks = sent.between(0, 0, MOST).ticks
+    assert (len(ticks), ticks[0], ticks[-1]) == (MOST // 2 + 1, MOST // 2, MOST)
+    assert sent.size_bytes == 20 * len(ticks)
+    assert len(sent.between(0, MOST - 3, MOST - 1).ticks) == 3
+    sent.fork(0, 1, MOST - 1)
+    assert sent.between(1, 0, MOST).ticks.tolist() == ticks[:-1].tolist()
 
 
 def test_a_branch_is_saved_as_a_journal_that_replays_to_equal_digests(
@@ -821,9 +882,10 @@ def test_samples_differences_and_a_journal_come_over_http(quiet_panel: Served) -
             assert (several["names"], len(several["channels"])) == (["P1", "BIT81"], 2)
         drawn = get("/lanes", branch=0, first=0, last=tick).json()
         assert {each["kind"] for each in drawn["lanes"]} <= {"drive"}
-        assert [sorted(each) for each in drawn["hosts"][:1]] == [
-            ["lines", "packets", "size_bytes", "spans", "stream"]
-        ]
+        for direction in ("hosts", "sent"):
+            assert [sorted(each) for each in drawn[direction][:1]] == [
+                ["lines", "packets", "size_bytes", "spans", "stream"]
+            ]
         found = get("/differences", branch=0, other=1, tick=tick).json()
         assert found == {
             "count": 1,

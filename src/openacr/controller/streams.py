@@ -88,6 +88,8 @@ class Streams:
         self._press = press
         self._open: dict[int, Stream] = {}
         self._next = 1
+        # Output that a stream has got: its number, the bytes, whether they are a packet.
+        self.on_put: Callable[[int, bytes, bool], None] = lambda _number, _data, _is_packet: None
 
     def __contains__(self, number: int) -> bool:
         """Whether a connection is open."""
@@ -102,10 +104,14 @@ class Streams:
         """Open a stream for a new connection; NoFreeStreamError if all are in use."""
         session = None if kind is StreamKind.PACKETS else self._taken(kind, name)
         number, self._next = self._next, self._next + 1
-        terminal = Terminal(kind, timeout_tk=1, short_overrides=self._host.short_overrides)
-        self._open[number] = Stream(terminal, session)
+        self._open[number] = Stream(self._terminal(number, kind), session)
         self._settle(self._open[number])
         return number
+
+    def _terminal(self, number: int, kind: StreamKind) -> Terminal:
+        terminal = Terminal(kind, timeout_tk=1, short_overrides=self._host.short_overrides)
+        terminal.output.on_put = lambda data, is_packet: self.on_put(number, data, is_packet)
+        return terminal
 
     def _taken(self, kind: StreamKind, name: str | None = None) -> Session:
         """A free channel, connected."""
@@ -252,8 +258,7 @@ class Streams:
         for each in self._sessions.values():
             each.is_connected = False
         for number, kept in state.open.items():
-            kind = kept.terminal.kind
-            terminal = Terminal(kind, timeout_tk=1, short_overrides=self._host.short_overrides)
+            terminal = self._terminal(number, kept.terminal.kind)
             terminal.restore(kept.terminal)
             session = None if kept.channel is None else self._restored(kept.channel)
             terminal.takes_text = session is not None

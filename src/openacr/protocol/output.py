@@ -6,6 +6,7 @@ that XOFF and a slow line hold back the rest of it.
 """
 
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from msgspec import Struct
@@ -31,6 +32,7 @@ class Output:
 
     stopped: bool = False  # XOFF received
     dropped_bytes: int = 0
+    on_put: Callable[[bytes, bool], None] = lambda _data, _is_packet: None  # accepted output
     _writes: deque[tuple[bytearray, bool]] = field(default_factory=deque)
     _size: int = 0
 
@@ -38,6 +40,7 @@ class Output:
         """Append to the text of the next write."""
         if not self._fits(data):
             return
+        self.on_put(data, False)
         if self._writes and not self._writes[-1][1]:
             self._writes[-1][0].extend(data)
         else:
@@ -46,6 +49,7 @@ class Output:
     def packet(self, data: bytes) -> None:
         """Append a packet, which is sent in a write of its own."""
         if self._fits(data):
+            self.on_put(data, True)
             self._writes.append((bytearray(data), True))
 
     def _fits(self, data: bytes) -> bool:

@@ -93,6 +93,7 @@ const LANES = lanesOf({
     { kind: "pause", number: 5, name: "PROG5", spans: [], on: 0, changes: 0 },
   ],
   hosts: [{ stream: 2, spans: [[1, 2]], packets: 3, lines: 4, size_bytes: 9 }],
+  sent: [{ stream: 2, spans: [[2, 3]], packets: 1, lines: 0, size_bytes: 5 }],
 });
 
 /** @param {any} arrangement */
@@ -111,12 +112,15 @@ test("lanes are in groups that fold, pinned ones first, in their own order, filt
     "pause 5",
     "-hosts 1",
     "host 2",
+    "-sent 1",
+    "sent 2",
   ]);
-  assert.deepEqual(rowsOf({ folded: ["programs", "hosts"], pinned: ["host 2", "axis 0", "axis 7"] }), [
+  assert.deepEqual(rowsOf({ folded: ["programs", "hosts", "sent"], pinned: ["host 2", "axis 0", "axis 7"] }), [
     "-pinned 2",
     "host 2",
     "axis 0",
     "+programs 3",
+    "+sent 1",
   ]);
   assert.deepEqual(rowsOf({ order: ["pause 5", "program 6"], filter: " PROGRAM prog " }), [
     "-programs 2",

@@ -16,6 +16,7 @@ from openacr.errors import UserError
 from openacr.panel.control.machine.blocks import Block, Blocks
 from openacr.panel.control.machine.breakpoints import Breakpoints
 from openacr.panel.control.machine.lanes import Lanes
+from openacr.panel.control.machine.traffic import Sent
 from openacr.timeline import Bookmark, Bookmarks, Branch, Course, Kind, Timeline
 
 MOST_BYTES = 1 << 27  # of memory, for an hour of a machine that is used and some branches
@@ -36,6 +37,9 @@ class History:
         self.most_bytes = most_bytes
         self.bookmarks = Bookmarks()
         self.lanes = Lanes(card)
+        self.sent = Sent()
+        card.streams.on_put = self._note_sent
+        self._is_given_input = False
         self.blocks = Blocks()
         self.names = {0: "first"}
         self.is_still = False
@@ -67,7 +71,10 @@ class History:
     def size_bytes(self, tick: int) -> int:
         """What the history takes in memory, counted again when this tick is another one."""
         if self._size[0] != tick:
-            self._size = tick, self.timeline.size_bytes + self.lanes.size_bytes
+            self._size = (
+                tick,
+                sum(each.size_bytes for each in (self.timeline, self.lanes, self.sent)),
+            )
         return self._size[1]
 
     def open_stream(self, kind: StreamKind) -> int:
@@ -82,7 +89,17 @@ class History:
 
     def receive(self, stream: int, data: bytes) -> None:
         """Process bytes that arrived together."""
-        self.card.receive(stream, data)
+        self._is_given_input = True
+        try:
+            self.card.receive(stream, data)
+        finally:
+            self._is_given_input = False
+
+    def _note_sent(self, stream: int, data: bytes, is_packet: bool) -> None:
+        """The card has written to a host: kept, unless it is of time that is known already."""
+        timeline = self.timeline
+        if self._is_given_input or timeline.now.order > timeline.branch.last.order:
+            self.sent.note(timeline.branch.number, self.lived_tk, stream, data, is_packet)
 
     def accepts_input(self, stream: int) -> bool:
         """False while the sender should be held back."""
@@ -172,6 +189,7 @@ class History:
         ended_tk = self.lived_tk - bool(self.card.within)  # what a tick has begun may be another
         self.lanes.fork(parent.number, branch.number, ended_tk)
         self.blocks.fork(parent.number, branch.number, ended_tk)
+        self.sent.fork(parent.number, branch.number, ended_tk)
         self.names[branch.number] = f"branch {branch.number}"
         if self.is_away:
             at_s = self.timeline.now.tick * self.period_s
@@ -187,6 +205,7 @@ class History:
         self.bookmarks.forget(number)
         self.lanes.forget(number)
         self.blocks.forget(number)
+        self.sent.forget(number)
         self.names.pop(number, None)
 
 

@@ -1,4 +1,4 @@
-"""What a picture of the history shows: what moved, ran, was on or arrived, to the tick.
+"""What a picture of the history shows: what moved, ran or was on, to the tick.
 
 The engine notes changes of flags and which setpoints moved (`Controller.log_changes`); a branch
 keeps them as arrays. What is on in a lane, and for how long, is computed from these arrays, which
@@ -13,7 +13,6 @@ import numpy as np
 
 from openacr.controller import Controller
 from openacr.controller.changes import MOVED, Changes, Integers
-from openacr.journal.entries import JournalEntry
 from openacr.map import numbers as at
 from openacr.map.rows import axes, network_slaves
 from openacr.map.words import af4, candi, cando, mf1, pf, plf
@@ -221,38 +220,6 @@ def _lane(place: Place, edges: Integers, was_on: bool, first: int, last: int, ne
         ends = ends[np.concatenate((apart, [True]))]
     spans = [(a, b) for a, b in zip(starts.tolist(), ends.tolist(), strict=True) if b > a]
     return Lane(place.kind, place.number, place.flag, spans, on_tk, changes)
-
-
-class Arrivals(NamedTuple):
-    """What arrived from a host on a stream in a part of the history."""
-
-    stream: int
-    spans: list[tuple[int, int]]
-    packets: int
-    lines: int
-    size_bytes: int
-
-
-PACKET = "\0"  # the first byte of a binary packet
-
-
-def arrivals(entries: Sequence[JournalEntry], near: int) -> list[Arrivals]:
-    """The bytes that arrived, for each stream: when, packets and lines."""
-    of_stream: dict[int, list[JournalEntry]] = {}
-    for entry in entries:
-        of_stream.setdefault(entry.number, []).append(entry)
-    found = []
-    for stream, own in sorted(of_stream.items()):
-        ticks = np.array([entry.tick for entry in own], np.int64)
-        apart = np.diff(ticks) > near
-        starts = ticks[np.concatenate(([True], apart))]
-        ends = ticks[np.concatenate((apart, [True]))] + 1
-        packets = [entry for entry in own if entry.text.startswith(PACKET)]
-        size = sum(len(entry.text) for entry in own)
-        lines = sum(e.text.count("\r") for e in own) - sum(e.text.count("\r") for e in packets)
-        spans = list(zip(starts.tolist(), ends.tolist(), strict=True))
-        found.append(Arrivals(stream, spans, len(packets), lines, size))
-    return found
 
 
 class Lanes:

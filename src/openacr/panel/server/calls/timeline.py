@@ -19,8 +19,9 @@ from openacr.map.memory import flag_place
 from openacr.panel.control.engineer.sampling import row_of, value_in
 from openacr.panel.control.engineer.scope import name_of
 from openacr.panel.control.machine.blocks import Block, part_lanes
-from openacr.panel.control.machine.lanes import AXES, NEAR, Lane, arrivals
+from openacr.panel.control.machine.lanes import AXES, NEAR, Lane
 from openacr.panel.control.machine.lanes import Course as Happened
+from openacr.panel.control.machine.traffic import Writes, arrived, traffic
 from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Call, Query, endpoint
@@ -129,7 +130,7 @@ async def samples(call: Call) -> object:
 
 @endpoint("GET", "/timeline/lanes", query=Interval)
 async def lanes(call: Call) -> object:
-    """What moved, ran, was on or arrived in a part of a branch: spans in ticks, exact to the tick.
+    """What moved, ran, was on, arrived or was sent in a part of a branch: spans, to the tick.
 
     With each lane how long it was on in all (ticks), and how often it changed.
     """
@@ -142,7 +143,9 @@ async def lanes(call: Call) -> object:
         came = branch.between(query.first, query.last)
         blocks = history.blocks.between(query.branch, query.first, query.last)
         aliases = {n: at.text for n, at in history.card.system.aliases.nodes.written.items()}
-        seen = Seen(history.unmarked, came, blocks, names, aliases, station.installation.store)
+        sent = history.sent.between(query.branch, query.first, query.last)
+        store = station.installation.store
+        seen = Seen(history.unmarked, came, sent, blocks, names, aliases, store)
         return history.lanes.of(query.branch), seen
 
     return await run_in_threadpool(_lanes, query, *await call.panel.ask(look))
@@ -153,6 +156,7 @@ class Seen(NamedTuple):
 
     hidden: frozenset[int]
     came: list[JournalEntry]
+    sent: Writes
     blocks: list[Block]
     names: list[str]  # of axes
     aliases: Mapping[str, str]  # with what they stand for
@@ -183,10 +187,7 @@ def _lanes(query: Interval, course: Happened, seen: Seen) -> dict[str, object]:
     aliases = item_names(seen.aliases)
     found = course.lanes(query.first, query.last, seen.hidden)
     parts = part_lanes(seen.blocks, query.first, query.last, course.end, near)
-    heard = arrivals(
-        [entry for entry in seen.came if entry.what is Entered.BYTES],
-        near,
-    )
+    came = arrived([entry for entry in seen.came if entry.what is Entered.BYTES])
     return {
         "first": query.first,
         "last": query.last,
@@ -205,7 +206,8 @@ def _lanes(query: Interval, course: Happened, seen: Seen) -> dict[str, object]:
                 for each in found
             ),
         ],
-        "hosts": [each._asdict() for each in heard],
+        "hosts": [each._asdict() for each in traffic(came, near)],
+        "sent": [each._asdict() for each in traffic(seen.sent, near)],
     }
 
 

@@ -22,27 +22,33 @@ export const GROUPS = {
   alarms: ["kill"],
   io: ["input", "output"],
   hosts: ["host"],
+  sent: ["sent"],
 };
+
+/** Whether a lane is bytes on a stream, not a state. @param {Lane} lane */
+export const isTraffic = ({ kind }) => kind === "host" || kind === "sent";
 
 /** @param {string} kind */
 export const groupOf = (kind) => Object.keys(GROUPS).find((group) => GROUPS[group].includes(kind)) ?? "hosts";
 
 /**
- * The lanes of an answer of the server, those of hosts included.
+ * The lanes of an answer of the server, those of hosts included, in both directions.
  * @param {any} answer
  * @returns {Lane[]}
  */
-export function lanesOf({ lanes, hosts }) {
+export function lanesOf({ lanes, hosts, sent }) {
+  const traffic = (/** @type {string} */ kind, /** @type {any} */ each) => ({
+    ...each,
+    id: `${kind} ${each.stream}`,
+    kind,
+    name: `STREAM${each.stream}`,
+    on: 0,
+    changes: each.packets + each.lines,
+  });
   return [
     ...lanes.map((/** @type {any} */ each) => ({ ...each, id: `${each.kind} ${each.number}` })),
-    ...hosts.map((/** @type {any} */ each) => ({
-      ...each,
-      id: `host ${each.stream}`,
-      kind: "host",
-      name: `STREAM${each.stream}`,
-      on: 0,
-      changes: each.packets + each.lines,
-    })),
+    ...hosts.map((/** @type {any} */ each) => traffic("host", each)),
+    ...sent.map((/** @type {any} */ each) => traffic("sent", each)),
   ];
 }
 

@@ -3,7 +3,7 @@ import { differences } from "./lane_list.js";
 
 const GAP = 3; // pixels above and below a span
 const WIDE = 26; // pixels that a slice has at least for its text
-const COLORS = { axis: "--accent", kill: "--bad", hold: "--warn", pause: "--warn", host: "--quiet" };
+const COLORS = { axis: "--accent", kill: "--bad", hold: "--warn", pause: "--warn", host: "--quiet", sent: "--quiet" };
 
 /**
  * @typedef {import("./lane_list.js").Lane} Lane

@@ -27,6 +27,7 @@ const TEXTS = {
   alarms: { en: "Motion killed", de: "Bewegung abgebrochen" },
   io: { en: "Inputs and outputs", de: "Ein- und Ausg\u00e4nge" },
   hosts: { en: "From hosts", de: "Von Hosts" },
+  sent: { en: "To hosts", de: "An Hosts" },
   hold: { en: "{name} held", de: "{name} angehalten" },
   pause: { en: "{name} paused", de: "{name} in Pause" },
   span: { en: "{name}: {seconds} s from {from} s on", de: "{name}: {seconds} s ab {from} s" },

@@ -5,7 +5,7 @@ import { plain } from "../core/format.js";
 import { keyOf } from "../core/keys.js";
 import { t } from "../core/texts.js";
 import { labelOf } from "./lanes.js";
-import { lanesOf } from "./lane_list.js";
+import { isTraffic, lanesOf } from "./lane_list.js";
 
 const TEXTS = {
   length: {
@@ -22,6 +22,8 @@ const TEXTS = {
   more: { en: "in it", de: "darin" },
   distance: { en: "{distance} units of distance", de: "{distance} Einheiten Weg" },
   lines: { en: "{lines} {lines|line|lines}", de: "{lines} {lines|Zeile|Zeilen}" },
+  from: { en: "from {name}", de: "von {name}" },
+  sent: { en: "to {name}", de: "an {name}" },
   host: {
     en: "{packets} {packets|packet|packets}, {lines} {lines|line|lines}",
     de: "{packets} {packets|Paket|Pakete}, {lines} {lines|Zeile|Zeilen}",
@@ -85,10 +87,14 @@ export function createSelection({ seconds, period, branch, most, zoom, curves, c
         h(
           "tr",
           { data: { sum: lane.id } },
-          h("td", {}, labelOf(lane)),
-          h("td.number", {}, lane.kind === "host" ? "" : seconds(lane.on)),
-          h("td.number", {}, lane.kind === "host" ? "" : plain((100 * lane.on) / (last - first), 1)),
-          h("td.number", {}, lane.kind === "host" ? "" : String(lane.changes)),
+          h(
+            "td",
+            {},
+            isTraffic(lane) ? t(lane.kind === "host" ? TEXTS.from : TEXTS.sent, { name: lane.name }) : labelOf(lane),
+          ),
+          h("td.number", {}, isTraffic(lane) ? "" : seconds(lane.on)),
+          h("td.number", {}, isTraffic(lane) ? "" : plain((100 * lane.on) / (last - first), 1)),
+          h("td.number", {}, isTraffic(lane) ? "" : String(lane.changes)),
           h("td", {}, inIt(lane, details)),
         ),
       ),
@@ -101,7 +107,7 @@ export function createSelection({ seconds, period, branch, most, zoom, curves, c
     const number = Number(lane.id.split(" ")[1]);
     const of = (/** @type {string} */ group) =>
       details?.[group].find((/** @type {any} */ each) => each.number === number);
-    if (lane.kind === "host") return t(TEXTS.host, { packets: String(lane.packets), lines: String(lane.lines) });
+    if (isTraffic(lane)) return t(TEXTS.host, { packets: String(lane.packets), lines: String(lane.lines) });
     if (lane.kind === "axis" && of("axes")) return t(TEXTS.distance, { distance: plain(of("axes").distance, 4) });
     if (lane.kind === "program" && of("programs")) return t(TEXTS.lines, { lines: String(of("programs").lines) });
     return "";
