@@ -22,6 +22,7 @@ from openacr.mill.plan.moves.move_law import put_machine
 from openacr.mill.plan.moves.planning import MODES, PASSES, CornerRules, put
 
 if TYPE_CHECKING:
+    from openacr.cnc.canonical.batches import Origin
     from openacr.mill.config.settings import Settings
     from openacr.mill.plan.moves.encoding import Job, Motion
     from openacr.views import F64
@@ -64,6 +65,9 @@ class Forecast(Timing):
         self._desk = desk
         self._files: list[str] = []
         self._known: dict[c.Pace, F64] = {}
+        self._origins: tuple[Origin, ...] = ()  # those of the last moves, and their paces
+        self._paces: tuple[c.Pace, ...] = ()
+        self._paced = doubles(0)
         self._dwell_s = 0.0
         self._J, self._X = integers(core.J_FLAGS + MOST_ROWS), doubles(core.X_SIZE)
         self._Q, self._B = doubles(core.QUEUE * row.Q_SIZE), doubles(core.QUEUE)
@@ -112,22 +116,29 @@ class Forecast(Timing):
 
     def _many(self, moves: c.Moves) -> None:
         """Plan moves; those that are flagged are shown to the desk."""
-        J, count = self._J, len(moves)
-        for k, origin in enumerate(moves.origins):
-            J[core.J_FILES + k] = self._file(origin.file)
+        J, X, count = self._J, self._X, len(moves)
+        self._take_common(moves)
         J[row.J_UNHOMED] = self._desk.unhomed if self._desk else 0
-        paces = doubles(len(moves.paces) * core.PACE)
-        for k, pace in enumerate(moves.paces):
-            paces[k * core.PACE : (k + 1) * core.PACE] = self._known.get(pace) or self._pace(pace)
-        X = self._X
         X[row.X_BEGIN_U : row.X_BEGIN_U + row.AXES] = array("d", self._position)
         J[core.J_ROWS] = count
-        flagged = _moves(J, X, self._Q, self._B, moves.rows, moves.ends, moves.arcs, paces)
+        flagged = _moves(J, X, self._Q, self._B, moves.rows, moves.ends, moves.arcs, self._paced)
         if self._desk is not None:
             for k in J[core.J_FLAGS : core.J_FLAGS + flagged]:
                 begin = moves.end_of(k - 1) if k else self._position
                 self._desk.read(self._encoder.job(moves.entry(k), begin))
         self._position = moves.end_of(count - 1)
+
+    def _take_common(self, moves: c.Moves) -> None:
+        """The texts and paces of moves; those of lines that were executed together are the same."""
+        if moves.origins is not self._origins:
+            self._origins = moves.origins
+            for k, origin in enumerate(moves.origins):
+                self._J[core.J_FILES + k] = self._file(origin.file)
+        if moves.paces is not self._paces:
+            self._paces, size = moves.paces, core.PACE
+            self._paced = doubles(len(moves.paces) * size)
+            for k, pace in enumerate(moves.paces):
+                self._paced[k * size : (k + 1) * size] = self._known.get(pace) or self._pace(pace)
 
     def _pace(self, pace: c.Pace) -> F64:
         """The row of a pace, remembered while there is room: most programs have few."""

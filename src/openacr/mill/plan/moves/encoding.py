@@ -76,6 +76,8 @@ class Encoder:
         self._scale = [0.0] * 8
         for axis in settings.axes:
             self._scale[axis.index] = axis.pulses_per_unit
+        # Whether the card can run the arcs of every plane.
+        self.runs_arcs = all(map(self._runs, Plane))
         self._is_dry = is_dry
         self._rounds = rounds and settings.speeds.jerk_ups3 <= 0.0
         self._plans = can_plan(settings)
@@ -255,11 +257,6 @@ class Encoder:
         return None
 
     # --- forms the card supports ---------------------------------------------------------
-
-    @property
-    def runs_arcs(self) -> bool:
-        """Whether the card can run the arcs of every plane: X Y Z have equal pulses per unit."""
-        return all(map(self._runs, Plane))
 
     def _runs(self, plane: Plane) -> bool:
         """Whether the card can run arcs: X Y Z with equal pulses per unit in the plane."""
