@@ -12,7 +12,7 @@ from tests.cnc.programs import Run, made, unrolled
 from tests.cnc.test_fuzz import ACROMILL, OTHER, mutated
 from tests.search import search
 
-from openacr.cnc.canonical import Arc, Coolant, Line, Moves, Plane, Rapid, Source
+from openacr.cnc.canonical import Arc, Coolant, Line, Moves, Output, Plane, Rapid, Source
 from openacr.cnc.codes.fast import Sets
 from openacr.cnc.codes.table import DIALECTS
 from openacr.cnc.interpreter.by_line import fast_plans, lines_cy, scanning
@@ -22,11 +22,16 @@ from openacr.cnc.reading.findings import BlockError
 from openacr.cnc.rows import modes
 from openacr.cnc.rows.moves import ARC, LINE, RAPID, ROW
 from openacr.cnc.rows.runs import MOST_IDLE
+from openacr.cnc.state.cells import FIXTURES, LENGTH_WEARS, LENGTHS, RADII
 from openacr.cnc.state.modal import Modal
 from openacr.compiled import is_compiled
 
 MOST = 4000
-CELLS = {910: 0.125, 921: -3.0, 922: 0.7, 1001: 0.1, 2001: 1.0, 250_112: 3.0, 400_010: 3.0}
+CELLS = {
+    910: 0.125, 921: -3.0, 922: 0.7, 930: 0.3, 938: 30.0, 940: -1.7, 1001: 0.1, 2001: 1.0,
+    250_112: 3.0, 400_010: 3.0,
+    LENGTHS + 1: 0.6, LENGTHS + 2: -1.1, LENGTH_WEARS + 2: 0.01, RADII + 1: 0.2, FIXTURES + 10: 0.9,
+}  # fmt: skip
 PLAIN = """\
 G0 X1 Y2 Z3
 G1 X1.25 Y-2.5 F100
@@ -96,6 +101,21 @@ M6
 G54
 G54 X1
 G55
+G56
+G53
+H1
+H2 X1
+H999
+D1 X2
+D.5
+G43
+G43 H1
+G43 H2 G0 Z1
+G43 H1 G55 X.5
+G43 H#9
+G49
+G49 G54 Z0
+G59 M8 X1
 G92 X1
 G2 X1
 G2 X9 Y9 I.1 J.1
@@ -114,8 +134,14 @@ P200=1
 /X3
 """.splitlines()
 OWN = {
-    "acromill": ["G200 F0", "G200 F1", "G200 F2", "G62", "G63", "G70", "G71", "G9 X1", "M12"],
-    "rs274ngc": ["G90.1", "G91.1", "G94", "G97", "G80", "G93 G1 X1 F2", "G94 F60", "G64 P.01"],
+    "acromill": [
+        *("G200 F0", "G200 F1", "G200 F2", "G62", "G63", "G70", "G71", "G9 X1", "M12", "M25 X1"),
+        *("G44", "G44 H2 X1", "G101", "G101 X2", "G100", "G59.2"),
+    ],
+    "rs274ngc": [
+        *("G90.1", "G91.1", "G94", "G97", "G80", "G93 G1 X1 F2", "G94 F60", "G64 P.01", "G59.3"),
+        *("M62 P1", "M65 P1 X2", "M62 P99", "M61 Q2", "M51 P1", "G43.1 Z.5", "G43.2 H1"),
+    ],
 }
 
 
@@ -222,6 +248,33 @@ def test_lines_arcs_rapids_and_modal_codes_are_one_batch() -> None:
     assert moves.source == first.source
 
 
+def test_offsets_are_switched_between_the_moves_of_one_batch() -> None:
+    text = "F60 X1\nG55 Y1\nD1\nG43 H1 Z1\nG54\nG49 Z1\nG53 X7\nM2"
+    cells = {921: -3.0, LENGTHS + 1: 0.5}
+    run = made(text, cells, dialect="acromill", options=Options(has_batches=True)).interpreter
+    (moves,) = (entry for entry in run.entries() if isinstance(entry, Moves))
+    ends = [moves.end_of(k) for k in range(len(moves))]
+    assert [end[:3] for end in ends] == [
+        *((1.0, 0.0, 0.0), (1.0, -2.0, 0.0), (1.0, -2.0, 1.5), (1.0, -2.0, 1.0), (7.0, -2.0, 1.0)),
+    ]
+
+
+@pytest.mark.parametrize("text", ["G56 X1 Y0", "G43 X1", "G43 H999 X1", "G55 Z1"])
+def test_a_block_whose_offset_is_not_a_mere_shift_does_what_it_does_by_itself(text: str) -> None:
+    for before in ("", "G99 G81 Z-1 R1\n"):
+        require_same(f"F60 X1\nT2 M6\n{before}{text}\nX2 Y2\nG54\nX3\nM2", "rs274ngc")
+
+
+def test_outputs_stand_in_their_places_between_the_moves() -> None:
+    found = require_same("F60 X1\nM62 P3\nX2\nM65 P4 X3\nM2", "rs274ngc").entries
+    shown = [
+        (entry.number, entry.is_on) if isinstance(entry, Output) else entry.end[0] - 0.125
+        for entry in found
+        if isinstance(entry, Output | Line)
+    ]
+    assert shown == [1.0, (35, True), 2.0, (36, False), 3.0]
+
+
 def test_a_wrong_arc_ends_the_batch_before_it() -> None:
     run = made("F60\nX1\nX2\nG3 X9 Y9 I.1 J.1\nX3", dialect="rs274ngc",
                options=Options(has_batches=True)).interpreter  # fmt: skip
@@ -242,7 +295,9 @@ def test_feeds_of_one_batch_are_its_paces() -> None:
 
 def test_units_and_path_modes_have_batches_of_their_own() -> None:
     found = batch("F60 X1\nX2\nG21 X25.4\nX50.8\nG20\nX3\nG61\nX4\nM2")
-    assert [len(moves) for moves in found] == [2, 1, 1, 1, 1]
+    assert [len(moves) for moves in found] == [2, 2, 1, 1]
+    (same,) = batch("F60 X1\nG20 G64\nX2\nM2", "acromill")
+    assert len(same) == 2
 
 
 @pytest.mark.soak  # what a check does at the same line is proved by tests/verify in every run

@@ -26,13 +26,18 @@ class Does(Enum):
     SHOWS = auto()
     TURNS = auto()  # the same for the spindle: a cycle after it is left, it knows how that turned
     RESTS = auto()  # an entry that waits: what follows is no longer idle
+    # The handler changes offsets and what the core does not know of the modal state, hands out
+    # nothing, and does the same when it is called twice: it is called before its block is executed,
+    # unless a cycle or compensation is on, or a word is missing that it takes.
+    SHIFTS = auto()
 
 
 class Sets(Struct, frozen=True):
     """A field of the modal state gets a value, without `value` the number of the code.
 
-    With `is_alone` the moves before and after differ in more than their ends. With `is_barred` no
-    cycle is active and no compensation is on. `compensation` is not changed: it has that value.
+    With `is_alone` the moves before and after a change differ in more than their ends. With
+    `is_barred` no cycle is active and no compensation is on. `compensation` is not changed: it has
+    that value.
     """
 
     field: str

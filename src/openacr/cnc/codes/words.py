@@ -81,7 +81,12 @@ def transfer(run: Run, b: BlockContext) -> Iterator[Entry]:
     run.tell(Transfer(b.source, n, run.parameters.read_p(n)))
 
 
-@letter("D", step=Step.RADIUS, limits=(Limit("D", 0, LAST_RADIUS, "E222", is_whole=True),))
+@letter(
+    "D",
+    step=Step.RADIUS,
+    limits=(Limit("D", 0, LAST_RADIUS, "E222", is_whole=True),),
+    fast=Does.SHIFTS,
+)
 def radius(run: Run, b: BlockContext) -> None:
     """Cutter radius and its wear by number; D0 is radius 0."""
     select_radius(run, b.whole("D"))
@@ -95,7 +100,12 @@ def select_radius(run: Run, n: int) -> None:
         run.parameters.store(RADIUS_WEAR, run.cells.read(RADIUS_WEARS + n) if n else 0.0)
 
 
-@letter("H", step=Step.LENGTH_NUMBER, limits=(Limit("H", 0, LAST_LENGTH, "E222", is_whole=True),))
+@letter(
+    "H",
+    step=Step.LENGTH_NUMBER,
+    limits=(Limit("H", 0, LAST_LENGTH, "E222", is_whole=True),),
+    fast=Does.SHIFTS,
+)
 def length(run: Run, b: BlockContext) -> None:
     """Tool length and its wear by number; without G43 or G44 it switches G43 on."""
     select_length(run, b.whole("H"))

@@ -15,12 +15,11 @@ LIMIT = 3  # numbers of a limit: low, high, 1 if whole
 AXES = 0  # axes named (mask)
 WORDS = 1  # I J K R Q P L (mask 1 2 4 ...)
 IS_PLAIN = 2
-IS_ALONE = 3
-STEP_CNT = 4
-STEPS = 5
+STEP_CNT = 3
+STEPS = 4
 
 STEP_SET = 0  # row, value
-STEP_UNIT = 1  # the same, and the factors of the unit
+STEP_UNIT = 1  # as STEP_ALONE, and the factors of the unit
 STEP_FEED = 2
 STEP_MOVE = 3
 STEP_WORD = 4  # letter, formula
@@ -37,6 +36,8 @@ STEP_RETURN = 14  # in a cycle: -, formula or 0
 STEP_SHOW = 15  # as STEP_NOTE, no wait
 STEP_KEEP = 16  # row, value: left, unless it is so already
 STEP_TURN = 17  # as STEP_SHOW, of the spindle
+STEP_ALONE = 18  # row, value: left after moves, unless it is so already
+STEP_CALL = 19  # number of the note, whose handler is called before the block is executed
 JUMP_COUNTS = 1
 JUMP_IF_TRUE = 2  # else where it is false
 

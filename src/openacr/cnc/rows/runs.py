@@ -11,6 +11,7 @@ MOST_IDLE = 100_000  # blocks without motion, dwell or wait
 TAKEN = 0
 LEFT = 2  # to the parser
 JUMPED = 3
+CALLED = 4  # it is executed again after a handler has been called
 
 _room = Room(holes.SIZE)
 letter_of = _room.wholes(AXES)  # the letter of each axis, A is 0
@@ -27,4 +28,7 @@ line = _room.whole()
 line_start = _room.whole()
 line_stop = _room.whole()
 line_text = _room.whole()  # 0 the program, 1 the cycles
+call = _room.whole()  # the note of the handler that is to be called
+call_cnt = _room.whole()  # handlers the block has come to
+called_cnt = _room.whole()  # handlers that have been called for the line
 SIZE = _room.end

@@ -20,6 +20,7 @@ HARD = 1  # a line that is not plain
 NEW = 2  # a shape that is not known
 SLOW = 3  # a shape that is left to the parser
 LEFT = 4  # a line the caller leaves to the parser for its values
+CALLED = 5  # a line that is executed after a handler has been called
 
 NO_SHAPE = -2  # meanings of a shape, besides those of the caller
 SLOW_SHAPE = -1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from openacr.cnc.codes.fast import Sets
+from openacr.cnc.codes.fast import Does, Sets
 from openacr.cnc.codes.table import Group, Step
 from openacr.cnc.codes.tables import ACROMILL
 from openacr.cnc.codes.words import select_length
@@ -25,14 +25,14 @@ def compensation(run: Run, b: BlockContext) -> None:
     run.offset_path.switch(b, int(b.number))
 
 
-@gcode(43, 44, step=Step.LENGTH, group=Group.LENGTH)
+@gcode(43, 44, step=Step.LENGTH, group=Group.LENGTH, fast=Does.SHIFTS)
 def length(run: Run, b: BlockContext) -> None:
     """The length of H is added to Z (G43) or taken away (G44)."""
     run.modal.length = int(b.number)
     run.path.refresh()
 
 
-@gcode(49, step=Step.LENGTH, group=Group.LENGTH)
+@gcode(49, step=Step.LENGTH, group=Group.LENGTH, fast=Does.SHIFTS)
 def no_length(run: Run, b: BlockContext) -> None:
     """No tool length."""
     run.modal.length = 49
@@ -40,7 +40,7 @@ def no_length(run: Run, b: BlockContext) -> None:
     run.path.refresh()
 
 
-@gcode(*range(100, 200), step=Step.FIXTURE, group=Group.LENGTH)
+@gcode(*range(100, 200), step=Step.FIXTURE, group=Group.LENGTH, fast=Does.SHIFTS)
 def fixture(run: Run, b: BlockContext) -> None:
     """G101 to G199: fixture 1 to 99, its Z part is length H; G100: none."""
     n = run.modal.fixture = int(b.number) - FIRST_FIXTURE

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import AXES, ROTARY
+from openacr.cnc.codes.fast import Does
 from openacr.cnc.codes.table import Axes, Group, Step
 from openacr.cnc.codes.tables import ACROMILL
 from openacr.cnc.state.cells import FLOATING, LOCAL
@@ -20,14 +21,14 @@ FLOATING_ON, FLOATING_WORD = CELLS.floating_zero_active, CELLS.floating_zero_wor
 FLOATING_BEFORE, FLOATING_AT = CELLS.floating_zero_before[0], CELLS.floating_zero_position[0]
 
 
-@gcode(*list(SYSTEMS)[:8], step=Step.WORK, group=Group.WORK)
+@gcode(*list(SYSTEMS)[:8], step=Step.WORK, group=Group.WORK, fast=Does.SHIFTS)
 def work_system(run: Run, b: BlockContext) -> None:
     """Work system 1 to 8; a local shift ends."""
     select(run, SYSTEMS[b.number])
     run.modal.has_work = True
 
 
-@gcode(53, step=Step.WORK, group=Group.WORK)
+@gcode(53, step=Step.WORK, group=Group.WORK, fast=Does.SHIFTS)
 def machine_system(run: Run, b: BlockContext) -> None:
     """Machine coordinates, until another system is chosen."""
     run.offset_path.refuse(b, "E310")

@@ -103,7 +103,7 @@ def in_machine(run: Run, b: BlockContext) -> None:
     run.path.go_machine(b, tuple(target), pace)
 
 
-@gcode(*SYSTEMS, step=Step.WORK, group=Group.WORK)
+@gcode(*SYSTEMS, step=Step.WORK, group=Group.WORK, fast=Does.SHIFTS)
 def work_system(run: Run, b: BlockContext) -> None:
     """Work system 1 to 9."""
     select(run, SYSTEMS[b.number])
@@ -184,7 +184,14 @@ def compensation_by_diameter(run: Run, b: BlockContext) -> None:
     run.offset_path.switch(b, int(b.number))
 
 
-@gcode(43, step=Step.LENGTH, group=Group.LENGTH, takes="H", limits=(_LENGTH_NUMBER,))
+@gcode(
+    43,
+    step=Step.LENGTH,
+    group=Group.LENGTH,
+    takes="H",
+    limits=(_LENGTH_NUMBER,),
+    fast=Does.SHIFTS,
+)
 def length(run: Run, b: BlockContext) -> None:
     """The length of H, or of the tool, is added to Z."""
     run.path.coordinates.added = ORIGIN
@@ -226,7 +233,7 @@ def more_length(run: Run, b: BlockContext) -> None:
     run.path.refresh()
 
 
-@gcode(49, step=Step.LENGTH, group=Group.LENGTH)
+@gcode(49, step=Step.LENGTH, group=Group.LENGTH, fast=Does.SHIFTS)
 def no_length(run: Run, b: BlockContext) -> None:
     """No tool length."""
     run.modal.length = 49

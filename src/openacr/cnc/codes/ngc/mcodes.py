@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from openacr.cnc.canonical import Entry, Output, Pause, SetCell, Stop, WaitBit
 from openacr.cnc.codes import mcodes as _acromill  # noqa: F401  fills the other table
+from openacr.cnc.codes.fast import Does
 from openacr.cnc.codes.mcodes import stops
 from openacr.cnc.codes.table import Limit, Step
 from openacr.cnc.codes.tables import ACROMILL, RS274NGC
@@ -54,18 +55,28 @@ def _lock(run: Run, is_locked: bool) -> None:
     run.path.change_pace()
 
 
-@mcode(51, 52, 53, step=Step.SWITCHES, takes="P")
+@mcode(51, 52, 53, step=Step.SWITCHES, takes="P", fast=Does.NOTHING)
 def other_overrides(run: Run, b: BlockContext) -> None:
     """Spindle override, adaptive feed and feed stop are the operator's: accepted."""
 
 
-@mcode(62, 63, 64, 65, step=Step.SWITCHES, takes="P", limits=(_NUMBER,), acts_dry=False)
+@mcode(
+    62,
+    63,
+    64,
+    65,
+    step=Step.SWITCHES,
+    takes="P",
+    limits=(_NUMBER,),
+    acts_dry=False,
+    fast=Does.SHOWS,
+)
 def output(run: Run, b: BlockContext) -> None:
     """Output P on (M62, M64) or off (M63, M65)."""
     run.tell(Output(b.source, FIRST_OUTPUT + b.whole("P"), b.number in (62, 64)))
 
 
-@mcode(61, step=Step.TOOL_CHANGE, takes="Q", limits=(_TOOL,))
+@mcode(61, step=Step.TOOL_CHANGE, takes="Q", limits=(_TOOL,), fast=Does.SHOWS)
 def set_tool(run: Run, b: BlockContext) -> None:
     """Tool Q is in the spindle; nothing is changed."""
     run.modal.tool_in_spindle = b.whole("Q")

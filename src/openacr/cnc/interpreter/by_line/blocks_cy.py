@@ -93,12 +93,25 @@ def block_set(F: F64, I: I32, step: int, row: int, value: int) -> int:
             return runs.LEFT
         if step == plans.STEP_BAR and I[modes.compensation] != modes.OFF:
             return runs.LEFT
+        if (step == plans.STEP_UNIT or step == plans.STEP_ALONE) and I[modes.move_cnt] > 0:
+            return runs.LEFT
     I[modes.state[row]] = value
     if step == plans.STEP_UNIT:
         unit: int = 0 if value == modes.INCH else 2
         F[points.times] = F[points.factor[unit]]
         F[points.per] = F[points.factor[unit + 1]]
     return runs.TAKEN
+
+
+def block_call(I: I32, note: int) -> int:
+    """Have the handler of a note called, unless it has been for this line."""
+    if I[modes.cycle] != modes.NO_CYCLE or I[modes.compensation] != modes.OFF:
+        return runs.LEFT
+    I[runs.call_cnt] += 1
+    if I[runs.call_cnt] <= I[runs.called_cnt]:
+        return runs.TAKEN
+    I[runs.call] = note
+    return runs.CALLED
 
 
 def block_feed(F: F64, I: I32) -> int:

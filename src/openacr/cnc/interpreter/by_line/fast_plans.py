@@ -25,7 +25,11 @@ if TYPE_CHECKING:
 FIELDS = "motion plane distance centres unit return_level path cycle compensation".split()
 MOTION_WORDS = "IJKRQPL"  # of arcs and cycles
 STRAIGHT = 1
-_SET_STEPS = {"unit": plans.STEP_UNIT, "compensation": plans.STEP_KEEP}
+_SET_STEPS = {
+    "unit": plans.STEP_UNIT,
+    "path": plans.STEP_ALONE,
+    "compensation": plans.STEP_KEEP,
+}
 _NOTE_STEPS = {
     Does.RESTS: plans.STEP_NOTE,
     Does.SHOWS: plans.STEP_SHOW,
@@ -138,17 +142,18 @@ def _planned(
         for limit in code.limits:
             if limit.letter in plan.words:
                 body.add(plans.STEP_LIMIT, _letter(limit.letter), notes.limit(limit))
-    is_alone = has_feed = False
+    has_feed = False
     for code in acts:
         for form in code.fast or (None,):
             if isinstance(form, Sets) and form.field == "unit" and has_feed:
                 # Only the handler warns where the unit changes after F of its block was read.
                 value = int(code.number) if form.value is None else form.value
                 body.add(plans.STEP_KEEP, FIELDS.index("unit"), value)
+            elif form is Does.SHIFTS and has_values:
+                raise NoCodeError  # it may read what the block assigns
             else:
                 _act(form, code, plan, body, notes)
             has_feed |= form is Does.TAKES_FEED
-            is_alone |= isinstance(form, Sets) and form.is_alone
     if len(body.steps) > plans.MOST_STEPS:
         raise NoCodeError
     axes = sum(1 << axis for axis, _ in plan.axes)
@@ -156,7 +161,7 @@ def _planned(
     free = [letter for letter in plan.words if letter not in taken]
     words = sum(1 << k for k, letter in enumerate(MOTION_WORDS) if letter in free)
     is_plain = not (has_values or words) and _is_plain(acts)
-    return [axes, words, is_plain, is_alone, len(body.steps), *body.numbers()]
+    return [axes, words, is_plain, len(body.steps), *body.numbers()]
 
 
 def _is_plain(acts: tuple[Code, ...]) -> bool:
@@ -183,6 +188,8 @@ def _act(form: Fast | None, code: Code, plan: Plan, body: Steps, notes: Notes) -
         case Does.RESTS | Does.SHOWS | Does.TURNS if len(plan.words) <= AXES:
             letters = [_letter(letter) for letter in plan.words]
             body.add(_NOTE_STEPS[form], notes.add(plan, code), [len(letters), *letters])
+        case Does.SHIFTS if all(letter in plan.words for letter in code.takes):
+            body.add(plans.STEP_CALL, notes.add(plan, code))
         case Sets(name, value) if name in FIELDS:
             kind = plans.STEP_BAR if form.is_barred else _SET_STEPS.get(name, plans.STEP_SET)
             body.add(kind, FIELDS.index(name), int(code.number) if value is None else value)

@@ -5,6 +5,7 @@ store with their state in `states`.
 """
 
 from openacr.cnc.interpreter.by_line.blocks_cy import (
+    block_call,
     block_feed,
     block_keep,
     block_limit,
@@ -50,15 +51,14 @@ def block_jump(F: F64, I: I32, cells: F64, states: I32, plan: int, at: int, line
 
 
 def block_run(F: F64, I: I32, cells: F64, states: I32, plan: int, line: int) -> int:
-    """Execute the steps of one block; LEFT where it is left as it was."""
+    """Execute the steps of one block; LEFT or CALLED where it is left as it was."""
     if I[runs.is_plain] and not I[plan + plans.IS_PLAIN]:
-        return runs.LEFT
-    if I[plan + plans.IS_ALONE] and I[modes.move_cnt] > 0:
         return runs.LEFT
     if I[modes.idle_cnt] >= runs.MOST_IDLE - plans.MOST_STROKE:
         return runs.LEFT
     block_keep(F, I)
     I[values.undo_cnt] = 0
+    I[runs.call_cnt] = 0
     I[modes.idle_cnt] += 1
     done: int = runs.TAKEN
     at: int = plan + plans.STEPS
@@ -78,14 +78,16 @@ def block_run(F: F64, I: I32, cells: F64, states: I32, plan: int, line: int) -> 
             done = block_note(F, I, plan, at)
         elif step == plans.STEP_END_CYCLE:
             cycle_end(I)
+        elif step == plans.STEP_CALL:
+            done = block_call(I, I[at + 1])
         elif step > plans.STEP_MOVE and step < plans.STEP_JUMP:
             done = value_step(F, I, cells, states, plan, at)
         else:
             done = block_set(F, I, step, I[at + 1], I[at + 2])
-        if done == runs.LEFT:
+        if done == runs.LEFT or done == runs.CALLED:
             block_restore(F, I)
             value_undo(F, I, cells, states)
-            return runs.LEFT
+            return done
         at += 3
     return done
 
@@ -95,15 +97,13 @@ def run_lines(data: U8, pos: int, stop: int, F: F64, I: I32, cells: F64, states:
 
     `scans.next_at`, `scans.status` and the rows beside them have where it ended and why.
     """
-    most: int = runs.MOST_ROWS
     line: int = I[runs.first_line]
     last: int = pos
     last_line: int = line
     count: int = 0
     status: int = scans.AT_END
     has_words: int = 0
-    I[runs.jump_cnt] = 0
-    while 0 <= pos < stop and I[modes.move_cnt] < most and status == scans.AT_END:
+    while 0 <= pos < stop and I[modes.move_cnt] < runs.MOST_ROWS and status == scans.AT_END:
         after: int = scan_line(data, pos, stop, F, I)
         if after < 0 and I[runs.has_values]:
             after = scan_rich(data, pos, stop, F, I)
@@ -120,12 +120,14 @@ def run_lines(data: U8, pos: int, stop: int, F: F64, I: I32, cells: F64, states:
             I[runs.line_start] = pos
             I[runs.line_stop] = after
             done = block_run(F, I, cells, states, plan, line)
+            if done == runs.CALLED:
+                status = scans.CALLED
+                break
+            I[runs.called_cnt] = 0
             if done == runs.LEFT:
                 status = scans.LEFT
                 break
             has_words = 1
-            if I[plan + plans.IS_ALONE]:
-                most = I[modes.move_cnt]
         last = pos
         last_line = line
         count += 1

@@ -77,7 +77,8 @@ class Jumps:
         if part is not self._part:
             self._run.memory.wholes(rows.jump)[:] = integers(len(rows.jump))
             self._part = part
-        self._run.memory.I[runs.first_at] = first
+        I = self._run.memory.I
+        I[runs.first_at], I[runs.jump_cnt] = first, 0
         self._pending = 0
 
     def left(self, at: Place) -> None:

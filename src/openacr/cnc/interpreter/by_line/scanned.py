@@ -66,7 +66,7 @@ class Scanned:
             for at in (moves.LINE_NUMBER, moves.PLANE, moves.START, moves.STOP, moves.TEXT)
         )
         plan, code = self._notes.codes[number]
-        node = self._nodes[begin] if text else Node(part, line, _text(data, begin, end), end)
+        node = self._nodes[begin] if text else Node(part, line, line_text(data, begin, end), end)
         values = ends[POINT * k : POINT * (k + 1)]
         b = BlockContext(node, plan, dict(zip(plan.words, values, strict=False)))
         b.number = code.number
@@ -79,7 +79,7 @@ class Scanned:
         R = self._rows
         ends = np.array(self._ends[: count * POINT]).reshape(count, POINT)
         lines = np.array(R[moves.LINE_NUMBER : count * ROW : ROW], np.int64)
-        text = _text(data, R[moves.START], R[moves.STOP])
+        text = line_text(data, R[moves.START], R[moves.STOP])
         source = Source(part.text.name, int(lines[0]), text)
         self._run.out.append(Polyline(source, ends, lines, self._paces(1)[0]))
         self._run.is_rested = False
@@ -95,7 +95,7 @@ class Scanned:
 
     def _origins(self, part: Part, data: memoryview) -> tuple[Origin, ...]:
         """The texts of the moves: that of the program, then that of the cycles."""
-        own = Origin(part.text.name, partial(_text, data))
+        own = Origin(part.text.name, partial(line_text, data))
         if not self._nodes:
             return (own,)
         nodes = self._nodes
@@ -103,6 +103,6 @@ class Scanned:
         return own, Origin(name, lambda begin, _: nodes[begin].raw)
 
 
-def _text(data: memoryview, begin: int, end: int) -> str:
+def line_text(data: memoryview, begin: int, end: int) -> str:
     """The text of a line, without its end."""
     return decoded(bytes(data[begin:end]).rstrip(b"\r\n"))

@@ -24,9 +24,11 @@ from openacr.cnc.interpreter.by_line.drill_state import hand_back_drilling, take
 from openacr.cnc.interpreter.by_line.fast_plans import FIELDS, Notes, fast_plan, jump, rich_plan
 from openacr.cnc.interpreter.by_line.formula_code import FormulaWriter
 from openacr.cnc.interpreter.by_line.program_values import Jumps, ProgramValues
-from openacr.cnc.interpreter.by_line.scanned import Scanned
+from openacr.cnc.interpreter.by_line.scanned import Scanned, line_text
 from openacr.cnc.interpreter.by_line.strokes import Strokes
+from openacr.cnc.program.block_context import BlockContext
 from openacr.cnc.program.labels import Place
+from openacr.cnc.program.program import Node
 from openacr.cnc.reading.findings import CodeError
 from openacr.cnc.reading.line_shapes import LineShapes
 from openacr.cnc.reading.parser import parse
@@ -142,11 +144,34 @@ class Scanner:
                 self._cnt += I[scans.line_cnt]
                 self._last = Place(at.part, first + I[scans.last_at], I[scans.last_line])
             at = Place(at.part, I[scans.next_at], I[scans.next_line])
-            if shapes.status == scans.LEFT:
+            if shapes.status == scans.CALLED and self._call(at, data):
+                continue
+            if shapes.status in (scans.LEFT, scans.CALLED):
                 jumps.left(at)
             if shapes.status != scans.NEW or not self._learn(at.part, first + at.offset):
                 jumps.end()
                 return I[modes.move_cnt], at
+
+    def _call(self, at: Place, data: memoryview) -> bool:
+        """Call the handler of the line at a place; False where the whole line is left to handlers.
+
+        What it shifts applies to the rest of its line and to what follows.
+        """
+        run, F, I = self._run, self._F, self._I
+        plan, code = self._notes.codes[I[runs.call]]
+        text = line_text(data, I[runs.line_start], I[runs.line_stop])
+        words = {letter: F[scans.word[ord(letter) - ord("A")]] for letter in plan.words}
+        b = BlockContext(Node(at.part, at.line, text, at.offset), plan, words)
+        b.number = code.number
+        self._hand_back_place()
+        try:
+            code.act(run, b)
+            is_called = run.path.coordinates.is_plain
+        except CodeError:
+            is_called = False
+        self._take_place()
+        I[runs.called_cnt] = I[runs.called_cnt] + 1 if is_called else 0
+        return is_called
 
     def _note_slow(self, start: Place) -> None:
         """Remember that a line is always left to the parser."""
@@ -216,9 +241,7 @@ class Scanner:
     def _take_state(self, *, is_plain: bool) -> None:
         run, F, I = self._run, self._F, self._I
         modal, path = run.modal, run.path
-        self._put(points.position_u, path.program)
-        self._put(points.target_u, path.target)
-        self._put(points.shift_u, path.coordinates.shift)
+        self._take_place()
         self._put(points.factor, (*path.factors(INCH), *path.factors(METRIC)))
         F[points.times], F[points.per], F[points.feed_upm] = path.times, path.per, modal.feed
         F[points.near_u], F[points.epsilon_u] = path.inches(NEAR_INCH), run.cells.read(EPSILON)
@@ -229,11 +252,18 @@ class Scanner:
         I[modes.move_cnt] = I[runs.line_text] = I[runs.has_turned] = 0
         I[runs.has_values] = self._values.are_here and not is_plain
         I[runs.most_passes] = loops.MOST_PASSES if run.loops is not None else 0
-        I[runs.is_shifted], I[runs.is_plain] = path.coordinates.is_shifted, is_plain
+        I[runs.is_plain], I[runs.called_cnt] = is_plain, 0
         F[results.feed_upm[0]] = modal.feed
         take_drilling(run)
         if modal.cycle != modes.NO_CYCLE:
             self._use_cycle(modal.cycle)
+
+    def _take_place(self) -> None:
+        path = self._run.path
+        self._put(points.position_u, path.program)
+        self._put(points.target_u, path.target)
+        self._put(points.shift_u, path.coordinates.shift)
+        self._I[runs.is_shifted] = path.coordinates.is_shifted
 
     def _put(self, row: range, numbers: tuple[float, ...]) -> None:
         self._F[row.start : row.stop] = cast("F64", memoryview(array("d", numbers)))
@@ -247,6 +277,9 @@ class Scanner:
         modal.feed, modal.has_feed = F[points.feed_upm], bool(I[modes.has_feed])
         path.times, path.per = F[points.times], F[points.per]
         path.change_pace()
-        memory = run.memory
-        path.jump(tuple(memory.reals(points.position_u)), tuple(memory.reals(points.target_u)))
+        self._hand_back_place()
         hand_back_drilling(run)
+
+    def _hand_back_place(self) -> None:
+        reals = self._run.memory.reals
+        self._run.path.jump(tuple(reals(points.position_u)), tuple(reals(points.target_u)))
