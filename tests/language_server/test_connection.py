@@ -15,7 +15,8 @@ from tests import warm
 from openacr.editing.document import Document, Place, Span, units_of
 from openacr.editing.symbols import Finding
 from openacr.language_server import features
-from openacr.language_server.conversions import MOST_FINDINGS, Columns, path_of, uri_of
+from openacr.language_server.conversions import Columns, path_of, uri_of
+from openacr.language_server.found import MOST_FINDINGS, Found
 from openacr.language_server.server import Server
 
 PATIENCE_S = 60.0
@@ -154,9 +155,9 @@ def test_of_very_many_findings_errors_are_sent_first_and_the_others_are_counted(
         return Finding(Span(Place(line, 0), Place(line, 1)), str(line), is_warning=line != 1002)
 
     columns = Columns(units_of)
-    some = columns.diagnostics(document, [finding(line) for line in range(MOST_FINDINGS)])
+    some = columns.diagnostics(document, Found.of([*map(finding, range(MOST_FINDINGS))]))
     assert len(some) == MOST_FINDINGS
-    many = columns.diagnostics(document, [finding(line) for line in range(MOST_FINDINGS + 3)])
+    many = columns.diagnostics(document, Found.of([*map(finding, range(MOST_FINDINGS + 3))]))
     assert [each.message for each in many[:2]] == ["1002", "0"]
     assert len(many) == MOST_FINDINGS + 1
     last = many[-1]

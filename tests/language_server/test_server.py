@@ -74,16 +74,6 @@ def project(tmp_path: Path) -> Path:
     return tmp_path
 
 
-@pytest.fixture
-def store(tmp_path: Path) -> Path:
-    from openacr.sysvar import Store
-
-    path = tmp_path / "store" / "sysvar.db"
-    path.parent.mkdir()
-    Store(path).close()
-    return path
-
-
 def opened(
     client: Client, path: Path, text: str, language: str = ""
 ) -> types.TextDocumentIdentifier:

@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     from openacr.editing.engine import Colored
     from openacr.editing.outlines import Entry
     from openacr.editing.symbols import Finding
+    from openacr.language_server.found import Found
 
 NO_FILES = Path("/no-file")  # where texts without a file would be
 SOURCE = "openacr"
-MOST_FINDINGS = 1000  # of a file: editors show no more
 ITEM_KINDS = {
     Kind.COMMAND: types.CompletionItemKind.Keyword,
     Kind.KEYWORD: types.CompletionItemKind.Operator,
@@ -116,14 +116,13 @@ class Columns:
             source=SOURCE,
         )
 
-    def diagnostics(self, document: Document, found: list[Finding]) -> list[types.Diagnostic]:
-        """The findings of a file; of very many the first ones, errors before warnings."""
-        if len(found) <= MOST_FINDINGS:
-            return [self.diagnostic(document, each) for each in found]
-        ordered = sorted(found, key=lambda each: each.is_warning)
-        shown = [self.diagnostic(document, each) for each in ordered[:MOST_FINDINGS]]
-        where = self.range(document, ordered[MOST_FINDINGS].span)
-        text = f"{len(found) - MOST_FINDINGS} more findings are not shown"
+    def diagnostics(self, document: Document, found: Found) -> list[types.Diagnostic]:
+        """The findings of a file, and one that counts those that are left out."""
+        shown = [self.diagnostic(document, each) for each in found.shown]
+        if found.next is None:
+            return shown
+        where = self.range(document, found.next.span)
+        text = f"{found.left_out} more findings are not shown"
         severity = types.DiagnosticSeverity.Information
         return [*shown, types.Diagnostic(where, text, severity=severity, source=SOURCE)]
 

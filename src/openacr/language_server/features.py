@@ -246,7 +246,7 @@ def code_actions(ls: Server, params: types.CodeActionParams) -> list[types.CodeA
             is_preferred=True,
             edit=types.WorkspaceEdit(changes={uri: [ls.columns.edit(document, fix.edit)]}),
         )
-        for finding, fix in ls.engine.fixes(ls.checks.found.get(document.path, ()), span)
+        for finding, fix in ls.engine.fixes(ls.checks.shown(document.path), span)
     ]
 
 

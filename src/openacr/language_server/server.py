@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from openacr.editing.completions import Item
     from openacr.editing.engine import Engine
-    from openacr.editing.symbols import Finding
+    from openacr.language_server.found import Found
 
 NAME = "openacr"
 Params = TypeVar("Params")
@@ -47,10 +47,10 @@ class Server(LanguageServer):
 
     def __init__(self, store: Path | None = None, dialect: str | None = None) -> None:
         super().__init__(NAME, version(NAME), protocol_cls=Protocol)
-        self.checks = Checks(lambda: self.engine, self.publish)
+        self.machine = store, dialect
+        self.checks = Checks(self)
         self.columns = Columns(units_of)
         self.proposed: list[Item] = []  # last, to say more of one of them
-        self._machine = store, dialect
         self._uris: dict[Path, str] = {}
         self._versions: dict[Path, int] = {}
 
@@ -59,7 +59,7 @@ class Server(LanguageServer):
         """What answers; imported when the first document comes, so that the server starts soon."""
         from openacr.editing.engine import Engine
 
-        return Engine(*self._machine)
+        return Engine(*self.machine)
 
     def start_at(self, listener: socket.socket) -> None:
         """Serve the first client of a socket that listens, until it leaves; no other gets in."""
@@ -94,6 +94,7 @@ class Server(LanguageServer):
         except (OSError, EOFError, ValueError) as failure:
             logger.warning("the client is gone: %s", failure)
         finally:
+            self.checks.end()
             self.shutdown()  # type: ignore[no-untyped-call]
             writer.close()
 
@@ -162,7 +163,12 @@ class Server(LanguageServer):
 
     # what is wrong
 
-    def publish(self, path: Path, document: Document | None, found: list[Finding]) -> None:
+    def warn(self, text: str) -> None:
+        """Say what the user of the editor has to know."""
+        kind = types.MessageType.Warning
+        self.window_show_message(types.ShowMessageParams(kind, f"openacr: {text}"))
+
+    def publish(self, path: Path, document: Document | None, found: Found) -> None:
         """Send what was found in a file."""
         text = document or self.engine.files.document(path) or Document.of(path, "")
         present = self.engine.files.unsaved.get(path)
