@@ -1,7 +1,6 @@
 """Machines and bridges for tests: a feed driven by hand, bridges on free ports."""
 
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import Future
 from contextlib import contextmanager
 from dataclasses import replace
@@ -16,8 +15,6 @@ from openacr.errors import UserError
 from openacr.mill.config.tools import Tip, Tool
 from openacr.mill.run.lifecycle import State
 from openacr.panel.control.machine.snapshot import Light, Snapshot
-
-LIMIT_S = 60.0
 
 RUNNING = Moment(
     commanded=(1.0, 2.0, 90.0),
@@ -122,10 +119,3 @@ def bridged(text: str, feed: Feed, folder: Path = Path()) -> Iterator[Bridge]:
 def url(bridge: Bridge, name: str) -> str:
     """Where a system is."""
     return next(p.split(" ", 1)[1] for p in bridge.places if p.startswith(f"{name} "))
-
-
-def until(holds: Callable[[], object]) -> None:
-    end_s = time.monotonic() + LIMIT_S
-    while not holds():
-        assert time.monotonic() < end_s
-        time.sleep(0.02)

@@ -16,7 +16,8 @@ from amqtt.plugins.base import BaseTopicPlugin
 from amqtt.session import Session
 from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
 from paho.mqtt.enums import CallbackAPIVersion
-from tests.bridge.bench import LIMIT_S, VALUES, until
+from tests.bridge.bench import VALUES
+from tests.waiting import LIMIT_S, until
 
 ANONYMOUS = "amqtt.plugins.authentication.AnonymousAuthPlugin"
 TEXT, UINT64, UINT32, DOUBLE, FLOAT, BOOL, MESSAGE = 9, 4, 13, 1, 2, 8, 11

@@ -6,8 +6,9 @@ from dataclasses import replace
 from xml.etree import ElementTree as ET
 
 import pytest
-from tests.bridge.bench import RUNNING, GivenFeed, bridged, until, url
+from tests.bridge.bench import RUNNING, GivenFeed, bridged, url
 from tests.bridge.test_mtconnect import DEVICES, FILE, STAMP, STREAMS, asked, current, head, refused
+from tests.waiting import until
 
 from openacr.mill.config.tools import Tip, Tool
 

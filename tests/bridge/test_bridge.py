@@ -4,7 +4,8 @@ import threading
 from collections.abc import Callable, Sequence
 
 import pytest
-from tests.bridge.bench import RUNNING, GivenFeed, until
+from tests.bridge.bench import RUNNING, GivenFeed
+from tests.waiting import until
 
 from openacr.bridge.bridge import Bridge, System
 from openacr.bridge.card_feed import CardFeed

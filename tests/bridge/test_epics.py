@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 from caproto import AlarmSeverity, Beacon, Broadcaster, CaprotoError
 from caproto.sync import client
-from tests.bridge.bench import RUNNING, VALUES, GivenFeed, bridged, until
+from tests.bridge.bench import RUNNING, VALUES, GivenFeed, bridged
+from tests.waiting import until
 
 from openacr.bridge.epics import channel_of, shown, written
 from openacr.bridge.items import items_of

@@ -3,11 +3,11 @@
 from concurrent.futures import Future
 
 import pytest
-from tests.bridge.bench import LIMIT_S, until
 from tests.io.served import serving
 from tests.panel.bench import Served
 from tests.panel.bus_in_memory import BusInMemory
 from tests.proxy import Proxy
+from tests.waiting import LIMIT_S, until
 
 from openacr.bridge.card_feed import CardFeed
 from openacr.bridge.feed import STALE_S, Feed

@@ -7,7 +7,8 @@ from xml.etree import ElementTree as ET
 
 import httpx
 import pytest
-from tests.bridge.bench import LIMIT_S, VALUES, GivenFeed, bridged, until, url
+from tests.bridge.bench import VALUES, GivenFeed, bridged, url
+from tests.waiting import LIMIT_S, until
 
 from openacr.bridge.clock import stamp
 from openacr.bridge.items import items_of

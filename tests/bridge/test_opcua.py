@@ -17,7 +17,8 @@ from asyncua.server.address_space import NodeManagementService
 from asyncua.server.internal_server import InternalServer
 from asyncua.server.standard_address_space import standard_address_space
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
-from tests.bridge.bench import LIMIT_S, RUNNING, VALUES, GivenFeed, bridged, url
+from tests.bridge.bench import RUNNING, VALUES, GivenFeed, bridged, url
+from tests.waiting import LIMIT_S
 
 from openacr.bridge.load import parse_bridge
 from openacr.bridge.rows import Alarm

@@ -19,9 +19,10 @@ from unittest.mock import Mock
 
 import httpx
 import pytest
-from tests.bridge.bench import LIMIT_S, RUNNING, VALUES, GivenFeed, show_line, until
+from tests.bridge.bench import RUNNING, VALUES, GivenFeed, show_line
 from tests.bridge.mqtt import Metric, RunningBroker, Subscriber, named, node_file
 from tests.panel.bench import Served
+from tests.waiting import LIMIT_S, until
 from tests.workers.orphans import left_by
 
 from openacr.bridge import child, life, messages

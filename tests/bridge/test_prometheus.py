@@ -8,7 +8,8 @@ import httpx
 import pytest
 from prometheus_client.openmetrics.parser import text_string_to_metric_families as open_metrics
 from prometheus_client.parser import text_string_to_metric_families
-from tests.bridge.bench import LIMIT_S, VALUES, GivenFeed, bridged, until, url
+from tests.bridge.bench import VALUES, GivenFeed, bridged, url
+from tests.waiting import LIMIT_S, until
 
 from openacr.bridge import web
 from openacr.errors import UserError

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.bridge.bench import LIMIT_S, GivenFeed, bridged, show_line, until
+from tests.bridge.bench import GivenFeed, bridged, show_line
 from tests.bridge.mqtt import Metric, Payload, RunningBroker, Subscriber, named, node_file, value_of
+from tests.waiting import LIMIT_S, until
 
 from openacr.bridge.items import Readings, items_of
 from openacr.bridge.load import parse_bridge

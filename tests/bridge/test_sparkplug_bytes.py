@@ -9,8 +9,9 @@ import socket
 from collections.abc import Iterator, Sequence
 
 import pytest
-from tests.bridge.bench import LIMIT_S, GivenFeed, bridged, until
+from tests.bridge.bench import GivenFeed, bridged
 from tests.bridge.mqtt import node_file
+from tests.waiting import LIMIT_S, until
 
 from openacr.bridge.items import Readings
 from openacr.bridge.sparkplug import node

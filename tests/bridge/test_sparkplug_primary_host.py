@@ -6,8 +6,9 @@ import time
 from typing import Any
 
 import pytest
-from tests.bridge.bench import GivenFeed, bridged, until
+from tests.bridge.bench import GivenFeed, bridged
 from tests.bridge.mqtt import Metric, RunningBroker, Subscriber, named, node_file
+from tests.waiting import until
 
 from openacr.bridge.load import parse_bridge
 from openacr.bridge.sparkplug import link, node

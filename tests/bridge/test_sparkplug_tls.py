@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 from tests.bridge.authority import Authority
-from tests.bridge.bench import GivenFeed, bridged, show_line, until
+from tests.bridge.bench import GivenFeed, bridged, show_line
 from tests.bridge.mqtt import Metric, RunningBroker, Subscriber, named, node_file
+from tests.waiting import until
 
 from openacr.errors import UserError
 

@@ -1,11 +1,11 @@
 """`openacr bus` on a CAN bus with nodes of python-canopen."""
 
 import json
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from tests.waiting import until
 from typer.testing import CliRunner
 
 from openacr.cli import bus_can
@@ -18,7 +18,6 @@ from tests.fieldbus.canopen.local_node import NAME, LocalIo  # noqa: E402
 
 pytestmark = pytest.mark.evidence("client", "python-canopen, a CANopen stack with nodes of its own")
 BUS = "virtual:of-tools"
-LIMIT_S = 60.0
 
 
 @pytest.fixture
@@ -40,9 +39,7 @@ def run(*words: str, code: int = 0) -> str:
 
 def shows(expected: object, *words: str, read: Callable[[str], object] = str) -> None:
     """Wait for an output: a node of this process may answer too late on a loaded computer."""
-    end_s = time.monotonic() + LIMIT_S
-    while (seen := read(run(*words))) != expected:
-        assert time.monotonic() < end_s, seen
+    until(lambda: read(run(*words)) == expected, lambda: run(*words))
 
 
 def test_a_scan_names_all_nodes_and_what_they_have(nodes: list[LocalIo]) -> None:

@@ -3,14 +3,14 @@
 import re
 import signal
 import subprocess
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 import pytest
 from tests import warm
+from tests.waiting import until
 
 from openacr.client import Card
 from openacr.io.can_link import MULTICAST, options_of
@@ -62,13 +62,6 @@ class Emulated:
     def line(self) -> str:
         assert self.process.stdout is not None
         return str(self.process.stdout.readline()).rstrip()
-
-
-def until(holds: Callable[[], bool], what: str) -> None:
-    end = time.monotonic() + LIMIT_S
-    while not holds():
-        assert time.monotonic() < end, f"not within {LIMIT_S:g} s: {what}"
-        time.sleep(0.005)
 
 
 @pytest.fixture

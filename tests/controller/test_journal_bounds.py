@@ -1,12 +1,12 @@
 """Journals of cards that run faster than their fingerprints are computed keep their memory."""
 
 import threading
-import time
 from collections.abc import Iterator
 from concurrent.futures import wait
 from pathlib import Path
 
 import pytest
+from tests.waiting import until
 
 from openacr.controller import Controller, recorder
 from openacr.controller.journal import read_journal
@@ -63,10 +63,7 @@ def test_a_card_that_may_wait_does_so_and_misses_no_fingerprint(tmp_path: Path, 
     card.recorder = Recorder(card, tmp_path / "a.journal")
     run = threading.Thread(target=card.advance, kwargs={"seconds": 20.5})
     run.start()
-    limit_s = time.monotonic() + 60.0
-    while card.lived_tk * card.period_s < MOST_WORKED_OUT - 1e-6:
-        assert time.monotonic() < limit_s
-        time.sleep(0.01)
+    until(lambda: card.lived_tk * card.period_s >= MOST_WORKED_OUT - 1e-6)
     run.join(0.2)  # time to go further, if it did not wait
     assert run.is_alive()
     assert card.lived_tk * card.period_s == pytest.approx(MOST_WORKED_OUT)

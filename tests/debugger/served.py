@@ -6,8 +6,6 @@ import re
 import socket
 import subprocess
 import threading
-import time
-from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import IO
@@ -17,7 +15,6 @@ from tests import warm
 from openacr.client import Card
 from openacr.map.words import mf1, pf
 
-LIMIT_S = 60.0
 COUNTS = """\
 PROGRAM
 DIM LV(2)
@@ -148,14 +145,6 @@ class Relay:
         self._listener.close()
         for end in self._ends:
             end.close()
-
-
-def until(what: Callable[[], bool], about: str) -> None:
-    """Wait for something that has to come."""
-    end_s = time.monotonic() + LIMIT_S
-    while not what():
-        assert time.monotonic() < end_s, f"never came: {about}"
-        time.sleep(0.02)
 
 
 def flags(card: Card, program: int) -> int:

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 from tests.debugger.client import LIMIT_S, Client, RefusedError
-from tests.debugger.served import Relay, Served, flags, is_moving, is_running, until
+from tests.debugger.served import Relay, Served, flags, is_moving, is_running
+from tests.waiting import until
 
 from openacr.client import Card, Level
 from openacr.debugger.real_cards import followers

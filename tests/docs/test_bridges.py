@@ -7,7 +7,8 @@ from pathlib import Path
 
 import httpx
 import pytest
-from tests.bridge.bench import LIMIT_S, VALUES, GivenFeed, bridged, until, url
+from tests.bridge.bench import VALUES, GivenFeed, bridged, url
+from tests.waiting import LIMIT_S, until
 
 from openacr.bridge.load import parse_bridge
 from openacr.bridge.rows import AXIS_ROWS, ROWS, Row

@@ -1,12 +1,12 @@
 """Frames through python-can: what is taken, what is lost, what is said of the bus."""
 
 import sys
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
 import pytest
+from tests.waiting import LIMIT_S, until
 
 from openacr.errors import UserError
 from openacr.fieldbus.canopen.frames import Frame, Trouble
@@ -14,8 +14,6 @@ from openacr.io import can_link
 from openacr.io.can_link import CanLink
 
 can = pytest.importorskip("can", reason="python-can is not installed")
-
-LIMIT_S = 30.0
 
 
 @contextmanager
@@ -27,13 +25,6 @@ def pair(channel: str) -> Iterator[tuple[CanLink, Any]]:
             yield link, other
         finally:
             link.close()
-
-
-def until(holds: Callable[[], bool]) -> None:
-    end = time.monotonic() + LIMIT_S
-    while not holds():
-        assert time.monotonic() < end
-        time.sleep(0.001)
 
 
 def message(identifier: int, data: bytes = b"", **keys: bool) -> Any:

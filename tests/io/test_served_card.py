@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from tests.io.served import LOOPBACK, Caller, Served, openacr, serving
+from tests.waiting import until
 
 from openacr.client import Card as Client
 from openacr.client import Level
@@ -47,10 +48,7 @@ def prepare(host: Caller) -> None:
 
 def wait_for(host: Caller, query: str, value: str) -> None:
     """Ask until the answer is this one; a busy machine may take its time."""
-    deadline = time.monotonic() + 60
-    while host.value(query) != value:
-        assert time.monotonic() < deadline, query
-        time.sleep(0.01)
+    until(lambda: host.value(query) == value, query)
 
 
 def test_a_program_of_300_kb_is_downloaded_compared_and_read_back() -> None:

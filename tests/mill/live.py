@@ -10,13 +10,13 @@ import select
 import signal
 import subprocess
 import threading
-import time
 import tty
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from tests import warm
+from tests.waiting import LIMIT_S, until
 
 from openacr.client import Card
 from openacr.cnc.occupied import TRIPPED, WATCHDOG_PROGRAM
@@ -28,20 +28,11 @@ from openacr.map.numbers import P_GLOBAL_SYSTEM_CLOCK as CLOCK
 from openacr.map.words import af1, mf1
 from openacr.sysvar import Store
 
-LIMIT_S = 60.0  # for what has to come at all
 AXIS_POSITION, AXIS_STRIDE = 12288, 256
 REST_MS = 300  # of the card, in which nothing has moved
 LONG_AGO_MS = 1_000_000
 PULSES = 10000.0
 SERVE = ("serve", "--ascii-port", "0", "--binary-port", "0")
-
-
-def until(what: Callable[[], bool], *, limit_s: float = LIMIT_S, about: str = "") -> None:
-    """Wait for something that has to come."""
-    end_s = time.monotonic() + limit_s
-    while not what():
-        assert time.monotonic() < end_s, f"never came: {about or what}"
-        time.sleep(0.02)
 
 
 class Process:

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.mill.live import Plant, serial_line, until
+from tests.mill.live import Plant, serial_line
 from tests.proxy import Proxy
+from tests.waiting import until
 
 from openacr.cnc.occupied import TRIPPED
 

@@ -6,8 +6,9 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from tests.mill.live import Plant, Process, until
+from tests.mill.live import Plant, Process
 from tests.proxy import Proxy
+from tests.waiting import until
 
 from openacr.client import Card
 

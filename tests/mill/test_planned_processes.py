@@ -9,10 +9,11 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from tests.mill.live import Plant, Process, serial_line, until
+from tests.mill.live import Plant, Process, serial_line
 from tests.mill.planned import ACCEL, JERK, SPEED, TOLERANCE, Reals, highest, off_path, wave
 from tests.mill.test_planned_lost_host import PULSES, ROUNDING, cells, text_of
 from tests.proxy import Proxy
+from tests.waiting import until
 
 from openacr.engine.samples import Sample
 from openacr.engine.watches import Watched

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.mill.live import Plant, until
+from tests.mill.live import Plant
 from tests.mill.planned import FEED, JERK, SPEED, TOLERANCE, Reals
 from tests.mill.planned_rotary import (
     CELLS,
@@ -25,6 +25,7 @@ from tests.mill.planned_rotary import (
 from tests.mill.sender import Sender
 from tests.mill.shop import src
 from tests.mill.test_planned_lost_host import cells
+from tests.waiting import until
 
 from openacr.cnc import canonical as c
 from openacr.cnc.loading.load import load

@@ -3,7 +3,8 @@
 from pathlib import Path
 
 import pytest
-from tests.mill.live import Plant, serial_line, until
+from tests.mill.live import Plant, serial_line
+from tests.waiting import until
 
 from openacr.client import Card
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from tests.mill.live import until
+from tests.waiting import until
 
 from openacr.panel.commands.all import carry_out
 from openacr.panel.control.machine.installation import Installation

@@ -12,6 +12,7 @@ import ezdxf
 import httpx
 import pytest
 from tests.panel.bench import LIMIT_S, Served
+from tests.waiting import until
 
 from openacr.client.panels import PANELS
 from openacr.cnc.parts.library import part_named
@@ -143,9 +144,9 @@ def test_settings_are_found_by_words(web: httpx.Client) -> None:
 
 def test_stored_settings_count_for_the_next_jog(web: httpx.Client, panel: Served) -> None:
     web.put("/api/forms/JOG", json={"values": {"350000": "1200"}})
-    end_s = time.monotonic() + LIMIT_S
-    while panel.call(lambda station: station.settings.must_renew or station.link.session is None):
-        assert time.monotonic() < end_s
+    until(
+        lambda: panel.call(lambda station: not station.settings.must_renew and station.link.session)
+    )
     assert panel.call(lambda station: station.link.machine.runner.settings.axis(0).jog_ups) == 20.0
 
 

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.mill.live import until
 from tests.panel.bench import HandStation
 from tests.panel.bus_in_memory import MACHINE, BusInMemory
+from tests.waiting import until
 from typer.testing import CliRunner
 
 from openacr import compiled

@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.mill.live import SERVE, Process, until
+from tests.mill.live import SERVE, Process
 from tests.panel.remote import ME, Remote
 from tests.proxy import Proxy
+from tests.waiting import until
 
 from openacr.client import Card, ConnectionLostError, Level, links
 from openacr.client.links import TcpLink, link_to

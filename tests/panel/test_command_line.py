@@ -10,7 +10,8 @@ from pathlib import Path
 import httpx
 import pytest
 from tests.io.served import serving
-from tests.mill.live import LIMIT_S, Process, until
+from tests.mill.live import Process
+from tests.waiting import LIMIT_S, until
 from typer.testing import CliRunner
 
 from openacr.cli.main import app

@@ -4,9 +4,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from tests.mill.live import SERVE, Process, until
+from tests.mill.live import SERVE, Process
 from tests.panel.bench import HandStation
 from tests.panel.remote import Remote
+from tests.waiting import until
 
 from openacr.client import Card
 from openacr.controller import Controller

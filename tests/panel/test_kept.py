@@ -9,9 +9,9 @@ from typing import Any, get_args
 
 import httpx
 import pytest
-from tests.mill.live import LIMIT_S
 from tests.panel.bench import Served
 from tests.panel.test_kept_kinds import SAMPLES, SETUP, text
+from tests.waiting import LIMIT_S
 
 from openacr.errors import UserError
 from openacr.panel.control.operator.orders import PanelError

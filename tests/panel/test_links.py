@@ -8,7 +8,6 @@ import json
 import os
 import signal
 import struct
-import time
 from collections.abc import Callable
 from contextlib import suppress
 from multiprocessing import Pipe, get_context
@@ -19,18 +18,12 @@ import pytest
 import websockets
 from tests.panel.bench import LIMIT_S, Client, Served
 from tests.proxy import Proxy
+from tests.waiting import until
 
 from openacr.panel.control.machine.place import read_place
 from openacr.panel.control.station import Station
 
 LATE_MS = 400.0  # longer than a key is held without a sign
-
-
-def until(holds: Callable[[], bool]) -> None:
-    end_s = time.monotonic() + LIMIT_S
-    while not holds():
-        assert time.monotonic() < end_s
-        time.sleep(0.02)
 
 
 def is_moving(panel: Served) -> bool:

@@ -7,8 +7,8 @@ from typing import Any
 
 import httpx
 import pytest
-from tests.mill.live import LIMIT_S
 from tests.panel.bench import Served
+from tests.waiting import LIMIT_S
 
 from openacr.client import Card
 from openacr.client.errors import ChangedError

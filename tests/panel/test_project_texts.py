@@ -12,8 +12,9 @@ from pathlib import Path
 
 import httpx
 import pytest
-from tests.mill.live import LIMIT_S, Process, until
+from tests.mill.live import Process
 from tests.panel.bench import Served
+from tests.waiting import LIMIT_S, until
 from websockets.sync.client import connect
 from websockets.typing import Origin
 

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from tests.mill.live import SERVE, Process, serial_line, until
+from tests.mill.live import SERVE, Process, serial_line
 from tests.panel.remote import Remote
 from tests.proxy import Proxy
+from tests.waiting import until
 
 from openacr.client import Card
 from openacr.panel.control.engineer.scope import Samples

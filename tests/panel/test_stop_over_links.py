@@ -8,11 +8,12 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pytest
-from tests.mill.live import Plant, Process, serial_line, until
+from tests.mill.live import Plant, Process, serial_line
 from tests.mill.planned import ACCEL, JERK, SPEED, TOLERANCE, highest, off_path, wave
 from tests.mill.test_planned_lost_host import PULSES, ROUNDING, cells, text_of
 from tests.mill.test_stop_of_others import begin
 from tests.panel.remote import Remote
+from tests.waiting import until
 
 from openacr.cnc.occupied import HEARTBEAT
 from openacr.engine.samples import Sample

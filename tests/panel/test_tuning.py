@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.panel.bench import JOBS_S, HandStation, is_alive
+from tests.waiting import until
 
 from openacr.errors import UserError
 from openacr.map.rows import compliant_loads
@@ -107,10 +108,7 @@ def napping(note: Path, *_args: object) -> object:
 
 def computing(hand: HandStation, note: Path, answers: list[dict[str, Any]]) -> int:
     """Let time pass until the process computes; its number."""
-    end_s = time.monotonic() + JOBS_S
-    while not note.exists():
-        assert time.monotonic() < end_s
-        hand.run(0.01)
+    until(note.exists, limit_s=JOBS_S, step=lambda: hand.run(0.01))
     assert answers == []
     return int(note.read_text())
 
@@ -161,10 +159,7 @@ def test_what_is_computed_ends_with_the_panel(
     answers = begun(hand, "tune.step", axis="X")
     process = computing(hand, note, answers)
     hand.close()
-    end_s = time.monotonic() + JOBS_S
-    while is_alive(process):
-        assert time.monotonic() < end_s
-        time.sleep(0.01)
+    until(lambda: not is_alive(process), limit_s=JOBS_S)
     assert answers == []
 
 

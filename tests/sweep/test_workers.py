@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ from pathlib import Path
 import pyarrow.parquet as parquet
 import pytest
 from tests.sweep.projects import axis_project, rows_of, sweep_file
+from tests.waiting import until
 
 from openacr.errors import UserError
 from openacr.sweep.campaign import Progress
@@ -98,7 +98,7 @@ class Cluster:
         self._start(
             "dask_scheduler", "--port", "0", "--no-dashboard", "--scheduler-file", str(note)
         )
-        until(note.exists)
+        until(note.exists, limit_s=PATIENCE_S)
         self.address = json.loads(note.read_text())["address"]
         options = ("--nthreads", "1", "--no-nanny", "--no-dashboard")
         self.workers = [
@@ -115,13 +115,6 @@ class Cluster:
         return process
 
 
-def until(holds: Callable[[], object]) -> None:
-    end_s = time.monotonic() + PATIENCE_S
-    while not holds():
-        assert time.monotonic() < end_s
-        time.sleep(0.02)
-
-
 @pytest.fixture
 def cluster(tmp_path: Path) -> Iterator[Cluster]:
     folder = tmp_path / "cluster"
@@ -134,7 +127,7 @@ def test_a_cluster_of_two_processes_one_of_which_is_killed_finds_the_same(
     file: Path, expected: list[Row], cluster: Cluster
 ) -> None:
     pool = ClusterPool(cluster.address)
-    until(lambda: pool.size == 2)
+    until(lambda: pool.size == 2, limit_s=PATIENCE_S)
     progress = Interfering(act=cluster.workers[0].kill)
     assert rows_of(file, pool, progress) == expected
     assert progress.has_acted

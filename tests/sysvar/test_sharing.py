@@ -11,6 +11,7 @@ from pathlib import Path
 from threading import Thread
 
 import pytest
+from tests.waiting import until
 
 from openacr.sysvar import Store
 from openacr.sysvar.database import Database
@@ -146,10 +147,7 @@ def test_sql_of_another_program_is_seen_soon(tmp_path: Path) -> None:
         )
         foreign.commit()
         foreign.close()
-        until = time.monotonic() + 60.0
-        while store.read(2001) != 4.0 and time.monotonic() < until:
-            time.sleep(0.01)
-        assert store.read(2001) == 4.0
+        until(lambda: store.read(2001) == 4.0)
 
 
 def test_a_writer_waits_for_the_one_at_work(tmp_path: Path) -> None:

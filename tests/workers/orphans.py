@@ -3,10 +3,9 @@
 import subprocess
 import sys
 import textwrap
-import time
 from pathlib import Path
 
-LIMIT_S = 60.0
+from tests.waiting import until
 
 
 def left_by(code: str) -> list[int]:
@@ -22,10 +21,7 @@ def left_by(code: str) -> list[int]:
         children = [int(word) for word in parent.stdout.readline().split()]
         assert all(map(is_there, children))
         parent.kill()
-    end_s = time.monotonic() + LIMIT_S
-    while any(map(is_there, children)):
-        assert time.monotonic() < end_s, children
-        time.sleep(0.02)
+    until(lambda: not any(map(is_there, children)), str(children))
     return children
 
 

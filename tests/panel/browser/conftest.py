@@ -23,6 +23,7 @@ from playwright.sync_api import (
     expect,
     sync_playwright,
 )
+from tests import waiting
 from tests.panel.bench import Served
 from tests.panel.browser.chromium import MISSING, OPTIONS, found
 from tests.panel.browser.latency import slow_link
@@ -148,10 +149,7 @@ def until_model(page: Page, holds: str) -> None:
 
 def until(page: Page, holds: Callable[[], object]) -> None:
     """Wait until something holds outside the browser, whose events are heard meanwhile."""
-    end_s = time.monotonic() + SETTLED_S
-    while not holds():
-        assert time.monotonic() < end_s
-        page.wait_for_timeout(20)
+    waiting.until(holds, limit_s=SETTLED_S, step=lambda: page.wait_for_timeout(20))
 
 
 def at_rest(page: Page, served: Served) -> None:

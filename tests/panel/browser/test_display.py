@@ -1,13 +1,11 @@
 """DISPLAY, user messages and alarms as the operator sees and changes them."""
 
 import re
-import time
-from collections.abc import Callable
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
-from tests.panel.bench import LIMIT_S, Served
-from tests.panel.browser.conftest import READY, left_over, to_main_menu
+from tests.panel.bench import Served
+from tests.panel.browser.conftest import READY, left_over, to_main_menu, until
 
 from openacr.mill.card.messages import Message, define
 from openacr.mill.config.overrides import Override
@@ -33,14 +31,6 @@ def bit(served: Served, number: int) -> bool:
 
 def set_bit(served: Served, number: int, on: bool) -> None:
     served.call(lambda station: station.link.machine.card.write_bit(number, on))
-
-
-def until(page: Page, holds: Callable[[], bool]) -> None:
-    """Wait until something holds."""
-    end_s = time.monotonic() + LIMIT_S
-    while not holds():
-        assert time.monotonic() < end_s, "it never held"
-        page.wait_for_timeout(20)
 
 
 def view(page: Page, n: int) -> Locator:
@@ -86,10 +76,8 @@ def test_each_view_shows_what_setup_screen_has_saved_for_it(page: Page, served: 
     expect(page.locator("#prompt")).to_have_text("The views are saved")
     to_main_menu(page)
     reload(page)
-    end_s = time.monotonic() + LIMIT_S
-    while "Distance to go" not in (saved := [blocks(page, n) for n in (1, 2, 3)])[0]:
-        assert time.monotonic() < end_s, saved
-        page.wait_for_timeout(20)
+    until(page, lambda: "Distance to go" in blocks(page, 1))
+    saved = [blocks(page, n) for n in (1, 2, 3)]
     assert saved != before
     assert "Distance to go" in saved[0] and "Distance to go" not in before[0]
     assert "Next position" not in saved[1] and "Feed and spindle" in saved[1]

@@ -8,7 +8,14 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import SETTLED_S, give, load_file, to_main_menu, until_model
+from tests.panel.browser.conftest import (
+    SETTLED_S,
+    give,
+    load_file,
+    to_main_menu,
+    until,
+    until_model,
+)
 
 from openacr.mill.plan.pictures.blank import SIZES
 from openacr.panel.control.station import Station
@@ -112,10 +119,7 @@ def test_cutting_sizes_are_the_blank_of_the_picture_and_its_area(
 
 
 def until_stored(page: Page, store: Store, cell: int, value: float) -> None:
-    end_s = time.monotonic() + SETTLED_S
-    while store.read(cell) != value:
-        assert time.monotonic() < end_s, (cell, store.read(cell))
-        page.wait_for_timeout(20)
+    until(page, lambda: store.read(cell) == value)
 
 
 def until_blank(page: Page, size: tuple[int, int]) -> dict[str, Any]:

@@ -1,7 +1,6 @@
 """Zero, jog keys, MDI, what programs print and ask, editing beside a run."""
 
 import re
-import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -10,7 +9,6 @@ from playwright.sync_api import Page, Route, expect
 from tests.panel.bench import Served
 from tests.panel.browser.conftest import (
     READY,
-    SETTLED_S,
     begin_run,
     give,
     let_through,
@@ -29,10 +27,7 @@ PLACE = (1.588, -2.12, 60.0)  # the guide's example of CLR ZERO
 
 def at_rest(page: Page, served: Served) -> None:
     until_model(page, "!model.state.value.busy")
-    end_s = time.monotonic() + SETTLED_S
-    while served.call(lambda station: station.link.machine.runner.is_busy):
-        assert time.monotonic() < end_s
-        page.wait_for_timeout(20)
+    until(page, lambda: not served.call(lambda station: station.link.machine.runner.is_busy))
 
 
 def reads(page: Page, *wanted: float) -> None:
