@@ -2,6 +2,7 @@
 import { give, model, report } from "../core/app.js";
 import { h } from "../core/dom.js";
 import { needWords, stateOf, wordsOf } from "../core/flags.js";
+import { Endings } from "../core/signal.js";
 import { t } from "../core/texts.js";
 import { needValues } from "../core/values.js";
 import { ask } from "./dialog.js";
@@ -40,33 +41,60 @@ export function fullName(item) {
   return `${item.object}${item.index ?? ""} ${item.name}`.trim();
 }
 
-/**
- * Have the values of other items come, until `live` ends.
- * @param {Item[]} items
- * @param {import("../core/signal.js").Endings} live of the items before
- * @param {(values: Map<number, number>) => void} changed called with the values of the parameters
- */
-export function needItems(items, live, changed) {
-  live.end();
-  const numbers = items.filter((item) => !isFlag(item)).map((item) => item.number);
-  const words = wordsOf(items.filter(isFlag).map((item) => item.number));
-  if (numbers.length) live.add(needValues(numbers, changed));
-  if (words.length) live.add(needWords(words));
-}
-
-/**
- * The value of an item as a text; a dash while it is unknown.
- * @param {Item} item
- * @param {Map<number, number>} values of parameters
- * @param {string} [format]
- */
-export function shownValue(item, values, format = "plain") {
-  if (isFlag(item)) {
-    const isOn = stateOf(model.flags.value, item.number);
-    return isOn === undefined ? "\u2013" : t(isOn ? "io.on" : "io.off");
+/** Values of the items that are shown at present. */
+export class LiveItems {
+  /** @param {() => void} update called when any may have changed */
+  constructor(update) {
+    this.update = update;
+    this.needed = new Endings();
+    /** @type {Map<number, number>} */
+    this.values = new Map();
   }
-  const value = values.get(item.number);
-  return value === undefined ? "\u2013" : numberText(value, format);
+
+  /** Have the values of these items come, and of no others. @param {Item[]} items */
+  need(items) {
+    this.end();
+    const numbers = items.filter((item) => !isFlag(item)).map((item) => item.number);
+    const words = wordsOf(items.filter(isFlag).map((item) => item.number));
+    if (numbers.length)
+      this.needed.add(
+        needValues(numbers, (values) => {
+          this.values = values;
+          this.update();
+        }),
+      );
+    if (words.length) this.needed.add(needWords(words));
+    this.needed.add(model.flags.watch(this.update));
+  }
+
+  end() {
+    this.needed.end();
+  }
+
+  /**
+   * The value of an item as a text; a dash while it is unknown.
+   * @param {Item} item
+   * @param {string} [format]
+   */
+  text(item, format = "plain") {
+    if (isFlag(item)) {
+      const isOn = stateOf(model.flags.value, item.number);
+      return isOn === undefined ? "\u2013" : t(isOn ? "io.on" : "io.off");
+    }
+    const value = this.values.get(item.number);
+    return value === undefined ? "\u2013" : numberText(value, format);
+  }
+
+  /**
+   * What shows the value of an item, in the key that changes it, where it can be changed.
+   * @param {Item} item
+   * @param {HTMLElement} value
+   */
+  keyOf(item, value) {
+    if (!item.writable) return value;
+    const ariaLabel = t("watch.change", { name: item.id });
+    return h("button.key", { type: "button", ariaLabel, onclick: () => changeValue(item, this.text(item)) }, value);
+  }
 }
 
 /**

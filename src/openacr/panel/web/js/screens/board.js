@@ -3,8 +3,7 @@ import { get, latest } from "../core/api.js";
 import { model, refuse } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
 import { t } from "../core/texts.js";
-import { needValues } from "../core/values.js";
-import { changeValue, shownValue } from "../frame/card_value.js";
+import { LiveItems, changeValue } from "../frame/card_value.js";
 import { askNumber } from "../frame/number_pad.js";
 
 const TEXTS = { search: { en: "Name or number", de: "Name oder Nummer" }, doc: { en: "Meaning", de: "Bedeutung" } };
@@ -31,9 +30,11 @@ export const screen = {
         h("table.grid", {}, h("thead", {}, h("tr", {}, ...HEADS.map((each) => h("th", {}, t(each))))), rows),
       ),
     );
-    /** @type {HTMLElement[]} */
-    let values = [];
-    let unsubscribe = () => {};
+    /** @type {{ item: import("../frame/card_value.js").Item, value: HTMLElement }[]} */
+    let shown = [];
+    const live = new LiveItems(() => {
+      for (const { item, value } of shown) setText(value, live.text(item));
+    });
     const newest = latest(endings);
     const search = async () => {
       try {
@@ -41,18 +42,10 @@ export const screen = {
           get("card/parameters", { text: field.value.trim() || undefined, first, count: PAGE }),
         );
         if (!found) return;
-        const { parameters: shown, total } = found;
-        drawPages(total);
-        values = shown.map(() => h("strong.live", {}, "\u2013"));
-        fill(rows, ...shown.map((/** @type {any} */ each, /** @type {number} */ n) => rowOf(each, values[n])));
-        unsubscribe();
-        unsubscribe = needValues(
-          shown.map((/** @type {any} */ each) => each.number),
-          (known) =>
-            shown.forEach((/** @type {any} */ each, /** @type {number} */ n) =>
-              setText(values[n], shownValue(each, known)),
-            ),
-        );
+        drawPages(found.total);
+        shown = found.parameters.map((/** @type {any} */ item) => ({ item, value: h("strong.live", {}) }));
+        fill(rows, ...shown.map(({ item, value }) => rowOf(item, value)));
+        live.need(shown.map(({ item }) => item));
       } catch (error) {
         refuse(error);
       }
@@ -104,7 +97,7 @@ export const screen = {
       timer = setTimeout(search, 250);
     });
     endings.add(
-      () => unsubscribe(),
+      () => live.end(),
       () => clearTimeout(timer),
     );
     await search();

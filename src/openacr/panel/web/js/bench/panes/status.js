@@ -4,7 +4,7 @@ import { model, refuse } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { Endings } from "../../core/signal.js";
 import { t, textOr } from "../../core/texts.js";
-import { isFlag, needItems, shownValue } from "../../frame/card_value.js";
+import { LiveItems, isFlag } from "../../frame/card_value.js";
 import { showFacts } from "../facts.js";
 
 const TEXTS = {
@@ -26,7 +26,7 @@ const FIRST = 4; // objects that are shown at first where the machine does not s
  */
 export async function mount(host, { head, kept, keep }) {
   const endings = new Endings();
-  const live = new Endings();
+  const live = new LiveItems(update);
   const choice = h("select.field", { ariaLabel: t(TEXTS.which), onchange: () => choose(choice.value) });
   const objects = h("div.row.scroll.grow", { role: "group", ariaLabel: t(TEXTS.objects) });
   const table = h("table.grid.status-table", {});
@@ -38,8 +38,6 @@ export async function mount(host, { head, kept, keep }) {
   let chosen = kept.objects ?? {};
   /** @type {Cell[]} */
   let cells = [];
-  /** @type {Map<number, number>} */
-  let values = new Map();
   const newest = latest(endings);
 
   /** @param {string} wanted */
@@ -102,7 +100,7 @@ export async function mount(host, { head, kept, keep }) {
         ),
       ),
     );
-    needed();
+    live.need(cells.map(({ item }) => item));
   }
 
   /** @param {Item | null} item */
@@ -110,31 +108,19 @@ export async function mount(host, { head, kept, keep }) {
     if (!item) return h("td.number", {}, "");
     const value = h("strong.live", {});
     cells.push({ item, value });
-    const chosenNow = () => showFacts(facts, item, () => shownValue(item, values));
+    const chosenNow = () => showFacts(facts, item, () => live.text(item));
     return h("td.number", { tabIndex: 0, data: { item: item.id }, title: item.id, onfocus: chosenNow }, value);
-  }
-
-  function needed() {
-    needItems(
-      cells.map(({ item }) => item),
-      live,
-      (known) => {
-        values = known;
-        update();
-      },
-    );
-    update();
   }
 
   function update() {
     for (const { item, value } of cells) {
-      const text = shownValue(item, values);
+      const text = live.text(item);
       setText(value, text);
       if (isFlag(item)) value.classList.toggle("is-running", text === t("io.on"));
     }
   }
 
-  endings.add(() => live.end(), model.flags.watch(update));
+  endings.add(() => live.end());
   const { panels } = await get("card/panels");
   fill(
     choice,

@@ -1,11 +1,11 @@
 // Parameters and flags of the card as a tree that can be searched; the card is asked for the values of rows that can be
 // seen.
 import { get, latest } from "../../core/api.js";
-import { model, refuse } from "../../core/app.js";
+import { refuse } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
-import { changeValue, needItems, shownValue } from "../../frame/card_value.js";
+import { LiveItems, changeValue } from "../../frame/card_value.js";
 import { showFacts } from "../facts.js";
 import { takeWanted } from "../wanted.js";
 import { addToWatchList } from "../watch_list.js";
@@ -32,7 +32,7 @@ const NO_OBJECT = "none";
  */
 export async function mount(host, { head }) {
   const endings = new Endings();
-  const seen = new Endings(); // what the rows that are seen need
+  const live = new LiveItems(update); // of the rows that are seen
   const field = h("input.field.grow", { type: "search", placeholder: t(TEXTS.search), ariaLabel: t(TEXTS.search) });
   const space = h("div.tree-space", {});
   const box = h("div.tree.grow", { role: "tree", tabIndex: 0, ariaLabel: t("pane.tree") }, space);
@@ -47,8 +47,6 @@ export async function mount(host, { head }) {
   let open = new Set();
   /** @type {Row[]} */
   let rows = [];
-  /** @type {Map<number, number>} */
-  let values = new Map();
   let current = 0;
   const newest = latest(endings);
 
@@ -121,23 +119,15 @@ export async function mount(host, { head }) {
     box.setAttribute("aria-activedescendant", rows[current] ? `${host.id || "tree"}-${current}` : "");
     update();
     const item = rows[current]?.item;
-    showFacts(facts, item, () => (item ? shownValue(item, values) : ""));
+    showFacts(facts, item, () => (item ? live.text(item) : ""));
     clearTimeout(timer);
-    timer = setTimeout(() => need(shown.flatMap((row) => row.item ?? [])), SETTLE_MS);
+    timer = setTimeout(() => live.need(shown.flatMap((row) => row.item ?? [])), SETTLE_MS);
   }
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
 
-  /** @param {Item[]} wanted */
-  function need(wanted) {
-    needItems(wanted, seen, (known) => {
-      values = known;
-      update();
-    });
-  }
-
   function update() {
-    for (const row of rows) if (row.item && row.value?.isConnected) setText(row.value, shownValue(row.item, values));
+    for (const row of rows) if (row.item && row.value?.isConnected) setText(row.value, live.text(row.item));
   }
 
   /**
@@ -216,7 +206,7 @@ export async function mount(host, { head }) {
 
   function act() {
     const item = rows[current]?.item;
-    if (item?.writable) void changeValue(item, shownValue(item, values));
+    if (item?.writable) void changeValue(item, live.text(item));
   }
 
   /** @type {Record<string, () => void>} */
@@ -257,11 +247,10 @@ export async function mount(host, { head }) {
     typing = setTimeout(search, 250);
   });
   endings.add(
-    model.flags.watch(update),
     () => sizes.disconnect(),
     () => clearTimeout(timer),
     () => clearTimeout(typing),
-    () => seen.end(),
+    () => live.end(),
   );
   await search();
   endings.add(

@@ -6,7 +6,7 @@ import { keyOf } from "../../core/keys.js";
 import { chosenProgram, needPrograms } from "../../core/programs.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
-import { changeValue, fullName, needItems, shownValue } from "../../frame/card_value.js";
+import { LiveItems, fullName } from "../../frame/card_value.js";
 import { askText } from "../../frame/dialog.js";
 import { stateText } from "../../screens/programs.js";
 
@@ -34,7 +34,7 @@ const COUNT = 16;
  */
 export async function mount(host, { head, kept, keep }) {
   const endings = new Endings();
-  const live = new Endings();
+  const live = new LiveItems(update);
   let program = Number(kept.program ?? /^PROG(\d+)$/.exec(chosenProgram.value)?.[1] ?? 0);
   const [newestOwn, newestUsed] = [latest(endings), latest(endings)];
   let isEnded = false;
@@ -43,8 +43,6 @@ export async function mount(host, { head, kept, keep }) {
   let timer;
   /** @type {{ item: Item, value: HTMLElement }[]} */
   let used = [];
-  /** @type {Map<number, number>} */
-  let values = new Map();
   const choice = h(
     "select.field",
     { ariaLabel: t(TEXTS.program), onchange: () => void choose(Number(choice.value)) },
@@ -159,39 +157,20 @@ export async function mount(host, { head, kept, keep }) {
     fill(
       shared,
       headOf(TEXTS.used),
-      ...used.map(({ item, value }) => {
-        const cell = item.writable
-          ? h(
-              "button.key",
-              {
-                type: "button",
-                ariaLabel: t("watch.change", { name: item.id }),
-                onclick: () => changeValue(item, shownValue(item, values)),
-              },
-              value,
-            )
-          : value;
-        return h(
+      ...used.map(({ item, value }) =>
+        h(
           "tr",
           { data: { item: item.id } },
           h("td", { title: item.doc }, `${item.id} ${fullName(item)}`),
-          h("td.number", {}, cell),
-        );
-      }),
+          h("td.number", {}, live.keyOf(item, value)),
+        ),
+      ),
     );
-    needItems(
-      used.map(({ item }) => item),
-      live,
-      (known) => {
-        values = known;
-        update();
-      },
-    );
-    update();
+    live.need(used.map(({ item }) => item));
   }
 
   function update() {
-    for (const { item, value } of used) setText(value, shownValue(item, values));
+    for (const { item, value } of used) setText(value, live.text(item));
   }
 
   endings.add(
@@ -201,7 +180,6 @@ export async function mount(host, { head, kept, keep }) {
       live.end();
     },
     needPrograms(),
-    model.flags.watch(update),
     model.programs.watch(({ programs }) => {
       const now = programs.find((each) => each.name === `PROG${program}`);
       setText(

@@ -1,10 +1,10 @@
 // The watch list: chosen parameters and flags with their values; the layout keeps it.
 import { get } from "../../core/api.js";
-import { model, refuse } from "../../core/app.js";
+import { refuse } from "../../core/app.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
-import { FORMATS, changeValue, fullName, isFlag, needItems, shownValue } from "../../frame/card_value.js";
+import { FORMATS, LiveItems, fullName, isFlag } from "../../frame/card_value.js";
 import { takeWanted } from "../wanted.js";
 
 const TEXTS = {
@@ -29,11 +29,9 @@ const HEADS = ["board.number", "board.name", "board.value", TEXTS.format, TEXTS.
  */
 export async function mount(host, { head, kept, keep }) {
   const endings = new Endings();
-  const live = new Endings();
+  const live = new LiveItems(update);
   /** @type {Row[]} */
   let rows = [];
-  /** @type {Map<number, number>} */
-  let values = new Map();
   const field = h("input.field.grow", {
     ariaLabel: t(TEXTS.name),
     placeholder: t(TEXTS.name),
@@ -83,35 +81,16 @@ export async function mount(host, { head, kept, keep }) {
   function draw() {
     keep({ rows: rows.map(({ item, format }) => ({ id: item.id, format })) });
     fill(body, ...rows.map(rowOf));
-    needItems(
-      rows.map(({ item }) => item),
-      live,
-      (known) => {
-        values = known;
-        update();
-      },
-    );
-    update();
+    live.need(rows.map(({ item }) => item));
   }
 
   function update() {
-    for (const { item, format, value } of rows) setText(value, shownValue(item, values, format));
+    for (const { item, format, value } of rows) setText(value, live.text(item, format));
   }
 
   /** @param {Row} row */
   function rowOf(row) {
     const { item, value } = row;
-    const cell = item.writable
-      ? h(
-          "button.key",
-          {
-            type: "button",
-            ariaLabel: t("watch.change", { name: item.id }),
-            onclick: () => changeValue(item, shownValue(item, values)),
-          },
-          value,
-        )
-      : value;
     const format = h(
       "select.field",
       {
@@ -142,7 +121,7 @@ export async function mount(host, { head, kept, keep }) {
       { data: { item: item.id } },
       h("td.number", {}, item.id),
       h("td", { title: item.doc }, fullName(item)),
-      h("td.number", {}, cell, item.unit ? ` ${item.unit}` : ""),
+      h("td.number", {}, live.keyOf(item, value), item.unit ? ` ${item.unit}` : ""),
       h("td", {}, isFlag(item) ? "" : format),
       h("td", {}, remove),
     );
@@ -156,7 +135,6 @@ export async function mount(host, { head, kept, keep }) {
   );
   endings.add(
     () => live.end(),
-    model.flags.watch(update),
     takeWanted("watch", (ids) => void add(ids)),
   );
   return () => endings.end();
