@@ -30,7 +30,7 @@ from openacr.motion.axis import drive as card_drive
 from openacr.motion.axis import registers
 from openacr.motion.card import Card
 from openacr.plant import inputs
-from openacr.plant.describe.bus_schema import INPUT_BITS, BusDriveTable, CyclicMode, Direction
+from openacr.plant.describe.bus_schema import INPUT_BITS, BusDriveTable, CyclicMode
 from openacr.plant.describe.schema import Axis
 from openacr.plant.physics.drive_cy import FAULT_REPORTED, FAULT_TAKEN_BACK, converter_volts
 
@@ -54,9 +54,9 @@ class AxisDrive:
         self.may_enable = False
         self.alarm = ""
         self._n = axis.number  # of the motor and its encoder
-        sign = 1 if table.direction is Direction.UP else -1
         per_rev = table.counts_per_rev or axis.counts
-        self._scale = sign * per_rev / axis.counts  # counts of the drive for a raw count
+        # Counts of the drive for a raw count.
+        self._scale = table.direction.sign * per_rev / axis.counts
         self._fastest_cps = table.fastest_rev_s * per_rev
         self._is_anew = True  # the position of the first exchange is no jump
         self._counts: int | None = None  # of the drive, beyond 32 bits

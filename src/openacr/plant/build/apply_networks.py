@@ -11,7 +11,6 @@ from openacr.plant.describe.network_schema import (
     PORTS,
     Coupler,
     Fault,
-    FaultKind,
     Health,
     Node,
     Signal,
@@ -21,28 +20,9 @@ from openacr.plant.describe.schema import Axis, ExactDrive, StepperDrive, Torque
 
 COUPLERS = {Coupler.PIO_337: 0, Coupler.PIO_347: 1}
 HEALTH = {Health.HEARTBEAT: 1, Health.GUARDING: 2}
-TROUBLES = {
-    FaultKind.SILENT: bus.Trouble.SILENT,
-    FaultKind.LOST: bus.Trouble.LOST,
-    FaultKind.NOISE: bus.Trouble.NOISE,
-    FaultKind.CONTROLLER: bus.Trouble.CONTROLLER,
-    FaultKind.SOFTWARE_OVERFLOW: bus.Trouble.SOFTWARE_OVERFLOW,
-    FaultKind.HARDWARE_OVERFLOW: bus.Trouble.HARDWARE_OVERFLOW,
-}
-REALS = (
-    every(bus_drives.reals, bus_drives.REALS_SIZE),
-    every(bus_nodes.reals, bus_nodes.REALS_SIZE),
-    every(bus_signals.reals, bus_signals.REALS_SIZE),
-    every(bus_faults.reals, bus_faults.REALS_SIZE),
-    every(bus_rows.reals, bus_rows.REALS_SIZE),
-)
-INTS = (
-    every(bus_drives.ints, bus_drives.INTS_SIZE),
-    every(bus_nodes.ints, bus_nodes.INTS_SIZE),
-    every(bus_signals.ints, bus_signals.INTS_SIZE),
-    every(bus_faults.ints, bus_faults.INTS_SIZE),
-    every(bus_rows.ints, bus_rows.INTS_SIZE),
-)
+_FAMILIES = (bus_drives, bus_nodes, bus_signals, bus_faults, bus_rows)
+REALS = [every(rows.reals, rows.REALS_SIZE) for rows in _FAMILIES]
+INTS = [every(rows.ints, rows.INTS_SIZE) for rows in _FAMILIES]
 
 
 def write_nodes(memory: Memory, world: World) -> None:
@@ -90,7 +70,7 @@ def _write_node(memory: Memory, place: int, node: Node) -> None:
 
 
 def _write_fault(memory: Memory, place: int, fault: Fault, places: dict[int, int]) -> None:
-    memory.I[bus_faults.kind[place]] = TROUBLES[fault.kind]
+    memory.I[bus_faults.kind[place]] = bus.Trouble[fault.kind.name]
     memory.I[bus_faults.node[place]] = places.get(fault.node or 0, 0)
     memory.F[bus_faults.from_s[place]] = fault.at_s
     memory.F[bus_faults.until_s[place]] = bus.NEVER_S if fault.until_s is None else fault.until_s

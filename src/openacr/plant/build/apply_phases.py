@@ -4,7 +4,7 @@ import math
 
 from openacr.map.memory import Memory
 from openacr.map.rows import phases as phase_rows
-from openacr.plant.describe.schema import Axis, Direction, Motor, PhaseDrive
+from openacr.plant.describe.schema import Axis, Motor, PhaseDrive
 
 
 def write_phases(memory: Memory, axis: Axis, drive: PhaseDrive) -> None:
@@ -14,7 +14,7 @@ def write_phases(memory: Memory, axis: Axis, drive: PhaseDrive) -> None:
     counting direction of its encoder.
     """
     turn, zero, phases = _rotor(axis.motor)
-    sign = 1 if axis.encoder_direction is Direction.UP else -1
+    sign = axis.encoder_direction.sign
     at_start = math.fmod(zero + turn * axis.initial / axis.units_per_rev, math.tau)
     per_count = sign * turn / axis.counts
     number = axis.number

@@ -5,14 +5,14 @@ import math
 from openacr.map.memory import Memory
 from openacr.map.rows import stepper_motors
 from openacr.plant.describe.counts import count_of
-from openacr.plant.describe.schema import Axis, Direction, StepperDrive
+from openacr.plant.describe.schema import Axis, StepperDrive
 
 FULL_STEPS_OF_PITCH = 4
 
 
 def write_stepper(memory: Memory, axis: Axis, drive: StepperDrive, accel_per_nm: float) -> None:
     """Write field, torque-speed curve and damping; the rotor is in step where it starts."""
-    sign = 1 if axis.encoder_direction is Direction.UP else -1
+    sign = axis.encoder_direction.sign
     pitch_cnt = FULL_STEPS_OF_PITCH * axis.counts / drive.full_steps_per_rev
     per_count = math.tau / pitch_cnt
     stiffness = math.sqrt(max(torque for _, torque in drive.torque_nm) * accel_per_nm * per_count)

@@ -47,10 +47,15 @@ class CyclicMode(StrEnum):
 
 
 class Direction(StrEnum):
-    """The direction in which the drive counts when the encoder of the card counts up."""
+    """How an encoder counts at a positive voltage, or a drive on the bus as that counts up."""
 
     UP = "up"
     DOWN = "down"
+
+    @property
+    def sign(self) -> int:
+        """1 or -1."""
+        return 1 if self is Direction.UP else -1
 
 
 class _OnTheBus(Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 
 from openacr.models import DEFAULT_MODEL, MODELS, Model
 from openacr.plant.describe.body_schema import Body, Sign
-from openacr.plant.describe.bus_schema import Bus, BusDriveTable, FlagNumber
+from openacr.plant.describe.bus_schema import Bus, BusDriveTable, Direction, FlagNumber
 from openacr.plant.describe.network_schema import Canopen, TalkingDrive
 
 AXES = 16
@@ -60,13 +60,6 @@ class Contact(StrEnum):
 
     OPEN = "open"
     CLOSED = "closed"
-
-
-class Direction(StrEnum):
-    """The counting direction of the encoder when a positive voltage turns the motor."""
-
-    UP = "up"
-    DOWN = "down"
 
 
 class Space(StrEnum):
