@@ -4,12 +4,13 @@ import re
 import signal
 import subprocess
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, suppress
 from pathlib import Path
 from typing import Any
 
 import pytest
 from tests import warm
+from tests.fieldbus.emulator import Emulator, emulating
 from tests.waiting import until
 
 from openacr.client import Card
@@ -43,27 +44,6 @@ modelled = true
 """
 
 
-class Emulated:
-    """A running emulator; `say` types an order and returns the line that answers."""
-
-    def __init__(self, project: Path, channel: str, *words: str) -> None:
-        command = ["bus", "emulate", str(project), "--interface", f"udp_multicast:{channel}"]
-        self.process = warm.Popen(
-            [*command, *words], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, text=True, encoding="utf-8",
-        )  # fmt: skip
-
-    def say(self, text: str) -> str:
-        assert self.process.stdin is not None
-        self.process.stdin.write(text + "\n")
-        self.process.stdin.flush()
-        return self.line()
-
-    def line(self) -> str:
-        assert self.process.stdout is not None
-        return str(self.process.stdout.readline()).rstrip()
-
-
 @pytest.fixture
 def channel() -> str:
     return udp_bus()
@@ -75,15 +55,8 @@ def project(tmp_path: Path, channel: str) -> Path:
     return tmp_path
 
 
-@contextmanager
-def emulated(project: Path, channel: str, *words: str) -> Iterator[Emulated]:
-    one = Emulated(project, channel, *words)
-    try:
-        yield one
-    finally:
-        with suppress(ProcessLookupError):
-            one.process.kill()
-        one.process.communicate(timeout=LIMIT_S)
+def emulated(project: Path, channel: str, *words: str) -> AbstractContextManager[Emulator]:
+    return emulating(channel, str(project), "--interface", f"udp_multicast:{channel}", *words)
 
 
 @pytest.fixture

@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -105,9 +106,8 @@ class Served:
         self._parts: list[ServedBus | ServedCan | ServedDrives] = []
         try:
             if world.bus is not None:
-                self._parts.append(
-                    ServedBus(card, world, interface, is_real=is_real, is_reported=is_reported)
-                )
+                link = _link(card, world, interface)
+                self._parts.append(ServedBus(card, world, link, is_real, is_reported))
             if world.canopen is not None and world.canopen.interface is not None:
                 self._parts.append(ServedCan(card, world.canopen, is_real=is_real))
             if any(drive.serial for drive in world.drive):
@@ -185,23 +185,17 @@ class ServedDrives:
             port.close()
 
 
+@dataclass
 class ServedBus:
     """The bus of a served card."""
 
-    def __init__(
-        self,
-        card: "Controller",
-        world: "World",
-        interface: str,
-        *,
-        is_real: bool,
-        is_reported: bool,
-    ) -> None:
-        self._card, self._world = card, world
-        self._is_real, self._is_reported = is_real, is_reported
-        self._link = _link(card, world, interface)
-        self._machine: RealMachine | None = None
-        self._reporting: Reporting | None = None
+    _card: "Controller"
+    _world: "World"
+    _link: "Link"
+    _is_real: bool
+    _is_reported: bool
+    _machine: "RealMachine | None" = None
+    _reporting: Reporting | None = None
 
     def begin(self) -> None:
         """Bring the bus up and let the card attend it; BusError if it is not as described."""

@@ -7,8 +7,9 @@ from contextlib import contextmanager
 from typing import Any
 
 import pytest
+from tests.fieldbus.emulator import Emulator
 from tests.fieldbus.ethercat.rig import INPUT, OUTPUT
-from tests.fieldbus.ethercat.veth import Emulated, emulated
+from tests.fieldbus.ethercat.veth import emulated
 
 pysoem = pytest.importorskip("pysoem", reason="pysoem is not installed")
 pytestmark = pytest.mark.evidence("client", "SOEM by pysoem, a master used with real drives")
@@ -92,7 +93,7 @@ class Soem:
 
 
 @contextmanager
-def soem(*words: str) -> Iterator[tuple[Soem, Emulated]]:
+def soem(*words: str) -> Iterator[tuple[Soem, Emulator]]:
     with emulated(*words) as slaves:
         one = Soem(slaves.interface)
         try:
