@@ -1,53 +1,13 @@
 """A card whose programs and typed lines are executed for real, tick by tick, without motion."""
 
 from openacr.basic.channels.session import Session
+from openacr.basic.execute.control import ProgramControl
 from openacr.basic.execute.executor import Executor
 from openacr.basic.execute.system import System
 from openacr.basic.language.registry import Level
 from openacr.map.rows import system
-from openacr.map.words import pf
 from openacr.models import ACR8020
 from openacr.motion.card import Card
-
-
-class Control:
-    """RUN and HALT of the language alone."""
-
-    def __init__(self, executor: Executor) -> None:
-        self.executor = executor
-
-    def is_running(self, owner: int) -> bool:
-        return owner < 16 and self.executor.is_running(owner)
-
-    def run(self, owner: int, line: int | None = None) -> None:
-        self.executor.run_program(owner, line)
-
-    def halt(self, owner: int) -> None:
-        if owner < 16:
-            self.executor.halt_program(owner)
-
-    def pause(self, owner: int) -> None:
-        self._change(owner, pf.PAUSE_MODE, 0)
-
-    def resume(self, owner: int) -> None:
-        self._change(owner, 0, pf.PAUSE_MODE)
-
-    def block(self, owner: int) -> None:
-        self._change(owner, pf.BLOCK_MODE, 0)
-
-    def auto(self, owner: int) -> None:
-        self._change(owner, 0, pf.BLOCK_MODE)
-
-    def step(self, owner: int) -> None:
-        self._change(owner, pf.STEP_REQUEST_FLAG, 0)
-
-    def trace(self, owner: int, on: bool) -> None:
-        mask = pf.TRACE_MODE_ENABLE
-        self._change(owner, mask if on else 0, 0 if on else mask)
-
-    def _change(self, owner: int, on: int, off: int) -> None:
-        longs = self.executor.memory.I
-        longs[pf.word[owner]] = (longs[pf.word[owner]] | on) & ~off
 
 
 class Rig:
@@ -59,7 +19,7 @@ class Rig:
         self.system = System(self.card)
         self.executor = Executor(self.system)
         self.system.runner = self.executor
-        self.system.control = Control(self.executor)
+        self.system.control = ProgramControl(self.system, self.executor)
         self.session = self.connect("COM1")
         self.tick = 0
         self.type("DIM P(100)", "DIM PROG8(20000)", "DIM PROG9(20000)", "PROG0")

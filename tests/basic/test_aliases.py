@@ -1,7 +1,7 @@
 """Names given with #DEFINE."""
 
 import pytest
-from tests.basic.bench import Bench
+from tests.basic.machine import Machine
 
 import openacr.basic.commands.strings  # noqa: F401 - enters its functions
 from openacr.basic.language.aliases import Aliases
@@ -38,7 +38,7 @@ def test_names_of_24_letters_are_accepted_and_case_matters(aliases: Aliases) -> 
 
 @pytest.mark.parametrize("name", ["Count1", "a2b3", "Stn12x", "x" * 22 + "24"])
 def test_newer_models_allow_digits_after_the_first_letter(name: str) -> None:
-    bench = Bench(SUCCESSOR)
+    bench = Machine(SUCCESSOR)
     bench.type("DIM P(10)", "DIM DEF(5)")
     assert bench.type(f"#DEFINE {name} P5") == "SYS>"
     assert bench.type(f"#DEFINE {name}") == f"#DEFINE {name} P5|SYS>"
@@ -46,13 +46,13 @@ def test_newer_models_allow_digits_after_the_first_letter(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["P12", "SET32", "LV0", "1st", "Len2", "a_1", "x" * 24 + "5"])
 def test_names_that_read_as_a_word_and_its_number_are_refused(name: str) -> None:
-    bench = Bench(SUCCESSOR)
+    bench = Machine(SUCCESSOR)
     bench.type("DIM P(10)", "DIM DEF(5)")
     assert bench.type(f"#DEFINE {name} P5") == "Illegal name|SYS>"
 
 
 def test_names_with_digits_are_used_listed_and_distinguished_from_numbers() -> None:
-    rig = Bench(SUCCESSOR)
+    rig = Machine(SUCCESSOR)
     rig.type("DIM PROG0(1000)", "DIM P(10)", "DIM DEF(5)", "PROG0")
     rig.type("#DEFINE Part1 P1", "#DEFINE Part1b P2", "#DEFINE Part BIT33")
     rig.type("10 Part1=5:Part1b=Part1*2", "20 SET Part 32", "30 PRINT Part1;Part1b")

@@ -1,7 +1,7 @@
 """Addresses of the network."""
 
 import pytest
-from tests.basic.bench import Bench
+from tests.basic.machine import Machine
 from typer.testing import CliRunner
 
 from openacr.basic.memory.ip_address import IpAddress
@@ -16,7 +16,7 @@ def explained(*arguments: str) -> list[str]:
 @pytest.mark.req("ACR-IP-04")
 @pytest.mark.parametrize("text", ["192.168.0.0", "192.168.10.255", "255.255.255.255"])
 def test_networks_and_broadcasts_are_no_hosts(text: str) -> None:
-    bench = Bench()
+    bench = Machine()
     assert bench.type(f'IP "{text}"') == "Invalid argument|SYS>"
     assert bench.type("IP").startswith("IP 192.168.10.40|")
     assert "no card can have it: its host part is zero, or an octet is 255" in explained(text)

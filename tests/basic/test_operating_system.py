@@ -1,7 +1,7 @@
 """Levels, attachments, aliases and reports as they are typed."""
 
 import pytest
-from tests.basic.bench import Bench
+from tests.basic.machine import Machine
 from tests.basic.parsing import parse_line
 
 from openacr.basic.language import registry
@@ -12,14 +12,14 @@ from openacr.messages import UNDEFINED_SYMBOL, UNKNOWN_COMMAND
 
 
 @pytest.fixture
-def bench() -> Bench:
-    return Bench()
+def bench() -> Machine:
+    return Machine()
 
 
 # aliases
 
 
-def test_listed_programs_show_aliases_in_their_case(bench: Bench) -> None:
+def test_listed_programs_show_aliases_in_their_case(bench: Machine) -> None:
     bench.type("DIM DEF(5)", "#DEFINE EndOfTravel BIT16132", "PROG 0", "10 set EndOfTravel")
     assert bench.type("LIST") == "10 SET EndOfTravel|P00>"
 
@@ -27,7 +27,7 @@ def test_listed_programs_show_aliases_in_their_case(bench: Bench) -> None:
 # reports and settings
 
 
-def test_help_lists_every_command_word(bench: Bench) -> None:
+def test_help_lists_every_command_word(bench: Machine) -> None:
     lines = bench.type("HELP").removesuffix("SYS>").split("|")
     words = " ".join(lines).split()
     assert words == sorted(words)
@@ -54,11 +54,11 @@ def test_help_lists_every_command_word(bench: Bench) -> None:
         ("CHR$", f"CHR$(number): {registry.find_function('CHR$').summary}|"),
     ],
 )
-def test_help_says_what_a_command_does(bench: Bench, asked: str, shown: str) -> None:
+def test_help_says_what_a_command_does(bench: Machine, asked: str, shown: str) -> None:
     assert bench.type(f"HELP {asked}") == f"{shown}SYS>"
 
 
-def test_help_with_the_first_word_shows_all_commands_that_begin_so(bench: Bench) -> None:
+def test_help_with_the_first_word_shows_all_commands_that_begin_so(bench: Machine) -> None:
     lines = bench.type("HELP PASSWORD").removesuffix("SYS>").split("|")[:-1]
     assert [line.partition(":")[0] for line in lines] == [
         "PASSWORD",
@@ -72,12 +72,12 @@ def test_no_help_contains_a_prompt_character() -> None:
     assert all(">" not in row.summary for row in registry.functions.values())
 
 
-def test_period_is_not_changed_in_motion(bench: Bench) -> None:
+def test_period_is_not_changed_in_motion(bench: Machine) -> None:
     bench.card.memory.set_bit(792, True)
     assert bench.type("PERIOD 0.001") == "Not valid while in motion|SYS>"
 
 
-def test_eplc_without_a_network_card_fails_to_start(bench: Bench) -> None:
+def test_eplc_without_a_network_card_fails_to_start(bench: Machine) -> None:
     assert bench.type("EPLC") == "OFF|SYS>"
     assert bench.type("EPLC ON") == "SYS>"
     assert [bench.card.memory.bit(n) for n in (16640, 16648, 16649, 16650)] == [
@@ -86,7 +86,7 @@ def test_eplc_without_a_network_card_fails_to_start(bench: Bench) -> None:
     assert bench.type("EPLC", "EPLC OFF", "EPLC") == "FAILED|SYS>SYS>OFF|SYS>"
 
 
-def test_expansion_boards_are_enabled_by_config(bench: Bench) -> None:
+def test_expansion_boards_are_enabled_by_config(bench: Machine) -> None:
     assert bench.type("CONFIG XIO") == "CONFIG XIO 0|SYS>"
     assert bench.type("CONFIG XIO 2", "CONFIG XIO") == "SYS>CONFIG XIO 2|SYS>"
     assert [bench.card.memory.bit(flag) for flag in range(116, 120)] == [1, 1, 0, 0]
@@ -109,7 +109,7 @@ VECDEF VECTOR VEL
 
 
 @pytest.mark.req("ACR-CMD-HELP")
-def test_help_lists_every_command(bench: Bench) -> None:
+def test_help_lists_every_command(bench: Machine) -> None:
     assert set(AREAS.split()) <= set(bench.type("HELP").replace("|", " ").split())
 
 

@@ -28,7 +28,7 @@ def test_a_snapshot_taken_at_any_moment_goes_on_the_same_way() -> None:
     put_back(second.system, second.executor, msgpack.decode(state, type=Language))
     for card in (first, second):
         card.advance(100)
-        card.channel.escape()
+        card.session.escape()
     assert second.sent() == first.sent() == "|P01>"
     for line in ("?Count;$V0", "IP", "DIM", "HALT", "SYS", "PASSWORD", "DIM", "MEM"):
         assert first.type(line) == second.type(line)
@@ -88,6 +88,6 @@ def test_a_download_file_sets_up_and_stores_a_program() -> None:
 def test_an_error_in_one_line_of_a_file_does_not_stop_the_next() -> None:
     card = Machine()
     for line in file_lines("DIM P(5)\nunit move\nP1 = 7\n"):
-        card.channel.feed_line(line.text)
+        card.session.feed_line(line.text)
     assert card.sent() == "SYS>Unknown command|SYS>SYS>"
     assert card.card.memory.read(1) == 7
