@@ -31,17 +31,21 @@ def test_a_cusp_that_closes_on_the_tool_is_an_inside_corner() -> None:
 @pytest.mark.req("MILL-COMP-20")
 def test_the_root_epsilon_makes_circles_cross() -> None:
     # A lens of two circles of radius 2; with 1.0 the inner circles touch at L = 2.
-    def crossing(gap: float, root_epsilon: int) -> list[str]:
+    def crosses(gap: float, root_epsilon: int) -> bool:
         half = 1 + gap / 2
         top = sqrt(4 - half * half)
         path = Path(0, 0).to(2 - half, 0).arc(0, top, -half, 0, 1).arc(half - 2, 0, half, 0, 1)
         path.to(0, -0.1)
         rules = Rules(epsilon=1e-6, root_epsilon=root_epsilon)
-        return compensate(path.elements, 1.0, rules=rules).codes
+        trace = compensate(path.elements, 1.0, rules=rules)
+        assert "E321" not in trace.codes
+        return near((0, 0)) in trace.ends  # midway between the circles
 
-    assert "E321" not in crossing(2e-5, -4)
-    assert "W320" in crossing(2e-5, -9)
-    assert "W320" in crossing(0.01, -4)
+    # The square is 1 - (1 + gap / 2)^2.
+    assert crosses(2e-5, -4)
+    assert not crosses(2e-5, -5)
+    assert crosses(0.99e-4, -4)
+    assert not crosses(1.01e-4, -4)
 
 
 def test_circles_that_are_farther_apart_than_the_tool_do_not_cross() -> None:
