@@ -195,7 +195,7 @@ def test_the_scope_shows_four_channels_while_the_machine_moves(running: Page) ->
     for n, (source, scale, offset) in enumerate(
         [
             ("P12288", "1000", "0"), ("P12290", "500", "200"), ("P12291", "2", "-1"),
-            ("P12295", "5", "0"),
+            ("P12288", "250", "-40"),
         ],
         1,
     ):  # fmt: skip
@@ -218,6 +218,10 @@ def test_the_scope_shows_four_channels_while_the_machine_moves(running: Page) ->
     assert shown["x"] == [0, 500]  # ten divisions of 50 ms
     assert shown["y"] == [-5, 5]
     assert len(shown["channels"]) == 4
+    one, _, _, other = shown["channels"]  # the same parameter with two scales and offsets
+    assert [value * 250.0 - 40.0 for value in other] == pytest.approx(
+        [value * 1000.0 for value in one]
+    )
     times = shown["times"]
     assert all(abs(t - 5.0 * k) < 1e-6 for k, t in enumerate(times))
     assert len(times) <= 100  # 500 ms at 5 ms
