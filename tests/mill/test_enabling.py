@@ -5,8 +5,11 @@ from collections.abc import Callable
 import pytest
 from tests.mill.shop import Shop, at, end, line
 
+from openacr.client.drives import read_drives
 from openacr.controller import Controller
 from openacr.errors import UserError
+from openacr.map.words import af4
+from openacr.mill.card.driver import flag_of
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
 from openacr.sysvar import SettingError, Store
@@ -56,6 +59,99 @@ def test_a_refused_motion_enables_nothing() -> None:
     with pytest.raises(UserError, match="feed hold input is active"):
         shop.runner.jog(lambda jog: jog.increment(0, 1, 2))
     assert shop.outputs([45]) == [False]
+
+
+DRIVE_IO = flag_of(af4.word[0], af4.DRIVE_I_O_ENABLE)  # of X; 32 more for each further axis
+ESTOP_INPUT = 5
+
+
+def with_drives() -> Shop:
+    """Four drives with enable outputs; that of Y is off, axis 3 is not AcroMill's."""
+    shop = Shop(P400_004=ESTOP_INPUT, P400_013=45, P800_010=41)
+    for axis in range(4):
+        shop.controller.bit[DRIVE_IO + 32 * axis] = True
+        shop.card.command(f"AXIS{axis} DRIVE {'OFF' if axis == 1 else 'ON'}", program=0)
+    shop.pass_time(0.1)
+    assert drives(shop) == [True, False, True, True]
+    return shop
+
+
+def drives(shop: Shop) -> list[bool]:
+    return [drive.is_enabled for drive in read_drives(shop.runner.machine.read_rows, range(4))]
+
+
+def by_input(shop: Shop) -> None:
+    shop.controller.set_input(ESTOP_INPUT, True)
+    shop.pass_time(0.02)
+    shop.controller.set_input(ESTOP_INPUT, False)
+
+
+def by_screen(shop: Shop) -> None:
+    shop.runner.kill("a test")
+
+
+@pytest.mark.parametrize("stop", [by_input, by_screen])
+def test_an_emergency_stop_switches_the_drives_of_all_axes_of_the_card_off(
+    stop: Callable[[Shop], None],
+) -> None:
+    shop = with_drives()
+    shop.start(line(1, at(50)), end())
+    shop.runner.entry_actions.coolant.set(mist=False, flood=True)
+    shop.pass_time(0.5)
+    assert shop.outputs([41, 45]) == [True, True]
+    stop(shop)
+    shop.pass_time(0.1)
+    assert drives(shop) == [False] * 4
+    assert shop.outputs([41, 45]) == [False, False]
+    shop.pass_time(1.5)
+    at_rest = shop.pulses()
+    shop.pass_time(0.5)
+    assert shop.pulses() == at_rest
+
+
+@pytest.mark.parametrize("stop", [by_input, by_screen])
+def test_the_next_motion_switches_on_what_the_emergency_stop_has_switched_off(
+    stop: Callable[[Shop], None],
+) -> None:
+    shop = with_drives()
+    stop(shop)
+    shop.pass_time(1.5)
+    assert shop.runner.acknowledge() == []
+    shop.pass_time(0.1)
+    assert drives(shop) == [False] * 4  # not by an acknowledgement
+    shop.finish(line(1, at(0, 0, 2)), end())
+    assert drives(shop) == [True, False, True, False]  # Y was off before, A is not AcroMill's
+    shop.card.command("DRIVE OFF Z", program=0)
+    shop.finish(line(1, at(1)), end())
+    assert drives(shop) == [True, False, False, False]  # once
+
+
+def test_a_drive_that_stays_off_after_an_emergency_stop_bars_motion_and_says_why() -> None:
+    shop = with_drives()
+    shop.runner.kill("a test")
+    shop.pass_time(1.5)
+    shop.runner.acknowledge()
+    fault = flag_of(af4.word[0], af4.DRIVE_FAULT_INPUT)
+    shop.controller.bit[fault] = True
+    with pytest.raises(UserError, match="drive of axis X stays off: the drive reports a fault"):
+        shop.start(end())
+    assert (shop.runner.state, shop.outputs([45])) == (State.IDLE, [False])
+    shop.controller.bit[fault] = False
+    shop.finish(line(1, at(1)), end())
+    assert drives(shop) == [True, False, True, False]
+
+
+def test_an_emergency_stop_at_a_screen_acts_again_while_its_alarm_is_active() -> None:
+    shop = with_drives()
+    shop.runner.kill("a test")
+    shop.pass_time(1.5)
+    shop.card.command("AXIS3 DRIVE ON", program=0)
+    shop.card.command("SET 41", program=0)
+    shop.pass_time(0.1)
+    assert (drives(shop)[3], shop.outputs([41])) == (True, [True])
+    shop.runner.kill("a test")
+    shop.pass_time(0.1)
+    assert (drives(shop), shop.outputs([41])) == ([False] * 4, [False])
 
 
 def test_an_axis_turned_by_hand_stays_where_it_is_when_its_drive_is_enabled() -> None:

@@ -8,6 +8,7 @@ from tests.mill.shop import PULSES, Shop
 from openacr.client.errors import RefusedError
 from openacr.controller import Controller
 from openacr.errors import UserError
+from openacr.mill.card import alarms
 from openacr.mill.card.alarms import AlarmError
 from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
@@ -33,12 +34,13 @@ def emergency_stop(shop: Shop) -> None:
 
 
 def test_the_distance_of_the_kill_ramp_becomes_position() -> None:
-    shop = Shop(**{ESTOP: 5})
+    shop = Shop()
     shop.card.command("HLDEC X50", program=0)
     shop.load("G1 F600 X50\nM2\n")
     shop.pass_time(1.0)
     before = shop.place()[0]
-    emergency_stop(shop)
+    shop.runner._supervision.raise_alarm(alarms.HARDWARE_LIMIT, "X")
+    shop.pass_time(2.0)
     assert shop.controller.axis(0).actual_cnt / PULSES > before + 0.9
     assert shop.runner.acknowledge() == []
     assert shop.place()[0] == pytest.approx(shop.controller.axis(0).actual_cnt / PULSES, abs=1e-3)

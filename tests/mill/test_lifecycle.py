@@ -145,7 +145,7 @@ def cause(shop: Shop, event: Event) -> None:
         supervision.raise_alarm(alarms.NOT_MOVED, "")
     elif event is Event.KILL:
         supervision.raise_alarm(alarms.DRIVE_FAULT, "X")
-    elif event is Event.NO_REST:
+    elif event is Event.CUT_POWER:
         shop.runner.cut_power()
     elif event is Event.LINK_LOST:
         supervision.lose_link()
@@ -160,7 +160,7 @@ def controlled(shop: Shop) -> tuple[list[bool], float]:
 
 @pytest.mark.parametrize("state", State, ids=named)
 @pytest.mark.parametrize(
-    "event", [Event.ABORT, Event.FAULT, Event.KILL, Event.NO_REST, Event.LINK_LOST], ids=named
+    "event", [Event.ABORT, Event.FAULT, Event.KILL, Event.CUT_POWER, Event.LINK_LOST], ids=named
 )
 def test_every_ending_of_every_state_leaves_a_machine_at_rest_with_everything_off(
     state: State, event: Event

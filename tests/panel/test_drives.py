@@ -139,8 +139,9 @@ def test_reset_clears_the_fault_and_the_latch_of_the_motion_enable_input(
     assert drive(gantry).wrong == ()
 
 
+@pytest.mark.parametrize("stop", ["stop.estop", "stop.drives"])
 def test_a_moving_axis_keeps_its_drive_until_everything_is_switched_off(
-    gantry: HandStation,
+    gantry: HandStation, stop: str
 ) -> None:
     typed(gantry, "JOG ACC 100", "JOG DEC 100", "JOG VEL 0.1", "JOG FWD")
     assert drive(gantry).is_jogged
@@ -149,7 +150,7 @@ def test_a_moving_axis_keeps_its_drive_until_everything_is_switched_off(
     assert "STOP" in error
     viewer = Person(9, Role.VIEW, "10.0.0.9")
     gantry.station.join(viewer)
-    assert gantry.send("stop.drives", who=viewer)["ok"]
+    assert gantry.send(stop, who=viewer)["ok"]
     gantry.run(0.1)
     assert not any(each.is_enabled for each in gantry.station.drives.look())
     at = drive(gantry).setpoint_u

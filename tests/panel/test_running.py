@@ -3,9 +3,10 @@
 from math import isnan
 
 import pytest
-from tests.panel.bench import HandStation
+from tests.panel.bench import HandStation, card_of
 
 from openacr.cnc.loading.load import load
+from openacr.map.rows import axes
 from openacr.mill.session import Start
 from openacr.panel.control.machine.snapshot import Light
 from openacr.panel.control.operator.people import Person
@@ -359,12 +360,17 @@ def test_the_stop_of_all_drives_is_an_alarm_that_names_its_screen(hand: HandStat
     hand.do("stop.estop")
     hand.run(0.5)
     assert hand.state == "ALARM"
-    assert hand.events("alarms")[-1]["active"][0]["text"] == "Stopped at a screen: Anna"
+    (alarm,) = hand.events("alarms")[-1]["active"]  # no excess error of an undriven axis
+    assert alarm["text"] == "Stopped at a screen: Anna"
     assert hand.speeds() == (0.0, 0.0, 0.0)
     assert "alarm 9" in hand.refused("run.begin")["text"]
     hand.do("alarm.acknowledge")
     hand.run(0.5)
     assert hand.state == "IDLE"
+    at = card_of(hand).p[axes.actual_position[0]]
+    assert hand.press(1)["ok"]
+    hand.keep(1, 0.5)
+    assert card_of(hand).p[axes.actual_position[0]] > at + 1000  # its drive is on again
 
 
 def test_the_machine_is_set_up_again_when_settings_were_stored(hand: HandStation) -> None:

@@ -175,7 +175,18 @@ def test_gains_proposed_for_a_former_session_are_not_set(
     assert "measure it first" in hand.refused("tune.apply", axis="X")["text"]
 
 
-@pytest.mark.parametrize("word", ["stop.hold", "stop.all", "stop.estop"])
+def test_an_emergency_stop_ends_the_measurement_with_its_program(hand: HandStation) -> None:
+    answers = begun(hand, "tune.measure", **SHORT)
+    hand.do("stop.estop")
+    hand.run(1.0)
+    hand.do("alarm.acknowledge")
+    assert jog_offset(hand) == 0.0  # what the excitation has left is position
+    hand.until(lambda: bool(answers))
+    assert answers[0]["error"]["text"] == "PROG6: 0 of 1600 samples came: was it halted?"
+    assert not hand.station.tuning.is_moving
+
+
+@pytest.mark.parametrize("word", ["stop.hold", "stop.all"])
 def test_every_stop_ends_the_excitation_and_the_card_takes_it_back(
     hand: HandStation, word: str
 ) -> None:

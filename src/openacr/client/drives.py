@@ -12,6 +12,7 @@ from openacr.map.numbers import W_MISC_CONTROL_1
 from openacr.map.rows import axes
 from openacr.map.words import af1, af4, af5, ef
 
+ENABLE_S = 0.5  # longest time from DRIVE ON to the flag; a card takes 10 ms
 MEI_RESET = 5647  # flag: Motion Enable Latch Reset Request
 MEI_LATCHED, MEI_OPEN = 1 << 13, 1 << 14
 WORDS = (af1.word, af4.word, af5.word)

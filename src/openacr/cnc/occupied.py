@@ -78,6 +78,14 @@ RELAYS = 100
 FIRST_RELAY = TABLE.reserve(
     _BIT, 128, "relays", "what M100 to M199 wait for to be on, M200 to M299 to be off", RELAYS
 )
+MACHINE_AXES = 8
+FIRST_CUT = TABLE.reserve(
+    _BIT,
+    237,
+    "drives to switch on",
+    "an emergency stop has switched off axis 0 to 7: it goes on before the next motion",
+    MACHINE_AXES,
+)
 RAN_SHORT = TABLE.reserve(
     _BIT, 245, "ran short", "the watchdog has held the feed of a planned path at move P98"
 )
@@ -85,9 +93,8 @@ OUTPUTS_AT_REST = TABLE.reserve(
     _BIT, 246, "outputs at rest", "inverted outputs were put to rest since the card came on"
 )
 TRIPPED = TABLE.reserve(_BIT, 247, "watchdog tripped", "the watchdog has stopped the machine")
-HOMED_AXES = 8
 FIRST_HOMED = TABLE.reserve(
-    _BIT, 248, "homed axes", "axis 0 to 7 knows its reference point", HOMED_AXES
+    _BIT, 248, "homed axes", "axis 0 to 7 knows its reference point", MACHINE_AXES
 )
 WATCHDOG_PROGRAM = TABLE.reserve(
     _PROG,

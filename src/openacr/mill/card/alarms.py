@@ -23,6 +23,7 @@ class Effect(Enum):
     HOLD = "feed hold, the program is paused"
     ABORT = "the program ends as by ABORT"
     KILL = "all motion is killed, drives go off, the program ends"
+    CUT_POWER = "as KILL; the drives of all axes of the card go off, all its programs end"
     REFUSE = "the start is refused"
     NONE = "nothing but the message"
 
@@ -54,13 +55,13 @@ HOST_LOST = _alarm(5, "Watchdog of the card stopped the machine: its host was lo
 WATCHDOG_HALTED = _alarm(6, "Watchdog of the card was halted", Effect.ABORT)
 HOST_AWAY = _alarm(7, "Host did not watch the machine for {} s", Effect.HOLD)
 NOT_OWNER = _alarm(8, "Another program has taken the machine", Effect.REFUSE)
-SCREEN_STOP = _alarm(9, "Stopped at a screen: {}", Effect.KILL)
-EMERGENCY_STOP = _alarm(10, "Emergency stop", Effect.KILL)
+SCREEN_STOP = _alarm(9, "Stopped at a screen: {}", Effect.CUT_POWER)
+EMERGENCY_STOP = _alarm(10, "Emergency stop", Effect.CUT_POWER)
 EXCESS_ERROR = _alarm(11, "Excess following error axis {}", Effect.KILL)
 DRIVE_FAULT = _alarm(12, "Drive fault axis {}", Effect.KILL)
 HARDWARE_LIMIT = _alarm(13, "Hardware limit axis {}", Effect.KILL)
 MOVES_KILLED = _alarm(14, "Card killed moves", Effect.ABORT)
-NO_REST = _alarm(15, "Machine does not come to rest: drives are switched off", Effect.KILL)
+NO_REST = _alarm(15, "Machine does not come to rest: drives are switched off", Effect.CUT_POWER)
 NOT_IN_PLACE = _alarm(16, "Machine was moved by another program: {}", Effect.ABORT)
 CARD_RESET = _alarm(17, "Card was reset: its axes have lost their positions", Effect.ABORT)
 NOT_MOVED = _alarm(18, "Card does not make the moves it was sent", Effect.ABORT)

@@ -12,7 +12,7 @@ from functools import cached_property
 from openacr.client import Card, ConnectionLostError
 from openacr.client.errors import GarbledError, NoReplyError
 from openacr.client.values import Number, number_text
-from openacr.cnc.occupied import HOLD_AT, RAN_SHORT, TRIPPED
+from openacr.cnc.occupied import FIRST_CUT, HOLD_AT, MACHINE_AXES, RAN_SHORT, TRIPPED
 from openacr.errors import UserError
 from openacr.map import numbers as n
 from openacr.map.rows import masters
@@ -26,7 +26,7 @@ LINK_ERRORS = (ConnectionLostError, NoReplyError, GarbledError)
 CLEAR_S = 2.0  # longest time the card needs to clear a kill
 CLOCK_PERIOD_MS = 1 << 31
 BITS_PER_WORD = 32
-USER_FLAGS = n.FLAG_WORD_BASE + TRIPPED // BITS_PER_WORD  # the word with the watchdog's flag
+USER_FLAGS = n.FLAG_WORD_BASE + TRIPPED // BITS_PER_WORD  # those that AcroMill occupies
 TRIPPED_MASK, RAN_SHORT_MASK = 1 << TRIPPED % BITS_PER_WORD, 1 << RAN_SHORT % BITS_PER_WORD
 LIMIT_LATCHES = (
     af5.POSITIVE_HARDWARE_LIMIT_ENCOUNTERED,
@@ -52,6 +52,7 @@ class CardState:
     has_tripped: bool = False  # the watchdog has stopped the machine
     has_run_short: bool = False  # and has held a planned path that it had too little of
     is_guarded: bool = True  # the watchdog runs, where there is one
+    cut: int = 0  # axes whose drives an emergency stop has switched off, as bits
     may_have_lost: bool = False  # sent packets: the connection is a new one
 
     @property
@@ -80,6 +81,10 @@ class CardState:
         axes = (word & af4.KILL_ALL_MOTION_REQUEST for word in self.drives)
         return bool(self.master & mf1.KILL_ALL_MOVES_REQUEST) or any(axes)
 
+    def is_cut(self, axis: int) -> bool:
+        """Whether an emergency stop has switched the drive of an axis off, until it is on again."""
+        return bool(self.cut >> axis & 1)
+
     def input(self, number: int) -> bool:
         """The state of an input of the card (0..31) or of a module (256.. and up)."""
         if number < BITS_PER_WORD:
@@ -91,6 +96,11 @@ class CardState:
 def flag_of(word: int, mask: int) -> int:
     """The flag number of one bit of a flag word."""
     return (word - n.FLAG_WORD_BASE) * BITS_PER_WORD + mask.bit_length() - 1
+
+
+def may_be_on(word: int) -> bool:
+    """Whether the drive of an axis with these quaternary flags is on, or has no enable output."""
+    return bool(word & af4.DRIVE_ENABLED) or not word & af4.DRIVE_I_O_ENABLE
 
 
 class StepLostError(ConnectionLostError):
@@ -129,8 +139,8 @@ class MachineDriver:
         limits = [af5.word[axis] for axis in self.axes]
         head = [n.P_GLOBAL_SYSTEM_CLOCK, mf1.word[self.master], self.counter, n.W_INPUTS]
         modules = [n.XIOI_WORD + n.XIOI_WORD_STRIDE * one for one in range(self._modules)]
-        watchdog = [] if self._watchdog is None else [USER_FLAGS, pf.word[self._watchdog]]
-        return head + drives + limits + watchdog + modules
+        watchdog = [] if self._watchdog is None else [pf.word[self._watchdog]]
+        return [*head, *drives, *limits, USER_FLAGS, *watchdog, *modules]
 
     @property
     def counter(self) -> int:
@@ -158,15 +168,20 @@ class MachineDriver:
         self._passed_ms += 0 if was_reset else step_ms
         self._clock_ms = clock
         count = len(self.axes)
-        drives, limits, words = words[:count], words[count : 2 * count], words[2 * count :]
-        flags, program = words[:2] if self._watchdog is not None else (0, pf.PROGRAM_RUNNING)
-        modules = words[2:] if self._watchdog is not None else words
+        drives, limits, (flags, *words) = (
+            words[:count],
+            words[count : 2 * count],
+            words[2 * count :],
+        )
+        is_watched = self._watchdog is not None
+        program, modules = (words[0], words[1:]) if is_watched else (pf.PROGRAM_RUNNING, words)
         sample = CardState(
             clock, master, counter, inputs, tuple(drives), tuple(limits), tuple(modules),
             was_reset=was_reset,
-            has_tripped=bool(flags & TRIPPED_MASK),
-            has_run_short=bool(flags & RAN_SHORT_MASK),
+            has_tripped=is_watched and bool(flags & TRIPPED_MASK),
+            has_run_short=is_watched and bool(flags & RAN_SHORT_MASK),
             is_guarded=bool(program & pf.PROGRAM_RUNNING),
+            cut=flags >> FIRST_CUT % BITS_PER_WORD & (1 << MACHINE_AXES) - 1,
             may_have_lost=self._has_lost,
         )  # fmt: skip
         self._note_clearing(is_killed=sample.is_killed)
@@ -304,9 +319,15 @@ class MachineDriver:
         self._set_kills(True)
 
     def disable(self) -> None:
-        """Kill all motion and switch all drives off (Ctrl-Z; DRIVE OFF is refused in motion)."""
+        """Kill all motion, end all programs and switch all drives off, moving or not (Ctrl-Z).
+
+        Drives of axes in use that were on are noted on the card, for `enabling`.
+        """
         self._require_attached()
         self.card.kill_all(disable=True)
+        words = () if self.polled is None else self.polled.drives
+        were_on = [axis for axis, word in zip(self.axes, words, strict=False) if may_be_on(word)]
+        self._transmit(*(SetBit(FIRST_CUT + axis) for axis in were_on))
 
     def release(self) -> None:
         """Clear a kill so that axes and master may move; drives stay as they are.

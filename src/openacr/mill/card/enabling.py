@@ -1,19 +1,54 @@
 """Outputs before the first motion: drives enabled, inverted outputs set to their inactive level."""
 
-from openacr.cnc.occupied import OUTPUTS_AT_REST
+from openacr.client.drives import ENABLE_S, Drive, read_drives
+from openacr.client.errors import RefusedError
+from openacr.cnc.occupied import FIRST_CUT, OUTPUTS_AT_REST
+from openacr.errors import UserError
 from openacr.mill.card.machine_io import MachineIo
 
 
 def enable_drives(io: MachineIo) -> None:
-    """Switch the drive enable output on before motion, if it is off.
+    """Switch the drives on before motion: their enable output, and those that an E-stop cut.
 
-    Axes may have been turned by hand meanwhile: their positions are taken over (REN).
+    Axes may have been turned by hand meanwhile: their positions are taken over (REN). UserError
+    where a drive stays off.
     """
+    _restore(io)
     number = io.settings.wiring.drive_enable
     if number not in io.outputs or io.is_on(number):
         return
     io.machine.type(f"REN {axis.name}" for axis in io.settings.axes)
     io.output(number, True)
+
+
+def _restore(io: MachineIo) -> None:
+    """Switch on what the last emergency stop has switched off, as it is noted on the card."""
+    machine = io.machine
+    sample = machine.polled or machine.poll()
+    names = {axis.index: axis.name for axis in io.settings.axes if sample.is_cut(axis.index)}
+    if not names:
+        return
+    for axis, name in names.items():
+        try:
+            machine.type([f"AXIS{axis} DRIVE ON"])
+        except RefusedError as refused:
+            raise UserError(f"the drive of axis {name} stays off: {refused.message}") from refused
+
+    def off() -> list[Drive]:
+        drives = read_drives(machine.read_rows, list(names))
+        return [drive for drive in drives if not drive.is_enabled]
+
+    has_band = any(axis.excess_error_u > 0.0 for axis in io.settings.axes)
+
+    def are_on() -> bool:
+        return not off() and (not has_band or machine.poll().is_within_error)  # the former error
+
+    if not machine.card.wait(are_on, timeout_s=ENABLE_S):
+        for drive in off():
+            why = "; ".join(drive.bars) or "the card does not say why"
+            raise UserError(f"the drive of axis {names[drive.axis]} stays off: {why}")
+    for axis in names:
+        machine.set_flag(FIRST_CUT + axis, False)
 
 
 def rest_outputs(io: MachineIo) -> None:

@@ -8,7 +8,7 @@ keep them although their positions start from 0.
 from collections.abc import Callable
 
 from openacr.client import Card
-from openacr.cnc.occupied import FIRST_HOMED, HOMED_AXES
+from openacr.cnc.occupied import FIRST_HOMED, MACHINE_AXES
 from openacr.mill.card import soft_limits
 from openacr.mill.card.machine_io import MachineIo
 from openacr.mill.config.settings import HOMED, Settings, Store
@@ -16,7 +16,7 @@ from openacr.mill.config.settings import HOMED, Settings, Store
 
 def agree(card: Card, store: Store, say: Callable[[str], None] = lambda _text: None) -> None:
     """Drop axes that the card no longer knows as homed, and report them to the operator."""
-    flags = card.read_bits(range(FIRST_HOMED, FIRST_HOMED + HOMED_AXES))
+    flags = card.read_bits(range(FIRST_HOMED, FIRST_HOMED + MACHINE_AXES))
     known = sum(1 << axis for axis, is_homed in enumerate(flags) if is_homed)
     mask = int(store.read(HOMED))
     if mask & ~known:

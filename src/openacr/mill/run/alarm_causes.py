@@ -19,7 +19,6 @@ class Watch:
 
     def __init__(self, io: MachineIo) -> None:
         self._io = io
-        self._names = [axis.name for axis in io.settings.axes]
         self.killed = Killed(io.machine)
         self._has_error_band = any(axis.excess_error_u > 0.0 for axis in io.settings.axes)
 
@@ -44,11 +43,11 @@ class Watch:
             yield alarms.CARD_RESET, ""
         if sample.has_tripped:
             yield alarms.HOST_LOST, ""
-        if not sample.is_guarded:
+        if not sample.is_guarded and not sample.cut:  # else ended with all programs
             yield alarms.WATCHDOG_HALTED, ""
         yield from self._of_axes(sample)
         if self._has_error_band and not sample.is_within_error:
-            for name in self._in_error():
+            for name in self._in_error(sample):
                 yield alarms.EXCESS_ERROR, name
         if self._io.is_in(sample, spindle.exception):
             yield alarms.SPINDLE_EXCEPTION, ""
@@ -56,8 +55,11 @@ class Watch:
             yield alarms.LUBRICATION, ""
 
     def _of_axes(self, sample: CardState) -> Iterator[Cause]:
-        for name, drive, limit in zip(self._names, sample.drives, sample.limits, strict=True):
-            if drive & af4.EXCESS_ERROR_FAULT:
+        for axis, drive, limit in zip(
+            self._io.settings.axes, sample.drives, sample.limits, strict=True
+        ):
+            name = axis.name
+            if drive & af4.EXCESS_ERROR_FAULT and not sample.is_cut(axis.index):
                 yield alarms.EXCESS_ERROR, name
             if drive & af4.DRIVE_FAULT:
                 yield alarms.DRIVE_FAULT, name
@@ -66,11 +68,12 @@ class Watch:
             if limit & SOFT_LIMIT:
                 yield alarms.LIMIT_CROSSED, name
 
-    def _in_error(self) -> Iterator[str]:
-        """The axes outside their error band, read only when the master reports one."""
+    def _in_error(self, sample: CardState) -> Iterator[str]:
+        """The driven axes outside their error band, read only when the master reports one."""
         words = self._io.machine.axis_flags(af1.word)
         for axis, word in zip(self._io.settings.axes, words, strict=True):
-            if axis.excess_error_u > 0.0 and not word & af1.NOT_EXCESS_ERROR:
+            is_beyond = axis.excess_error_u > 0.0 and not word & af1.NOT_EXCESS_ERROR
+            if is_beyond and not sample.is_cut(axis.index):
                 yield axis.name
 
     def is_gone(self, sample: CardState) -> Callable[[Alarm], bool]:

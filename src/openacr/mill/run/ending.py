@@ -60,12 +60,12 @@ class Ending:
         with ExitStack() as then:  # all of these, even if one fails; in reverse order
             then.callback(self._player.close)
             then.callback(self._leave)
-            then.callback(self._entry_actions.off)
             then.callback(self._io.output, self._io.settings.wiring.drive_enable, False)
+            then.callback(self._entry_actions.off)
             self._machine.kill()
 
     def cut_power(self) -> None:
-        """Kill all motion and switch all drives off, if the machine does not come to rest."""
+        """As `kill`, then switch the drives of all axes of the card off."""
         with ExitStack() as then:
             then.callback(self._machine.disable)
             then.callback(self.kill)

@@ -65,7 +65,7 @@ class Event(Enum):
     ABORT = "abort"
     FAULT = "end a program by an alarm"
     KILL = "kill all motion"
-    NO_REST = "cut the power of the drives"
+    CUT_POWER = "cut the power of the drives"
     LINK_LOST = "lose the link"
     DISOWNED = "give the machine up"
     ACKNOWLEDGE = "acknowledge the alarms"
@@ -84,7 +84,10 @@ class Action(Enum):
     FINISH = "switch spindle, coolant and beam off, except after MDI"
     REST = "feed hold; spindle, coolant and beam off; drop moves; wait until all axes rest"
     KILL = "kill all motion; switch drive enable, spindle, coolant and beam off"
-    CUT_POWER = "kill all motion, then switch all drives off"
+    CUT_POWER = (
+        "kill all motion; switch spindle, coolant and beam off, then the drives of all axes of"
+        " the card; end its programs"
+    )
     ABANDON = "send nothing more to the card"
     CLEAR_KILL = "clear the kill"
 
@@ -116,7 +119,7 @@ def _rows() -> Iterable[tuple[Event, tuple[State, ...], State, Action]]:
     yield Event.ABORT, (State.ALARM,), State.ALARM, Action.REST
     yield Event.FAULT, every, State.ALARM, Action.REST
     yield Event.KILL, every, State.ALARM, Action.KILL
-    yield Event.NO_REST, every, State.ALARM, Action.CUT_POWER
+    yield Event.CUT_POWER, every, State.ALARM, Action.CUT_POWER
     yield Event.LINK_LOST, every, State.ALARM, Action.NOTHING
     yield Event.DISOWNED, every, State.ALARM, Action.ABANDON
     yield Event.ACKNOWLEDGE, (State.IDLE, State.ALARM), State.IDLE, Action.CLEAR_KILL

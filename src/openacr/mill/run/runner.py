@@ -281,11 +281,11 @@ class Runner:
         raise self.alarms.error(alarms.NOT_OWNER, self.machine.now_s)
 
     def cut_power(self) -> None:
-        """Kill all motion and switch all drives off (alarm 15), as the last resort."""
+        """Kill all motion and switch all drives off (alarm 15): the machine does not rest."""
         self._supervision.raise_alarm(alarms.NO_REST, "")
 
     def kill(self, detail: str) -> None:
-        """Kill all motion, switch drives and spindle off (alarm 9): an operator at a screen."""
+        """Switch spindle, beam and all drives of the card off (alarm 9): an operator's order."""
         self._supervision.raise_alarm(alarms.SCREEN_STOP, detail)
 
     def fail(self, cause: str) -> None:

@@ -23,6 +23,8 @@ from openacr.mill.run.program_stream import ProgramStream
 from openacr.mill.run.retracing import Retrace
 from openacr.mill.run.tracking import Stall
 
+KILLS = {Effect.KILL: Event.KILL, Effect.CUT_POWER: Event.CUT_POWER}
+
 
 class Supervision:
     """Checks one machine for alarms and applies their effects."""
@@ -130,14 +132,15 @@ class Supervision:
         detail = str(about)
         is_new = not self._alarms.is_active(kind, detail)
         self._alarms.raise_alarm(kind, detail, self._io.machine.now_s)
-        if not is_new or kind.effect is Effect.NONE:
+        is_order = kind is alarms.SCREEN_STOP  # each time, also while its alarm is active
+        if not (is_new or is_order) or kind.effect is Effect.NONE:
             return
         if kind is alarms.CARD_RESET:
             homed.forget(self._io)
         if kind is alarms.EXCESS_ERROR:
             homed.lose(self._io, detail)
-        if kind.effect is Effect.KILL:
-            self._lifecycle.fire(Event.NO_REST if kind is alarms.NO_REST else Event.KILL)
+        if kind.effect in KILLS:
+            self._lifecycle.fire(KILLS[kind.effect])
             self._manual.drop_held()
             self._watch.killed.note(kind)
             return

@@ -358,34 +358,39 @@ def stop_all(station: Station) -> dict[str, list[str]]:
 
 @command("stop.estop", Role.VIEW, needs_control=False, is_stop=True)
 def estop(station: Station, person: Person) -> dict[str, list[str]]:
-    """Kill all motion, AcroMill's drives off, by software: it is no emergency stop."""
-    if station.link.session is None or not station.link.session.is_set_up:
-        station.stopping.kill()
-    name = station.people.name_of(person)
-    return _stop(station, lambda runner: runner.kill(name), ends=True)
+    """Kill all motion, spindle, coolant, beam and all drives of the card off, by software.
+
+    It is no emergency stop. AcroMill's drives go on again before its next motion, those of other
+    axes by DRIVE ON.
+    """
+    return _all_off(station, person)
 
 
 @command("stop.drives", Role.VIEW, needs_control=False, is_stop=True, en="ALL OFF", de="ALLE AUS")
 def drives_off(station: Station, person: Person) -> dict[str, list[str]]:
-    """Kill all motion and switch the drives of all axes off, AcroMill's or not, by software.
+    """As `stop.estop`."""
+    return _all_off(station, person)
 
-    Each drive stays off until DRIVE ON.
+
+def _all_off(station: Station, person: Person) -> dict[str, list[str]]:
+    """Spindle, coolant and beam off, then all drives; the card is reached by the other step, too.
+
+    The second step acts where AcroMill is not set up or has given the card up.
     """
-    try:
-        station.stopping.kill()
-    finally:
-        found = _stop(
-            station, lambda runner: runner.kill(station.people.name_of(person)), ends=True
-        )
-    return found
+    name = station.people.name_of(person)
+    return _stop(station, lambda runner: runner.kill(name), station.stopping.kill, ends=True)
 
 
 def _stop(
-    station: Station, stop_part: Callable[[Runner], object], *, ends: bool
+    station: Station,
+    stop_part: Callable[[Runner], object],
+    *acts: Callable[[], object],
+    ends: bool,
 ) -> dict[str, list[str]]:
     """Do every step of a stop, whichever fails; the first error is raised at the end."""
     found: list[str] = []
     steps: list[Callable[[], object]] = [
+        *acts,
         station.hand_motion.end_held,
         station.typed.drop,
         lambda: station.tuning.stop(station.link.session),

@@ -3,12 +3,10 @@
 from concurrent.futures import Future
 from dataclasses import dataclass
 
-from openacr.client.drives import BARS, Drive, read_drives, said
+from openacr.client.drives import BARS, ENABLE_S, Drive, read_drives, said
 from openacr.client.errors import RefusedError
 from openacr.errors import UserError
 from openacr.panel.control.machine.link import Link
-
-ENABLE_S = 0.5  # longest time from the command to the flag; a card takes 10 ms
 
 
 @dataclass(slots=True)
