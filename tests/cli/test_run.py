@@ -9,21 +9,24 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import pytest
-from tests.cli.fake_machine import FakeMachine
 from typer.testing import CliRunner, Result
 
 from openacr.cli.main import app
-from openacr.cli.results import AxisReport
 from openacr.cli.run.command import MOST_S, limit_s
-from openacr.errors import SourceError
-from openacr.map.rows import programs, threads
-from openacr.map.words import mf1
-from openacr.messages import DIVIDE_BY_ZERO
+from openacr.cli.run.controlled import ControlledMachine
+from openacr.controller import Controller
+from openacr.project import find_project
 from openacr.units import quantity
 
 Run = Callable[..., Result]
+
+
+AXIS = ("PROG0", "ATTACH MASTER0", 'ATTACH SLAVE0 AXIS2 "Z"', "PPU Z1000")
+PERIOD_S = 0.0005
+MOVE = (*AXIS, "10 ACC 0 DEC 0 STP 0 VEL 10", "20 Z5")  # 1000 ticks
 
 
 @pytest.fixture
@@ -34,151 +37,143 @@ def project(tmp_path: Path) -> Path:
     return folder
 
 
-@pytest.fixture
-def machine() -> FakeMachine:
-    return FakeMachine()
+def entered(project: Path, *lines: str) -> None:
+    """Lines of the set-up; those with numbers are programs."""
+    (project / "setup.8k").write_text("\n".join(("DIM P(10)", *lines, "")))
 
 
 @pytest.fixture
-def run(machine: FakeMachine, project: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
-    monkeypatch.setattr("openacr.cli.run.controlled.load", lambda project: (machine, []))
-
+def run(project: Path) -> Run:
     def invoke(*options: object) -> Result:
         return CliRunner().invoke(app, ["run", str(project), *(str(word) for word in options)])
 
     return invoke
 
 
-def test_for_ends_the_run_at_its_tick(run: Run, machine: FakeMachine) -> None:
-    assert run("--for", "0.25").exit_code == 0
-    assert machine.tick == 500
+def summary_of(result: Result) -> dict[str, Any]:
+    """The summary of a run with --json."""
+    assert result.exit_code == 0, result.stderr
+    found: dict[str, Any] = json.loads(result.stdout)
+    return found
 
 
-def test_an_idle_card_ends_the_run_by_itself(run: Run, machine: FakeMachine) -> None:
-    def world(card: FakeMachine) -> None:
-        card.set_running(0, 10 < card.tick < 700)
-        card.memory.I[mf1.word[0]] = mf1.IN_MOTION if 500 < card.tick < 1000 else 0
-
-    machine.world = world
-    assert run().exit_code == 0
-    assert 1100 <= machine.tick <= 1300
+def tick_before(summary: dict[str, Any]) -> float:
+    """The seconds of a run that is a tick shorter."""
+    return float((summary["ticks"] - 1) * PERIOD_S)
 
 
-def test_until_a_flag_is_set_ends_at_its_tick(run: Run, machine: FakeMachine) -> None:
-    machine.world = lambda card: card.memory.set_bit(32, card.tick >= 333)
-    assert run("--until", "32").exit_code == 0
-    assert machine.tick == 333
+def test_for_ends_the_run_at_its_tick(run: Run) -> None:
+    assert summary_of(run("--for", "0.25", "--json"))["ticks"] == 500
 
 
-def test_until_a_flag_is_clear_waits_for_it_to_be_set_first(run: Run, machine: FakeMachine) -> None:
-    machine.world = lambda card: card.memory.set_bit(516, 200 <= card.tick < 777)
-    assert run("--until", "-BIT516").exit_code == 0
-    assert machine.tick == 777
+def test_an_idle_card_ends_the_run_by_itself(run: Run, project: Path) -> None:
+    entered(project, *MOVE, "PROG1", "10 DWL 0.35")
+    assert summary_of(run("--json"))["ticks"] == 1200
 
 
-def test_a_flag_that_does_not_come_is_mentioned(run: Run, machine: FakeMachine) -> None:
-    result = run("--until", "32", "--for", "0.1")
-    assert result.exit_code == 0
+def test_until_a_flag_is_set_ends_at_its_tick(run: Run, project: Path) -> None:
+    entered(project, "PROG0", "10 DWL 0.1", "20 SET 32", "30 DWL 1")
+    found = summary_of(run("--until", "32", "--json"))
+    assert 200 < found["ticks"] < 210
+    assert 32 in found["flags"]
+    assert 32 not in summary_of(run("--for", tick_before(found), "--json"))["flags"]
+
+
+def test_until_a_flag_is_clear_waits_for_it_to_be_set_first(run: Run, project: Path) -> None:
+    entered(project, "PROG0", "5 DWL 0.1", *MOVE[1:])
+    found = summary_of(run("--until", "-BIT516", "--json"))
+    assert 1200 < found["ticks"] < 1210
+    assert 516 not in found["flags"]
+    assert 516 in summary_of(run("--for", tick_before(found), "--json"))["flags"]
+
+
+def test_a_flag_that_does_not_come_is_mentioned(run: Run) -> None:
+    result = run("--until", "32", "--for", "0.1", "--json")
     assert "note: BIT32 set was not reached within 0.1 s" in result.stderr
-    assert machine.tick == 200
+    assert summary_of(result)["ticks"] == 200
 
 
-def test_what_programs_print_passes_through_and_comes_first(run: Run, machine: FakeMachine) -> None:
-    def world(card: FakeMachine) -> None:
-        if card.tick == 5:
-            card.hear("part ready\r\n")
-
-    machine.world = world
+def test_what_programs_print_passes_through_and_comes_first(run: Run, project: Path) -> None:
+    entered(project, "PROG0", '10 PRINT "part ready"')
     assert run("--for", "0.1").stdout.startswith("part ready\n")
-    machine.tick = 0
     assert run("--for", "0.1", "--quiet").stdout == "part ready\n"
 
 
-def test_the_closing_table_shows_axes_and_programs(run: Run, machine: FakeMachine) -> None:
-    machine.reports = (
-        AxisReport(0, 12.5, 12.499, 40.0, 100.25, 0.0125),
-        AxisReport(1, 0.0, 0.0, 0.0, 0.0, 0.0),
-    )
-    machine.store_program(3)
-    machine.memory.I[programs.parameters[3]] = 120
-    machine.set_running(3, True)
-    shown = run("--for", "0.1").stdout
+def test_the_closing_table_shows_axes_and_programs(run: Run, project: Path) -> None:
+    entered(project, *MOVE, "PROG3", "110 DWL 0.2", "120 GOTO 120")
+    shown = run("--for", "0.6").stdout
     rows = [line.split() for line in shown.splitlines() if line.strip() and "─" not in line]
-    assert rows[:4] == [
+    assert rows[:5] == [
         ["axis", "position", "distance", "peak", "velocity", "peak", "following", "error"],
-        ["0", "12.5000", "40.0000", "100.2500", "0.012500"],
+        ["2", "5.0000", "5.0000", "10.0000", "0.164000"],
         ["program", "state", "line", "error"],
+        ["PROG0", "idle", "20"],
         ["PROG3", "running", "120"],
     ]
-    assert "0.1000 s simulated in 200 ticks" in shown
+    assert "0.6000 s simulated in 1200 ticks" in shown
 
 
-def test_a_program_that_ended_in_an_error_gives_exit_code_1(run: Run, machine: FakeMachine) -> None:
-    machine.store_program(0)
-    machine.memory.I[threads.error[0]] = DIVIDE_BY_ZERO.number
+def test_a_program_that_ended_in_an_error_gives_exit_code_1(run: Run, project: Path) -> None:
+    entered(project, "PROG0", "10 P1 = 1/0")
     result = run("--for", "0.1")
     assert result.exit_code == 1
     assert "Divide by zero" in result.stdout
 
 
-def test_the_summary_has_the_promised_keys(run: Run, machine: FakeMachine, tmp_path: Path) -> None:
-    machine.reports = (AxisReport(4, 12.5, 12.499, 40.0, 100.25, 0.0125),)
-    machine.store_program(15)
-    machine.memory.set_bit(33, True)
-    machine.memory.set_bit(31, True)
+def test_the_summary_has_the_promised_keys(run: Run, project: Path, tmp_path: Path) -> None:
+    entered(project, "DIM PROG15(1000)", *MOVE, "PROG15", "10 SET 33 : SET 63")
     path = tmp_path / "summary.json"
-    assert run("--for", "0.1", "--summary", path).exit_code == 0
+    assert run("--for", "0.6", "--summary", path).exit_code == 0
     summary = json.loads(path.read_text())
     promised = ["time_s", "ticks", "digest", "speed", "axes", "programs", "flags", "events"]
     assert list(summary) == promised
-    assert summary["time_s"] == 0.1
-    assert summary["ticks"] == 200
-    assert summary["digest"] == machine.memory.digest()
-    assert summary["axes"] == {
-        "4": {
-            "position": 12.5,
-            "actual": 12.499,
-            "peak_velocity": 100.25,
-            "peak_following_error": 0.0125,
-        }
-    }
-    assert summary["programs"] == {
-        "15": {"state": "idle", "line": 0, "error": None, "file": None, "file_line": None}
-    }
-    assert {31, 33} <= set(summary["flags"])
+    assert summary["time_s"] == 0.6
+    assert summary["ticks"] == 1200
+    card, _ = Controller.load(find_project(project))
+    card.send("RUN ALL\r")
+    card.advance(1200)
+    assert summary["digest"] == card.digest()
+    axis = summary["axes"]["2"]
+    assert axis.pop("peak_velocity") == pytest.approx(10.0)
+    assert axis.pop("peak_following_error") == pytest.approx(0.164)
+    assert axis == {"position": 5.0, "actual": 5.0}
+    assert summary["programs"]["15"] == {
+        "state": "idle", "line": 10, "error": None, "file": None, "file_line": None,
+    }  # fmt: skip
+    assert {33, 63} <= set(summary["flags"])
     assert 32 not in summary["flags"]
 
 
-def test_json_keeps_standard_output_to_the_summary(run: Run, machine: FakeMachine) -> None:
-    machine.world = lambda card: card.hear("X") if card.tick == 5 else None
+def test_json_keeps_standard_output_to_the_summary(run: Run, project: Path) -> None:
+    entered(project, "PROG0", '10 PRINT "X"')
     result = run("--for", "0.1", "--json")
-    assert json.loads(result.stdout)["ticks"] == 200
+    assert summary_of(result)["ticks"] == 200
     assert "X" in result.stderr
 
 
-def test_a_trace_names_its_columns(run: Run, tmp_path: Path) -> None:
+def test_a_trace_names_its_columns(run: Run, project: Path, tmp_path: Path) -> None:
+    entered(project, *MOVE)
     path = tmp_path / "run.csv"
     assert run("--for", "0.1", "--trace", path).exit_code == 0
-    assert path.read_text().splitlines()[:3] == [
-        "time_s,axis_2_commanded,axis_2_actual,axis_2_velocity,axis_2_following_error",
-        "0,0,0,0,0",
-        "0.0005,1,1,1,0.001",
-    ]
+    head, first = path.read_text().splitlines()[:2]
+    assert head == "time_s,axis_2_commanded,axis_2_actual,axis_2_velocity,axis_2_following_error"
+    assert first == "0.0005,0,0,0,0"
 
 
+@pytest.mark.parametrize(("options", "every"), [((), 2), (("--trace-every", "7"), 7)])
 def test_a_long_run_is_recorded_more_sparsely(
-    run: Run, machine: FakeMachine, tmp_path: Path
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, options: tuple[str, ...], every: int
 ) -> None:
-    run("--for", "0.5", "--trace", tmp_path / "run.csv")
-    assert machine.recorded_every_tk == 1
-    machine.period_s = 1e-6
-    run("--for", "0.5", "--trace", tmp_path / "run.csv")
-    assert machine.recorded_every_tk == 2
-    run("--for", "0.5", "--trace", tmp_path / "run.csv", "--trace-every", "7")
-    assert machine.recorded_every_tk == 7
+    path = tmp_path / "run.csv"
+    run("--for", "0.05", "--trace", path)
+    assert len(path.read_text().splitlines()) == 1 + 100
+    monkeypatch.setattr("openacr.cli.run.session.TRACE_SAMPLES", 99)
+    run("--for", "0.05", "--trace", path, *options)
+    assert len(path.read_text().splitlines()) == 1 - -100 // every
 
 
-def test_a_picture_is_drawn(run: Run, tmp_path: Path) -> None:
+def test_a_picture_is_drawn(run: Run, project: Path, tmp_path: Path) -> None:
+    entered(project, *MOVE)
     assert run("--for", "0.1", "--plot", tmp_path / "run.svg").exit_code == 0
     assert "axis 2" in (tmp_path / "run.svg").read_text()
     assert [path.name for path in tmp_path.iterdir() if path.is_file()] == ["run.svg"]
@@ -203,7 +198,7 @@ def test_a_picture_is_drawn(run: Run, tmp_path: Path) -> None:
     ],
 )
 def test_bad_input_is_refused_before_anything_runs(
-    run: Run, machine: FakeMachine, tmp_path: Path, options: tuple[str, ...], text: str
+    run: Run, tmp_path: Path, options: tuple[str, ...], text: str
 ) -> None:
     before = sorted(tmp_path.rglob("*"))
     result = run(*(word.format(tmp=tmp_path) for word in options))
@@ -211,23 +206,20 @@ def test_bad_input_is_refused_before_anything_runs(
     assert result.stderr.startswith("error: ")
     assert text in result.stderr
     assert result.stdout == ""
-    assert machine.tick == 0
     assert sorted(tmp_path.rglob("*")) == before
 
 
-def test_lines_the_card_refuses_are_all_shown_and_nothing_runs(
-    run: Run, machine: FakeMachine, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    refused = [SourceError("Unknown command", path="a.8k", line=line) for line in (3, 7)]
-    monkeypatch.setattr("openacr.cli.run.controlled.load", lambda project: (machine, refused))
+def test_lines_the_card_refuses_are_all_shown_and_nothing_runs(run: Run, project: Path) -> None:
+    entered(project, "", "NOTHING", "", "", "", "AT ALL")
+    file = project / "setup.8k"
     result = run("--for", "0.1")
-    assert result.exit_code == 2
-    assert result.stderr.startswith("error: a.8k:3: Unknown command\nerror: a.8k:7: Unknown")
-    assert machine.tick == 0
-    result = run("--for", "0.1", "--keep-going")
-    assert result.exit_code == 0
-    assert "warning: a.8k:3: Unknown command" in result.stderr
-    assert machine.tick == 200
+    assert (result.exit_code, result.stdout) == (2, "")
+    first, second = [line for line in result.stderr.splitlines() if line.startswith("error: ")]
+    assert first.startswith(f"error: {file}:3:") and "Unknown command" in first
+    assert second.startswith(f"error: {file}:7:") and "Unknown command" in second
+    result = run("--for", "0.1", "--keep-going", "--json")
+    assert f"warning: {file}:3:" in result.stderr
+    assert summary_of(result)["ticks"] == 200
 
 
 def test_a_parquet_trace_without_its_library_says_what_to_install(
@@ -246,55 +238,46 @@ def test_an_existing_result_stays_when_the_input_is_wrong(run: Run, tmp_path: Pa
     assert path.read_text() == "old"
 
 
-def test_the_scenario_of_the_project_is_played(
-    run: Run, machine: FakeMachine, project: Path
-) -> None:
+def test_the_scenario_of_the_project_is_played(run: Run, project: Path) -> None:
     (project / "scenario.toml").write_text(
         """
         duration_s = 0.2
         [[at]]
         time_s = 0.05
-        send = "RUN"
+        send = "P1=P6916\\r"
         checkpoint = "go"
         [[at]]
         when = {bit = 9}
         set = [1]
         [[expect]]
-        flag = 1
-        is = false
+        parameter = 1
+        is = 50
         [[expect]]
         name = "greeting"
         printed = "hello"
         """
     )
-    machine.tick = 1000
     result = run("--json")
     assert result.exit_code == 1
-    assert machine.typed == [(1100, "RUN", None)]
-    assert machine.tick == 1400
     summary = json.loads(result.stdout)
+    assert summary["ticks"] == 400
     assert summary["scenario"]["checkpoints"] == {"start": 0.0, "go": 0.05, "end": 0.2}
     assert [item["ok"] for item in summary["scenario"]["expectations"]] == [True, False]
-    assert "failed: greeting: expected printed 'hello', found nothing printed" in result.stderr
+    assert (
+        "failed: greeting: expected printed 'hello', found no 'hello' in 'P1=P6916" in result.stderr
+    )
     assert "1 of 2 expectations met" in result.stderr
     assert "note: an action of the scenario never came: when BIT9 is set" in result.stderr
 
 
-def test_a_button_of_a_scenario_reaches_the_card(
-    run: Run, machine: FakeMachine, tmp_path: Path
-) -> None:
-    seen: list[int] = []
-
-    def world(card: FakeMachine) -> None:
-        if card.memory.bit(5):
-            seen.append(card.tick)
-
-    machine.world = world
+def test_a_button_of_a_scenario_reaches_the_card(run: Run, project: Path, tmp_path: Path) -> None:
+    entered(project, "PROG0", "10 INH 5 : PRINT P6916", "20 INH -5 : PRINT P6916")
     path = tmp_path / "press.toml"
-    path.write_text("at = [{time_s = 0.01, press = [5], press_s = 0.01}]")
-    assert run("--scenario", path, "--for", "0.1").exit_code == 0
-    assert (seen[0], seen[-1]) == (21, 40)
-    assert not machine.memory.bit(5)
+    path.write_text(
+        'at = [{time_s = 0, send = "RUN ALL\\r"}, {time_s = 0.01, press = [5], press_s = 0.01}]'
+    )
+    # A program waits in slices of 1 ms.
+    assert run("--scenario", path, "--for", "0.1").stdout.split()[:2] == ["11", "21"]
 
 
 def test_real_time_takes_its_time(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -311,27 +294,15 @@ def test_a_wrong_scenario_is_shown_with_its_line(run: Run, project: Path) -> Non
     assert "scenario.toml:3:1: unknown key `sett`" in result.stderr
 
 
-def test_a_bar_shows_the_running_programs_below_what_they_print(tmp_path: Path) -> None:
-    code = """
-import time
-from pathlib import Path
-from tests.cli.fake_machine import FakeMachine
-from openacr.cli.run.session import Options, Session
-
-def world(card):
-    card.set_running(7, True)
-    if card.tick in (400, 1200):
-        time.sleep(0.3)
-        card.hear(f"at {card.tick}\\r\\n")
-
-Session(Options(Path("x"), 1.0), FakeMachine(world), None).run()
-"""
+def test_a_bar_shows_the_running_programs_below_what_they_print(project: Path) -> None:
+    entered(
+        project, "PROG7", '10 DWL 0.2 : PRINT "at 400"', '20 DWL 0.4 : PRINT "at 1200"', "30 DWL 9"
+    )
     host, terminal = pty.openpty()
     process = subprocess.Popen(
-        [sys.executable, "-c", code],
+        [sys.executable, "-m", "openacr", "run", str(project), "--for", "1", "--realtime"],
         stdout=terminal,
         stderr=terminal,
-        cwd=Path(__file__).parents[2],
     )
     os.close(terminal)
     shown = b""
@@ -348,23 +319,30 @@ Session(Options(Path("x"), 1.0), FakeMachine(world), None).run()
 
 
 def test_a_narrow_terminal_hides_no_numbers(
-    run: Run, machine: FakeMachine, monkeypatch: pytest.MonkeyPatch
+    run: Run, project: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    entered(project, *MOVE)
     monkeypatch.setenv("COLUMNS", "30")
-    machine.reports = (AxisReport(0, 12.5, 12.499, 40.0, 100.25, 0.0125),)
-    shown = run("--for", "0.1").stdout
-    for number in ("12.5000", "40.0000", "100.2500", "0.012500"):
+    shown = run("--for", "0.6").stdout
+    for number in ("5.0000", "10.0000", "0.164000"):
         assert number in shown
 
 
 def test_a_picture_alone_is_recorded_sparsely_with_its_peaks(
-    run: Run, machine: FakeMachine, tmp_path: Path
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    machine.period_s = 1e-5
-    run("--for", "0.6", "--plot", tmp_path / "run.svg")
-    assert (machine.recorded_every_tk, machine.keeps_peaks) == (2, True)
-    run("--for", "0.6", "--plot", tmp_path / "run.svg", "--trace", tmp_path / "run.csv")
-    assert (machine.recorded_every_tk, machine.keeps_peaks) == (1, False)
+    recorded: list[tuple[int, bool]] = []
+    record = ControlledMachine.record
+
+    def noted(machine: ControlledMachine, every_tk: int, **options: Any) -> None:
+        recorded.append((every_tk, options["keep_peaks"]))
+        record(machine, every_tk, **options)
+
+    monkeypatch.setattr(ControlledMachine, "record", noted)
+    monkeypatch.setattr("openacr.cli.run.session.PLOT_SAMPLES", 100)
+    run("--for", "0.1", "--plot", tmp_path / "run.svg")
+    run("--for", "0.1", "--plot", tmp_path / "run.svg", "--trace", tmp_path / "run.csv")
+    assert recorded == [(2, True), (1, False)]
 
 
 @pytest.mark.parametrize("seconds", ["0", "1e300", "10000001", "1e9h"])
