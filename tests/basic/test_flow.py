@@ -25,7 +25,7 @@ def test_then_with_a_line_number_jumps(rig: Rig) -> None:
     )
     rig.session.listening_to = 0
     rig.executor.run_program(0)
-    rig.pass_ticks(10)
+    rig.advance(10)
     assert rig.sent() == "3|4|5|"
 
 

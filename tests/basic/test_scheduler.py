@@ -35,7 +35,7 @@ def test_a_slice_lasts_one_millisecond_and_at_least_one_tick() -> None:
 def test_a_program_alone_has_every_second_slice() -> None:
     rig = Rig()
     start(rig, 0, *counting(0))
-    rig.pass_ticks(400)
+    rig.advance(400)
     # 200 slices, half of them for communications; two statements per count.
     assert count(rig, 0) == pytest.approx(500, abs=10)
 
@@ -44,7 +44,7 @@ def test_running_programs_share_the_ring_equally() -> None:
     rig = Rig()
     for program in (0, 3, 7):
         start(rig, program, *counting(program))
-    rig.pass_ticks(800)
+    rig.advance(800)
     assert [count(rig, program) for program in (0, 3, 7)] == [pytest.approx(500, abs=10)] * 3
 
 
@@ -52,7 +52,7 @@ def test_programs_8_to_15_share_one_slice() -> None:
     rig = Rig()
     for program in (0, 8, 9):
         start(rig, program, *counting(program))
-    rig.pass_ticks(1200)
+    rig.advance(1200)
     assert count(rig, 0) == pytest.approx(1000, abs=15)
     assert [count(rig, 8), count(rig, 9)] == [pytest.approx(500, abs=15)] * 2
 
@@ -60,7 +60,7 @@ def test_programs_8_to_15_share_one_slice() -> None:
 def test_a_dwell_of_nothing_returns_at_once() -> None:
     rig = Rig()
     start(rig, 0, "DWL 0", "DWL -1", "SET 40")
-    rig.pass_ticks(4)
+    rig.advance(4)
     assert rig.bit(40)
 
 
@@ -70,31 +70,30 @@ def test_channels_are_served_while_programs_run() -> None:
         start(rig, program, *counting(program))
     rig.session.go(rig.session.level, 0)
     rig.type("INH 40 : SET 41")
-    rig.pass_ticks(10)
+    rig.advance(10)
     rig.memory.set_bit(40, True)
-    rig.pass_ticks(2)
+    rig.advance(2)
     assert rig.bit(41)
 
 
 def test_the_line_number_is_a_parameter() -> None:
     rig = Rig()
     start(rig, 0, "P0=1", "INH 40")
-    rig.pass_ticks(10)
+    rig.advance(10)
     assert rig.memory.I[7168] == 30
 
 
 def test_a_snapshot_continues_in_the_middle_of_a_program() -> None:
     rig = Rig()
     start(rig, 0, "FOR P0=1 TO 100", "DWL 0.002", "P1=P1+P0", "NEXT", 'PRINT "done"')
-    rig.pass_ticks(100)
-    memory, state, tick = rig.memory.snapshot(), take(rig.system, rig.executor), rig.tick
-    rig.pass_ticks(1000)
+    rig.advance(100)
+    memory, state = rig.memory.snapshot(), take(rig.system, rig.executor)
+    rig.advance(1000)
     expected = rig.memory.digest()
     other = Rig()
     other.memory.restore(memory)
     put_back(other.system, other.executor, state)
-    other.tick = tick
-    other.pass_ticks(1000)
+    other.advance(1000)
     assert other.memory.digest() == expected
     assert other.value("P1") == "5050"
 
@@ -131,7 +130,7 @@ def test_both_builds_of_the_vm_give_the_same_bits() -> None:
         rig.executor._advance = choose(scheduler_cy.advance)
         rig.executor.computing._vm_run = choose(vm_cy.vm_run)
         start(rig, 0, *lines)
-        rig.pass_ticks(1000)
+        rig.advance(1000)
         assert (rig.value("P1"), rig.is_running()) == ("40", False)
         digests.append(rig.memory.digest())
     assert digests[0] == digests[1]
