@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from openacr.cnc.codes.table import DIALECTS
+from openacr.editing.completions import MOST_ITEMS
 from openacr.editing.document import Edit, Place, Span
 from openacr.editing.engine import Engine
 from openacr.editing.marks import Kind
@@ -193,6 +194,24 @@ def test_what_fits_is_proposed(
     engine.change(path, [Edit(Span(Place(1, 0), Place(1, 0)), f"{text}\n")])
     shown = [item.label for item in engine.complete(path, Place(1, len(text))).items]
     assert [label for label in shown if label in labels] == labels
+
+
+@pytest.mark.parametrize("name", ["c.nc", "prog0.8k"])
+@pytest.mark.parametrize(("count", "is_whole"), [(MOST_ITEMS, True), (MOST_ITEMS + 1, False)])
+def test_of_very_many_labels_the_first_are_proposed_and_others_as_the_word_goes_on(
+    engine: Engine, tmp_path: Path, name: str, count: int, is_whole: bool
+) -> None:
+    label = "N{} G1 X1\n" if name == "c.nc" else "{} DWL 1\n"
+    labels = range(1000, 1000 + count)
+    path = tmp_path / name
+    engine.open(path, "".join(map(label.format, labels)) + "GOTO 1500")
+    found = engine.complete(path, Place(count, 5))
+    assert [item.label for item in found.items] == [str(each) for each in labels[:MOST_ITEMS]]
+    assert found.is_whole is is_whole
+    typed = engine.complete(path, Place(count, 8))
+    assert typed.is_whole
+    last = [str(each) for each in labels if each >= 1500]
+    assert [item.label for item in typed.items] == last
 
 
 def test_outline_folds_and_hints(engine: Engine, tmp_path: Path) -> None:

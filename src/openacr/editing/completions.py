@@ -7,12 +7,13 @@ from typing import NamedTuple
 
 from msgspec import Struct
 
-from openacr.editing.document import Span
+from openacr.editing.document import Place, Span
 from openacr.editing.marks import Kind
 from openacr.editing.texts import short
 from openacr.map import Flag, Parameter, flag, flag_names, parameter, parameter_names
 
 MOST_RECORDS = 100
+MOST_ITEMS = 500  # at once; more are proposed as the word goes on
 FEWEST_LETTERS = 3  # of a word that is looked for in names of parameters and flags
 _Rows = tuple[Callable[[int], Parameter | Flag], Callable[[], dict[int, str]], str]
 _RECORDS: dict[Kind, _Rows] = {
@@ -39,6 +40,15 @@ class Completion:
     span: Span
     items: list[Item] = field(default_factory=list)
     is_whole: bool = True  # no other proposals appear while the word goes on
+
+    @classmethod
+    def of(
+        cls, place: Place, typed: str, items: Iterable[Item], *, is_whole: bool = True
+    ) -> "Completion":
+        """The items that what was typed before a place may become, the first of very many."""
+        span = Span(Place(place.line, place.column - len(typed)), place)
+        found = beginning_with(typed, items)
+        return cls(span, found[:MOST_ITEMS], is_whole and len(found) <= MOST_ITEMS)
 
 
 class Signature(NamedTuple):

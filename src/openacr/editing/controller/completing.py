@@ -13,13 +13,12 @@ from openacr.editing.completions import (
     Completion,
     Item,
     Signature,
-    beginning_with,
     by_name,
     by_number,
 )
 from openacr.editing.controller.marks import names_flags, tokens_before, words_of
 from openacr.editing.controller.texts import written
-from openacr.editing.document import Place, Span
+from openacr.editing.document import Place
 from openacr.editing.marks import Kind, Mark
 from openacr.lang.lexer import Token, TokenKind
 from openacr.plc.instructions import BY_WORDS
@@ -43,20 +42,20 @@ def complete(
     """Proposals at a place of a line; `named` are those the project names itself."""
     before = text[: place.column]
     if _is_text(before, marks):
-        return _completion(place, "", [])
+        return Completion.of(place, "", [])
     if jump := _JUMP.search(before):
         items = [Item(label, Kind.LABEL, "label") for label in sorted(set(labels))]
-        return _completion(place, jump[1], items)
+        return Completion.of(place, jump[1], items)
     found = tokens_before(text, place.column)
     row = _row_before(marks, place.column)
     if numbered := _NUMBERED.search(before):
         kind = Kind.PARAMETER if numbered[1].upper() == "P" else Kind.FLAG
         items = by_number(numbered[2], kind)
-        return _completion(place, numbered[2], items, is_whole=False)
+        return Completion.of(place, numbered[2], items, is_whole=False)
     if digits := _DIGITS.search(before):
         is_flag = names_flags(row) if isinstance(row, Command) else level is Level.PLC
         items = by_number(digits[1], Kind.FLAG) if is_flag else []
-        return _completion(place, digits[1], items, is_whole=False)
+        return Completion.of(place, digits[1], items, is_whole=False)
     word = _WORD.search(before)
     typed = word[0] if word else ""
     if found and typed and found[-1].kind is TokenKind.WORD:
@@ -64,14 +63,7 @@ def complete(
     if typed.startswith("#") and found and found[-1].value == "#":
         found = found[:-1]
     items = [*_words(found, row, level), *named, *by_name(typed)]
-    return _completion(place, typed, items, is_whole=len(typed) > 2)
-
-
-def _completion(
-    place: Place, typed: str, items: list[Item], *, is_whole: bool = True
-) -> Completion:
-    span = Span(Place(place.line, place.column - len(typed)), place)
-    return Completion(span, beginning_with(typed, items), is_whole)
+    return Completion.of(place, typed, items, is_whole=len(typed) > 2)
 
 
 def _is_text(before: str, marks: Iterable[Mark]) -> bool:

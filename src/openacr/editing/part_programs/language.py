@@ -10,8 +10,8 @@ from openacr.cnc.codes.ngc.named import PREDEFINED
 from openacr.cnc.codes.table import DIALECTS
 from openacr.cnc.loading.supplied import found_in
 from openacr.cnc.reading.parser import LAST_LABEL, LONGEST
-from openacr.editing.completions import Completion, Item, Signature, beginning_with
-from openacr.editing.document import Document, Edit, Place, Span
+from openacr.editing.completions import Completion, Item, Signature
+from openacr.editing.document import Document, Edit, Place
 from openacr.editing.languages import Files
 from openacr.editing.marks import Kind, Mark, Symbol
 from openacr.editing.outlines import COMMENT, Entry, Fold
@@ -160,13 +160,13 @@ class PartProgramLanguage:
         before = document.lines[place.line][: place.column]
         dialect = DIALECTS[self.dialect(document)]
         if jump := _JUMP.search(before):
-            return _completion(place, jump[1], self._labels(document))
+            return Completion.of(place, jump[1], self._labels(document, jump[1]))
         if dialect.grammar.has_o_words and (routine := _ROUTINE.match(before)):
-            return _completion(place, routine[1], self._routines(document))
+            return Completion.of(place, routine[1], self._routines(document))
         word = _WORD.search(before)
         typed = word[0] if word else ""
         if typed.startswith("#"):
-            return _completion(place, typed, self._named(document))
+            return Completion.of(place, typed, self._named(document))
         table = dialect.table
         codes = [*table.gcodes.values(), *table.mcodes.values()]
         items = [Item(code.name, Kind.CODE, code.summary, row=code) for code in codes]
@@ -175,11 +175,12 @@ class PartProgramLanguage:
         grammar = dialect.grammar
         items += [Item(name, Kind.COMMAND) for name in sorted(grammar.statements)]
         items += [Item(name, Kind.FUNCTION) for name in sorted(grammar.functions)]
-        return _completion(place, typed, items)
+        return Completion.of(place, typed, items)
 
-    def _labels(self, document: Document) -> list[Item]:
-        names = {f.label for text in document.lines if (f := facts_of(text)) and f.label}
-        return [Item(name, Kind.LABEL, "label") for name in sorted(names, key=int)]
+    def _labels(self, document: Document, typed: str) -> Iterator[Item]:
+        facts = filter(None, map(facts_of, document.lines))
+        names = {each.label for each in facts if each.label and each.label.startswith(typed)}
+        return (Item(name, Kind.LABEL, "label") for name in sorted(names, key=int))
 
     def _routines(self, document: Document) -> list[Item]:
         found = {f.routine for text in document.lines if (f := facts_of(text)) and f.routine}
@@ -189,9 +190,10 @@ class PartProgramLanguage:
         ]
 
     def _named(self, document: Document) -> list[Item]:
+        lines = [line for line, text in enumerate(document.lines) if "<" in text]
         own = {
             mark.name
-            for _, marks in self.marks(document, range(len(document.lines)))
+            for _, marks in self.marks(document, lines)
             for mark in marks
             if mark.kind is Kind.NAMED and mark.row is None
         }
@@ -258,11 +260,6 @@ class PartProgramLanguage:
     def forget(self, path: Path) -> None:
         """Choose the dialect of a file anew when it is opened again."""
         self._store.forget(path)
-
-
-def _completion(place: Place, typed: str, items: list[Item]) -> Completion:
-    span = Span(Place(place.line, place.column - len(typed)), place)
-    return Completion(span, beginning_with(typed, items))
 
 
 def _fold(first: int, last: int) -> Iterator[Fold]:
