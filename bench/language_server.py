@@ -10,10 +10,12 @@ on a computer whose cores are all busy with something else.
 """
 
 import os
+import queue
 import statistics
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -39,6 +41,8 @@ class Client:
         self._server = subprocess.Popen(command, stdin=pipe, stdout=pipe, env=as_installed())
         self._out = cast("IO[bytes]", self._server.stdin)
         self._in = cast("IO[bytes]", self._server.stdout)
+        self._come: queue.Queue[dict[str, object] | None] = queue.Queue()
+        threading.Thread(target=self._listen, daemon=True).start()
         self.ask("initialize", {"capabilities": {}})
         self.tell("initialized", {})
 
@@ -53,8 +57,14 @@ class Client:
 
     def wait(self, key: str, value: str) -> None:
         """Read up to the message that has this value, or to the end."""
-        while (message := read_message(self._in)) is not None and message.get(key) != value:
+        while (message := self._come.get()) is not None and message.get(key) != value:
             pass
+
+    def _listen(self) -> None:
+        """Read all the time, as editors do: what is not read would hold the server up."""
+        while (message := read_message(self._in)) is not None:
+            self._come.put(message)
+        self._come.put(None)
 
     def open(self, uri: str, text: str) -> None:
         """Open a document."""
@@ -65,7 +75,8 @@ class Client:
         """Shut the server down, and wait for its end."""
         self.ask("shutdown", None)
         self.tell("exit", None)
-        self._server.communicate()
+        self._out.close()
+        self._server.wait()
 
 
 def _start(opened: Path | None = None) -> float:
