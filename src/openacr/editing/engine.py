@@ -75,6 +75,15 @@ class Engine:
             document.apply(edit)
         self.files.forget()
 
+    def prepare(self, path: Path) -> Iterator[None]:
+        """Read ahead what the first keys in a file would wait for, in steps of some milliseconds.
+
+        It may be changed or closed between two of them.
+        """
+        document = self.files.unsaved.get(path)
+        if document is not None:
+            yield from self.language(document).prepare(document)
+
     def close(self, path: Path) -> None:
         """Close a file."""
         document = self.files.unsaved.get(path)

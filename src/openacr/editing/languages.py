@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Protocol
 
@@ -12,6 +12,7 @@ from openacr.editing.marks import Mark, Symbol
 from openacr.editing.outlines import Entry, Fold
 from openacr.editing.symbols import Finding
 
+STEP_LINES = 500  # read ahead at once
 CONTROLLER_SUFFIX = ".8k"
 CONTROLLER_NAMES = frozenset(("acrobasic", "acroplc", "8k"))
 
@@ -83,8 +84,19 @@ class Language(Protocol):
     ) -> dict[Path, list[Finding]]:
         """What is wrong with a subject, by file."""
 
+    def prepare(self, document: Document) -> Iterator[None]:
+        """Read ahead what the first keys would wait for, in steps of some milliseconds."""
+
     def forget(self, path: Path) -> None:
         """Forget what is kept of a file, which is closed."""
+
+
+def in_steps(read: Callable[[str], object], lines: list[str]) -> Iterator[None]:
+    """Have lines read by a function that keeps what it finds, some at a time."""
+    for first in range(0, len(lines), STEP_LINES):
+        for text in lines[first : first + STEP_LINES]:
+            read(text)
+        yield
 
 
 def is_controller(document: Document) -> bool:

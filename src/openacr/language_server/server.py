@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from openacr.language_server.found import Found
 
 NAME = "openacr"
+PREPARE_S = 0.3  # after a file is opened, when its check is under way
 Params = TypeVar("Params")
 logger = logging.getLogger(__name__)
 
@@ -53,6 +54,7 @@ class Server(LanguageServer):
         self.proposed: list[Item] = []  # last, to say more of one of them
         self._uris: dict[Path, str] = {}
         self._versions: dict[Path, int] = {}
+        self._tasks: set[asyncio.Task[None]] = set()
 
     @cached_property
     def engine(self) -> Engine:
@@ -125,6 +127,15 @@ class Server(LanguageServer):
         self._uris[path], self._versions[path] = found.uri, found.version
         self.engine.open(path, found.text, found.language_id)
         self.checks.ask(self.engine.subject(path), 0.0)
+        task = asyncio.get_running_loop().create_task(self._prepare(path))
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    async def _prepare(self, path: Path) -> None:
+        """Read ahead in a file between what the client asks."""
+        await asyncio.sleep(PREPARE_S)
+        for _ in self.engine.prepare(path):
+            await asyncio.sleep(0.0)
 
     def changed(self, params: types.DidChangeTextDocumentParams) -> None:
         """Change a document; one that was never opened is left alone."""

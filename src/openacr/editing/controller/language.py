@@ -11,19 +11,21 @@ from openacr.basic.language.parser import LONGEST_LABEL
 from openacr.basic.language.registry import Level
 from openacr.editing.completions import Completion, Item, Signature
 from openacr.editing.controller import checking, completing, formatting
+from openacr.editing.controller.facts import facts_of
 from openacr.editing.controller.folding import folds
 from openacr.editing.controller.marks import marks_of
 from openacr.editing.controller.names import ProjectNames, names_of
 from openacr.editing.controller.outline import Outline, Section, outline
 from openacr.editing.controller.values import value_name, values_in
 from openacr.editing.document import Document, Edit, Place
-from openacr.editing.languages import Files
+from openacr.editing.languages import Files, in_steps
 from openacr.editing.marks import Kind, Mark, Symbol
 from openacr.editing.outlines import Entry, Fold
 from openacr.editing.symbols import Finding
 from openacr.editing.texts import flag, markdown, parameter, short
 from openacr.errors import CardError
 from openacr.lang.lexer import LINE_LIMIT
+from openacr.map import flag_names, parameter_names
 from openacr.project import Place as FilePlace
 from openacr.project import place_of
 
@@ -263,6 +265,14 @@ class ControllerLanguage:
     ) -> dict[Path, list[Finding]]:
         """What `openacr check` finds."""
         return checking.findings(subject, documents)
+
+    def prepare(self, document: Document) -> Iterator[None]:
+        """Read the names of the map, and what the lines say."""
+        for names in (parameter_names, flag_names):
+            names()
+            yield
+        yield from in_steps(facts_of, document.lines)
+        self.names(document)
 
     def forget(self, path: Path) -> None:
         """Do nothing: what is known of a text belongs to the text."""

@@ -12,7 +12,7 @@ from openacr.cnc.loading.supplied import found_in
 from openacr.cnc.reading.parser import LAST_LABEL, LONGEST
 from openacr.editing.completions import Completion, Item, Signature
 from openacr.editing.document import Document, Edit, Place
-from openacr.editing.languages import Files
+from openacr.editing.languages import Files, in_steps
 from openacr.editing.marks import Kind, Mark, Symbol
 from openacr.editing.outlines import COMMENT, Entry, Fold
 from openacr.editing.part_programs.checking import findings
@@ -256,6 +256,12 @@ class PartProgramLanguage:
     ) -> dict[Path, list[Finding]]:
         """What `openacr mill check` finds."""
         return findings(documents[subject], self._store)
+
+    def prepare(self, document: Document) -> Iterator[None]:
+        """Choose the dialect, and read what the lines say."""
+        self.dialect(document)
+        yield
+        yield from in_steps(facts_of, document.lines)
 
     def forget(self, path: Path) -> None:
         """Choose the dialect of a file anew when it is opened again."""
