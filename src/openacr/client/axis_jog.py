@@ -2,9 +2,12 @@
 
 The target is at most `LEASH_S` of travel at full speed and the braking distance ahead, and moves on
 only while `step` is called: an axis whose host or link is lost comes to rest by itself. At rest the
-jog offset becomes position (JOG RES) and the axis has its own jog speed again.
+jog offset becomes position (JOG RES) and the axis has its own jog speed again; where the host was
+lost before, `set_back` does that later.
 """
 
+import math
+from collections.abc import Callable
 from contextlib import suppress
 from typing import NamedTuple
 
@@ -16,6 +19,7 @@ from openacr.map.rows import axes
 from openacr.map.words import af1, af4, mf1, pf
 
 LEASH_S, RENEW_S = 0.5, 0.1
+SAME = 1e-5  # the card keeps a speed with seven digits
 PAUSED = pf.PAUSE_CONTROL | pf.PAUSE_MODE
 MOVES = mf1.IN_MOTION | mf1.MOVE_BUFFERED
 OFFSETS = af1.JOG_ACTIVE | af1.GEAR_ACTIVATE | af1.GEAR_ACTIVE | af1.CAM_ACTIVATE
@@ -46,7 +50,9 @@ class AxisJog:
         now_s: float,
         *,
         distance_u: float | None = None,
+        note: Callable[[float], None] = lambda _own_ups: None,
     ) -> None:
+        """Begin to move; `note` gets the jog speed of the axis before it is changed."""
         self.name, self.axis = jogged.name, jogged.axis
         self.is_over = False
         self._card, self._direction = card, direction
@@ -63,6 +69,7 @@ class AxisJog:
         self._reach_u = LEASH_S * speed_ups + 0.5 * speed_ups**2 / dec
         self._end_u = None if distance_u is None else self._offset_u() + direction * distance_u
         self._is_led = True  # the target still moves on
+        note(self._own_ups)
         self._type(f"JOG VEL {number_text(speed_ups)}")
         self._aim(now_s)
 
@@ -116,6 +123,33 @@ class AxisJog:
     def _type(self, *commands: str) -> None:
         for command in commands:
             self._card.command(f"AXIS{self.axis} {command}", program=0)
+
+
+def set_back(card: Card, jogged: Jogged, own_ups: float, speed_ups: float) -> str | None:
+    """End what is left of a jog with `speed_ups` whose host was lost; what was done, in words.
+
+    None while the axis moves, or its master has a move or a program that runs or is paused: its
+    targets would shift. Nothing is done ("") where another host has set a jog speed since.
+    """
+    axis, name, master, programs = jogged
+    watched = [] if master is None else [mf1.word[master]]
+    rows = [af1.word[axis], axes.jog_veloc_setting[axis], axes.jog_offset[axis], axes.ppu[axis]]
+    moved, found_ups, offset, ppu, *words = card.read_many(
+        [*rows, *watched, *(pf.word[n] for n in programs)]
+    )
+    moves, running = words[: len(watched)], words[len(watched) :]
+    if int(moved) & OFFSETS or any(int(word) & MOVES for word in moves):
+        return None
+    if any(int(word) & pf.PROGRAM_RUNNING for word in running):
+        return None
+    if not any(math.isclose(found_ups, ups, rel_tol=SAME) for ups in (own_ups, speed_ups)):
+        return ""
+    card.command(f"AXIS{axis} JOG VEL {number_text(own_ups)}", program=0)
+    card.command(f"AXIS{axis} JOG RES", program=0)
+    return (
+        f"axis {name}: a jog was cut off before its end; its offset {offset / (ppu or 1.0):g} is"
+        f" position now (JOG RES), its jog speed is {own_ups:g} again"
+    )
 
 
 def _require_free(card: Card, jogged: Jogged) -> None:

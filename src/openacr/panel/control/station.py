@@ -72,7 +72,7 @@ class Station:
         self.ticks = Ticks()
         self.gain_sets = GainSets()
         self.tuning = Tuning(installation, self.jobs, self.screens.tell, self.gain_sets)
-        self.card_jogs = CardJogs(self.link)
+        self.card_jogs = CardJogs(self.link, self.screens.say)
         self.interlocks = Interlocks(self.link, self.tuning, self.card_jogs)
         self.settings = StoredSettings(self.link, self.interlocks, self.screens)
         self.hand_motion = HandMotion(self.link, self.ticks, self.card_jogs, self.screens.tell)
