@@ -28,6 +28,8 @@ from tests.panel.bench import Served
 from tests.panel.browser.chromium import MISSING, OPTIONS, found
 from tests.panel.browser.latency import slow_link
 
+from openacr.mill.manual import controls
+from openacr.panel.control.operator import hand_motion, presses
 from openacr.panel.server import hello
 
 LONGEST_MS = 60_000  # of any wait: a machine may be busy
@@ -37,6 +39,12 @@ READY = (
     "() => document.querySelector('body:not(.is-stale) #menu .menu-key')"
     " && !document.querySelector('#status:not([aria-busy=false])')"
 )
+
+# How late a browser, and who holds a key, may be.
+LATENESS = (
+    (hello, "LONGEST_AGE_S"), (hello, "DEAD_MAN_S"), (hand_motion, "LONGEST_AGE_S"),
+    (presses, "DEAD_MAN_S"), (controls, "SILENCE_S"),
+)  # fmt: skip
 
 SHOWN = """() => {
   const text = (selector) => document.querySelector(selector)?.innerText ?? '';
@@ -90,9 +98,12 @@ def stale_ms() -> int:
 
 @pytest.fixture(scope="module", autouse=True)
 def patience(stale_ms: int) -> Iterator[None]:
-    """No key is refused because a busy machine is late."""
+    """No key is refused, and none is let go, because a busy machine is late."""
+    longer = stale_ms / hello.STALE_MS
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(hello, "STALE_MS", stale_ms)
+        for module, name in LATENESS:
+            patch.setattr(module, name, longer * getattr(module, name))
         yield
 
 

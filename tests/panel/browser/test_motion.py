@@ -55,26 +55,12 @@ def touch(finger: CDPSession, kind: str, *points: dict[str, float]) -> None:
     finger.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": list(points)})
 
 
-def hold(
-    page: Page, served: Served, press: Callable[[], object], lift: Callable[[], object]
-) -> None:
-    """Hold the plus key of X until the axis moves.
-
-    A machine too busy to keep the key alive within the limit ends a press by itself; then the
-    key is pressed again.
-    """
-    held = page.locator(".jog-key.is-held")
-
-    def moves() -> bool:
-        beyond = x_of(served) + 0.02
-        press()
-        until(page, lambda: x_of(served) > beyond or not held.count())
-        labels: list[str] = held.evaluate_all("(keys) => keys.map((key) => key.ariaLabel)")
-        if not labels:
-            lift()
-        return labels == ["X plus"]
-
-    until(page, moves)
+def hold(page: Page, served: Served, press: Callable[[], object]) -> None:
+    """Hold the plus key of X until the axis moves."""
+    beyond = x_of(served) + 0.02
+    press()
+    until(page, lambda: x_of(served) > beyond)
+    expect(page.locator(".jog-key.is-held")).to_have_accessible_name("X plus")
 
 
 def moves_and_stops(
@@ -85,7 +71,7 @@ def moves_and_stops(
     end: Callable[[], object] | None = None,
 ) -> None:
     """The axis moves while the key is held, and rests after what ends it."""
-    hold(page, served, press, lift)
+    hold(page, served, press)
     (end or lift)()
     rest = rest_of(served, page)
     expect(page.locator(".is-held")).to_have_count(0)
@@ -220,7 +206,7 @@ def test_another_speed_while_a_key_is_held_ends_it(jog: Page, served: Served) ->
 
 def test_leaving_the_screen_while_a_key_is_held_ends_it(jog: Page, served: Served) -> None:
     jog.get_by_role("button", name="X plus").hover()
-    hold(jog, served, jog.mouse.down, jog.mouse.up)
+    hold(jog, served, jog.mouse.down)
     jog.keyboard.press("Escape")
     until(jog, lambda: not is_jogging(served))
     jog.mouse.up()
@@ -232,7 +218,7 @@ def test_a_closed_tab_stops_the_axis(page: Page, context: BrowserContext, served
     other.keyboard.press("F7")
     other.keyboard.press("F2")
     other.get_by_role("button", name="X plus").hover()
-    hold(other, served, other.mouse.down, other.mouse.up)
+    hold(other, served, other.mouse.down)
     other.close()
     until(page, lambda: not is_jogging(served))
 
@@ -280,7 +266,7 @@ def test_a_key_that_is_held_or_pressed_with_the_mouse_can_be_read(
         jog.mouse.move(place["x"], place["y"])
         jog.mouse.down()
 
-    hold(jog, served, press, jog.mouse.up)
+    hold(jog, served, press)
     assert jog.locator(".jog-key.is-held").evaluate(CONTRAST) >= READABLE
     jog.mouse.up()
     jog.mouse.move(1, 1)
