@@ -9,7 +9,6 @@ Prints how often either was found; ends with an error at the first mixture.
 
 import os
 import random
-import select
 import signal
 import sys
 import time
@@ -22,7 +21,7 @@ from openacr.controller import Controller
 LINES = 30
 AXES = 8
 VARIABLES = 9
-LONGEST_S = 0.25  # about two generations
+GENERATIONS = 2.0  # longest life of a child
 MODELS = {"flash": "ACR9000", "battery": "ACR8020"}
 
 
@@ -58,29 +57,41 @@ def live(folder: Path, kind: str, first: int, done: int) -> None:
         os.write(done, b"%d\n" % number)
 
 
-def cut(folder: Path, kind: str, complete: int, delay_s: float) -> int:
-    """Let a child save, kill it after a while; the last generation it has completed."""
-    reader, writer = os.pipe()
-    child = os.fork()
-    if child == 0:
-        try:
-            live(folder, kind, complete + 1, writer)
-        except BaseException:
-            traceback.print_exc()
-        finally:
-            os._exit(1)
-    os.close(writer)
-    select.select([reader], [], [])
-    time.sleep(delay_s)
-    os.kill(child, signal.SIGKILL)
-    os.waitpid(child, 0)
-    reported = b""
-    while part := os.read(reader, 4096):
-        reported += part
-    os.close(reader)
-    *_, last = reported.split()
-    assert reported.startswith(b"ready"), "the card did not start"
-    return complete if last == b"ready" else int(last)
+class Cuts:
+    """Cuts the power of children; how long a generation takes it learns from them."""
+
+    def __init__(self, folder: Path, kind: str, generation_s: float) -> None:
+        self._folder, self._kind, self._generation_s = folder, kind, generation_s
+
+    def cut(self, complete: int, generations: float) -> int:
+        """Let a child save, kill it after some generations; the last generation it has completed.
+
+        A time alone would be none or many generations where others compute, too.
+        """
+        reader, writer = os.pipe()
+        child = os.fork()
+        if child == 0:
+            try:
+                live(self._folder, self._kind, complete + 1, writer)
+            except BaseException:
+                traceback.print_exc()
+            finally:
+                os._exit(1)
+        os.close(writer)
+        reported = os.read(reader, 4096)
+        if generations >= 1.0:
+            begin_s = time.monotonic()
+            reported += os.read(reader, 4096)
+            self._generation_s = time.monotonic() - begin_s
+        time.sleep(generations % 1.0 * self._generation_s)
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        while part := os.read(reader, 4096):
+            reported += part
+        os.close(reader)
+        assert reported.startswith(b"ready"), "the card did not start"
+        *_, last = reported.split()
+        return complete if last == b"ready" else int(last)
 
 
 def boot(folder: Path, kind: str, complete: int) -> str:
@@ -115,11 +126,13 @@ def main(folder: Path, kind: str, cuts: int, seed: int) -> None:
     chance = random.Random(seed)
     warm = Controller(MODELS[kind])  # what the first lines make every child has from here
     type_line(warm, f"DIM P({VARIABLES})")
+    begin_s = time.monotonic()
     save(warm, kind, 1)
+    power = Cuts(folder, kind, time.monotonic() - begin_s)
     complete = 0
     seen: Counter[str] = Counter()
     for _ in range(cuts):
-        complete = cut(folder, kind, complete, chance.uniform(0.0, LONGEST_S))
+        complete = power.cut(complete, chance.uniform(0.0, GENERATIONS))
         seen[boot(folder, kind, complete)] += 1
     print(" ".join(f"{name}={count}" for name, count in sorted(seen.items())), complete)
 
