@@ -860,6 +860,7 @@ def test_samples_differences_and_a_journal_come_over_http(quiet_panel: Served) -
 
     quiet_panel.step(1.0)
     tick = quiet_panel.call(change)
+    end_s = quiet_panel.call(lambda at: f"{(tick + 400) * at.times.history.period_s:.4g}")
     futures = ThreadPoolExecutor(1)
     with httpx.Client(base_url=f"{quiet_panel.url}/api/timeline", timeout=LIMIT_S) as web:
 
@@ -893,6 +894,15 @@ def test_samples_differences_and_a_journal_come_over_http(quiet_panel: Served) -
                 {"number": 1, "name": found["differences"][0]["name"], "values": [0, 7]}
             ],
         }
+        same = get("/first-difference", branch=0, other=1).json()["error"]["text"]
+        assert same == f"branches 0 and 1 do the same from their first different input to {end_s} s"
+        quiet_panel.call(lambda station: station.times.write(37, 1.0, is_flag=True))
+        quiet_panel.call(lambda station: station.times.history.timeline.advance(10))
+        differ = get("/first-difference", branch=1, other=0).json()
+        at = {"tick": tick + 401, "number": 5, "values": [1, 0], "name": "OUT 37"}
+        assert differ == {"apart": tick, "differences": [{"kind": "output", **at}]}
+        same = get("/first-difference", branch=0, other=0).json()["error"]["text"]
+        assert same == "branches 0 and 0 do the same as far as both are known"
         for wrong, text in (
             (
                 {"parameters": ";".join(f"P{n}" for n in range(9))},

@@ -356,6 +356,44 @@ def test_a_new_branch_here_keeps_what_followed_on_its_own(page: Page, served: Se
     assert complaints_of(page) == []
 
 
+def test_one_key_goes_to_the_first_difference_of_two_branches(page: Page, served: Served) -> None:
+    def differ(station: Station) -> int:
+        """A branch that sets an output in the past, with some time after it."""
+        history = station.times.history
+        tick = history.timeline.branch.last.tick - 500
+        station.times.seek(tick)
+        station.times.write(40, 1.0, is_flag=True)
+        history.timeline.advance(400)
+        return tick
+
+    tick = served.call(differ)
+    until_model(page, "model.timeline.value.branches.length === 3")
+    others = served.call(
+        lambda station: [at.number for at in station.times.history.timeline.branches]
+    )
+    present, before = others[-1], others[-2]
+    lane = pane(page).locator(f"[data-lane='branch {before}']")
+    lane.get_by_role("button", name="Go to the first difference").click()
+    row = pane(page).locator("[data-difference='output']")
+    expect(row).to_contain_text("output OUT 40")
+    expect(row.locator("td.number")).to_have_text([re.compile(r"\d"), "1", "0"])
+    until_model(page, f"Math.abs(model.moment.value.tick - {tick}) <= 1")
+    expect(lane.get_by_role("button", name="below those of this")).to_have_attribute(
+        "aria-pressed", "true"
+    )
+    go_to(page, "2")
+    pane(page).locator(".time-lanes").focus()
+    page.keyboard.press("f")  # from the branch that is compared
+    until_model(page, f"Math.abs(model.moment.value.tick - {tick}) <= 1")
+    pane(page).locator(f"[data-name='to {before}']").click()
+    expect(pane(page).locator(".time-first")).to_be_hidden()
+    pane(page).locator(f"[data-branch='{present}']").get_by_role("button", name="FORGET").click()
+    expect(pane(page).locator(f"[data-branch='{present}']")).to_have_count(0)
+    go_to(page, "2")
+    until_model(page, "model.moment.value.tick < model.moment.value.last")
+    assert complaints_of(page) == []
+
+
 def compare(page: Page, parameters: str) -> None:
     page.get_by_label("Parameters to compare").fill(parameters)
     page.get_by_role("button", name="COMPARE").click()

@@ -135,6 +135,12 @@ class History:
         """The card as it is at this moment, of which copies can be made."""
         return self.timeline.course(self.timeline.branch.number, *[self.timeline.now] * 2)
 
+    @property
+    def aliases(self) -> dict[str, str]:
+        """The aliases of the card, with what they stand for."""
+        written = self.card.system.aliases.nodes.written
+        return {name: each.text for name, each in written.items()}
+
     def texts(self) -> int:
         """A number that is another one where the programs and PLCs have other texts."""
         programs, owners = self.card.system.programs, self.card.system.owners()

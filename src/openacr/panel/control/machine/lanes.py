@@ -237,6 +237,12 @@ class Lanes:
         base: Any = np.array([*self._card.logged(), 0], np.int64)
         return Course(self._logged, tick, base, end=tick)
 
+    @property
+    def outputs(self) -> list[int]:
+        """The words of the outputs."""
+        own = (each.word for each in self._logged.places if each.kind == "output")
+        return [self._logged.words[index][0] for index in dict.fromkeys(own)]
+
     def look(self, branch: int) -> None:
         """Keep what was noted since the last look, if it is new."""
         self._courses[branch].note(self._card.take_changes(), self._card.lived_tk)

@@ -10,6 +10,7 @@ from openacr.panel.server.calls import (  # noqa: F401
     help,
     journals,
     kept,
+    lanes,
     lines,
     link,
     on_card,

@@ -1,50 +1,37 @@
 """The timeline: samples and differences of branches, by living through them in a process."""
 
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Annotated, NamedTuple
 
 from msgspec import Meta
 from starlette.background import BackgroundTask
-from starlette.concurrency import run_in_threadpool
 from starlette.responses import FileResponse
 
-from openacr.client.names import item_names, named
+from openacr.client.names import named
 from openacr.errors import UserError
-from openacr.journal.entries import Entered, JournalEntry
-from openacr.map import Flag, flags, parameters
+from openacr.map import Flag, parameters
 from openacr.map.memory import flag_place
+from openacr.map.numbers import FLAG_WORD_BASE
 from openacr.panel.control.engineer.sampling import row_of, value_in
 from openacr.panel.control.engineer.scope import name_of
-from openacr.panel.control.machine.blocks import Block, part_lanes
-from openacr.panel.control.machine.lanes import AXES, NEAR, Lane
-from openacr.panel.control.machine.lanes import Course as Happened
-from openacr.panel.control.machine.traffic import Writes, arrived, traffic
+from openacr.panel.control.machine.lanes import AXES, BITS
+from openacr.panel.control.machine.line_names import LineNames
 from openacr.panel.control.station import Station
 from openacr.panel.roles import Role
 from openacr.panel.server.api import Call, Query, endpoint
-from openacr.sysvar import Store
-from openacr.sysvar.tabs import OFFSETS
 from openacr.timeline import Course
-from openacr.timeline.details import change_of, details, line_of
+from openacr.timeline.details import change_of, line_of
+from openacr.timeline.differing import ALL_PROGRAMS, Difference, Seen, apart_tk, first_differences
 
 MOST_PARAMETERS = 8
 MOST_SAMPLES = 20_000
 MOST_TICKS = 1_000_000  # of one interval
 MOST_DIFFERENCES = 200
-MOST_DETAILS_S = 20.0
 SEARCHED_S, FIRST_SEARCHED_S = 300.0, 5.0  # of card time
-# Names of lanes by their kind; all others are named by their axis.
-NAMES = {
-    "master": "MASTER{}",
-    "hold": "MASTER{}",
-    "program": "PROG{}",
-    "pause": "PROG{}",
-    "plc": "PLC{}",
-}
-LINES = {"input": OFFSETS.input_name, "output": OFFSETS.output_name}  # names of a machine
+LIVED_S = 5.0  # of two branches that are compared, tick by tick
 Number = Annotated[int, Meta(ge=0, lt=1 << 31)]
 Tick = Annotated[int, Meta(ge=0, lt=1 << 62)]
 
@@ -59,20 +46,6 @@ class Samples(Query, frozen=True):
     count: Annotated[int, Meta(ge=2, le=MOST_SAMPLES)] = 1000
 
 
-class Interval(Query, frozen=True):
-    """An interval of a branch in ticks."""
-
-    branch: Number
-    first: Tick
-    last: Tick
-
-
-class Detailed(Interval, frozen=True):
-    """A part of a branch, with the columns that its picture has."""
-
-    columns: Annotated[int, Meta(ge=2, le=4000)] = 500
-
-
 class Sought(Query, frozen=True):
     """What is looked for from a tick on: a flag by name or number, or a line of a program."""
 
@@ -84,11 +57,16 @@ class Sought(Query, frozen=True):
     line: Annotated[int, Meta(ge=0, le=999_999)] = 0
 
 
-class Compared(Query, frozen=True):
-    """Two branches and a tick of both."""
+class Two(Query, frozen=True):
+    """Two branches."""
 
     branch: Number
     other: Number
+
+
+class Compared(Two, frozen=True):
+    """Two branches and a tick of both."""
+
     tick: Tick
 
 
@@ -126,113 +104,6 @@ async def samples(call: Call) -> object:
             for each, values in zip(chosen, rows, strict=True)
         ],
     }
-
-
-@endpoint("GET", "/timeline/lanes", query=Interval)
-async def lanes(call: Call) -> object:
-    """What moved, ran, was on, arrived or was sent in a part of a branch: spans, to the tick.
-
-    With each lane how long it was on in all (ticks), and how often it changed.
-    """
-    query: Interval = call.query
-
-    def look(station: Station) -> tuple[Happened, Seen]:
-        history = station.times.history
-        names = [station.installation.axis_name(axis) for axis in AXES]
-        branch = history.timeline.branches.named(query.branch)
-        came = branch.between(query.first, query.last)
-        blocks = history.blocks.between(query.branch, query.first, query.last)
-        aliases = {n: at.text for n, at in history.card.system.aliases.nodes.written.items()}
-        sent = history.sent.between(query.branch, query.first, query.last)
-        store = station.installation.store
-        seen = Seen(history.unmarked, came, sent, blocks, names, aliases, store)
-        return history.lanes.of(query.branch), seen
-
-    return await run_in_threadpool(_lanes, query, *await call.panel.ask(look))
-
-
-class Seen(NamedTuple):
-    """What lanes are made of beside the changes of the card."""
-
-    hidden: frozenset[int]
-    came: list[JournalEntry]
-    sent: Writes
-    blocks: list[Block]
-    names: list[str]  # of axes
-    aliases: Mapping[str, str]  # with what they stand for
-    store: Store
-
-
-def _named(lane: Lane, seen: Seen, aliases: Mapping[str, str]) -> dict[str, str]:
-    """The name of a lane, and what the card calls it where that is another name.
-
-    An input or output has its alias, else the name that the machine gives it.
-    """
-    if lane.flag is None or lane.kind not in LINES:
-        axis = seen.names[lane.number % len(AXES)]
-        return {"name": NAMES.get(lane.kind, axis).format(lane.number), "card": ""}
-    flag = flags()[lane.flag]
-    board = f"XIO {flag.index} " if flag.object.startswith("XIO") else ""
-    own = LINES[lane.kind]
-    name = aliases.get(f"BIT{flag.number}") or (
-        seen.store.read_text(own[flag.number]) if flag.number < len(own) else ""
-    )
-    card = f"{board}{flag.name}"
-    return {"name": name or card, "card": card if name else ""}
-
-
-def _lanes(query: Interval, course: Happened, seen: Seen) -> dict[str, object]:
-    """The lanes as they are sent."""
-    near = (query.last - query.first) // NEAR
-    aliases = item_names(seen.aliases)
-    found = course.lanes(query.first, query.last, seen.hidden)
-    parts = part_lanes(seen.blocks, query.first, query.last, course.end, near)
-    came = arrived([entry for entry in seen.came if entry.what is Entered.BYTES])
-    return {
-        "first": query.first,
-        "last": query.last,
-        "lanes": [
-            *parts,
-            *(
-                {
-                    "kind": each.kind,
-                    "number": each.number,
-                    **_named(each, seen, aliases),
-                    "flag": each.flag,
-                    "spans": each.spans,
-                    "on": each.on_tk,
-                    "changes": each.changes,
-                }
-                for each in found
-            ),
-        ],
-        "hosts": [each._asdict() for each in traffic(came, near)],
-        "sent": [each._asdict() for each in traffic(seen.sent, near)],
-    }
-
-
-@endpoint("GET", "/timeline/details", query=Detailed)
-async def shown_details(call: Call) -> object:
-    """Curves and distances of the axes, and the lines of programs, of at most 20 s of a branch.
-
-    The part, as far as the branch has it, is lived through again beside the machine, which goes on.
-    """
-    query: Detailed = call.query
-
-    def look(station: Station) -> tuple[Course, int, int, float]:
-        history = station.times.history
-        branch = history.timeline.branches.named(query.branch)
-        first = max(query.first, branch.first.tick)
-        last = min(query.last, branch.last.tick)
-        course = history.timeline.course(query.branch, first, last)
-        return course, first, last, history.period_s
-
-    course, first, last, period_s = await call.panel.ask(look)
-    length_s = (last - first) * period_s
-    if not 0.0 < length_s <= MOST_DETAILS_S:
-        raise UserError(f"details of {length_s:g} s: at most {MOST_DETAILS_S:g} s are shown")
-    found = await call.panel.histories.run(details, course, first, last, query.columns)
-    return {"first": first, "last": last, **found}
 
 
 @endpoint("GET", "/timeline/find", query=Sought)
@@ -279,6 +150,74 @@ async def find(call: Call) -> object:
         length_s *= 2.0
     where = "before" if query.back else "after"
     raise UserError(f"{what} within {SEARCHED_S:g} s {where} this moment, or the branch ends")
+
+
+@endpoint("GET", "/timeline/first-difference", query=Two)
+async def first_difference(call: Call) -> object:
+    """Where two branches differ first: outputs, positions of axes, lines of programs.
+
+    The first difference of each kind within a few seconds, in order: its tick, what it is of, and
+    both values. UserError where there is none within five minutes after the first input that they
+    do not share. `apart` is the tick of that input. Both are lived through beside the machine.
+    """
+    query: Two = call.query
+
+    def look(station: Station) -> Pair:
+        history, installation = station.times.history, station.installation
+        branches = history.timeline.branches
+        one, other = branches.named(query.branch), branches.named(query.other)
+        return Pair(
+            apart_tk(one, other),
+            max(one.first.tick, other.first.tick),
+            min(one.last.tick, other.last.tick),
+            history.period_s,
+            Seen(history.lanes.outputs, ALL_PROGRAMS & ~sum(1 << n for n in history.unmarked)),
+            [installation.axis_name(axis) for axis in AXES],
+            LineNames(history.aliases, installation.store),
+        )
+
+    pair = await call.panel.ask(look)
+    same = f"branches {query.branch} and {query.other} do the same"
+    if pair.apart is None or pair.apart > pair.last:
+        raise UserError(f"{same} as far as both are known")
+    begin = first = max(pair.first, pair.apart)
+    end = min(pair.last, begin + round(SEARCHED_S / pair.period_s))
+    while True:
+        last = min(end, first + round(LIVED_S / pair.period_s))
+        courses = [await _course(call, each, first, last) for each in (query.branch, query.other)]
+        found = await call.panel.histories.run(first_differences, *courses, first, last, pair.seen)
+        if found:
+            break
+        if last == end:
+            until_s = end * pair.period_s
+            raise UserError(f"{same} from their first different input to {until_s:.4g} s")
+        first = last
+    return {
+        "apart": begin,
+        "differences": [{**each._asdict(), "name": pair.name_of(each)} for each in found],
+    }
+
+
+class Pair(NamedTuple):
+    """What two branches have in common, and what their differences are named by."""
+
+    apart: int | None  # the first input that they do not share
+    first: int
+    last: int
+    period_s: float
+    seen: Seen
+    axes: list[str]
+    lines: LineNames
+
+    def name_of(self, difference: Difference) -> str:
+        """What differs."""
+        if difference.kind == "line":
+            return f"PROG{difference.number}"
+        if difference.kind != "output":
+            return self.axes[difference.number]
+        word, bit = divmod(difference.number, BITS)
+        name, card = self.lines.of("output", (self.seen.words[word] - FLAG_WORD_BASE) * BITS + bit)
+        return f"{name} ({card})" if name else card
 
 
 @endpoint("GET", "/timeline/differences", query=Compared)

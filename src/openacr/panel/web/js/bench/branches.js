@@ -19,6 +19,7 @@ const TEXTS = {
     en: "Draw the lanes of {name} below those of this branch",
     de: "Spuren von {name} unter denen dieses Zweigs zeichnen",
   },
+  first: { en: "Go to the first difference from {name} (F)", de: "Zum ersten Unterschied zu {name} (F)" },
 };
 
 /**
@@ -26,8 +27,11 @@ const TEXTS = {
  * @typedef {import("./time_view.js").Part} Part
  */
 
-/** @param {{ seconds: (tick: number) => string, compare: (branch: number) => void }} asked */
-export function createBranches({ seconds, compare }) {
+/**
+ * @param {{ seconds: (tick: number) => string, compare: (branch: number) => void,
+ *   first: (branch: number) => void }} asked
+ */
+export function createBranches({ seconds, compare, first }) {
   const rows = h("tbody", {});
   const heads = [TEXTS.branches, TEXTS.from, TEXTS.to, TEXTS.do];
   const table = h("table.grid", {}, h("thead", {}, h("tr", {}, ...heads.map((each) => h("th", {}, t(each))))), rows);
@@ -50,6 +54,29 @@ export function createBranches({ seconds, compare }) {
 
   /** @param {number} number */
   const change = (number) => void give("timeline.switch", { number });
+
+  /** @param {TimeBranch} branch @param {number | null} compared */
+  function keysOf({ number, name }, compared) {
+    const key = (
+      /** @type {"compare" | "first"} */ what,
+      /** @type {string} */ sign,
+      /** @type {(number: number) => void} */ does,
+      /** @type {string | null} */ ariaPressed,
+    ) =>
+      h(
+        "button.time-compare",
+        {
+          type: "button",
+          data: { name: `${what} ${number}` },
+          ariaPressed,
+          ariaLabel: t(TEXTS[what], { name }),
+          title: t(TEXTS[what], { name }),
+          onclick: () => does(number),
+        },
+        sign,
+      );
+    return [key("compare", "\u2260", compare, String(number === compared)), key("first", "\u2260\u2081", first, null)];
+  }
 
   return {
     table,
@@ -115,20 +142,7 @@ export function createBranches({ seconds, compare }) {
                 },
                 h("span", {}, each.name),
               ),
-              isPresent
-                ? null
-                : h(
-                    "button.time-compare",
-                    {
-                      type: "button",
-                      data: { name: `compare ${each.number}` },
-                      ariaPressed: String(each.number === compared),
-                      ariaLabel: t(TEXTS.compare, { name: each.name }),
-                      title: t(TEXTS.compare, { name: each.name }),
-                      onclick: () => compare(each.number),
-                    },
-                    "\u2260",
-                  ),
+              ...(isPresent ? [] : keysOf(each, compared)),
             ),
             h("span.time-span", { style: `left: ${from}%; width: ${Math.max(0, to - from)}%` }),
           );

@@ -8,6 +8,7 @@ import { Endings } from "../../core/signal.js";
 import { t } from "../../core/texts.js";
 import { createBranches } from "../branches.js";
 import { compare } from "../compared.js";
+import { createFirstDifference } from "../first_difference.js";
 import { lanesOf } from "../lane_list.js";
 import { createLanes } from "../lanes.js";
 import { createSelection } from "../selection.js";
@@ -36,6 +37,7 @@ const TEXTS = {
 const JUMPS = [-20, -1, 1, 20]; // s
 const LOOK_MS = 1000; // from one look at the lanes to the next
 const DETAILED = 20; // s that are shown in detail at most
+const AROUND = 1; // s shown before and after a difference
 const MEGA = 1e6;
 
 /**
@@ -110,6 +112,16 @@ export async function mount(host, { head, kept, keep }) {
       drawLanes();
       void readLanes().catch(refuse);
     },
+    first: (number) => void firstDifference.find(number),
+  });
+  const firstDifference = createFirstDifference({
+    seconds,
+    seek,
+    show: (other, tick) => {
+      compared = other;
+      const reach = Math.round(AROUND / model.timeline.value.period_s);
+      look(within([tick - reach, tick + reach], whole()));
+    },
   });
   const selection = createSelection({
     seconds,
@@ -129,6 +141,7 @@ export async function mount(host, { head, kept, keep }) {
   parts.append(
     h("div.row", {}, slider),
     branches.lanes,
+    firstDifference.element,
     picture.element,
     going,
     search.element,
@@ -224,6 +237,7 @@ export async function mount(host, { head, kept, keep }) {
     const field = event.target instanceof Element && event.target.closest("input, select, textarea");
     if (field || event.ctrlKey || event.altKey || event.metaKey) return;
     if (event.key === "Escape") return void select(null);
+    if (event.key.toLowerCase() === "f") return firstDifference.byKey(compared);
     const held = Number.isNaN(picture.pointed()) ? model.moment.value.tick : picture.pointed();
     const next = keyed(event.key, partNow(), held, whole());
     if (!next) return;
@@ -279,7 +293,9 @@ export async function mount(host, { head, kept, keep }) {
     if (why) return;
     marks.list(bookmarks);
     branches.list(all, present);
-    comparing.offer(all.filter((each) => each.number !== present));
+    const others = all.filter((each) => each.number !== present);
+    comparing.offer(others);
+    firstDifference.keep(others.map((each) => each.number));
     draw();
   }
 
