@@ -265,6 +265,24 @@ def test_off_trg_disengages_at_the_captured_position() -> None:
     assert (gear(made), made.bit(OFF_ARMED), made.bit(ACTIVE)) == (20.0, False, False)
 
 
+@pytest.mark.parametrize(
+    ("line", "armed"),
+    [("GEAR OFF TRG X(6)", OFF_ARMED), ("GEAR OFF IHPOS X(P6304, 25)", OFF_POSITION)],
+)
+def test_off_forgets_what_an_off_waits_for(line: str, armed: int) -> None:
+    made = bench("GEAR ON X", line)
+    assert made.bit(armed)
+    made.all("GEAR OFF X").ticks(1)
+    assert not made.bit(armed)
+    made.all("GEAR ON X")
+    made.memory.set_bit(26, True)
+    turn(made, 10)
+    made.memory.set_bit(26, False)
+    for _ in range(4):
+        turn(made, 10)
+    assert (gear(made), made.bit(ACTIVE)) == (50.0, True)
+
+
 # flags and kills
 
 
