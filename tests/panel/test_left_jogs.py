@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.mill.live import Plant, until
+from tests.mill.live import Plant
 from tests.panel.remote import Remote
+from tests.waiting import until
 
 from openacr.map.rows import axes
 from openacr.panel.control.operator.left_jogs import NAME
