@@ -182,6 +182,22 @@ def test_a_function_that_is_listed_so_has_an_entrance_without_the_lock_of_python
     assert locked[0].strip() == "g(cython.cast(cython.p_char, cython.address(F[0])))"
 
 
+def test_a_function_that_is_listed_so_becomes_part_of_its_callers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = joined(
+        tmp_path,
+        monkeypatch,
+        '__all__ = ["f"]\n__inlined__ = ["f"]\n'
+        "def f(F: F64) -> None:\n    F[0] = 2.0\n"
+        "def g(F: F64) -> None:\n    f(F)\n",
+    )
+    first, second = text.index("def f("), text.index("def g(")
+    assert "@cython.inline\n" in text[:first]
+    assert "@cython.inline\n" not in text[first:second]
+    assert "def py_f(" in text
+
+
 def test_a_function_of_c_gets_a_pointer_also_where_views_are_checked(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

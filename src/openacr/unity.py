@@ -14,7 +14,9 @@ what C needs:
   times the distance to the next;
 - every function becomes a C function that cannot raise; those listed in a module's
   `__all__` also get a Python entrance `py_<name>`, which takes the views themselves; where a
-  module lists them in `__unlocked__`, too, other threads of Python run on meanwhile.
+  module lists them in `__unlocked__`, too, other threads of Python run on meanwhile;
+- those it lists in `__inlined__` become part of each of their callers: what every tick does for
+  every axis keeps its registers and places from stage to stage.
 
 Refused, because interpreted and compiled results could differ: `//`, `%`, `**` and
 imports other than those of the core itself.
@@ -119,10 +121,9 @@ def unity_source(*, checked: bool = False) -> str:
     """The joined source text."""
     libraries: dict[str, set[str]] = {module: set() for module in LIBRARIES}
     functions: dict[str, ast.FunctionDef] = {}
-    exported: list[str] = []
-    unlocked: list[str] = []
+    lists: dict[str, list[str]] = {"__all__": [], "__unlocked__": [], "__inlined__": []}
     for path in joining_order(source_files()):
-        _collect(path, libraries, functions, exported, unlocked)
+        _collect(path, libraries, functions, lists)
     blocks = [
         "import cython",
         *(
@@ -135,16 +136,18 @@ def unity_source(*, checked: bool = False) -> str:
         f"CHECKED = {checked!r}",
     ]
     entrances = [
-        entrance(functions[name], checked=checked, unlocked=name in unlocked) for name in exported
+        entrance(functions[name], checked=checked, unlocked=name in lists["__unlocked__"])
+        for name in lists["__all__"]
     ]
     if not checked:
         places = {name: state_places(function) for name, function in functions.items()}
         for function in functions.values():
             pass_one_pointer(function, places)
-    for function in functions.values():
+    for name, function in functions.items():
         if checked:
             address_views(function, libraries["openacr.csystem"])
-        blocks.append(ast.unparse(compiled_function(function, checked=checked)))
+        inlined = name in lists["__inlined__"]
+        blocks.append(ast.unparse(compiled_function(function, checked=checked, inlined=inlined)))
     blocks.extend(entrances)
     return re.sub(r"\b_wide_(\d+)\b", r"\1LL", "\n\n".join(blocks)) + "\n"
 
@@ -213,8 +216,7 @@ def _collect(
     path: Path,
     libraries: dict[str, set[str]],
     functions: dict[str, ast.FunctionDef],
-    exported: list[str],
-    unlocked: list[str],
+    lists: dict[str, list[str]],
 ) -> None:
     constants = dict(_module_constants(path))
     inliner = Inline(constants | _message_numbers())
@@ -226,10 +228,8 @@ def _collect(
                 raise UnityError(f"{path.name}: function {node.name} is defined twice")
             _check_operators(node, path)
             functions[node.name] = inliner.visit(node)
-        elif _is_list(node, "__all__"):
-            exported.extend(ast.literal_eval(node.value))  # type: ignore[attr-defined]
-        elif _is_list(node, "__unlocked__"):
-            unlocked.extend(ast.literal_eval(node.value))  # type: ignore[attr-defined]
+        elif listed := next((name for name in lists if _is_list(node, name)), ""):
+            lists[listed].extend(ast.literal_eval(node.value))  # type: ignore[attr-defined]
         elif not _take_constant(node, constants) and not is_docstring(node):
             raise UnityError(
                 f"{path.name}:{node.lineno}: only functions and constants are compiled"

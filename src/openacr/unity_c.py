@@ -213,8 +213,10 @@ def address_views(function: ast.FunctionDef, outside: Collection[str]) -> None:
             ]
 
 
-def compiled_function(function: ast.FunctionDef, *, checked: bool) -> ast.FunctionDef:
-    """The function with types of C, as one that cannot raise."""
+def compiled_function(
+    function: ast.FunctionDef, *, checked: bool, inlined: bool = False
+) -> ast.FunctionDef:
+    """The function with types of C, as one that cannot raise; `inlined`: part of its callers."""
     where = function.name
     for argument in function.args.args:
         argument.annotation = _c_type(argument.annotation, checked=checked, where=where)
@@ -224,6 +226,7 @@ def compiled_function(function: ast.FunctionDef, *, checked: bool) -> ast.Functi
             node.annotation = _c_type(node.annotation, checked=checked, where=where)
     function.body = [node for node in function.body if not is_docstring(node)] or [ast.Pass()]
     decorators = ["cython.cfunc", "cython.nogil", "cython.exceptval(check=False)"]
+    decorators += ["cython.inline"] if inlined else []
     function.decorator_list = [ast.parse(text, mode="eval").body for text in decorators]
     return function
 

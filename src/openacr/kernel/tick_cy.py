@@ -57,6 +57,7 @@ from openacr.map.words import af1, mc1, mf1, mo
 from openacr.views import F32, F64, I32
 
 __all__ = ["tick"]
+__inlined__ = ["axis_advance"]
 
 MODELLED = 16
 OFFSETS_ACTIVE = af1.JOG_ACTIVE | af1.GEAR_ACTIVE | af1.CAM_ACTIVATE | af1.BALLSCREW_ACTIVATE

@@ -32,6 +32,7 @@ from openacr.map.words import af1, af3
 from openacr.views import F32, F64, I32
 
 __all__ = ["servo_step"]
+__inlined__ = ["biquad", "servo_step"]
 
 TO_DAC = 0
 TO_STEPPER = 1

@@ -40,6 +40,7 @@ from openacr.map.words import af1, af2, af4
 from openacr.views import F32, F64, I32
 
 __all__ = ["array_header", "ballscrew_step", "cam_step", "table_ready", "table_value"]
+__inlined__ = ["cam_run", "cam_step", "table_value"]
 
 # Tables of references to arrays of a program: each a place, then a count.
 LONGS = 0

@@ -33,6 +33,7 @@ from openacr.map.words import af1, af2, af4
 from openacr.views import F32, F64, I32
 
 __all__ = ["gear_ramp", "gear_step"]
+__inlined__ = ["gear_run", "gear_step"]
 
 ON_FLAGS = af2.GEAR_ON_TRIG_ARMED | af2.GEAR_ON_POSITION
 OFF_FLAGS = af2.GEAR_OFF_ARMED | af2.GEAR_OFF_POSITION

@@ -59,6 +59,7 @@ from openacr.map.words import af1, af2, af3, af4, af6
 from openacr.views import F32, F64, I32
 
 __all__ = ["backlash_step", "filter_clear", "filter_halt", "followers_step"]
+__inlined__ = ["followers_step"]
 
 BACKLASH_SPREAD_S = 0.01
 AXES = 16

@@ -38,6 +38,7 @@ from openacr.map.rows import profiles
 from openacr.views import F64, I32
 
 __all__ = ["profile_advance", "profile_plan", "profile_reset", "profile_stop"]
+__inlined__ = ["profile_advance"]
 
 FOREVER_S = 1e30  # a plan that waits at speed 0 for a new cruising speed
 TIME_EPS_S = 1e-10  # far below a servo period, far above the rounding of a sum of them

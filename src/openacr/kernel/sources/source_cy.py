@@ -54,6 +54,7 @@ from openacr.map.rows import (
 from openacr.views import F32, F64, I32
 
 __all__ = ["parameter_value", "source_follow", "source_prime", "source_reading", "trigger_step"]
+__inlined__ = ["source_follow"]
 
 FROM_NONE = 0
 FROM_CLOCK = 1
