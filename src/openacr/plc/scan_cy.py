@@ -120,7 +120,8 @@ def plc_execute(I: I32, first: int, end: int, results: int) -> int:
                 saved = (saved << 1) | r if op == OP_LOAD else 0
                 r = state
         elif op == OP_OUT:
-            put_flag(I, operand, r != negated)
+            if flag_bit(I, operand) != r ^ negated:  # most outputs stay as they are
+                put_flag(I, operand, r != negated)
         elif op == OP_AND_BLOCK:
             r &= saved & 1
             saved >>= 1
