@@ -42,6 +42,8 @@ LIVES = {
     "capture of the setpoint": ("INTCAP X11", "SET 833", *MOVE),
     "hold": (*MOVE, "DWL 0.05", "SET 519"),
     "kill": (*JOG, "DWL 0.1", "SET 8467"),
+    "limit of the jog": ("SLM X(0.7,-0.7)", "SLIM X3", "JOG FWD X"),
+    "limit of another axis": ("SLM Y(0.7,-0.7)", "SLIM Y3", *JOG),
 }
 TICKS = 400
 
@@ -90,6 +92,41 @@ def test_a_program_reads_in_each_tick_where_the_axis_is() -> None:
     for _ in range(TICKS):
         pieces.advance(1)
     assert card.p[0] > 1000
+    assert card.digest() == pieces.digest()
+
+
+JOGS_ASKED = {  # what a PLC does to a jog that has been at speed
+    "stop": "SET 795",
+    "end": "CLR 796",
+    "other direction too": "SET 797",
+}
+
+
+@pytest.mark.parametrize("jog", ["JOG FWD X", "JOG ABS X3"])
+@pytest.mark.parametrize("name", JOGS_ASKED)
+def test_a_flag_that_a_plc_writes_reaches_a_jog_in_full_speed(name: str, jog: str) -> None:
+    """Nothing but the interrupt and a PLC acts, hundreds of ticks long."""
+    plc = ("DIM PLC0(100)", "PLC0", "PROGRAM", "LD 794", JOGS_ASKED[name], "ENDP", "RUN")
+    whole = card_of("SYS", *plc, "PROG0", jog)
+    pieces = Controller(ACR9040)
+    pieces.restore(whole.snapshot())
+    for _ in range(3):
+        whole.advance(TICKS)
+        for _ in range(TICKS):
+            pieces.advance(1)
+        assert whole.digest() == pieces.digest()
+
+
+def test_an_idle_plc_acts_once_a_program_has_set_its_timer() -> None:
+    card = card_of("SYS", "DIM P(10)", "PROG1")
+    lines = ("10 DWL 0.05", "20 SET 1553", "30 DWL 0.05", "40 CLR 1553", "50 GOTO 10")
+    for line in ("PROGRAM", *lines, "ENDP", "RUN"):
+        card.send(line + "\r")
+    pieces = Controller(ACR9040)
+    pieces.restore(card.snapshot())
+    card.advance(TICKS)
+    for _ in range(TICKS):
+        pieces.advance(1)
     assert card.digest() == pieces.digest()
 
 

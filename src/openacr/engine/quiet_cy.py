@@ -61,6 +61,7 @@ KNOWN = 0  # the kinds of ticks that were seen to change nothing: PLAIN, SCAN
 LEFT_OUT = 1  # ticks since the rest began
 WAIT = 2  # ticks until the next trial
 PAUSE = 3  # ticks without a disturbance before a trial; 0: no tick is ever left out
+NO_PLC = 4  # 1 if no PLC had anything to do in the tick before
 
 # What is done with a tick: left out, executed, or executed as a trial of its kind.
 LEFT = -1
@@ -253,10 +254,11 @@ def quiet_same(I: I32, seen: I32, first: int, end: int) -> bool:
 
 
 def plcs_step(F: F64, I: I32, seen: I32) -> None:
-    """The PLCs; what they change ends the rest."""
-    if seen[KNOWN] & PLCS_IDLE:
+    """The PLCs; what they change ends the rest. Only who writes gives an idle one work."""
+    if seen[KNOWN] & PLCS_IDLE or (seen[NO_PLC] and I[kernel.untouched]):
         return
     done: int = plc_step(F, I)
+    seen[NO_PLC] = 1 if done == PLC_IDLE else 0
     if seen[KNOWN] == 0:
         return
     if done == PLC_IDLE:

@@ -27,6 +27,12 @@ __all__ = [
 NOT_BARRED = 0
 HARD_BARRED = 1
 SOFT_BARRED = 2
+LIMITS_ENABLED = (
+    af5.POSITIVE_HARDWARE_LIMIT_ENABLE
+    | af5.NEGATIVE_HARDWARE_LIMIT_ENABLE
+    | af5.POSITIVE_SOFTWARE_LIMIT_ENABLE
+    | af5.NEGATIVE_SOFTWARE_LIMIT_ENABLE
+)
 BEYOND_FP32 = 3.5e38  # more than any 32-bit number but infinity
 ROUNDING_CNT = 1e-6  # of sums of offsets and points of curves; far below one pulse
 

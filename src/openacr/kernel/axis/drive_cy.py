@@ -131,12 +131,11 @@ def drive_resting(I: I32, n: int, faults: int) -> bool:
     """
     flags: int = I[af4.word[n]]
     k: int = I[axes.position_index[n]]
-    if flags != I[axes.drive_seen[n]] or I[axes.enable_ticks[n]] or k != I[axes.drive_wired[n]]:
-        return False
     broken: int = 0
     if faults:
         broken = feedback_broken(I, n)
-    if broken != I[axes.feedback_broken[n]]:
+    changed: int = (flags ^ I[axes.drive_seen[n]]) | (k ^ I[axes.drive_wired[n]])
+    if changed | (broken ^ I[axes.feedback_broken[n]]) | I[axes.enable_ticks[n]]:
         return False
     k = I[axes.drive_motor[n]]
     if k < 0:

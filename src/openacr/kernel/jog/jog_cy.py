@@ -9,12 +9,13 @@ command velocity) and runs the homing sequence.
 """
 
 from openacr.cmath import fabs
-from openacr.kernel.axis.axis_cy import axis_scale, axis_sense, limit_bars
+from openacr.kernel.axis.axis_cy import LIMITS_ENABLED, axis_scale, axis_sense, limit_bars
 from openacr.kernel.jog.homing_cy import home_abort, home_arrived, home_begin, home_step
 from openacr.kernel.jog.jogplan_cy import (
     FAR_CNT,
     JOG_PROFILE,
     jog_ramp_down,
+    jog_room,
     jog_run,
     jog_setting,
     jog_speed,
@@ -23,10 +24,11 @@ from openacr.kernel.profile.profile_cy import profile_advance, profile_reset, pr
 from openacr.kernel.profile.ramps_cy import STOPPING
 from openacr.kernel.sources.source_cy import FROM_CLOCK, USE_JOG, USES
 from openacr.map.rows import axes, kernel, masters, profiles, sources
-from openacr.map.words import af1, af4, af6
+from openacr.map.words import af1, af4, af5, af6
 from openacr.views import F32, F64, I32
 
 __all__ = ["jog_step", "jog_take_over"]
+__inlined__ = ["jog_step"]
 
 JOG_IDLE = 0
 JOG_CONTINUOUS = 1
@@ -54,13 +56,6 @@ def jog_plan(F: F64, I: I32, S: F32, n: int) -> None:
     elif I[af1.word[n]] & af1.JOG_LIMIT_CHECK:
         distance_cnt = max(jog_room(F, S, n, want), 0.0)
     I[axes.jog_turning[n]] = 0 if jog_run(F, I, S, n, sign, distance_cnt, speed_cps) else 1
-
-
-def jog_room(F: F64, S: F32, n: int, want: int) -> float:
-    """Pulses from the present jog offset to the jog limit (JLM) in direction `want`."""
-    limit_u: float = S[axes.plus_jog_limit[n]] if want > 0 else S[axes.minus_jog_limit[n]]
-    distance_cnt: float = limit_u * axis_scale(S, n) - F[axes.jog_cnt[n]]
-    return want * axis_sense(S, n) * distance_cnt
 
 
 def jog_brake(F: F64, I: I32, S: F32, n: int) -> None:
@@ -259,6 +254,23 @@ def jog_show(F: F64, I: I32, S: F32, n: int) -> None:
     I[word] = flags
 
 
+def jog_undisturbed(I: I32, n: int) -> bool:
+    """Whether nothing asks the running jog of axis n for anything, so that its plan holds.
+
+    Where nothing else writes, a PLC may still write the flags of jogs. It reaches none that kills
+    or homes; a kill by the interrupt has taken the jog over.
+    """
+    if not I[kernel.untouched] or I[axes.jog_replan[n]]:
+        return False
+    asked: int = I[af1.word[n]] & (JOG_WANTED | af1.JOG_STOPPING)
+    if I[axes.jog_mode[n]] == JOG_TO_TARGET:
+        return asked == 0
+    wanted: int = af1.JOG_FORWARD if I[axes.jog_want[n]] > 0 else af1.JOG_REVERSE
+    if I[axes.jog_mode[n]] != JOG_CONTINUOUS or asked != wanted:
+        return False
+    return I[af5.word[n]] & LIMITS_ENABLED == 0
+
+
 def jog_idle(I: I32, n: int) -> bool:
     """Whether axis n has no jog and no flag of it, nor a request for one."""
     if I[axes.jog_mode[n]] != JOG_IDLE or I[af6.word[n]] & af6.JOG_HOME_REQUEST:
@@ -268,14 +280,15 @@ def jog_idle(I: I32, n: int) -> bool:
 
 def jog_step(F: F64, I: I32, S: F32, n: int, dt_s: float) -> None:
     """Advance the jog profiler of axis n by `dt_s` seconds."""
-    jog_stop_request(F, I, S, n)
-    mode: int = I[axes.jog_mode[n]]
-    if mode != JOG_KILLED and mode != JOG_HOMING:
-        jog_requests(F, I, S, n)
-        if I[axes.jog_mode[n]] == JOG_IDLE:
-            I[af1.word[n]] &= ~JOG_STATES  # a command may have been ahead of a refusal
-            return
-        jog_follow(F, I, S, n)
+    if not jog_undisturbed(I, n):
+        jog_stop_request(F, I, S, n)
+        mode: int = I[axes.jog_mode[n]]
+        if mode != JOG_KILLED and mode != JOG_HOMING:
+            jog_requests(F, I, S, n)
+            if I[axes.jog_mode[n]] == JOG_IDLE:
+                I[af1.word[n]] &= ~JOG_STATES  # a command may have been ahead of a refusal
+                return
+            jog_follow(F, I, S, n)
     if I[axes.jog_mode[n]] == JOG_HOMING and home_step(F, I, S, n):
         jog_rest(F, I, n)
     if I[axes.jog_mode[n]] != JOG_IDLE:

@@ -1,7 +1,7 @@
 """Planning primitives of the jog profiler, shared by jogs and homing."""
 
 from openacr.cmath import fabs
-from openacr.kernel.axis.axis_cy import axis_scale
+from openacr.kernel.axis.axis_cy import axis_scale, axis_sense
 from openacr.kernel.profile.profile_cy import profile_plan, profile_reset, profile_stop
 from openacr.kernel.profile.ramps_cy import DECELERATING, plain
 from openacr.map.rows import axes, hand_wheels, profiles
@@ -74,3 +74,10 @@ def jog_ramp_down(F: F64, I: I32, n: int, rate_cps2: float, jerk_cps3: float, ki
     """Plan a ramp to rest at `rate_cps2` [pulses/s^2] from the present jog motion."""
     jog_mirror(F, I, n, I[axes.jog_sign[n]])
     profile_stop(F, I, JOG_PROFILE + n, FAR_CNT, rate_cps2, jerk_cps3, kind)
+
+
+def jog_room(F: F64, S: F32, n: int, want: int) -> float:
+    """Pulses from the present jog offset to the jog limit (JLM) in direction `want`."""
+    limit_u: float = S[axes.plus_jog_limit[n]] if want > 0 else S[axes.minus_jog_limit[n]]
+    distance_cnt: float = limit_u * axis_scale(S, n) - F[axes.jog_cnt[n]]
+    return want * axis_sense(S, n) * distance_cnt

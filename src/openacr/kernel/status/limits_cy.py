@@ -7,7 +7,12 @@ only on motion into it, so that an axis can always be driven off a switch; it ba
 direction while it is active (`limit_bars`). That it was met is recorded in a flag.
 """
 
-from openacr.kernel.axis.axis_cy import axis_scale, hard_limit_active, soft_limit_crossed
+from openacr.kernel.axis.axis_cy import (
+    LIMITS_ENABLED,
+    axis_scale,
+    hard_limit_active,
+    soft_limit_crossed,
+)
 from openacr.kernel.axis.drive_cy import drive_disable
 from openacr.kernel.followers.offset_cy import followers_halt, lock_leader
 from openacr.kernel.jog.homing_cy import HARD_LIMIT_HIT, SOFT_LIMIT_HIT
@@ -19,6 +24,7 @@ from openacr.map.words import af1, af4, af5, mf1
 from openacr.views import F32, F64, I32
 
 __all__ = ["limits_step"]
+__inlined__ = ["limits_step"]
 
 SLAVE_COUNT = 16
 THREE_INPUTS = 7
@@ -28,10 +34,7 @@ PREVIOUS_SHIFT = 8
 INVERT_SHIFT = 16
 FOLLOWING = af1.GEAR_ACTIVE | af1.GEAR_ACTIVATE | af1.CAM_ACTIVATE
 WATCHED = (
-    af5.POSITIVE_HARDWARE_LIMIT_ENABLE
-    | af5.NEGATIVE_HARDWARE_LIMIT_ENABLE
-    | af5.POSITIVE_SOFTWARE_LIMIT_ENABLE
-    | af5.NEGATIVE_SOFTWARE_LIMIT_ENABLE
+    LIMITS_ENABLED
     | af5.POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED
     | af5.NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED
 )
