@@ -396,6 +396,26 @@ def test_a_text_entered_anew_is_checked_without_the_lost_lines_of_the_one_before
     assert [place[1:] for place in places(at, lost + whole)][1:] == alone
 
 
+def test_numbered_lines_are_tied_together_in_the_order_of_their_numbers(tmp_path: Path) -> None:
+    lines = "PROG0\n20 ENDIF\n10 IF (BIT5)\n15 SET 40\n"
+    assert places(tmp_path / "prog0.8k", lines) == []
+    (fault,) = places(tmp_path / "prog0.8k", "PROG0\n10 ENDIF\n20 SET 40\n10 IF (BIT5)\n")
+    assert fault[1] == 4
+
+
+@pytest.mark.parametrize("remark", ["REM wait", "  ' wait", "rem"])
+def test_a_remark_after_a_move_does_not_end_it(tmp_path: Path, remark: str) -> None:
+    head = 'SYS\nDIM PROG0(9000)\nPROG0\nATTACH MASTER0\nATTACH SLAVE0 AXIS0 "X"\n'
+    text = f"{head}PROGRAM\nX5\n{remark}\nSET 32\nENDP\n"
+    assert [place[1] for place in places(tmp_path / "setup.8k", text)] == [9]
+
+
+@pytest.mark.parametrize("line", ["P1=P4440", "SET 17664", "CLR 99999999999999999999"])
+def test_numbers_of_nothing_are_found_in_stored_programs(tmp_path: Path, line: str) -> None:
+    lines = f"PROGRAM\nP1=P123\nSET 40\n{line}\nENDP\n"
+    assert [place[1] for place in places(tmp_path / "prog0.8k", lines)] == [4]
+
+
 def test_numbered_text_continued_in_a_second_file_is_checked_as_one_text(tmp_path: Path) -> None:
     """What the second file completes is no fault of the first; each is placed in its own file."""
     (tmp_path / "setup.8k").write_text(

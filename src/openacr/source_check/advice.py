@@ -43,7 +43,7 @@ def after_moves(
     is_after_move = False
     for line in lines:
         known = line.outline
-        if known.is_empty or _REMARK.match(line.place.text):
+        if known.is_empty or (not known.words and _REMARK.match(line.place.text)):
             continue
         if known.words & SWITCHES and (is_after_move or known.moves):
             is_move = is_after_move

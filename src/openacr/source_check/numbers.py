@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator
-from functools import cache
+from functools import cache, lru_cache
 from itertools import pairwise
 
 from msgspec import Struct
@@ -53,17 +53,26 @@ _NAMES = re.compile(
     rf"(?<![A-Za-z$])(?:P|BIT|SET|CLR|INH|TRG|INT|{_WORDS})[ \t(+-]*\d", re.IGNORECASE
 )
 _OBJECT = re.compile(rf"(?<![A-Za-z$])({_WORDS})[ \t(]*(\d+)", re.IGNORECASE)
-_INTEGER = re.compile(r"\d+")
+_INTEGER = re.compile(r"\d{4,}")  # all numbers below USER_COUNT are of parameters and flags
 _LONGEST = 18  # digits; more make no number of anything
 
 
-def is_doubtful(text: str, model: Model) -> bool:
+def is_doubtful(text: str, shape: str, model: Model) -> bool:
     """Whether a line may name what there is not; cheap, for all lines of a long program."""
-    if not _NAMES.search(text):
+    has_numbers, has_objects = _names(shape or text)
+    if not has_numbers:
         return False
     if any(len(digits) > _LONGEST or _is_unused(int(digits)) for digits in _INTEGER.findall(text)):
         return True
-    return any(int(number) >= _count(model, word) for word, number in _OBJECT.findall(text))
+    return has_objects and any(
+        int(number) >= _count(model, word) for word, number in _OBJECT.findall(text)
+    )
+
+
+@lru_cache(maxsize=4096)
+def _names(shape: str) -> tuple[bool, bool]:
+    """Whether lines of a shape have numbers of parameters, flags or objects, and of objects."""
+    return _NAMES.search(shape) is not None, _OBJECT.search(shape) is not None
 
 
 def literal(number: Expr) -> int | None:

@@ -15,7 +15,8 @@ from openacr.basic.commands.memory_control import (
 from openacr.basic.language.grammar import ObjectRef
 from openacr.basic.language.nodes import Block, Statement
 from openacr.basic.language.registry import Level
-from openacr.basic.memory.memory_cost import PLC_INSTRUCTION, is_alike, line_bytes
+from openacr.basic.memory.known_lines import LineCost, line_cost
+from openacr.basic.memory.memory_cost import PLC_INSTRUCTION, line_bytes
 from openacr.basic.memory.program_memory import PROGRAMS
 from openacr.basic.memory.program_store import OWNERS
 from openacr.basic.memory.storage import Storage
@@ -42,7 +43,7 @@ class Room:
     is_known: bool = True
     is_complete: bool = False  # what gives programs their memory has been read
     _names: set[str] = field(default_factory=set)  # of aliases
-    _alike: dict[str, int] = field(default_factory=dict)  # bytes of all lines of a shape
+    _alike: dict[str, LineCost | None] = field(default_factory=dict)  # of all lines of a shape
 
     def note(self, level: Level, number: int, blocks: Iterable[Block]) -> CardError | None:
         """Execute the DIM and CLEAR commands of a line; what the card says against one."""
@@ -129,14 +130,14 @@ class Room:
             return PLC_INSTRUCTION.bytes(line.rung.count)
         if line.outline.is_empty:
             return 0
-        shape = line.place.shape
+        text, shape = line.place.text, line.place.shape
         known = self._alike.get(shape)
-        if known is None:
-            tokens = list(line.tokens)
-            known = line_bytes(tokens)
-            if shape and is_alike(tokens):
-                self._alike[shape] = known
-        return known
+        if known is not None:
+            return known.bytes(text)
+        tokens = list(line.tokens)
+        if shape and shape not in self._alike:
+            self._alike[shape] = line_cost(text, shape, tokens)
+        return line_bytes(tokens)
 
 
 def owners(level: Level, number: int, target: object) -> Iterable[int]:

@@ -309,7 +309,8 @@ class Reader:
             for line in text.in_order():
                 if is_noted(line.outline.words, number):
                     self._advise(line.place, level, number, tree_of(line))
-                is_doubtful = numbers.is_doubtful(line.place.text, self.model)
+                place = line.place
+                is_doubtful = numbers.is_doubtful(place.text, place.shape, self.model)
                 if line.outline.is_judged or is_doubtful:
                     self._judge(line.place, line.tokens, tree_of(line))
         elif not text.lost:

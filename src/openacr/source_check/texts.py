@@ -63,6 +63,7 @@ class Text:
     lines: dict[int, TextLine] = field(default_factory=dict)
     lost: set[str] = field(default_factory=set)  # the words of lines that could not be read
     last: int = 0  # no line has a higher number
+    _is_sorted: bool = True  # the lines have been stored in their order
 
     def next_number(self) -> int:
         """The hidden number of the next line of free-form text."""
@@ -73,15 +74,19 @@ class Text:
         self.lines[line.number] = line
         if line.number > self.last:
             self.last = line.number
+        else:
+            self._is_sorted = False
 
     def clear(self) -> None:
         """Forget all lines."""
         self.lines.clear()
         self.lost.clear()
-        self.last = 0
+        self.last, self._is_sorted = 0, True
 
     def in_order(self) -> list[TextLine]:
         """The lines by their numbers."""
+        if self._is_sorted:
+            return list(self.lines.values())
         return [self.lines[number] for number in sorted(self.lines)]
 
     def stored(self) -> list[StoredLine]:

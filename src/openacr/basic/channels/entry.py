@@ -132,7 +132,7 @@ class Entry:
         if found[0].kind is TokenKind.NUMBER:
             self._numbered(owner, found, text)
         elif found[0].kind is not TokenKind.END and self._append(owner, text, found):
-            self._learn(owner, kind, found, word)
+            self._learn(owner, kind, text, found, word)
         return None
 
     def _store_known(self, owner: int, text: str, kind: str) -> bool:
@@ -145,11 +145,11 @@ class Entry:
         self.store.put(owner, StoredLine(number, plain(text), scope, cost_bytes))
         return True
 
-    def _learn(self, owner: int, kind: str, found: list[Token], word: object) -> None:
+    def _learn(self, owner: int, kind: str, text: str, found: list[Token], word: object) -> None:
         """Remember a shape; labels are left out, their length is limited."""
         if owner < PROGRAMS and word != "ENDP" and found[0].kind is not TokenKind.LABEL:
             scope = self.system.scope(Level.PROG, owner, stored=True)
-            self.system.known_lines.learn(scope, kind, found)
+            self.system.known_lines.learn(scope, kind, text, found)
 
     def _append(self, owner: int, text: str, found: list[Token] | None = None) -> bool:
         found = tokens(text) if found is None else found

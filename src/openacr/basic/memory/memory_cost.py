@@ -42,7 +42,6 @@ STRING_HEADER = 4
 PLC_INSTRUCTION = Cost(8)
 
 _FREE_OPERATORS = frozenset("():;,#")
-_WITH_TEXT = frozenset((TokenKind.STRING, TokenKind.LABEL, TokenKind.REMARK))
 
 
 def string_bytes(length: int) -> int:
@@ -55,16 +54,11 @@ def line_bytes(tokens: list[Token]) -> int:
     return LINE_NUMBER.each + sum(map(_token_bytes, tokens))
 
 
-def is_alike(tokens: list[Token]) -> bool:
-    """Whether all lines of this shape take as much: no text or float that may be longer."""
-    return not any(isinstance(token.value, float) or token.kind in _WITH_TEXT for token in tokens)
-
-
 def _token_bytes(token: Token) -> int:
     if token.kind is TokenKind.WORD:
         return COMMAND.each
     if token.kind is TokenKind.NUMBER:
-        return _constant_bytes(token.value)
+        return constant_bytes(token.value)
     if token.kind is TokenKind.OPERATOR:
         return 0 if token.text in _FREE_OPERATORS else OPERATOR.each
     if token.kind is TokenKind.END:
@@ -72,7 +66,7 @@ def _token_bytes(token: Token) -> int:
     return string_bytes(len(str(token.value)))
 
 
-def _constant_bytes(value: str | int | float) -> int:
+def constant_bytes(value: str | int | float) -> int:
     """A number: LONG, else single where seven digits hold it exactly, else double."""
     if isinstance(value, int):
         return LONG_CONSTANT.each
