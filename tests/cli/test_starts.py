@@ -1,9 +1,14 @@
 """What commands import before they do anything: the user waits for it each time."""
 
+import gc
 import os
 import subprocess
 import sys
 from pathlib import Path
+
+import pytest
+
+from openacr.cli.imports import imports
 
 # Each class written by `dataclasses` is compiled when its module is imported.
 COUNTED = """
@@ -20,6 +25,22 @@ finally:
     print(sum(name.startswith("openacr") for name in made), file=sys.stderr)
 """
 
+SAID_FIRST = """
+import sys
+from openacr.cli.main import main
+class Terminal:
+    encoding = "utf-8"
+    def write(self, text):
+        heavy = ("numpy", "openacr.controller", "openacr.mill", "openacr.panel.")
+        found = [name for name in sys.modules if name.startswith(heavy)]
+        sys.stdout.write(text.strip() + str(found))
+        sys.stdout.flush()
+        raise SystemExit
+    def flush(self): pass
+sys.stderr = Terminal()
+main(["panel", "--no-browser", "--port", "0"])
+"""
+
 
 def _dataclasses_of(folder: Path, *arguments: str) -> int:
     """How many dataclasses of our own a command makes."""
@@ -33,6 +54,27 @@ def test_the_check_of_a_part_program_makes_hardly_any_dataclass(tmp_path: Path) 
     program = tmp_path / "SHORT.NC"
     program.write_text("G0 X1\nM2\n")
     assert _dataclasses_of(tmp_path, "mill", "check", str(program)) <= 10
+
+
+def test_the_panel_says_that_it_starts_before_it_imports_the_machine() -> None:
+    command = [sys.executable, "-c", SAID_FIRST]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout == "starting the panel ...[]"
+
+
+def test_what_a_long_command_imports_is_left_out_of_later_collections() -> None:
+    frozen = gc.get_freeze_count()
+    try:
+        with imports():
+            assert not gc.isenabled()
+            kept: list[list[int]] = [[] for _ in range(100)]
+        assert gc.isenabled()
+        assert gc.get_freeze_count() >= frozen + len(kept)
+        with pytest.raises(ImportError), imports():
+            raise ImportError
+        assert gc.isenabled()
+    finally:
+        gc.unfreeze()
 
 
 # What is registered first is called last.

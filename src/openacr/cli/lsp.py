@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from openacr.cli.imports import imports
 from openacr.cli.mill.check import AtStore, Dialect
 from openacr.errors import UserError, reason
 from openacr.io.listening import bound_socket
@@ -16,7 +17,7 @@ from openacr.io.listening import bound_socket
 HOST = "127.0.0.1"
 LAST_PORT = 65535
 TURN_S = 0.0005  # a check gives way to a question after this time
-MOST_OBJECTS = 2_000_000  # until a collection that is not waited for (`checks.py`)
+MOST_OBJECTS = 2_000_000  # until a collection, which answers wait for
 MISSING = "the language server needs pygls: pip install 'openacr[lsp]'"
 
 
@@ -43,14 +44,11 @@ def lsp(
         import pygls  # noqa: F401
     except ImportError:
         raise UserError(MISSING) from None
-    gc.disable()
-    from openacr.language_server.features import serve
-    from openacr.language_server.server import Server
-
+    with imports():
+        from openacr.language_server.features import serve
+        from openacr.language_server.server import Server
     server = Server(store, dialect)
-    gc.freeze()  # what is imported stays: no collection goes through it
     gc.set_threshold(MOST_OBJECTS)
-    gc.enable()
     sys.setswitchinterval(TURN_S)
     if tcp is None:
         serve(server)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.cli.bridge import begin
+from openacr.cli.imports import imports
 from openacr.cli.signals import stop_on_signals
 from openacr.errors import OpenacrError, UserError
 
@@ -88,10 +89,14 @@ def panel(
     """
     _require_packages()
     opened = _bus(machine, bus, is_real=is_real, is_sure=is_sure)
-    installation = _installation(machine, store, programs, opened)
-    installation.is_agreed |= is_agreed
+    _require_places(machine, programs)
     if set_password is None:
         print("starting the panel ...", file=sys.stderr, flush=True)
+    with imports():
+        import openacr.panel.machine
+        import openacr.panel.server.web  # noqa: F401
+    installation = _installation(machine, store, programs, opened)
+    installation.is_agreed |= is_agreed
     try:
         if set_password is not None:
             _set_password(installation, set_password)
@@ -114,12 +119,12 @@ def _require_packages() -> None:
 
 def _bus(machine: str | None, bus: str | None, *, is_real: bool, is_sure: bool) -> "OnBus | None":
     """The bus that is opened, once the operator has agreed to real drives."""
+    if bus is None and not is_real:
+        return None
     from openacr.cli.serve_on_bus import agreed, world_on_bus
     from openacr.cli.serve_realtime import missing_for_real_time
     from openacr.panel.machine.project import OnBus
 
-    if bus is None and not is_real:
-        return None
     if machine is None or not Path(machine).is_dir():
         raise UserError("--bus and --real need a project: its machine.toml describes the bus")
     world = world_on_bus(Path(machine), bus)
@@ -129,6 +134,14 @@ def _bus(machine: str | None, bus: str | None, *, is_real: bool, is_sure: bool) 
     if why:
         typer.echo(f"the bus is not served in real time: {why}", err=True)
     return OnBus(bus, is_real, is_real_time=not why)
+
+
+def _require_places(machine: str | None, programs: Path | None) -> None:
+    """Refuse mistyped places before anything that takes long."""
+    if programs is not None and not programs.is_dir():
+        raise UserError(f"--programs {programs}: there is no such folder")
+    if machine is not None and not Path(machine).is_dir():
+        _require_link(machine)
 
 
 def _installation(
@@ -147,10 +160,7 @@ def _installation(
     if machine is None:
         return embedded(store.parent if store else data, store=store, programs=programs)
     folder = programs or data / "programs"
-    if programs is not None and not programs.is_dir():
-        raise UserError(f"--programs {programs}: there is no such folder")
     if not Path(machine).is_dir():
-        _require_link(machine)
         wire_to(machine)  # what is no address is refused before anything is opened
         ensure(folder)
         return Installation.at(machine, open_to_write(store), folder)
