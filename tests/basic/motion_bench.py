@@ -11,11 +11,13 @@ from openacr.compiled import pick
 from openacr.kernel.tick_cy import tick
 from openacr.map.names import every_name
 from openacr.map.rows import axes as axis_rows
+from openacr.map.rows import encoders
 from openacr.models import DEFAULT_MODEL, Model
 from openacr.motion.axis import attach
 from openacr.motion.card import Card
 
 PERIOD_S = 0.0005
+WHEEL = encoders.parameters[10]  # of no axis
 _tick = pick(tick)
 
 
@@ -117,6 +119,14 @@ class Bench:
         for part, value in offsets_cnt.items():
             self.memory.F[row + every_name()[f"AXF_{part.upper()}_CNT"]] = value
         self.card.show(axis)
+
+
+def turn(made: Bench, *counts: int) -> Bench:
+    """Encoder 10 moves by each of these, tick by tick."""
+    for count in counts:
+        made.memory.I[WHEEL] += count
+        made.ticks(1)
+    return made
 
 
 def ticks(time_s: float, period_s: float = PERIOD_S) -> int:

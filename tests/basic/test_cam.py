@@ -3,14 +3,13 @@
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.basic.motion_bench import Bench
+from tests.basic.motion_bench import WHEEL, Bench
 
 from openacr.map.rows import axes
 
 PSP, CAM, CYCLES, SMOOTH = 12294, 12298, 12400, 12401
 ACTIVATE, TRIGGER_MODE, TRIGGER_STARTED = 790, 2308, 2309
 KAMR = 8467
-WHEEL = 6144 + 16 * 10  # position of encoder 10, which no axis has here
 
 
 def bench(*points: int, length: int = 100, lines: tuple[str, ...] = ()) -> Bench:

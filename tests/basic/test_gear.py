@@ -5,7 +5,7 @@ import math
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.basic.motion_bench import Bench
+from tests.basic.motion_bench import WHEEL, Bench
 
 from openacr.basic.language.registry import Level
 from openacr.map.rows import axes
@@ -16,7 +16,6 @@ ON_ARMED, ON_POSITION, STARTED, OFF_ARMED, OFF_POSITION, MAX, MIN = (
     2312, 2313, 2314, 2316, 2317, 2318, 2319,
 )  # fmt: skip
 KAMR = 8467
-WHEEL = 6144 + 16 * 10  # position of encoder 10, which no axis has here
 KILLED = "Associated Slave Kill Motion Request Active"
 
 

@@ -1,25 +1,17 @@
 """Hand wheels, time bases of jogs, filters, locked pairs, directional limits and RPM."""
 
 import pytest
-from tests.basic.motion_bench import Bench, largest
+from tests.basic.motion_bench import Bench, largest, turn
 
 from openacr.map.rows import axes, motors
 
 PSP, GEAR, JOG = 12294, 12296, 12297
 ACTIVE, KAMR = 792, 8467
-WHEEL = 6144 + 16 * 10  # position of encoder 10, which no axis has here
 
 
 def bench(*lines: str) -> Bench:
     made = Bench("X", "Y").all("PPU X1000 Y1000", "JOG VEL X10 Y10", "JOG ACC X100 Y100")
     return made.all("JOG DEC X100 Y100", *lines)
-
-
-def turn(made: Bench, *counts: int) -> Bench:
-    for count in counts:
-        made.memory.I[WHEEL] += count
-        made.ticks(1)
-    return made
 
 
 # hand wheels

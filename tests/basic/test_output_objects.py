@@ -3,19 +3,9 @@
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.basic.motion_bench import Bench
+from tests.basic.motion_bench import WHEEL, Bench, turn
 
 from openacr.map.rows import ratchets
-
-WHEEL = 6144 + 16 * 10  # position of encoder 10, which no axis has here
-
-
-def turn(made: Bench, *counts: int) -> Bench:
-    """The source moves by each of these, tick by tick."""
-    for count in counts:
-        made.memory.I[WHEEL] += count
-        made.ticks(1)
-    return made
 
 
 def place(made: Bench, position: int) -> Bench:

@@ -376,13 +376,6 @@ def test_a_program_with_errors_is_refused(tmp_path: Path) -> None:
         target_of(tmp_path, "G1 XX\nG1 YY\nM2\n")
 
 
-@pytest.fixture
-def client() -> Iterator[Client]:
-    client = Client()
-    yield client
-    client.close()
-
-
 def test_an_editor_debugs_a_part_program(client: Client, tmp_path: Path) -> None:
     file = tmp_path / "part.nc"
     file.write_text(COUNTING)

@@ -3,7 +3,6 @@
 import re
 import socket
 import subprocess
-from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
 from typing import IO, cast
@@ -28,13 +27,6 @@ class Lamp(Device):
     def step(self, dt_s, commands):
         return {"lit": True}
 """
-
-
-@pytest.fixture
-def client() -> Iterator[Client]:
-    client = Client()
-    yield client
-    client.close()
 
 
 @pytest.fixture

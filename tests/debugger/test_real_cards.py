@@ -32,13 +32,6 @@ def card(served: Served) -> Iterator[Card]:
         yield card
 
 
-@pytest.fixture
-def client() -> Iterator[Client]:
-    client = Client()
-    yield client
-    client.close()
-
-
 def begin(client: Client, served: Served, request: str = "launch", **arguments: object) -> None:
     client.ask("initialize", adapterID="openacr")
     client.event("initialized")

@@ -34,6 +34,13 @@ LONG_AGO_MS = 1_000_000
 PULSES = 10000.0
 SERVE = ("serve", "--ascii-port", "0", "--binary-port", "0")
 
+SPINDLE, FLOOD, LINK_TIMEOUT = 40, 41, 250_126
+PATIENT_S = 60.0  # for hosts that have to live on a busy computer
+SPINDLE_CELLS = {
+    800_005: SPINDLE, 800_010: FLOOD, 800_002: 3, 800_001: 0.01, LINK_TIMEOUT: PATIENT_S,
+}  # fmt: skip
+LONG = "M3 S500\nM8\nF60\nG1 X100\nM2\n"  # with spindle and coolant
+
 
 class Process:
     """One openacr command, with all it says."""

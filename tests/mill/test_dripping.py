@@ -1,6 +1,5 @@
 """Programs that come in over a serial line: pseudo-terminals stand for the line."""
 
-from collections.abc import Iterator
 from itertools import pairwise
 
 import pytest
@@ -14,13 +13,6 @@ from openacr.mill.run.handshake import XOFF, XON
 from openacr.mill.run.lifecycle import State
 
 END = b"\x1a"
-
-
-@pytest.fixture
-def sender() -> Iterator[Sender]:
-    one = Sender()
-    yield one
-    one.close()
 
 
 def dripping(sender: Sender, **cells: float) -> tuple[Shop, Drip]:

@@ -3,11 +3,19 @@
 import signal
 import sys
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.mill.live import Plant, serial_line
+from tests.mill.live import (
+    FLOOD,
+    LINK_TIMEOUT,
+    LONG,
+    PATIENT_S,
+    SPINDLE,
+    SPINDLE_CELLS,
+    Plant,
+    serial_line,
+)
 from tests.proxy import Proxy
 from tests.waiting import until
 
@@ -15,20 +23,9 @@ from openacr.cnc.occupied import TRIPPED
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no signals of this kind")
 
-SPINDLE, FLOOD, DAC3 = 40, 41, 6448
-CELLS = {800_005: SPINDLE, 800_010: FLOOD, 800_002: 3, 800_001: 0.01}
-LONG = "M3 S500\nM8\nF60\nG1 X100\nM2\n"
+DAC3 = 6448
 WATCHDOG_RUNS = 1248
-LINK_TIMEOUT, SHORT_S = 250_126, 3.0
-PATIENT_S = 60.0  # for hosts that have to live on a busy computer
-
-
-@pytest.fixture
-def plant(tmp_path: Path) -> Iterator[Plant]:
-    made = Plant(tmp_path)
-    made.wire(CELLS | {LINK_TIMEOUT: PATIENT_S})
-    yield made
-    made.close()
+SHORT_S = 3.0
 
 
 def require_stopped(plant: Plant) -> None:
@@ -95,7 +92,7 @@ def test_a_host_on_a_serial_line_that_is_killed_is_noticed_by_the_card(tmp_path:
     with serial_line() as (near, far):
         plant = Plant(tmp_path, "--serial", far)
         try:
-            plant.wire(CELLS | {LINK_TIMEOUT: PATIENT_S})
+            plant.wire(SPINDLE_CELLS)
             run = plant.mill("run", plant.part(LONG), "--quiet", host=near)
             until(lambda: plant.is_moving)
             run.signal(signal.SIGKILL)

@@ -1,12 +1,10 @@
 """Hosts, cards and lines that fail while a real process runs a part over TCP."""
 
 import sys
-from collections.abc import Iterator
 from functools import partial
-from pathlib import Path
 
 import pytest
-from tests.mill.live import Plant, Process
+from tests.mill.live import FLOOD, LINK_TIMEOUT, LONG, SPINDLE, Plant, Process
 from tests.proxy import Proxy
 from tests.waiting import until
 
@@ -14,19 +12,7 @@ from openacr.client import Card
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no signals of this kind")
 
-SPINDLE, FLOOD = 40, 41
-CELLS = {800_005: SPINDLE, 800_010: FLOOD, 800_002: 3, 800_001: 0.01}
-LINK_TIMEOUT, SHORT_S = 250_126, 2.5
-PATIENT_S = 60.0  # for hosts that have to live on a busy computer
-LONG = "M3 S500\nM8\nF60\nG1 X100\nM2\n"
-
-
-@pytest.fixture
-def plant(tmp_path: Path) -> Iterator[Plant]:
-    made = Plant(tmp_path)
-    made.wire(CELLS | {LINK_TIMEOUT: PATIENT_S})
-    yield made
-    made.close()
+SHORT_S = 2.5
 
 
 def test_a_kill_of_another_terminal_ends_a_run_over_a_link(plant: Plant) -> None:

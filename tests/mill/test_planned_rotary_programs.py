@@ -1,7 +1,6 @@
 """Part programs with turns in planned paths: started at a line, checked, drawn, sent in pieces."""
 
 import math
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -57,13 +56,6 @@ TANGENTIAL = {
     f"P{SPEEDS.path_tolerance}": TOLERANCE,
 }  # fmt: skip
 SETPOINTS = [Sample(Watched.FP64, axes.psp_cnt[axis]) for axis in range(A + 1)]
-
-
-@pytest.fixture
-def sender() -> Iterator[Sender]:
-    one = Sender()
-    yield one
-    one.close()
 
 
 def run(store: Store, text: str, dialect: str = "rs274ngc", line: int = 1) -> Reals:

@@ -1,7 +1,5 @@
 """LINK: part programs that arrive over a serial line are kept whole, or not at all."""
 
-from collections.abc import Iterator
-
 import pytest
 from tests.mill.sender import Sender
 from tests.mill.shop import Shop
@@ -13,13 +11,6 @@ from openacr.mill.run.receiving import ArrivingFile, Patience, Reception
 
 SHORT = Patience(first_s=0.2, after_end_s=0.2, amid_s=0.4)
 NEVER = Patience(first_s=1e6, after_end_s=1e6, amid_s=1e6)
-
-
-@pytest.fixture
-def sender() -> Iterator[Sender]:
-    one = Sender()
-    yield one
-    one.close()
 
 
 def reception(

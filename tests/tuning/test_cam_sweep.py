@@ -6,12 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.tuning.test_measure import SET_UP
-from tests.tuning.worlds import WORLD
 
 import openacr
 from openacr.client import Card, Level
 from openacr.errors import UserError
-from openacr.plant.describe.load import parse_world
 from openacr.tuning import measure as measuring
 from openacr.tuning.cam_sweep import points
 from openacr.tuning.excitation import Excitation
@@ -21,13 +19,6 @@ T = 0.0005
 FAST = Excitation(high_hz=400.0, duration_s=0.8)
 CAM_OFFSET, SMOOTH, CAM_ON = 12544 + 10, 12544 + 113, 790 + 32
 OWN_CAM = ["DIM LA1", "DIM LA0(2)", "CAM DIM Y1", "CAM SEG Y(0,100,LA0)"]
-
-
-@pytest.fixture
-def host() -> Iterator[openacr.Controller]:
-    found = openacr.Controller(world=parse_world(WORLD))
-    yield found
-    found.close()
 
 
 @pytest.fixture

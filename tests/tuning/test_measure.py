@@ -10,7 +10,6 @@ from tests.tuning.worlds import WORLD, true_motor
 import openacr
 from openacr.client import Card, Level
 from openacr.errors import UserError
-from openacr.plant.describe.load import parse_world
 from openacr.tuning import measure as measuring
 from openacr.tuning.excitation import Excitation
 from openacr.tuning.identify import identify
@@ -26,13 +25,6 @@ SET_UP = [
 SHORT = Excitation(duration_s=0.5)
 CAM = ["DIM LA1", "DIM LA0(2)", "CAM DIM Y1", "CAM SEG Y(0,100,LA0)"]
 GAINS = range(12544 + 16, 12544 + 24)
-
-
-@pytest.fixture
-def host() -> Iterator[openacr.Controller]:
-    found = openacr.Controller(world=parse_world(WORLD))
-    yield found
-    found.close()
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.basic.motion_bench import Bench
+from tests.basic.motion_bench import WHEEL, Bench, turn
 
 from openacr.compiled import pick
 from openacr.kernel.axis import feedback_cy
@@ -15,15 +15,6 @@ from openacr.map.rows import axes, encoders, motors, plant
 T = 0.0005
 STEPS = [feedback_cy.encoder_filters_step, pick(feedback_cy.encoder_filters_step)]
 GEAR = axes.gear_cnt[0]
-WHEEL = encoders.parameters[10]  # an encoder that no axis has
-
-
-def turn(made: Bench, *counts: int) -> Bench:
-    """Encoder 10 moves by each of these, tick by tick."""
-    for count in counts:
-        made.memory.I[WHEEL] += count
-        made.ticks(1)
-    return made
 
 
 def moved(motor: int, made: Bench, raw: float) -> Bench:
