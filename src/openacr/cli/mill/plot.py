@@ -54,7 +54,6 @@ def plot_program(
 ) -> None:
     """Draw the tool path of a part program: PNG, SVG or interactive HTML."""
     from openacr.cli.plots.formats import IMAGES, require
-    from openacr.cli.plots.toolpath_formats import draw_path
     from openacr.cli.run.output import require_different, require_writable, write_whole
 
     if colour and (is_stock or by_tool):
@@ -81,11 +80,20 @@ def plot_program(
     _require_known(file, scene)
     if scene.is_cut:
         typer.echo(f"note: the picture shows the first {scene.point_cnt:,} points", err=True)
-    write_whole(target, lambda partial: draw_path(scene, partial))
+    write_whole(target, lambda partial: _draw(scene, partial))
     move_cnt = sum(survey.move_cnts.values()) - survey.move_cnts["dwell"]
     typer.echo(f"{target}: {counted(move_cnt, 'move')}")
     if survey.errors:
         raise typer.Exit(FAILED)
+
+
+def _draw(scene: "Scene", path: Path) -> None:
+    """A scene in the format of the file name."""
+    if path.suffix.lower() == ".html":
+        from openacr.cli.plots.toolpath_page import write_page as write
+    else:
+        from openacr.cli.plots.toolpath_image import write_image as write
+    write(scene, path)
 
 
 def _plot_stock(file: Path, target: Path, store: Path | None, dialect: str | None) -> None:
