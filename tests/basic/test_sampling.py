@@ -2,7 +2,7 @@
 
 from tests.basic.motion_bench import Bench
 
-INDEX, TRIGGER_INDEX, PERIOD = 6912, 6913, 6915
+INDEX, TRIGGER_INDEX = 6912, 6913
 ARMED, RUNNING, MODE = 104, 105, 106
 
 

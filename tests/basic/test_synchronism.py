@@ -5,7 +5,7 @@ from tests.basic.motion_bench import Bench
 from openacr.basic.language.registry import Level
 
 MOVING = (516, 548)  # In Motion of masters 0 and 1
-SYNC, MANUAL, LOADED = 2064, 2065, 2067
+MANUAL, LOADED = 2065, 2067
 
 
 def bench(*lines: str) -> Bench:

@@ -29,7 +29,6 @@ FILE = 'name = "mill"\nrate_hz = 50\n[opcua]\nport = 0\n' + VALUES
 READ_ONLY = FILE.replace("write = true\nlow = -1000\nhigh = 1000\n", "").replace(
     "write = true\n", ""
 )
-READY = ua.StatusCodes.Good
 
 
 @pytest.fixture(scope="module", autouse=True)

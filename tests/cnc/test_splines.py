@@ -21,7 +21,6 @@ from openacr.cnc.geometry.splines import (
 )
 
 Pair = tuple[float, float]
-MM_PER_INCH = 25.4
 
 
 def ngc(text: str, cells: dict[int, float] | None = None) -> Run:

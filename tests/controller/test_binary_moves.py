@@ -242,7 +242,6 @@ def test_an_impossible_move_changes_nothing(refused: Move) -> None:
     assert sender.card.digest() == before
 
 
-NURB = {"code1": Code1.NURB, "code3": Code3.CURVE}
 SPLINE = {"code1": Code1.SPLINE, "code3": Code3.CURVE}
 TIMED_SPLINE = {"code1": Code1.SPLINE | Code1.SPLINE_KNOTS, "code3": Code3.CURVE}
 

@@ -16,7 +16,7 @@ from openacr.debugger.variables import locals_of, program_state
 from openacr.errors import UserError
 from openacr.timeline import Moment
 
-LOOP, COUNT, CALL, DWELL, DOUBLE, SET = 40, 50, 60, 70, 100, 110
+COUNT, CALL, DWELL, DOUBLE, SET = 50, 60, 70, 100, 110
 
 
 class Bench:

@@ -75,7 +75,6 @@ PROGRAMS = (
     ("10 DWL 3", "20 JOG FWD X", "30 DWL 1", "40 JOG OFF X", "50 DWL 0.4", "60 GOTO 10"),
     ("10 X1", "20 INH -516", "30 X0", "40 INH -516", "50 DWL 0.9", "60 GOTO 10"),
 )
-SAMPLES = ("SAMP 0 SRC P6916", "SAMP 0 BASE LA0", "P6915=7")
 RESTS = (  # a card that follows a clock while its axes rest, or seems to
     ("HLBIT X80", "HLIM X3"),
     ("GEAR SRC X CLK", "GEAR PPU X1000", "GEAR RATIO X0.01", "GEAR ON X"),

@@ -10,7 +10,6 @@ from tests.examples.observe import load
 
 pytestmark = pytest.mark.evidence("oracle", "circles by formula, B-splines of scipy")
 
-MOTION = 516
 VELOCITY = 8193
 
 

@@ -12,7 +12,7 @@ from openacr.channels import StreamKind
 from openacr.controller import Controller
 
 X, Y = 0, 1
-MOTION, KILL_MOVES, KILL = 516, 522, 8467
+KILL_MOVES, KILL = 522, 8467
 HALT_ON_ERROR, PRINT_ERRORS, ERROR_OCCURRED, CLEAR_CODES = 128, 129, 130, 131
 PAUSED, RUNS = 1050, 1024
 MEI_CODE, CANOPEN_CODE, X_CODE, Y_CODE = 50, 51, 52, 53

@@ -31,7 +31,6 @@ from openacr.sysvar import Store
 AXIS_POSITION, AXIS_STRIDE = 12288, 256
 REST_MS = 300  # of the card, in which nothing has moved
 LONG_AGO_MS = 1_000_000
-PULSES = 10000.0
 SERVE = ("serve", "--ascii-port", "0", "--binary-port", "0")
 
 SPINDLE, FLOOD, LINK_TIMEOUT = 40, 41, 250_126

@@ -20,16 +20,6 @@ def test_positions_below_0_and_more_digits_than_five_are_written_as_they_are() -
     assert parse("A-90E1\nA90E-.123456\n", "A").text() == "A-90E1.00000\nA90E-.123456\n"
 
 
-MEASURED = """\
-setpoint; n1; n2; n3; n4
-0;0;0;0;0
-1;0.979;1.000;0.997;0.999
-2;1.996;1.998;1.995;1.998
-3;2.997;3.000;2.997;2.999
-4;4.004;4.001;4.004;4.001
-"""
-
-
 # The table of Appendix A as it is printed, with the position of its last row, which the guide
 # prints as 40: the mean it gives and the entry X39E.00250 are those of 41.
 PRINTED = """\

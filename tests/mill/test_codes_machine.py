@@ -6,13 +6,6 @@ from tests.mill.shop import Shop
 from openacr.sysvar import Store
 from openacr.sysvar.values import SettingError
 
-DAC_VALUE = 6400 + 16 * 3
-CW, CCW, OFF, MIST, FLOOD, NONE_FLOWS = 40, 41, 45, 42, 43, 44
-SPINDLE = {
-    "P800_001": 0.00333, "P800_002": 3.0, "P800_005": CW, "P800_006": CCW, "P800_007": OFF,
-    "P800_009": MIST, "P800_010": FLOOD, "P800_011": NONE_FLOWS,
-}  # fmt: skip
-
 # --- parameters of the card ---------------------------------------------------------------
 
 

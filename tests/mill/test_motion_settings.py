@@ -13,7 +13,7 @@ from openacr.map import numbers as n
 from openacr.map.rows import axes, motors
 from openacr.mill.run.lifecycle import State
 
-JOG, HOME, SPEEDS = 350_000, 300_000, 650_000
+JOG, HOME = 350_000, 300_000
 
 
 def speeds(shop: Shop, seconds: float) -> list[float]:

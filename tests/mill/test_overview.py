@@ -8,8 +8,6 @@ from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import AXIS
 
-ESTOP = "P400_004"
-
 
 def eight_axes() -> Store:
     store = Store()

@@ -6,7 +6,7 @@ from tests.mill.shop import Shop
 from openacr.errors import UserError
 from openacr.mill.run.lifecycle import State
 
-FEED_HOLD, CYCLE_START, LUBRICATION = "P400_002", "P400_003", "P400_012"
+FEED_HOLD, CYCLE_START = "P400_002", "P400_003"
 SPINDLE_CW = "P800_005"
 
 

@@ -4,17 +4,12 @@ import math
 from itertools import pairwise
 
 import pytest
-from shapely.geometry import MultiPoint
 from tests.mill.shop import STEP_S, Shop
 
 from openacr.mill.run.lifecycle import State
 
-pytestmark = pytest.mark.evidence("oracle", "the square of the guide in shapely")
-
 DAC_VALUE = 6400 + 16 * 3
 SPINDLE = {"P800_001": 0.00333, "P800_002": 3.0, "P800_005": 40.0, "P800_006": 41.0}
-COOLANT = {"P800_009": 42.0, "P800_010": 43.0, "P800_011": 44.0}
-CORNERS = MultiPoint([(0, 0), (1, 0), (1, 1), (0, 1)])
 
 
 def volts(shop: Shop) -> float:

@@ -5,7 +5,7 @@ import pytest
 from openacr.mill.config.readout import Format, Readout
 from openacr.sysvar import Store
 
-INCH_X, METRIC_X, METRIC_A, CONTROL_MODE = 850_000, 850_001, 853_001, 850_030
+INCH_X, METRIC_X, CONTROL_MODE = 850_000, 850_001, 850_030
 
 
 @pytest.mark.req("MILL-SYS-DISP-RES")

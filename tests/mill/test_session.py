@@ -14,8 +14,7 @@ from openacr.mill.session import MillSession, Start
 from openacr.sysvar import Store
 from openacr.sysvar.tabs import AXIS
 
-CARD_MODEL, POWER_UP_DISTANCE, CONTROL_MODE = 100_002, 250_111, 850_030
-PROBLEM = "G1 F600 X1\nM2\n"
+CARD_MODEL = 100_002
 
 
 def shop_on(controller: Controller, **cells: float) -> MillSession:

@@ -17,20 +17,11 @@ from openacr.mill.run.lifecycle import State
 from openacr.mill.session import MillSession
 from openacr.sysvar import Store
 
-ESTOP, LUBRICATION = "P400_004", "P400_012"
-
-ESTOP, LUBRICATION, FEED_HOLD, CYCLE_START = "P400_004", "P400_012", "P400_002", "P400_003"
-
-
 ESTOP_CELL = 400_004
 
 
 def codes(shop: Shop) -> list[int]:
     return [alarm.kind.code for alarm in shop.runner.alarms.active]
-
-
-def long_path() -> tuple[c.Entry, ...]:
-    return (line(1, at(50)), end())
 
 
 def test_the_bulge_of_an_arc_counts_for_the_limits() -> None:
@@ -63,9 +54,6 @@ def test_exact_stops_wait_for_the_in_position_band(width: float, state: State) -
     shop.start(c.Line(src(1), at(1), pace), rapid(2, at(0)), end())
     assert shop.until(state) is state
     assert codes(shop) == ([24] if state is State.ALARM else [])
-
-
-TURNS = "M3 S500\nG1 F60 X50\nM2\n"
 
 
 CUTS = "G1 F60 X50\nM2\n"

@@ -12,7 +12,6 @@ from openacr.errors import UserError
 from openacr.mill.session import MillSession
 from openacr.sysvar import Store
 
-PROGRAM_CELL, TIMEOUT_CELL = 250_125, 250_126
 RUNS = 1248  # flag of program 7
 
 

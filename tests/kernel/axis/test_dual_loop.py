@@ -22,7 +22,6 @@ pytestmark = pytest.mark.evidence("oracle", "the linear system solved by scipy")
 Matrix = NDArray[np.float64]
 MOTOR, LOAD = 4, 0  # encoders
 PGAIN, FBVEL = 0.01, 4e-4  # V per count of the load, V per count/s of the motor
-COUNTS = 8000.0  # of either encoder in a revolution
 PER_VOLT = 250_000.0  # counts/s2 of the motor by a volt, load included
 RESONANCE, ANTIRESONANCE = 2 * math.pi * 60.0, 2 * math.pi * 45.0
 

@@ -7,7 +7,7 @@ from openacr.kernel.tick_cy import tick
 from openacr.motion.card import Card
 
 HOME_REQUEST, HOME_NEGATIVE = 17160, 17161
-JOG_ACTIVE, HOMING, FAILED, KILL = 792, 16131, 16135, 8467
+JOG_ACTIVE, HOMING, KILL = 792, 16131, 8467
 
 _tick = pick(tick)
 

@@ -8,7 +8,7 @@ from openacr.map.rows import axes as axis_rows
 from openacr.motion.jog import jog
 from openacr.motion.path import moves
 
-ACTIVE, KAMR, KILL_ALL_MOVES, IN_MOTION = 792, 8467, 522, 516
+KAMR, KILL_ALL_MOVES, IN_MOTION = 8467, 522, 516
 
 
 def travelling(axes: int = 2) -> Rig:

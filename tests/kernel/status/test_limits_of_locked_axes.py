@@ -6,7 +6,7 @@ from tests.basic.motion_bench import PERIOD_S, Bench
 from openacr.map.rows import encoders
 
 GEAR_SOURCE = 9  # an encoder that no axis has
-SOFT_MET, KILL_ALL_MOVES, GEAR_ON, JOGGING = 16140, 522, 772, 792
+SOFT_MET, KILL_ALL_MOVES, JOGGING = 16140, 522, 792
 
 
 def pair(leader: int, follower: int, *lines: str, follows: bool = True) -> Bench:

@@ -52,13 +52,6 @@ def page(bench: Page) -> Page:
     return bench
 
 
-def forget(page: Page) -> None:
-    """Open the workspace anew, as a browser that keeps nothing yet."""
-    # Without setItem, since the workspace may be about to write its layout.
-    page.evaluate("Storage.prototype.setItem = () => {}; localStorage.clear()")
-    again(page)
-
-
 def again(page: Page) -> None:
     page.reload()
     page.wait_for_selector("body:not(.is-stale) #menu .menu-key")

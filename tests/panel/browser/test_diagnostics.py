@@ -15,7 +15,6 @@ from openacr.panel.control.station import Station
 from openacr.sysvar.tabs import CONTROL, OFFSETS
 
 SHOW = "(name) => import('/js/frame/menu_bar.js').then(({ openMenu }) => openMenu(name))"
-BITS = "(rows) => rows.map((row) => Number(row.dataset.bit))"
 LISTED = """() => [...document.querySelectorAll('#screen tbody tr')].map((row) =>
   [row.cells[0].textContent, row.cells[1].textContent, row.cells[2].querySelector('strong').textContent])"""  # noqa: E501
 
