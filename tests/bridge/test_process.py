@@ -199,9 +199,7 @@ def test_systems_end_properly_only_when_the_panel_asks_for_it(
     assert messages.framed(messages.Taken()) in answers.getvalue()
 
 
-def test_readings_that_cannot_be_sent_are_said_and_tried_again(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_readings_that_cannot_be_sent_are_said_and_tried_again() -> None:
     feed, said = GivenFeed(), list[str]()
     good = feed.moment
     with running(METRICS, feed, said) as bridge:

@@ -111,7 +111,7 @@ def test_what_fails_is_said_with_the_node(
     assert said in run("sdo", *words, code=2)
 
 
-def test_no_node_is_no_failure(tmp_path: Path) -> None:
+def test_no_node_is_no_failure() -> None:
     assert "no node answers on virtual:nothing at 125 kbit/s" in run("scan", "virtual:nothing")
 
 

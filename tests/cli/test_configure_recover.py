@@ -83,7 +83,7 @@ def test_options_of_generation_do_not_go_with_recovery(other: tuple[str, ...]) -
     assert "--recover prints answers" in result.stderr
 
 
-def test_a_first_machine_of_a_project_is_printed(tmp_path: Path) -> None:
+def test_a_first_machine_of_a_project_is_printed() -> None:
     result = CliRunner().invoke(app, ["configure", "--machine", str(GANTRY)])
     assert (result.exit_code, result.stderr) == (0, "")
     assert [axis.name for axis in parse_world(result.stdout).axis] == ["X", "Y", "Z"]

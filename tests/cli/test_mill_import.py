@@ -12,7 +12,7 @@ from openacr.sysvar import Store
 
 
 @pytest.fixture
-def square(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def square(tmp_path: Path) -> Path:
     """A drawing of a square and two holes, in a folder with a store."""
     document = ezdxf.new("R2010")  # type: ignore[attr-defined]
     document.header["$INSUNITS"] = 1

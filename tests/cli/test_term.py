@@ -64,7 +64,7 @@ def test_keys_pass_through_arrows_recall_and_ctrl_c_leaves(tmp_path: Path) -> No
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="pseudo terminals of POSIX")
-def test_it_says_when_the_card_ends_the_connection(tmp_path: Path) -> None:
+def test_it_says_when_the_card_ends_the_connection() -> None:
     with served(FakeCard()) as at:
         process = warm.Popen(
             ["term", str(at)],

@@ -52,7 +52,7 @@ def test_the_table_of_cases_is_that_of_the_files() -> None:
     assert (ROOT / "docs" / "cases.md").read_text() == table(ROOT / "conformance"), "make docs"
 
 
-def test_a_page_of_a_section_has_its_cases_as_they_are_written(tmp_path: Path) -> None:
+def test_a_page_of_a_section_has_its_cases_as_they_are_written() -> None:
     pages = dict(sections(ROOT / "conformance"))
     assert len(pages) == len(list((ROOT / "conformance").glob("*/*.txt")))
     text = (ROOT / "conformance" / "programmers-guide" / "10-aliases.txt").read_text()

@@ -295,7 +295,7 @@ def test_one_flipped_bit_costs_one_program_and_every_host_is_informed(
     assert power_up().heard() == ""
 
 
-def test_what_this_version_cannot_read_is_kept(power_up: PowerUp, tmp_path: Path) -> None:
+def test_what_this_version_cannot_read_is_kept(power_up: PowerUp) -> None:
     host = power_up()
     host.type("PROG0", "10 PRINT 1")
     host.card.nonvolatile.store.write({"battery text 3": b"\x01"})

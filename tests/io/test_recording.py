@@ -372,9 +372,7 @@ def test_a_recording_on_a_disk_that_gets_full_ends_with_a_whole_event(tmp_path: 
     assert (read.is_whole, [each.data for each in read.entries]) == (True, [b"terminal", b"?1+1\r"])
 
 
-def test_a_card_that_cannot_be_reached_refuses_the_host(
-    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_a_card_that_cannot_be_reached_refuses_the_host(caplog: pytest.LogCaptureFixture) -> None:
     async def run() -> None:
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))

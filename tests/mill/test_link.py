@@ -133,7 +133,7 @@ def test_overrides_that_may_be_lost_are_sent_again() -> None:
     assert (shop.pulses(), codes(shop)) == ((20_000, 0, 0), [])
 
 
-def test_an_action_that_may_be_lost_ends_the_program(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_action_that_may_be_lost_ends_the_program() -> None:
     shop = Shop(**{SPINDLE_CW: 40})
     shop.load("M3 S500\nG4 F10\nG1 F600 X5\nM2\n")
     shop.pass_time(0.5)

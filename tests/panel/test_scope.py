@@ -374,9 +374,7 @@ def test_a_card_over_a_link_is_polled_flags_by_their_words(hand: HandStation) ->
     assert found[1].tolist() == [[2.5] * 3, [1.0] * 3, [0.0] * 3]
 
 
-def test_a_refusal_of_a_polled_card_ends_the_capture_and_is_said(
-    hand: HandStation, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_refusal_of_a_polled_card_ends_the_capture_and_is_said(hand: HandStation) -> None:
     station = hand.station
     station.captures.of(1).sampling = Polled()
     capture = station.captures.of(1).scope.arm([named("P4000")], 0.01, 10, None)

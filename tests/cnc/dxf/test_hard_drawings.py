@@ -81,7 +81,7 @@ def test_what_vanishes_in_a_joint_is_reported(tmp_path: Path) -> None:
     assert result.summary == "1 chain (0 closed) of 5 entities"
 
 
-def test_short_lines_drawn_twice_are_left_out_once(tmp_path: Path) -> None:
+def test_short_lines_drawn_twice_are_left_out_once() -> None:
     pieces = tiny_circle(50, 0.001)
     assert without_doubles([*pieces, *pieces], EPSILON) == pieces
 
