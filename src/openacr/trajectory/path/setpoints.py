@@ -35,7 +35,6 @@ class Setpoints:
     lines: Whole
     path_u: Reals
     rest: Reals
-    rest_line: int
     rest_path_u: float
     factors: Reals
 

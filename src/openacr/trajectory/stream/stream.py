@@ -116,11 +116,10 @@ class Stream:
         self._next += count
         while len(self._members) > 1 and self._is_over(*list(self._members)[:2]):
             self._gone_s = self._members.popleft().course.end_s
-        rest, rest_lines, rest_path, _ = self._rest()
+        rest, _, rest_path, _ = self._rest()
         return Setpoints(
-            first, self.period_s, points, lines, path_u, rest,
-            int(rest_lines[-1]), float(rest_path[-1]), factors,
-        )  # fmt: skip
+            first, self.period_s, points, lines, path_u, rest, float(rest_path[-1]), factors
+        )
 
     def _is_over(self, member: Member, after: Member) -> bool:
         """Whether all of a course was taken, and some of the next one."""
