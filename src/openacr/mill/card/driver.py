@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from openacr.client import Card, ConnectionLostError
+from openacr.client.drives import cut_all
 from openacr.client.errors import GarbledError, NoReplyError
 from openacr.client.values import Number, number_text
 from openacr.cnc.occupied import FIRST_CUT, HOLD_AT, MACHINE_AXES, RAN_SHORT, TRIPPED
@@ -319,12 +320,12 @@ class MachineDriver:
         self._set_kills(True)
 
     def disable(self) -> None:
-        """Kill all motion, end all programs and switch all drives off, moving or not (Ctrl-Z).
+        """Kill all motion, end all programs and switch all drives off, moving or not.
 
         Drives of axes in use that were on are noted on the card, for `enabling`.
         """
         self._require_attached()
-        self.card.kill_all(disable=True)
+        cut_all(self.card)
         words = () if self.polled is None else self.polled.drives
         were_on = [axis for axis, word in zip(self.axes, words, strict=False) if may_be_on(word)]
         self._transmit(*(SetBit(FIRST_CUT + axis) for axis in were_on))

@@ -8,6 +8,7 @@ from contextlib import suppress
 from typing import Any
 
 from openacr.client import Card, Options
+from openacr.client.drives import cut_all
 from openacr.client.program_states import PROGRAMS
 from openacr.client.standstill import EVERY_S, Standstill
 from openacr.errors import OpenacrError
@@ -70,7 +71,7 @@ class Stopping:
 
     def kill(self) -> None:
         """Kill all motion and switch all drives off, over any connection (Ctrl-Z)."""
-        self._card().kill_all(disable=True)
+        cut_all(self._card())
 
     def _card(self) -> Card:
         session = self._link.session
