@@ -7,11 +7,13 @@ from typing import Any
 
 from openacr.client import Level
 from openacr.client.effects import Op
+from openacr.client.program_states import ROWS, program_states
 from openacr.client.requests import Follow
 from openacr.client.talk import Talk
 from openacr.errors import UserError
 from openacr.panel.control.engineer.card_programs import CardPrograms, read_states
 from openacr.panel.control.engineer.conversations import Aside
+from openacr.panel.control.engineer.texts_seen import TextsSeen
 from openacr.panel.control.machine.breakpoints import Breakpoints
 from openacr.panel.control.machine.installation import Installation
 from openacr.panel.control.machine.place import Rows
@@ -99,6 +101,11 @@ class Listening:
             self._tell({"event": "listen", "program": program, "text": text, "to": client})
 
 
+def _halted(read: Rows) -> set[Level]:
+    states = program_states(read(list(ROWS)))
+    return {state.level for state in states if not state.is_running}
+
+
 class OnCard:
     """States by the link of the session; texts and listening by streams of their own."""
 
@@ -107,6 +114,7 @@ class OnCard:
         self.aside = Aside(installation)
         self.programs = CardPrograms(tell)
         self.parked = ParkedTexts()
+        self.texts_seen = TextsSeen(installation, self.aside, self.programs.texts_changed)
         self.listening = Listening(installation, tell)
 
     @property
@@ -130,6 +138,8 @@ class OnCard:
     def look(self, read: Rows, now_s: float) -> None:
         """Read the states for those who watch them."""
         self.programs.watchers.look(lambda: read_states(read), now_s)
+        if self.programs.watchers.are_there:
+            self.texts_seen.look(now_s, lambda: _halted(read))
 
     def forget(self, client: int) -> None:
         """A browser has gone."""
@@ -139,4 +149,5 @@ class OnCard:
     def end(self) -> None:
         """The session has ended: close the streams."""
         self.aside.end()
+        self.texts_seen.forget()
         self.listening.end()

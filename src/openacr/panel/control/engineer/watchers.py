@@ -30,6 +30,11 @@ class Watchers(Generic[S]):
         """Tell a client no more."""
         self._watchers.pop(client, None)
 
+    @property
+    def are_there(self) -> bool:
+        """Whether a client watches."""
+        return bool(self._watchers)
+
     def look(self, read: Callable[[], S], now_s: float) -> None:
         """Read the state for those whose time has come, and tell what has changed."""
         due = {c: each for c, each in self._watchers.items() if now_s >= each.due_s - EARLY_S}

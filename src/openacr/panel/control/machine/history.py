@@ -9,6 +9,8 @@ from collections.abc import Callable
 from typing import Any
 
 from openacr.channels import StreamKind
+from openacr.client import Level
+from openacr.client.stored import Room
 from openacr.controller import Controller
 from openacr.debugger.breakpoints import MASTERS, kill_watch, running_watch
 from openacr.debugger.calls import PROGRAMS, is_running, name_of
@@ -145,6 +147,16 @@ class History:
         """A number that is another one where the programs and PLCs have other texts."""
         programs, owners = self.card.system.programs, self.card.system.owners()
         return hash(tuple((k, at.number, at.text) for k in owners for at in programs.lines(k)))
+
+    def rooms(self) -> dict[Level, Room]:
+        """The memory of every program and PLC that has some."""
+        storage = self.card.system.storage
+        return {
+            Level.program(n) if n < PROGRAMS else Level.plc(n - PROGRAMS): Room(size, free)
+            for n in self.card.system.owners()
+            for size, free in [(storage.size(n), storage.free_program(n))]
+            if size
+        }
 
     # --- bookmarks --------------------------------------------------------------------
 
