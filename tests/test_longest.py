@@ -10,11 +10,11 @@ from tests import longest
 
 
 def test_files_that_take_longest_come_first_and_their_tests_keep_their_order() -> None:
-    names = ["a.py::one", "b.py::one", "a.py::two", "c.py::one", "b.py::two"]
+    names = ["a.py::one", "b.py::one", "a.py::two", "c.py::one", "b.py::two", "new.py::one"]
     items: list[Any] = [SimpleNamespace(nodeid=name) for name in names]
-    longest.sort(items, {"b.py": 2.0, "c.py": 3.0})
+    longest.sort(items, {"a.py": 0.0, "b.py": 2.0, "c.py": 3.0})
     assert [item.nodeid for item in items] == [
-        "c.py::one", "b.py::one", "b.py::two", "a.py::one", "a.py::two",
+        "new.py::one", "c.py::one", "b.py::one", "b.py::two", "a.py::one", "a.py::two",
     ]  # fmt: skip
 
 
@@ -31,4 +31,4 @@ def test_what_the_last_run_noted_counts_and_before_it_what_the_sources_say(
     given = json.loads(longest.GIVEN.read_text())
     assert longest.noted(cache) == longest.noted(None) == given
     cache.set(longest.KEY, {"a.py": 2.0})
-    assert longest.noted(cache) == {"a.py": 2.0}
+    assert longest.noted(cache) == given | {"a.py": 2.0}
