@@ -46,8 +46,8 @@ RUNS := $(VENV)/.runs
 INSTALLED := $(VENV)/.installed
 CORE_SOURCES := setup.py src/openacr/unity.py src/openacr/unity_c.py src/openacr/cmath.py src/openacr/csystem.pxd src/openacr/views.py \
 	src/openacr/messages.py src/openacr/map/fingerprint.py $(shell find src -name '*_cy.py')
-# A third of the time a test waits for other processes: half as many again as there are cores.
-WORKERS ?= $(shell cores=$$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2); echo $$((cores * 3 / 2)))
+# A third of the time a test waits for other processes, and each worker imports all anew: two more than cores.
+WORKERS ?= $(shell cores=$$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2); echo $$((cores + 2)))
 
 # In front of a command that is long and silent: a line every few seconds until its shell ends.
 BEAT_S := 5
