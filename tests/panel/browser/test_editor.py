@@ -506,3 +506,31 @@ def test_where_a_name_is_used_is_shown_over_all_programs_and_leads_to_the_line(
     page.locator(".bench-tab-text").get_by_text("Cross reference", exact=True).click()
     page.get_by_role("button", name="CLOSE PANE").click()
     page.locator(".bench-tab-text").get_by_text("Editor", exact=True).click()
+
+
+def test_on_a_phone_the_keys_have_one_row_and_a_menu(page: Page) -> None:
+    head, more = pane(page).locator(".pane-head"), pane(page).get_by_label("More keys")
+    expect(more).to_be_hidden()
+    wide = page.viewport_size
+    assert wide is not None
+    page.set_viewport_size({"width": 390, "height": 844})
+    expect(more).to_be_visible()
+    box = head.bounding_box()
+    assert box is not None
+    assert box["height"] <= 56.0
+    assert head.evaluate("row => row.scrollWidth <= row.clientWidth")
+    outline = head.get_by_role("button", name="OUTLINE")
+    expect(outline).to_be_hidden()
+    more.click()
+    menu = pane(page).locator(".more-menu")
+    expect(menu).to_be_visible()
+    assert menu.locator("button").first.inner_text().strip() != "OUTLINE"  # in their order
+    outline.click()
+    expect(menu).to_be_hidden()
+    expect(pane(page).get_by_role("region", name="Beside the text")).to_be_visible()
+    pane(page).get_by_role("button", name="CLOSE").click()
+    page.set_viewport_size(wide)
+    expect(more).to_be_hidden()
+    expect(outline).to_be_visible()
+    texts = head.locator("button:visible").all_inner_texts()
+    assert texts.index("READ") < texts.index("COMPARE") < texts.index("OUTLINE")

@@ -5,7 +5,8 @@ import { t } from "../core/texts.js";
 import { ACTIONS } from "./actions.js";
 import { projectSign } from "./project_sign.js";
 import { shownKeys, spokenKeys } from "./shown_keys.js";
-import { NARROW, job } from "./workspace.js";
+import { NARROW } from "./narrow.js";
+import { job } from "./workspace.js";
 
 /** @typedef {import("./actions.js").ActionName} ActionName */
 

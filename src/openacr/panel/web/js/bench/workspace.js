@@ -6,11 +6,11 @@ import { Signal } from "../core/signal.js";
 import { t } from "../core/texts.js";
 import { showPane } from "./content.js";
 import { JOBS, firstLayout, keepJob, keepLayout, panesOf, presentJob, presentLayout } from "./layouts.js";
+import { NARROW } from "./narrow.js";
 import { PANES } from "./panes.js";
 
 /** @typedef {import("../../vendor/dockview.js").DockviewApi} DockviewApi */
 
-export const NARROW = window.matchMedia("(max-width: 900px)");
 /** @type {DockviewApi} */
 let dock;
 /** @type {Map<string, () => boolean | Promise<boolean>>} */

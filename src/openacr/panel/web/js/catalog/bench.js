@@ -116,7 +116,7 @@ const BENCH = {
   "scope.window.blackman": { en: "Blackman", de: "Blackman" },
   "scope.window.flattop": { en: "flat top", de: "Flat Top" },
   "scope.axes": { en: "Y axes", de: "Y-Achsen" },
-  "scope.axes.divisions": { en: "divisions", de: "Teile" },
+  "scope.axes.divisions": { en: "divisions", de: "Skalenteile" },
   "scope.axes.own": { en: "one each", de: "je Kanal eine" },
   "scope.axes.unit": { en: "shared by unit", de: "je Einheit eine" },
   "scope.flags": { en: "Flags", de: "Flags" },

@@ -413,7 +413,7 @@ const SERVICE = {
   "scope.sweep": { en: "Sweep, ms/div", de: "Ablenkung, ms/Teil" },
   "scope.period": { en: "Sampling, ms", de: "Abtastung, ms" },
   "scope.autoscale": { en: "AUTOSCALE", de: "AUTOSKALA" },
-  "scope.divisions": { en: "divisions", de: "Teile" },
+  "scope.divisions": { en: "divisions", de: "Skalenteile" },
   "scope.level": { en: "Trigger level", de: "Triggerpegel" },
   "scope.mode": { en: "Trigger", de: "Trigger" },
   "scope.free": { en: "free run", de: "frei laufend" },

@@ -18,6 +18,7 @@ import { debugPart } from "../editor/debug_part.js";
 import { nameActions } from "../editor/name_actions.js";
 import { followPlaces } from "../editor/places_part.js";
 import { problemList } from "../editor/problem_list.js";
+import { keepInOneRow } from "../overflow.js";
 import { projectPart } from "../editor/project_part.js";
 import { valuesPart } from "../editor/values_part.js";
 
@@ -135,6 +136,7 @@ export async function mount(host, { head, kept, keep, beforeClose }) {
     keyOf(TEXTS.outline, actions.outline),
     values.key,
   );
+  endings.add(keepInOneRow(head));
   const code = h("div.editor-host.grow", {});
   const beside = h("div.stack.scroll.text-beside", {
     hidden: true,

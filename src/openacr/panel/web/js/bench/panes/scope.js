@@ -25,6 +25,7 @@ import { recordText, stateOf, stateText } from "../../scope/state.js";
 import { triggerPlugin } from "../../scope/trigger_mark.js";
 import { within, zoomed } from "../../scope/view.js";
 import { createXy } from "../../scope/xy.js";
+import { keepInOneRow } from "../overflow.js";
 import { takeWanted } from "../wanted.js";
 
 const TEXTS = {
@@ -116,6 +117,7 @@ export async function mount(host, { head, kept: layout, keep }) {
     keyOf("scope.export", choose),
   );
   head.classList.add("is-full");
+  endings.add(keepInOneRow(head));
   host.classList.add("is-scope", "is-wide");
   host.append(
     side,

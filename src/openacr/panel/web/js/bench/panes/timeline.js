@@ -11,6 +11,7 @@ import { compare } from "../compared.js";
 import { createFirstDifference } from "../first_difference.js";
 import { lanesOf } from "../lane_list.js";
 import { createLanes } from "../lanes.js";
+import { keepInOneRow } from "../overflow.js";
 import { createSelection } from "../selection.js";
 import { createTimeKeys } from "../time_keys.js";
 import { createMarks } from "../time_marks.js";
@@ -47,6 +48,7 @@ const MEGA = 1e6;
 export async function mount(host, { head, kept, keep }) {
   const endings = new Endings();
   const keys = createTimeKeys(head);
+  endings.add(keepInOneRow(head));
   const slider = h("input.grow.time-slider", {
     type: "range",
     step: "1",
