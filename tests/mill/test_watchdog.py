@@ -9,17 +9,20 @@ from openacr.client.errors import RefusedError
 from openacr.cnc.occupied import HEARTBEAT, WATCHDOG_PROGRAM
 from openacr.controller import Controller
 from openacr.errors import UserError
+from openacr.mill.card.watchdog import NO_WATCHDOG
 from openacr.mill.session import MillSession
 from openacr.sysvar import Store
 
 RUNS = 1248  # flag of program 7
 
 
-def opened(controller: Controller, **cells: float) -> MillSession:
+def opened(
+    controller: Controller, say: Callable[[str], None] = lambda _text: None, **cells: float
+) -> MillSession:
     store = Store()
     for name, value in cells.items():
         store.write(int(name.removeprefix("P")), value)
-    return MillSession.real(controller, store, lambda _text: None)
+    return MillSession.real(controller, store, say)
 
 
 def listed(controller: Controller, program: int = WATCHDOG_PROGRAM) -> list[str]:
@@ -66,7 +69,9 @@ def test_a_program_with_too_little_memory_is_said_and_left_empty() -> None:
     assert text.startswith("no memory for the watchdog on the card: DIM PROG7(4096): Re-dim")
     assert text.endswith("; free 4096 bytes for program 7, or disable it (P250125 = -1)")
     assert (listed(controller), controller.p[HEARTBEAT]) == ([], 0)
-    opened(controller, P250125=-1).close()
+    said: list[str] = []
+    opened(controller, said.append, P250125=-1).close()
+    assert said == [NO_WATCHDOG]
 
 
 def test_memory_that_is_too_small_all_the_same_is_said_and_left_empty(

@@ -147,6 +147,7 @@ def test_parameters_are_found_by_number_name_axis_and_tab() -> None:
     assert {found.tab for found in find("servo y")} == {"SERVO"}
     assert len(find("servo y")) == 10
     assert len(find("jog feedrate")) == 8
+    assert [found.number for found in find("cells cycle code")] == [249]  # not the return code
 
 
 def test_an_unclear_name_lists_what_it_can_mean() -> None:
