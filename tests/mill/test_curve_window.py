@@ -29,14 +29,14 @@ def setpoints(repeated: int) -> Setpoints:
     rest = np.repeat(points[-1:], REST, axis=0)
     lines = np.ones(len(turned), np.int64)
     factors = np.linspace(1.0, 1.5, len(turned))
-    return Setpoints(0, PERIOD_S, points, lines, paths, rest, 1, RESTING_U, factors)
+    return Setpoints(0, PERIOD_S, points, lines, paths, rest, RESTING_U, factors)
 
 
 def part(found: Setpoints, begin: int, stop: int) -> Setpoints:
     """Some of the setpoints."""
     return Setpoints(
         begin, PERIOD_S, found.points[begin:stop], found.lines[begin:stop],
-        found.path_u[begin:stop], found.rest, 1, RESTING_U, found.factors[begin:stop],
+        found.path_u[begin:stop], found.rest, RESTING_U, found.factors[begin:stop],
     )  # fmt: skip
 
 

@@ -173,7 +173,7 @@ def test_setpoints_and_limits_are_converted_with_their_units() -> None:
     rows = np.array([[1.0, 0.0, 0.0, 2.0]])
     lines = np.ones(1, np.int64)
     found = metric.of_machine(
-        Setpoints(0, 0.004, rows, lines, np.array([1.0]), 2 * rows, 1, 3.5, np.ones(1))
+        Setpoints(0, 0.004, rows, lines, np.array([1.0]), 2 * rows, 3.5, np.ones(1))
     )
     assert found.points.tolist() == [[1.0, 0.0, 0.0, 64.0]]
     assert found.rest.tolist() == [[2.0, 0.0, 0.0, 128.0]]

@@ -4,9 +4,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.mill.live import Plant, until
+from tests.mill.live import Plant
 from tests.panel.bench import HandStation, card_of
 from tests.panel.remote import Remote
+from tests.waiting import until
 
 from openacr.client import Card
 
