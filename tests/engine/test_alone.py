@@ -27,6 +27,8 @@ JOG = ("JOG FWD X", "JOG REV Y")
 GEAR = ("GEAR SRC Y ENC0", "GEAR RATIO Y0.3", "GEAR ON Y", "X5")
 CAM = ("CAM DIM Y1", "CAM SEG Y(0,400,LA0)", "CAM SRC Y ENC0", "CAM ON Y", "X5")
 CHAIN = ("CAM DIM Y2", "CAM SEG Y(0,300,LA0)", "CAM SEG Y(1,500,LA0)", *CAM[2:])
+RUNGS = ("LD NOT 128 TIM 0 100", "LD TIM0 SET 128")  # sets flag 128 after 100 ms
+TIMED = ("SYS", "DIM PLC0(100)", "PLC0", "PROGRAM", *RUNGS, "ENDP", "RUN", "PROG0")
 LIVES = {
     "move": MOVE,
     "jog": JOG,
@@ -44,6 +46,8 @@ LIVES = {
     "kill": (*JOG, "DWL 0.1", "SET 8467"),
     "limit of the jog": ("SLM X(0.7,-0.7)", "SLIM X3", "JOG FWD X"),
     "limit of another axis": ("SLM Y(0.7,-0.7)", "SLIM Y3", *JOG),
+    "limit of a jog without speed": ("HLBIT X128", "HLIM X3", *TIMED, "JOG VEL X0", "JOG FWD X"),
+    "hand wheel": ("HDW SRC Y ENC0", "HDW PPU Y1000", "HDW RATIO Y1", "HDW ON Y", "X5"),
 }
 TICKS = 400
 
