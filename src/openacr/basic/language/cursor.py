@@ -7,6 +7,9 @@ from openacr.lang.lexer import Token, TokenKind
 from openacr.lang.source import Span
 from openacr.messages import SYNTAX_ERROR, Message
 
+_ENDS = TokenKind.END, TokenKind.REMARK
+_ACCEPTED = TokenKind.OPERATOR, TokenKind.WORD
+
 
 class StatementError(CardError):
     """A line that cannot be read, with the place where reading stopped."""
@@ -42,19 +45,23 @@ class Cursor:
     @property
     def at_block_end(self) -> bool:
         """Whether the block ends here."""
-        return self.token.kind in (TokenKind.END, TokenKind.REMARK) or self.is_operator(":")
+        token = self.tokens[self.position]
+        return token.kind in _ENDS or (token.value == ":" and token.kind is TokenKind.OPERATOR)
 
     def is_operator(self, text: str) -> bool:
         """Whether this operator stands here."""
-        return self.token.kind is TokenKind.OPERATOR and self.token.value == text
+        token = self.tokens[self.position]
+        return token.value == text and token.kind is TokenKind.OPERATOR
 
     def is_word(self, *words: str) -> bool:
         """Whether one of these words (upper case) stands here."""
-        return self.token.kind is TokenKind.WORD and self.token.value in words
+        token = self.tokens[self.position]
+        return token.value in words and token.kind is TokenKind.WORD
 
     def accept(self, text: str) -> bool:
         """Take this operator or word if it stands here."""
-        if self.token.kind in (TokenKind.OPERATOR, TokenKind.WORD) and self.token.value == text:
+        token = self.tokens[self.position]
+        if token.value == text and token.kind in _ACCEPTED:
             self.position += 1
             return True
         return False
