@@ -17,7 +17,10 @@ from openacr.cnc.codes.fast import Sets
 from openacr.cnc.codes.table import DIALECTS
 from openacr.cnc.interpreter.by_line import fast_plans, lines_cy, scanning
 from openacr.cnc.interpreter.interpreter import Options
+from openacr.cnc.loading.load import Loader
 from openacr.cnc.loading.skimming import Skimmer
+from openacr.cnc.program.labels import Place
+from openacr.cnc.reading.blocks import Block
 from openacr.cnc.reading.findings import BlockError
 from openacr.cnc.rows import modes
 from openacr.cnc.rows.moves import ARC, LINE, RAPID, ROW
@@ -259,6 +262,16 @@ def test_offsets_are_switched_between_the_moves_of_one_batch() -> None:
     ]
 
 
+def test_offsets_that_change_under_compensation_or_in_a_cycle_do_what_they_do_alone() -> None:
+    around = "F60\nD1\nG41 G1 X1\nX2\nX3\n{}\nX3 Y2\nX4 Y3\nD2\nX5\nX6 Y5\nG40 X9\nM2"
+    for text in ("G55", "H1 Z2", "G43 H2", "D2"):
+        require_same(around.format(text), "acromill")
+    holes = "F60\nG91 G98 G81 X1 Z-3 R1\nX2\n{}\nX4\nG43 H1\nX6\nG54 X1 L3\nX7\nG80\nM2"
+    for text in ("G55", "G55 X2", "G49", "D1"):
+        require_same(holes.format(text), "rs274ngc")
+        require_same(holes.format(text).replace("G91 ", ""), "rs274ngc")
+
+
 @pytest.mark.parametrize("text", ["G56 X1 Y0", "G43 X1", "G43 H999 X1", "G55 Z1"])
 def test_a_block_whose_offset_is_not_a_mere_shift_does_what_it_does_by_itself(text: str) -> None:
     for before in ("", "G99 G81 Z-1 R1\n"):
@@ -273,6 +286,40 @@ def test_outputs_stand_in_their_places_between_the_moves() -> None:
         if isinstance(entry, Output | Line)
     ]
     assert shown == [1.0, (35, True), 2.0, (36, False), 3.0]
+
+
+@pytest.mark.parametrize(
+    ("good", "wrong"),
+    [
+        ("S1000000", "S1000001"),
+        ("T999 M8", "T999.5 M8"),
+        ("M62 P31", "M62 P32"),
+        ("T0", "T-1"),
+        ("S5 T3", "S5 T1000"),
+        ("S5 T4", "S-1 T4"),
+    ],
+)
+def test_words_out_of_their_limits_are_found_among_many_like_them(good: str, wrong: str) -> None:
+    text = f"F60\nS1\n{good}\n{good}\nX1\n{wrong}\n{good}\n{wrong}\nX2\nM2"
+    program = require_same(text, "rs274ngc").interpreter.program
+    errors = [finding for finding in program.findings if finding.is_error]
+    assert [finding.line for finding in errors] == [6, 8]
+    assert {finding.code for finding in errors} <= {"E204", "E222"}
+
+
+def test_lines_with_words_within_their_limits_are_read_once_at_load(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    read: list[str] = []
+    parsed = Loader._parsed
+
+    def noted(loader: Loader, place: Place, raw: str) -> Block:
+        read.append(raw)
+        return parsed(loader, place, raw)
+
+    monkeypatch.setattr(Loader, "_parsed", noted)
+    made("F60\nX1\nS1\nS2\nT3\nT4\nS5.5\nT6\nM2", dialect="rs274ngc")
+    assert read == ["F60", "X1", "S1", "T3", "M2"]
 
 
 def test_a_wrong_arc_ends_the_batch_before_it() -> None:

@@ -28,7 +28,7 @@ class Does(Enum):
     RESTS = auto()  # an entry that waits: what follows is no longer idle
     # The handler changes offsets and what the core does not know of the modal state, hands out
     # nothing, and does the same when it is called twice: it is called before its block is executed,
-    # unless a cycle or compensation is on, or a word is missing that it takes.
+    # unless compensation is on, or a word is missing that it takes.
     SHIFTS = auto()
 
 

@@ -105,7 +105,7 @@ def block_set(F: F64, I: I32, step: int, row: int, value: int) -> int:
 
 def block_call(I: I32, note: int) -> int:
     """Have the handler of a note called, unless it has been for this line."""
-    if I[modes.cycle] != modes.NO_CYCLE or I[modes.compensation] != modes.OFF:
+    if I[modes.compensation] != modes.OFF:
         return runs.LEFT
     I[runs.call_cnt] += 1
     if I[runs.call_cnt] <= I[runs.called_cnt]:
