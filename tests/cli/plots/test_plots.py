@@ -6,15 +6,20 @@ import xml.etree.ElementTree as ET
 from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
+from typing import Any, Literal
 from urllib.parse import unquote
 
+import matplotlib as mpl
 import numpy as np
 import pytest
+from matplotlib import image
+from matplotlib.figure import Figure
 
 from openacr.cli.plots import AxisCurves, BitCurve, Curves, draw, require
 from openacr.cli.plots.curves import Array, Mark, edges, envelope, marks
 from openacr.cli.plots.image import EVENT, EVENTS, build_figure
 from openacr.cli.plots.page import build_page, page_data
+from openacr.cli.plots.saved import save
 from openacr.cli.results import Event
 from openacr.errors import UserError
 
@@ -231,3 +236,34 @@ def test_a_page_has_the_events() -> None:
         {"t": 1.5, "text": "event at 1.5"},
     ]
     assert page_data(run(axis(0)))["events"] == []
+
+
+@pytest.mark.parametrize("layout", ["constrained", None])
+def test_a_png_is_drawn_once_and_has_the_pixels_that_matplotlib_gives_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, layout: Literal["constrained"] | None
+) -> None:
+    def figure() -> Figure:
+        found = Figure(figsize=(4, 3), layout=layout)
+        panel = found.add_subplot()
+        panel.plot([0, 1], [0, 2e7], label="a")
+        panel.set_title("a title", loc="left")
+        panel.set_ylabel("a label")
+        return found
+
+    usual, own, vector = (tmp_path / name for name in ("usual.png", "own.PNG", "own.svg"))
+    figure().savefig(usual, dpi=130)
+    drawn: list[Figure] = []
+    draw_figure = Figure.draw
+
+    def counted(figure: Figure, renderer: Any) -> None:
+        drawn.append(figure)
+        draw_figure(figure, renderer)
+
+    monkeypatch.setattr(Figure, "draw", counted)
+    save(figure(), own, dpi=130)
+    assert len(drawn) == 1
+    assert own.read_bytes() != usual.read_bytes()  # packed in half the time
+    assert np.array_equal(image.imread(usual), image.imread(own))
+    with mpl.rc_context({"svg.fonttype": "none"}):
+        save(figure(), vector, dpi=130)
+    assert "a title" in texts_of_svg(vector)
