@@ -1,6 +1,5 @@
 """`openacr list` and `openacr check`: controller files as a card would read them."""
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -8,6 +7,7 @@ import typer
 from msgspec.structs import asdict
 
 from openacr.cli.live.online import Plc, Program
+from openacr.cli.printing import print_json
 from openacr.errors import UserError
 from openacr.lang.characters import readable, shown
 from openacr.project import Place, find_project, place_of
@@ -63,7 +63,7 @@ def check_file(
     faults = check(file, _place(file, program, plc), axes=_names(axes))
     if as_json:
         records = [asdict(fault) for fault in faults]
-        typer.echo(json.dumps(records, indent=2, ensure_ascii=False))
+        print_json(records)
     elif faults:
         _show(faults, on_stderr=False)
     else:

@@ -1,11 +1,11 @@
 """`openacr examples`: the example projects that come with the package."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from openacr.cli.printing import print_json
 from openacr.wording import as_typed
 
 
@@ -25,7 +25,7 @@ def list_examples(
     found = examples()
     if as_json:
         records = [{"name": each.name, "title": each.title, "files": each.files} for each in found]
-        typer.echo(json.dumps(records, indent=2, ensure_ascii=False))
+        print_json(records)
         return
     width = max(len(each.name) for each in found)
     for each in found:
@@ -52,7 +52,7 @@ def copy_to(
     copied = copy_example(example, target)
     if as_json:
         record = {"folder": str(target), "files": [path.name for path in copied]}
-        typer.echo(json.dumps(record, indent=2, ensure_ascii=False))
+        print_json(record)
         return
     for path in copied:
         typer.echo(str(path))

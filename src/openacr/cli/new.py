@@ -1,6 +1,5 @@
 """`openacr new`: a first project from questions or options."""
 
-import json
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
@@ -8,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 import typer
 
 from openacr.cli.conversions import given_quantity
+from openacr.cli.printing import print_json
 from openacr.errors import UserError
 from openacr.starter.choices import KINDS, UNITS, Homing, Kind, Limits, Unit, choices
 from openacr.wording import as_typed
@@ -79,7 +79,7 @@ def new(
         chosen = _choices(kind or Kind.AXIS, given)
     written = write_project(name, chosen)
     if as_json:
-        typer.echo(json.dumps(_record(name, chosen, written), indent=2, ensure_ascii=False))
+        print_json(_record(name, chosen, written))
         return
     for path in written:
         typer.echo(str(path))

@@ -1,11 +1,11 @@
 """`openacr param` and `openacr flag`: what a number or name on the card means."""
 
-import json as json_format
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from openacr.cli.printing import print_json, print_rich
 from openacr.errors import MapError, UserError
 from openacr.map import Flag, Parameter, find_flag, find_parameter, flags_of
 from openacr.map.explain import facts_of, has_meaning, object_of
@@ -34,10 +34,10 @@ def show_parameter(text: What, json: AsJson = False) -> None:
     except MapError as error:
         raise UserError(f"{error} ({PARAMETER_HINT})") from None
     if json:
-        _print_json([_parameter_fields(parameter) for parameter in found])
+        print_json([_parameter_fields(parameter) for parameter in found])
     elif len(found) > 1:
         shown = found[:SHOWN]
-        _print(_choice(shown, [parameter.kind.value for parameter in shown], "Type", "P"))
+        print_rich(_choice(shown, [parameter.kind.value for parameter in shown], "Type", "P"))
         _say_more(len(found) - len(shown))
     else:
         _print_parameter(found[0])
@@ -50,10 +50,12 @@ def show_flag(text: What, json: AsJson = False) -> None:
     except MapError as error:
         raise UserError(f"{error} ({FLAG_HINT})") from None
     if json:
-        _print_json([_flag_fields(flag) for flag in found])
+        print_json([_flag_fields(flag) for flag in found])
     elif len(found) > 1:
         shown = found[:SHOWN]
-        _print(_choice(shown, [f"P{flag.parameter}.{flag.bit}" for flag in shown], "Word", "BIT"))
+        print_rich(
+            _choice(shown, [f"P{flag.parameter}.{flag.bit}" for flag in shown], "Word", "BIT")
+        )
         _say_more(len(found) - len(shown))
     else:
         _print_flag(found[0])
@@ -69,7 +71,7 @@ def _print_parameter(parameter: Parameter) -> None:
     _print_facts(title, parameter.description, facts_of(parameter))
     named = [flag for flag in flags_of(parameter.number) if has_meaning(flag)]
     if named:
-        _print(_choice(named, [flag.description for flag in named], "Meaning", "BIT"))
+        print_rich(_choice(named, [flag.description for flag in named], "Meaning", "BIT"))
 
 
 def _print_flag(flag: Flag) -> None:
@@ -85,10 +87,10 @@ def _print_facts(title: str, description: str, facts: dict[str, str]) -> None:
     table.add_column()
     for name, value in facts.items():
         table.add_row(f"  {name}", Text(value))
-    _print(Text(title, style="bold"))
+    print_rich(Text(title, style="bold"))
     if description:
-        _print(Text(description))
-    _print(table)
+        print_rich(Text(description))
+    print_rich(table)
 
 
 def _choice(
@@ -104,16 +106,6 @@ def _choice(
             f"{letter}{record.number}", Text(record.name), object_of(record), Text(detail)
         )
     return table
-
-
-def _print(content: object) -> None:
-    from rich.console import Console
-
-    Console(highlight=False).print(content)
-
-
-def _print_json(records: list[dict[str, Any]]) -> None:
-    typer.echo(json_format.dumps(records, indent=2, ensure_ascii=False))
 
 
 def _parameter_fields(parameter: Parameter) -> dict[str, Any]:

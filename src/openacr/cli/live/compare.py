@@ -8,6 +8,7 @@ import typer
 from msgspec import to_builtins
 
 from openacr.cli.live.online import BAUD, FAILED, PATIENCE_S, Baud, Silence, connected, progress_bar
+from openacr.cli.printing import print_json
 from openacr.errors import UserError
 from openacr.wording import counted
 
@@ -37,9 +38,7 @@ def compare(
     lines = list(changes(*found))
     gaps = list(not_compared(*found))
     if as_json:
-        import json
-
-        typer.echo(json.dumps(_record(found, settings, lines, gaps), indent=2, ensure_ascii=False))
+        print_json(_record(found, settings, lines, gaps))
     else:
         for text in _report(found, settings, lines, gaps):
             typer.echo(text)

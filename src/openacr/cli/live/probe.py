@@ -1,6 +1,5 @@
 """`openacr probe`: what a card is, and what of this software works with it."""
 
-import json
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -8,6 +7,7 @@ import typer
 from msgspec import Struct, to_builtins
 
 from openacr.cli.live.online import BAUD, SILENCE_S, Baud, Silence, Target
+from openacr.cli.printing import print_json
 from openacr.models import Feature
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def probe(
     found = identify(target, Options(timeout_s=silence), baud=baud)
     verdicts = list(judged(found))
     if as_json:
-        typer.echo(json.dumps(_record(found, verdicts), indent=2, ensure_ascii=False))
+        print_json(_record(found, verdicts))
         return
     for line in _lines(found, verdicts):
         typer.echo(line)

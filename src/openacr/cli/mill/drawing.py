@@ -1,6 +1,5 @@
 """`openacr mill import`: a DXF drawing as a part program."""
 
-import json as json_format
 from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
@@ -9,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from openacr.cli.drawing import finite, positive
+from openacr.cli.printing import print_json
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
@@ -128,7 +128,7 @@ def _list_drawings(as_json: bool) -> None:
     """The drawings of the present folder, whatever the case of their suffix."""
     found = sorted(path.name for path in _files(Path(), ".DXF"))
     if as_json:
-        typer.echo(json_format.dumps(found, indent=2, ensure_ascii=False))
+        print_json(found)
         return
     for name in found:
         typer.echo(name)
@@ -166,7 +166,7 @@ def _report(conversion: "Conversion", options: "Options", target: Path, as_json:
             "summary": conversion.summary,
             "notes": conversion.notes,
         }
-        typer.echo(json_format.dumps(record, indent=2, ensure_ascii=False))
+        print_json(record)
         return
     for note in conversion.notes:
         typer.echo(f"note: {note}", err=True)

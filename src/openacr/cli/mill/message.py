@@ -1,12 +1,12 @@
 """`openacr mill message`: texts shown while an input, output or flag has a state."""
 
-import json as json_format
 from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from openacr.cli.mill.check import AsJson, AtStore
+from openacr.cli.printing import print_json
 from openacr.cli.sysvar.change import Password, require_service
 from openacr.errors import UserError
 from openacr.wording import counted
@@ -56,7 +56,7 @@ def list_messages(store: AtStore = None, as_json: AsJson = False) -> None:
             }
             for each in found
         ]
-        typer.echo(json_format.dumps(records, indent=2, ensure_ascii=False))
+        print_json(records)
         return
     for each in found:
         state = "on" if each.is_shown_on else "off"

@@ -1,11 +1,11 @@
 """`openacr mill part`: part programs from the parts library."""
 
-import json as json_format
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from openacr.cli.printing import print_json, print_rich
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ def make_part(
     if out is not None:
         _write(out, ready)
     elif as_json:
-        _print_json(_values(ready))
+        print_json(_values(ready))
     else:
         typer.echo(ready.program, nl=False)
 
@@ -158,7 +158,7 @@ def _asked(part: "Part", given: dict[int, float]) -> dict[int, float]:
 
 def _list(parts: list["Part"], as_json: bool) -> None:
     if as_json:
-        _print_json([{"name": part.name, "title": part.title} for part in parts])
+        print_json([{"name": part.name, "title": part.title} for part in parts])
         return
     from rich.box import SIMPLE
     from rich.table import Table
@@ -166,12 +166,12 @@ def _list(parts: list["Part"], as_json: bool) -> None:
     table = Table("Part", "Description", "Sizes", box=SIMPLE)
     for part in parts:
         table.add_row(part.name, part.title, str(len(part.sizes)))
-    _print(table)
+    print_rich(table)
 
 
 def _show(part: "Part", as_json: bool) -> None:
     if as_json:
-        _print_json(part.data())
+        print_json(part.data())
         return
     from rich.box import SIMPLE
     from rich.table import Table
@@ -182,7 +182,7 @@ def _show(part: "Part", as_json: bool) -> None:
     table = Table("Cell", "Size", "Default", "Allowed", box=SIMPLE)
     for size in part.sizes:
         table.add_row(f"P{size.cell}", size.text, f"{size.default:g}", size.accepted)
-    _print(table)
+    print_rich(table)
     for rule in part.rules:
         typer.echo(f"  must hold: {rule.text}")
 
@@ -201,13 +201,3 @@ def _write(out: Path, ready: "Ready") -> None:
 
     write_text(out, ready.program)
     typer.echo(f"{out}: {ready.part.title}")
-
-
-def _print(content: object) -> None:
-    from rich.console import Console
-
-    Console(highlight=False).print(content)
-
-
-def _print_json(content: object) -> None:
-    typer.echo(json_format.dumps(content, indent=2, ensure_ascii=False))

@@ -1,11 +1,11 @@
 """`openacr sysvar get` and `list`: contents of the SYSVAR store."""
 
-import json as json_format
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from openacr.cli.printing import print_json, print_rich
 from openacr.errors import UserError
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ def _show(
 ) -> None:
     if as_json:
         records = [_fields(cells, each, unit) for each in found]
-        typer.echo(json_format.dumps(records, indent=2, ensure_ascii=False))
+        print_json(records)
     elif len(found) == 1 or (found and is_full):
         for each in found:
             typer.echo(sentence(cells, each, unit))
@@ -176,7 +176,6 @@ def _typical(cells: "Store", parameter: "Parameter", unit: str | None) -> str:
 
 def _print_table(cells: "Store", found: list["Parameter"], unit: str | None) -> None:
     from rich.box import SIMPLE
-    from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
@@ -191,7 +190,7 @@ def _print_table(cells: "Store", found: list["Parameter"], unit: str | None) -> 
             Text(_value_text(cells, each, default, unit)),
             each.tab,
         )
-    Console(highlight=False).print(table)
+    print_rich(table)
 
 
 def _fields(cells: "Store", parameter: "Parameter", unit: str | None) -> dict[str, Any]:
