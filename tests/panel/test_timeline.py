@@ -14,6 +14,7 @@ from tests.network.rig import running as running_nodes
 from tests.network.rig import start as start_network
 from tests.panel.bench import LIMIT_S, HandStation, Served
 
+from openacr.channels import StreamKind
 from openacr.client import Level
 from openacr.client.program_variables import variables
 from openacr.controller import Controller
@@ -885,8 +886,9 @@ def test_samples_differences_and_a_journal_come_over_http(quiet_panel: Served) -
         assert {each["kind"] for each in drawn["lanes"]} <= {"drive"}
         for direction in ("hosts", "sent"):
             assert [sorted(each) for each in drawn[direction][:1]] == [
-                ["lines", "packets", "size_bytes", "spans", "stream"]
+                ["is_own", "lines", "packets", "size_bytes", "spans", "stream"]
             ]
+            assert [each["is_own"] for each in drawn[direction]] == [True]  # of the bench
         found = get("/differences", branch=0, other=1, tick=tick).json()
         assert found == {
             "count": 1,
@@ -979,3 +981,15 @@ def test_steps_that_fail_in_a_pause_end_what_moves(
     assert not hand.station.link.is_still
     hand.until(lambda: not hand.is_busy)
     assert hand.places()[0] < 50.0
+
+
+def test_a_stream_that_the_panel_has_opened_is_its_own_and_that_of_another_host_is_not(
+    hand: HandStation,
+) -> None:
+    history = hand.station.times.history
+    own, other = (
+        history.open_stream(StreamKind.TERMINAL),
+        history.card.open_stream(StreamKind.TERMINAL),
+    )
+    assert own in history.own_streams
+    assert other not in history.own_streams

@@ -474,6 +474,10 @@ def test_status_shows_each_part_of_the_setpoint_of_the_axes_of_the_machine(
     page.evaluate("import('/js/bench/workspace.js').then((each) => each.openPane('status'))")
     table = page.locator("[data-pane=status] table")
     expect(table.locator("thead th")).to_have_text(["", "AXIS0 X", "AXIS1 Y", "AXIS2 Z"])
+    keys = page.get_by_role("group", name="Which of them").get_by_role("button")
+    expect(keys).to_have_text(["X", "Y", "Z", *map(str, range(3, 16))])
+    expect(keys.nth(2)).to_have_attribute("title", "AXIS2 Z")
+    expect(keys.nth(3)).to_have_attribute("title", "AXIS3")
     first = 12288 + 256  # of Y
     served.call(partial(write, parameter=first + 9, value=40))  # jog offset
     for place, value in ((8, 250), (8, 0)):  # gear offset

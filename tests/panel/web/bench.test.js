@@ -92,8 +92,8 @@ const LANES = lanesOf({
     { kind: "program", number: 6, name: "PROG6", spans: [], on: 0, changes: 0 },
     { kind: "pause", number: 5, name: "PROG5", spans: [], on: 0, changes: 0 },
   ],
-  hosts: [{ stream: 2, spans: [[1, 2]], packets: 3, lines: 4, size_bytes: 9 }],
-  sent: [{ stream: 2, spans: [[2, 3]], packets: 1, lines: 0, size_bytes: 5 }],
+  hosts: [{ stream: 2, is_own: false, spans: [[1, 2]], packets: 3, lines: 4, size_bytes: 9 }],
+  sent: [{ stream: 2, is_own: true, spans: [[2, 3]], packets: 1, lines: 0, size_bytes: 5 }],
 });
 
 /** @param {any} arrangement */
@@ -128,6 +128,18 @@ test("lanes are in groups that fold, pinned ones first, in their own order, filt
     "program 5",
   ]);
   assert.equal(LANES[4].changes, 7);
+});
+
+test("what the panel asks for itself is named as such, not as the traffic of another host", () => {
+  const host = { spans: [], packets: 0, lines: 0, size_bytes: 0 };
+  const hosts = [
+    { ...host, stream: 1, is_own: true },
+    { ...host, stream: 2, is_own: false },
+  ];
+  assert.deepEqual(
+    lanesOf({ lanes: [], hosts, sent: hosts }).map((lane) => lane.name),
+    ["PANEL STREAM1", "STREAM2", "PANEL STREAM1", "STREAM2"],
+  );
 });
 
 test("a lane changes its place with its neighbour, and at the end it stays", () => {

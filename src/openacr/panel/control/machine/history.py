@@ -48,6 +48,7 @@ class History:
         self.is_away = False  # from its links: none is opened
         self.on_note: Callable[[str], None] = lambda _text: None  # a change begins a branch
         self.unmarked: frozenset[int] = frozenset()  # programs of the panel, whose ends count not
+        self.own_streams: frozenset[int] = frozenset()  # that the panel has opened
         self._size = (-1, 0)  # tick, bytes
         self.breakpoints = Breakpoints(card, lambda: not (self.is_away or self.timeline.is_past))
         self.breakpoints.on_watches = self.arm
@@ -83,7 +84,9 @@ class History:
         """Open a stream for a new connection; UserError at a moment of the history."""
         if self.is_away:
             raise UserError(AWAY)
-        return self.card.open_stream(kind)
+        stream = self.card.open_stream(kind)
+        self.own_streams |= {stream}
+        return stream
 
     def close_stream(self, stream: int) -> None:
         """Close the stream of an ended connection."""

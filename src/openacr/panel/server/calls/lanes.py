@@ -49,7 +49,8 @@ class Detailed(Interval, frozen=True):
 async def lanes(call: Call) -> object:
     """What moved, ran, was on, arrived or was sent in a part of a branch: spans, to the tick.
 
-    With each lane how long it was on in all (ticks), and how often it changed.
+    With each lane how long it was on in all (ticks), and how often it changed. `is_own` of what
+    arrived or was sent: on a stream of the panel itself, not of another host.
     """
     query: Interval = call.query
 
@@ -61,7 +62,7 @@ async def lanes(call: Call) -> object:
         blocks = history.blocks.between(query.branch, query.first, query.last)
         sent = history.sent.between(query.branch, query.first, query.last)
         lines = LineNames(history.aliases, station.installation.store)
-        seen = Seen(history.unmarked, came, sent, blocks, names, lines)
+        seen = Seen(history.unmarked, came, sent, blocks, names, lines, history.own_streams)
         return history.lanes.of(query.branch), seen
 
     return await run_in_threadpool(_lanes, query, *await call.panel.ask(look))
@@ -76,6 +77,7 @@ class Seen(NamedTuple):
     blocks: list[Block]
     names: list[str]  # of axes
     lines: LineNames
+    own: frozenset[int]  # streams of the panel
 
 
 def _named(lane: Lane, seen: Seen) -> dict[str, str]:
@@ -111,9 +113,13 @@ def _lanes(query: Interval, course: Happened, seen: Seen) -> dict[str, object]:
                 for each in found
             ),
         ],
-        "hosts": [each._asdict() for each in traffic(came, near)],
-        "sent": [each._asdict() for each in traffic(seen.sent, near)],
+        "hosts": _traffic(came, near, seen.own),
+        "sent": _traffic(seen.sent, near, seen.own),
     }
+
+
+def _traffic(writes: Writes, near: int, own: frozenset[int]) -> list[dict[str, object]]:
+    return [{**each._asdict(), "is_own": each.stream in own} for each in traffic(writes, near)]
 
 
 @endpoint("GET", "/timeline/details", query=Detailed)

@@ -41,7 +41,7 @@ export function lanesOf({ lanes, hosts, sent }) {
     ...each,
     id: `${kind} ${each.stream}`,
     kind,
-    name: `STREAM${each.stream}`,
+    name: `${each.is_own ? "PANEL " : ""}STREAM${each.stream}`,
     on: 0,
     changes: each.packets + each.lines,
   });

@@ -1,6 +1,7 @@
 // Status: one of the panels that the server declares, objects side by side; a chosen value can be watched and changed.
 import { get, latest } from "../../core/api.js";
-import { model, refuse } from "../../core/app.js";
+import { refuse } from "../../core/app.js";
+import { cardAxes } from "../../core/card_axes.js";
 import { fill, h, setText } from "../../core/dom.js";
 import { Endings } from "../../core/signal.js";
 import { t, textOr } from "../../core/texts.js";
@@ -39,6 +40,12 @@ export async function mount(host, { head, kept, keep }) {
   /** @type {Cell[]} */
   let cells = [];
   const newest = latest(endings);
+  const named = new Map((await cardAxes()).map((axis) => [`AXIS${axis.index}`, nameOf(axis)]));
+
+  /** An object, an axis with its letter. @param {string} object */
+  function titleOf(object) {
+    return named.has(object) ? `${object} ${named.get(object)}` : object;
+  }
 
   /** @param {string} wanted */
   async function choose(wanted) {
@@ -52,7 +59,7 @@ export async function mount(host, { head, kept, keep }) {
 
   /** @param {Panel} panel */
   function draw(panel) {
-    const shown = (chosen[name] ?? atFirst(panel.objects)).filter((each) => panel.objects.includes(each));
+    const shown = (chosen[name] ?? atFirst(panel.objects, named)).filter((each) => panel.objects.includes(each));
     keep({ panel: name, objects: chosen });
     fill(
       objects,
@@ -61,6 +68,7 @@ export async function mount(host, { head, kept, keep }) {
           "button.key",
           {
             type: "button",
+            title: titleOf(object),
             ariaPressed: String(shown.includes(object)),
             onclick: () => {
               chosen = {
@@ -70,7 +78,7 @@ export async function mount(host, { head, kept, keep }) {
               draw(panel);
             },
           },
-          object.replace(/^[A-Z]+(?=\d+$)/, "") || object,
+          named.get(object) ?? (object.replace(/^[A-Z]+(?=\d+$)/, "") || object),
         ),
       ),
     );
@@ -133,18 +141,18 @@ export async function mount(host, { head, kept, keep }) {
 }
 
 /**
- * The axes of the machine; of other objects the first ones.
+ * The axes that have a name on the card; of other objects the first ones.
  * @param {string[]} objects
+ * @param {Map<string, string>} named
  */
-function atFirst(objects) {
-  const axes = model.axes.map((axis) => `AXIS${axis.index}`).filter((each) => objects.includes(each));
+function atFirst(objects, named) {
+  const axes = objects.filter((each) => named.has(each));
   return axes.length ? axes : objects.slice(0, FIRST);
 }
 
-/** An axis of the machine with its letter. @param {string} object */
-function titleOf(object) {
-  const axis = model.axes.find((each) => `AXIS${each.index}` === object);
-  return axis ? `${object} ${axis.name}` : object;
+/** The letter of an axis: that of the machine, or of the program that has it. @param {import("../../core/card_axes.js").CardAxis} axis */
+function nameOf(axis) {
+  return axis.title.replace(/ .*/, "");
 }
 
 /** @param {(Item | null)[]} items */
