@@ -135,7 +135,8 @@ def test_a_drive_that_stays_off_after_an_emergency_stop_bars_motion_and_says_why
     shop.controller.bit[fault] = True
     with pytest.raises(UserError, match="drive of axis X stays off: the drive reports a fault"):
         shop.start(end())
-    assert (shop.runner.state, shop.outputs([45])) == (State.IDLE, [False])
+    assert shop.runner.state is State.IDLE
+    assert shop.outputs([45]) == [True]  # it may be ready only once it has its power
     shop.controller.bit[fault] = False
     shop.finish(line(1, at(1)), end())
     assert drives(shop) == [True, False, True, False]

@@ -11,14 +11,14 @@ def enable_drives(io: MachineIo) -> None:
     """Switch the drives on before motion: their enable output, and those that an E-stop cut.
 
     Axes may have been turned by hand meanwhile: their positions are taken over (REN). UserError
-    where a drive stays off.
+    where a drive stays off; the output stays on, since a drive may need its power for a while
+    before it is ready.
     """
-    _restore(io)
     number = io.settings.wiring.drive_enable
-    if number not in io.outputs or io.is_on(number):
-        return
-    io.machine.type(f"REN {axis.name}" for axis in io.settings.axes)
-    io.output(number, True)
+    if number in io.outputs and not io.is_on(number):
+        io.machine.type(f"REN {axis.name}" for axis in io.settings.axes)
+        io.output(number, True)
+    _restore(io)
 
 
 def _restore(io: MachineIo) -> None:
