@@ -5,6 +5,7 @@ from collections.abc import Callable
 import pytest
 from tests.mill.shop import Shop, at, end, line
 
+from openacr.client import ConnectionLostError
 from openacr.client.drives import read_drives
 from openacr.controller import Controller
 from openacr.errors import UserError
@@ -140,6 +141,27 @@ def test_a_drive_that_stays_off_after_an_emergency_stop_bars_motion_and_says_why
     shop.controller.bit[fault] = False
     shop.finish(line(1, at(1)), end())
     assert drives(shop) == [True, False, True, False]
+
+
+def test_all_motion_is_killed_before_the_card_is_asked_anything(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """On a slow link the answer comes late, on one that breaks never."""
+    shop = with_drives()
+    killed = [flag_of(word, af4.KILL_ALL_MOTION_REQUEST) for word in af4.word[:4]]
+    asked: list[list[bool]] = []
+
+    def breaks(_whats: object) -> list[float]:
+        asked.append([shop.controller.bit[flag] for flag in killed])
+        raise ConnectionLostError("no answer")
+
+    monkeypatch.setattr(shop.card, "read_many", breaks)
+    with pytest.raises(ConnectionLostError):
+        shop.runner.kill("a test")
+    monkeypatch.undo()
+    shop.controller.advance(seconds=0.1)
+    assert asked == [[True] * 4]
+    assert drives(shop) == [False] * 4
 
 
 def test_an_emergency_stop_at_a_screen_acts_again_while_its_alarm_is_active() -> None:

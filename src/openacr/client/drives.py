@@ -5,15 +5,12 @@ real one. What an encoder reports counts for the axis of the same number.
 """
 
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 
 from msgspec import Struct
 
-from openacr.client.card import Card
-from openacr.client.errors import RefusedError
 from openacr.map.numbers import W_MISC_CONTROL_1
 from openacr.map.rows import axes
-from openacr.map.words import af1, af4, af5, ef, plf
+from openacr.map.words import af1, af4, af5, ef
 
 ENABLE_S = 0.5  # longest time from DRIVE ON to the flag; a card takes 10 ms
 MEI_RESET = 5647  # flag: Motion Enable Latch Reset Request
@@ -47,22 +44,6 @@ LIMITS = {
     "soft.plus": af5.POSITIVE_SOFTWARE_LIMIT_ENCOUNTERED,
     "soft.minus": af5.NEGATIVE_SOFTWARE_LIMIT_ENCOUNTERED,
 }
-
-
-def cut_all(card: Card) -> None:
-    """Kill all motion, end all programs and switch all drives off, moving or not (Ctrl-Z).
-
-    PLCs, which end with it, run again: they are the logic of the machine, such as its brakes.
-    """
-    plcs: list[int] = []
-    try:
-        flags = card.read_many(plf.word)
-        plcs = [n for n, word in enumerate(flags) if int(word) & plf.PLC_RUNNING]
-    finally:  # also where the card answers no more: it may still hear
-        card.kill_all(disable=True)
-    for n in plcs:
-        with suppress(RefusedError):  # it has gone on
-            card.command(f"RUN PLC{n}", program=0)
 
 
 class Drive(Struct, frozen=True):

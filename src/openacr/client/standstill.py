@@ -16,6 +16,7 @@ look to the next.
 """
 
 from collections.abc import Collection, Iterator
+from contextlib import suppress
 
 from msgspec import Struct
 
@@ -23,7 +24,7 @@ from openacr.client.card import Card
 from openacr.client.errors import RefusedError
 from openacr.client.program_states import PROGRAMS
 from openacr.map.rows import axes
-from openacr.map.words import af1, mf1, pf
+from openacr.map.words import af1, af4, mf1, pf, plf
 from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.packets import Packet
 
@@ -43,6 +44,24 @@ REQUESTS = (mf1.STOP_ALL_MOVES_REQUEST, mf1.FEEDHOLD_REQUEST, mf1.KILL_ALL_MOVES
 def _flag(word: int, mask: int) -> int:
     """The number of one flag of a word."""
     return (word - FLAG_WORD_BASE) * BITS_PER_WORD + (mask & 0xFFFFFFFF).bit_length() - 1
+
+
+def cut_all(card: Card) -> None:
+    """Kill all motion, end all programs and switch all drives off, moving or not (Ctrl-Z).
+
+    PLCs, which end with it, run again: they are the logic of the machine, such as its brakes. All
+    motion is killed before the card is asked which ones run: the answer may be long in coming.
+    """
+    card.tell(*(SetBit(_flag(word, af4.KILL_ALL_MOTION_REQUEST)) for word in af4.word))
+    plcs: list[int] = []
+    try:
+        flags = card.read_many(plf.word)
+        plcs = [n for n, word in enumerate(flags) if int(word) & plf.PLC_RUNNING]
+    finally:  # also where the card answers no more: it may still hear
+        card.kill_all(disable=True)
+    for n in plcs:
+        with suppress(RefusedError):  # it has gone on
+            card.command(f"RUN PLC{n}", program=0)
 
 
 class _Seen(Struct, frozen=True):

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from openacr.client import Card, ConnectionLostError
-from openacr.client.drives import cut_all
 from openacr.client.errors import GarbledError, NoReplyError
+from openacr.client.standstill import cut_all
 from openacr.client.values import Number, number_text
 from openacr.cnc.occupied import FIRST_CUT, HOLD_AT, MACHINE_AXES, RAN_SHORT, TRIPPED
 from openacr.errors import UserError

@@ -8,9 +8,8 @@ from contextlib import suppress
 from typing import Any
 
 from openacr.client import Card, Options
-from openacr.client.drives import cut_all
 from openacr.client.program_states import PROGRAMS
-from openacr.client.standstill import EVERY_S, Standstill
+from openacr.client.standstill import EVERY_S, Standstill, cut_all
 from openacr.errors import OpenacrError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.mill.card.stopping import watching
