@@ -43,22 +43,23 @@ def pytest_collection(session: pytest.Session) -> Iterator[None]:
     """Twenty thousand tests are no garbage: it is not looked for while they are made, nor later."""
     gc.disable()
     try:
-        _import_from_the_end(session.config)
+        _import_another_part_first(session.config)
         return (yield)
     finally:
         gc.freeze()
         gc.enable()
 
 
-def _import_from_the_end(config: pytest.Config) -> None:
-    """In every other process: what has never been compiled is then compiled once, not in each."""
-    worker = getattr(config, "workerinput", {"workerid": "gw0"})["workerid"]
-    if int(worker.removeprefix("gw")) % 2 and config.args_source is config.ArgsSource.TESTPATHS:
-        for path in sorted(TESTS.rglob("test_*.py"), reverse=True):
-            with suppress(Exception, pytest.skip.Exception):  # which its collection shows
-                importlib.import_module(
-                    ".".join(path.relative_to(TESTS.parent).with_suffix("").parts)
-                )
+def _import_another_part_first(config: pytest.Config) -> None:
+    """In each worker: what has never been compiled is then compiled once, not in each of them."""
+    worker = getattr(config, "workerinput", None)
+    if worker is None or config.args_source is not config.ArgsSource.TESTPATHS:
+        return
+    paths = sorted(TESTS.rglob("test_*.py"))
+    first = len(paths) * int(worker["workerid"].removeprefix("gw")) // worker["workercount"]
+    for path in paths[first:] + paths[:first]:
+        with suppress(Exception, pytest.skip.Exception):  # which its collection shows
+            importlib.import_module(".".join(path.relative_to(TESTS.parent).with_suffix("").parts))
 
 
 @pytest.hookimpl(trylast=True)
