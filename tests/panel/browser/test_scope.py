@@ -18,6 +18,7 @@ from openacr.client.names import named
 from openacr.panel.control.engineer.pyramid import Pyramid
 from openacr.panel.control.engineer.scope import Capture
 from openacr.panel.control.station import Station
+from openacr.sysvar.tabs import OFFSETS
 
 pytestmark = pytest.mark.evidence("oracle", "numpy.fft, numpy.gradient, scipy.signal and integrate")
 RNG = np.random.default_rng(7)
@@ -238,6 +239,32 @@ def test_a_single_sweep_of_a_flag_and_a_parameter_is_measured_and_exported(
         press(page, "EXPORT")
         page.get_by_role("dialog").get_by_role("button", name="PNG").click()
     assert saved.value.path().read_bytes().startswith(b"\x89PNG")
+    assert page.complaints == []  # type: ignore[attr-defined]
+
+
+def test_a_channel_is_called_by_its_alias_else_by_the_name_of_the_machine(
+    page: Page, served: Served
+) -> None:
+    def name(station: Station) -> None:
+        card = station.times.history.card
+        card.send("SYS\rDIM DEF(10)\r#DEFINE speed P7\r#DEFINE lamp BIT37\rPROG0\r")
+        station.installation.store.write_text(OFFSETS.output_name[36], "COOLANT")
+
+    served.call(name)
+    fill(page, {
+        "CH1 source": "P7", "CH2 source": "BIT36", "CH3 source": "BIT37", "CH8 source": "",
+        "M source": "", "Sweep, ms/div": "5", "Sampling, ms": "0.5",
+    })  # fmt: skip
+    page.get_by_label("Trigger", exact=True).select_option("free")
+    press(page, "START")
+    for label, text in (
+        ("CH1", "speed (USER User Variable)"),
+        ("CH2", "COOLANT (OUTPUT OUT 36)"),
+        ("CH3", "lamp (OUTPUT OUT 37)"),
+    ):
+        expect(page.locator(f"[data-trace={label}]")).to_contain_text(text)
+    press(page, "STOP SCOPE")
+    served.call(lambda station: station.times.history.card.send("SYS\rDEF CLEAR\rPROG0\r"))
     assert page.complaints == []  # type: ignore[attr-defined]
 
 

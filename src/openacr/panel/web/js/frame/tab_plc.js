@@ -4,6 +4,7 @@ import { model, refuse } from "../core/app.js";
 import { fill, h, setText } from "../core/dom.js";
 import { keyOf } from "../core/keys.js";
 import { needWords, stateOf, wordsOf } from "../core/flags.js";
+import { lineNames } from "../core/own_names.js";
 import { keepSetting, setting } from "../core/settings.js";
 import { Endings } from "../core/signal.js";
 import { t } from "../core/texts.js";
@@ -60,7 +61,7 @@ export async function plcTab(panel, endings) {
     chosen = symbol;
     tell();
   });
-  const names = namesOf();
+  const names = lineNames();
   const newest = latest(endings);
 
   /** @param {boolean} on */
@@ -145,12 +146,12 @@ export async function plcTab(panel, endings) {
  * A ladder with what its flags mean: their aliases, else the names of inputs and outputs, else those of the card.
  * @param {Promise<{ lines: { number: number, text: string }[], rungs: import("../draw/ladder.js").Rung[],
  *   why: string, names: Record<string, string> }>} reading
- * @param {Promise<Map<number, string>>} names
+ * @param {Promise<Record<string, string>>} names
  * @returns {Promise<[any, Map<number, string>]>}
  */
 async function meant(reading, names) {
   const [ladder, places] = await Promise.all([reading, names]);
-  const named = new Map(places);
+  const named = new Map(Object.entries(places).map(([id, name]) => [Number(id.slice("BIT".length)), name]));
   for (const [flag, alias] of Object.entries(ladder.names)) named.set(Number(flag), alias);
   const flags = new Set(
     ladder.rungs
@@ -194,12 +195,4 @@ function countAt(kind, number) {
 function countOf(values, kind, number) {
   const at = countAt(kind, number);
   return `${values.get(at) ?? "\u2013"}/${values.get(at - 1) ?? "\u2013"}`;
-}
-
-/** Names of inputs and outputs by their flags. */
-async function namesOf() {
-  const { inputs, outputs } = await get("io").catch(() => ({ inputs: [], outputs: [] }));
-  return new Map(
-    [...inputs, ...outputs].map((/** @type {{ bit: number, name: string }} */ each) => [each.bit, each.name]),
-  );
 }

@@ -2,6 +2,7 @@
 import { get } from "../core/api.js";
 import { refuse, report } from "../core/app.js";
 import { h } from "../core/dom.js";
+import { ownNames } from "../core/own_names.js";
 import { ExpressionError } from "../core/expression.js";
 import { t } from "../core/texts.js";
 import { FORMATS, fullName, isFlag } from "../frame/card_value.js";
@@ -24,7 +25,8 @@ const MATHS_COLOR = "#7f7f7f";
 
 /**
  * @typedef {import("./screen.js").Trace & { unit: string, format: string, id: string, name: string,
- *   isFlag: boolean }} Channel `id`: P12290, BIT516, or the expression; `name`: of the parameter or flag
+ *   isFlag: boolean }} Channel `id`: P12290, BIT516, or the expression; `name`: of the
+ *   parameter or flag, with its alias before it
  * @typedef {{ source: string, color: string, scale: string, offset: string, unit: string, format: string }} Kept
  * @typedef {Record<"source" | "color" | "scale" | "offset" | "unit", HTMLInputElement> &
  *   { format: HTMLSelectElement }} Fields
@@ -40,6 +42,9 @@ export class Channels {
     this.rows = Array.from({ length: CHANNELS + 1 }, (_each, n) =>
       fieldsOf(n, kept[n] ?? { source: FIRST[n] ?? "" }, changed),
     );
+    this.changed = changed;
+    /** Aliases, and names of the machine, by P12290 and BIT516. @type {Record<string, string>} */
+    this.own = {};
     /** Places of the channels of the present capture. @type {number[]} */
     this.asked = [];
     /** What they are, by place. @type {import("../frame/card_value.js").Item[]} */
@@ -138,6 +143,13 @@ export class Channels {
     await this.nameUnits();
   }
 
+  /** Aliases come later, and are read anew with every change of a source. */
+  async readOwn() {
+    const before = this.items.map((item) => item && this.own[item.id]).join();
+    this.own = await ownNames();
+    if (this.items.map((item) => item && this.own[item.id]).join() !== before) this.changed();
+  }
+
   /** Names and units of the sources. */
   async nameUnits() {
     const names = this.sources();
@@ -147,6 +159,7 @@ export class Channels {
       this.items[place] = items[n];
       this.rows[place].unit.placeholder = items[n]?.unit ?? "";
     });
+    void this.readOwn();
   }
 
   /**
@@ -182,7 +195,9 @@ export class Channels {
     const row = this.rows[place];
     const unit = this.unitOf(place);
     const item = this.items[place];
-    const [id, name] = item ? [item.id, fullName(item)] : [row.source.value.trim(), ""];
+    const own = item && this.own[item.id];
+    const named = item && (own ? `${own} (${fullName(item)})` : fullName(item));
+    const [id, name] = item ? [item.id, named] : [row.source.value.trim(), ""];
     return {
       label: nameOf(place),
       id,
