@@ -26,9 +26,12 @@ from openacr.errors import UserError
 from openacr.journal.entries import Entered, JournalEntry
 from openacr.map.rows import axes
 from openacr.map.words import af1, mf1
+from openacr.mill.card.alarms import PROGRAM_ERROR
 from openacr.panel.control.engineer.conversations import answer_of
 from openacr.panel.control.engineer.scope import Samples
 from openacr.panel.control.engineer.watches import Wish
+from openacr.panel.control.machine.alarm_log import MOST as MOST_ALARMS
+from openacr.panel.control.machine.alarm_log import Alarmed, AlarmLog
 from openacr.panel.control.machine.blocks import MOST as MOST_BLOCKS
 from openacr.panel.control.machine.blocks import Block, Blocks, part_lanes
 from openacr.panel.control.machine.history import AWAY, MOST_BRANCHES, STILL, History
@@ -810,6 +813,50 @@ def test_memory_is_bounded_and_the_history_then_begins_later() -> None:
     assert branch.first.tick > 0
     history.timeline.seek(branch.first)
     history.timeline.seek(branch.last)
+
+
+def test_alarms_of_a_moment_are_those_that_were_active_then(hand: HandStation) -> None:
+    alarms = hand.station.link.machine.runner.alarms
+    ticks = []
+    for act in (
+        lambda: None,
+        lambda: alarms.raise_alarm(PROGRAM_ERROR, "first", 0.0),
+        lambda: alarms.raise_alarm(PROGRAM_ERROR, "second", 0.0),
+        lambda: alarms.acknowledge(lambda each: each.detail == "first"),
+    ):
+        act()
+        hand.run(0.1)
+        ticks.append(history(hand).lived_tk)
+
+    def shown(tick: int) -> tuple[list[str], list[str]]:
+        hand.do("timeline.seek", tick=tick)
+        found: Any = fact(hand, "moment")["alarms"]
+        texts = ([each["text"] for each in found[key]] for key in ("active", "history"))
+        first, second = ([text.split()[-1] for text in part] for part in texts)
+        return first, second
+
+    assert fact(hand, "moment")["alarms"] is None  # of the present: those of the session
+    known = [([], []), (["first"], ["first"]), (["first", "second"],) * 2]
+    known.append((["second"], ["first", "second"]))
+    assert [shown(tick) for tick in ticks] == known
+    hand.do("timeline.seek", tick=ticks[1])
+    hand.do("timeline.branch")
+    assert shown(ticks[1]) == known[1]
+    hand.do("timeline.switch", number=0)
+    assert shown(ticks[3]) == known[3]
+    hand.do("timeline.forget", number=1)
+
+
+def test_of_too_many_alarms_the_older_half_is_forgotten() -> None:
+    log = AlarmLog()
+    for tick in range(MOST_ALARMS + 1):
+        log.note(0, Alarmed(tick, [{"code": tick}], []))
+    assert log.at(0, MOST_ALARMS // 2 - 1) == {"active": [], "history": []}
+    assert log.at(0, MOST_ALARMS // 2)["active"] == [{"code": MOST_ALARMS // 2}]
+    log.fork(0, 1, MOST_ALARMS - 1)
+    assert log.at(1, MOST_ALARMS)["active"] == [{"code": MOST_ALARMS - 1}]
+    log.forget(1)
+    assert log.at(1, MOST_ALARMS)["active"] == []
 
 
 def test_an_error_of_a_motion_kill_is_marked_as_an_alarm() -> None:

@@ -10,11 +10,13 @@ from tests.panel.bench import Served
 from tests.panel.browser.conftest import at_rest, give, open_page, until_model
 
 from openacr.client import Level
+from openacr.mill.card.alarms import USER_MESSAGE
 from openacr.panel.control.station import Station
 
 OPEN = "(name) => import('/js/bench/workspace.js').then((each) => each.openPane(name))"
 # What a pane shows at the first moment and at the second one. X is at 1 and 2 mm, P0 and LV0 of
-# PROG5 are 11 and 22, the texts of PROG5 and PLC0 are others, output 40 is on and off.
+# PROG5 are 11 and 22, an alarm is active at the second one, the texts of PROG5 and PLC0 are others,
+# output 40 is on and off.
 SHOWS = {
     "status": ("160800", "161600"),
     "programs": ("LV0 = 11", "LV0 = 22"),
@@ -28,6 +30,7 @@ SHOWS = {
     "io": (r"40\s+on", r"40\s+off"),
     "board": (r"P0\s.*\s11\s", r"P0\s.*\s22\s"),
     "world": (r"X 321\.00\d", r"X 322\.00\d"),
+    "alarms": ("No alarm is active", "User message 22"),
     "timeline": ("{:.4f} s", "{:.4f} s"),  # its time
 }
 SAYS = {
@@ -40,7 +43,6 @@ SAYS = {
     "scope": "of the time when they were taken",
     "wizard": "answers for files",
     "bus": "the bus of the present",
-    "alarms": "not of the moment",
 }
 
 
@@ -76,6 +78,10 @@ def set_card(station: Station, number: int) -> None:
     station.typed.put([f"G0 X{number}"])
 
 
+def alarm(station: Station, text: str) -> None:
+    station.link.machine.runner.alarms.raise_alarm(USER_MESSAGE, text, 0.0)
+
+
 @pytest.fixture(scope="module")
 def moments(page: Page, served: Served) -> tuple[int, int]:
     """The ticks of both moments; the card is at the second one now."""
@@ -85,6 +91,9 @@ def moments(page: Page, served: Served) -> tuple[int, int]:
         served.call(partial(set_card, number=number))
         until_model(page, "model.state.value.busy")
         at_rest(page, served)
+        if number == 2:
+            served.call(partial(alarm, text="22"))
+            until_model(page, "model.alarms.value.history.length === 1")
         served.call(lambda station: station.link.machine.card.pause(0.3))
         found.append(served.call(lambda station: station.times.history.lived_tk) - 20)
     return found[0], found[1]

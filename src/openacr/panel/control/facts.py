@@ -144,8 +144,8 @@ class MachineFacts:
             return {"active": [lost] if self._lost else [], "history": [], "bars_start": True}
         alarms = self._link.session.runner.alarms
         return {
-            "active": [_alarm(each) for each in alarms.active],
-            "history": [_alarm(each) for each in alarms.history],
+            "active": [alarm_data(each) for each in alarms.active],
+            "history": [alarm_data(each) for each in alarms.history],
             "bars_start": alarms.bars_start or not self._link.session.is_set_up,
         }
 
@@ -213,7 +213,8 @@ def _is_in(session: MillSession, number: int) -> bool:
     return polled is not None and session.runner.io.is_in(polled, number)
 
 
-def _alarm(alarm: Alarm) -> Data:
+def alarm_data(alarm: Alarm) -> Data:
+    """An alarm as the screens get it."""
     return {
         "code": alarm.kind.code,
         "text": alarm.text,

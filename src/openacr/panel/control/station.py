@@ -12,7 +12,7 @@ from functools import partial
 
 from openacr.client import ConnectionLostError
 from openacr.errors import OpenacrError
-from openacr.mill.card.alarms import CONTROL_FAILED, AlarmError
+from openacr.mill.card.alarms import CONTROL_FAILED, Alarm, AlarmError
 from openacr.mill.card.driver import LINK_ERRORS
 from openacr.panel.control.engineer.captures import Captures
 from openacr.panel.control.engineer.drives import Drives
@@ -25,7 +25,7 @@ from openacr.panel.control.engineer.terminal import Terminals
 from openacr.panel.control.engineer.tuning import Tuning
 from openacr.panel.control.engineer.watches import Watches
 from openacr.panel.control.engineer.world import WorldPane
-from openacr.panel.control.facts import Facts, MachineFacts
+from openacr.panel.control.facts import Facts, MachineFacts, alarm_data
 from openacr.panel.control.interlocks import Interlocks
 from openacr.panel.control.jobs import Jobs
 from openacr.panel.control.machine.about import machine_data
@@ -111,6 +111,7 @@ class Station:
         self._shown_at = 0.0  # while time is still
         self._texts: int | None = None  # of the programs at the moment that is shown
         self._alarms = 0
+        self._noted_alarms: tuple[int, list[Alarm]] = (0, [])
 
     def _facts(self) -> Facts:
         of_machine = MachineFacts(self.link, self.part, self.people)
@@ -151,6 +152,7 @@ class Station:
         self.times.watch_own()
         self._poll_at = self._snapshot_at = 0.0
         self._alarms = 0
+        self._noted_alarms = -1, []
 
     def close(self) -> None:
         """Close the session: axes that move are brought to rest by the caller before."""
@@ -293,6 +295,12 @@ class Station:
             raise
         self.link.note_poll()
         alarms = session.runner.alarms
+        if (alarms.raised, alarms.active) != self._noted_alarms:
+            self._noted_alarms = alarms.raised, alarms.active
+            self.times.note_alarms(
+                [alarm_data(each) for each in alarms.active],
+                [alarm_data(each) for each in alarms.history],
+            )
         if alarms.raised != self._alarms:
             self._alarms = alarms.raised
             last = alarms.history[-1].text if alarms.history else ""

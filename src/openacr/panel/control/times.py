@@ -275,6 +275,12 @@ class Times:
         if history is not None:
             history.follow(path, line)
 
+    def note_alarms(self, active: list[dict[str, Any]], so_far: list[dict[str, Any]]) -> None:
+        """Note that the alarms of the panel are others now, where there is a history."""
+        history = self._link.installation.history
+        if history is not None:
+            history.note_alarms(active, so_far)
+
     def watch_own(self) -> None:
         """The session is open: its own programs end without a bookmark."""
         history, session = self._link.installation.history, self._link.session

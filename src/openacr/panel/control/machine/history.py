@@ -15,6 +15,7 @@ from openacr.controller import Controller
 from openacr.debugger.breakpoints import MASTERS, kill_watch, running_watch
 from openacr.debugger.calls import PROGRAMS, is_running, name_of
 from openacr.errors import UserError
+from openacr.panel.control.machine.alarm_log import Alarmed, AlarmLog
 from openacr.panel.control.machine.blocks import Block, Blocks
 from openacr.panel.control.machine.breakpoints import Breakpoints
 from openacr.panel.control.machine.lanes import Lanes
@@ -43,6 +44,7 @@ class History:
         card.streams.on_put = self._note_sent
         self._is_given_input = False
         self.blocks = Blocks()
+        self.alarms = AlarmLog()
         self.names = {0: "first"}
         self.is_still = False
         self.is_away = False  # from its links: none is opened
@@ -171,6 +173,10 @@ class History:
         """Note the block that the part program of the panel is at; line 0: none runs."""
         self.blocks.note(self.timeline.branch.number, Block(self.lived_tk, path, line))
 
+    def note_alarms(self, active: list[dict[str, Any]], so_far: list[dict[str, Any]]) -> None:
+        """Note that the alarms of the panel are others now."""
+        self.alarms.note(self.timeline.branch.number, Alarmed(self.lived_tk, active, so_far))
+
     def arm(self) -> None:
         """Have every tick seen in which a program ends or motion is killed, and breakpoints."""
         watches = [running_watch(program) for program in range(PROGRAMS)]
@@ -211,6 +217,7 @@ class History:
         self.lanes.fork(parent.number, branch.number, ended_tk)
         self.blocks.fork(parent.number, branch.number, ended_tk)
         self.sent.fork(parent.number, branch.number, ended_tk)
+        self.alarms.fork(parent.number, branch.number, ended_tk)
         self.names[branch.number] = f"branch {branch.number}"
         if self.is_away:
             at_s = self.timeline.now.tick * self.period_s
@@ -227,6 +234,7 @@ class History:
         self.lanes.forget(number)
         self.blocks.forget(number)
         self.sent.forget(number)
+        self.alarms.forget(number)
         self.names.pop(number, None)
 
 
@@ -270,5 +278,6 @@ def moment_data(history: History) -> dict[str, Any]:
         "within": now.within if history.is_still else 0,
         "last": last_tk,
         "bytes": history.size_bytes(last_tk),
+        "alarms": history.alarms.at(number, now.tick) if history.is_away else None,
         "block": None if block is None else {"path": block.path, "line": block.line},
     }

@@ -122,10 +122,6 @@ export const PANES = {
   },
   alarms: {
     title: { en: "ALARMS", de: "ALARME" },
-    past: {
-      en: "Alarms are those of the panel up to now, not of the moment: Timeline has bookmarks at theirs.",
-      de: "Alarme sind die der Bedienung bis jetzt, nicht die des Zeitpunkts: Die Zeitachse hat Lesezeichen an ihren.",
-    },
     load: tabPane(async () => (await import("../frame/tab_alarms.js")).alarmsTab),
   },
 };

@@ -127,7 +127,14 @@ export class Model {
     );
     this.moment = new Signal(
       /** @type {{ tick: number, within: number, last: number, bytes: number,
-       *   block: { path: string, line: number } | null }} */ ({ tick: 0, within: 0, last: 0, bytes: 0, block: null }),
+       *   block: { path: string, line: number } | null, alarms: { active: any[], history: any[] } | null }} */ ({
+        tick: 0,
+        within: 0,
+        last: 0,
+        bytes: 0,
+        block: null,
+        alarms: null,
+      }),
     );
     this.breakpoints = new Signal(/** @type {Breakpoints} */ ({ why_not: "", breakpoints: [], held: [] }));
     this.forced = new Signal(

@@ -30,16 +30,17 @@ export function alarmsTab(panel, endings) {
       body,
     ),
   );
-  endings.add(
-    model.alarms.watch(({ active, history }) => {
-      fill(count, active.length ? t("alarm.count", { count: active.length }) : t("alarm.none"));
-      acknowledge.disabled = active.length === 0;
-      const over = history
-        .filter((each) => !active.some((one) => one.code === each.code && one.time === each.time))
-        .reverse();
-      fill(body, ...active.map((each) => rowOf(each, true)), ...over.map((each) => rowOf(each, false)));
-    }),
-  );
+  function draw() {
+    const past = model.moment.value.alarms; // of a moment of the history
+    const { active, history } = past ?? model.alarms.value;
+    fill(count, active.length ? t("alarm.count", { count: active.length }) : t("alarm.none"));
+    acknowledge.disabled = active.length === 0 || Boolean(past);
+    const over = history
+      .filter((each) => !active.some((/** @type {any} */ one) => one.code === each.code && one.time === each.time))
+      .reverse();
+    fill(body, ...active.map((each) => rowOf(each, true)), ...over.map((each) => rowOf(each, false)));
+  }
+  endings.add(model.alarms.watch(draw), model.moment.watch(draw));
 }
 
 /**
