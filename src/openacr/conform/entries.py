@@ -106,6 +106,8 @@ def with_pace(entry: Entry) -> str:
     marks = [shown(entry)]
     if isinstance(entry, Line | Arc | Probe):
         marks += _pace(entry.pace)
+    if isinstance(entry, Rapid) and entry.is_confirmed:
+        marks.append("confirmed")
     if isinstance(entry, Rapid | Line | Arc) and entry.is_inserted:
         marks.append("inserted")
     return " ".join(marks)

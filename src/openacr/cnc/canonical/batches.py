@@ -62,7 +62,8 @@ class Moves(Struct, frozen=True, eq=False):
         source, end = self.source_of(k), self.end_of(k)
         marks = flags & INSERTED != 0, flags & COMPENSATED != 0
         if kind == RAPID:
-            return Rapid(source, end, marks[0])
+            waits = pace < len(self.paces) and self.paces[pace].is_confirmed
+            return Rapid(source, end, marks[0], waits)
         if kind == LINE:
             return Line(source, end, self.paces[pace], *marks)
         x, y, sweep, r0, r1 = self.arcs[CURVE * k : CURVE * (k + 1)]

@@ -12,11 +12,15 @@ if TYPE_CHECKING:
 
 
 class Rapid(Struct, frozen=True):
-    """A straight line of all axes at rapid speed, from rest to rest."""
+    """A straight line of all axes at rapid speed, from rest to rest.
+
+    `is_confirmed` adds the wait until all axes are in position (G9, G61).
+    """
 
     source: Source
     end: Point
     is_inserted: bool = False
+    is_confirmed: bool = False
 
 
 class Line(Struct, frozen=True):

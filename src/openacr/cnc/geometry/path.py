@@ -183,7 +183,7 @@ class Path:
     def go_machine(self, b: BlockContext, target: Point, pace: Pace | None = None) -> None:
         """Move straight to a machine point."""
         if target != self.target:
-            self._issue_straight(b.source, target, pace)
+            self._issue_straight(b.source, target, pace, is_confirmed=b.is_confirmed)
         self.stand(target)
 
     def stand(self, target: Point) -> None:
@@ -209,7 +209,7 @@ class Path:
             self.elements(Element(b.source, self._modal.plane_axes, start, target, pace))
             return
         if target != self.target:
-            self._issue_straight(b.source, target, pace)
+            self._issue_straight(b.source, target, pace, is_confirmed=b.is_confirmed)
             self.target = target
 
     def _check_turn(self, b: BlockContext) -> None:
@@ -225,12 +225,14 @@ class Path:
         pace: Pace | None,
         is_inserted: bool = False,
         is_compensated: bool = False,
+        is_confirmed: bool = False,
     ) -> None:
         if self.shape is not None:
             target = self.shape(source, self.issued, target, None, pace)
         self.issued = target
         if pace is None:
-            self._emit(Rapid(source, target, is_inserted))
+            is_confirmed |= self.plain_pace().is_confirmed
+            self._emit(Rapid(source, target, is_inserted, is_confirmed))
         else:
             self._emit(Line(source, target, pace, is_inserted, is_compensated))
 

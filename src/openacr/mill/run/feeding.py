@@ -156,8 +156,7 @@ class Feed:
             self._accept(job)
             if self.halt is not None:
                 return
-        if isinstance(entry, Line | Arc):
-            self._confirm(entry)
+        self._confirm(entry)
 
     def _read_line(self, job: Job) -> None:
         """Read one line of a polyline, which is a block of its own."""
@@ -172,9 +171,10 @@ class Feed:
             else:
                 self._next_halt = end
 
-    def _confirm(self, entry: Line | Arc) -> None:
+    def _confirm(self, entry: Rapid | Line | Arc) -> None:
         """Add the in-position wait of G9 and G61, if an in-position band is configured."""
-        if self._waits and entry.pace.is_confirmed:
+        how = entry if isinstance(entry, Rapid) else entry.pace
+        if self._waits and how.is_confirmed:
             self.halt = InPosition(entry.source)
 
     def _accept(self, job: Job) -> None:
