@@ -121,14 +121,15 @@ def test_faulted_drives_are_shown(card: Controller) -> None:
 @pytest.mark.req("ACR-WIZ-FLAG-2000", "ACR-WIZ-FLAG-2008")
 def test_an_axis_beyond_its_software_limits_is_stopped_once(card: Controller) -> None:
     assert only(card, 2000) == []
-    card.send("RES AC10.5 AL-10.5\r")
-    assert only(card, 2000) == [2, 11]
-    assert card.bit[8467 + 32 * 2]
-    assert card.bit[8467 + 32 * 11]
+    hit = {"AA": (0, -1), "AC": (2, 1), "AH": (7, 1), "AI": (8, 1), "AL": (11, -1), "AP": (15, 1)}
+    card.send("RES" + "".join(f" {name}{10.5 * side}" for name, (_, side) in hit.items()) + "\r")
+    axes = [axis for axis, _ in hit.values()]
+    assert only(card, 2000) == axes
+    assert all(card.bit[8467 + 32 * axis] for axis in axes)
     card.send("".join(f"CLR {8467 + 32 * n}\r" for n in range(AXES)) + "CLR 522\r")
     card.advance(seconds=0.5)
-    assert not card.bit[8467 + 32 * 2]  # free to go back
-    card.send("RES AC9 AL9\r")
+    assert not any(card.bit[8467 + 32 * axis] for axis in axes)  # free to go back
+    card.send("RES" + "".join(f" {name}9" for name in hit) + "\r")
     assert only(card, 2000) == []
 
 
@@ -138,11 +139,12 @@ def test_limit_switches_are_latched_until_they_are_left_and_acknowledged(
     card: Controller, family: int, side: int
 ) -> None:
     assert only(card, family) == []
-    for axis in (3, 12):
+    hit = [0, 3, 7, 8, 12, 15]
+    for axis in hit:
         card.bit[2 * axis + side] = True
-    assert only(card, family) == [3, 12]
+    assert only(card, family) == hit
     card.bit[16132 + side + 32 * 12] = True  # encountered
-    for axis in (3, 12):
+    for axis in hit:
         card.bit[2 * axis + side] = False
     assert only(card, family) == [12]
     card.bit[16132 + side + 32 * 12] = False
