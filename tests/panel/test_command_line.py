@@ -76,6 +76,15 @@ def test_a_wrong_start_is_said_in_one_line(
     assert said.startswith("error: ") and text in said
 
 
+def test_the_virtual_mill_makes_the_folder_of_its_programs(tmp_path: Path) -> None:
+    store, folder = ("--store", str(tmp_path / "sysvar.db")), tmp_path / "parts"
+    words = ("panel", "--no-browser", "--port", "70000", *store, "--programs", str(folder))
+    assert "port 70000" in CliRunner().invoke(app, words).stderr
+    assert (folder / "plate.nc").is_file()
+    refused = CliRunner().invoke(app, (*words[:-1], str(tmp_path / "none"), "card"))
+    assert refused.stderr == f"error: --programs {tmp_path / 'none'}: there is no such folder\n"
+
+
 def test_a_serial_port_that_is_not_plugged_in_yet_is_waited_for(tmp_path: Path) -> None:
     words = ("panel", "/dev/openacr-none", "--no-browser", "--port", "0")
     process = Process(*words, "--store", str(tmp_path / "sysvar.db"), store=tmp_path / "other.db")

@@ -138,9 +138,11 @@ def _bus(machine: str | None, bus: str | None, *, is_real: bool, is_sure: bool) 
 
 def _require_places(machine: str | None, programs: Path | None) -> None:
     """Refuse mistyped places before anything that takes long."""
+    if machine is None:
+        return  # the virtual mill makes its folders
     if programs is not None and not programs.is_dir():
         raise UserError(f"--programs {programs}: there is no such folder")
-    if machine is not None and not Path(machine).is_dir():
+    if not Path(machine).is_dir():
         _require_link(machine)
 
 
