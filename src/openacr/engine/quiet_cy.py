@@ -255,10 +255,12 @@ def quiet_same(I: I32, seen: I32, first: int, end: int) -> bool:
 
 def plcs_step(F: F64, I: I32, seen: I32) -> None:
     """The PLCs; what they change ends the rest. Only who writes gives an idle one work."""
-    if seen[KNOWN] & PLCS_IDLE or (seen[NO_PLC] and I[kernel.untouched]):
+    if seen[KNOWN] & PLCS_IDLE:
         return
-    done: int = plc_step(F, I)
-    seen[NO_PLC] = 1 if done == PLC_IDLE else 0
+    done: int = PLC_IDLE
+    if not (seen[NO_PLC] and I[kernel.untouched]):
+        done = plc_step(F, I)
+        seen[NO_PLC] = 1 if done == PLC_IDLE else 0
     if seen[KNOWN] == 0:
         return
     if done == PLC_IDLE:
