@@ -272,7 +272,7 @@ def test_offsets_that_change_under_compensation_or_in_a_cycle_do_what_they_do_al
         require_same(holes.format(text).replace("G91 ", ""), "rs274ngc")
 
 
-@pytest.mark.parametrize("text", ["G56 X1 Y0", "G43 X1", "G43 H999 X1", "G55 Z1"])
+@pytest.mark.parametrize("text", ["G56 X1 Y0", "G43 Z1", "G43 H999 X1", "G55 Z1"])
 def test_a_block_whose_offset_is_not_a_mere_shift_does_what_it_does_by_itself(text: str) -> None:
     for before in ("", "G99 G81 Z-1 R1\n"):
         require_same(f"F60 X1\nT2 M6\n{before}{text}\nX2 Y2\nG54\nX3\nM2", "rs274ngc")
@@ -297,6 +297,7 @@ def test_outputs_stand_in_their_places_between_the_moves() -> None:
         ("T0", "T-1"),
         ("S5 T3", "S5 T1000"),
         ("S5 T4", "S-1 T4"),
+        ("S[5] T3", "S[5] T1000"),
     ],
 )
 def test_words_out_of_their_limits_are_found_among_many_like_them(good: str, wrong: str) -> None:
@@ -345,6 +346,7 @@ def test_units_and_path_modes_have_batches_of_their_own() -> None:
     assert [len(moves) for moves in found] == [2, 2, 1, 1]
     (same,) = batch("F60 X1\nG20 G64\nX2\nM2", "acromill")
     assert len(same) == 2
+    assert [len(moves) for moves in batch("F60 X1\nG61\nX2\nX3\nM2", "acromill")] == [1, 2]
 
 
 @pytest.mark.soak  # what a check does at the same line is proved by tests/verify in every run

@@ -170,7 +170,7 @@ class Scanner:
         except CodeError:
             is_called = False
         self._take_place()
-        I[runs.called_cnt] = I[runs.called_cnt] + 1 if is_called else 0
+        I[runs.called_cnt] += is_called
         return is_called
 
     def _note_slow(self, start: Place) -> None:
