@@ -96,13 +96,27 @@ def apply_world(world: World, memory: Memory) -> None:
     plant_refresh(memory.F, memory.I, motors.COUNT)
 
 
-_WITH_REALS = (
-    motors, phases, stepper_motors, compliant_loads, bus_motors, analog_rows, wires, plant
-)  # fmt: skip
-_WITH_INTS = (motors, phases, stepper_motors, bus_motors, analog_rows, wires, input_words, plant)
-_REALS = (*(every(rows.reals, rows.REALS_SIZE) for rows in _WITH_REALS), *apply_networks.REALS)
+# Spelled out: the generator of the map writes the names that it finds in the sources.
+_REALS = (
+    every(motors.reals, motors.REALS_SIZE),
+    every(phases.reals, phases.REALS_SIZE),
+    every(stepper_motors.reals, stepper_motors.REALS_SIZE),
+    every(compliant_loads.reals, compliant_loads.REALS_SIZE),
+    every(bus_motors.reals, bus_motors.REALS_SIZE),
+    every(analog_rows.reals, analog_rows.REALS_SIZE),
+    every(wires.reals, wires.REALS_SIZE),
+    every(plant.reals, plant.REALS_SIZE),
+    *apply_networks.REALS,
+)
 _INTS = (
-    *(every(rows.ints, rows.INTS_SIZE) for rows in _WITH_INTS),
+    every(motors.ints, motors.INTS_SIZE),
+    every(phases.ints, phases.INTS_SIZE),
+    every(stepper_motors.ints, stepper_motors.INTS_SIZE),
+    every(bus_motors.ints, bus_motors.INTS_SIZE),
+    every(analog_rows.ints, analog_rows.INTS_SIZE),
+    every(wires.ints, wires.INTS_SIZE),
+    every(input_words.ints, input_words.INTS_SIZE),
+    every(plant.ints, plant.INTS_SIZE),
     *apply_networks.INTS,
     slice(at.W_INPUTS, at.W_INPUTS + 1),  # the onboard inputs
 )

@@ -20,9 +20,21 @@ from openacr.plant.describe.schema import Axis, ExactDrive, StepperDrive, Torque
 
 COUPLERS = {Coupler.PIO_337: 0, Coupler.PIO_347: 1}
 HEALTH = {Health.HEARTBEAT: 1, Health.GUARDING: 2}
-_FAMILIES = (bus_drives, bus_nodes, bus_signals, bus_faults, bus_rows)
-REALS = [every(rows.reals, rows.REALS_SIZE) for rows in _FAMILIES]
-INTS = [every(rows.ints, rows.INTS_SIZE) for rows in _FAMILIES]
+# Spelled out: the generator of the map writes the names that it finds in the sources.
+REALS = (
+    every(bus_drives.reals, bus_drives.REALS_SIZE),
+    every(bus_nodes.reals, bus_nodes.REALS_SIZE),
+    every(bus_signals.reals, bus_signals.REALS_SIZE),
+    every(bus_faults.reals, bus_faults.REALS_SIZE),
+    every(bus_rows.reals, bus_rows.REALS_SIZE),
+)
+INTS = (
+    every(bus_drives.ints, bus_drives.INTS_SIZE),
+    every(bus_nodes.ints, bus_nodes.INTS_SIZE),
+    every(bus_signals.ints, bus_signals.INTS_SIZE),
+    every(bus_faults.ints, bus_faults.INTS_SIZE),
+    every(bus_rows.ints, bus_rows.INTS_SIZE),
+)
 
 
 def write_nodes(memory: Memory, world: World) -> None:
