@@ -9,7 +9,6 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from enum import Enum
 from functools import lru_cache
-from hashlib import blake2b
 from pathlib import Path
 
 from msgspec import Struct, field
@@ -84,6 +83,8 @@ class Project(Struct, frozen=True):
     @property
     def fingerprint(self) -> str:
         """The identity of a project: all its files except the scenario."""
+        from hashlib import blake2b  # OpenSSL: 2 ms of a start
+
         found = blake2b(digest_size=16)
         machine = [read_bytes(self.machine)] if self.machine else []
         for data in [*machine, *(source.data for source in self.sources)]:

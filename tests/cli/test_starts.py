@@ -112,3 +112,9 @@ def test_what_a_command_imports_is_not_searched_for_garbage(tmp_path: Path) -> N
     command = [sys.executable, "-c", COLLECTED, "mill", "check", str(program)]
     done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
     assert done.stderr.splitlines()[-1] == "0"
+
+
+def test_the_check_of_a_part_program_loads_no_digests() -> None:
+    command = "import sys, openacr.mill.plan.estimate.checking; print('hashlib' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", command], capture_output=True, check=True)
+    assert done.stdout.strip() == b"False"

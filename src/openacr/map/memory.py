@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from functools import cache
-from hashlib import blake2b
 from math import isnan, trunc
 
 from openacr.errors import CardError, MapError, StoreError
@@ -148,6 +147,8 @@ class Memory:
 
 def digest_of(image: bytes | bytearray | memoryview) -> str:
     """Fingerprint of the state in a snapshot."""
+    from hashlib import blake2b  # OpenSSL: 2 ms of a start
+
     return blake2b(image, digest_size=16).hexdigest()
 
 
