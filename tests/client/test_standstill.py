@@ -4,12 +4,13 @@ import pytest
 from tests.client.cards import AXIS
 
 from openacr.client import Card, Level
-from openacr.client.standstill import WATCH_S, Standstill
+from openacr.client.errors import RefusedError
+from openacr.client.standstill import EVERY_S, KILLED_S, WATCH_S, Standstill
 from openacr.controller import Controller
 from openacr.map.rows import axes
-from openacr.protocol.bits import SetBit
+from openacr.protocol.bits import ClearBit, SetBit
 
-JOG_FORWARD, CYCLE_START, KILL_ALL_MOVES = 796, 521, 522
+JOG_FORWARD, CYCLE_START, KILL_ALL_MOVES, STOP_ALL_MOVES, INHIBIT = 796, 521, 522, 523, 540
 MOVES = ("_again", "X20 Y0", "X0 Y10", "GOTO again")
 
 
@@ -210,22 +211,94 @@ def test_a_host_that_begins_again_is_stopped_again(machine: Machine) -> None:
     assert not machine.moves()
 
 
-def test_moves_that_a_host_sends_after_an_end_are_barred(machine: Machine) -> None:
+def ended(machine: Machine, seconds: float) -> Standstill:
+    """A path that was ended, and the time since."""
     machine.typed("X900")
     machine.controller.advance(seconds=0.3)
     stop = Standstill(machine.host, ends=True)
-    for _ in range(8):
+    for _ in range(round(seconds / EVERY_S)):
         stop.look()
-        machine.controller.advance(seconds=0.05)
+        machine.host.pause(EVERY_S)
+    stop.look()
     assert (stop.found, stop.barred) == (["MASTER0 stopped"], set())
+    return stop
+
+
+def test_moves_that_a_host_sends_soon_after_an_end_are_killed(machine: Machine) -> None:
+    stop = ended(machine, KILLED_S - EVERY_S)
+    with pytest.raises(RefusedError, match="Master Kill All Moves Request Active"):
+        machine.typed("X0")
+    stop.watch()
+    assert (stop.found, stop.barred) == (["MASTER0 stopped"], set())
+    machine.typed("X7")
+    machine.controller.advance(seconds=2)
+    assert machine.setpoints()[0] == 7000
+
+
+@pytest.mark.parametrize("seconds", [KILLED_S, WATCH_S - EVERY_S])
+def test_moves_that_a_host_sends_later_do_not_begin_and_bar_the_master(
+    machine: Machine, seconds: float
+) -> None:
+    stop = ended(machine, seconds)
+    place = machine.setpoints()
     machine.typed("X0")  # its host goes on
+    machine.host.pause(EVERY_S)
+    assert machine.setpoints() == place
+    assert not stop.is_over  # before all moves may begin
     stop.watch()
     assert stop.found == ["MASTER0 stopped and barred (its host sent more moves)"]
     assert stop.barred == {0}
-    assert machine.controller.bit[KILL_ALL_MOVES]
-    place = machine.setpoints()
     machine.controller.advance(seconds=0.5)
+    assert [machine.controller.bit[flag] for flag in (KILL_ALL_MOVES, INHIBIT)] == [1, 0]
     assert machine.setpoints() == place
+
+
+def test_moves_that_a_host_lets_begin_itself_are_ramped_down_and_barred(machine: Machine) -> None:
+    stop = ended(machine, KILLED_S)
+    machine.other.tell(ClearBit(INHIBIT))
+    machine.typed("X0")
+    machine.controller.advance(seconds=EVERY_S)
+    stop.look()
+    place = machine.setpoints()
+    machine.controller.advance(seconds=0.005)
+    assert machine.setpoints() != place  # a ramp
+    stop.watch()
+    assert stop.barred == {0}
+    assert not machine.moves()
+    flags = (KILL_ALL_MOVES, STOP_ALL_MOVES, INHIBIT)
+    assert [machine.controller.bit[flag] for flag in flags] == [1, 0, 0]
+
+
+@pytest.mark.parametrize("seconds", [0.2, KILLED_S])
+def test_a_watch_that_is_ended_early_lets_moves_begin(machine: Machine, seconds: float) -> None:
+    stop = ended(machine, seconds)
+    stop.let_begin()
+    machine.typed("X7")
+    machine.controller.advance(seconds=2)
+    assert machine.setpoints()[0] == 7000
+
+
+def test_a_watch_that_is_ended_early_leaves_what_still_ramps_down_and_what_is_barred(
+    machine: Machine,
+) -> None:
+    stop = ended(machine, 0.0)
+    stop.let_begin()
+    machine.controller.advance(seconds=0.5)
+    assert machine.controller.bit[KILL_ALL_MOVES]
+    machine.host.tell(ClearBit(KILL_ALL_MOVES))
+    stop = ended(machine, KILLED_S)
+    machine.typed("X0")
+    stop.look()
+    stop.let_begin()
+    machine.controller.advance(seconds=0.1)
+    assert machine.controller.bit[KILL_ALL_MOVES]
+
+
+def test_an_inhibit_of_another_host_stays(machine: Machine) -> None:
+    stop = ended(machine, 0.2)
+    machine.other.tell(SetBit(INHIBIT))
+    stop.watch()
+    assert [machine.controller.bit[flag] for flag in (KILL_ALL_MOVES, INHIBIT)] == [0, 1]
 
 
 def test_a_master_of_another_host_is_held_but_left_to_it(machine: Machine) -> None:

@@ -5,7 +5,8 @@ what is found to move is stopped, and again at the next look if a host or a PLC 
 Requests go as packets, which no program and no prompt can delay:
 
     master in motion       feed hold: it ramps down on its path; `ends`: its moves are dropped,
-                           and where its host sends more, all that follow: the kill stays
+                           and those that follow killed; then such moves do not begin, and
+                           where its host has sent some, all are killed: the kill stays
     running program        PAUSE before its next statement; `ends`: HALT
     jog                    its request ends, then JOG OFF: it ramps down with JOG DEC
     gear, cam              disengaged; a gear ramps down with GEAR DEC
@@ -29,6 +30,7 @@ from openacr.protocol.bits import ClearBit, SetBit
 from openacr.protocol.packets import Packet
 
 WATCH_S = 1.0  # motion that begins again within this time is stopped, too
+KILLED_S = 0.5 * WATCH_S  # of it dropped masters stay killed: time for a host to see the kill
 EVERY_S = 0.05  # between two looks
 FLAG_WORD_BASE, BITS_PER_WORD = 4096, 32
 MASTERS, AXES = range(len(mf1.word)), range(len(af1.word))
@@ -44,6 +46,11 @@ REQUESTS = (mf1.STOP_ALL_MOVES_REQUEST, mf1.FEEDHOLD_REQUEST, mf1.KILL_ALL_MOVES
 def _flag(word: int, mask: int) -> int:
     """The number of one flag of a word."""
     return (word - FLAG_WORD_BASE) * BITS_PER_WORD + (mask & 0xFFFFFFFF).bit_length() - 1
+
+
+def _freed(master: int) -> Iterator[Packet]:
+    """A master takes moves again."""
+    return (ClearBit(_flag(mf1.word[master], request)) for request in REQUESTS)
 
 
 def cut_all(card: Card) -> None:
@@ -101,7 +108,7 @@ class Standstill:
         self._jogged: set[int] = set()  # axes whose jogs were ended before
         self._idle: set[int] = set()  # axes that nothing known moved at the last look
         self._dropped: set[int] = set()  # masters whose moves this stop has killed
-        self._free: set[int] = set()  # those whose next moves may begin
+        self._held: set[int] = set()  # those whose next moves are taken again, and do not begin
         self.barred: set[int] = set()  # those whose host has sent more: no moves begin any more
         self.masters: set[int] = set()
         self.programs: set[int] = set()
@@ -132,8 +139,12 @@ class Standstill:
 
     @property
     def is_over(self) -> bool:
-        """Whether the time in which new motion is stopped is over."""
-        return self.card.now_s() - self._began_s >= WATCH_S
+        """Whether the time in which new motion is stopped is over, and all moves may begin."""
+        return self._elapsed_s >= WATCH_S and not self._held
+
+    @property
+    def _elapsed_s(self) -> float:
+        return self.card.now_s() - self._began_s
 
     @property
     def found(self) -> list[str]:
@@ -177,22 +188,54 @@ class Standstill:
 
     def _of_masters(self, seen: _Seen) -> Iterator[Packet]:
         for n, word in enumerate(seen.masters):
-            if n in self._dropped and not word & MOVES:
-                if n in self.barred:
-                    continue  # what its host still sends must not begin
-                self._dropped.discard(n)
-                self._free.add(n)
-                for request in REQUESTS:  # the next moves may begin
-                    yield ClearBit(_flag(mf1.word[n], request))
+            if n in self._held:
+                yield from self._of_held(n, word)
+            elif n in self._dropped and not word & MOVES:
+                yield from self._of_dropped(n, word)
             elif self.ends and n not in self._of_host:
                 if word & MOVES and not word & DROPS:
                     self.masters.add(n)
                     self._dropped.add(n)
-                    self.barred |= {n} & self._free
                     yield SetBit(_flag(mf1.word[n], mf1.STOP_ALL_MOVES_REQUEST))
             elif word & MOVES and not word & (HOLDS | DROPS):
                 self.masters |= {n} - self._of_host
                 yield SetBit(_flag(mf1.word[n], mf1.FEEDHOLD_REQUEST))
+
+    def _of_dropped(self, n: int, word: int) -> Iterator[Packet]:
+        """A master at rest, its moves killed: later it takes moves again, which do not begin.
+
+        A host that has not seen the kill goes on from where its path would be by now: its moves
+        would cut across from where the axes rest.
+        """
+        if self._elapsed_s < KILLED_S:
+            return
+        self._dropped.discard(n)
+        if not word & mf1.START_MOVE_INHIBIT:  # else it is another's, who lets moves begin
+            self._held.add(n)
+            yield SetBit(_flag(mf1.word[n], mf1.START_MOVE_INHIBIT))
+        yield from _freed(n)
+
+    def _of_held(self, n: int, word: int) -> Iterator[Packet]:
+        """A master whose host may have sent moves since the kill: then it is killed for good."""
+        if word & MOVES and not word & DROPS:
+            self.barred.add(n)
+            waits = word & mf1.START_MOVE_INHIBIT  # else its host has let them begin: a ramp
+            request = mf1.KILL_ALL_MOVES_REQUEST if waits else mf1.STOP_ALL_MOVES_REQUEST
+            yield SetBit(_flag(mf1.word[n], request))
+        if self._elapsed_s >= WATCH_S:
+            self._held.discard(n)
+            yield ClearBit(_flag(mf1.word[n], mf1.START_MOVE_INHIBIT))
+
+    def let_begin(self) -> None:
+        """Instead of the rest of the watch: moves may begin where masters rest and are not barred.
+
+        A link error where the card does not answer.
+        """
+        if self._held | self._dropped:
+            masters = self._read().masters
+            resting = (n for n in self._dropped if not masters[n] & MOVES)
+            inhibits = (_flag(mf1.word[n], mf1.START_MOVE_INHIBIT) for n in self._held)
+            self.card.tell(*(p for n in resting for p in _freed(n)), *map(ClearBit, inhibits))
 
     def _of_axes(self, seen: _Seen) -> Iterator[Packet]:
         requests = (af1.JOG_FORWARD, af1.JOG_REVERSE, af1.GEAR_ACTIVATE, af1.CAM_ACTIVATE)

@@ -111,6 +111,8 @@ class Stopping:
         """Motion is commanded at a screen after the stop: the watch would end it again."""
         stop, self._again = self._stop, None
         if stop is not None and not self._is_watched:
+            stop.card = self._card()
+            stop.let_begin()
             self._is_watched, self._is_held = True, bool(stop.masters or stop.programs)
 
     @property
