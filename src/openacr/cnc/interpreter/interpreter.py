@@ -77,6 +77,8 @@ class Options(Struct):
     is_service: bool = False  # system parameters may be assigned
     is_library_part: bool = False  # I, J, K by the setting for library parts
     has_batches: bool = False  # moves of many blocks come as `Moves`; the reader takes them
+    # The reader looks at offsets at each entry: a code that changes them ends a run of lines.
+    is_followed: bool = False
     collects_errors: bool = False  # continue after errors of the geometry, to find them all
     # Called before a block acts; blocks are then read one by one.
     attend: Callable[[Node], None] | None = None

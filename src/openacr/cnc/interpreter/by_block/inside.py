@@ -58,6 +58,10 @@ class ReadingOptions(RunOptions, Protocol):
         """Whether moves of many blocks come as `Moves`."""
 
     @property
+    def is_followed(self) -> bool:
+        """Whether the reader looks at offsets at each entry."""
+
+    @property
     def attend(self) -> Callable[[Node], None] | None:
         """Called before a block acts."""
 

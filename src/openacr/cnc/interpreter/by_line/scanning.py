@@ -158,6 +158,8 @@ class Scanner:
         What it shifts applies to the rest of its line and to what follows.
         """
         run, F, I = self._run, self._F, self._I
+        if run.options.is_followed:
+            return False
         plan, code = self._notes.codes[I[runs.call]]
         text = line_text(data, I[runs.line_start], I[runs.line_stop])
         words = {letter: F[scans.word[ord(letter) - ord("A")]] for letter in plan.words}

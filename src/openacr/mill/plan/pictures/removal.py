@@ -94,7 +94,7 @@ def _read(program: Program, cells: Store, dialect: str) -> tuple[Drawing, list[S
     path = ToolPath(
         tuple(letters[letter] for letter in LETTERS), cells.read(SPEEDS.chord_tolerance)
     )
-    options = Options(collects_errors=True, has_batches=True)
+    options = Options(collects_errors=True, has_batches=True, is_followed=True)
     run = Interpreter(program, Shadow(cells), VirtualMachine(is_probed=True), dialect, options)
     sections: list[Section] = []
     with suppress(BlockError):  # what comes before an error is shown
