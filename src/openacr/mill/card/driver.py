@@ -99,6 +99,11 @@ def flag_of(word: int, mask: int) -> int:
     return (word - n.FLAG_WORD_BASE) * BITS_PER_WORD + mask.bit_length() - 1
 
 
+def _cut(flags: int) -> int:
+    """The axes whose drives an emergency stop has switched off, as bits."""
+    return flags >> FIRST_CUT % BITS_PER_WORD & (1 << MACHINE_AXES) - 1
+
+
 def may_be_on(word: int) -> bool:
     """Whether the drive of an axis with these quaternary flags is on, or has no enable output."""
     return bool(word & af4.DRIVE_ENABLED) or not word & af4.DRIVE_I_O_ENABLE
@@ -182,7 +187,7 @@ class MachineDriver:
             has_tripped=is_watched and bool(flags & TRIPPED_MASK),
             has_run_short=is_watched and bool(flags & RAN_SHORT_MASK),
             is_guarded=bool(program & pf.PROGRAM_RUNNING),
-            cut=flags >> FIRST_CUT % BITS_PER_WORD & (1 << MACHINE_AXES) - 1,
+            cut=_cut(flags),
             may_have_lost=self._has_lost,
         )  # fmt: skip
         self._note_clearing(is_killed=sample.is_killed)
@@ -329,6 +334,11 @@ class MachineDriver:
         words = () if self.polled is None else self.polled.drives
         were_on = [axis for axis, word in zip(self.axes, words, strict=False) if may_be_on(word)]
         self._transmit(*(SetBit(FIRST_CUT + axis) for axis in were_on))
+
+    def read_cut(self) -> list[int]:
+        """Axes whose drives an emergency stop has switched off, read now: no poll may be due."""
+        cut = _cut(int(self.read(USER_FLAGS)))
+        return [axis for axis in self.axes if cut >> axis & 1]
 
     def release(self) -> None:
         """Clear a kill so that axes and master may move; drives stay as they are.

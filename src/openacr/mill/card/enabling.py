@@ -24,8 +24,8 @@ def enable_drives(io: MachineIo) -> None:
 def _restore(io: MachineIo) -> None:
     """Switch on what the last emergency stop has switched off, as it is noted on the card."""
     machine = io.machine
-    sample = machine.polled or machine.poll()
-    names = {axis.index: axis.name for axis in io.settings.axes if sample.is_cut(axis.index)}
+    cut = machine.read_cut()
+    names = {axis.index: axis.name for axis in io.settings.axes if axis.index in cut}
     if not names:
         return
     for axis, name in names.items():
