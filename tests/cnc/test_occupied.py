@@ -20,6 +20,7 @@ def test_the_table_has_every_number_once() -> None:
         ("P97", "cause of a kill"),
         ("P98", "hold at"),
         ("BIT128 to BIT227", "relays"),
+        ("BIT237 to BIT244", "drives to switch on"),
         ("BIT245", "ran short"),
         ("BIT246", "outputs at rest"),
         ("BIT247", "watchdog tripped"),
