@@ -7,7 +7,7 @@ from functools import partial
 import pytest
 from playwright.sync_api import Browser, Page, expect
 from tests.panel.bench import Served
-from tests.panel.browser.conftest import at_rest, give, open_page, until_model
+from tests.panel.browser.conftest import at_rest, give, open_page, until, until_model
 
 from openacr.client import Level
 from openacr.mill.card.alarms import USER_MESSAGE
@@ -78,6 +78,11 @@ def set_card(station: Station, number: int) -> None:
     station.typed.put([f"G0 X{number}"])
 
 
+def place(station: Station) -> float:
+    """Where X is: a busy page may miss that it moves."""
+    return float(station.link.machine.card.read(12288))
+
+
 def alarm(station: Station, text: str) -> None:
     station.link.machine.runner.alarms.raise_alarm(USER_MESSAGE, text, 0.0)
 
@@ -88,8 +93,9 @@ def moments(page: Page, served: Served) -> tuple[int, int]:
     served.call(dimension)
     found = []
     for number in (1, 2):
+        before = served.call(place)
         served.call(partial(set_card, number=number))
-        until_model(page, "model.state.value.busy")
+        until(page, lambda: served.call(place) != before)  # noqa: B023 - at once
         at_rest(page, served)
         if number == 2:
             served.call(partial(alarm, text="22"))

@@ -42,9 +42,9 @@ def page(context: BrowserContext, served: Served) -> Iterator[Page]:
 
 
 def complaints_of(page: Page) -> list[str]:
-    """What the browser complained about, but for the refusals it names."""
+    """What the browser complained about, but for refusals, also those of a busy computer (503)."""
     found: list[str] = page.complaints  # type: ignore[attr-defined]
-    return [each for each in found if "422" not in each]
+    return [each for each in found if "422" not in each and "503" not in each]
 
 
 BACK_TK = 2000  # to where the moment is dragged: before STOP, which also holds the program
