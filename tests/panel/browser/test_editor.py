@@ -155,6 +155,7 @@ def test_a_word_is_completed_and_a_label_renamed(page: Page) -> None:
 
 def test_lines_fold_to_their_first_one_and_a_place_within_shows_them_again(page: Page) -> None:
     put(page, 4, " IF (LV0 > 3)\n LV0 = 0\n ENDIF")
+    page.keyboard.press("Escape")  # proposals may lie over the lines
     expect(lines(page)).to_have_count(9)
     keys = pane(page).locator(".cm-foldGutter").get_by_title("Fold these lines")
     expect(keys).to_have_count(2)
@@ -514,6 +515,9 @@ def test_on_a_phone_the_keys_have_one_row_and_a_menu(page: Page) -> None:
     wide = page.viewport_size
     assert wide is not None
     page.set_viewport_size({"width": 390, "height": 844})
+    expect(page.locator(".dv-groupview")).to_have_count(1)  # the layout of a narrow window
+    expect(page.locator(".bench-pane")).to_have_count(1)
+    read(page)
     expect(more).to_be_visible()
     box = head.bounding_box()
     assert box is not None
