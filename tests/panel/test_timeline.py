@@ -851,12 +851,12 @@ def test_of_too_many_alarms_the_older_half_is_forgotten() -> None:
     log = AlarmLog()
     for tick in range(MOST_ALARMS + 1):
         log.note(0, Alarmed(tick, [{"code": tick}], []))
-    assert log.at(0, MOST_ALARMS // 2 - 1) == {"active": [], "history": []}
-    assert log.at(0, MOST_ALARMS // 2)["active"] == [{"code": MOST_ALARMS // 2}]
+    assert log.shown(0, MOST_ALARMS // 2 - 1) == {"active": [], "history": []}
+    assert log.shown(0, MOST_ALARMS // 2)["active"] == [{"code": MOST_ALARMS // 2}]
     log.fork(0, 1, MOST_ALARMS - 1)
-    assert log.at(1, MOST_ALARMS)["active"] == [{"code": MOST_ALARMS - 1}]
+    assert log.shown(1, MOST_ALARMS)["active"] == [{"code": MOST_ALARMS - 1}]
     log.forget(1)
-    assert log.at(1, MOST_ALARMS)["active"] == []
+    assert log.shown(1, MOST_ALARMS)["active"] == []
 
 
 def test_an_error_of_a_motion_kill_is_marked_as_an_alarm() -> None:

@@ -204,7 +204,7 @@ class Standstill:
     def _of_dropped(self, n: int, word: int) -> Iterator[Packet]:
         """A master at rest, its moves killed: later it takes moves again, which do not begin.
 
-        A host that has not seen the kill goes on from where its path would be by now: its moves
+        A host that has not seen the kill continues from where its path would be by now: its moves
         would cut across from where the axes rest.
         """
         if self._elapsed_s < KILLED_S:

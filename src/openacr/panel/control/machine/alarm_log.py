@@ -1,9 +1,10 @@
 """Which alarms were active, and had been, on each branch of the history of a card."""
 
-from bisect import bisect_right
 from typing import Any, NamedTuple
 
-MOST = 2000  # changes of a branch; of more, the older half is forgotten
+from openacr.panel.control.machine.branch_notes import BranchNotes
+
+MOST = 2000  # changes of a branch
 Data = dict[str, Any]
 
 
@@ -15,34 +16,13 @@ class Alarmed(NamedTuple):
     history: list[Data]
 
 
-def _tick(alarmed: Alarmed) -> int:
-    return alarmed.tick
-
-
-class AlarmLog:
-    """The alarms of all branches, as the panel has noted them at its polls."""
+class AlarmLog(BranchNotes[Alarmed]):
+    """The alarms of all branches, noted at the polls of the panel where they are others."""
 
     def __init__(self) -> None:
-        self._of: dict[int, list[Alarmed]] = {}
+        super().__init__(MOST)
 
-    def note(self, branch: int, alarmed: Alarmed) -> None:
-        """The alarms are others now."""
-        known = self._of.setdefault(branch, [])
-        known.append(alarmed)
-        if len(known) > MOST:
-            del known[: MOST // 2]
-
-    def at(self, branch: int, tick: int) -> Data:
-        """The alarms at a tick; none before the first that is known."""
-        known = self._of.get(branch, [])
-        place = bisect_right(known, tick, key=_tick)
-        found = known[place - 1] if place else Alarmed(tick, [], [])
+    def shown(self, branch: int, tick: int) -> Data:
+        """The alarms at a tick, as the screens get them; none before the first that is known."""
+        found = self.at(branch, tick) or Alarmed(tick, [], [])
         return {"active": found.active, "history": found.history}
-
-    def fork(self, parent: int, branch: int, tick: int) -> None:
-        """Another branch has begun: it shares what was before."""
-        self._of[branch] = [each for each in self._of.get(parent, []) if each.tick <= tick]
-
-    def forget(self, branch: int) -> None:
-        """Forget a branch."""
-        self._of.pop(branch, None)

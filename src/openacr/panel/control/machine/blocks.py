@@ -1,9 +1,10 @@
 """At which block the part program of the panel was, on each branch of the history of its card."""
 
-from bisect import bisect_right
 from typing import NamedTuple
 
-MOST = 50_000  # blocks of a branch; of more, the older half is forgotten
+from openacr.panel.control.machine.branch_notes import BranchNotes
+
+MOST = 50_000  # blocks of a branch
 
 
 class Block(NamedTuple):
@@ -14,49 +15,29 @@ class Block(NamedTuple):
     line: int
 
 
-def _tick(block: Block) -> int:
-    return block.tick
-
-
-class Blocks:
-    """The blocks of all branches, as the panel has noted them."""
+class Blocks(BranchNotes[Block]):
+    """The blocks of all branches."""
 
     def __init__(self) -> None:
-        self._of: dict[int, list[Block]] = {}
+        super().__init__(MOST)
 
-    def note(self, branch: int, block: Block) -> None:
+    def note(self, branch: int, noted: Block) -> None:
         """The block that is executed now; one that is known already is not noted again."""
-        known = self._of.setdefault(branch, [])
-        before = known[-1] if known else Block(-1, "", 0)
-        if block.tick <= before.tick or block[1:] == before[1:]:
-            return
-        known.append(block)
-        if len(known) > MOST:
-            del known[: MOST // 2]
+        before = self.last(branch) or Block(-1, "", 0)
+        if noted.tick > before.tick and noted[1:] != before[1:]:
+            super().note(branch, noted)
 
     def at(self, branch: int, tick: int) -> Block | None:
         """The block at a tick; None where no part program ran."""
-        known = self._of.get(branch, [])
-        place = bisect_right(known, tick, key=_tick)
-        found = known[place - 1] if place else None
+        found = super().at(branch, tick)
         return found if found is not None and found.line else None
-
-    def between(self, branch: int, first_tk: int, last_tk: int) -> list[Block]:
-        """The blocks of a part of a branch, with the one before it."""
-        known = self._of.get(branch, [])
-        begin = max(0, bisect_right(known, first_tk, key=_tick) - 1)
-        return known[begin : bisect_right(known, last_tk, key=_tick)]
 
     def fork(self, parent: int, branch: int, tick: int) -> None:
         """Another branch has begun: it shares what was before; no program is under way."""
-        shared = [block for block in self._of.get(parent, []) if block.tick <= tick]
-        if shared and shared[-1].line:
-            shared.append(Block(tick + 1, shared[-1].path, 0))
-        self._of[branch] = shared
-
-    def forget(self, branch: int) -> None:
-        """Forget a branch."""
-        self._of.pop(branch, None)
+        super().fork(parent, branch, tick)
+        shared = self.last(branch)
+        if shared is not None and shared.line:
+            super().note(branch, Block(tick + 1, shared.path, 0))
 
 
 def part_lanes(

@@ -278,6 +278,6 @@ def moment_data(history: History) -> dict[str, Any]:
         "within": now.within if history.is_still else 0,
         "last": last_tk,
         "bytes": history.size_bytes(last_tk),
-        "alarms": history.alarms.at(number, now.tick) if history.is_away else None,
+        "alarms": history.alarms.shown(number, now.tick) if history.is_away else None,
         "block": None if block is None else {"path": block.path, "line": block.line},
     }
